@@ -1,0 +1,118 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "limpid/core/plane.h"
+
+namespace limpid {
+
+/// The input channels of a frame. Meaning and conventions of each: Role, below.
+enum class PlaneId : std::uint8_t {
+  kColorR,
+  kColorG,
+  kColorB,
+  kColorA,
+  kDepth,
+  kShadow,
+  kReflectionR,
+  kReflectionG,
+  kReflectionB,
+  kSurfaceDepth,
+  kSurfaceNormalX,
+  kSurfaceNormalY,
+  kSurfaceNormalZ,
+};
+constexpr int kPlaneCount = 13;
+constexpr int index_of(PlaneId id) { return static_cast<int>(id); }
+/// The plane `step` places after `id`, as in plane_after(kColorR, 2) = kColorB.
+constexpr PlaneId plane_after(PlaneId id, int step) {
+  return static_cast<PlaneId>(index_of(id) + step);
+}
+
+/// A set of planes.
+class PlaneSet {
+ public:
+  constexpr PlaneSet() = default;
+  constexpr PlaneSet(std::initializer_list<PlaneId> ids) {
+    for (PlaneId id : ids) bits_ |= 1u << index_of(id);
+  }
+  constexpr bool has(PlaneId id) const { return (bits_ >> index_of(id)) & 1u; }
+  constexpr bool covers(PlaneSet s) const { return (s.bits_ & ~bits_) == 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  friend constexpr PlaneSet operator|(PlaneSet a, PlaneSet b) { return from(a.bits_ | b.bits_); }
+  friend constexpr PlaneSet operator&(PlaneSet a, PlaneSet b) { return from(a.bits_ & b.bits_); }
+  friend constexpr PlaneSet operator-(PlaneSet a, PlaneSet b) { return from(a.bits_ & ~b.bits_); }
+  friend constexpr bool operator==(PlaneSet, PlaneSet) = default;
+
+ private:
+  static constexpr PlaneSet from(std::uint32_t bits) {
+    PlaneSet s;
+    s.bits_ = bits;
+    return s;
+  }
+  std::uint32_t bits_ = 0;
+};
+
+/// What a NaN or infinity in a plane becomes when the frame is entered.
+enum class Sanitise : std::uint8_t {
+  kColor,   ///< NaN, inf -> 0
+  kDepth,   ///< NaN, and what stands for "nothing hit" -> +inf; never negative
+  kShadow,  ///< NaN, inf -> 1, then clamped to 0 ... 1
+  kNormal,  ///< made unit; NaN, inf or zero length -> up
+};
+
+/// A group of planes that belong together, by the name that files and the command line use.
+struct Role {
+  std::string_view name;
+  PlaneId first;
+  int count;
+  float missing;  ///< what a pixel outside the plane's data window reads
+  Sanitise sanitise;
+  std::string_view about;
+
+  constexpr PlaneSet planes() const {
+    PlaneSet set;
+    for (int i = 0; i < count; ++i) set = set | PlaneSet{plane_after(first, i)};
+    return set;
+  }
+};
+
+/// All roles, in the order of PlaneId.
+std::span<const Role> roles();
+/// Throws Error with the nearest name when there is no such role.
+const Role& role_named(std::string_view name);
+
+inline constexpr PlaneSet kColorPlanes{PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB};
+inline constexpr PlaneSet kReflectionPlanes{PlaneId::kReflectionR, PlaneId::kReflectionG,
+                                            PlaneId::kReflectionB};
+inline constexpr PlaneSet kSurfaceNormalPlanes{PlaneId::kSurfaceNormalX, PlaneId::kSurfaceNormalY,
+                                               PlaneId::kSurfaceNormalZ};
+
+/// A picture that tiles the plane, three float channels r g b in memory that somebody else owns.
+struct Texture {
+  std::array<View<const float>, 3> channels;
+  explicit operator bool() const { return static_cast<bool>(channels[0]); }
+};
+
+/// The buffers of one picture, as views. Everything is already in the conventions of the chain:
+/// linear eye depth (+inf where nothing was hit), scene-linear premultiplied color, shadow 1 = lit,
+/// unit world normals, no NaN (see sanitise.h). Each plane may have its own data window; taps are
+/// clamped to it. Every plane that is there must cover `work()`.
+struct Frame {
+  Rect display;  ///< the picture that uv 0..1 and the camera's projection belong to
+  std::array<View<const float>, kPlaneCount> planes;
+  Texture wave_map;  ///< tiling normal map, values 0 ... 1, blue is up
+
+  const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
+  PlaneSet present() const;
+  /// The pixels that are computed: the display window as far as there is color.
+  Rect work() const { return intersection(display, plane(PlaneId::kColorR).window); }
+  /// Throws Error when color is absent, the picture is empty, or a plane does not cover work().
+  void validate() const;
+};
+
+}  // namespace limpid

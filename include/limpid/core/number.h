@@ -1,0 +1,37 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+/// The functions that formulas may call on a number. Formulas are templates over the number type:
+/// the reference runs them on `double` (this header), the fused pass on SIMD lanes, which bring
+/// functions of the same names in their own namespace. A comparison gives `bool` for `double` and a
+/// lane mask for lanes, so formulas choose with select() and never branch on a number.
+
+#define LIMPID_INLINE inline __attribute__((always_inline))
+
+namespace limpid {
+
+LIMPID_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }
+LIMPID_INLINE double min(double a, double b) { return a < b ? a : b; }
+LIMPID_INLINE double max(double a, double b) { return a > b ? a : b; }
+LIMPID_INLINE double abs(double x) { return std::fabs(x); }
+LIMPID_INLINE double sqrt(double x) { return std::sqrt(x); }
+LIMPID_INLINE double floor(double x) { return std::floor(x); }
+LIMPID_INLINE double exp(double x) { return std::exp(x); }
+/// x^p for x >= 0; pow(0, 0) = 1.
+LIMPID_INLINE double pow(double x, double p) { return std::pow(x, p); }
+LIMPID_INLINE bool any(bool condition) { return condition; }
+
+/// Clamped to 0 ... 1.
+template <class F>
+LIMPID_INLINE F saturate(F x) {
+  return min(max(x, F(0)), F(1));
+}
+
+/// a + t (b - a).
+template <class F>
+LIMPID_INLINE F lerp(F a, F b, F t) {
+  return a + t * (b - a);
+}
+
+}  // namespace limpid

@@ -1,0 +1,70 @@
+#pragma once
+#include "limpid/core/number.h"
+
+/// Small vectors over any number type. (GLM keeps the matrices and the `double` geometry; its
+/// vectors are unions, which SIMD lanes cannot be members of.)
+
+namespace limpid {
+
+template <class F>
+struct Vec2 {
+  F x, y;
+  friend LIMPID_INLINE Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+  friend LIMPID_INLINE Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+  friend LIMPID_INLINE Vec2 operator*(F s, Vec2 a) { return {s * a.x, s * a.y}; }
+};
+
+template <class F>
+struct Vec3 {
+  F x, y, z;
+  friend LIMPID_INLINE Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend LIMPID_INLINE Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend LIMPID_INLINE Vec3 operator*(F s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+
+template <class F>
+struct Rgb {
+  F r, g, b;
+  friend LIMPID_INLINE Rgb operator+(Rgb a, Rgb c) { return {a.r + c.r, a.g + c.g, a.b + c.b}; }
+  friend LIMPID_INLINE Rgb operator-(Rgb a, Rgb c) { return {a.r - c.r, a.g - c.g, a.b - c.b}; }
+  friend LIMPID_INLINE Rgb operator*(Rgb a, Rgb c) { return {a.r * c.r, a.g * c.g, a.b * c.b}; }
+  friend LIMPID_INLINE Rgb operator*(F s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+template <class F>
+LIMPID_INLINE F dot(Vec3<F> a, Vec3<F> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class F>
+LIMPID_INLINE F length(Vec3<F> a) {
+  return sqrt(dot(a, a));
+}
+
+/// a / |a|, or `otherwise` where |a|^2 is below 1e-30 (a zero vector has no direction).
+template <class F>
+LIMPID_INLINE Vec3<F> normalize_or(Vec3<F> a, Vec3<F> otherwise) {
+  const F square = dot(a, a);
+  const auto good = square > F(1e-30);
+  const F scale = F(1) / sqrt(select(good, square, F(1)));
+  return {select(good, scale * a.x, otherwise.x), select(good, scale * a.y, otherwise.y),
+          select(good, scale * a.z, otherwise.z)};
+}
+
+template <class F, class M>
+LIMPID_INLINE Vec2<F> select(M condition, Vec2<F> yes, Vec2<F> no) {
+  return {select(condition, yes.x, no.x), select(condition, yes.y, no.y)};
+}
+template <class F, class M>
+LIMPID_INLINE Vec3<F> select(M condition, Vec3<F> yes, Vec3<F> no) {
+  return {select(condition, yes.x, no.x), select(condition, yes.y, no.y),
+          select(condition, yes.z, no.z)};
+}
+template <class F, class M>
+LIMPID_INLINE Rgb<F> select(M condition, Rgb<F> yes, Rgb<F> no) {
+  return {select(condition, yes.r, no.r), select(condition, yes.g, no.g),
+          select(condition, yes.b, no.b)};
+}
+
+}  // namespace limpid

@@ -1,0 +1,70 @@
+#include "limpid/core/frame.h"
+
+#include <limits>
+#include <string>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+constexpr float kNothingHit = std::numeric_limits<float>::infinity();
+
+constexpr Role kRoles[] = {
+    {"color", PlaneId::kColorR, 4, 0, Sanitise::kColor,
+     "the dry picture: scene-linear, premultiplied"},
+    {"depth", PlaneId::kDepth, 1, kNothingHit, Sanitise::kDepth, "depth of the dry scene"},
+    {"shadow", PlaneId::kShadow, 1, 1, Sanitise::kShadow,
+     "visibility of the sun: 1 lit, 0 in shadow"},
+    {"reflection", PlaneId::kReflectionR, 3, 0, Sanitise::kColor,
+     "what a flat mirror in the water plane shows at each pixel"},
+    {"surface_depth", PlaneId::kSurfaceDepth, 1, kNothingHit, Sanitise::kDepth,
+     "depth of the water surface"},
+    {"surface_normal", PlaneId::kSurfaceNormalX, 3, 0, Sanitise::kNormal,
+     "world normal of the water surface"},
+};
+
+}  // namespace
+
+std::span<const Role> roles() { return kRoles; }
+
+const Role& role_named(std::string_view name) {
+  std::vector<std::string> known;
+  for (const Role& role : kRoles) {
+    if (role.name == name) return role;
+    known.emplace_back(role.name);
+  }
+  throw Error("'" + std::string(name) + "' is no buffer of a frame: expected one of " +
+              join(known) + did_you_mean(name, known));
+}
+
+PlaneSet Frame::present() const {
+  PlaneSet set;
+  for (int i = 0; i < kPlaneCount; ++i) {
+    if (planes[i]) set = set | PlaneSet{static_cast<PlaneId>(i)};
+  }
+  return set;
+}
+
+void Frame::validate() const {
+  const auto text = [](const Rect& r) {
+    return "(" + std::to_string(r.x0) + ", " + std::to_string(r.y0) + ") - (" +
+           std::to_string(r.x1) + ", " + std::to_string(r.y1) + ")";
+  };
+  if (display.empty()) throw Error("frame: the display window is empty, expected at least 1x1");
+  if (!present().covers(kColorPlanes)) throw Error("frame: no color planes");
+  if (work().empty()) {
+    throw Error("frame: no pixel of color lies in the display window " + text(display));
+  }
+  for (const Role& role : kRoles) {
+    for (int i = 0; i < role.count; ++i) {
+      const View<const float>& view = plane(plane_after(role.first, i));
+      if (view && !view.window.contains(work())) {
+        throw Error("frame: " + std::string(role.name) + " covers the pixels " + text(view.window) +
+                    ", expected all of " + text(work()));
+      }
+    }
+  }
+}
+
+}  // namespace limpid

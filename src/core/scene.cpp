@@ -1,0 +1,41 @@
+#include "limpid/core/scene.h"
+
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+void expect_unit(const char* what, const glm::dvec3& v) {
+  const double size = glm::length(v);
+  if (!(std::abs(size - 1) < 1e-6)) {
+    throw Error(std::string(what) + " has length " + std::to_string(size) +
+                ", expected a unit vector");
+  }
+}
+
+}  // namespace
+
+void Scene::validate() const {
+  if (camera) camera->validate();
+  if (water) {
+    expect_unit("water.up", water->up);
+    if (!std::isfinite(water->height)) throw Error("water.height is not a finite number");
+  }
+  if (sun) {
+    expect_unit("sun.direction", sun->direction);
+    for (double c : {sun->color.r, sun->color.g, sun->color.b}) {
+      if (!(c >= 0) || std::isinf(c)) {
+        throw Error("sun.color has a channel " + std::to_string(c) +
+                    ", expected finite numbers from 0 up");
+      }
+    }
+  }
+  if (!std::isfinite(time)) throw Error("time is not a finite number of seconds");
+}
+
+}  // namespace limpid
