@@ -1,0 +1,84 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "limpid/core/plane.h"
+#include "limpid/load/limits.h"
+
+namespace limpid {
+
+enum class SampleType { kHalf, kFloat, kUint };
+
+struct ExrChannel {
+  std::string name;  ///< as in the file, e.g. "ViewLayer.Depth.Z"
+  SampleType type;
+  int x_sampling = 1, y_sampling = 1;
+};
+
+/// What the header of one part says.
+struct ExrPart {
+  std::string name;  ///< "" where the file has none
+  std::string view;  ///< "left", "right", ... or ""
+  Rect data, display;
+  std::string compression;  ///< as in --compression: none rle zips zip piz pxr24 b44 b44a dwaa dwab
+  bool tiled = false, deep = false;
+  double pixel_aspect = 1;
+  std::vector<ExrChannel> channels;  ///< in the file's order (alphabetical)
+};
+
+/// One channel to read, and where to: every pixel of `into.window` is written; those outside the
+/// part's data window become `missing`.
+struct ExrRequest {
+  int part;
+  std::string channel;
+  View<float> into;
+  float missing = 0;
+};
+
+/// An EXR file, opened: its headers are read and checked against the limits, no pixel is. Scan-line
+/// and tiled (level 0), multi-part, mixed sample types; luminance-chroma (Y RY BY, subsampled)
+/// reads as the channels R G B. Deep parts are listed and refused when read.
+class ExrFile {
+ public:
+  /// Throws Error (one sentence, begins with the path) for a file that is missing, not an EXR,
+  /// damaged, or over a limit.
+  static ExrFile open(const std::filesystem::path& path, const Limits& limits = {});
+  ExrFile(ExrFile&&) noexcept;
+  ExrFile& operator=(ExrFile&&) noexcept;
+  ~ExrFile();
+
+  const std::filesystem::path& path() const;
+  const std::vector<ExrPart>& parts() const;
+
+  /// Decodes the requested channels, all of one part in one pass; half and uint become float.
+  /// Throws Error for truncated or damaged pixels (never silent black); what was written by then is
+  /// unspecified.
+  void read(std::span<const ExrRequest> requests) const;
+
+  /// A 4x4 matrix attribute by name, 16 floats in memory order, as in `worldToCamera`.
+  std::optional<std::array<float, 16>> matrix_attribute(int part, const std::string& name) const;
+  std::optional<double> number_attribute(int part, const std::string& name) const;
+  std::optional<std::string> text_attribute(int part, const std::string& name) const;
+
+  /// Serialised attributes of a part, for handing on to a writer: name -> (type name, bytes).
+  /// Without the ones that describe the pixels' storage (channels, compression, windows, tiles,
+  /// lineOrder, chunkCount, type, name ...).
+  struct Attribute {
+    std::string type;
+    std::vector<char> bytes;
+  };
+  std::map<std::string, Attribute> attributes(int part) const;
+
+ private:
+  struct State;
+  explicit ExrFile(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace limpid

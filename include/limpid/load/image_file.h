@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "limpid/core/plane.h"
+#include "limpid/load/limits.h"
+
+namespace limpid {
+
+/// A picture of another format than EXR (PNG, TIFF, DPX, HDR, JPEG ...), as float planes: integers
+/// of n bits are divided by 2^n - 1, no transfer curve is applied or removed.
+struct ImageFile {
+  Rect window;
+  std::vector<std::string> channels;  ///< "R", "G", "B", "A", ...
+  std::vector<Plane> planes;
+};
+
+/// Reads through OpenImageIO, which is loaded at the first call (it takes 0.2 s and 135 MB, so that
+/// work on EXR alone never pays for it). Throws Error for a file that is missing, damaged or over a
+/// limit, and when the format module is not installed.
+ImageFile read_image(const std::filesystem::path& path, const Limits& limits = {});
+
+/// Writes 8-bit RGB or RGBA (3 or 4 planes, values 0 ... 1, already encoded for display; clamped
+/// and rounded) in the format of the path's extension (.png, .jpg, .tif), under a temporary name
+/// that is renamed at the end.
+void write_image8(const std::filesystem::path& path, const std::vector<View<const float>>& planes);
+
+/// Whether the path's extension is .exr (any case): such files go through ExrFile instead.
+bool is_exr(const std::filesystem::path& path);
+
+}  // namespace limpid

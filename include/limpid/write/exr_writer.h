@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpid/core/plane.h"
+#include "limpid/load/exr_file.h"
+
+namespace limpid {
+
+struct ExrOutputChannel {
+  std::string name;
+  View<const float> from;  ///< must cover the output's data window
+  bool half =
+      true;  ///< stored as half; finite values beyond 65504 are clamped to it, inf stays inf
+};
+
+struct ExrOutput {
+  Rect data, display;
+  double pixel_aspect = 1;
+  std::string compression =
+      "piz";  ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab; "name:level" for dwa and zip
+  std::vector<ExrOutputChannel> channels;
+  std::map<std::string, ExrFile::Attribute>
+      inherited;                            ///< attributes of the input, passed on unchanged
+  std::map<std::string, std::string> text;  ///< our own, as string attributes
+  std::map<std::string, std::array<float, 16>> matrices;
+};
+
+/// Writes the file under a temporary name in the same folder, flushes it to disk and renames it:
+/// under `path` there is the old file or the whole new one, never a part. On failure the temporary
+/// file is removed and an Error thrown that names path and cause (Fault::kRetry where the disk is
+/// full). The bytes depend on the arguments alone, not on date, host or threads.
+void write_exr(const std::filesystem::path& path, const ExrOutput& output);
+
+}  // namespace limpid
