@@ -1,0 +1,102 @@
+#pragma once
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "limpid/core/camera.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/op/pixel.h"
+
+namespace limpid {
+
+template <class F>
+LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v) {
+  return {F(v.x), F(v.y), F(v.z)};
+}
+
+/// What all pixels of a frame have in common, in double, made once a frame.
+///
+/// t, b: tangent frame of the calm surface as the camera sees it: t is the camera's right projected
+/// on the plane (its up, should right be parallel to the plane's normal), b = cross(up, t) points
+/// away from the camera. map_x, map_y: tangent frame that stays with the world, for tiling maps:
+/// world x (z, should x be parallel to up) projected on the plane, and cross(up, map_x).
+struct Context {
+  /// Throws Error unless the scene has a camera and a water plane, both valid.
+  Context(const Scene& scene, const Frame& frame, double ior, StateSet made);
+
+  Rays rays;
+  glm::dvec3 eye;
+  glm::dvec3 up, t, b;
+  glm::dvec3 map_x, map_y;
+  double eye_above;   ///< signed height of the eye over the calm surface
+  glm::ivec2 size;    ///< of the display window
+  glm::ivec2 corner;  ///< of the display window
+  Sun sun;            ///< operators that need one declare it
+  double time;
+  double ior;
+  Texture wave_map;
+  StateSet made;  ///< what the operators of the plan make: neutral or absent ones make nothing
+};
+
+/// The rays of one picture row in the number type of the runner. x and y are pixel coordinates
+/// (centres at +0.5) from the corner of the display window; y is folded in here, in double.
+template <class F>
+struct RowRays {
+  Vec3<F> origin, origin_dx, ray, ray_dx;
+  F calm_over, calm_over_dx, calm_under, calm_under_dx;
+
+  RowRays(const Context& c, double y)
+      : origin(vec3_of<F>(c.rays.origin + y * c.rays.origin_dy)),
+        origin_dx(vec3_of<F>(c.rays.origin_dx)),
+        ray(vec3_of<F>(c.rays.ray + y * c.rays.ray_dy)),
+        ray_dx(vec3_of<F>(c.rays.ray_dx)),
+        calm_over(F(-c.eye_above - dot(c.up, c.rays.origin + y * c.rays.origin_dy))),
+        calm_over_dx(F(-dot(c.up, c.rays.origin_dx))),
+        calm_under(F(dot(c.up, c.rays.ray + y * c.rays.ray_dy))),
+        calm_under_dx(F(dot(c.up, c.rays.ray_dx))) {}
+
+  LIMPID_INLINE Vec3<F> ray_at(F x) const { return ray + x * ray_dx; }
+  LIMPID_INLINE Vec3<F> origin_at(F x) const { return origin + x * origin_dx; }
+
+  /// Eye depth of the calm surface, +inf where the ray does not meet it in front of the eye.
+  LIMPID_INLINE F calm_depth(F x) const {
+    const F over = calm_over + x * calm_over_dx;
+    const F under = calm_under + x * calm_under_dx;
+    const auto meets = over * under > F(0);
+    return select(meets, over / select(meets, under, F(1)), F(HUGE_VAL));
+  }
+
+ private:
+  static double dot(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+};
+
+/// Fills what an operator may rely on from depth and dry color; see Pixel for what each part begins
+/// as.
+template <class F>
+LIMPID_INLINE void begin_pixel(const Context& c, const RowRays<F>& row, F x, F surface_depth,
+                               F dry_depth, Rgb<F> dry_color, Pixel<F>& p) {
+  const Vec3<F> ray = row.ray_at(x);
+  const Vec2<F> none{F(0), F(0)};
+  const Rgb<F> black{F(0), F(0), F(0)};
+  p.ray_length = length(ray);
+  p.to_viewer = (F(-1) / p.ray_length) * ray;
+  p.surface_point = row.origin_at(x) + surface_depth * ray;
+  p.surface_depth = surface_depth;
+  p.dry_depth = dry_depth;
+  p.normal = vec3_of<F>(c.up);
+  p.tilt = none;
+  p.prism_r = p.prism_g = p.prism_b = none;
+  p.shift = none;
+  p.hit_depth = dry_depth;
+  p.path = F(0);
+  p.confidence = F(1);
+  p.transmitted = dry_color;
+  p.in_scatter = black;
+  p.fresnel = F(0);
+  p.reflected = black;
+  p.highlight = black;
+}
+
+}  // namespace limpid

@@ -1,0 +1,61 @@
+#pragma once
+#include <concepts>
+#include <span>
+#include <string_view>
+
+#include "limpid/core/field.h"
+#include "limpid/core/frame.h"
+#include "limpid/op/context.h"
+#include "limpid/op/pixel.h"
+
+/// The operator contract.
+///
+/// An operator may read the frame's *input* planes anywhere and the running state of *its own
+/// pixel*; it writes only the state of its own pixel. So any subset of the chain may be fused into
+/// one pass, and tiles equal the full frame bit for bit. (Counter-example: an operator that blurred
+/// `transmitted` would read state of its neighbours, which a fused pass has not made yet; it would
+/// need a pass of its own.)
+///
+/// Its work is written once, as a template over the strip it is applied to: a run of pixels of one
+/// row, in `double` for the reference, in SIMD lanes for the fused pass. An operator never fetches
+/// a texel itself. It says where (a function from pixel to shift), the strip's samplers fetch, it
+/// goes on with the sample:
+///
+///   using F = typename Strip::Number;
+///   strip.each([&](Pixel<F>& p) { ... });               // a formula on the state
+///   strip.own(plane, [&](Pixel<F>& p, F value) {});      // the input at the pixel itself
+///   strip.own3(first, [&](Pixel<F>& p, Vec3<F> v) {});    // three planes in a row (normals)
+///   strip.nearest(plane, where, [&](Pixel<F>& p, F value) {});
+///   strip.bilinear(plane, where, [&](Pixel<F>& p, F value) {});
+///   strip.bilinear_rgb(first, where, [&](Pixel<F>& p, Rgb<F> value) {});
+///   strip.tiled_rgb(texture, where, [&](Pixel<F>& p, Rgb<F> value) {});   // where: periods of the
+///   texture
+///
+/// with `where(const Pixel<F>&) -> Vec2<F>`, a shift in uv from the pixel's own centre. Taps are
+/// clamped to the plane's data window; a plane that is absent reads as its role's `missing` value.
+
+namespace limpid {
+
+/// What an operator cannot do without, besides camera and water plane, which every chain has.
+struct Needs {
+  PlaneSet planes;
+  bool sun = false;
+  bool wave_map = false;
+};
+
+template <class T>
+concept Operator = requires(const typename T::Params& params, StateSet made) {
+  { T::kName } -> std::convertible_to<std::string_view>;   // its table in look files
+  { T::kAbout } -> std::convertible_to<std::string_view>;  // one sentence
+  { T::kUses } -> std::convertible_to<StateSet>;           // state it reads
+  { T::kMakes } -> std::convertible_to<StateSet>;          // state it writes
+  { T::fields() } -> std::same_as<std::span<const Field<typename T::Params>>>;
+  { T::reads(params) } -> std::same_as<PlaneSet>;  // every plane it may tap
+  { T::needs(params) } -> std::same_as<Needs>;     // without these it is dropped
+  { T::reach(params) } -> std::same_as<double>;    // how far its taps go, in uv; tilts are below 1
+  // The parameters make it the identity, given what the operators before it make.
+  { T::neutral(params, made) } -> std::same_as<bool>;
+  // and: template <class Strip> static void apply(const Params&, const Context&, Strip&);
+};
+
+}  // namespace limpid

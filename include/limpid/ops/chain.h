@@ -1,0 +1,45 @@
+#pragma once
+#include <span>
+#include <tuple>
+
+#include "limpid/op/operator.h"
+#include "limpid/ops/depth_fog.h"
+#include "limpid/ops/fresnel_reflection.h"
+#include "limpid/ops/prism_split.h"
+#include "limpid/ops/refraction.h"
+#include "limpid/ops/sun_highlight.h"
+#include "limpid/ops/water_shadow.h"
+#include "limpid/ops/wave_normals.h"
+
+/// THE list of operators, in the order in which they run.
+///
+/// To add an operator: its header (formula) and source (table of parameters) in ops/, a test in
+/// tests/ops/, its include above and its name in Chain below. `tools/dev new-op NAME` makes the
+/// files. Look keys, `limpid operators`, plan entry, reference and fused passes, contract tests and
+/// a benchmark row then come by themselves.
+///
+/// To add a model to an operator: a value in its enum and the word for it in its table (same place
+/// in both), its branch in apply(), its formula in optics/ when it has one, new parameters as
+/// members and table rows, and what it reads in reads() and needs(). Nothing outside the operator's
+/// two files and its test changes, unless the model needs an input that no frame has had before:
+/// that is a role in core/frame.h.
+
+namespace limpid {
+
+template <Operator... Ops>
+struct OperatorList {
+  static constexpr int kCount = sizeof...(Ops);
+  using AllParams = std::tuple<typename Ops::Params...>;
+
+  /// Calls fn.operator()<Op, index>() for each operator in order.
+  template <class Fn>
+  static constexpr void for_each(Fn&& fn) {
+    [&]<int... I>(std::integer_sequence<int, I...>) { (fn.template operator()<Ops, I>(), ...); }
+    (std::make_integer_sequence<int, kCount>{});
+  }
+};
+
+using Chain = OperatorList<WaveNormals, PrismSplit, Refraction, DepthFog, WaterShadow,
+                           FresnelReflection, SunHighlight>;
+
+}  // namespace limpid

@@ -1,0 +1,60 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "limpid/ops/chain.h"
+
+namespace limpid {
+
+/// What holds for the water as a whole: table `water` of a look.
+struct Water {
+  double ior = 1.333;
+
+  static constexpr std::string_view kName = "water";
+  static constexpr std::string_view kAbout = "The water itself.";
+  static std::span<const Field<Water>> fields();
+};
+
+/// All parameters of the water.
+struct Look {
+  std::string name;
+  Water water;
+  Chain::AllParams operators;
+
+  template <Operator Op>
+  typename Op::Params& of() {
+    return std::get<typename Op::Params>(operators);
+  }
+  template <Operator Op>
+  const typename Op::Params& of() const {
+    return std::get<typename Op::Params>(operators);
+  }
+
+  /// Sets `table.key`, as in set("refraction", "strength", 0.03). Throws Error with the nearest
+  /// name for an unknown table or key, and for a value that its declaration refuses.
+  void set(std::string_view table, std::string_view key, const Value& value);
+
+  /// Throws Error at the first parameter outside its range (NaN included).
+  void validate() const;
+};
+
+/// One parameter as data, without its struct: for listings and for text that records a look.
+struct Parameter {
+  std::string_view table, name, unit;
+  FieldKind kind;
+  Range range;
+  std::vector<std::string> choices;
+  std::string_view about;
+  Value value;
+};
+
+/// Every parameter of the look with its value, in the order of `water` and the chain.
+std::vector<Parameter> parameters(const Look& look);
+
+/// The look as a TOML text that reads back as the same look.
+std::string to_toml(const Look& look);
+
+}  // namespace limpid

@@ -1,0 +1,52 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/op/pixel.h"
+#include "limpid/ops/look.h"
+
+namespace limpid {
+
+/// What the planner knows of a job before any pixel is read.
+struct Inputs {
+  PlaneSet planes;        ///< that the plate has
+  bool wave_map = false;  ///< a tiling normal map is at hand
+  bool sun = false;
+};
+
+/// Why an operator runs or does not.
+enum class Verdict {
+  kKept,
+  kNeutral,  ///< its parameters make it the identity
+  kAbsent,   ///< an input that it cannot do without is not there
+  kUnread,   ///< nothing reads what it makes
+};
+
+struct PlannedOperator {
+  std::string_view name;
+  Verdict verdict = Verdict::kKept;
+  std::string reason;  ///< one phrase, "" for a plain kKept
+};
+
+/// What of the chain will run for a job, and why the rest will not. A value: it can be printed,
+/// compared and tested without pixels.
+struct Plan {
+  Look look;                               ///< as it will run: models replaced where a rule says so
+  std::vector<PlannedOperator> operators;  ///< one an operator, in chain order
+  StateSet made;                           ///< by the operators that are kept
+  PlaneSet planes;                         ///< that must be read from the plate
+
+  bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
+};
+
+/// `outputs`: the state that is written besides the picture itself (AOVs). Throws Error for a look
+/// outside its ranges, and when color or depth is absent (there is nothing to put water into).
+Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs = {});
+
+/// A line an operator: name, kept or dropped, reason.
+std::string to_text(const Plan& plan);
+
+}  // namespace limpid

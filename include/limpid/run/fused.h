@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/plan/plan.h"
+#include "limpid/run/executor.h"
+#include "limpid/run/target.h"
+
+namespace limpid {
+
+struct FusedOptions {
+  /// Instruction set by name, "" for the best this machine has: scalar sse4 avx2 avx512 neon. An
+  /// unknown name or one that the machine lacks is refused.
+  std::string simd = {};
+  Size tile = {1024, 32};
+};
+
+/// The instruction sets that this library was built for and this machine has, best first.
+std::vector<std::string> simd_targets();
+
+/// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. The bits of
+/// the result depend on plan, frame, scene and instruction set, not on threads, tile size or order.
+/// Against run_reference: see the README. Throws Error as run_reference does, and for an
+/// instruction set that is not there. A plane may span at most 2^31 floats.
+void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
+               Executor& executor, const FusedOptions& options = {});
+
+}  // namespace limpid

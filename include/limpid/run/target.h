@@ -1,0 +1,78 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "limpid/core/plane.h"
+#include "limpid/op/pixel.h"
+
+namespace limpid {
+
+/// What can be written besides the picture.
+enum class Aov {
+  kTransmitted,
+  kInScatter,
+  kReflected,
+  kHighlight,
+  kFresnel,
+  kPath,
+  kConfidence,
+  kNormal,
+  kSurfaceDepth,
+};
+constexpr int kAovCount = 9;
+
+struct AovInfo {
+  std::string_view name;      ///< of the layer
+  std::string_view suffixes;  ///< a letter a channel: "RGB", "XYZ", "Y", "Z"
+  StatePart part;             ///< state that it shows
+  float dry;                  ///< on dry pixels; `transmitted` has the dry color there instead
+  std::string_view about;
+};
+/// In the order of Aov. The first four sum to the picture on every pixel.
+std::span<const AovInfo> aovs();
+/// Throws Error with the nearest name.
+Aov aov_named(std::string_view name);
+
+/// Where a run writes. The picture must be there; each AOV may be. All views must cover the frame's
+/// work(). Pixels of a view outside work() are left alone.
+struct Target {
+  std::array<View<float>, 3> color;
+  View<float> alpha;  ///< may be absent
+  std::array<std::array<View<float>, 3>, kAovCount> aovs;
+
+  std::array<View<float>, 3>& of(Aov aov) { return aovs[static_cast<std::size_t>(aov)]; }
+  const std::array<View<float>, 3>& of(Aov aov) const {
+    return aovs[static_cast<std::size_t>(aov)];
+  }
+};
+
+/// The channels of an AOV of a pixel; one-channel ones are in the first.
+template <class F>
+LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
+  const auto rgb = [](const Rgb<F>& c) { return Vec3<F>{c.r, c.g, c.b}; };
+  switch (aov) {
+    case Aov::kTransmitted:
+      return rgb(p.transmitted);
+    case Aov::kInScatter:
+      return rgb(p.in_scatter);
+    case Aov::kReflected:
+      return rgb(p.reflected);
+    case Aov::kHighlight:
+      return rgb(p.highlight);
+    case Aov::kFresnel:
+      return {p.fresnel, F(0), F(0)};
+    case Aov::kPath:
+      return {p.path, F(0), F(0)};
+    case Aov::kConfidence:
+      return {p.confidence, F(0), F(0)};
+    case Aov::kNormal:
+      return p.normal;
+    case Aov::kSurfaceDepth:
+      return {p.surface_depth, F(0), F(0)};
+  }
+  return {F(0), F(0), F(0)};
+}
+
+}  // namespace limpid

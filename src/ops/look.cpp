@@ -1,0 +1,109 @@
+#include "limpid/ops/look.h"
+
+#include <cstdio>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+constexpr Field<Water> kWaterFields[] = {
+    real<&Water::ior>("ior", "", {1, 4}, "Index of refraction of the water against air."),
+};
+
+/// Calls visit(name, fields, params) for `water` and every operator.
+template <class L, class Visit>
+void for_each_table(L& look, Visit&& visit) {
+  visit(Water::kName, Water::fields(), look.water);
+  Chain::for_each([&]<class Op, int>() { visit(Op::kName, Op::fields(), look.template of<Op>()); });
+}
+
+std::string toml_text(const Value& value) {
+  if (const std::string* word = std::get_if<std::string>(&value)) {
+    std::string quoted = "\"";
+    for (char c : *word) {
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += c;
+    }
+    return quoted + "\"";
+  }
+  const auto exact = [](double x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", x);
+    double back = 0;
+    for (int digits = 1; digits < 17; ++digits) {
+      char shorter[40];
+      std::snprintf(shorter, sizeof shorter, "%.*g", digits, x);
+      std::sscanf(shorter, "%lf", &back);
+      if (back == x) return std::string(shorter);
+    }
+    return std::string(text);
+  };
+  if (const double* x = std::get_if<double>(&value)) return exact(*x);
+  const Rgb<double>& c = std::get<Rgb<double>>(value);
+  return "[" + exact(c.r) + ", " + exact(c.g) + ", " + exact(c.b) + "]";
+}
+
+}  // namespace
+
+std::span<const Field<Water>> Water::fields() { return kWaterFields; }
+
+void Look::set(std::string_view table, std::string_view key, const Value& value) {
+  std::vector<std::string> tables, keys;
+  bool table_found = false, key_found = false;
+  for_each_table(*this, [&](std::string_view owner, auto fields, auto& params) {
+    tables.emplace_back(owner);
+    if (owner != table) return;
+    table_found = true;
+    for (const auto& field : fields) {
+      keys.emplace_back(field.name);
+      if (field.name != key) continue;
+      key_found = true;
+      assign(owner, field, params, value);
+    }
+  });
+  if (!table_found) {
+    throw Error("unknown table '" + std::string(table) + "': expected one of " + join(tables) +
+                did_you_mean(table, tables));
+  }
+  if (!key_found) {
+    throw Error("unknown key '" + std::string(table) + "." + std::string(key) +
+                "': expected one of " + join(keys) + did_you_mean(key, keys));
+  }
+}
+
+void Look::validate() const {
+  for_each_table(*this, [](std::string_view owner, auto fields, const auto& params) {
+    limpid::validate(owner, fields, params);
+  });
+}
+
+std::vector<Parameter> parameters(const Look& look) {
+  std::vector<Parameter> all;
+  for_each_table(look, [&](std::string_view table, auto fields, const auto& params) {
+    for (const auto& field : fields) {
+      all.push_back({table,
+                     field.name,
+                     field.unit,
+                     field.kind,
+                     field.range,
+                     {field.choices.begin(), field.choices.end()},
+                     field.about,
+                     field.get(params)});
+    }
+  });
+  return all;
+}
+
+std::string to_toml(const Look& look) {
+  std::string text;
+  std::string_view table;
+  for (const Parameter& p : parameters(look)) {
+    if (p.table != table) text += (text.empty() ? "[" : "\n[") + std::string(p.table) + "]\n";
+    table = p.table;
+    text += std::string(p.name) + " = " + toml_text(p.value) + "\n";
+  }
+  return text;
+}
+
+}  // namespace limpid

@@ -1,0 +1,138 @@
+#include "limpid/plan/plan.h"
+
+#include <array>
+#include <cstdio>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+/// What an operator declares, evaluated for one look.
+struct Declared {
+  StateSet uses, makes;
+  PlaneSet reads;
+  Needs needs;
+};
+
+Declared declared(const Look& look, int index) {
+  Declared d;
+  Chain::for_each([&]<class Op, int I>() {
+    if (I != index) return;
+    const auto& params = look.of<Op>();
+    d = {Op::kUses, Op::kMakes, Op::reads(params), Op::needs(params)};
+  });
+  return d;
+}
+
+bool neutral(const Look& look, int index, StateSet made) {
+  bool result = false;
+  Chain::for_each([&]<class Op, int I>() {
+    if (I == index) result = Op::neutral(look.of<Op>(), made);
+  });
+  return result;
+}
+
+void drop(PlannedOperator& op, Verdict verdict, std::string reason) {
+  op.verdict = verdict;
+  op.reason = std::move(reason);
+}
+
+// The rules. Each looks at the whole plan, changes it, and leaves its reason with the operator.
+
+/// Normals that came with the plate are better than any that could be made up.
+void take_plate_normals(Plan& plan, const Inputs& inputs, StateSet) {
+  if (!inputs.planes.covers(kSurfaceNormalPlanes)) return;
+  WaveNormals::Params& params = plan.look.of<WaveNormals>();
+  if (params.model == WaveNormals::Model::kPlate) return;
+  params.model = WaveNormals::Model::kPlate;
+  Chain::for_each([&]<class Op, int I>() {
+    if constexpr (std::is_same_v<Op, WaveNormals>) {
+      plan.operators[I].reason = "model plate: the frame has surface normals";
+    }
+  });
+}
+
+void drop_absent_input(Plan& plan, const Inputs& inputs, StateSet) {
+  for (int i = 0; i < Chain::kCount; ++i) {
+    const Needs needs = declared(plan.look, i).needs;
+    std::vector<std::string> absent;
+    for (const Role& role : roles()) {
+      const PlaneSet wanted = needs.planes & role.planes();
+      if (!inputs.planes.covers(wanted)) absent.emplace_back(role.name);
+    }
+    if (needs.sun && !inputs.sun) absent.emplace_back("sun");
+    if (needs.wave_map && !inputs.wave_map) absent.emplace_back("normal map");
+    if (!absent.empty()) drop(plan.operators[i], Verdict::kAbsent, "no " + join(absent, ", no "));
+  }
+}
+
+/// In chain order: what is dropped before can make what comes after neutral.
+void drop_neutral(Plan& plan, const Inputs&, StateSet) {
+  StateSet made;
+  for (int i = 0; i < Chain::kCount; ++i) {
+    if (!plan.keeps(i)) continue;
+    if (neutral(plan.look, i, made)) {
+      drop(plan.operators[i], Verdict::kNeutral, "its parameters change nothing here");
+    } else {
+      made = made | declared(plan.look, i).makes;
+    }
+  }
+}
+
+/// Backwards from what is written.
+void drop_unread(Plan& plan, const Inputs&, StateSet outputs) {
+  StateSet live = kOutputTerms | outputs;
+  for (int i = Chain::kCount - 1; i >= 0; --i) {
+    if (!plan.keeps(i)) continue;
+    const Declared d = declared(plan.look, i);
+    if (d.makes.meets(live)) {
+      live = live | d.uses;
+    } else {
+      drop(plan.operators[i], Verdict::kUnread, "nothing reads what it makes");
+    }
+  }
+}
+
+using Rule = void (*)(Plan&, const Inputs&, StateSet outputs);
+constexpr Rule kRules[] = {take_plate_normals, drop_absent_input, drop_neutral, drop_unread};
+
+}  // namespace
+
+Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs) {
+  look.validate();
+  if (!inputs.planes.covers(kColorPlanes))
+    throw Error("no color: there is nothing to put water into");
+  if (!inputs.planes.has(PlaneId::kDepth)) {
+    throw Error("no depth: what lies above and below the water cannot be told apart");
+  }
+  Plan plan;
+  plan.look = look;
+  Chain::for_each([&]<class Op, int>() { plan.operators.push_back({Op::kName, {}, {}}); });
+  for (Rule rule : kRules) rule(plan, inputs, outputs);
+
+  plan.planes = kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};
+  for (int i = 0; i < Chain::kCount; ++i) {
+    if (!plan.keeps(i)) continue;
+    plan.made = plan.made | declared(plan.look, i).makes;
+    plan.planes = plan.planes | declared(plan.look, i).reads;
+  }
+  plan.planes = plan.planes & inputs.planes;
+  return plan;
+}
+
+std::string to_text(const Plan& plan) {
+  constexpr std::array<const char*, 4> kWords = {"kept", "dropped: neutral",
+                                                 "dropped: input absent", "dropped: unread"};
+  std::string text;
+  for (const PlannedOperator& op : plan.operators) {
+    char line[256];
+    std::snprintf(line, sizeof line, "%-20s%s%s%s\n", std::string(op.name).c_str(),
+                  kWords[static_cast<std::size_t>(op.verdict)], op.reason.empty() ? "" : ", ",
+                  op.reason.c_str());
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace limpid

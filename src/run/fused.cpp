@@ -1,0 +1,103 @@
+#include "limpid/run/fused.h"
+
+#include <cstdlib>
+#include <limits>
+
+#include <hwy/targets.h>
+
+#include "limpid/core/error.h"
+
+#include "run/checks.h"
+#include "run/fused_tile.h"
+
+namespace limpid {
+
+// One for each instruction set that the build names, made by lanes_target.cpp.
+#define LIMPID_TARGET(name, highway) extern const FusedTarget kFused_##name;
+#include "run/targets.inc"
+#undef LIMPID_TARGET
+
+namespace {
+
+struct Candidate {
+  const FusedTarget* target;
+  std::int64_t highway;  ///< 0 for what every machine has
+};
+
+constexpr Candidate kCandidates[] = {
+#define LIMPID_TARGET(name, highway) {&kFused_##name, highway},
+#include "run/targets.inc"
+#undef LIMPID_TARGET
+};
+
+bool supported(const Candidate& c) {
+  return c.highway == 0 || (hwy::SupportedTargets() & c.highway) != 0;
+}
+
+const FusedTarget& chosen(const std::string& name) {
+  for (const Candidate& c : kCandidates) {
+    if (supported(c) && (name.empty() || name == c.target->name)) return *c.target;
+  }
+  throw Error("simd = " + name + ": expected one of " + join(simd_targets()) + " on this machine");
+}
+
+void check_extent(const Frame& frame) {
+  for (const View<const float>& view : frame.planes) {
+    if (!view) continue;
+    const std::int64_t last = std::abs(std::int64_t{view.y_stride}) * view.window.height() +
+                              std::abs(std::int64_t{view.x_stride}) * view.window.width();
+    if (last > std::numeric_limits<std::int32_t>::max()) {
+      throw Error("frame: a plane spans " + std::to_string(last) +
+                  " floats, expected at most 2^31");
+    }
+  }
+}
+
+struct Tiles {
+  const FusedJob& job;
+  const FusedTarget& target;
+  Rect work;
+  Size tile;
+  int across;
+
+  static void run(void* context, int index) {
+    const Tiles& t = *static_cast<const Tiles*>(context);
+    const int x0 = t.work.x0 + index % t.across * t.tile.width;
+    const int y0 = t.work.y0 + index / t.across * t.tile.height;
+    t.target.run_tile(t.job, intersection({x0, y0, x0 + t.tile.width, y0 + t.tile.height}, t.work));
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> simd_targets() {
+  std::vector<std::string> names;
+  for (const Candidate& c : kCandidates) {
+    if (supported(c)) names.emplace_back(c.target->name);
+  }
+  return names;
+}
+
+void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
+               Executor& executor, const FusedOptions& options) {
+  const FusedTarget& simd = chosen(options.simd);
+  check_run(plan, frame, target);
+  check_extent(frame);
+  const Size tile = options.tile;
+  if (tile.width < 1 || tile.height < 1) {
+    throw Error("tile of " + std::to_string(tile.width) + "x" + std::to_string(tile.height) +
+                " pixels: expected at least 1x1");
+  }
+  const Context context(scene, frame, plan.look.water.ior, plan.made);
+  FusedJob job{plan, frame, context, target, {}, {}, {}};
+  for (int i = 0; i < Chain::kCount; ++i) job.keeps[i] = plan.keeps(i);
+  for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));
+  for (int i = 0; i < kAovCount; ++i) job.dry_aov[i] = aovs()[i].dry;
+  const Rect work = frame.work();
+  const int across = (work.width() + tile.width - 1) / tile.width;
+  const int down = (work.height() + tile.height - 1) / tile.height;
+  Tiles tiles{job, simd, work, tile, across};
+  executor.run(across * down, Tiles::run, &tiles);
+}
+
+}  // namespace limpid

@@ -1,0 +1,70 @@
+#pragma once
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+/// The number type of the fused pass: one SIMD vector of float lanes, with the functions that
+/// formulas call (see core/number.h). For inclusion by lanes_target.cpp alone, which is compiled
+/// once for each instruction set: everything here lives in Highway's namespace for that set, so
+/// that no two copies share a symbol.
+
+namespace limpid::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using DI = hn::ScalableTag<std::int32_t>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+
+constexpr D kD;
+constexpr DI kDI;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+
+#define LIMPID_LANES_INLINE inline __attribute__((always_inline))
+
+struct Mask {
+  M m;
+  friend LIMPID_LANES_INLINE Mask operator&&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+  friend LIMPID_LANES_INLINE Mask operator||(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+  friend LIMPID_LANES_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+};
+
+struct Lane {
+  V v;
+  Lane() = default;
+  LIMPID_LANES_INLINE explicit Lane(double x) : v(hn::Set(kD, static_cast<float>(x))) {}
+  LIMPID_LANES_INLINE explicit Lane(V x) : v(x) {}
+
+  friend LIMPID_LANES_INLINE Lane operator+(Lane a, Lane b) { return Lane(hn::Add(a.v, b.v)); }
+  friend LIMPID_LANES_INLINE Lane operator-(Lane a, Lane b) { return Lane(hn::Sub(a.v, b.v)); }
+  friend LIMPID_LANES_INLINE Lane operator*(Lane a, Lane b) { return Lane(hn::Mul(a.v, b.v)); }
+  friend LIMPID_LANES_INLINE Lane operator/(Lane a, Lane b) { return Lane(hn::Div(a.v, b.v)); }
+  friend LIMPID_LANES_INLINE Mask operator<(Lane a, Lane b) { return {hn::Lt(a.v, b.v)}; }
+  friend LIMPID_LANES_INLINE Mask operator>(Lane a, Lane b) { return {hn::Gt(a.v, b.v)}; }
+  friend LIMPID_LANES_INLINE Mask operator<=(Lane a, Lane b) { return {hn::Le(a.v, b.v)}; }
+  friend LIMPID_LANES_INLINE Mask operator>=(Lane a, Lane b) { return {hn::Ge(a.v, b.v)}; }
+};
+
+LIMPID_LANES_INLINE Lane select(Mask m, Lane yes, Lane no) {
+  return Lane(hn::IfThenElse(m.m, yes.v, no.v));
+}
+LIMPID_LANES_INLINE bool any(Mask m) { return !hn::AllFalse(kD, m.m); }
+LIMPID_LANES_INLINE Lane min(Lane a, Lane b) { return Lane(hn::Min(a.v, b.v)); }
+LIMPID_LANES_INLINE Lane max(Lane a, Lane b) { return Lane(hn::Max(a.v, b.v)); }
+LIMPID_LANES_INLINE Lane abs(Lane a) { return Lane(hn::Abs(a.v)); }
+LIMPID_LANES_INLINE Lane sqrt(Lane a) { return Lane(hn::Sqrt(a.v)); }
+LIMPID_LANES_INLINE Lane floor(Lane a) { return Lane(hn::Floor(a.v)); }
+
+/// e^x by Highway's polynomial. Relative error below 3e-7 for x in -87 ... 88; 0 below -104.
+LIMPID_LANES_INLINE Lane exp(Lane x) { return Lane(hn::Exp(kD, x.v)); }
+
+/// x^p for x in 0 ... 1e30, p in 0 ... 1e5, as exp(p log x). Relative error below 3e-7 (2 + |p log
+/// x|); pow(0, p) = 0, pow(x, 0) = 1; x below 1e-37 counts as 0.
+LIMPID_LANES_INLINE Lane pow(Lane x, Lane p) {
+  const Mask positive = x > Lane(1e-37);
+  const Lane exponent = p * Lane(hn::Log(kD, select(positive, x, Lane(1)).v));
+  const Lane power = exp(max(min(exponent, Lane(88)), Lane(-103)));
+  return select(p <= Lane(0), Lane(1), select(positive, power, Lane(0)));
+}
+
+}  // namespace limpid::HWY_NAMESPACE

@@ -1,0 +1,198 @@
+#include "limpid/run/reference.h"
+
+#include <cmath>
+#include <vector>
+
+#include "limpid/op/context.h"
+
+#include "run/checks.h"
+
+namespace limpid {
+namespace {
+
+/// One row of the picture in double. The samplers are as plain as can be: they are what the fast
+/// ones are judged by.
+class ReferenceStrip {
+ public:
+  using Number = double;
+
+  ReferenceStrip(const Frame& frame, const Rect& work)
+      : frame_(frame), display_(frame.display), x0_(work.x0), pixels_(work.width()) {}
+
+  void set_row(int y) { y_ = y; }
+  std::vector<Pixel<double>>& pixels() { return pixels_; }
+
+  template <class Fn>
+  void each(Fn&& fn) {
+    for (Pixel<double>& p : pixels_) fn(p);
+  }
+
+  template <class Into>
+  void own(PlaneId plane, Into&& into) {
+    for_all([&](Pixel<double>& p, int x) { into(p, texel(plane, x, y_)); });
+  }
+
+  template <class Into>
+  void own3(PlaneId first, Into&& into) {
+    for_all([&](Pixel<double>& p, int x) {
+      into(p, Vec3<double>{texel(first, x, y_), texel(plane_after(first, 1), x, y_),
+                           texel(plane_after(first, 2), x, y_)});
+    });
+  }
+
+  template <class Where, class Into>
+  void nearest(PlaneId plane, Where&& where, Into&& into) {
+    for_all([&](Pixel<double>& p, int x) {
+      const Vec2<double> at = position(where(p), x);
+      into(p, texel(plane, clamped_floor(at.x + 0.5), clamped_floor(at.y + 0.5)));
+    });
+  }
+
+  template <class Where, class Into>
+  void bilinear(PlaneId plane, Where&& where, Into&& into) {
+    for_all([&](Pixel<double>& p, int x) { into(p, bilinear_at(plane, position(where(p), x))); });
+  }
+
+  template <class Where, class Into>
+  void bilinear_rgb(PlaneId first, Where&& where, Into&& into) {
+    for_all([&](Pixel<double>& p, int x) {
+      const Vec2<double> at = position(where(p), x);
+      into(p, Rgb<double>{bilinear_at(first, at), bilinear_at(plane_after(first, 1), at),
+                          bilinear_at(plane_after(first, 2), at)});
+    });
+  }
+
+  template <class Where, class Into>
+  void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
+    for (Pixel<double>& p : pixels_) {
+      const Vec2<double> at = where(p);
+      into(p, Rgb<double>{tiled_at(texture.channels[0], at), tiled_at(texture.channels[1], at),
+                          tiled_at(texture.channels[2], at)});
+    }
+  }
+
+ private:
+  template <class Fn>
+  void for_all(Fn&& fn) {
+    for (std::size_t i = 0; i < pixels_.size(); ++i) fn(pixels_[i], x0_ + static_cast<int>(i));
+  }
+
+  /// Texel coordinates (centres at integers) of a shift from the pixel x of this row.
+  Vec2<double> position(Vec2<double> shift, int x) const {
+    return {x + shift.x * display_.width(), y_ + shift.y * display_.height()};
+  }
+
+  static int clamped_floor(double v) {
+    return static_cast<int>(std::floor(max(min(v, 1e9), -1e9)));
+  }
+
+  double texel(PlaneId plane, int x, int y) const {
+    const View<const float>& view = frame_.plane(plane);
+    if (!view) return missing_value(plane);
+    return view.at(std::clamp(x, view.window.x0, view.window.x1 - 1),
+                   std::clamp(y, view.window.y0, view.window.y1 - 1));
+  }
+
+  double bilinear_at(PlaneId plane, Vec2<double> at) const {
+    const int x = clamped_floor(at.x), y = clamped_floor(at.y);
+    const double u = at.x - std::floor(at.x), v = at.y - std::floor(at.y);
+    const double upper = lerp(texel(plane, x, y), texel(plane, x + 1, y), u);
+    const double lower = lerp(texel(plane, x, y + 1), texel(plane, x + 1, y + 1), u);
+    return lerp(upper, lower, v);
+  }
+
+  static double tiled_at(const View<const float>& view, Vec2<double> periods) {
+    const int width = view.window.width(), height = view.window.height();
+    const double x = (periods.x - std::floor(periods.x)) * width - 0.5;
+    const double y = (periods.y - std::floor(periods.y)) * height - 0.5;
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    const auto at = [&](int i, int j) -> double {
+      return view.at(view.window.x0 + (i + width) % width, view.window.y0 + (j + height) % height);
+    };
+    const double u = x - x0, v = y - y0;
+    return lerp(lerp(at(x0, y0), at(x0 + 1, y0), u), lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), u),
+                v);
+  }
+
+  const Frame& frame_;
+  Rect display_;
+  int x0_, y_ = 0;
+  std::vector<Pixel<double>> pixels_;
+};
+
+/// What stands in for the depths of a dry pixel while the operators pass over it.
+constexpr double kDrySurface = 1, kDryBottom = 2;
+
+void begin_row(const Context& context, const Frame& frame, const Rect& work, int y,
+               std::vector<Pixel<double>>& pixels, std::vector<char>& wet) {
+  const RowRays<double> rays(context, y - context.corner.y + 0.5);
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  for (int x = work.x0; x < work.x1; ++x) {
+    const std::size_t i = static_cast<std::size_t>(x - work.x0);
+    const double pixel_x = x - context.corner.x + 0.5;
+    const double dry = frame.plane(PlaneId::kDepth).at(x, y);
+    const double water = surface ? surface.at(x, y) : rays.calm_depth(pixel_x);
+    const Rgb<double> color{frame.plane(PlaneId::kColorR).at(x, y),
+                            frame.plane(PlaneId::kColorG).at(x, y),
+                            frame.plane(PlaneId::kColorB).at(x, y)};
+    wet[i] = water < dry;
+    begin_pixel(context, rays, pixel_x, wet[i] ? water : kDrySurface, wet[i] ? dry : kDryBottom,
+                color, pixels[i]);
+  }
+}
+
+void write_wet(const Pixel<double>& p, int x, int y, const Target& target) {
+  const Rgb<double> beauty = p.beauty();
+  target.color[0].at(x, y) = static_cast<float>(beauty.r);
+  target.color[1].at(x, y) = static_cast<float>(beauty.g);
+  target.color[2].at(x, y) = static_cast<float>(beauty.b);
+  if (target.alpha) target.alpha.at(x, y) = 1;
+  for (int a = 0; a < kAovCount; ++a) {
+    const Vec3<double> value = aov_of(p, static_cast<Aov>(a));
+    const auto& views = target.aovs[a];
+    if (views[0]) views[0].at(x, y) = static_cast<float>(value.x);
+    if (views[1]) views[1].at(x, y) = static_cast<float>(value.y);
+    if (views[2]) views[2].at(x, y) = static_cast<float>(value.z);
+  }
+}
+
+void write_dry(const Frame& frame, int x, int y, const Target& target) {
+  const auto color = [&](int i) { return frame.plane(plane_after(PlaneId::kColorR, i)).at(x, y); };
+  for (int i = 0; i < 3; ++i) target.color[i].at(x, y) = color(i);
+  const View<const float>& alpha = frame.plane(PlaneId::kColorA);
+  if (target.alpha) target.alpha.at(x, y) = alpha ? alpha.at(x, y) : 1;
+  for (int a = 0; a < kAovCount; ++a) {
+    for (int i = 0; i < 3; ++i) {
+      const View<float>& view = target.aovs[a][i];
+      const bool dry_color = static_cast<Aov>(a) == Aov::kTransmitted;
+      if (view) view.at(x, y) = dry_color ? color(i) : aovs()[a].dry;
+    }
+  }
+}
+
+}  // namespace
+
+void run_reference(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target) {
+  check_run(plan, frame, target);
+  const Context context(scene, frame, plan.look.water.ior, plan.made);
+  const Rect work = frame.work();
+  ReferenceStrip strip(frame, work);
+  std::vector<char> wet(work.width());
+  for (int y = work.y0; y < work.y1; ++y) {
+    strip.set_row(y);
+    begin_row(context, frame, work, y, strip.pixels(), wet);
+    Chain::for_each([&]<class Op, int I>() {
+      if (plan.keeps(I)) Op::apply(plan.look.of<Op>(), context, strip);
+    });
+    for (int x = work.x0; x < work.x1; ++x) {
+      const std::size_t i = static_cast<std::size_t>(x - work.x0);
+      if (wet[i]) {
+        write_wet(strip.pixels()[i], x, y, target);
+      } else {
+        write_dry(frame, x, y, target);
+      }
+    }
+  }
+}
+
+}  // namespace limpid

@@ -1,0 +1,38 @@
+#include "limpid/run/target.h"
+
+#include <limits>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+constexpr AovInfo kAovs[kAovCount] = {
+    {"transmitted", "RGB", StatePart::kTransmitted, 0,
+     "light from below the surface; the dry picture on dry pixels"},
+    {"in_scatter", "RGB", StatePart::kInScatter, 0, "light that the water itself sends"},
+    {"reflected", "RGB", StatePart::kReflected, 0, "light mirrored by the surface"},
+    {"highlight", "RGB", StatePart::kHighlight, 0, "glint of the sun"},
+    {"fresnel", "Y", StatePart::kFresnel, 0, "reflectance"},
+    {"path", "Z", StatePart::kPath, 0, "way through the water, scene units"},
+    {"confidence", "Y", StatePart::kConfidence, 1, "1 where the lookup is real, 0 where invented"},
+    {"normal", "XYZ", StatePart::kNormal, 0, "unit world normal of the waves, 0 on dry pixels"},
+    {"surface_depth", "Z", StatePart::kNormal, std::numeric_limits<float>::infinity(),
+     "eye depth of the water, inf on dry pixels"},
+};
+
+}  // namespace
+
+std::span<const AovInfo> aovs() { return kAovs; }
+
+Aov aov_named(std::string_view name) {
+  std::vector<std::string> known;
+  for (int i = 0; i < kAovCount; ++i) {
+    if (kAovs[i].name == name) return static_cast<Aov>(i);
+    known.emplace_back(kAovs[i].name);
+  }
+  throw Error("'" + std::string(name) + "' is no AOV: expected one of " + join(known) +
+              did_you_mean(name, known));
+}
+
+}  // namespace limpid

@@ -1,0 +1,194 @@
+#include "limpid/run/fused.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "limpid/core/error.h"
+
+#include "support.h"
+
+namespace limpid {
+namespace {
+
+using test::Buffers;
+using test::Picture;
+
+Look busy_look() {
+  Look look;
+  look.of<PrismSplit>().strength = 0.01;
+  look.of<SunHighlight>().power = 20;
+  return look;
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+constexpr Size kAwkwardSizes[] = {{1, 1},   {1, 9},   {9, 1},   {7, 5},
+                                  {127, 3}, {128, 3}, {129, 3}, {131, 37}};
+
+class FusedOnTarget : public testing::TestWithParam<std::string> {};
+
+TEST_P(FusedOnTarget, AgreesWithTheReferenceAtAwkwardSizes) {
+  for (Size size : kAwkwardSizes) {
+    const Buffers b = test::noisy_frame(rect_of(size));
+    const Scene scene = test::simple_scene(size);
+    const std::vector<float> judge = test::reference(busy_look(), b.frame, scene).values();
+    const std::vector<float> got =
+        test::fused(busy_look(), b.frame, scene, {.simd = GetParam()}).values();
+    ASSERT_EQ(judge.size(), got.size());
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < judge.size(); ++i) {
+      const bool same = judge[i] == got[i] || std::abs(judge[i] - got[i]) < 2e-5;
+      far += !same;
+    }
+    // A lookup that lands exactly between two texels of the depth may round either way: noise has
+    // such pixels.
+    EXPECT_LE(far, judge.size() / 5000) << size.width << "x" << size.height;
+  }
+}
+
+TEST_P(FusedOnTarget, NormalMapAgreesWithTheReference) {
+  const Size size{67, 41};
+  Buffers b = test::noisy_frame(rect_of(size));
+  for (int c = 0; c < 3; ++c) b.frame.planes[index_of(PlaneId::kSurfaceNormalX) + c] = {};
+  b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
+  b.set(PlaneId::kDepth, [](int x, int y) { return 2 + 8 * test::noise(x / 9, y / 9, 3); });
+  const test::NoiseMap map(16, 8);
+  b.frame.wave_map = map.texture;
+  Scene scene = test::simple_scene(size);
+  scene.time = 12.3;
+  const Picture judge = test::reference(busy_look(), b.frame, scene);
+  const Picture got = test::fused(busy_look(), b.frame, scene, {.simd = GetParam()});
+  int wet = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const double depth = judge.aov(Aov::kSurfaceDepth, x, y);
+      EXPECT_EQ(std::isinf(depth), std::isinf(got.aov(Aov::kSurfaceDepth, x, y)));
+      if (std::isinf(depth)) continue;
+      ++wet;
+      EXPECT_NEAR(depth, got.aov(Aov::kSurfaceDepth, x, y), 2e-6 * depth);
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(judge.aov(Aov::kNormal, x, y, c), got.aov(Aov::kNormal, x, y, c), 2e-5);
+      }
+    }
+  }
+  EXPECT_GT(wet, 500);
+}
+
+TEST_P(FusedOnTarget, SameBitsForAnyTileSizeAndThreadCount) {
+  const Size size{261, 75};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  const Scene scene = test::simple_scene(size);
+  const std::string simd = GetParam();
+  const std::vector<float> whole =
+      test::fused(busy_look(), b.frame, scene, {.simd = simd, .tile = {4096, 4096}}).values();
+  for (Size tile : {Size{1, 1}, Size{13, 7}, Size{64, 32}, Size{129, 1}, Size{261, 2}}) {
+    for (int threads : {1, 2, 3}) {
+      const std::vector<float> tiled =
+          test::fused(busy_look(), b.frame, scene, {.simd = simd, .tile = tile}, threads).values();
+      EXPECT_TRUE(same_bits(whole, tiled)) << tile.width << "x" << tile.height << ", " << threads;
+    }
+  }
+}
+
+TEST_P(FusedOnTarget, DryPixelsPassThroughBitForBit) {
+  const Size size{33, 17};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  const Picture got =
+      test::fused(busy_look(), b.frame, test::simple_scene(size), {.simd = GetParam()});
+  int dry = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const bool wet =
+          b.frame.plane(PlaneId::kSurfaceDepth).at(x, y) < b.frame.plane(PlaneId::kDepth).at(x, y);
+      if (wet) continue;
+      ++dry;
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(got.target.color[c].at(x, y),
+                  b.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y));
+      }
+      EXPECT_EQ(got.target.alpha.at(x, y), b.frame.plane(PlaneId::kColorA).at(x, y));
+    }
+  }
+  EXPECT_GT(dry, 50);
+}
+
+TEST_P(FusedOnTarget, ReadsAndWritesAnyStrides) {
+  const Size size{37, 11};
+  const Buffers planar = test::noisy_frame(rect_of(size));
+  // The same color as interleaved RGBA, stored bottom row first, four pixels of slack a row.
+  const std::ptrdiff_t row = 4 * (size.width + 4);
+  std::vector<float> pixels(static_cast<std::size_t>(row) * size.height);
+  Frame interleaved = planar.frame;
+  for (int c = 0; c < 4; ++c) {
+    const View<float> view{pixels.data() + row * (size.height - 1) + c, 4, -row, rect_of(size)};
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        view.at(x, y) = planar.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+      }
+    }
+    interleaved.planes[c] = view;
+  }
+  const Scene scene = test::simple_scene(size);
+  const FusedOptions options{.simd = GetParam()};
+  EXPECT_TRUE(same_bits(test::fused(busy_look(), planar.frame, scene, options).values(),
+                        test::fused(busy_look(), interleaved, scene, options).values()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Simd, FusedOnTarget, testing::ValuesIn(simd_targets()),
+                         [](const auto& p) { return p.param; });
+
+TEST(Fused, OverscanIsReadAndNotWritten) {
+  const Rect display{0, 0, 40, 20}, data{-8, -4, 48, 24};
+  Buffers wide = test::noisy_frame(data);
+  wide.frame.display = display;
+  const Scene scene = test::simple_scene(display.size());
+  EXPECT_EQ(wide.frame.work(), display);
+  const Picture judge = test::reference(busy_look(), wide.frame, scene);
+  const Picture got = test::fused(busy_look(), wide.frame, scene);
+  std::size_t far = 0;
+  const std::vector<float> a = judge.values(), c = got.values();
+  for (std::size_t i = 0; i < a.size(); ++i) far += !(a[i] == c[i] || std::abs(a[i] - c[i]) < 2e-5);
+  EXPECT_LE(far, a.size() / 5000);
+}
+
+TEST(Fused, RefusesWhatItCannotDo) {
+  const Size size{4, 4};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  const Scene scene = test::simple_scene(size);
+  EXPECT_THROW(test::fused({}, b.frame, scene, {.simd = "mmx"}), Error);
+  EXPECT_THROW(test::fused({}, b.frame, scene, {.tile = {0, 8}}), Error);
+  Scene blind = scene;
+  blind.camera.reset();
+  EXPECT_THROW(test::fused({}, b.frame, blind), Error);
+  Picture small(Rect{0, 0, 2, 2});
+  EXPECT_THROW(run_fused(make_plan({}, test::inputs_of(b.frame, scene)), b.frame, scene,
+                         small.target, *make_executor(1)),
+               Error);
+  EXPECT_THROW(Plane(Rect{0, 0, 0, 0}), Error);
+}
+
+TEST(Fused, SumOfTheFirstFourAovsIsThePicture) {
+  const Size size{50, 30};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  const Scene scene = test::simple_scene(size);
+  for (const Picture& p :
+       {test::reference(busy_look(), b.frame, scene), test::fused(busy_look(), b.frame, scene)}) {
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          const double sum = p.aov(Aov::kTransmitted, x, y, c) + p.aov(Aov::kInScatter, x, y, c) +
+                             p.aov(Aov::kReflected, x, y, c) + p.aov(Aov::kHighlight, x, y, c);
+          EXPECT_NEAR(sum, p.target.color[c].at(x, y), 1e-6 * (1 + sum));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace limpid
