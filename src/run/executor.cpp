@@ -13,7 +13,9 @@ namespace {
 
 class TbbExecutor : public Executor {
  public:
-  explicit TbbExecutor(int threads) : arena_(threads == 0 ? tbb::task_arena::automatic : threads) {}
+  explicit TbbExecutor(int threads)
+      : arena_(threads == 0 ? tbb::task_arena::automatic
+                            : std::min(threads, tbb::this_task_arena::max_concurrency())) {}
 
   void run(int count, Task task, void* context) override {
     arena_.execute([&] { tbb::parallel_for(0, count, [&](int index) { task(context, index); }); });
