@@ -1,0 +1,154 @@
+#include "limpid/load/sanitise.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+constexpr float kNothingHit = std::numeric_limits<float>::infinity();
+
+template <class Fn>
+void for_each_pixel(const View<float>& plane, Fn&& fn) {
+  const Rect& w = plane.window;
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) fn(plane.at(x, y), x, y);
+  }
+}
+
+/// Applies convert(value, x, y) to what is a number and not "nothing hit"; returns how many were NaN.
+template <class Missed, class Convert>
+std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
+  std::int64_t nans = 0;
+  for_each_pixel(plane, [&](float& z, int x, int y) {
+    if (std::isnan(z)) {
+      ++nans;
+      z = kNothingHit;
+    } else {
+      z = missed(z) ? kNothingHit : static_cast<float>(convert(static_cast<double>(z), x, y));
+    }
+  });
+  return nans;
+}
+
+const Camera& camera_of(const DepthSource& source, const char* kind) {
+  if (source.camera == nullptr) {
+    throw Error(std::string("depth of kind ") + kind + " needs a camera, and the scene has none");
+  }
+  return *source.camera;
+}
+
+}  // namespace
+
+std::int64_t& SanitiseCounts::of(const Role& role) {
+  switch (role.first) {
+    case PlaneId::kColorR:
+      return color;
+    case PlaneId::kDepth:
+      return depth;
+    case PlaneId::kShadow:
+      return shadow;
+    case PlaneId::kReflectionR:
+      return reflection;
+    case PlaneId::kSurfaceDepth:
+      return surface_depth;
+    default:
+      return surface_normal;
+  }
+}
+
+std::string SanitiseCounts::to_text() const {
+  SanitiseCounts copy = *this;
+  std::vector<std::string> parts;
+  for (const Role& role : roles()) {
+    if (copy.of(role) != 0) {
+      parts.push_back(std::string(role.name) + " " + std::to_string(copy.of(role)));
+    }
+  }
+  return join(parts);
+}
+
+std::int64_t sanitise_color(const View<float>& plane) {
+  std::int64_t replaced = 0;
+  for_each_pixel(plane, [&](float& c, int, int) {
+    if (std::isfinite(c)) return;
+    c = 0;
+    ++replaced;
+  });
+  return replaced;
+}
+
+std::int64_t sanitise_shadow(const View<float>& plane) {
+  std::int64_t replaced = 0;
+  for_each_pixel(plane, [&](float& s, int, int) {
+    if (std::isfinite(s)) {
+      s = s < 0 ? 0 : s > 1 ? 1 : s;
+    } else {
+      s = 1;
+      ++replaced;
+    }
+  });
+  return replaced;
+}
+
+std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
+                             glm::dvec3 up) {
+  std::int64_t replaced = 0;
+  for_each_pixel(x, [&](float& nx, int column, int row) {
+    float& ny = y.at(column, row);
+    float& nz = z.at(column, row);
+    const glm::dvec3 n(nx, ny, nz);
+    const bool finite = std::isfinite(nx) && std::isfinite(ny) && std::isfinite(nz);
+    const double length = glm::length(n);
+    replaced += !finite;
+    const glm::dvec3 unit = finite && length > 1e-15 ? n / length : up;
+    nx = static_cast<float>(unit.x);
+    ny = static_cast<float>(unit.y);
+    nz = static_cast<float>(unit.z);
+  });
+  return replaced;
+}
+
+std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source) {
+  const float nothing = source.half ? 6e4f : 1e9f;
+  const auto far_away = [=](float z) { return z >= nothing; };
+  switch (source.kind) {
+    case DepthKind::kEye:
+      return convert_depth(plane, far_away, [](double z, int, int) { return z; });
+    case DepthKind::kRay: {
+      const Rect& d = source.display;
+      const Rays rays = rays_of(camera_of(source, "ray"), {d.width(), d.height()});
+      return convert_depth(plane, far_away, [&](double z, int x, int y) {
+        const double length = glm::length(rays.ray_at(x - d.x0 + 0.5, y - d.y0 + 0.5));
+        return eye_depth_from_ray_distance(z, length);
+      });
+    }
+    case DepthKind::kInverse:
+      return convert_depth(
+          plane, [](float z) { return z <= 0; },
+          [](double z, int, int) { return eye_depth_from_inverse(z); });
+    case DepthKind::kNormalised:
+      if (!(source.far > source.near) || std::isinf(source.far)) {
+        throw Error("depth of kind normalised needs near and far, expected near < far, both finite");
+      }
+      return convert_depth(
+          plane, [](float z) { return z >= 1; },
+          [&](double z, int, int) {
+            return eye_depth_from_normalised(z, source.near, source.far);
+          });
+    case DepthKind::kDevice: {
+      const Camera& camera = camera_of(source, "device");
+      const DeviceDepth rows = device_depth_of(camera);
+      const bool reversed = camera.clip == ClipSpace::kReversed;
+      return convert_depth(
+          plane, [=](float z) { return reversed ? z <= 0 : z >= 1; },
+          [&](double z, int, int) { return eye_depth_from_device(z, rows); });
+    }
+  }
+  return 0;
+}
+
+}  // namespace limpid

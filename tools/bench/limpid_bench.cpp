@@ -1,0 +1,157 @@
+// Times the runners on the look `realistic`, each beside its error against the reference and beside
+// the rival, in one run: rounds go over all rows in turn, so that a noisy neighbour hits them
+// alike; the best round counts.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/utility.hpp>
+
+#include "limpid/run/fused.h"
+#include "limpid/run/reference.h"
+
+#include "made_plate.h"
+#include "opencv_chain.h"
+
+namespace limpid::bench {
+namespace {
+
+Look realistic() {
+  Look look;
+  look.of<Refraction>().strength = 0.03;
+  look.of<PrismSplit>().strength = 0.004;
+  look.of<DepthFog>() = {};
+  look.of<WaterShadow>().strength = 0.5;
+  FresnelReflection::Params& mirror = look.of<FresnelReflection>();
+  mirror.reflectance = FresnelReflection::Reflectance::kRim;
+  mirror.power = 3;
+  mirror.strength = 0.02;
+  look.of<SunHighlight>() = {};
+  return look;
+}
+
+struct Canvas {
+  explicit Canvas(Rect window) {
+    for (int i = 0; i < 4; ++i) planes.emplace_back(window);
+    for (int i = 0; i < 3; ++i) target.color[i] = planes[i].view();
+    target.alpha = planes[3].view();
+  }
+  std::vector<Plane> planes;
+  Target target;
+};
+
+struct Row {
+  std::string name;
+  std::function<void(const Target&)> run;
+  double best_seconds = 1e30;
+  double mean_error = 0, p9999_error = 0, max_error = 0;
+};
+
+void measure_error(const Target& judge, const Target& got, Row& row) {
+  std::vector<double> errors;
+  for (int c = 0; c < 3; ++c) {
+    const Rect& w = judge.color[c].window;
+    for (int y = w.y0; y < w.y1; ++y) {
+      for (int x = w.x0; x < w.x1; ++x) {
+        errors.push_back(std::abs(double(judge.color[c].at(x, y)) - got.color[c].at(x, y)));
+      }
+    }
+  }
+  double sum = 0;
+  for (double e : errors) sum += e;
+  row.mean_error = sum / static_cast<double>(errors.size());
+  const auto at = errors.begin() + static_cast<std::ptrdiff_t>(0.9999 * (errors.size() - 1));
+  std::nth_element(errors.begin(), at, errors.end());
+  row.p9999_error = *at;
+  row.max_error = *std::max_element(errors.begin(), errors.end());
+}
+
+void bench_size(const char* label, Size size, int rounds, const std::string& simd) {
+  const MadePlate plate(size);
+  const Look look = realistic();
+  const Plan plan = make_plan(look, {plate.frame.present(), false, true});
+  const auto one = make_executor(1), two = make_executor(2);
+  const auto fused = [&](Executor& executor, const std::string& target) {
+    return [&, target](const Target& t) {
+      run_fused(plan, plate.frame, plate.scene, t, executor, {.simd = target});
+    };
+  };
+  const auto opencv = [&](int threads) {
+    return [&, threads](const Target& t) {
+      cv::setNumThreads(threads);
+      run_opencv_chain(look, plate.frame, plate.scene, t);
+    };
+  };
+  std::vector<Row> rows;
+  rows.push_back({"reference, double, 1 thread",
+                  [&](const Target& t) { run_reference(plan, plate.frame, plate.scene, t); }});
+  rows.push_back({"OpenCV chain, 1 thread", opencv(1)});
+  rows.push_back({"OpenCV chain, 2 threads", opencv(2)});
+  for (const std::string& target : simd.empty() ? simd_targets() : std::vector<std::string>{simd}) {
+    rows.push_back({"fused " + target + ", 1 thread", fused(*one, target)});
+  }
+  const std::string best = simd.empty() ? simd_targets()[0] : simd;
+  rows.push_back({"fused " + best + ", 2 threads", fused(*two, best)});
+
+  Canvas judge(plate.frame.display), canvas(plate.frame.display);
+  run_reference(plan, plate.frame, plate.scene, judge.target);
+  for (Row& row : rows) {
+    row.run(canvas.target);
+    measure_error(judge.target, canvas.target, row);
+  }
+  for (int round = 0; round < rounds; ++round) {
+    for (Row& row : rows) {
+      if (&row == &rows[0] && round > 1) continue;  // the reference is slow; two rounds tell enough
+      const auto start = std::chrono::steady_clock::now();
+      row.run(canvas.target);
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      row.best_seconds = std::min(row.best_seconds, took.count());
+    }
+  }
+  int wet = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      wet += plate.frame.plane(PlaneId::kSurfaceDepth).at(x, y) <
+             plate.frame.plane(PlaneId::kDepth).at(x, y);
+    }
+  }
+  const double pixels = double(size.width) * size.height, rival = rows[1].best_seconds;
+  std::printf("%s, %dx%d, %.0f %% wet, best of %d rounds\n", label, size.width, size.height,
+              100.0 * wet / pixels, rounds);
+  std::printf("  %-28s %10s %10s %9s %12s %12s %10s\n", "runner", "ns/pixel", "ms", "x rival",
+              "mean error", "p99.99", "max");
+  for (const Row& row : rows) {
+    std::printf("  %-28s %10.2f %10.1f %9.2f %12.2e %12.2e %10.2e\n", row.name.c_str(),
+                1e9 * row.best_seconds / pixels, 1e3 * row.best_seconds, rival / row.best_seconds,
+                row.mean_error, row.p9999_error, row.max_error);
+  }
+}
+
+}  // namespace
+}  // namespace limpid::bench
+
+int main(int argc, char** argv) {
+  int rounds = 7;
+  std::string simd;
+  for (int i = 1; i < argc; ++i) {
+    const bool has_value = i + 1 < argc;
+    if (std::strcmp(argv[i], "--rounds") == 0 && has_value) {
+      rounds = std::max(1, std::atoi(argv[++i]));
+    } else if (std::strcmp(argv[i], "--simd") == 0 && has_value) {
+      simd = argv[++i];
+    } else {
+      std::fprintf(stderr, "usage: limpid_bench [--rounds N] [--simd NAME]\n");
+      return 2;
+    }
+  }
+  std::printf("look realistic on a plate with normals; rival = OpenCV chain, 1 thread\n");
+  limpid::bench::bench_size("1080p", {1920, 1080}, rounds, simd);
+  limpid::bench::bench_size("4K", {3840, 2160}, rounds, simd);
+  return 0;
+}
