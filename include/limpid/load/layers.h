@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limpid/core/frame.h"
+#include "limpid/load/exr_file.h"
 
 namespace limpid {
 
@@ -28,9 +29,10 @@ struct LayerSource {
 
 /// Where a role's planes come from and why.
 struct LayerChoice {
-  std::vector<ChannelRef>
-      channels;        ///< one per plane of the role; a one-channel picture feeds all of color
-  std::string reason;  ///< one phrase, for `inspect`, e.g. "layer 'Depth' of ViewLayer, channel Z"
+  /// One per plane of the role, in the role's order. Color without alpha has three. A picture of
+  /// one channel feeds all three of R G B: its channel is there three times.
+  std::vector<ChannelRef> channels;
+  std::string reason;  ///< one phrase, for `inspect`, e.g. "layer 'ViewLayer.Depth' (Blender)"
 };
 
 /// What the user said: role name -> "FILE:CHANNELS", "FILE" or "CHANNELS" (the text after
@@ -40,14 +42,27 @@ using LayerOverrides = std::map<std::string, std::string>;
 /// What was found for each role. Roles that nothing feeds are absent.
 using LayerChoices = std::map<std::string_view, LayerChoice>;
 
-/// Finds the channels of each role by the conventions of Blender, Nuke, Natron, Arnold, Karma,
-/// V-Ray, and our own plates. Throws Error that lists the candidates when two fit a role equally
-/// well, and names the flag
-/// (`--layer depth=ViewLayer.Depth.Z`) that decides.
-LayerChoices find_layers(std::span<const LayerSource> sources);
+/// The sources of an opened EXR file, one a part.
+std::vector<LayerSource> layer_sources(int file, const std::string& file_name,
+                                       std::span<const ExrPart> parts);
 
-/// The channels meant by an override's channel part, e.g. "ViewLayer.Depth.Z", "depth" (a layer),
-/// "R,G,B". Throws Error that lists what there is, with the nearest name, when it fits nothing.
+/// Finds the channels of a role by the conventions of Blender, Nuke, Natron, Arnold, Karma, V-Ray,
+/// and our own plates (src/load/layer_rules.cpp lists them). Our own names win over layers and
+/// parts with a known name, those over files with a telling name, those over bare channels. Letter
+/// case does not count. Layers of the water never feed a role of the dry scene, nor the other way
+/// round. Empty when nothing fits. Throws Error that lists the candidates when two fit equally
+/// well, and names the flag (`--layer depth=ViewLayer.Depth.Z`) that decides.
+std::optional<LayerChoice> find_layer(const Role& role, std::span<const LayerSource> sources);
+
+/// find_layer() for every role but those that the user has decided.
+LayerChoices find_layers(std::span<const LayerSource> sources, const LayerOverrides& decided = {});
+
+/// The channels meant by an override's channel part: a full channel name ("ViewLayer.Depth.Z"), a
+/// list ("R,G,B"), a layer or part ("ViewLayer.Depth", "depth"), or "" for what of these sources
+/// fits the role best, where a file given for the water may use the names of a dry scene. A name
+/// may leave out its beginning ("Depth.Z") and its letter case while it stays clear. Throws Error
+/// that lists what there is, with the nearest name, when it fits nothing, and one that says how
+/// many channels the role needs when their number is wrong.
 LayerChoice choose_layer(const Role& role, std::string_view channels,
                          std::span<const LayerSource> sources);
 

@@ -1,0 +1,24 @@
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "limpid/load/layers.h"
+
+namespace limpid {
+
+/// An opened file and what its headers say; its place in the list is ChannelRef::file.
+struct InspectedFile {
+  std::string name;
+  std::span<const ExrPart> parts;
+};
+
+/// What `limpid inspect` prints: each part of each file with its windows, storage and layers (a
+/// line for each layer and sample type), then where each role comes from and why. `problems` has
+/// the sentence of the Error for roles that could not be decided. Control characters in names of
+/// the files appear as '?'.
+std::string inspect_text(std::span<const InspectedFile> files, const LayerChoices& choices,
+                         const std::map<std::string_view, std::string>& problems = {});
+
+}  // namespace limpid

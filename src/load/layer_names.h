@@ -1,0 +1,54 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpid/load/layers.h"
+
+#include "load/layer_rules.h"
+
+namespace limpid {
+
+/// "ViewLayer.Depth.Z" -> layer "ViewLayer.Depth", component "Z": split at the last dot, since
+/// layer names are free text. A loose channel has the layer "".
+struct ChannelName {
+  std::string layer, component;
+};
+ChannelName split_channel(std::string_view name);
+
+/// A component by its one spelling: "r" for r, R, red, Red; otherwise the name in lower case.
+std::string plain_component(std::string_view component);
+
+/// Components in the order that people read them, R G B A X Y Z, then the others as they were.
+void sort_components(std::vector<std::string>& components);
+
+std::string lower_case(std::string_view text);
+
+/// Words in lower case, cut at punctuation, before digits and at "aB": "shotWater_depth0001" ->
+/// shot water depth 0001.
+std::vector<std::string> words_of(std::string_view text);
+
+/// The parts of a text between separators, without blanks around them.
+std::vector<std::string_view> split(std::string_view text, std::string_view separators);
+
+/// The channels of one layer in one part. A loose channel that is no component of anything
+/// ("shadow_matte") is a layer of its own.
+struct LayerGroup {
+  const LayerSource* source = nullptr;
+  std::string path;                      ///< the layer as in the file, "" for loose channels
+  std::vector<std::string> channels;     ///< full names, in the file's order
+  std::string view;                      ///< "left", "right" or ""
+  std::string topic;                     ///< words of the name's last part, without the water
+  bool named = false;                    ///< whether path, part or channel give a layer's name
+  bool water = false;                    ///< whether any name says that this belongs to the water
+  const LayerRule* file_rule = nullptr;  ///< what the file's name says the channels are
+};
+
+/// `sources` must outlive the groups.
+std::vector<LayerGroup> group_layers(std::span<const LayerSource> sources);
+
+/// The channels that the rule picks from the layer, or none where it does not fit.
+std::vector<std::string> match(const LayerRule& rule, const LayerGroup& group);
+
+}  // namespace limpid

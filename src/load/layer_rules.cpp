@@ -1,0 +1,74 @@
+#include "load/layer_rules.h"
+
+namespace limpid {
+namespace {
+
+using enum LayerRank;
+
+constexpr std::string_view kRgba = "R G B A|R G B";
+constexpr std::string_view kPicture = "R G B A|R G B|Y";
+constexpr std::string_view kMirror = "R G B|Y";
+constexpr std::string_view kLength = "Z|V|Y|*";
+constexpr std::string_view kGrayLength = "Z|V|Y|R|*";  // also R = G = B
+constexpr std::string_view kMask = "Y|V|R|*";          // a gray picture feeds the one plane
+constexpr std::string_view kVector = "X Y Z|NX NY NZ|R G B";
+constexpr std::string_view kAny = "R|X|Y|Z|V|*";
+
+// Of the file-name rules, the first that fits decides what the file is.
+// clang-format off
+constexpr LayerRule kRules[] = {
+    {kOwn, "color",          "color",      kRgba,      "limpid"},
+    {kOwn, "depth",          "depth",      "Z",        "limpid, Nuke, Natron"},
+    {kOwn, "shadow",         "shadow",     "Y",        "limpid"},
+    {kOwn, "reflection",     "reflection", "R G B",    "limpid"},
+    {kOwn, "surface_depth",  "surface",    "Z",        "limpid"},
+    {kOwn, "surface_normal", "surface",    "NX NY NZ", "limpid"},
+
+    {kLayer, "color",          "combined",                    kPicture,   "Blender"},
+    {kLayer, "color",          "color|colour",                kPicture,   "Blender's File Output"},
+    {kLayer, "color",          "rgba|rgb|beauty",             kPicture,   "Nuke, Arnold, oiiotool"},
+    {kLayer, "color",          "c",                           kPicture,   "Karma"},
+    {kLayer, "depth",          "depth",                       kLength,    "Blender, Nuke, Natron"},
+    {kLayer, "depth",          "z",                           "Z",        "Arnold"},
+    {kLayer, "depth",          "combined|color|colour|rgba|rgb|beauty|c", "Z", "beside the color"},
+    {kLayer, "shadow",         "shadow",                      kMask,      "Blender"},
+    {kLayer, "shadow",         "shadow matte|shadow mask",    kMask,      "Arnold, Karma"},
+    {kLayer, "reflection",     "reflection|water reflection", kMirror,    "Blender's File Output"},
+    {kLayer, "surface_depth",  "water depth|water z",         kLength,    "a layer of the water"},
+    {kLayer, "surface_depth",  "water",                       "Z",        "a layer of the water"},
+    {kLayer, "surface_normal", "water normal|water normals|water n", kVector, "a layer of the water"},
+    {kLayer, "surface_normal", "water",                       "NX NY NZ", "a layer of the water"},
+
+    {kFileName, "",               "water shadow|reflection depth|reflection shadow|reflection normal",
+                                                               kAny,        "not of the dry scene"},
+    {kFileName, "",               "reflection|water reflection", "Z|X Y Z", "not of the dry scene"},
+    {kFileName, "",               "normal|normals|position|mist|albedo|motion|vector|crypto|cryptomatte",
+                                                               kAny,        "nothing that is used"},
+    {kFileName, "surface_depth",  "water depth",               kGrayLength, "file name"},
+    {kFileName, "surface_normal", "water normal|water normals", kVector,    "file name"},
+    {kFileName, "surface_depth",  "water",                     "Z",         "file name"},
+    {kFileName, "depth",          "depth|zdepth",              kGrayLength, "file name"},
+    {kFileName, "shadow",         "shadow|shadows",            kMask,       "file name"},
+    {kFileName, "reflection",     "reflection|water reflection", kMirror,   "file name"},
+    {kFileName, "color",          "color|colour|beauty|rgba|combined", kPicture, "file name"},
+
+    {kBare, "color", "", kRgba, "Blender, Nuke, Arnold, Karma, V-Ray"},
+    {kBare, "depth", "", "Z",   "Blender, Arnold, Karma, V-Ray"},
+
+    {kGiven, "reflection",     "combined|color|colour|rgba|rgb|beauty|c", kMirror,     "a mirrored picture"},
+    {kGiven, "surface_depth",  "depth|z",                                 kGrayLength, "the water alone"},
+    {kGiven, "surface_normal", "normal|normals|n",                        kVector,     "the water alone"},
+    {kGiven, "color",          "", "R G B A|R G B|Y|*", "any"},
+    {kGiven, "depth",          "", kGrayLength,         "any"},
+    {kGiven, "shadow",         "", "Y|V|R|Z|*",         "any"},
+    {kGiven, "reflection",     "", "R G B|Y|*",         "any"},
+    {kGiven, "surface_depth",  "", kGrayLength,         "any"},
+    {kGiven, "surface_normal", "", kVector,             "any"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const LayerRule> layer_rules() { return kRules; }
+
+}  // namespace limpid

@@ -1,0 +1,28 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace limpid {
+
+/// How strong a reason is, strongest first.
+enum class LayerRank {
+  kOwn,       ///< the whole layer path is one of limpid's own names
+  kLayer,     ///< the last word of a layer's path, or of a part's name, is a known one
+  kFileName,  ///< a file of one kind of channel whose name has the words
+  kBare,      ///< channels without any layer
+  kGiven,     ///< only in a file that the user gave for the role
+};
+
+/// One convention. `layer` and `channels` hold alternatives separated by '|', in order of
+/// preference.
+struct LayerRule {
+  LayerRank rank;
+  std::string_view role;      ///< "" = a known thing that is no role's
+  std::string_view layer;     ///< in lower-case words; "water" also stands for "surface"
+  std::string_view channels;  ///< one for each plane; "*" = the only channel of the layer
+  std::string_view who;       ///< who writes it so
+};
+
+std::span<const LayerRule> layer_rules();
+
+}  // namespace limpid

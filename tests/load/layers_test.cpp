@@ -1,0 +1,505 @@
+#include "limpid/load/layers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+using testing::HasSubstr;
+using Names = std::vector<std::string>;
+
+LayerSource source(int file, const std::string& file_name, const Names& channels,
+                   const std::string& part_name = "", int part = 0, const std::string& view = "") {
+  return {file, part, file_name, part_name, view, channels};
+}
+
+/// "depth: ViewLayer.Depth.Z" a line, with file and part in front of the name where not 0.
+std::string text_of(const LayerChoices& choices) {
+  std::string text;
+  for (const Role& role : roles()) {
+    if (!choices.contains(role.name)) continue;
+    Names names;
+    for (const ChannelRef& ref : choices.at(role.name).channels) {
+      const std::string file = ref.file ? std::to_string(ref.file) + ":" : "";
+      const std::string part = ref.part ? "#" + std::to_string(ref.part) + ":" : "";
+      names.push_back(file + part + ref.name);
+    }
+    text += std::string(role.name) + ": " + join(names, " ") + "\n";
+  }
+  return text;
+}
+
+std::string found_in(const std::vector<LayerSource>& sources) {
+  try {
+    return text_of(find_layers(sources));
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+std::string found(const Names& channels, const std::string& file_name = "plate.exr") {
+  return found_in({source(0, file_name, channels)});
+}
+
+std::string chosen(const std::string& role, const std::string& text,
+                   const std::vector<LayerSource>& sources) {
+  try {
+    LayerChoices choices;
+    const Role& r = role_named(role);
+    choices[r.name] = choose_layer(r, text, sources);
+    return text_of(choices);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+const Names kBlenderMultilayer = {
+    "ViewLayer.Combined.A",       "ViewLayer.Combined.B",       "ViewLayer.Combined.G",
+    "ViewLayer.Combined.R",       "ViewLayer.CryptoObject00.a", "ViewLayer.CryptoObject00.b",
+    "ViewLayer.CryptoObject00.g", "ViewLayer.CryptoObject00.r", "ViewLayer.CryptoObject01.a",
+    "ViewLayer.CryptoObject01.b", "ViewLayer.CryptoObject01.g", "ViewLayer.CryptoObject01.r",
+    "ViewLayer.CryptoObject02.a", "ViewLayer.CryptoObject02.b", "ViewLayer.CryptoObject02.g",
+    "ViewLayer.CryptoObject02.r", "ViewLayer.Depth.Z",          "ViewLayer.DiffCol.B",
+    "ViewLayer.DiffCol.G",        "ViewLayer.DiffCol.R",        "ViewLayer.IndexOB.X",
+    "ViewLayer.Mist.Z",           "ViewLayer.Normal.X",         "ViewLayer.Normal.Y",
+    "ViewLayer.Normal.Z",         "ViewLayer.Position.X",       "ViewLayer.Position.Y",
+    "ViewLayer.Position.Z",       "ViewLayer.Shadow Catcher.B", "ViewLayer.Shadow Catcher.G",
+    "ViewLayer.Shadow Catcher.R", "ViewLayer.Shadow.B",         "ViewLayer.Shadow.G",
+    "ViewLayer.Shadow.R"};
+const Names kRgba = {"A", "B", "G", "R"};
+const Names kRgb = {"B", "G", "R"};
+
+TEST(FindLayers, BlenderMultilayer) {
+  EXPECT_EQ(found(kBlenderMultilayer),
+            "color: ViewLayer.Combined.R ViewLayer.Combined.G ViewLayer.Combined.B "
+            "ViewLayer.Combined.A\n"
+            "depth: ViewLayer.Depth.Z\n"
+            "shadow: ViewLayer.Shadow.R\n");
+}
+
+TEST(FindLayers, BlenderPassesThatOnlyLookLikeIt) {
+  EXPECT_EQ(found({"ViewLayer.Denoising Albedo.B",
+                   "ViewLayer.Denoising Albedo.G",
+                   "ViewLayer.Denoising Albedo.R",
+                   "ViewLayer.Denoising Depth.Z",
+                   "ViewLayer.Denoising Normal.X",
+                   "ViewLayer.Denoising Normal.Y",
+                   "ViewLayer.Denoising Normal.Z",
+                   "ViewLayer.IndexOB.X",
+                   "ViewLayer.Mist.Z",
+                   "ViewLayer.Noisy Image.A",
+                   "ViewLayer.Noisy Image.B",
+                   "ViewLayer.Noisy Image.G",
+                   "ViewLayer.Noisy Image.R",
+                   "ViewLayer.Normal.X",
+                   "ViewLayer.Normal.Y",
+                   "ViewLayer.Normal.Z",
+                   "ViewLayer.Shadow Catcher.R",
+                   "ViewLayer.Vector.W",
+                   "ViewLayer.Vector.X",
+                   "ViewLayer.Vector.Y",
+                   "ViewLayer.Vector.Z"}),
+            "");
+}
+
+TEST(FindLayers, ViewLayerNamesAreFreeText) {
+  EXPECT_EQ(found({"my rocks.v2.Combined.B", "my rocks.v2.Combined.G", "my rocks.v2.Combined.R",
+                   "my rocks.v2.Depth.Z"}),
+            "color: my rocks.v2.Combined.R my rocks.v2.Combined.G my rocks.v2.Combined.B\n"
+            "depth: my rocks.v2.Depth.Z\n");
+}
+
+TEST(FindLayers, ViewLayerOfTheWater) {
+  EXPECT_EQ(found({"Dry.Combined.B", "Dry.Combined.G", "Dry.Combined.R", "Dry.Depth.Z",
+                   "Dry.Normal.X", "Dry.Normal.Y", "Dry.Normal.Z", "Water.Combined.B",
+                   "Water.Combined.G", "Water.Combined.R", "Water.Depth.Z", "Water.Normal.X",
+                   "Water.Normal.Y", "Water.Normal.Z"}),
+            "color: Dry.Combined.R Dry.Combined.G Dry.Combined.B\n"
+            "depth: Dry.Depth.Z\n"
+            "surface_depth: Water.Depth.Z\n"
+            "surface_normal: Water.Normal.X Water.Normal.Y Water.Normal.Z\n");
+}
+
+TEST(FindLayers, BlenderSingleLayer) {
+  EXPECT_EQ(found({"A", "B", "G", "R", "Z"}), "color: R G B A\ndepth: Z\n");
+}
+
+TEST(FindLayers, TiledFileWithoutAlphaGivesThreeChannels) {
+  EXPECT_EQ(found({"B", "G", "R", "Z"}, "oiio_tiled_rgbz_noalpha.exr"), "color: R G B\ndepth: Z\n");
+}
+
+TEST(FindLayers, BlenderFileOutput) {
+  EXPECT_EQ(found({"depth.V",        "image.A",           "image.B",           "image.G",
+                   "image.R",        "my layer/pos.v1.X", "my layer/pos.v1.Y", "my layer/pos.v1.Z",
+                   "passes/color.A", "passes/color.B",    "passes/color.G",    "passes/color.R",
+                   "shadow.A",       "shadow.B",          "shadow.G",          "shadow.R",
+                   "water normal.X", "water normal.Y",    "water normal.Z",    "water_depth.V"},
+                  "compo_ml.exr0001.exr"),
+            "color: passes/color.R passes/color.G passes/color.B passes/color.A\n"
+            "depth: depth.V\n"
+            "shadow: shadow.R\n"
+            "surface_depth: water_depth.V\n"
+            "surface_normal: water normal.X water normal.Y water normal.Z\n");
+}
+
+TEST(FindLayers, GrayDepthInAFileOfItsOwn) {
+  EXPECT_EQ(found_in({source(0, "color0001.exr", kRgba), source(1, "depth0001.exr", kRgb),
+                      source(2, "normal0001.exr", kRgb), source(3, "shadow0001.exr", kRgba)}),
+            "color: R G B A\ndepth: 1:R\nshadow: 3:R\n");
+}
+
+TEST(FindLayers, Nuke) {
+  EXPECT_EQ(found({"A", "B", "G", "R", "depth.Z", "forward.u", "forward.v", "other.mask"}),
+            "color: R G B A\ndepth: depth.Z\n");
+  EXPECT_EQ(found({"depth.Z", "rgba.alpha", "rgba.blue", "rgba.green", "rgba.red"}),
+            "color: rgba.red rgba.green rgba.blue rgba.alpha\ndepth: depth.Z\n");
+  EXPECT_EQ(found({"alpha", "blue", "green", "red", "character.alpha", "character.blue",
+                   "character.green", "character.red"}),
+            "color: red green blue alpha\n");
+}
+
+TEST(FindLayers, LetterCaseDoesNotCount) {
+  EXPECT_EQ(found({"RED", "Green", "b", "DEPTH.z"}), "color: RED Green b\ndepth: DEPTH.z\n");
+}
+
+TEST(FindLayers, NatronWritesALooseDepth) {
+  EXPECT_EQ(found({"A", "B", "Depth", "G", "R"}), "color: R G B A\ndepth: Depth\n");
+}
+
+TEST(FindLayers, ArnoldAndKarma) {
+  EXPECT_EQ(found({"A",
+                   "B",
+                   "G",
+                   "N.X",
+                   "N.Y",
+                   "N.Z",
+                   "P.X",
+                   "P.Y",
+                   "P.Z",
+                   "R",
+                   "Z",
+                   "albedo.B",
+                   "albedo.G",
+                   "albedo.R",
+                   "crypto_asset00.alpha",
+                   "crypto_asset00.blue",
+                   "crypto_asset00.green",
+                   "crypto_asset00.red",
+                   "motionvector.X",
+                   "motionvector.Y",
+                   "shadow_matte.B",
+                   "shadow_matte.G",
+                   "shadow_matte.R"}),
+            "color: R G B A\ndepth: Z\nshadow: shadow_matte.R\n");
+  EXPECT_EQ(found({"A", "B", "G", "R", "Z", "shadow_mask"}),
+            "color: R G B A\ndepth: Z\nshadow: shadow_mask\n");
+}
+
+TEST(FindLayers, VRayNormalsAreOfTheDryScene) {
+  EXPECT_EQ(found({"A",
+                   "B",
+                   "G",
+                   "GI.B",
+                   "GI.G",
+                   "GI.R",
+                   "R",
+                   "Z",
+                   "normals.X",
+                   "normals.Y",
+                   "normals.Z",
+                   "reflect.B",
+                   "reflect.G",
+                   "reflect.R",
+                   "refract.B",
+                   "refract.G",
+                   "refract.R",
+                   "uCryptoWildcard00.A",
+                   "uCryptoWildcard00.B",
+                   "uCryptoWildcard00.G",
+                   "uCryptoWildcard00.R"}),
+            "color: R G B A\ndepth: Z\n");
+}
+
+TEST(FindLayers, PartNamesAreLayers) {
+  EXPECT_EQ(found_in({source(0, "oiio_multipart.exr", kRgba, "beauty"),
+                      source(0, "oiio_multipart.exr", {"Z"}, "depth", 1),
+                      source(0, "oiio_multipart.exr", {"N.X", "N.Y", "N.Z"}, "normal", 2)}),
+            "color: R G B A\ndepth: #1:Z\n");
+  EXPECT_EQ(found_in({source(0, "nuke.exr", {"B", "G", "R"}, "rgba"),
+                      source(0, "nuke.exr", {"Z"}, "water_depth", 1),
+                      source(0, "nuke.exr", {"B", "G", "R"}, "diffuse", 2),
+                      source(0, "nuke.exr", {"X", "Y", "Z"}, "Water Normals", 3),
+                      source(0, "nuke.exr", {"B", "G", "R"}, "reflection", 4)}),
+            "color: R G B\n"
+            "reflection: #4:R #4:G #4:B\n"
+            "surface_depth: #1:Z\n"
+            "surface_normal: #3:X #3:Y #3:Z\n");
+}
+
+TEST(FindLayers, DepthBesideTheColorOfAPart) {
+  EXPECT_EQ(found_in({source(0, "a.exr", {"A", "B", "G", "R", "Z"}, "rgba"),
+                      source(0, "a.exr", {"B", "G", "R"}, "diffuse", 1)}),
+            "color: R G B A\ndepth: Z\n");
+}
+
+TEST(FindLayers, TheOnlyPartMayBeCalledAnything) {
+  EXPECT_EQ(found_in({source(0, "a.exr", {"B", "G", "R", "Z"}, "rgba_shot010")}),
+            "color: R G B\ndepth: Z\n");
+  EXPECT_EQ(found_in({source(0, "a.exr", {"Z"}, "water_depth")}), "surface_depth: Z\n");
+}
+
+TEST(FindLayers, OurOwnNames) {
+  EXPECT_EQ(
+      found({"color.A", "color.B", "color.G", "color.R", "depth.Z", "reflection.B", "reflection.G",
+             "reflection.R", "shadow.Y", "surface.NX", "surface.NY", "surface.NZ", "surface.Z"}),
+      "color: color.R color.G color.B color.A\n"
+      "depth: depth.Z\n"
+      "shadow: shadow.Y\n"
+      "reflection: reflection.R reflection.G reflection.B\n"
+      "surface_depth: surface.Z\n"
+      "surface_normal: surface.NX surface.NY surface.NZ\n");
+}
+
+TEST(FindLayers, OurOwnNamesWinOverLayersAndThoseOverFileNames) {
+  EXPECT_EQ(found({"ViewLayer.Depth.Z", "depth.Z"}), "depth: depth.Z\n");
+  EXPECT_EQ(found_in({source(0, "a.exr", {"ViewLayer.Depth.Z"}), source(1, "depth.exr", {"Z"})}),
+            "depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(found_in({source(0, "a.exr", {"B", "G", "R", "Z"}), source(1, "depth.exr", {"Z"})}),
+            "color: R G B\ndepth: 1:Z\n");
+}
+
+TEST(FindLayers, FilesOfOneKindByTheirNames) {
+  EXPECT_EQ(
+      found_in({source(0, "dry_color.exr", kRgba), source(1, "dry_depth.exr", {"Z"}),
+                source(2, "dry_normal.exr", {"X", "Y", "Z"}), source(3, "reflection.exr", kRgba),
+                source(4, "shadow.exr", {"Y"}), source(5, "water_depth.exr", {"Z"}),
+                source(6, "water_normal_waves.exr", {"X", "Y", "Z"}),
+                source(7, "water_shadow.exr", {"Y"}), source(8, "truth_flat.exr", kRgb)}),
+      "color: R G B A\n"
+      "depth: 1:Z\n"
+      "shadow: 4:Y\n"
+      "reflection: 3:R 3:G 3:B\n"
+      "surface_depth: 5:Z\n"
+      "surface_normal: 6:X 6:Y 6:Z\n");
+}
+
+TEST(FindLayers, WaterFilesNeverFeedTheDryScene) {
+  EXPECT_EQ(found({"Z"}, "water_depth.exr"), "surface_depth: Z\n");
+  EXPECT_EQ(found({"Z"}, "WaterZ.0001.exr"), "surface_depth: Z\n");
+  EXPECT_EQ(found({"ViewLayer.Depth.Z"}, "water_depth.exr"), "surface_depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(found({"depth.Z"}, "surface_depth.exr"), "surface_depth: depth.Z\n");
+  EXPECT_EQ(found({"Y"}, "water_shadow.exr"), "");
+  EXPECT_EQ(found({"Z"}, "reflection_depth.exr"), "");
+  EXPECT_EQ(found({"Z"}, "reflection.exr"), "");
+}
+
+TEST(FindLayers, DryNormalsAreNoSurfaceAndNoDepth) {
+  for (const Names& normal : {Names{"X", "Y", "Z"}, Names{"B", "G", "R"}}) {
+    EXPECT_EQ(found(normal, "dry_normal.exr"), "");
+  }
+  EXPECT_EQ(found({"X", "Y", "Z"}), "");
+  EXPECT_EQ(found({"depth.X", "depth.Y", "depth.Z"}), "");
+}
+
+TEST(FindLayers, TheNameOfAWholePlateSaysNothing) {
+  EXPECT_EQ(found({"A", "B", "G", "R", "Z"}, "water_shot_depth_shadow.exr"),
+            "color: R G B A\ndepth: Z\n");
+  EXPECT_EQ(found(kRgba, "underwater.exr"), "color: R G B A\n");
+  EXPECT_EQ(found(kRgba, "water_shot.exr"), "color: R G B A\n");
+  EXPECT_EQ(found({"View.Combined.B", "View.Combined.G", "View.Combined.R"}, "water_shot.exr"),
+            "color: View.Combined.R View.Combined.G View.Combined.B\n");
+  EXPECT_EQ(found({"Z"}, "waterfall.exr"), "depth: Z\n");
+}
+
+TEST(FindLayers, AGrayPictureFeedsRedGreenAndBlue) {
+  EXPECT_EQ(found({"Y"}, "dry_color.exr"), "color: Y Y Y\n");
+  EXPECT_EQ(found({"reflection.Y"}), "reflection: reflection.Y reflection.Y reflection.Y\n");
+}
+
+TEST(FindLayers, NothingIsFoundInNothing) {
+  EXPECT_EQ(found_in({}), "");
+  EXPECT_EQ(found(Names{}), "");
+  EXPECT_EQ(found({".", "..", "R.", ".Z.", ""}), "");
+}
+
+TEST(FindLayers, ReasonsAreTold) {
+  const auto reason = [](const std::vector<LayerSource>& sources, std::string_view role) {
+    return find_layer(role_named(role), sources)->reason;
+  };
+  EXPECT_EQ(reason({source(0, "a.exr", kBlenderMultilayer)}, "depth"),
+            "layer 'ViewLayer.Depth' (Blender, Nuke, Natron)");
+  EXPECT_EQ(reason({source(0, "a.exr", {"Z"}, "depth")}, "depth"),
+            "part 'depth' (Blender, Nuke, Natron)");
+  EXPECT_EQ(reason({source(0, "a.exr", {"shadow_mask"})}, "shadow"),
+            "channel 'shadow_mask' (Arnold, Karma)");
+  EXPECT_EQ(reason({source(0, "a.exr", kRgba)}, "color"),
+            "channels without a layer (Blender, Nuke, Arnold, Karma, V-Ray)");
+  EXPECT_EQ(reason({source(0, "shadow.exr", {"Y"})}, "shadow"), "the file's name");
+}
+
+TEST(FindLayers, SeveralViewLayersAreAmbiguous) {
+  EXPECT_EQ(found({"Near.Combined.B", "Near.Combined.G", "Near.Combined.R", "Far.Combined.B",
+                   "Far.Combined.G", "Far.Combined.R"}),
+            "color: 2 choices fit equally well: Near.Combined, Far.Combined; say which, as in "
+            "--layer color=Near.Combined");
+}
+
+TEST(FindLayers, SeveralViewsAreAmbiguous) {
+  EXPECT_EQ(found({"ViewLayer.Depth.left.Z", "ViewLayer.Depth.right.Z"}),
+            "depth: 2 choices fit equally well (views left, right): ViewLayer.Depth.left.Z, "
+            "ViewLayer.Depth.right.Z; say which, as in --layer depth=ViewLayer.Depth.left.Z");
+  EXPECT_EQ(found({"B", "G", "R", "right.B", "right.G", "right.R"}),
+            "color: 2 choices fit equally well (views default, right): R,G,B, right; say which, "
+            "as in --layer color=R,G,B");
+  EXPECT_EQ(found_in({source(0, "s.exr", kRgb, "rgba.left", 0, "left"),
+                      source(0, "s.exr", kRgb, "rgba.right", 1, "right")}),
+            "color: 2 choices fit equally well (views left, right): rgba.left, rgba.right; say "
+            "which, as in --layer color=rgba.left");
+  EXPECT_EQ(found({"ViewLayer.Depth.left.Z"}), "depth: ViewLayer.Depth.left.Z\n");
+}
+
+TEST(FindLayers, SeveralFilesAreAmbiguous) {
+  EXPECT_EQ(found_in({source(0, "a.exr", {"Z"}), source(1, "b.exr", {"Z"})}),
+            "depth: 2 choices fit equally well: a.exr:Z, b.exr:Z; say which, as in --layer "
+            "depth=a.exr:Z");
+}
+
+TEST(FindLayers, ALongListIsCutShort) {
+  Names channels;
+  for (int i = 0; i < 100; ++i) channels.push_back("layer" + std::to_string(i) + ".Depth.Z");
+  EXPECT_THAT(found(channels), HasSubstr("layer22.Depth.Z, layer23.Depth.Z, 76 more; say which"));
+  EXPECT_THAT(chosen("depth", "nothing like it", {source(0, "a.exr", channels)}),
+              HasSubstr("layer23.Depth (Z), 76 more"));
+}
+
+TEST(FindLayers, WhatTheUserDecidedIsNotLookedFor) {
+  const std::vector<LayerSource> sources = {source(0, "a.exr", {"B", "G", "R", "Z"}),
+                                            source(1, "b.exr", {"Z"})};
+  EXPECT_THROW(find_layers(sources), Error);
+  EXPECT_EQ(text_of(find_layers(sources, {{"depth", "b.exr"}})), "color: R G B\n");
+}
+
+TEST(FindLayers, EveryCandidateOfAnAmbiguityCanBeChosenByItsText) {
+  const std::vector<LayerSource> sources = {
+      source(0, "s.exr", {"B", "G", "R", "depth.Z"}, "left", 0, "left"),
+      source(0, "s.exr", {"B", "G", "R", "depth.Z"}, "right", 1, "right")};
+  EXPECT_THAT(found_in(sources), HasSubstr(": left, right; say which"));
+  EXPECT_EQ(chosen("color", "left", sources), "color: R G B\n");
+  EXPECT_EQ(chosen("color", "right", sources), "color: #1:R #1:G #1:B\n");
+  EXPECT_THAT(chosen("depth", "", sources), HasSubstr(": left.depth.Z, right.depth.Z; say which"));
+  EXPECT_EQ(chosen("depth", "left.depth.Z", sources), "depth: depth.Z\n");
+  EXPECT_EQ(chosen("depth", "right.depth.Z", sources), "depth: #1:depth.Z\n");
+  EXPECT_EQ(chosen("color", "right.R,right.G,right.B", sources), "color: #1:R #1:G #1:B\n");
+}
+
+TEST(LayerSources, HaveTheNamesOfTheParts) {
+  ExrPart beauty, depth;
+  beauty.name = "beauty";
+  beauty.view = "left";
+  beauty.channels = {{"G", SampleType::kHalf}, {"R", SampleType::kHalf}};
+  depth.channels = {{"Z", SampleType::kFloat}};
+  const std::vector<LayerSource> sources = layer_sources(3, "a.exr", std::vector{beauty, depth});
+  ASSERT_EQ(sources.size(), 2u);
+  EXPECT_EQ(sources[0].file, 3);
+  EXPECT_EQ(sources[0].part_name, "beauty");
+  EXPECT_EQ(sources[0].view, "left");
+  EXPECT_EQ(sources[0].channels, (Names{"G", "R"}));
+  EXPECT_EQ(sources[1].part, 1);
+  EXPECT_EQ(sources[1].file_name, "a.exr");
+}
+
+const std::vector<LayerSource> kBlender = {source(0, "dry.exr", kBlenderMultilayer)};
+
+TEST(ChooseLayer, ByChannel) {
+  EXPECT_EQ(chosen("depth", "ViewLayer.Mist.Z", kBlender), "depth: ViewLayer.Mist.Z\n");
+  EXPECT_EQ(chosen("depth", "viewlayer.depth.z", kBlender), "depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("depth", "Depth.Z", kBlender), "depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("depth", "ViewLayer.Normal.Z", kBlender), "depth: ViewLayer.Normal.Z\n");
+  EXPECT_EQ(chosen("color", "Depth.Z", kBlender),
+            "color: ViewLayer.Depth.Z ViewLayer.Depth.Z ViewLayer.Depth.Z\n");
+}
+
+TEST(ChooseLayer, ByList) {
+  EXPECT_EQ(chosen("color", "DiffCol.R, DiffCol.G, DiffCol.B", kBlender),
+            "color: ViewLayer.DiffCol.R ViewLayer.DiffCol.G ViewLayer.DiffCol.B\n");
+  EXPECT_EQ(chosen("surface_normal", "B,G,R", {source(2, "n.exr", kRgb)}),
+            "surface_normal: 2:B 2:G 2:R\n");
+}
+
+TEST(ChooseLayer, ByLayer) {
+  EXPECT_EQ(chosen("depth", "ViewLayer.Depth", kBlender), "depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("depth", "depth", kBlender), "depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("shadow", "shadow catcher", kBlender), "shadow: ViewLayer.Shadow Catcher.R\n");
+  EXPECT_EQ(chosen("surface_normal", "Normal", kBlender),
+            "surface_normal: ViewLayer.Normal.X ViewLayer.Normal.Y ViewLayer.Normal.Z\n");
+  EXPECT_EQ(chosen("reflection", "ViewLayer.Combined", kBlender),
+            "reflection: ViewLayer.Combined.R ViewLayer.Combined.G ViewLayer.Combined.B\n");
+  EXPECT_EQ(chosen("depth", "normal",
+                   {source(0, "p.exr", {"Z"}, "depth"), source(0, "p.exr", {"Z"}, "normal", 1)}),
+            "depth: #1:Z\n");
+}
+
+TEST(ChooseLayer, ANameWithACommaIsTriedWhole) {
+  EXPECT_EQ(chosen("depth", "rocks, sand.Z", {source(0, "a.exr", {"rocks, sand.Z"})}),
+            "depth: rocks, sand.Z\n");
+}
+
+TEST(ChooseLayer, AWholeFile) {
+  EXPECT_EQ(chosen("depth", "", {source(1, "far.exr", kRgb)}), "depth: 1:R\n");
+  EXPECT_EQ(chosen("depth", "", kBlender), "depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("depth", "", {source(0, "a.exr", {"A", "B", "G", "R", "Z"})}), "depth: Z\n");
+  EXPECT_EQ(chosen("depth", "", {source(0, "water_depth.exr", {"Z"})}), "depth: Z\n");
+  EXPECT_EQ(chosen("surface_depth", "", {source(0, "a.exr", {"A", "B", "G", "R", "Z"})}),
+            "surface_depth: Z\n");
+  EXPECT_EQ(chosen("surface_depth", "", kBlender), "surface_depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("surface_normal", "", kBlender),
+            "surface_normal: ViewLayer.Normal.X ViewLayer.Normal.Y ViewLayer.Normal.Z\n");
+  EXPECT_EQ(chosen("reflection", "", {source(0, "mirror.exr", {"A", "B", "G", "R", "Z"})}),
+            "reflection: R G B\n");
+  EXPECT_EQ(chosen("shadow", "", {source(0, "a.exr", {"light.sun.V"})}), "shadow: light.sun.V\n");
+}
+
+TEST(ChooseLayer, AWholeFileWithNothingForTheRole) {
+  EXPECT_EQ(chosen("surface_normal", "", {source(0, "a.exr", {"Z", "left.A", "mask.A"})}),
+            "surface_normal=a.exr: nothing there is known to be world normal of the water surface; "
+            "name its channels, there is Z, left (A), mask (A)");
+}
+
+TEST(ChooseLayer, AMisspeltNameGetsTheNearest) {
+  const std::vector<LayerSource> small = {
+      source(0, "a.exr", {"A", "B", "G", "R", "ViewLayer.Depth.Z"})};
+  EXPECT_EQ(chosen("depth", "ViewLayer.Dept.Z", small),
+            "depth=ViewLayer.Dept.Z: no channel or layer 'ViewLayer.Dept.Z'; there is R G B A, "
+            "ViewLayer.Depth (Z); did you mean 'ViewLayer.Depth.Z'?");
+  EXPECT_EQ(chosen("color", "R,G,Blue sky", small),
+            "color=R,G,Blue sky: no channel or layer 'Blue sky'; there is R G B A, "
+            "ViewLayer.Depth (Z)");
+  EXPECT_THAT(chosen("depth", "Z", {}), HasSubstr("there is no channel"));
+}
+
+TEST(ChooseLayer, AWrongCountSaysHowManyAreNeeded) {
+  EXPECT_EQ(chosen("depth", "DiffCol.R,DiffCol.G", kBlender),
+            "depth=DiffCol.R,DiffCol.G means 2 channels: depth needs 1 channel");
+  EXPECT_EQ(chosen("color", "DiffCol.R,DiffCol.G", kBlender),
+            "color=DiffCol.R,DiffCol.G means 2 channels: color needs 4 channels, 3 (no alpha) or "
+            "1 (gray)");
+  EXPECT_EQ(chosen("reflection", "Normal.X,Normal.Y", kBlender),
+            "reflection=Normal.X,Normal.Y means 2 channels: reflection needs 3 channels or 1 "
+            "(gray)");
+  EXPECT_EQ(chosen("surface_normal", "Depth.Z", kBlender),
+            "surface_normal=Depth.Z means 1 channel: surface_normal needs 3 channels");
+  EXPECT_EQ(chosen("depth", "Normal", kBlender),
+            "depth=Normal means 3 channels: depth needs 1 channel");
+}
+
+TEST(ChooseLayer, AnUnclearNameListsWhatItMayMean) {
+  EXPECT_THAT(chosen("depth", "Z", kBlender),
+              HasSubstr("depth=Z: 4 choices fit equally well: ViewLayer.Depth.Z, ViewLayer.Mist.Z, "
+                        "ViewLayer.Normal.Z, ViewLayer.Position.Z; say which"));
+}
+
+}  // namespace
+}  // namespace limpid
