@@ -43,7 +43,8 @@ struct ExrRequest {
 
 /// An EXR file, opened: its headers are read and checked against the limits, no pixel is. Scan-line
 /// and tiled (level 0), multi-part, mixed sample types; luminance-chroma (Y RY BY, subsampled)
-/// reads as the channels R G B. Deep parts are listed and refused when read.
+/// reads as the channels R G B, in half precision. Deep parts are listed and refused when read.
+/// One file may be read from several threads; the reads follow one another.
 class ExrFile {
  public:
   /// Throws Error (one sentence, begins with the path) for a file that is missing, not an EXR,
@@ -56,19 +57,22 @@ class ExrFile {
   const std::filesystem::path& path() const;
   const std::vector<ExrPart>& parts() const;
 
-  /// Decodes the requested channels, all of one part in one pass; half and uint become float.
-  /// Throws Error for truncated or damaged pixels (never silent black); what was written by then is
+  /// Decodes the requested channels, all of one part in one pass; half and uint become float. Views
+  /// that hold whole rows of the data window are decoded in place. Throws Error for an unknown
+  /// channel and for truncated or damaged pixels (never silent black); what was written by then is
   /// unspecified.
   void read(std::span<const ExrRequest> requests) const;
 
-  /// A 4x4 matrix attribute by name, 16 floats in memory order, as in `worldToCamera`.
+  /// A 4x4 matrix attribute by name, 16 floats in memory order, as in `worldToCamera`. These three
+  /// are empty where the attribute is absent or of another type.
   std::optional<std::array<float, 16>> matrix_attribute(int part, const std::string& name) const;
   std::optional<double> number_attribute(int part, const std::string& name) const;
   std::optional<std::string> text_attribute(int part, const std::string& name) const;
 
-  /// Serialised attributes of a part, for handing on to a writer: name -> (type name, bytes).
-  /// Without the ones that describe the pixels' storage (channels, compression, windows, tiles,
-  /// lineOrder, chunkCount, type, name ...).
+  /// Serialised attributes of a part as they lie in the file, also of unknown types, for handing on
+  /// to a writer: name -> (type name, bytes). Without the ones that describe the pixels' storage
+  /// (channels, compression, windows, tiles, lineOrder, chunkCount, type, name ...) and without the
+  /// preview, which would show another picture.
   struct Attribute {
     std::string type;
     std::vector<char> bytes;
@@ -80,5 +84,9 @@ class ExrFile {
   explicit ExrFile(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// How many threads OpenEXR decodes and encodes with, in the whole process; 0 and 1 mean the
+/// calling one alone, as at first. Files opened before keep the count they were opened with.
+void set_file_threads(int count);
 
 }  // namespace limpid

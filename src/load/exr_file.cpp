@@ -1,0 +1,268 @@
+#include "limpid/load/exr_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cstring>
+#include <mutex>
+#include <new>
+
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfThreading.h>
+
+#include "load/exr_header.h"
+#include "load/exr_pixels.h"
+
+namespace limpid {
+namespace {
+
+constexpr std::size_t kMostNamesInError = 40;
+
+/// OpenEXR's message without the file name it may begin with, as part of a sentence.
+std::string cause(const std::string& message, const std::string& path) {
+  const std::string quoted = "\"" + path + "\". ";
+  const std::size_t at = message.rfind(quoted);
+  std::string text = at == std::string::npos ? message : message.substr(at + quoted.size());
+  while (!text.empty() &&
+         (text.back() == '.' || std::isspace(static_cast<unsigned char>(text.back()))))
+    text.pop_back();
+  for (std::size_t dot = text.find(". "); dot != std::string::npos; dot = text.find(". ")) {
+    text[dot] = ',';
+  }
+  if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1]))) {
+    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  }
+  return text;
+}
+
+/// Names in a damaged header may hold anything: control characters become '?'.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c))) c = '?';
+  }
+  return text;
+}
+
+/// Runs `work`; whatever it throws leaves as an Error that begins with the path.
+template <class Work>
+void with_path(const std::filesystem::path& path, Work work) {
+  const std::string name = path.string();
+  try {
+    work();
+  } catch (const Error& error) {
+    const std::string text = error.what(), prefix = name + ": ";
+    const bool prefixed = text.starts_with(prefix);
+    throw Error(prefix + printable(prefixed ? text.substr(prefix.size()) : text), error.fault());
+  } catch (const std::bad_alloc&) {
+    throw Error(name + ": needs more memory than there is");
+  } catch (const std::exception& error) {
+    throw Error(name + ": truncated or damaged (" + printable(cause(error.what(), name)) + ")");
+  } catch (...) {
+    throw Error(name + ": truncated or damaged");
+  }
+}
+
+/// Little-endian, as everything in the file.
+template <class Bits>
+Bits bits_of(const char* bytes) {
+  Bits bits = 0;
+  for (std::size_t i = sizeof(Bits); i-- > 0;) {
+    bits = (bits << 8) | static_cast<unsigned char>(bytes[i]);
+  }
+  return bits;
+}
+
+float f32_of(const char* bytes) { return std::bit_cast<float>(bits_of<std::uint32_t>(bytes)); }
+double f64_of(const char* bytes) { return std::bit_cast<double>(bits_of<std::uint64_t>(bytes)); }
+
+std::string label(const std::vector<ExrPart>& parts, int part) {
+  const std::string& name = parts[part].name;
+  return "part " + std::to_string(part) + (name.empty() ? "" : " ('" + name + "')");
+}
+
+/// Throws Error unless the requests fit one part of the file.
+void check_requests(const std::vector<ExrPart>& parts, std::span<const ExrRequest> requests,
+                    const Limits& limits) {
+  std::int64_t bytes = 0;
+  for (const ExrRequest& request : requests) {
+    const int last = static_cast<int>(parts.size()) - 1;
+    if (request.part < 0 || request.part > last) {
+      throw Error("part " + std::to_string(request.part) + ": expected 0 ... " +
+                  std::to_string(last));
+    }
+    if (request.part != requests[0].part) {
+      throw Error("channels of parts " + std::to_string(requests[0].part) + " and " +
+                  std::to_string(request.part) + " in one request: expected one part");
+    }
+    const ExrPart& part = parts[request.part];
+    const std::string where = label(parts, request.part);
+    if (part.deep) {
+      throw Error(where + " holds deep samples, which are not supported: expected flat pixels");
+    }
+    const auto channel =
+        std::find_if(part.channels.begin(), part.channels.end(),
+                     [&](const ExrChannel& c) { return c.name == request.channel; });
+    if (channel == part.channels.end()) {
+      std::vector<std::string> known, listed;
+      for (const ExrChannel& c : part.channels) known.push_back(c.name);
+      listed.assign(known.begin(), known.begin() + std::min(known.size(), kMostNamesInError));
+      if (listed.size() < known.size()) {
+        listed.push_back("... (" + std::to_string(known.size()) + " in all)");
+      }
+      throw Error("no channel '" + request.channel + "' in " + where + ": expected one of " +
+                  join(listed) + did_you_mean(request.channel, known));
+    }
+    if (channel->x_sampling != 1 || channel->y_sampling != 1) {
+      throw Error("channel '" + request.channel + "' is stored for every " +
+                  std::to_string(channel->x_sampling) + "x" + std::to_string(channel->y_sampling) +
+                  " pixels, which is supported for Y RY BY alone");
+    }
+    if (!request.into) throw Error("channel '" + request.channel + "' has no memory to be read to");
+    bytes += request.into.window.area() * std::int64_t{sizeof(float)};
+    if (bytes > limits.max_memory) {
+      throw Error("the channels need more memory than the limit of " +
+                  std::to_string(limits.max_memory) + " bytes");
+    }
+  }
+}
+
+/// Our reading of the headers decides what is allocated: OpenEXR must have read the same.
+void check_same(const Imf::MultiPartInputFile& image, const std::vector<ExrHeader>& headers) {
+  bool same = static_cast<std::size_t>(image.parts()) == headers.size();
+  for (int i = 0; same && i < image.parts(); ++i) {
+    const Imath::Box2i& data = image.header(i).dataWindow();
+    same = headers[i].part.data == Rect{data.min.x, data.min.y, data.max.x + 1, data.max.y + 1};
+  }
+  if (!same) throw Error("damaged header (it can be read in two ways)");
+}
+
+}  // namespace
+
+struct ExrFile::State {
+  State(const std::filesystem::path& path, const Limits& chosen)
+      : file(std::make_shared<FileHandle>(path)), stream(file), limits(chosen) {
+    headers = read_exr_headers(stream, limits);
+    check_exr_headers(headers, limits, stream.tellg(), file->size());
+    stream.seekg(0);
+    image.emplace(stream, Imf::globalThreadCount(), /*reconstructChunkOffsetTable=*/false);
+    check_same(*image, headers);
+    for (const ExrHeader& header : headers) parts.push_back(shown_part(header.part));
+  }
+
+  void read(std::span<const ExrRequest> requests) {
+    const ExrHeader& header = headers[requests[0].part];
+    fill_outside(header.part.data, requests);
+    std::vector<ExrRequest> stored;
+    std::map<std::string, std::vector<ExrRequest>> luma;  // by layer
+    for (const ExrRequest& request : requests) {
+      const std::string layer = layer_of(request.channel);
+      const std::string name = request.channel.substr(layer.size());
+      const bool color = name == "R" || name == "G" || name == "B";
+      const bool is_luma = color && is_luminance_chroma(header.part, layer);
+      (is_luma ? luma[layer] : stored).push_back(request);
+    }
+    if (!luma.empty() && requests[0].part > 0) {
+      throw Error("luminance-chroma channels in " + label(parts, requests[0].part) +
+                  ": expected them in the first part");
+    }
+    if (!stored.empty()) read_stored(*image, header, stored);
+    for (const auto& [layer, wanted] : luma) {
+      FileStream own(file);
+      read_luminance_chroma(own, header, layer, wanted);
+    }
+  }
+
+  /// The attribute's bytes when it is there, of that type and long enough, else null.
+  const std::vector<char>* find(int part, const std::string& name, std::string_view type,
+                                std::size_t bytes) const {
+    const auto& attributes = headers[checked(part)].attributes;
+    const auto found = attributes.find(name);
+    const bool fits = found != attributes.end() && found->second.type == type &&
+                      found->second.bytes.size() >= bytes;
+    return fits ? &found->second.bytes : nullptr;
+  }
+
+  int checked(int part) const {
+    if (part < 0 || part >= static_cast<int>(parts.size())) {
+      throw Error(file->path().string() + ": part " + std::to_string(part) + ": expected 0 ... " +
+                  std::to_string(parts.size() - 1));
+    }
+    return part;
+  }
+
+  std::shared_ptr<const FileHandle> file;
+  FileStream stream;
+  Limits limits;
+  std::vector<ExrHeader> headers;
+  std::vector<ExrPart> parts;
+  std::optional<Imf::MultiPartInputFile> image;
+  std::mutex mutex;
+};
+
+ExrFile::ExrFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ExrFile::ExrFile(ExrFile&&) noexcept = default;
+ExrFile& ExrFile::operator=(ExrFile&&) noexcept = default;
+ExrFile::~ExrFile() = default;
+
+ExrFile ExrFile::open(const std::filesystem::path& path, const Limits& limits) {
+  std::unique_ptr<State> state;
+  with_path(path, [&] { state = std::make_unique<State>(path, limits); });
+  return ExrFile(std::move(state));
+}
+
+const std::filesystem::path& ExrFile::path() const { return state_->file->path(); }
+
+const std::vector<ExrPart>& ExrFile::parts() const { return state_->parts; }
+
+void ExrFile::read(std::span<const ExrRequest> requests) const {
+  if (requests.empty()) return;
+  with_path(path(), [&] {
+    check_requests(state_->parts, requests, state_->limits);
+    const std::lock_guard lock(state_->mutex);
+    state_->read(requests);
+  });
+}
+
+std::optional<std::array<float, 16>> ExrFile::matrix_attribute(int part,
+                                                               const std::string& name) const {
+  std::array<float, 16> matrix;
+  if (const std::vector<char>* floats = state_->find(part, name, "m44f", 64)) {
+    for (std::size_t i = 0; i < 16; ++i) matrix[i] = f32_of(floats->data() + 4 * i);
+  } else if (const std::vector<char>* doubles = state_->find(part, name, "m44d", 128)) {
+    for (std::size_t i = 0; i < 16; ++i) {
+      matrix[i] = static_cast<float>(f64_of(doubles->data() + 8 * i));
+    }
+  } else {
+    return std::nullopt;
+  }
+  return matrix;
+}
+
+std::optional<double> ExrFile::number_attribute(int part, const std::string& name) const {
+  if (const std::vector<char>* bytes = state_->find(part, name, "float", 4)) {
+    return f32_of(bytes->data());
+  }
+  if (const std::vector<char>* bytes = state_->find(part, name, "double", 8)) {
+    return f64_of(bytes->data());
+  }
+  if (const std::vector<char>* bytes = state_->find(part, name, "int", 4)) {
+    return static_cast<std::int32_t>(bits_of<std::uint32_t>(bytes->data()));
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> ExrFile::text_attribute(int part, const std::string& name) const {
+  const std::vector<char>* bytes = state_->find(part, name, "string", 0);
+  if (bytes == nullptr) return std::nullopt;
+  return std::string(bytes->begin(), bytes->end());
+}
+
+std::map<std::string, ExrFile::Attribute> ExrFile::attributes(int part) const {
+  std::map<std::string, Attribute> passed = state_->headers[state_->checked(part)].attributes;
+  std::erase_if(passed, [](const auto& entry) { return is_structural(entry.first); });
+  return passed;
+}
+
+void set_file_threads(int count) { Imf::setGlobalThreadCount(count > 1 ? count : 0); }
+
+}  // namespace limpid

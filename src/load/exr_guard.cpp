@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <limits>
+
+#include <OpenEXR/ImfThreading.h>
+
+#include "load/exr_header.h"
+
+namespace limpid {
+namespace {
+
+/// Lines stored together, and the most that a chunk can shrink; both by compression. DEFLATE
+/// shrinks to 1/1032 at best, PXR24 to 3/4 of that; DWA may do so with 1/64 of the values.
+constexpr std::int64_t kChunkLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+constexpr std::int64_t kMostShrink[] = {1, 64, 1040, 1040, 1040, 1400, 3, 11, 70000, 70000};
+/// Place in the table of chunks plus the shortest chunk.
+constexpr std::int64_t kLeastChunkBytes = 8 + 8;
+
+std::string size_text(std::int64_t width, std::int64_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void check_window(const char* name, const Rect& window, const Limits& limits) {
+  const std::int64_t width = window.width(), height = window.height();
+  if (width > limits.max_side || height > limits.max_side) {
+    throw Error(std::string(name) + " of " + size_text(width, height) +
+                " pixels: expected sides of at most " + std::to_string(limits.max_side));
+  }
+  if (window.area() > limits.max_pixels) {
+    throw Error(std::string(name) + " of " + size_text(width, height) +
+                " pixels: expected at most " + std::to_string(limits.max_pixels));
+  }
+}
+
+/// Bytes of the channels' samples in a window of this size.
+std::int64_t sample_bytes(const ExrPart& part, std::int64_t width, std::int64_t height) {
+  std::int64_t bytes = 0;
+  for (const ExrChannel& channel : part.channels) {
+    bytes += (width / channel.x_sampling) * (height / channel.y_sampling) *
+             (channel.type == SampleType::kHalf ? 2 : 4);
+  }
+  return bytes;
+}
+
+std::int64_t chunks_of(const ExrHeader& header) {
+  const std::int64_t width = header.part.data.width(), height = header.part.data.height();
+  if (header.part.tiled) {
+    const std::int64_t columns = (width + header.tile_width - 1) / header.tile_width;
+    return columns * ((height + header.tile_height - 1) / header.tile_height);
+  }
+  const std::int64_t lines = kChunkLines[header.compression];
+  return (height + lines - 1) / lines;
+}
+
+/// OpenEXR holds two chunks a thread as they are stored and, for tiles, a row of them as floats.
+void check_memory(const ExrHeader& header, const Limits& limits) {
+  const ExrPart& part = header.part;
+  const std::int64_t width = part.data.width();
+  const std::int64_t lines =
+      std::min<std::int64_t>(kChunkLines[header.compression], part.data.height());
+  const std::int64_t chunk = part.tiled ? sample_bytes(part, header.tile_width, header.tile_height)
+                                        : sample_bytes(part, width, lines);
+  const std::int64_t tile_row =
+      part.tiled ? width * header.tile_height * 4 * static_cast<std::int64_t>(part.channels.size())
+                 : 0;
+  const std::int64_t buffers = 2 * std::max(1, Imf::globalThreadCount());
+  if (chunk > std::numeric_limits<std::int32_t>::max() ||
+      chunk > (limits.max_memory - tile_row) / buffers) {
+    throw Error("chunks of " + std::to_string(chunk) +
+                " bytes need more memory than the limit of " + std::to_string(limits.max_memory) +
+                " bytes");
+  }
+}
+
+}  // namespace
+
+void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
+                       std::uint64_t header_end, std::uint64_t file_size) {
+  const std::int64_t room = static_cast<std::int64_t>(file_size - header_end);
+  std::int64_t needed = 0;
+  for (const ExrHeader& header : headers) {
+    const ExrPart& part = header.part;
+    check_window("data window", part.data, limits);
+    check_window("display window", part.display, limits);
+    if (part.tiled) {
+      const std::int64_t longest = std::max(header.tile_width, header.tile_height);
+      if (std::min(header.tile_width, header.tile_height) < 1 || longest > limits.max_side) {
+        throw Error("tiles of " + size_text(header.tile_width, header.tile_height) +
+                    " pixels: expected sides of 1 ... " + std::to_string(limits.max_side));
+      }
+    }
+    check_memory(header, limits);
+
+    const std::int64_t chunks = std::max(chunks_of(header), header.chunk_count);
+    const std::int64_t pixels = sample_bytes(part, part.data.width(), part.data.height());
+    const std::int64_t least = part.deep ? 0 : pixels / kMostShrink[header.compression];
+    needed += std::max(chunks * kLeastChunkBytes, chunks * 8 + least);
+    if (needed > room) {
+      throw Error("truncated or damaged (" + size_text(part.data.width(), part.data.height()) +
+                  " pixels of " + std::to_string(part.channels.size()) + " channels cannot be in " +
+                  std::to_string(room) + " bytes)");
+    }
+  }
+}
+
+}  // namespace limpid

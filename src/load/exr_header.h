@@ -1,0 +1,40 @@
+#pragma once
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "limpid/load/exr_file.h"
+
+#include "load/file_stream.h"
+
+namespace limpid {
+
+/// What the tool and files call the compressions, in the order of OpenEXR's enum.
+inline constexpr std::array<std::string_view, 10> kCompressions{
+    "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+
+/// Whether an attribute describes how pixels are stored, or shows them (the preview): such ones
+/// belong to one file and are not handed on to another.
+bool is_structural(std::string_view attribute);
+
+/// One part's header, read and checked by ourselves before OpenEXR sees the file.
+struct ExrHeader {
+  ExrPart part;                                          ///< channels as stored, also Y RY BY
+  std::map<std::string, ExrFile::Attribute> attributes;  ///< all
+  int compression = 0;                                   ///< index in kCompressions
+  std::int64_t tile_width = 0, tile_height = 0;
+  std::int64_t chunk_count = -1;  ///< as the header states it, -1 where it does not
+};
+
+/// Reads all headers from the beginning of the file and leaves the stream behind them. Nothing is
+/// allocated that is larger than the bytes that are there. Throws Error without the path, or
+/// Iex::InputExc at the end of the file.
+std::vector<ExrHeader> read_exr_headers(FileStream& stream, const Limits& limits);
+
+/// Throws Error (without the path) when a header asks for more than the limits, or for more than a
+/// file of this size can hold: both before OpenEXR allocates anything from it. `header_end` is
+/// where the headers end in the file.
+void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
+                       std::uint64_t header_end, std::uint64_t file_size);
+
+}  // namespace limpid

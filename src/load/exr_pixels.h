@@ -1,0 +1,33 @@
+#pragma once
+#include <span>
+#include <string>
+
+#include <OpenEXR/ImfMultiPartInputFile.h>
+
+#include "load/exr_header.h"
+
+namespace limpid {
+
+/// Whether a part holds the luminance-chroma picture `layer` ("" or "left." and so on): Y at full
+/// and RY, BY at half resolution, and no R G B beside them.
+bool is_luminance_chroma(const ExrPart& stored, const std::string& layer);
+
+/// The part as users see it: R G B in place of Y RY BY.
+ExrPart shown_part(const ExrPart& stored);
+
+/// "left." of "left.R"; "" of "R".
+std::string layer_of(const std::string& channel);
+
+/// Writes `missing` to the pixels of the requests that lie outside the data window.
+void fill_outside(const Rect& data, std::span<const ExrRequest> requests);
+
+/// Decodes channels of a part as they are stored. The requests are valid.
+void read_stored(Imf::MultiPartInputFile& file, const ExrHeader& header,
+                 std::span<const ExrRequest> requests);
+
+/// Decodes R G B of the luminance-chroma picture `layer` of a file's first part, from a stream at
+/// the beginning of the file.
+void read_luminance_chroma(FileStream& stream, const ExrHeader& header, const std::string& layer,
+                           std::span<const ExrRequest> requests);
+
+}  // namespace limpid

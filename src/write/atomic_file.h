@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+
+/// A file that appears whole or not at all. It is written under a temporary name in the same folder
+/// and with the same extension; commit() flushes it to disk and renames it. Without commit() the
+/// temporary file is removed and what was under `path` before stays.
+class AtomicFile {
+ public:
+  /// Creates the empty temporary file. Throws Error that names the folder when that fails, and when
+  /// `path` is something else than a file.
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::filesystem::path& temporary() const { return temporary_; }
+  /// Call it when the temporary file is written and closed. Throws Error.
+  void commit();
+
+ private:
+  std::filesystem::path path_, temporary_;
+  bool committed_ = false;
+};
+
+}  // namespace limpid

@@ -1,0 +1,299 @@
+#include "limpid/write/exr_writer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <OpenEXR/Iex.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfOpaqueAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVersion.h>
+
+#include "load/exr_header.h"
+#include "write/atomic_file.h"
+
+namespace limpid {
+namespace {
+
+constexpr std::int64_t kBlockBytes = std::int64_t{8} << 20;
+constexpr int kLeastLines = 32;
+constexpr float kHalfMax = 65504;
+constexpr std::size_t kMaxName = 255;
+
+/// The temporary file, which remembers the first failure: OpenEXR swallows those of its destructor.
+class OutputStream : public Imf::OStream {
+ public:
+  explicit OutputStream(const std::filesystem::path& path)
+      : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb")) {
+    if (file_ == nullptr) error_ = errno;
+  }
+  ~OutputStream() override {
+    if (file_ != nullptr) std::fclose(file_);
+  }
+
+  void write(const char bytes[], int count) override {
+    const std::size_t size = static_cast<std::size_t>(count);
+    check(file_ != nullptr && std::fwrite(bytes, 1, size, file_) == size);
+  }
+  std::uint64_t tellp() override {
+    return file_ == nullptr ? 0 : static_cast<std::uint64_t>(ftello(file_));
+  }
+  void seekp(std::uint64_t position) override {
+    check(file_ != nullptr && fseeko(file_, static_cast<off_t>(position), SEEK_SET) == 0);
+  }
+  void close() {
+    if (file_ == nullptr) return;
+    const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+    if (!closed && error_ == 0) error_ = errno;
+  }
+  /// Number of the first system call's error, 0 while all is well.
+  int error() const { return error_; }
+
+ private:
+  void check(bool done) {
+    if (done) return;
+    if (error_ == 0) error_ = errno;
+    throw Iex::IoExc("cannot be written");
+  }
+
+  std::FILE* file_;
+  int error_ = 0;
+};
+
+/// The bytes of one attribute, to be read by OpenEXR.
+class BytesStream : public Imf::IStream {
+ public:
+  explicit BytesStream(const std::vector<char>& bytes) : Imf::IStream("attribute"), bytes_(bytes) {}
+  bool read(char into[], int count) override {
+    if (static_cast<std::size_t>(count) > bytes_.size() - position_) {
+      throw Iex::InputExc("it is too short");
+    }
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(position_), count, into);
+    position_ += static_cast<std::size_t>(count);
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  const std::vector<char>& bytes_;
+  std::size_t position_ = 0;
+};
+
+struct Compression {
+  Imf::Compression method;
+  std::optional<double> level;
+};
+
+Compression compression_named(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const auto found = std::find(kCompressions.begin(), kCompressions.end(), name);
+  if (found == kCompressions.end()) {
+    const std::vector<std::string> known(kCompressions.begin(), kCompressions.end());
+    throw Error("compression '" + name + "': expected one of " + join(known) +
+                did_you_mean(name, known));
+  }
+  Compression compression{static_cast<Imf::Compression>(found - kCompressions.begin()), {}};
+  if (colon == std::string::npos) return compression;
+
+  const bool zip = name == "zip" || name == "zips", dwa = name == "dwaa" || name == "dwab";
+  if (!zip && !dwa) {
+    throw Error("compression '" + text + "': " + name +
+                " has no level, only zip, zips, dwaa, dwab");
+  }
+  double level = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data() + colon + 1, end, level);
+  const bool in_range =
+      zip ? level >= 1 && level <= 9 && level == std::floor(level) : level >= 0 && level <= 100000;
+  if (failure != std::errc() || stop != end || !in_range) {
+    throw Error("compression '" + text + "': expected a level of " +
+                (zip ? "1 ... 9, whole" : "0 ... 100000"));
+  }
+  compression.level = level;
+  return compression;
+}
+
+void check(const ExrOutput& output) {
+  if (output.data.empty()) throw Error("the data window is empty: expected at least 1x1");
+  if (output.display.empty()) throw Error("the display window is empty: expected at least 1x1");
+  if (!(output.pixel_aspect > 0) || !std::isfinite(output.pixel_aspect)) {
+    throw Error("pixel aspect ratio " + std::to_string(output.pixel_aspect) +
+                ": expected a number above 0");
+  }
+  if (output.channels.empty()) throw Error("no channels to write: expected at least one");
+  std::set<std::string> names;
+  for (const ExrOutputChannel& channel : output.channels) {
+    if (channel.name.empty() || channel.name.size() > kMaxName) {
+      throw Error("channel name '" + channel.name + "': expected 1 ... 255 letters");
+    }
+    if (!names.insert(channel.name).second) {
+      throw Error("channel '" + channel.name + "' is given twice");
+    }
+    if (!channel.from || !channel.from.window.contains(output.data)) {
+      throw Error("channel '" + channel.name + "' does not cover the data window");
+    }
+  }
+  const auto check_name = [&](const std::string& name) {
+    if (is_structural(name) || name.empty() || name.size() > kMaxName) {
+      throw Error("attribute name '" + name +
+                  "': expected a name of 1 ... 255 letters that does "
+                  "not describe how pixels are stored");
+    }
+  };
+  for (const auto& [name, value] : output.text) check_name(name);
+  for (const auto& [name, value] : output.matrices) check_name(name);
+}
+
+Imath::Box2i box_of(const Rect& r) { return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}}; }
+
+/// Attributes that every header has are typed; all others go through as bytes.
+void inherit(Imf::Header& header, const std::string& name, const ExrFile::Attribute& attribute) {
+  BytesStream bytes(attribute.bytes);
+  const int size = static_cast<int>(attribute.bytes.size());
+  if (const auto own = header.find(name); own != header.end()) {
+    if (attribute.type != own.attribute().typeName()) {
+      throw Error("attribute '" + name + "' of type '" + attribute.type + "': expected '" +
+                  own.attribute().typeName() + "'");
+    }
+    own.attribute().readValueFrom(bytes, size, Imf::EXR_VERSION);
+    return;
+  }
+  Imf::OpaqueAttribute opaque(attribute.type.c_str());
+  opaque.readValueFrom(bytes, size, Imf::EXR_VERSION);
+  header.insert(name, opaque);
+}
+
+Imf::Header header_of(const ExrOutput& output) {
+  Imf::Header header(box_of(output.display), box_of(output.data),
+                     static_cast<float>(output.pixel_aspect));
+  for (const auto& [name, attribute] : output.inherited) {
+    const bool ours = output.text.contains(name) || output.matrices.contains(name);
+    if (!ours && !is_structural(name)) inherit(header, name, attribute);
+  }
+  const Compression compression = compression_named(output.compression);
+  header.compression() = compression.method;
+  if (compression.level) {
+    header.zipCompressionLevel() = static_cast<int>(*compression.level);
+    header.dwaCompressionLevel() = static_cast<float>(*compression.level);
+  }
+  for (const ExrOutputChannel& channel : output.channels) {
+    header.channels().insert(channel.name, Imf::Channel(channel.half ? Imf::HALF : Imf::FLOAT));
+  }
+  for (const auto& [name, value] : output.text) header.insert(name, Imf::StringAttribute(value));
+  for (const auto& [name, value] : output.matrices) {
+    Imath::M44f matrix;
+    std::copy(value.begin(), value.end(), matrix.getValue());
+    header.insert(name, Imf::M44fAttribute(matrix));
+  }
+  return header;
+}
+
+half half_of(float value) {
+  return half(std::isfinite(value) ? std::clamp(value, -kHalfMax, kHalfMax) : value);
+}
+
+/// Rows of one channel as they are to be stored.
+void convert(const ExrOutputChannel& channel, const Rect& block, char* into) {
+  for (int y = block.y0; y < block.y1; ++y) {
+    const float* from = &channel.from.at(block.x0, y);
+    const std::ptrdiff_t stride = channel.from.x_stride;
+    for (int i = 0; i < block.width(); ++i, from += stride) {
+      if (channel.half) {
+        const half value = half_of(*from);
+        std::memcpy(into, &value, sizeof value);
+        into += sizeof value;
+      } else {
+        std::memcpy(into, from, sizeof *from);
+        into += sizeof *from;
+      }
+    }
+  }
+}
+
+/// A slice over `memory`, which holds the rows of `block` without gaps. The address of (0, 0) that
+/// OpenEXR wants may lie outside the memory, so it is computed in integers.
+Imf::Slice slice_of(char* memory, const Rect& block, Imf::PixelType type) {
+  const std::ptrdiff_t bytes = type == Imf::HALF ? 2 : 4, row = bytes * block.width();
+  const std::uintptr_t origin = reinterpret_cast<std::uintptr_t>(memory) -
+                                static_cast<std::uintptr_t>(block.x0 * bytes + block.y0 * row);
+  return {type, reinterpret_cast<char*>(origin), static_cast<std::size_t>(bytes),
+          static_cast<std::size_t>(row)};
+}
+
+/// Converts and writes some lines at a time, so that no second picture is held in memory.
+void write_pixels(Imf::OutputFile& file, const ExrOutput& output) {
+  const Rect& data = output.data;
+  std::int64_t line_bytes = 0;
+  for (const ExrOutputChannel& channel : output.channels) {
+    line_bytes += std::int64_t{data.width()} * (channel.half ? 2 : 4);
+  }
+  const int lines = static_cast<int>(std::min<std::int64_t>(
+      data.height(),
+      std::max<std::int64_t>(kBlockBytes / line_bytes / kLeastLines, 1) * kLeastLines));
+  std::vector<char> memory(static_cast<std::size_t>(line_bytes * lines));
+  for (Rect block = data; block.y0 < data.y1; block.y0 = block.y1) {
+    block.y1 = std::min(block.y0 + lines, data.y1);
+    Imf::FrameBuffer frame;
+    char* into = memory.data();
+    for (const ExrOutputChannel& channel : output.channels) {
+      convert(channel, block, into);
+      frame.insert(channel.name, slice_of(into, block, channel.half ? Imf::HALF : Imf::FLOAT));
+      into += block.area() * (channel.half ? 2 : 4);
+    }
+    file.setFrameBuffer(frame);
+    file.writePixels(block.height());
+  }
+}
+
+void write_stream(OutputStream& stream, const ExrOutput& output) {
+  Imf::OutputFile file(stream, header_of(output));
+  write_pixels(file, output);
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& path, const ExrOutput& output) {
+  const std::string name = path.string();
+  try {
+    check(output);
+    compression_named(output.compression);
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what(), error.fault());
+  }
+  AtomicFile file(path);
+  OutputStream stream(file.temporary());
+  std::string failure;
+  Fault fault = Fault::kJob;
+  try {
+    write_stream(stream, output);
+  } catch (const std::bad_alloc&) {
+    failure = "needs more memory than there is";
+    fault = Fault::kRetry;
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  stream.close();
+  if (stream.error() != 0) {
+    failure = "cannot be written (" + describe(stream.error()) + ")";
+    fault = fault_of(stream.error());
+  }
+  if (!failure.empty()) throw Error(name + ": " + failure, fault);
+  file.commit();
+}
+
+}  // namespace limpid
