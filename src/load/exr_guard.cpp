@@ -102,4 +102,14 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
   }
 }
 
+bool has_all_chunks(FileStream& stream, const ExrHeader& header) {
+  constexpr char kNowhere[8] = {};
+  for (std::int64_t left = chunks_of(header); left > 0; --left) {
+    char place[8];
+    stream.read(place, 8);
+    if (std::equal(place, place + 8, kNowhere)) return false;
+  }
+  return true;
+}
+
 }  // namespace limpid

@@ -37,4 +37,8 @@ std::vector<ExrHeader> read_exr_headers(FileStream& stream, const Limits& limits
 void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
                        std::uint64_t header_end, std::uint64_t file_size);
 
+/// Whether the table of chunks, where the stream stands, has a place for each chunk of the one
+/// part.
+bool has_all_chunks(FileStream& stream, const ExrHeader& header);
+
 }  // namespace limpid

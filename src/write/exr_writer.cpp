@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
+#include <memory>
 #include <new>
 #include <optional>
 #include <set>
@@ -188,8 +190,14 @@ Imf::Header header_of(const ExrOutput& output) {
   const Compression compression = compression_named(output.compression);
   header.compression() = compression.method;
   if (compression.level) {
-    header.zipCompressionLevel() = static_cast<int>(*compression.level);
-    header.dwaCompressionLevel() = static_cast<float>(*compression.level);
+    const auto level = *compression.level;
+    const bool zip =
+        compression.method == Imf::ZIP_COMPRESSION || compression.method == Imf::ZIPS_COMPRESSION;
+    if (zip) {
+      header.zipCompressionLevel() = static_cast<int>(level);
+    } else {
+      header.dwaCompressionLevel() = static_cast<float>(level);
+    }
   }
   for (const ExrOutputChannel& channel : output.channels) {
     header.channels().insert(channel.name, Imf::Channel(channel.half ? Imf::HALF : Imf::FLOAT));
@@ -265,6 +273,16 @@ void write_stream(OutputStream& stream, const ExrOutput& output) {
   write_pixels(file, output);
 }
 
+/// OpenEXR 3.1 leaves a chunk out without a word when its compressor fails.
+void check_complete(const std::filesystem::path& path) {
+  FileStream stream(std::make_shared<FileHandle>(path));
+  const Limits unlimited{std::numeric_limits<std::int64_t>::max(), std::numeric_limits<int>::max(),
+                         std::numeric_limits<int>::max(), 1,
+                         std::numeric_limits<std::int64_t>::max()};
+  const ExrHeader header = read_exr_headers(stream, unlimited)[0];
+  if (!has_all_chunks(stream, header)) throw Error("some lines could not be compressed");
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const ExrOutput& output) {
@@ -277,22 +295,21 @@ void write_exr(const std::filesystem::path& path, const ExrOutput& output) {
   }
   AtomicFile file(path);
   OutputStream stream(file.temporary());
-  std::string failure;
-  Fault fault = Fault::kJob;
+  std::optional<Error> failure;
   try {
     write_stream(stream, output);
+    stream.close();
+    if (stream.error() == 0) check_complete(file.temporary());
   } catch (const std::bad_alloc&) {
-    failure = "needs more memory than there is";
-    fault = Fault::kRetry;
+    failure.emplace(name + ": needs more memory than there is", Fault::kRetry);
   } catch (const std::exception& error) {
-    failure = error.what();
+    failure.emplace(name + ": cannot be written (" + error.what() + ")");
   }
-  stream.close();
   if (stream.error() != 0) {
-    failure = "cannot be written (" + describe(stream.error()) + ")";
-    fault = fault_of(stream.error());
+    failure.emplace(name + ": cannot be written (" + describe(stream.error()) + ")",
+                    fault_of(stream.error()));
   }
-  if (!failure.empty()) throw Error(name + ": " + failure, fault);
+  if (failure) throw *failure;
   file.commit();
 }
 

@@ -1,0 +1,114 @@
+#include "write/atomic_file.h"
+
+#include <cerrno>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "load/file_stream.h"
+
+namespace limpid {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// An empty folder of its own for each test.
+fs::path folder() {
+  const fs::path path =
+      fs::path(testing::TempDir()) /
+      (std::string("atomic_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  fs::remove_all(path);
+  fs::create_directories(path);
+  return path;
+}
+
+int files_in(const fs::path& path) {
+  return static_cast<int>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+}
+
+void write_text(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::string error_of(const fs::path& path) {
+  try {
+    AtomicFile file(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AtomicFile, AppearsAtCommit) {
+  const fs::path path = folder() / "a.exr";
+  write_text(path, "old");
+  AtomicFile file(path);
+  EXPECT_EQ(file.temporary().parent_path(), path.parent_path());
+  EXPECT_EQ(file.temporary().extension(), ".exr");
+  write_text(file.temporary(), "new");
+  EXPECT_EQ(text_of(path), "old");
+  file.commit();
+  EXPECT_EQ(text_of(path), "new");
+  EXPECT_EQ(files_in(path.parent_path()), 1);
+}
+
+TEST(AtomicFile, LeavesTheOldFileWithoutCommit) {
+  const fs::path path = folder() / "a.exr";
+  write_text(path, "old");
+  {
+    AtomicFile file(path);
+    write_text(file.temporary(), "half a file");
+  }
+  EXPECT_EQ(text_of(path), "old");
+  EXPECT_EQ(files_in(path.parent_path()), 1);
+}
+
+TEST(AtomicFile, TwoOfOneNameDoNotMeet) {
+  const fs::path path = folder() / "a.exr";
+  AtomicFile first(path), second(path);
+  EXPECT_NE(first.temporary(), second.temporary());
+}
+
+TEST(AtomicFile, WorksOnABareName) {
+  const fs::path before = fs::current_path(), here = folder();
+  fs::current_path(here);
+  AtomicFile file("bare.exr");
+  file.commit();
+  fs::current_path(before);
+  EXPECT_TRUE(fs::exists(here / "bare.exr"));
+}
+
+TEST(AtomicFile, NamesTheFolderThatCannotBeWritten) {
+  const fs::path here = folder();
+  EXPECT_EQ(error_of(here / "no" / "a.exr"),
+            (here / "no" / "a.exr").string() + ": the folder '" + (here / "no").string() +
+                "' cannot be written to (no such file or directory)");
+  write_text(here / "file", "");
+  EXPECT_THAT(error_of(here / "file" / "a.exr"), HasSubstr("not a directory"));
+  if (::geteuid() != 0) {  // root may write everywhere
+    fs::permissions(here, fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_THAT(error_of(here / "a.exr"), HasSubstr("permission denied"));
+    fs::permissions(here, fs::perms::owner_all);
+  }
+}
+
+TEST(AtomicFile, ReplacesFilesOnly) {
+  const fs::path here = folder();
+  fs::create_directory(here / "a.exr");
+  EXPECT_THAT(error_of(here / "a.exr"), StartsWith((here / "a.exr").string() + ": is there and"));
+  EXPECT_THAT(error_of("/dev/null"), StartsWith("/dev/null: is there and"));
+}
+
+TEST(FaultOf, WhatMayPassIsTriedAgain) {
+  for (int error : {ENOSPC, EDQUOT, EIO, ESTALE}) EXPECT_EQ(fault_of(error), Fault::kRetry);
+  for (int error : {EACCES, ENOENT, EROFS, EFBIG}) EXPECT_EQ(fault_of(error), Fault::kJob);
+}
+
+}  // namespace
+}  // namespace limpid
