@@ -9,11 +9,13 @@
 namespace limpid {
 
 /// A picture of another format than EXR (PNG, TIFF, DPX, HDR, JPEG ...), as float planes: integers
-/// of n bits are divided by 2^n - 1, no transfer curve is applied or removed.
+/// of n bits are divided by 2^n - 1, no transfer curve is applied or removed, and color and alpha
+/// are as the file stores them.
 struct ImageFile {
   Rect window;
   std::vector<std::string> channels;  ///< "R", "G", "B", "A", ...
   std::vector<Plane> planes;
+  bool straight_alpha = false;  ///< color is not multiplied by "A", as in any PNG with alpha
 };
 
 /// Reads through OpenImageIO, which is loaded at the first call (it takes 0.2 s and 135 MB, so that
@@ -21,9 +23,10 @@ struct ImageFile {
 /// limit, and when the format module is not installed.
 ImageFile read_image(const std::filesystem::path& path, const Limits& limits = {});
 
-/// Writes 8-bit RGB or RGBA (3 or 4 planes, values 0 ... 1, already encoded for display; clamped
-/// and rounded) in the format of the path's extension (.png, .jpg, .tif), under a temporary name
-/// that is renamed at the end.
+/// Writes 8-bit RGB or RGBA (3 or 4 planes of one window, values 0 ... 1, already encoded for
+/// display, alpha straight; clamped and rounded, NaN becomes 0) in the format of the path's
+/// extension: .png, .jpg (no alpha), .tif. The file is written under a temporary name that is
+/// renamed at the end; its bytes depend on the arguments alone.
 void write_image8(const std::filesystem::path& path, const std::vector<View<const float>>& planes);
 
 /// Whether the path's extension is .exr (any case): such files go through ExrFile instead.

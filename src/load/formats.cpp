@@ -1,0 +1,81 @@
+#include "load/formats.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include <dlfcn.h>
+
+#include "limpid/core/error.h"
+
+namespace limpid::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "limpid_formats.so";
+
+std::vector<fs::path> module_folders() {
+  if (const char* named = std::getenv("LIMPID_MODULE_DIR")) return {named};
+  std::vector<fs::path> bases;
+  std::error_code ignored;
+  if (const fs::path program = fs::read_symlink("/proc/self/exe", ignored); !program.empty()) {
+    bases.push_back(program.parent_path());
+  }
+  // A relative name would be looked for in the current folder: anybody's.
+  if (Dl_info here; dladdr(reinterpret_cast<const void*>(&module), &here) != 0 &&
+                    fs::path(here.dli_fname).is_absolute()) {
+    bases.push_back(fs::path(here.dli_fname).parent_path());
+  }
+  std::vector<fs::path> folders;
+  for (const fs::path& base : bases) {
+    for (const fs::path& folder :
+         {base, base / ".." / LIMPID_LIBRARY_FOLDER / "limpid", base / ".." / "src"}) {
+      folders.push_back(folder.lexically_normal());
+    }
+  }
+  folders.emplace_back(LIMPID_INSTALLED_MODULE_FOLDER);
+  return folders;
+}
+
+void* symbol(void* library, const fs::path& path, const char* name) {
+  void* found = dlsym(library, name);
+  if (found == nullptr) throw Error(path.string() + ": expected a function " + name);
+  return found;
+}
+
+Module load(const fs::path& path) {
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw Error(std::string("cannot load the format module: ") + dlerror());
+  const auto abi =
+      reinterpret_cast<decltype(&limpid_formats_abi)>(symbol(library, path, "limpid_formats_abi"));
+  if (abi() != kFormatsAbi) {
+    throw Error(path.string() + ": format module of version " + std::to_string(abi()) +
+                ": expected " + std::to_string(kFormatsAbi));
+  }
+  return {reinterpret_cast<decltype(&limpid_formats_read)>(
+              symbol(library, path, "limpid_formats_read")),
+          reinterpret_cast<decltype(&limpid_formats_write8)>(
+              symbol(library, path, "limpid_formats_write8"))};
+}
+
+Module find(const std::string& wanted_for) {
+  std::vector<std::string> searched;
+  for (const fs::path& folder : module_folders()) {
+    std::error_code ignored;
+    if (fs::exists(folder / kFile, ignored)) return load(folder / kFile);
+    searched.push_back(folder.string());
+  }
+  throw Error(wanted_for + ": formats other than EXR need " + kFile + ", which is not in " +
+              join(searched, " or ") +
+              " (the environment variable LIMPID_MODULE_DIR names its folder)");
+}
+
+}  // namespace
+
+const Module& module(const std::string& wanted_for) {
+  static const Module loaded = find(wanted_for);
+  return loaded;
+}
+
+}  // namespace limpid::formats

@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+
+#include "load/formats_abi.h"
+
+namespace limpid::formats {
+
+/// The functions of limpid_formats.so.
+struct Module {
+  decltype(&limpid_formats_read) read;
+  decltype(&limpid_formats_write8) write8;
+};
+
+/// The module, found and loaded at the first call and kept until the program ends. Looked for in
+/// the folder LIMPID_MODULE_DIR (environment; when set, only there), else beside the program or the
+/// library that limpid is part of, in their ../lib/limpid and ../src (the build tree), and where
+/// `install` puts it. Throws Error, which says what `wanted_for` asked for, when it is not there or
+/// is of another version.
+const Module& module(const std::string& wanted_for);
+
+}  // namespace limpid::formats
