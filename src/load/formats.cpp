@@ -25,7 +25,8 @@ std::vector<fs::path> module_folders() {
   // A relative name would be looked for in the current folder: anybody's.
   if (Dl_info here; dladdr(reinterpret_cast<const void*>(&module), &here) != 0 &&
                     fs::path(here.dli_fname).is_absolute()) {
-    bases.push_back(fs::path(here.dli_fname).parent_path());
+    const fs::path library = fs::path(here.dli_fname).parent_path();
+    if (bases.empty() || bases.front() != library) bases.push_back(library);
   }
   std::vector<fs::path> folders;
   for (const fs::path& base : bases) {

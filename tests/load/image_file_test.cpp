@@ -1,6 +1,7 @@
 #include "limpid/load/image_file.h"
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -8,6 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "limpid/core/error.h"
 
@@ -283,6 +285,27 @@ TEST(ImageFileDeathTest, SaysWhichModuleIsMissing) {
               "grey16.png: formats other than EXR need limpid_formats.so, which is not in .*");
   write_bytes(folder / "limpid_formats.so", "not a library");
   EXPECT_EXIT(try_without(), testing::ExitedWithCode(3), "cannot load the format module");
+}
+
+// A file that may not grow stands for a full disk; in a process of its own, for the limit stays.
+TEST(ImageFileDeathTest, LeavesNothingOnAFullDisk) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const fs::path folder = scratch();
+  const auto write_over_the_limit = [&] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit = {1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    int refused = 0;
+    for (const char* name : {"a.png", "a.jpg", "a.tif"}) {
+      const std::string sentence = refusal([&] {
+        write_image8(folder / name, views(noise({0, 0, 90, 90}, 3)));
+      });
+      refused += sentence.find("cannot be written") != std::string::npos;
+    }
+    std::exit(refused);
+  };
+  EXPECT_EXIT(write_over_the_limit(), testing::ExitedWithCode(3), "");
+  EXPECT_TRUE(fs::is_empty(folder));
 }
 
 }  // namespace
