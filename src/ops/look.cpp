@@ -1,5 +1,6 @@
 #include "limpid/ops/look.h"
 
+#include <charconv>
 #include <cstdio>
 
 #include "limpid/core/error.h"
@@ -18,30 +19,30 @@ void for_each_table(L& look, Visit&& visit) {
   Chain::for_each([&]<class Op, int>() { visit(Op::kName, Op::fields(), look.template of<Op>()); });
 }
 
-std::string toml_text(const Value& value) {
-  if (const std::string* word = std::get_if<std::string>(&value)) {
-    std::string quoted = "\"";
-    for (char c : *word) {
-      if (c == '"' || c == '\\') quoted += '\\';
-      quoted += c;
+std::string toml_text(const std::string& word) {
+  std::string quoted = "\"";
+  for (char c : word) {
+    if (const int code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f) {
+      char escaped[8];
+      std::snprintf(escaped, sizeof escaped, "\\u%04X", code);
+      quoted += escaped;
+      continue;
     }
-    return quoted + "\"";
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
   }
-  const auto exact = [](double x) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", x);
-    double back = 0;
-    for (int digits = 1; digits < 17; ++digits) {
-      char shorter[40];
-      std::snprintf(shorter, sizeof shorter, "%.*g", digits, x);
-      std::sscanf(shorter, "%lf", &back);
-      if (back == x) return std::string(shorter);
-    }
-    return std::string(text);
-  };
-  if (const double* x = std::get_if<double>(&value)) return exact(*x);
-  const Rgb<double>& c = std::get<Rgb<double>>(value);
-  return "[" + exact(c.r) + ", " + exact(c.g) + ", " + exact(c.b) + "]";
+  return quoted + "\"";
+}
+
+/// The shortest text that reads back as the same float.
+std::string toml_text(double x) {
+  char digits[32];
+  const std::string text(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+std::string toml_text(const Rgb<double>& c) {
+  return "[" + toml_text(c.r) + ", " + toml_text(c.g) + ", " + toml_text(c.b) + "]";
 }
 
 }  // namespace
@@ -101,7 +102,8 @@ std::string to_toml(const Look& look) {
   for (const Parameter& p : parameters(look)) {
     if (p.table != table) text += (text.empty() ? "[" : "\n[") + std::string(p.table) + "]\n";
     table = p.table;
-    text += std::string(p.name) + " = " + toml_text(p.value) + "\n";
+    text += std::string(p.name) + " = " +
+            std::visit([](const auto& value) { return toml_text(value); }, p.value) + "\n";
   }
   return text;
 }
