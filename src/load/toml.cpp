@@ -1,0 +1,179 @@
+#include "load/toml.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include <toml++/toml.h>
+
+namespace limpid {
+namespace {
+
+constexpr std::streamsize kMaxBytes = std::streamsize{1} << 20;
+
+std::string text_of_file(const std::filesystem::path& path) {
+  std::error_code absent;
+  if (std::filesystem::is_directory(path, absent)) {
+    throw Error(path.string() + ": is a folder, expected a TOML file");
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path.string() + ": cannot be opened (" + std::strerror(errno) + ")");
+  std::string text(static_cast<std::size_t>(kMaxBytes) + 1, '\0');
+  file.read(text.data(), kMaxBytes + 1);
+  if (file.bad()) throw Error(path.string() + ": cannot be read", Fault::kRetry);
+  if (file.gcount() > kMaxBytes) {
+    throw Error(path.string() + ": is larger than 1 MiB, expected a TOML file");
+  }
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+std::string place_of(const std::string& file, const toml::source_region& region) {
+  return file + ":" + std::to_string(region.begin.line) + ":" +
+         std::to_string(region.begin.column) + ": ";
+}
+
+TomlNode converted(const toml::node& value, const std::string& file, const std::string& path) {
+  TomlNode node;
+  node.path = path;
+  node.place = node.key_place = place_of(file, value.source());
+  switch (value.type()) {
+    case toml::node_type::integer:
+      node.kind = TomlNode::Kind::kNumber;
+      node.number = static_cast<double>(value.as_integer()->get());
+      break;
+    case toml::node_type::floating_point:
+      node.kind = TomlNode::Kind::kNumber;
+      node.number = value.as_floating_point()->get();
+      break;
+    case toml::node_type::string:
+      node.kind = TomlNode::Kind::kText;
+      node.text = value.as_string()->get();
+      break;
+    case toml::node_type::array:
+      node.kind = TomlNode::Kind::kList;
+      for (const toml::node& item : *value.as_array()) {
+        const std::string index = "[" + std::to_string(node.items.size()) + "]";
+        node.items.push_back(converted(item, file, path + index));
+      }
+      break;
+    case toml::node_type::table: {
+      node.kind = TomlNode::Kind::kTable;
+      std::vector<std::pair<toml::source_position, TomlNode>> entries;
+      for (const auto& [key, item] : *value.as_table()) {
+        const std::string name(key.str());
+        TomlNode entry = converted(item, file, path.empty() ? name : path + "." + name);
+        entry.key = name;
+        entry.key_place = place_of(file, key.source());
+        entries.emplace_back(key.source().begin, std::move(entry));
+      }
+      std::sort(entries.begin(), entries.end(),
+                [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (auto& [position, entry] : entries) node.items.push_back(std::move(entry));
+      break;
+    }
+    case toml::node_type::boolean:
+      node.kind = TomlNode::Kind::kOther;
+      node.text = value.as_boolean()->get() ? "true" : "false";
+      break;
+    default:
+      node.kind = TomlNode::Kind::kOther;
+      node.text = "a date or time";
+      break;
+  }
+  return node;
+}
+
+std::string shown(const TomlNode& node) {
+  switch (node.kind) {
+    case TomlNode::Kind::kNumber: {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.9g", node.number);
+      return text;
+    }
+    case TomlNode::Kind::kText:
+      return "\"" + node.text + "\"";
+    case TomlNode::Kind::kList: {
+      const bool short_and_flat =
+          node.items.size() <= 4 &&
+          std::all_of(node.items.begin(), node.items.end(), [](const TomlNode& item) {
+            return item.kind != TomlNode::Kind::kList && item.kind != TomlNode::Kind::kTable;
+          });
+      if (!short_and_flat) return "a list of " + std::to_string(node.items.size());
+      std::vector<std::string> items;
+      for (const TomlNode& item : node.items) items.push_back(shown(item));
+      return "[" + join(items) + "]";
+    }
+    case TomlNode::Kind::kTable:
+      return "a table";
+    case TomlNode::Kind::kOther:
+      return node.text;
+  }
+  return {};
+}
+
+}  // namespace
+
+const TomlNode* TomlNode::find(std::string_view name) const {
+  for (const TomlNode& item : items) {
+    if (item.key == name) return &item;
+  }
+  return nullptr;
+}
+
+void TomlNode::refuse(const std::string& expected) const {
+  throw Error(place + path + " = " + shown(*this) + ": expected " + expected);
+}
+
+void TomlNode::expect_keys(std::span<const std::string> known) const {
+  if (kind != Kind::kTable) refuse("a table");
+  const std::vector<std::string> names(known.begin(), known.end());
+  for (const TomlNode& item : items) {
+    if (std::find(names.begin(), names.end(), item.key) != names.end()) continue;
+    throw Error(item.key_place + "unknown " + (path.empty() ? "table" : "key") + " '" + item.path +
+                "': expected one of " + join(names) + did_you_mean(item.key, names));
+  }
+}
+
+double TomlNode::finite_number() const {
+  if (kind != Kind::kNumber || !std::isfinite(number)) refuse("a finite number");
+  return number;
+}
+
+const std::string& TomlNode::word() const {
+  if (kind != Kind::kText) refuse("a text");
+  return text;
+}
+
+std::vector<double> TomlNode::finite_numbers(std::size_t count) const {
+  if (kind != Kind::kList || items.size() != count) {
+    refuse("a list of " + std::to_string(count) + " numbers");
+  }
+  std::vector<double> numbers;
+  for (const TomlNode& item : items) numbers.push_back(item.finite_number());
+  return numbers;
+}
+
+std::size_t TomlNode::choice(std::span<const std::string_view> words) const {
+  const std::vector<std::string> names(words.begin(), words.end());
+  if (kind != Kind::kText) refuse("one of " + join(names));
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) refuse("one of " + join(names) + did_you_mean(text, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+TomlNode parse_toml(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string text = text_of_file(path);
+  try {
+    return converted(toml::parse(text, file), file, "");
+  } catch (const toml::parse_error& error) {
+    throw Error(place_of(file, error.source()) + std::string(error.description()));
+  }
+}
+
+}  // namespace limpid

@@ -1,0 +1,58 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+
+/// A value of a TOML file that knows its place, so that whoever reads it can say where it is wrong.
+/// Entries of a table and elements of a list are both `items`, in the order of the file.
+struct TomlNode {
+  enum class Kind { kNumber, kText, kList, kTable, kOther };
+
+  Kind kind = Kind::kTable;
+  std::string key;        ///< within its table; "" for the file itself and in lists
+  std::string path;       ///< "camera.view[2]": how sentences call it
+  std::string place;      ///< "lagoon.toml:9:12: ", of the value
+  std::string key_place;  ///< the same of its key
+  double number = 0;      ///< kNumber: integers and floats alike, NaN and infinities included
+  std::string text;       ///< kText; kOther: "true", "false", "a date or time"
+  std::vector<TomlNode> items;
+
+  /// The entry of a table, or nullptr.
+  const TomlNode* find(std::string_view name) const;
+
+  /// Throws Error "file:line:column: path = value: expected ...".
+  [[noreturn]] void refuse(const std::string& expected) const;
+
+  /// Throws Error unless this is a table and its keys are all known; gives the nearest known name.
+  void expect_keys(std::span<const std::string> known) const;
+
+  /// The value itself; throws Error when it is of another kind, or NaN or infinite.
+  double finite_number() const;
+  const std::string& word() const;
+  /// Exactly `count` finite numbers.
+  std::vector<double> finite_numbers(std::size_t count) const;
+  /// The index in `words` of the word that this is.
+  std::size_t choice(std::span<const std::string_view> words) const;
+};
+
+/// Calls `work`; an Error it throws gets `place` in front.
+template <class Work>
+auto at_place(const std::string& place, Work&& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(place + error.what(), error.fault());
+  }
+}
+
+/// Throws Error for a file that cannot be read, is larger than 1 MiB, or is not TOML; it begins
+/// with the path, and with line and column where there are any.
+TomlNode parse_toml(const std::filesystem::path& path);
+
+}  // namespace limpid

@@ -1,0 +1,267 @@
+#include "limpid/load/look_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "load/written.h"
+
+namespace limpid {
+namespace {
+
+using test::error_of;
+using test::own_folder;
+using test::written;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+std::vector<Value> values_of(const Look& look) {
+  std::vector<Value> values;
+  for (const Parameter& p : parameters(look)) values.push_back(p.value);
+  return values;
+}
+
+/// Ends of the range, tiny numbers and numbers of all sizes between.
+double random_real(std::mt19937& random, Range range) {
+  const double share = std::uniform_real_distribution<double>(0, 1)(random);
+  switch (random() % 5) {
+    case 0:
+      return range.min;
+    case 1:
+      return range.max;
+    case 2:
+      return std::clamp(1e-300 * share, range.min, range.max);
+    case 3:
+      return std::clamp(std::pow(10, 10 * share - 5), range.min, range.max);
+    default:
+      return std::clamp(range.min + share * (range.max - range.min), range.min, range.max);
+  }
+}
+
+Value random_value(std::mt19937& random, const Parameter& p) {
+  switch (p.kind) {
+    case FieldKind::kReal:
+      return random_real(random, p.range);
+    case FieldKind::kColor:
+      return Rgb<double>{random_real(random, p.range), random_real(random, p.range),
+                         random_real(random, p.range)};
+    case FieldKind::kChoice:
+      return p.choices[random() % p.choices.size()];
+    case FieldKind::kText: {
+      std::string path = "/";
+      for (char c : {'a', '"', '\\', '\n', '\t', '\x7f', '\'', '#', ' '}) {
+        if (random() % 2) path += c;
+      }
+      return path + "\u00e9z";
+    }
+  }
+  return {};
+}
+
+TEST(LookFile, WhatToTomlWritesLoadsAsTheSameLook) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    Look look;
+    for (const Parameter& p : parameters(look)) look.set(p.table, p.name, random_value(random, p));
+    const std::string text = to_toml(look);
+    const Look back = load_look(written("random.toml", text));
+    EXPECT_EQ(values_of(back), values_of(look)) << text;
+    EXPECT_EQ(back.name, "random");
+  }
+}
+
+TEST(LookFile, EmptyFileIsTheDefaultLook) {
+  EXPECT_EQ(values_of(load_look(written("empty.toml", "# nothing\n"))), values_of(Look{}));
+}
+
+TEST(LookFile, IntegersAreNumbers) {
+  const Look look = load_look(
+      written("integers.toml", "[sun_highlight]\npower = 64\n[depth_fog]\ncolor = [1, 0, 0.5]\n"));
+  EXPECT_EQ(look.of<SunHighlight>().power, 64);
+  EXPECT_EQ(look.of<DepthFog>().color, (Rgb<double>{1, 0, 0.5}));
+}
+
+TEST(LookFile, MapIsRelativeToTheFile) {
+  const auto map_of = [](const std::string& map) {
+    const fs::path path = written("map.toml", "[wave_normals]\nmap = \"" + map + "\"\n");
+    return load_look(path).of<WaveNormals>().map;
+  };
+  EXPECT_EQ(map_of("waves.png"), (own_folder() / "waves.png").lexically_normal());
+  EXPECT_EQ(map_of("../maps/waves.png"),
+            (own_folder().parent_path() / "maps/waves.png").lexically_normal());
+  EXPECT_EQ(map_of("/maps/waves.png"), "/maps/waves.png");
+  EXPECT_EQ(map_of(""), "");
+}
+
+TEST(LookFile, LooksBesideTheWorkingFolderLoad) {
+  written("here.toml", "[wave_normals]\nmap = \"waves.png\"\n");
+  const fs::path before = fs::current_path();
+  fs::current_path(own_folder());
+  const std::string map = load_look("here.toml").of<WaveNormals>().map;
+  fs::current_path(before);
+  EXPECT_EQ(map, fs::canonical(own_folder()) / "waves.png");
+}
+
+TEST(LookFile, ErrorsGivePlaceAndWhatWasExpected) {
+  struct Case {
+    const char* text;
+    const char* place;
+    const char* says;
+  };
+  const Case cases[] = {
+      {"[refracton]\nstrength = 1\n", ":1:", "did you mean 'refraction'?"},
+      {"[refracton]\n", ":1:", "unknown table 'refracton'"},
+      {"strength = 1\n", ":1:1: ", "unknown table 'strength'"},
+      {"[refraction]\n  strenght = 1\n", ":2:3: ", "did you mean 'strength'?"},
+      {"[refraction]\ncaustics = 1\n", ":2:1: ", "unknown key 'refraction.caustics'"},
+      {"[refraction]\nstrength = 11\n", ":2:12: ", "refraction.strength = 11: expected -10 ... 10"},
+      {"[refraction]\nstrength = nan\n", ":2:12: ", "refraction.strength = nan: expected -10"},
+      {"[refraction]\nstrength = -inf\n", ":2:12: ", "refraction.strength = -inf: expected -10"},
+      {"[refraction]\nstrength = \"1\"\n", ":2:12: ", "= \"1\": expected a number"},
+      {"[refraction]\nstrength = true\n", ":2:12: ", "= true: expected a number"},
+      {"[refraction]\nstrength = 1979-05-27\n", ":2:12: ", "= a date or time: expected a number"},
+      {"[refraction]\nstrength = [1]\n", ":2:12: ", "= [1]: expected a number"},
+      {"[refraction]\nstrength = {a = 1}\n", ":2:12: ", "= a table: expected a number"},
+      {"[refraction]\nrejection = 1\n", ":2:13: ", "= 1: expected one of none, snap"},
+      {"[refraction]\nrejection = \"snpa\"\n", ":2:13: ", "refraction.rejection = snpa: expected"},
+      {"[depth_fog]\ncolor = 1\n", ":2:9: ", "expected three numbers [r, g, b]"},
+      {"[depth_fog]\ncolor = [1, 2]\n", ":2:9: ", "= [1, 2]: expected three numbers"},
+      {"[depth_fog]\ncolor = [1, 2, nan]\n", ":2:9: ", "= [1, 2, nan]: expected three numbers"},
+      {"[depth_fog]\ncolor = [1, 2, -3]\n", ":2:9: ", "= [1, 2, -3]: expected three numbers, each"},
+      {"[depth_fog]\ncolor = [1, 2, \"x\"]\n", ":2:9: ", "expected three numbers [r, g, b]"},
+      {"[wave_normals]\nmap = 3\n", ":2:7: ", "wave_normals.map = 3: expected a text"},
+      {"refraction = 3\n", ":1:14: ", "refraction = 3: expected a table"},
+      {"[[refraction]]\nstrength = 1\n", ":1:", "refraction = a list of 1: expected a table"},
+      {"[refraction]\nstrength = 1\nstrength = 2\n", ":3:", "strength"},
+      {"[refraction\n", ":1:", "Error"},
+  };
+  for (const Case& c : cases) {
+    const fs::path path = written("bad.toml", c.text);
+    const std::string sentence = error_of([&] { load_look(path); });
+    EXPECT_THAT(sentence, StartsWith(path.string() + c.place)) << c.text;
+    EXPECT_THAT(sentence, HasSubstr(c.says)) << c.text;
+  }
+}
+
+TEST(LookFile, TheFirstMistakeOfTheFileIsNamed) {
+  const fs::path path = written("two.toml", "[water]\nior = 1.3\nzeta = 1\nalpha = 1\n");
+  EXPECT_THAT(error_of([&] { load_look(path); }), HasSubstr(":3:1: unknown key 'water.zeta'"));
+}
+
+TEST(LookFile, RefusesWhatIsNoTomlFile) {
+  EXPECT_THAT(error_of([] { load_look(own_folder() / "absent.toml"); }),
+              HasSubstr("absent.toml: cannot be opened (No such file or directory)"));
+  EXPECT_THAT(error_of([] { load_look(own_folder()); }), HasSubstr("is a folder"));
+  const fs::path large = written("large.toml", std::string((1 << 20) + 1, '#'));
+  EXPECT_THAT(error_of([&] { load_look(large); }), HasSubstr("larger than 1 MiB"));
+  const fs::path binary = written("plate.toml", std::string("v/1\x01\x02\0\0\0channels\0\xff", 18));
+  EXPECT_THAT(error_of([&] { load_look(binary); }), StartsWith(binary.string() + ":1:"));
+}
+
+TEST(LookNamed, SearchesTheFoldersInOrder) {
+  fs::create_directories(own_folder() / "a");
+  fs::create_directories(own_folder() / "b");
+  written("a/calm.toml", "[refraction]\nstrength = 0.25\n");
+  written("b/calm.toml", "[refraction]\nstrength = 0.5\n");
+  written("b/stormy.toml", "[refraction]\nstrength = 0.75\n");
+  const fs::path folders[] = {own_folder() / "absent", own_folder() / "a", own_folder() / "b"};
+  EXPECT_EQ(look_named("calm", folders).of<Refraction>().strength, 0.25);
+  EXPECT_EQ(look_named("stormy", folders).of<Refraction>().strength, 0.75);
+  EXPECT_EQ(look_named("stormy", folders).name, "stormy");
+  const std::string file = (own_folder() / "b/calm.toml").string();
+  EXPECT_EQ(look_named(file, folders).of<Refraction>().strength, 0.5);
+  EXPECT_EQ(error_of([&] { look_named("stromy", folders); }),
+            "no look is named 'stromy': expected one of calm, stormy; did you mean 'stormy'?");
+  EXPECT_EQ(error_of([&] { look_named("calm", std::span(folders, 1)); }),
+            "no look is named 'calm': expected the path of a look file");
+  EXPECT_THAT(error_of([&] { look_named("", folders); }), HasSubstr("no look is named ''"));
+}
+
+TEST(LookNamed, RealisticIsTheLookOfTheArticle) {
+  const fs::path folders[] = {fs::path(LIMPID_DATA) / "looks"};
+  const Look look = look_named("realistic", folders);
+  EXPECT_EQ(look.of<WaveNormals>().model, WaveNormals::Model::kFourMaps);
+  EXPECT_EQ(look.of<WaveNormals>().map, fs::path(LIMPID_DATA) / "maps/water_normals.png");
+  EXPECT_EQ(look.of<Refraction>().model, Refraction::Model::kNormalOffset);
+  EXPECT_EQ(look.of<Refraction>().strength, 0.03);
+  EXPECT_EQ(look.of<Refraction>().rejection, Refraction::Rejection::kSnap);
+  EXPECT_EQ(look.of<PrismSplit>().strength, 0.004);
+  EXPECT_EQ(look.of<DepthFog>().distance, DepthFog::Distance::kEye);
+  EXPECT_EQ(look.of<DepthFog>().density, 0.15);
+  EXPECT_EQ(look.of<DepthFog>().offset, 0);
+  EXPECT_EQ(look.of<DepthFog>().color, (Rgb<double>{0.02, 0.10, 0.12}));
+  EXPECT_EQ(look.of<DepthFog>().alpha, 0.9);
+  EXPECT_EQ(look.of<WaterShadow>().strength, 0.5);
+  EXPECT_EQ(look.of<FresnelReflection>().reflectance, FresnelReflection::Reflectance::kRim);
+  EXPECT_EQ(look.of<FresnelReflection>().power, 3);
+  EXPECT_EQ(look.of<FresnelReflection>().strength, 0.02);
+  EXPECT_EQ(look.of<SunHighlight>().model, SunHighlight::Model::kBlinnPhong);
+  EXPECT_EQ(look.of<SunHighlight>().power, 200);
+  EXPECT_EQ(look.of<SunHighlight>().strength, 1);
+}
+
+TEST(ApplySetting, TakesNumbersColorsWordsAndTexts) {
+  Look look;
+  apply_setting(look, "refraction.strength=-0.25");
+  EXPECT_EQ(look.of<Refraction>().strength, -0.25);
+  apply_setting(look, " refraction.strength = +2.5e-2 ");
+  EXPECT_EQ(look.of<Refraction>().strength, 0.025);
+  apply_setting(look, "depth_fog.color=[0.5,0.25, 1]");
+  EXPECT_EQ(look.of<DepthFog>().color, (Rgb<double>{0.5, 0.25, 1}));
+  apply_setting(look, "depth_fog.color=1,2,3");
+  EXPECT_EQ(look.of<DepthFog>().color, (Rgb<double>{1, 2, 3}));
+  apply_setting(look, "refraction.rejection=none");
+  EXPECT_EQ(look.of<Refraction>().rejection, Refraction::Rejection::kNone);
+  apply_setting(look, "refraction.rejection=\"snap\"");
+  EXPECT_EQ(look.of<Refraction>().rejection, Refraction::Rejection::kSnap);
+  apply_setting(look, "wave_normals.map=/maps/a=b.png");
+  EXPECT_EQ(look.of<WaveNormals>().map, "/maps/a=b.png");
+  apply_setting(look, "wave_normals.map=waves.png");
+  EXPECT_EQ(look.of<WaveNormals>().map, fs::current_path() / "waves.png");
+  apply_setting(look, "wave_normals.map=");
+  EXPECT_EQ(look.of<WaveNormals>().map, "");
+}
+
+TEST(ApplySetting, ErrorsSayWhatWasExpectedAndLeaveTheLookAlone) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "setting '': expected operator.parameter=value"},
+      {"refraction.strength", "expected operator.parameter=value"},
+      {"strength=0.1", "setting 'strength=0.1': expected operator.parameter=value"},
+      {"refracton.strength=1", "did you mean 'refraction'?"},
+      {"refraction.strenght=1", "did you mean 'strength'?"},
+      {"refraction.strength=", "refraction.strength = : expected a number"},
+      {"refraction.strength=0.1x", "refraction.strength = 0.1x: expected a number"},
+      {"refraction.strength=+-1", "expected a number"},
+      {"refraction.strength=0.1 0.2", "expected a number"},
+      {"refraction.strength=11", "refraction.strength = 11: expected -10 ... 10"},
+      {"refraction.strength=nan", "refraction.strength = nan: expected -10 ... 10"},
+      {"refraction.strength=inf", "refraction.strength = inf: expected -10 ... 10"},
+      {"refraction.rejection=1", "refraction.rejection = 1: expected one of none, snap"},
+      {"refraction.rejection=snp", "did you mean 'snap'?"},
+      {"depth_fog.color=1", "depth_fog.color = 1: expected three numbers [r, g, b]"},
+      {"depth_fog.color=[1,2]", "expected three numbers"},
+      {"depth_fog.color=[1,2,3,4]", "expected three numbers"},
+      {"depth_fog.color=[1,2,]", "expected three numbers"},
+      {"depth_fog.color=[1,2,3", "expected three numbers"},
+      {"depth_fog.color=[1,nan,3]", "depth_fog.color = [1, nan, 3]: expected three numbers, each"},
+  };
+  for (const auto& [setting, says] : cases) {
+    Look look;
+    try {
+      apply_setting(look, setting);
+      ADD_FAILURE() << setting;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(says)) << setting;
+      EXPECT_EQ(error.fault(), Fault::kUsage);
+    }
+    EXPECT_EQ(values_of(look), values_of(Look{})) << setting;
+  }
+}
+
+}  // namespace
+}  // namespace limpid
