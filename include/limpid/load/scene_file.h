@@ -1,0 +1,73 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <glm/mat4x4.hpp>
+
+#include "limpid/core/rect.h"
+#include "limpid/core/scene.h"
+#include "limpid/optics/depth.h"
+
+namespace limpid {
+
+/// A camera as a scene file gives it: complete but for the shape of the picture.
+struct CameraSpec {
+  enum class Lens {
+    kProjection,    ///< `projection` as it stands
+    kFovX,          ///< horizontal field of view
+    kFovY,          ///< vertical field of view
+    kOrthographic,  ///< width of the picture
+  };
+
+  glm::dmat4 view{1.0};
+  Lens lens = Lens::kProjection;
+  glm::dmat4 projection{1.0};
+  double extent = 0;         ///< field of view in radians, width in scene units
+  double near = 0, far = 0;  ///< not for kProjection
+  ClipSpace clip = ClipSpace::kGl;
+};
+
+/// The camera for a picture of that size with pixels `pixel_aspect` times as wide as high. Throws
+/// Error for what Camera::validate, perspective and orthographic refuse, and for a projection whose
+/// device depth runs the other way than `clip` says.
+Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1);
+
+/// What a scene file (TOML) says:
+///
+///   [plates]  a key a role of core/frame.h: "FILE" or "FILE:CHANNELS", relative to the scene file
+///   [camera]  view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl, d3d,
+///             reversed; near, far; depth = eye, ray, inverse, normalised, device
+///   [water]   up, height            [sun]  direction, color
+///
+/// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
+/// unit. Without near and far a field of view gets 0.01 and infinity, an orthographic width 0 and
+/// 1e4: they matter for device depth only, which refuses to go without.
+struct SceneFile {
+  Scene scene;                       ///< water and sun; its camera comes from camera_for()
+  std::optional<CameraSpec> camera;  ///< when there is a view
+  DepthKind depth = DepthKind::kEye;
+  std::optional<double> near, far;  ///< as given; far may be +inf
+  /// Role -> absolute "FILE" or "FILE:CHANNELS", for split_plate().
+  std::map<std::string, std::string> plates;
+};
+
+/// Throws Error, with "file:line:column: " in front, for what is not TOML, an unknown table or key
+/// (with the nearest known name), a value of the wrong type or length, NaN, and infinity but for
+/// far.
+SceneFile load_scene(const std::filesystem::path& path);
+
+/// "FILE:CHANNELS" in its two parts: cut at the last ':' unless a '/' follows it; channels are ""
+/// where there are none.
+struct PlateName {
+  std::string file, channels;
+};
+PlateName split_plate(std::string_view text);
+
+/// The kind called eye, ray, inverse, normalised or device on the command line. Throws Error of
+/// Fault::kUsage with the nearest name.
+DepthKind depth_kind_named(std::string_view word);
+
+}  // namespace limpid

@@ -1,0 +1,218 @@
+#include "limpid/load/scene_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "limpid/core/frame.h"
+
+#include "load/toml.h"
+
+namespace limpid {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kClips[] = {"gl", "d3d", "reversed"};
+constexpr std::string_view kDepths[] = {"eye", "ray", "inverse", "normalised", "device"};
+
+using Names = std::vector<std::string>;
+
+/// Four rows in the file; GLM keeps columns.
+glm::dmat4 matrix_of(const TomlNode& node) {
+  if (node.kind != TomlNode::Kind::kList || node.items.size() != 4) {
+    node.refuse("a list of 4 rows of 4 numbers");
+  }
+  glm::dmat4 matrix;
+  for (int row = 0; row < 4; ++row) {
+    const std::vector<double> entries = node.items[row].finite_numbers(4);
+    for (int column = 0; column < 4; ++column) matrix[column][row] = entries[column];
+  }
+  return matrix;
+}
+
+glm::dvec3 direction_of(const TomlNode& node) {
+  const std::vector<double> v = node.finite_numbers(3);
+  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  if (largest == 0) node.refuse("a vector that is not zero");
+  return glm::normalize(glm::dvec3(v[0] / largest, v[1] / largest, v[2] / largest));
+}
+
+WaterPlane water_of(const TomlNode& table) {
+  table.expect_keys(Names{"up", "height"});
+  WaterPlane water;
+  if (const TomlNode* up = table.find("up")) water.up = direction_of(*up);
+  if (const TomlNode* height = table.find("height")) water.height = height->finite_number();
+  return water;
+}
+
+Sun sun_of(const TomlNode& table) {
+  table.expect_keys(Names{"direction", "color"});
+  Sun sun;
+  const TomlNode* direction = table.find("direction");
+  if (!direction) throw Error(table.place + "sun: expected a direction towards the sun");
+  sun.direction = direction_of(*direction);
+  if (const TomlNode* color = table.find("color")) {
+    const std::vector<double> c = color->finite_numbers(3);
+    if (c[0] < 0 || c[1] < 0 || c[2] < 0) color->refuse("three numbers from 0 up");
+    sun.color = {c[0], c[1], c[2]};
+  }
+  return sun;
+}
+
+std::map<std::string, std::string> plates_of(const TomlNode& table, const fs::path& folder) {
+  Names known;
+  for (const Role& role : roles()) known.emplace_back(role.name);
+  table.expect_keys(known);
+  std::map<std::string, std::string> plates;
+  for (const TomlNode& node : table.items) {
+    const PlateName name = split_plate(node.word());
+    if (name.file.empty() || node.text.back() == ':') node.refuse("FILE or FILE:CHANNELS");
+    const std::string file = (folder / name.file).lexically_normal().string();
+    plates[node.key] = name.channels.empty() ? file : file + ":" + name.channels;
+  }
+  return plates;
+}
+
+/// What the file says of near and far, whatever they are used for.
+void read_range(const TomlNode& table, SceneFile& file) {
+  const TomlNode* near = table.find("near");
+  const TomlNode* far = table.find("far");
+  if (near) file.near = near->finite_number();
+  if (!far) return;
+  if (far->kind != TomlNode::Kind::kNumber || std::isnan(far->number)) {
+    far->refuse("a number or inf");
+  }
+  file.far = far->number;
+  if (!(*file.far > file.near.value_or(-std::numeric_limits<double>::infinity()))) {
+    far->refuse(near ? "more than near" : "a number or inf");
+  }
+}
+
+void read_depth(const TomlNode& table, SceneFile& file) {
+  const TomlNode* node = table.find("depth");
+  if (!node) return;
+  file.depth = static_cast<DepthKind>(node->choice(kDepths));
+  const bool finite_range = file.near && file.far && std::isfinite(*file.far);
+  if (file.depth == DepthKind::kNormalised && !finite_range) {
+    node->refuse("near and a finite far beside it");
+  }
+}
+
+struct LensKey {
+  std::string_view name;
+  CameraSpec::Lens lens;
+};
+constexpr LensKey kLensKeys[] = {{"projection", CameraSpec::Lens::kProjection},
+                                 {"fov_x", CameraSpec::Lens::kFovX},
+                                 {"fov_y", CameraSpec::Lens::kFovY},
+                                 {"orthographic", CameraSpec::Lens::kOrthographic}};
+constexpr const char* kLensNames = "projection, fov_x, fov_y and orthographic";
+
+/// The one key of the table that says how the camera projects, or nullptr.
+const TomlNode* lens_node(const TomlNode& table, CameraSpec& spec) {
+  const TomlNode* found = nullptr;
+  for (const LensKey& key : kLensKeys) {
+    const TomlNode* node = table.find(key.name);
+    if (!node) continue;
+    if (found) {
+      throw Error(node->key_place + node->path + " and " + found->path + ": expected only one of " +
+                  kLensNames);
+    }
+    found = node;
+    spec.lens = key.lens;
+  }
+  return found;
+}
+
+double field_of_view_of(const TomlNode& node) {
+  const double degrees = node.finite_number();
+  if (!(degrees > 0 && degrees < 180)) node.refuse("degrees above 0 and below 180");
+  return degrees * std::numbers::pi / 180;
+}
+
+void read_lens(const TomlNode& node, const TomlNode& table, const SceneFile& file,
+               CameraSpec& spec) {
+  if (spec.lens == CameraSpec::Lens::kProjection) {
+    spec.projection = matrix_of(node);
+    return;
+  }
+  const bool flat = spec.lens == CameraSpec::Lens::kOrthographic;
+  spec.extent = flat ? node.finite_number() : field_of_view_of(node);
+  if (file.depth == DepthKind::kDevice && !(file.near && file.far)) {
+    table.find("depth")->refuse("near and far beside " + node.key);
+  }
+  spec.near = file.near.value_or(flat ? 0 : 0.01);
+  spec.far = file.far.value_or(flat ? spec.near + 1e4 : std::numeric_limits<double>::infinity());
+}
+
+std::optional<CameraSpec> camera_of(const TomlNode& table, const SceneFile& file) {
+  CameraSpec spec;
+  const TomlNode* view = table.find("view");
+  const TomlNode* lens = lens_node(table, spec);
+  const TomlNode* clip = table.find("clip");
+  if (!view && !lens) {
+    if (clip) throw Error(clip->key_place + "camera.clip without a projection that it could be of");
+    return std::nullopt;
+  }
+  if (!lens)
+    throw Error(view->key_place + "camera.view: expected one of " + kLensNames + " beside it");
+  if (!view) throw Error(lens->key_place + lens->path + ": expected a view beside it");
+  if (clip) spec.clip = static_cast<ClipSpace>(clip->choice(kClips));
+  spec.view = matrix_of(*view);
+  at_place(view->place, [&] {
+    Camera{spec.view, perspective(1, 1, 1, 2, ClipSpace::kGl), ClipSpace::kGl}.validate();
+  });
+  read_lens(*lens, table, file, spec);
+  at_place(lens->place, [&] { camera_for(spec, {1, 1}); });
+  return spec;
+}
+
+void read_camera(const TomlNode& table, SceneFile& file) {
+  table.expect_keys(Names{"view", "projection", "fov_x", "fov_y", "orthographic", "clip", "near",
+                          "far", "depth"});
+  read_range(table, file);
+  read_depth(table, file);
+  file.camera = camera_of(table, file);
+}
+
+}  // namespace
+
+SceneFile load_scene(const fs::path& path) {
+  const TomlNode root = parse_toml(path);
+  if (const TomlNode* geometry = root.find("geometry")) {
+    throw Error(geometry->key_place +
+                "geometry: this build renders no geometry; give [plates] instead");
+  }
+  root.expect_keys(Names{"plates", "camera", "water", "sun"});
+  SceneFile file;
+  for (const TomlNode& table : root.items) {
+    if (table.key == "plates") file.plates = plates_of(table, fs::absolute(path).parent_path());
+    if (table.key == "camera") read_camera(table, file);
+    if (table.key == "water") file.scene.water = water_of(table);
+    if (table.key == "sun") file.scene.sun = sun_of(table);
+  }
+  return file;
+}
+
+PlateName split_plate(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos || text.find('/', colon) != std::string_view::npos) {
+    return {std::string(text), ""};
+  }
+  return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
+}
+
+DepthKind depth_kind_named(std::string_view word) {
+  const auto found = std::find(std::begin(kDepths), std::end(kDepths), word);
+  if (found != std::end(kDepths)) return static_cast<DepthKind>(found - std::begin(kDepths));
+  const Names names(std::begin(kDepths), std::end(kDepths));
+  throw Error("depth kind '" + std::string(word) + "': expected one of " + join(names) +
+                  did_you_mean(word, names),
+              Fault::kUsage);
+}
+
+}  // namespace limpid

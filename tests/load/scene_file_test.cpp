@@ -1,0 +1,256 @@
+#include "limpid/load/scene_file.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "load/written.h"
+
+namespace limpid {
+namespace {
+
+using test::error_of;
+using test::own_folder;
+using test::written;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const std::string kView = "view = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n";
+const std::string kGlRow = "[0, 0, -1.5, -2.5]";        // near 1, far 5
+const std::string kReversedRow = "[0, 0, 0.25, 1.25]";  // the same, reversed
+
+std::string projection_with(const std::string& z_row) {
+  return "projection = [[2, 0, 0, 0], [0, 3, 0, 0], " + z_row + ", [0, 0, -1, 0]]\n";
+}
+
+SceneFile scene_of(const std::string& text) { return load_scene(written("scene.toml", text)); }
+
+Camera camera_of(const std::string& keys, Size display = {200, 100}, double pixel_aspect = 1) {
+  const SceneFile file = scene_of("[camera]\n" + kView + keys);
+  return camera_for(file.camera.value(), display, pixel_aspect);
+}
+
+glm::dvec3 device_point(const Camera& camera, glm::dvec3 world) {
+  const glm::dvec4 clip = camera.projection * camera.view * glm::dvec4(world, 1);
+  return glm::dvec3(clip) / clip.w;
+}
+
+TEST(SceneFile, ReadsAPathTracedPlate) {
+  const fs::path path = fs::path(LIMPID_TEST_DATA) / "scenes/lagoon.toml";
+  const SceneFile file = load_scene(path);
+  const fs::path folder = path.parent_path();
+  EXPECT_EQ(file.plates.size(), 6u);
+  EXPECT_EQ(file.plates.at("color"), (folder / "dry_color.exr").string());
+  EXPECT_EQ(file.plates.at("depth"), (folder / "dry_depth.exr:Z").string());
+  EXPECT_EQ(file.depth, DepthKind::kEye);
+  EXPECT_EQ(file.near, 0.1);
+  EXPECT_EQ(file.far, 500);
+  EXPECT_EQ(file.scene.water->up, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(file.scene.water->height, 0);
+  EXPECT_NEAR(file.scene.sun->direction.y, 0.871535897, 1e-8);
+  EXPECT_EQ(file.scene.sun->color.b, 0.819999993);
+  EXPECT_FALSE(file.scene.camera);
+
+  const Camera camera = camera_for(file.camera.value(), {960, 540});
+  // Rows: x' = 0.99 x - 0.137 y - 0.0457.
+  EXPECT_EQ(camera.view[1][0], -0.137153089);
+  EXPECT_EQ(camera.view[3][0], -0.04571791);
+  EXPECT_NEAR(camera.device_from_eye_depth(0.1), -1, 1e-6);
+  EXPECT_NEAR(camera.device_from_eye_depth(500), 1, 1e-6);
+  EXPECT_GT(camera.eye().z, 0);  // above the water
+  EXPECT_NO_THROW(file.scene.validate());
+}
+
+TEST(SceneFile, EmptyFileHasNothing) {
+  const SceneFile file = scene_of("");
+  EXPECT_TRUE(file.plates.empty());
+  EXPECT_FALSE(file.camera || file.scene.water || file.scene.sun || file.near || file.far);
+  EXPECT_EQ(file.depth, DepthKind::kEye);
+}
+
+TEST(SceneFile, DirectionsAreMadeUnit) {
+  const SceneFile file =
+      scene_of("[water]\nup = [0, 0, 4]\nheight = 1.5\n[sun]\ndirection = [3e300, 0, 4e300]\n");
+  EXPECT_EQ(file.scene.water->up, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(file.scene.water->height, 1.5);
+  EXPECT_NEAR(glm::distance(file.scene.sun->direction, glm::dvec3(0.6, 0, 0.8)), 0, 1e-15);
+  EXPECT_EQ(file.scene.sun->color, (Rgb<double>{1, 1, 1}));
+  EXPECT_EQ(scene_of("[water]\n").scene.water->up, glm::dvec3(0, 1, 0));
+}
+
+TEST(SceneFile, PlatesAreRelativeToTheFile) {
+  const SceneFile file = scene_of(
+      "[plates]\ncolor = \"../in/beauty.%04d.exr\"\ndepth = \"/a:b/depth.exr\"\n"
+      "shadow = \"z.exr:ViewLayer.Shadow.R\"\nreflection = \"a:b/c.exr:R,G,B\"\n");
+  const fs::path folder = own_folder();
+  EXPECT_EQ(file.plates.at("color"), (folder / "../in/beauty.%04d.exr").lexically_normal());
+  EXPECT_EQ(file.plates.at("depth"), "/a:b/depth.exr");
+  EXPECT_EQ(file.plates.at("shadow"),
+            (folder / "z.exr:ViewLayer.Shadow.R").lexically_normal().string());
+  EXPECT_EQ(file.plates.at("reflection"), (folder / "a:b/c.exr:R,G,B").lexically_normal().string());
+}
+
+TEST(SceneFile, PlateNamesSplitAtTheLastColonThatNoSlashFollows) {
+  const auto parts = [](const char* text) {
+    const PlateName name = split_plate(text);
+    return name.file + "|" + name.channels;
+  };
+  EXPECT_EQ(parts("a.exr"), "a.exr|");
+  EXPECT_EQ(parts("a.exr:Z"), "a.exr|Z");
+  EXPECT_EQ(parts("a:b.exr:R,G"), "a:b.exr|R,G");
+  EXPECT_EQ(parts("/a:b/c.exr"), "/a:b/c.exr|");
+  EXPECT_EQ(parts("/a:b/c.exr:my layer.Z"), "/a:b/c.exr|my layer.Z");
+}
+
+TEST(SceneFile, FieldsOfViewFitThePicture) {
+  // At distance 1 a field of view of 90 degrees reaches 1 to either side.
+  const Camera across = camera_of("fov_x = 90\n");
+  EXPECT_NEAR(glm::distance(glm::dvec2(device_point(across, {1, 0.5, -1})), glm::dvec2(1, 1)), 0,
+              1e-12);
+  const Camera up = camera_of("fov_y = 90.0\n");
+  EXPECT_NEAR(glm::distance(glm::dvec2(device_point(up, {2, 1, -1})), glm::dvec2(1, 1)), 0, 1e-12);
+  // Pixels twice as wide as high make the picture twice as wide.
+  const Camera wide = camera_of("fov_x = 90\n", {200, 100}, 2);
+  EXPECT_NEAR(device_point(wide, {1, 0.25, -1}).y, 1, 1e-12);
+  const Camera flat = camera_of("orthographic = 8\n");
+  EXPECT_TRUE(flat.orthographic());
+  EXPECT_NEAR(glm::distance(glm::dvec2(device_point(flat, {4, 2, -7})), glm::dvec2(1, 1)), 0,
+              1e-12);
+}
+
+TEST(SceneFile, NearFarAndClipReachTheProjection) {
+  const Camera gl = camera_of("fov_y = 40\nnear = 0.5\nfar = 20\n");
+  EXPECT_NEAR(gl.device_from_eye_depth(0.5), -1, 1e-12);
+  EXPECT_NEAR(gl.device_from_eye_depth(20), 1, 1e-12);
+  const Camera reversed =
+      camera_of("fov_y = 40\nnear = 0.5\nfar = inf\nclip = \"reversed\"\ndepth = \"device\"\n");
+  EXPECT_EQ(reversed.clip, ClipSpace::kReversed);
+  EXPECT_NEAR(reversed.device_from_eye_depth(0.5), 1, 1e-12);
+  EXPECT_NEAR(reversed.device_from_eye_depth(1e12), 0, 1e-11);
+  const Camera d3d = camera_of("orthographic = 1\nnear = -2\nfar = 6\nclip = \"d3d\"\n");
+  EXPECT_NEAR(d3d.device_from_eye_depth(-2), 0, 1e-12);
+  EXPECT_NEAR(d3d.device_from_eye_depth(6), 1, 1e-12);
+}
+
+TEST(SceneFile, ProjectionsMustRunAsTheClipSpaceSays) {
+  EXPECT_EQ(camera_of(projection_with(kGlRow)).projection[3][2], -2.5);
+  EXPECT_NO_THROW(camera_of(projection_with(kReversedRow) + "clip = \"reversed\"\n"));
+  EXPECT_THAT(error_of([] { camera_of(projection_with(kReversedRow)); }),
+              HasSubstr(":3:14: camera: the projection's device depth falls with distance"));
+  EXPECT_THAT(error_of([] { camera_of(projection_with(kReversedRow) + "clip = \"d3d\"\n"); }),
+              HasSubstr("falls with distance"));
+  EXPECT_THAT(error_of([] { camera_of(projection_with(kGlRow) + "clip = \"reversed\"\n"); }),
+              HasSubstr("grows with distance"));
+  EXPECT_THAT(error_of([] { camera_of(projection_with("[0, 0, -1, 0]")); }),
+              HasSubstr("every distance the same device depth"));
+  const std::string flat = "projection = [[1, 0, 0, 0], [0, 1, 0, 0], ";
+  EXPECT_NO_THROW(camera_of(flat + "[0, 0, -0.1, 0], [0, 0, 0, 1]]\n"));
+  EXPECT_THAT(error_of([&] { camera_of(flat + "[0, 0, 0.1, 0], [0, 0, 0, 1]]\n"); }),
+              HasSubstr("falls with distance"));
+}
+
+TEST(SceneFile, DepthKindsByName) {
+  EXPECT_EQ(scene_of("[camera]\ndepth = \"ray\"\n").depth, DepthKind::kRay);
+  EXPECT_EQ(scene_of("[camera]\ndepth = \"inverse\"\n").depth, DepthKind::kInverse);
+  EXPECT_EQ(scene_of("[camera]\ndepth = \"device\"\n").depth, DepthKind::kDevice);
+  const SceneFile file = scene_of("[camera]\ndepth = \"normalised\"\nnear = 1\nfar = 9\n");
+  EXPECT_EQ(file.depth, DepthKind::kNormalised);
+  EXPECT_EQ(file.near, 1);
+  EXPECT_FALSE(file.camera);
+  EXPECT_EQ(scene_of("[camera]\nfar = inf\n").far, kInfinity);
+  for (const char* word : {"eye", "ray", "inverse", "normalised", "device"}) {
+    const std::string range = "near = 1\nfar = 9\n";
+    EXPECT_EQ(scene_of("[camera]\n" + range + "depth = \"" + word + "\"\n").depth,
+              depth_kind_named(word));
+  }
+  EXPECT_EQ(error_of([] { depth_kind_named("normalized"); }),
+            "depth kind 'normalized': expected one of eye, ray, inverse, normalised, device; did "
+            "you mean 'normalised'?");
+}
+
+TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
+  struct Case {
+    std::string text;
+    const char* place;
+    const char* says;
+  };
+  const std::string camera = "[camera]\n" + kView;
+  const Case cases[] = {
+      {"[geometry]\ngltf = \"a.gltf\"\n", ":1:", "this build renders no geometry; give [plates]"},
+      {"[watr]\n", ":1:", "unknown table 'watr': expected one of plates, camera, water, sun"},
+      {"water = 3\n", ":1:9: ", "water = 3: expected a table"},
+      {"[plates]\ncolour = \"a.exr\"\n", ":2:1: ", "did you mean 'color'?"},
+      {"[plates]\ncolor = 3\n", ":2:9: ", "plates.color = 3: expected a text"},
+      {"[plates]\ncolor = \"\"\n", ":2:9: ", "expected FILE or FILE:CHANNELS"},
+      {"[plates]\ncolor = \":Z\"\n", ":2:9: ", "expected FILE or FILE:CHANNELS"},
+      {"[plates]\ncolor = \"a.exr:\"\n", ":2:9: ", "expected FILE or FILE:CHANNELS"},
+      {"[water]\nupp = [0, 1, 0]\n", ":2:1: ", "did you mean 'up'?"},
+      {"[water]\nup = [0, 0, 0]\n", ":2:6: ", "= [0, 0, 0]: expected a vector that is not zero"},
+      {"[water]\nup = [0, nan, 0]\n", ":2:10: ", "water.up[1] = nan: expected a finite number"},
+      {"[water]\nup = [0, 1]\n", ":2:6: ", "water.up = [0, 1]: expected a list of 3 numbers"},
+      {"[water]\nup = \"y\"\n", ":2:6: ", "water.up = \"y\": expected a list of 3 numbers"},
+      {"[water]\nheight = inf\n", ":2:10: ", "water.height = inf: expected a finite number"},
+      {"[sun]\ncolor = [1, 1, 1]\n", ":1:", "sun: expected a direction"},
+      {"[sun]\ndirection = [0, inf, 0]\n", ":2:17: ", "expected a finite number"},
+      {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, -1, 1]\n", ":3:9: ", "numbers from 0 up"},
+      {"[camera]\nfovx = 40\n", ":2:1: ", "did you mean 'fov_x'?"},
+      {"[camera]\nview = 1\n", ":2:1: ", "camera.view: expected one of projection, fov_x, fov_y"},
+      {"[camera]\nfov_x = 40\n", ":2:1: ", "camera.fov_x: expected a view beside it"},
+      {"[camera]\nclip = \"gl\"\n", ":2:1: ", "camera.clip without a projection"},
+      {camera + "fov_x = 40\nfov_y = 30\n", ":4:1: ", "expected only one of projection, fov_x"},
+      {camera + "fov_x = 180\n", ":3:9: ", "camera.fov_x = 180: expected degrees above 0"},
+      {camera + "fov_y = nan\n", ":3:9: ", "camera.fov_y = nan: expected a finite number"},
+      {camera + "orthographic = 0\n", ":3:16: ", "orthographic extent 0"},
+      {camera + "fov_x = 40\nnear = 0\n", ":3:9: ", "camera: near 0"},
+      {camera + "orthographic = 4\nfar = inf\n", ":3:16: ", "both finite"},
+      {camera + "fov_x = 40\nclip = \"vulkan\"\n", ":4:8: ", "expected one of gl, d3d, reversed"},
+      {camera + "fov_x = 40\nclip = 1\n", ":4:8: ", "expected one of gl, d3d, reversed"},
+      {camera + "fov_x = 40\ndepth = \"device\"\n", ":4:9: ", "expected near and far beside fov_x"},
+      {camera + "projection = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]\n",
+       ":3:14: ", "camera.projection = a list of 3: expected a list of 4 rows of 4 numbers"},
+      {camera + "projection = [[1, 0, 0, 0], [0, 1, 0], [0, 0, 1, 0], [0, 0, -1, 0]]\n",
+       ":3:29: ", "camera.projection[1] = [0, 1, 0]: expected a list of 4 numbers"},
+      {camera + projection_with("[0, 0, inf, 0]"), ":3:50: ", "camera.projection[2][2] = inf"},
+      {camera + "projection = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 0]]\n",
+       ":3:14: ", "the last row of the projection is neither"},
+      {"[camera]\nfov_x = 40\nview = [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]]\n",
+       ":3:8: ", "the view matrix scales or shears"},
+      {"[camera]\ndepth = \"z\"\n", ":2:9: ", "expected one of eye, ray, inverse, normalised"},
+      {"[camera]\ndepth = \"normalised\"\nnear = 1\n", ":2:9: ", "near and a finite far"},
+      {"[camera]\ndepth = \"normalised\"\nnear = 1\nfar = inf\n", ":2:9: ", "a finite far"},
+      {"[camera]\nnear = 2\nfar = 1\n", ":3:7: ", "camera.far = 1: expected more than near"},
+      {"[camera]\nnear = inf\n", ":2:8: ", "camera.near = inf: expected a finite number"},
+      {"[camera]\nfar = nan\n", ":2:7: ", "camera.far = nan: expected a number or inf"},
+      {"[camera]\nfar = -inf\n", ":2:7: ", "camera.far = -inf: expected a number or inf"},
+      {"[camera]\nfar = \"inf\"\n", ":2:7: ", "camera.far = \"inf\": expected a number or inf"},
+  };
+  for (const Case& c : cases) {
+    const fs::path path = written("bad.toml", c.text);
+    const std::string sentence = error_of([&] { load_scene(path); });
+    EXPECT_THAT(sentence, StartsWith(path.string() + c.place)) << c.text;
+    EXPECT_THAT(sentence, HasSubstr(c.says)) << c.text;
+  }
+}
+
+TEST(CameraFor, RefusesPicturesWithoutShape) {
+  const SceneFile file = scene_of("[camera]\n" + kView + "fov_x = 90\n");
+  EXPECT_THAT(error_of([&] { camera_for(*file.camera, {0, 540}); }), HasSubstr("0x540"));
+  EXPECT_THAT(error_of([&] {
+                camera_for(*file.camera, {960, 540}, 0);
+              }),
+              HasSubstr("pixel aspect 0"));
+  EXPECT_THAT(error_of([&] {
+                camera_for(*file.camera, {960, 540}, std::nan(""));
+              }),
+              HasSubstr("pixel aspect nan"));
+}
+
+}  // namespace
+}  // namespace limpid
