@@ -12,6 +12,8 @@ namespace {
 /// shrinks to 1/1032 at best, PXR24 to 3/4 of that; DWA may do so with 1/64 of the values.
 constexpr std::int64_t kChunkLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 constexpr std::int64_t kMostShrink[] = {1, 64, 1040, 1040, 1040, 1400, 3, 11, 70000, 70000};
+/// Keeps the products below within 64 bits, whatever the limits.
+constexpr std::int64_t kMostTileSide = 1 << 18;
 /// Place in the table of chunks plus the shortest chunk.
 constexpr std::int64_t kLeastChunkBytes = 8 + 8;
 
@@ -83,9 +85,10 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
     check_window("display window", part.display, limits);
     if (part.tiled) {
       const std::int64_t longest = std::max(header.tile_width, header.tile_height);
-      if (std::min(header.tile_width, header.tile_height) < 1 || longest > limits.max_side) {
+      const std::int64_t most = std::min<std::int64_t>(limits.max_side, kMostTileSide);
+      if (std::min(header.tile_width, header.tile_height) < 1 || longest > most) {
         throw Error("tiles of " + size_text(header.tile_width, header.tile_height) +
-                    " pixels: expected sides of 1 ... " + std::to_string(limits.max_side));
+                    " pixels: expected sides of 1 ... " + std::to_string(most));
       }
     }
     check_memory(header, limits);

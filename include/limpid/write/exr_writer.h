@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -23,8 +24,9 @@ struct ExrOutput {
   std::string compression =
       "piz";  ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab; "name:level" for dwa and zip
   std::vector<ExrOutputChannel> channels;
-  std::map<std::string, ExrFile::Attribute>
-      inherited;                            ///< attributes of the input, passed on unchanged
+  /// Attributes of the input, passed on byte for byte; those that describe the storage of pixels,
+  /// and those that `text` or `matrices` name too, are left out.
+  std::map<std::string, ExrFile::Attribute> inherited;
   std::map<std::string, std::string> text;  ///< our own, as string attributes
   std::map<std::string, std::array<float, 16>> matrices;
 };
