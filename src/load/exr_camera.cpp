@@ -1,6 +1,7 @@
 #include "limpid/load/exr_camera.h"
 
 #include <cmath>
+
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
@@ -10,7 +11,9 @@ namespace limpid {
 namespace {
 
 /// Row vectors in row-major order and column vectors in column-major order have the same 16 floats.
-glm::dmat4 matrix_of(const std::array<float, 16>& m) { return glm::dmat4(glm::make_mat4(m.data())); }
+glm::dmat4 matrix_of(const std::array<float, 16>& m) {
+  return glm::dmat4(glm::make_mat4(m.data()));
+}
 
 }  // namespace
 
@@ -30,7 +33,8 @@ std::optional<Camera> camera_of(const ExrFile& file, int part) {
   ndc_from_unit[3][1] = 1;
   glm::dmat4 p = ndc_from_unit * matrix_of(*to_ndc) * glm::inverse(camera.view);
 
-  // Scale of homogeneous matrices is free, their z row is not given: make w = -z (or 1) and z that of GL.
+  // Scale of homogeneous matrices is free, their z row is not given: make w = -z (or 1) and z that
+  // of GL.
   const bool flat = std::abs(p[2][3]) < 1e-6 * std::abs(p[3][3]);
   const double scale = flat ? 1 / p[3][3] : -1 / p[2][3];
   if (!std::isfinite(scale)) {
@@ -39,7 +43,8 @@ std::optional<Camera> camera_of(const ExrFile& file, int part) {
   p = p * scale;
   const glm::dvec3 w(p[0][3], p[1][3], flat ? p[2][3] : p[3][3]);
   if (std::abs(w.x) > 1e-3 || std::abs(w.y) > 1e-3 || std::abs(w.z) > 1e-2) {
-    throw Error(file.path().string() + ": worldToCamera and worldToNDC do not belong to one camera");
+    throw Error(file.path().string() +
+                ": worldToCamera and worldToNDC do not belong to one camera");
   }
   const glm::dmat4 depth = flat ? orthographic(1, 1, 0.001, 1e9, ClipSpace::kGl)
                                 : perspective(1, 1, 0.001, HUGE_VAL, ClipSpace::kGl);

@@ -1,8 +1,9 @@
 #include "limpid/load/sanitise.h"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
+
+#include <glm/geometric.hpp>
 
 #include "limpid/core/error.h"
 
@@ -19,7 +20,8 @@ void for_each_pixel(const View<float>& plane, Fn&& fn) {
   }
 }
 
-/// Applies convert(value, x, y) to what is a number and not "nothing hit"; returns how many were NaN.
+/// Applies convert(value, x, y) to what is a number and not "nothing hit"; returns how many were
+/// NaN.
 template <class Missed, class Convert>
 std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
   std::int64_t nans = 0;
@@ -132,7 +134,8 @@ std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source)
           [](double z, int, int) { return eye_depth_from_inverse(z); });
     case DepthKind::kNormalised:
       if (!(source.far > source.near) || std::isinf(source.far)) {
-        throw Error("depth of kind normalised needs near and far, expected near < far, both finite");
+        throw Error(
+            "depth of kind normalised needs near and far, expected near < far, both finite");
       }
       return convert_depth(
           plane, [](float z) { return z >= 1; },

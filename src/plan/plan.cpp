@@ -116,6 +116,7 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs) {
     if (!plan.keeps(i)) continue;
     plan.made = plan.made | declared(plan.look, i).makes;
     plan.planes = plan.planes | declared(plan.look, i).reads;
+    plan.reads_wave_map |= declared(plan.look, i).needs.wave_map;
   }
   plan.planes = plan.planes & inputs.planes;
   return plan;

@@ -66,7 +66,8 @@ void measure_error(const Target& judge, const Target& got, Row& row) {
   double sum = 0;
   for (double e : errors) sum += e;
   row.mean_error = sum / static_cast<double>(errors.size());
-  const auto at = errors.begin() + static_cast<std::ptrdiff_t>(0.9999 * (errors.size() - 1));
+  const auto at =
+      errors.begin() + static_cast<std::ptrdiff_t>(0.9999 * static_cast<double>(errors.size() - 1));
   std::nth_element(errors.begin(), at, errors.end());
   row.p9999_error = *at;
   row.max_error = *std::max_element(errors.begin(), errors.end());

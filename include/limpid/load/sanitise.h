@@ -1,20 +1,22 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <string>
+
+#include <glm/vec3.hpp>
 
 #include "limpid/core/camera.h"
 #include "limpid/core/frame.h"
 #include "limpid/optics/depth.h"
 
-/// What is done to planes once, on entry, so that no operator ever meets a NaN: values that mean nothing are replaced and
-/// counted, depth becomes linear eye depth, normals become unit. All in place, any strides.
+/// What is done to planes once, on entry, so that no operator ever meets a NaN: values that mean
+/// nothing are replaced and counted, depth becomes linear eye depth, normals become unit. All in
+/// place, any strides.
 
 namespace limpid {
 
-/// How many values were replaced because they were NaN or infinite where that means nothing (a depth of +inf means
-/// "nothing hit" and is not counted), by role.
+/// How many values were replaced because they were NaN or infinite where that means nothing (a
+/// depth of +inf means "nothing hit" and is not counted), by role.
 struct SanitiseCounts {
   std::int64_t color = 0, depth = 0, shadow = 0, reflection = 0, surface_depth = 0,
                surface_normal = 0;
@@ -33,22 +35,23 @@ std::int64_t sanitise_color(const View<float>& plane);
 /// NaN, inf -> 1, then clamped to 0 ... 1. Returns how many were NaN or infinite.
 std::int64_t sanitise_shadow(const View<float>& plane);
 
-/// Made unit; where a component is NaN or infinite or all are 0, `up` instead. Returns how many of those were NaN or
-/// infinite (renderers write 0 where there is no surface).
+/// Made unit; where a component is NaN or infinite or all are 0, `up` instead. Returns how many of
+/// those were NaN or infinite (renderers write 0 where there is no surface).
 std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
                              glm::dvec3 up);
 
 /// What a depth plane holds, and what is needed to make linear eye depth of it.
 struct DepthSource {
   DepthKind kind = DepthKind::kEye;
-  bool half = false;           ///< stored as half: 6e4 and above is "nothing hit", else 1e9 and above
-  double near = 0, far = 0;    ///< kNormalised
+  bool half = false;         ///< stored as half: 6e4 and above is "nothing hit", else 1e9 and above
+  double near = 0, far = 0;  ///< kNormalised
   const Camera* camera = nullptr;  ///< kRay and kDevice
-  Rect display;                ///< kRay
+  Rect display;                    ///< kRay
 };
 
-/// Linear eye depth in place of whatever the plane holds; "nothing hit" and NaN become +inf. Returns how many were NaN.
-/// Throws Error when the kind needs a camera, or near and far, that is not there.
+/// Linear eye depth in place of whatever the plane holds; "nothing hit" and NaN become +inf.
+/// Returns how many were NaN. Throws Error when the kind needs a camera, or near and far, that is
+/// not there.
 std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source);
 
 }  // namespace limpid

@@ -39,6 +39,9 @@ struct Plan {
   StateSet made;                           ///< by the operators that are kept
   PlaneSet planes;                         ///< that must be read from the plate
 
+  /// Whether an operator that is kept looks up the tiling normal map.
+  bool reads_wave_map = false;
+
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
 };
 

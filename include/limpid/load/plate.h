@@ -1,0 +1,86 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/load/exr_file.h"
+#include "limpid/load/layers.h"
+#include "limpid/load/limits.h"
+#include "limpid/load/sanitise.h"
+
+namespace limpid {
+
+/// Where the planes of a frame are to come from.
+struct PlateRequest {
+  std::vector<std::filesystem::path> files;  ///< searched by convention for every role
+  std::map<std::string, std::string>
+      named;  ///< role -> "FILE" or "FILE:CHANNELS": a scene's [plates]
+  /// role -> "FILE:CHANNELS", "FILE", "CHANNELS" of `files`, or "none" to leave the role out. Wins
+  /// over both.
+  LayerOverrides layers;
+  Limits limits;
+};
+
+/// What the depth planes of a plate hold.
+struct DepthMeaning {
+  DepthKind kind = DepthKind::kEye;
+  double near = 0, far = 0;  ///< for kNormalised
+};
+
+/// The planes of a plate in the conventions of the chain, owned.
+struct LoadedPlate {
+  Frame frame;  ///< views into `planes`
+  SanitiseCounts replaced;
+  std::vector<Plane> planes;
+};
+
+/// A frame as it lies in files: opened, every role found, no pixel read. A role is decided by
+/// `layers`, else by `named`, else found among `files`.
+class Plate {
+ public:
+  /// Throws Error: a file that cannot be opened, no color (the list of what there is), two
+  /// candidates, display windows that differ.
+  static Plate open(const PlateRequest& request);
+  /// What `limpid inspect` prints. Roles that cannot be decided are told, not thrown.
+  static std::string inspect(const PlateRequest& request);
+  Plate(Plate&&) noexcept;
+  Plate& operator=(Plate&&) noexcept;
+  ~Plate();
+
+  PlaneSet planes() const;
+  Rect display() const;
+  double pixel_aspect() const;
+  /// From the attributes of the file that has the color, see exr_camera.h.
+  std::optional<Camera> camera() const;
+  /// Attributes of the color's part, to be handed on.
+  std::map<std::string, ExrFile::Attribute> attributes() const;
+  /// The channels in all files, for errors that list what there is.
+  std::vector<std::string> channel_names() const;
+
+  /// Decodes the wanted planes and enters them (sanitise.h). Planes smaller than the picture are
+  /// filled up with their role's `missing` value. Throws Error for damaged pixels, and for a depth
+  /// kind that needs what the scene lacks.
+  LoadedPlate read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const;
+
+ private:
+  struct State;
+  explicit Plate(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// A texture that owns its planes.
+struct LoadedTexture {
+  Texture texture;
+  std::vector<Plane> planes;
+};
+
+/// The first three channels of a picture file as a tiling texture: R G B of an EXR, or any other
+/// format as image_file.h reads it. Throws Error when it has fewer.
+LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits = {});
+
+}  // namespace limpid

@@ -1,0 +1,319 @@
+#include "limpid/load/plate.h"
+
+#include <algorithm>
+#include <set>
+
+#include "limpid/core/error.h"
+#include "limpid/load/exr_camera.h"
+#include "limpid/load/image_file.h"
+#include "limpid/load/inspect.h"
+#include "limpid/load/scene_file.h"
+
+namespace limpid {
+namespace {
+
+constexpr std::string_view kNone = "none";
+
+/// Color of a picture with straight alpha, in place: the chain knows premultiplied color only.
+void premultiply(ImageFile& image) {
+  const auto found = std::find(image.channels.begin(), image.channels.end(), "A");
+  if (found == image.channels.end()) return;
+  const std::size_t alpha = static_cast<std::size_t>(found - image.channels.begin());
+  const Rect& w = image.window;
+  for (std::size_t i = 0; i < image.planes.size(); ++i) {
+    if (i == alpha) continue;
+    const View<float> color = image.planes[i].view(), a = image.planes[alpha].view();
+    for (int y = w.y0; y < w.y1; ++y) {
+      for (int x = w.x0; x < w.x1; ++x) color.at(x, y) *= a.at(x, y);
+    }
+  }
+}
+
+/// A file of either sort behind one face: parts, and channels that decode into views.
+struct PlateFile {
+  std::filesystem::path path;
+  std::optional<ExrFile> exr;
+  std::optional<ImageFile> image;
+  std::vector<ExrPart> parts;
+
+  static PlateFile open(const std::filesystem::path& path, const Limits& limits) {
+    PlateFile file;
+    file.path = path;
+    if (is_exr(path)) {
+      file.exr = ExrFile::open(path, limits);
+      file.parts = file.exr->parts();
+    } else {
+      file.image = read_image(path, limits);
+      if (file.image->straight_alpha) premultiply(*file.image);
+      ExrPart part;
+      part.data = part.display = file.image->window;
+      part.compression = "none";
+      for (const std::string& name : file.image->channels) {
+        part.channels.push_back({name, SampleType::kFloat, 1, 1});
+      }
+      file.parts = {part};
+    }
+    return file;
+  }
+
+  void read(std::span<const ExrRequest> requests) const {
+    if (exr) return exr->read(requests);
+    for (const ExrRequest& r : requests) {
+      const auto found = std::find(image->channels.begin(), image->channels.end(), r.channel);
+      const View<const float> from =
+          image->planes[static_cast<std::size_t>(found - image->channels.begin())].view();
+      const Rect& w = r.into.window;
+      for (int y = w.y0; y < w.y1; ++y) {
+        for (int x = w.x0; x < w.x1; ++x) {
+          const bool inside = from.window.contains({x, y, x + 1, y + 1});
+          r.into.at(x, y) = inside ? from.at(x, y) : r.missing;
+        }
+      }
+    }
+  }
+};
+
+/// "FILE:CHANNELS", "FILE" or "CHANNELS" as on a command line: a file is what exists or ends like
+/// an EXR.
+PlateName split_layer(const std::string& text) {
+  const auto names_file = [](const std::string& s) {
+    std::error_code ignored;
+    return is_exr(s) || std::filesystem::is_regular_file(s, ignored);
+  };
+  if (names_file(text)) return {text, ""};
+  const PlateName split = split_plate(text);
+  return names_file(split.file) ? split : PlateName{"", text};
+}
+
+}  // namespace
+
+struct Plate::State {
+  std::vector<PlateFile> files;
+  LayerChoices choices;
+  std::map<std::string_view, std::string> problems;  ///< filled instead of throwing, for inspect
+
+  const ExrPart& part_of(const ChannelRef& ref) const {
+    return files[static_cast<std::size_t>(ref.file)].parts[static_cast<std::size_t>(ref.part)];
+  }
+  const LayerChoice* choice(std::string_view role) const {
+    const auto found = choices.find(role);
+    return found == choices.end() ? nullptr : &found->second;
+  }
+  const ChannelRef& color_ref() const { return choices.at("color").channels.front(); }
+
+  int index_of_file(const std::string& path, const Limits& limits) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (files[i].path == path) return static_cast<int>(i);
+    }
+    files.push_back(PlateFile::open(path, limits));
+    return static_cast<int>(files.size()) - 1;
+  }
+
+  std::vector<LayerSource> sources_of(int first, int last) const {
+    std::vector<LayerSource> sources;
+    for (int i = first; i < last; ++i) {
+      const PlateFile& file = files[static_cast<std::size_t>(i)];
+      const auto more = layer_sources(i, file.path.filename().string(), file.parts);
+      sources.insert(sources.end(), more.begin(), more.end());
+    }
+    return sources;
+  }
+
+  /// The role as the request decides it, or as it is found among the request's files.
+  std::optional<LayerChoice> resolve(const Role& role, const PlateRequest& request) {
+    const int searched = static_cast<int>(request.files.size());
+    const auto decided = [&](const PlateName& name) {
+      if (name.file.empty()) return choose_layer(role, name.channels, sources_of(0, searched));
+      const int index = index_of_file(name.file, request.limits);
+      return choose_layer(role, name.channels, sources_of(index, index + 1));
+    };
+    const std::string name(role.name);
+    if (const auto found = request.layers.find(name); found != request.layers.end()) {
+      if (found->second == kNone) return std::nullopt;
+      return decided(split_layer(found->second));
+    }
+    if (const auto found = request.named.find(name); found != request.named.end()) {
+      return decided(split_plate(found->second));
+    }
+    return find_layer(role, sources_of(0, searched));
+  }
+
+  void resolve_all(const PlateRequest& request, bool collect_problems) {
+    for (const auto& [name, text] : request.layers) role_named(name);
+    for (const std::filesystem::path& path : request.files) {
+      files.push_back(PlateFile::open(path, request.limits));
+    }
+    for (const Role& role : roles()) {
+      try {
+        if (auto found = resolve(role, request)) choices.emplace(role.name, std::move(*found));
+      } catch (const Error& error) {
+        if (!collect_problems) throw;
+        problems.emplace(role.name, error.what());
+      }
+    }
+  }
+};
+
+Plate::Plate(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Plate::Plate(Plate&&) noexcept = default;
+Plate& Plate::operator=(Plate&&) noexcept = default;
+Plate::~Plate() = default;
+
+Plate Plate::open(const PlateRequest& request) {
+  Plate plate(std::make_unique<State>());
+  State& state = *plate.state_;
+  state.resolve_all(request, false);
+  if (!state.choice("color")) {
+    throw Error("no color found; there is " + join(plate.channel_names()) +
+                "; name it with --layer color=LAYER");
+  }
+  const Rect display = plate.display();
+  for (const auto& [role, choice] : state.choices) {
+    const Rect other = state.part_of(choice.channels.front()).display;
+    if (other == display) continue;
+    const auto text = [](const Rect& r) {
+      std::string size = std::to_string(r.width()) + "x" + std::to_string(r.height());
+      if (r.x0 == 0 && r.y0 == 0) return size;
+      return size + " at (" + std::to_string(r.x0) + ", " + std::to_string(r.y0) + ")";
+    };
+    throw Error(std::string(role) + " is " + text(other) + " pixels and color is " + text(display) +
+                ": expected display windows of one size");
+  }
+  return plate;
+}
+
+std::string Plate::inspect(const PlateRequest& request) {
+  State state;
+  state.resolve_all(request, true);
+  std::vector<InspectedFile> files;
+  for (const PlateFile& file : state.files) files.push_back({file.path.string(), file.parts});
+  return inspect_text(files, state.choices, state.problems);
+}
+
+PlaneSet Plate::planes() const {
+  PlaneSet set;
+  for (const Role& role : roles()) {
+    if (const LayerChoice* choice = state_->choice(role.name)) {
+      for (std::size_t i = 0; i < choice->channels.size(); ++i) {
+        set = set | PlaneSet{plane_after(role.first, static_cast<int>(i))};
+      }
+    }
+  }
+  return set;
+}
+
+Rect Plate::display() const { return state_->part_of(state_->color_ref()).display; }
+
+double Plate::pixel_aspect() const { return state_->part_of(state_->color_ref()).pixel_aspect; }
+
+std::optional<Camera> Plate::camera() const {
+  const ChannelRef& ref = state_->color_ref();
+  const PlateFile& file = state_->files[static_cast<std::size_t>(ref.file)];
+  if (!file.exr) return std::nullopt;
+  return camera_of(*file.exr, ref.part);
+}
+
+std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
+  const ChannelRef& ref = state_->color_ref();
+  const PlateFile& file = state_->files[static_cast<std::size_t>(ref.file)];
+  if (!file.exr) return {};
+  return file.exr->attributes(ref.part);
+}
+
+std::vector<std::string> Plate::channel_names() const {
+  std::vector<std::string> names;
+  for (const PlateFile& file : state_->files) {
+    for (const ExrPart& part : file.parts) {
+      for (const ExrChannel& channel : part.channels) names.push_back(channel.name);
+    }
+  }
+  return names;
+}
+
+LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const {
+  LoadedPlate loaded;
+  loaded.frame.display = display();
+  loaded.planes.resize(kPlaneCount);
+  const Rect work = intersection(display(), state_->part_of(state_->color_ref()).data);
+  if (work.empty()) throw Error("color: its data window lies outside the display window");
+
+  std::map<int, std::vector<ExrRequest>> requests;  // by file; each file decodes in one go
+  for (const Role& role : roles()) {
+    const LayerChoice* choice = state_->choice(role.name);
+    if (!choice) continue;
+    for (std::size_t i = 0; i < choice->channels.size(); ++i) {
+      const PlaneId id = plane_after(role.first, static_cast<int>(i));
+      if (!wanted.has(id)) continue;
+      const ChannelRef& ref = choice->channels[i];
+      const Rect data = state_->part_of(ref).data;
+      const Rect window{std::min(data.x0, work.x0), std::min(data.y0, work.y0),
+                        std::max(data.x1, work.x1), std::max(data.y1, work.y1)};
+      Plane& plane = loaded.planes[index_of(id)];
+      plane = Plane(window);
+      loaded.frame.planes[index_of(id)] = plane.view();
+      requests[ref.file].push_back({ref.part, ref.name, plane.view(), role.missing});
+    }
+  }
+  for (const auto& [file, list] : requests)
+    state_->files[static_cast<std::size_t>(file)].read(list);
+
+  for (const Role& role : roles()) {
+    const auto view = [&](int i) {
+      return loaded.planes[index_of(plane_after(role.first, i))].view();
+    };
+    if (!loaded.frame.plane(role.first)) continue;
+    std::int64_t& replaced = loaded.replaced.of(role);
+    switch (role.sanitise) {
+      case Sanitise::kColor:
+        for (int i = 0; i < role.count; ++i) {
+          if (loaded.frame.plane(plane_after(role.first, i))) replaced += sanitise_color(view(i));
+        }
+        break;
+      case Sanitise::kShadow:
+        replaced += sanitise_shadow(view(0));
+        break;
+      case Sanitise::kNormal:
+        replaced += sanitise_normal(view(0), view(1), view(2),
+                                    scene.water ? scene.water->up : glm::dvec3(0, 1, 0));
+        break;
+      case Sanitise::kDepth: {
+        const ChannelRef& ref = state_->choice(role.name)->channels.front();
+        const auto& channels = state_->part_of(ref).channels;
+        const bool half = std::any_of(channels.begin(), channels.end(), [&](const auto& c) {
+          return c.name == ref.name && c.type == SampleType::kHalf;
+        });
+        replaced += make_eye_depth(view(0), {depth.kind, half, depth.near, depth.far,
+                                             scene.camera ? &*scene.camera : nullptr, display()});
+        break;
+      }
+    }
+  }
+  return loaded;
+}
+
+LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits) {
+  const PlateFile file = PlateFile::open(path, limits);
+  const ExrPart& part = file.parts.front();
+  const auto name_of = [&](std::string_view letter, std::size_t position) -> std::string {
+    for (const ExrChannel& c : part.channels) {
+      if (c.name == letter) return c.name;
+    }
+    return file.image && position < part.channels.size() ? part.channels[position].name : "";
+  };
+  LoadedTexture loaded;
+  std::vector<ExrRequest> requests;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = name_of(std::array{"R", "G", "B"}[i], i);
+    if (name.empty()) throw Error(path.string() + ": a normal map needs the channels R, G and B");
+    loaded.planes.emplace_back(part.data);
+    requests.push_back({0, name, loaded.planes.back().view(), 0});
+  }
+  file.read(requests);
+  for (std::size_t i = 0; i < 3; ++i) {
+    sanitise_color(loaded.planes[i].view());
+    loaded.texture.channels[i] = loaded.planes[i].view();
+  }
+  return loaded;
+}
+
+}  // namespace limpid

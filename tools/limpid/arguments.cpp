@@ -1,0 +1,164 @@
+#include "arguments.h"
+
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "limpid/version.h"
+
+namespace limpid::tool {
+namespace {
+
+constexpr int kWrongUsage = 2;
+
+void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& scene,
+                std::vector<std::string>& layers) {
+  verb.add_option("plates", plates, "EXR files with the buffers of one frame")
+      ->option_text("PLATE...");
+  verb.add_option("--scene", scene, "Scene file: plates, camera, water, sun")->option_text("FILE");
+  verb.add_option(
+          "--layer", layers,
+          "Where a buffer comes from: ROLE=FILE:CHANNELS, ROLE=FILE, ROLE=CHANNELS or ROLE=none "
+          "(repeatable)")
+      ->option_text("ROLE=LAYER")
+      ->allow_extra_args(false);
+}
+
+void add_composite(CLI::App& verb, CompositeArguments& a) {
+  add_plates(verb, a.plates, a.scene, a.layers);
+  verb.add_option("--look", a.look, "Look by name, or a look file (default: realistic)")
+      ->option_text("NAME|FILE");
+  verb.add_option("--set", a.settings, "One parameter: operator.parameter=value (repeatable)")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
+  verb.add_option("--depth-kind", a.depth_kind,
+                  "What depth planes hold: eye, ray, inverse, normalised, device (default: the "
+                  "scene's, or eye)")
+      ->option_text("KIND");
+  verb.add_option("--time", a.time, "Seconds, for drifting waves (default: 0)")->option_text("S");
+  verb.add_option("--aov", a.aovs,
+                  "Also write these terms: all, or a list of transmitted, in_scatter, reflected, "
+                  "highlight, "
+                  "fresnel, path, confidence, normal, surface_depth")
+      ->option_text("all|NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
+Parsed parse(int argc, char** argv) {
+  Parsed parsed;
+  Arguments& a = parsed.arguments;
+  CLI::App app{"limpid puts water into pictures that were rendered without it.", "limpid"};
+  app.set_version_flag("--version", std::string("limpid ") + kVersion);
+  app.require_subcommand(0, 1);
+  app.fallthrough();
+  app.set_help_all_flag("--help-all", "Help of all verbs");
+  app.add_option("--threads", a.common.threads, "Threads; 0, the default, is one a core")
+      ->option_text("N")
+      ->check(CLI::Range(0, 1024));
+  app.add_flag("-q", a.common.quiet, "Print nothing but errors");
+  app.add_flag("-v", a.common.verbose, "Print the plan and where buffers came from");
+  app.footer("Exit codes: 0 done, 1 failed, 2 wrong usage, 75 failed in a way worth trying again.");
+
+  CLI::App& composite =
+      *app.add_subcommand("composite", "Put water into a plate: PLATE... -o OUT.exr");
+  add_composite(composite, a.composite);
+  composite.add_option("-o", a.composite.output, "EXR to write")->option_text("OUT.exr");
+  composite.add_option("--preview", a.composite.preview, "Also write a picture to look at")
+      ->option_text("OUT.png");
+  composite.add_option("--runner", a.composite.runner, "fused (fast) or reference (double)")
+      ->option_text("NAME");
+  composite
+      .add_option("--simd", a.composite.simd,
+                  "Instruction set of the fused runner (default: the best)")
+      ->option_text("NAME");
+  composite
+      .add_option("--compression", a.composite.compression,
+                  "none rle zips zip piz pxr24 b44 b44a dwaa dwab (default: piz)")
+      ->option_text("NAME[:LEVEL]");
+  composite.add_flag("--float", a.composite.store_float, "Write float; half is the default");
+  composite.add_flag("-n", a.composite.dry_run, "Print the plan, write nothing");
+
+  CLI::App& plan =
+      *app.add_subcommand("plan", "Say what would run for a plate and a look, and why");
+  add_composite(plan, a.composite);
+
+  CLI::App& inspect =
+      *app.add_subcommand("inspect", "Say what is in plates and what would be used");
+  add_plates(inspect, a.inspect.plates, a.inspect.scene, a.inspect.layers);
+
+  CLI::App& operators = *app.add_subcommand("operators", "The chain and its parameters");
+  operators.add_option("name", a.operators.name, "One operator")->option_text("NAME");
+  operators.add_option("--look", a.operators.look, "Show the values of a look")
+      ->option_text("NAME|FILE");
+
+  CLI::App& compare =
+      *app.add_subcommand("compare", "Compare two pictures: A B, B is the one to trust");
+  compare.add_option("a", a.compare.a, "Picture")->required()->option_text("A");
+  compare.add_option("b", a.compare.b, "Picture to compare with")->required()->option_text("B");
+  compare.add_option("--channels", a.compare.channels, "Only these channels (default: all)")
+      ->option_text("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  compare
+      .add_option("--tolerance", a.compare.tolerance,
+                  "Largest difference of a pixel (default: 1e-6)")
+      ->option_text("D");
+  compare
+      .add_option("--allowed-percent", a.compare.allowed_percent,
+                  "Share of pixels that may exceed it (default: 0)")
+      ->option_text("P");
+  compare.add_option("--hard-limit", a.compare.hard_limit, "Difference that no pixel may exceed")
+      ->option_text("D");
+  compare
+      .add_option("--epsilon", a.compare.epsilon,
+                  "Of relMSE = mean((a-b)^2 / (b^2 + epsilon)) (default: 0.01)")
+      ->option_text("E");
+  compare.add_option("--clip", a.compare.clip, "Count larger values as this one")
+      ->option_text("MAX");
+  compare.add_option("--diff", a.compare.diff, "Write a heat map of the differences")
+      ->option_text("OUT.png");
+
+  std::string help_verb;
+  CLI::App& help = *app.add_subcommand("help", "Help of a verb, or of an operator");
+  help.add_option("verb", help_verb, "Verb or operator")->option_text("VERB");
+
+  const auto finish = [&](int code) {
+    parsed.exit_code = code;
+    return parsed;
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help, --version
+      app.exit(error, std::cout, std::cout);
+      return finish(0);
+    }
+    std::cerr << "limpid ERROR: " << error.what() << "\nlimpid help lists what there is\n";
+    return finish(kWrongUsage);
+  }
+  if (help.parsed() && !help_verb.empty()) {
+    for (const CLI::App* verb : app.get_subcommands({})) {
+      if (verb->get_name() != help_verb) continue;
+      std::cout << verb->help();
+      return finish(0);
+    }
+    a.verb = Verb::kOperators;
+    a.operators.name = help_verb;
+    return parsed;
+  }
+  if (help.parsed() || app.get_subcommands().empty()) {
+    std::cout << app.help();
+    return finish(help.parsed() ? 0 : kWrongUsage);
+  }
+  a.verb = composite.parsed()   ? (a.composite.dry_run ? Verb::kPlan : Verb::kComposite)
+           : plan.parsed()      ? Verb::kPlan
+           : inspect.parsed()   ? Verb::kInspect
+           : operators.parsed() ? Verb::kOperators
+                                : Verb::kCompare;
+  return parsed;
+}
+
+}  // namespace limpid::tool

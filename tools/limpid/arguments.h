@@ -1,0 +1,63 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the command line said, verb by verb, as plain text and numbers; verbs.h makes sense of it.
+
+namespace limpid::tool {
+
+struct CommonArguments {
+  int threads = 0;
+  bool quiet = false, verbose = false;
+};
+
+struct CompositeArguments {
+  std::vector<std::string> plates;
+  std::string output;
+  std::string scene, look = "realistic";
+  std::vector<std::string> settings, layers, aovs;
+  std::string depth_kind;
+  double time = 0;
+  std::string preview, runner = "fused", simd, compression = "piz";
+  bool store_float = false, dry_run = false;
+};
+
+struct InspectArguments {
+  std::vector<std::string> plates;
+  std::string scene;
+  std::vector<std::string> layers;
+};
+
+struct OperatorsArguments {
+  std::string name;  ///< one operator, or "" for the table of all
+  std::string look;
+};
+
+struct CompareArguments {
+  std::string a, b, diff;
+  std::vector<std::string> channels;
+  double tolerance = 1e-6, allowed_percent = 0, epsilon = 1e-2;
+  std::optional<double> hard_limit, clip;
+};
+
+enum class Verb { kNone, kComposite, kPlan, kInspect, kOperators, kCompare };
+
+struct Arguments {
+  Verb verb = Verb::kNone;
+  CommonArguments common;
+  CompositeArguments composite;
+  InspectArguments inspect;
+  OperatorsArguments operators;
+  CompareArguments compare;
+};
+
+/// Parses argv. When there is nothing left to do (help, version, wrong usage) it has printed what
+/// there was to print and returns the exit code instead.
+struct Parsed {
+  Arguments arguments;
+  std::optional<int> exit_code;
+};
+Parsed parse(int argc, char** argv);
+
+}  // namespace limpid::tool

@@ -1,0 +1,76 @@
+#include <cstdio>
+
+#include "limpid/plan/plan.h"
+
+#include "data_folder.h"
+#include "verbs.h"
+
+namespace limpid::tool {
+namespace {
+
+std::string planes_text(PlaneSet planes) {
+  std::vector<std::string> names;
+  for (const Role& role : roles()) {
+    if (!(planes & role.planes()).empty()) names.emplace_back(role.name);
+  }
+  return names.empty() ? "-" : join(names);
+}
+
+std::string state_text(StateSet set) {
+  constexpr const char* kNames[] = {"normal",      "prism",      "position", "path",
+                                    "transmitted", "in_scatter", "fresnel",  "reflected",
+                                    "highlight",   "confidence"};
+  std::vector<std::string> names;
+  for (int i = 0; i < 10; ++i) {
+    if (set.has(static_cast<StatePart>(i))) names.emplace_back(kNames[i]);
+  }
+  return names.empty() ? "-" : join(names);
+}
+
+void print_parameter(const Parameter& p) {
+  std::string allowed;
+  if (p.kind == FieldKind::kChoice) {
+    allowed = join(p.choices, " | ");
+  } else if (p.kind != FieldKind::kText) {
+    allowed = detail::range_text(p.range, p.unit);
+  }
+  std::printf("  %-12s = %-20s %s\n", std::string(p.name).c_str(), to_string(p.value).c_str(),
+              std::string(p.about).c_str());
+  if (!allowed.empty()) std::printf("  %-12s   %-20s %s\n", "", "", allowed.c_str());
+}
+
+}  // namespace
+
+int operators_verb(const OperatorsArguments& a) {
+  const Look look = a.look.empty() ? Look{} : look_for(a.look);
+  const std::vector<Parameter> all = parameters(look);
+  std::vector<std::string> names{std::string(Water::kName)};
+  Chain::for_each([&]<class Op, int>() { names.emplace_back(Op::kName); });
+
+  if (a.name.empty()) {
+    std::printf("In the order in which they run; what each taps, needs of the state, and makes:\n");
+    Chain::for_each([&]<class Op, int>() {
+      std::printf("%-19s %s\n", std::string(Op::kName).c_str(), std::string(Op::kAbout).c_str());
+      std::printf("%-19s   taps %s; uses %s; makes %s\n", "",
+                  planes_text(Op::reads(look.of<Op>())).c_str(), state_text(Op::kUses).c_str(),
+                  state_text(Op::kMakes).c_str());
+    });
+    std::printf("limpid operators NAME lists the parameters of one.\n");
+    return 0;
+  }
+  bool found = false;
+  for (const Parameter& p : all) {
+    if (p.table != a.name) continue;
+    if (!found) std::printf("[%s]\n", a.name.c_str());
+    found = true;
+    print_parameter(p);
+  }
+  if (!found) {
+    throw Error("'" + a.name + "' is neither a verb nor an operator: expected one of " +
+                    join(names) + did_you_mean(a.name, names),
+                Fault::kUsage);
+  }
+  return 0;
+}
+
+}  // namespace limpid::tool

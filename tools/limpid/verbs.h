@@ -1,0 +1,15 @@
+#pragma once
+#include "arguments.h"
+
+/// The verbs of the tool. Each returns the exit code and throws limpid::Error for what main()
+/// prints as one sentence.
+
+namespace limpid::tool {
+
+int composite_verb(const CompositeArguments& arguments, const CommonArguments& common);
+int plan_verb(const CompositeArguments& arguments);
+int inspect_verb(const InspectArguments& arguments);
+int operators_verb(const OperatorsArguments& arguments);
+int compare_verb(const CompareArguments& arguments);
+
+}  // namespace limpid::tool
