@@ -16,6 +16,11 @@ struct Source {
   int x_stride, y_stride;
   Rect window;
   float missing;
+
+  /// Whether the same index finds the same pixel in both.
+  bool like(const Source& s) const {
+    return x_stride == s.x_stride && y_stride == s.y_stride && window == s.window;
+  }
 };
 
 LIMPID_LANES_INLINE Source source_of(const FusedJob& job, PlaneId plane) {
@@ -94,7 +99,7 @@ class FusedStrip {
       const Vec2<Lane> at = in_texels(where(pixels_[v]));
       const VI x = hn::Add(column(v), hn::ConvertTo(kDI, floor(at.x + Lane(0.5)).v));
       const VI y = hn::Add(hn::Set(kDI, y_), hn::ConvertTo(kDI, floor(at.y + Lane(0.5)).v));
-      into(pixels_[v], gather(source, column_offset(source, x), row_offset(source, y)));
+      into(pixels_[v], gather(source, hn::Add(column_offset(source, x), row_offset(source, y))));
     }
   }
 
@@ -113,9 +118,12 @@ class FusedStrip {
     const Source r = source_of(job_, first);
     const Source g = source_of(job_, plane_after(first, 1));
     const Source b = source_of(job_, plane_after(first, 2));
+    const bool alike = g.like(r) && b.like(r);
     for (int v = 0; v < vectors_; ++v) {
       const Taps taps(*this, v, where(pixels_[v]));
-      into(pixels_[v], Rgb<Lane>{taps.sample(r), taps.sample(g), taps.sample(b)});
+      const Corners at = taps.corners(r);
+      into(pixels_[v], Rgb<Lane>{taps.sample(r, at), taps.sample(g, alike ? at : taps.corners(g)),
+                                 taps.sample(b, alike ? at : taps.corners(b))});
     }
   }
 
@@ -137,7 +145,12 @@ class FusedStrip {
   }
 
  private:
-  /// Four taps and their weights, for any channels of the same window.
+  /// Indices of four taps in a channel.
+  struct Corners {
+    VI upper_left, upper_right, lower_left, lower_right;
+  };
+
+  /// Four taps and their weights, for any channel.
   struct Taps {
     VI x0, x1, y0, y1;
     Lane u, v;
@@ -153,13 +166,20 @@ class FusedStrip {
       y1 = hn::Add(y0, hn::Set(kDI, 1));
     }
 
-    LIMPID_LANES_INLINE Lane sample(const Source& s) const {
+    LIMPID_LANES_INLINE Corners corners(const Source& s) const {
       const VI left = column_offset(s, x0), right = column_offset(s, x1);
       const VI upper = row_offset(s, y0), lower = row_offset(s, y1);
-      const Lane top = lerp(gather(s, left, upper), gather(s, right, upper), u);
-      const Lane bottom = lerp(gather(s, left, lower), gather(s, right, lower), u);
+      return {hn::Add(left, upper), hn::Add(right, upper), hn::Add(left, lower),
+              hn::Add(right, lower)};
+    }
+
+    LIMPID_LANES_INLINE Lane sample(const Source& s, const Corners& at) const {
+      const Lane top = lerp(gather(s, at.upper_left), gather(s, at.upper_right), u);
+      const Lane bottom = lerp(gather(s, at.lower_left), gather(s, at.lower_right), u);
       return lerp(top, bottom, v);
     }
+
+    LIMPID_LANES_INLINE Lane sample(const Source& s) const { return sample(s, corners(s)); }
   };
 
   /// The same on a texture that repeats; positions in periods.
@@ -188,8 +208,8 @@ class FusedStrip {
 
     LIMPID_LANES_INLINE Lane sample(const Source& s) const {
       const auto at = [&](VI x, VI y) {
-        return gather(s, hn::Mul(x, hn::Set(kDI, s.x_stride)),
-                      hn::Mul(y, hn::Set(kDI, s.y_stride)));
+        return gather(
+            s, hn::Add(hn::Mul(x, hn::Set(kDI, s.x_stride)), hn::Mul(y, hn::Set(kDI, s.y_stride))));
       };
       return lerp(lerp(at(x0, y0), at(x1, y0), u), lerp(at(x0, y1), at(x1, y1), u), v);
     }
@@ -213,8 +233,8 @@ class FusedStrip {
     const VI inside = clamp(y, s.window.y0, s.window.y1 - 1);
     return hn::Mul(hn::Sub(inside, hn::Set(kDI, s.window.y0)), hn::Set(kDI, s.y_stride));
   }
-  static LIMPID_LANES_INLINE Lane gather(const Source& s, VI x, VI y) {
-    return Lane(hn::GatherIndex(kD, s.data, hn::Add(x, y)));
+  static LIMPID_LANES_INLINE Lane gather(const Source& s, VI index) {
+    return Lane(hn::GatherIndex(kD, s.data, index));
   }
 
   LIMPID_LANES_INLINE Lane own_at(const Source& s, int vector) const {

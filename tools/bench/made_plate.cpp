@@ -28,7 +28,7 @@ glm::dvec2 slopes(double x, double z) {
 
 MadePlate::MadePlate(Size size) {
   Camera camera;
-  camera.view = glm::lookAt(glm::dvec3(0, 2.5, 0), glm::dvec3(0.3, 0.2, -8), glm::dvec3(0, 1, 0));
+  camera.view = glm::lookAt(glm::dvec3(0, 2.5, 0), glm::dvec3(0.3, 1.25, -8), glm::dvec3(0, 1, 0));
   camera.projection = perspective(0.6, double(size.width) / size.height, 0.1, 500, ClipSpace::kGl);
   scene.camera = camera;
   scene.water = WaterPlane{};
