@@ -67,15 +67,18 @@ void drop_absent_input(Plan& plan, const Inputs& inputs, StateSet) {
   }
 }
 
-/// In chain order: what is dropped before can make what comes after neutral.
-void drop_neutral(Plan& plan, const Inputs&, StateSet) {
+/// In chain order: what is dropped before can make what comes after neutral. Neutral means for the
+/// picture: the path is measured by the way, and who makes it stays when it is to be written.
+void drop_neutral(Plan& plan, const Inputs&, StateSet outputs) {
   StateSet made;
   for (int i = 0; i < Chain::kCount; ++i) {
     if (!plan.keeps(i)) continue;
-    if (neutral(plan.look, i, made)) {
+    const StateSet makes = declared(plan.look, i).makes;
+    const bool measured = makes.has(StatePart::kPath) && outputs.has(StatePart::kPath);
+    if (neutral(plan.look, i, made) && !measured) {
       drop(plan.operators[i], Verdict::kNeutral, "its parameters change nothing here");
     } else {
-      made = made | declared(plan.look, i).makes;
+      made = made | makes;
     }
   }
 }

@@ -53,7 +53,7 @@ concept Operator = requires(const typename T::Params& params, StateSet made) {
   { T::reads(params) } -> std::same_as<PlaneSet>;  // every plane it may tap
   { T::needs(params) } -> std::same_as<Needs>;     // without these it is dropped
   { T::reach(params) } -> std::same_as<double>;    // how far its taps go, in uv; tilts are below 1
-  // The parameters make it the identity, given what the operators before it make.
+  // The parameters make it the identity on all but kPath, given what the operators before it make.
   { T::neutral(params, made) } -> std::same_as<bool>;
   // and: template <class Strip> static void apply(const Params&, const Context&, Strip&);
 };

@@ -33,7 +33,7 @@ struct FresnelReflection {
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params&) { return kReflectionPlanes; }
   static Needs needs(const Params& p) { return {.planes = reads(p)}; }
-  static double reach(const Params& p) { return p.strength; }
+  static double reach(const Params& p) { return abs(p.strength); }
   static bool neutral(const Params&, StateSet) { return false; }
 
   template <class Strip>

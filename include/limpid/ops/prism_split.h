@@ -22,7 +22,7 @@ struct PrismSplit {
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params&) { return {}; }
   static Needs needs(const Params&) { return {}; }
-  static double reach(const Params&) { return 0; }
+  static double reach(const Params& p) { return abs(p.strength); }  // added to refraction's
   static bool neutral(const Params& p, StateSet made) {
     return p.strength == 0 || !made.has(StatePart::kNormal);
   }

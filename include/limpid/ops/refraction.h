@@ -31,7 +31,7 @@ struct Refraction {
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params&) { return kColorPlanes | PlaneSet{PlaneId::kDepth}; }
   static Needs needs(const Params& p) { return {.planes = reads(p)}; }
-  static double reach(const Params& p) { return p.strength; }
+  static double reach(const Params& p) { return abs(p.strength); }
   static bool neutral(const Params& p, StateSet made) {
     return (p.strength == 0 || !made.has(StatePart::kNormal)) && !made.has(StatePart::kPrism);
   }
