@@ -188,8 +188,8 @@ class FusedStrip {
     Lane u, v;
 
     LIMPID_LANES_INLINE WrappedTaps(int width, int height, Vec2<Lane> periods) {
-      const Lane x = (periods.x - floor(periods.x)) * Lane(width) - Lane(0.5);
-      const Lane y = (periods.y - floor(periods.y)) * Lane(height) - Lane(0.5);
+      const Lane x = fraction(periods.x) * Lane(width) - Lane(0.5);
+      const Lane y = fraction(periods.y) * Lane(height) - Lane(0.5);
       const Lane whole_x = floor(x), whole_y = floor(y);
       u = x - whole_x;
       v = y - whole_y;
@@ -197,6 +197,12 @@ class FusedStrip {
       y0 = wrapped(hn::ConvertTo(kDI, whole_y.v), height);
       x1 = wrapped(hn::Add(x0, hn::Set(kDI, 1)), width);
       y1 = wrapped(hn::Add(y0, hn::Set(kDI, 1)), height);
+    }
+
+    /// 0 for an infinite position, so that every tap lies in the texture.
+    static LIMPID_LANES_INLINE Lane fraction(Lane x) {
+      const Lane f = x - floor(x);
+      return select(f >= Lane(0), f, Lane(0));
     }
 
     /// For -size <= i < 2 size.

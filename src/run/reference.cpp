@@ -103,8 +103,9 @@ class ReferenceStrip {
 
   static double tiled_at(const View<const float>& view, Vec2<double> periods) {
     const int width = view.window.width(), height = view.window.height();
-    const double x = (periods.x - std::floor(periods.x)) * width - 0.5;
-    const double y = (periods.y - std::floor(periods.y)) * height - 0.5;
+    // 0 for an infinite position, so that every tap lies in the texture.
+    const auto fraction = [](double p) { return max(p - std::floor(p), 0.0); };
+    const double x = fraction(periods.x) * width - 0.5, y = fraction(periods.y) * height - 0.5;
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto at = [&](int i, int j) -> double {
       return view.at(view.window.x0 + (i + width) % width, view.window.y0 + (j + height) % height);
