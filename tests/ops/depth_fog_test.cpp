@@ -1,0 +1,97 @@
+#include "limpid/ops/depth_fog.h"
+
+#include "ops/tray.h"
+
+namespace limpid {
+namespace {
+
+using test::Tray;
+
+/// Bottom 2 under the surface: f = 1 - .15 x 2 = .7, veil = .9 x (1 - .7) = .27.
+Tray shallow_tray() {
+  Tray tray({3, 2});
+  tray.buffers.fill(PlaneId::kDepth, 12);
+  tray.look.of<DepthFog>() = {};
+  return tray;
+}
+
+TEST(DepthFog, HandWorkedPixel) {
+  const test::Picture got = shallow_tray().wet();
+  test::expect_rgb(rgb_of(got, Aov::kTransmitted, 1, 1), {0.365, 0.365, 0.365});
+  test::expect_rgb(rgb_of(got, Aov::kInScatter, 1, 1), {0.0054, 0.027, 0.0324});
+  test::expect_rgb(got.color(1, 1), {0.3704, 0.392, 0.3974});
+  EXPECT_NEAR(got.aov(Aov::kPath, 1, 1), 2, 1e-6);
+}
+
+// As the article writes it: u' = lerp(u, lerp(color, u, f), alpha).
+TEST(DepthFog, IsTheArticlesTwoBlends) {
+  const Size size{40, 30};
+  test::Noise noise(size);
+  noise.look.of<DepthFog>() = {};
+  noise.look.of<DepthFog>().offset = 0.1;
+  const test::Picture got = noise.wet();
+  each_wet(got, size, [&](int x, int y) {
+    const double u = noise.buffers.frame.plane(PlaneId::kColorR).at(x, y);
+    const double d = got.aov(Aov::kPath, x, y);
+    const double f = std::isinf(d) ? 0 : 1 - std::clamp(0.15 * d - 0.1, 0.0, 1.0);
+    EXPECT_NEAR(got.color(x, y).r, lerp(u, lerp(0.02, u, f), 0.9), 1e-6);
+  });
+}
+
+TEST(DepthFog, NoWaterUnderTheSurfaceNoFog) {
+  Tray tray = shallow_tray();
+  tray.buffers.fill(PlaneId::kDepth, std::nextafter(10.f, 11.f));
+  test::expect_rgb(tray.wet().color(0, 0), {0.5, 0.5, 0.5});
+}
+
+TEST(DepthFog, DeepWaterIsItsOwnColorUpToAlpha) {
+  Tray tray = shallow_tray();
+  for (float bottom : {1e6f, test::kInf}) {
+    tray.buffers.fill(PlaneId::kDepth, bottom);
+    tray.look.of<DepthFog>().alpha = 1;
+    test::expect_rgb(tray.wet().color(0, 0), {0.02, 0.10, 0.12});
+    tray.look.of<DepthFog>().alpha = 0.9;
+    test::expect_rgb(tray.wet().color(0, 0), {0.068, 0.14, 0.158});
+  }
+}
+
+TEST(DepthFog, OffsetKeepsTheFirstMetresClear) {
+  Tray tray = shallow_tray();
+  tray.look.of<DepthFog>().offset = 0.3;
+  test::expect_rgb(tray.wet().color(0, 0), {0.5, 0.5, 0.5});
+}
+
+TEST(DepthFog, NeverLosesFogWithDepth) {
+  double before = 0.5;
+  for (float bottom = 10.1f; bottom < 20; bottom += 0.3f) {
+    Tray tray = shallow_tray();
+    tray.buffers.fill(PlaneId::kDepth, bottom);
+    const double now = tray.wet().aov(Aov::kTransmitted, 0, 0);
+    EXPECT_LE(now, before);
+    before = now;
+  }
+  EXPECT_NEAR(before, 0.05, 1e-6);
+}
+
+// 90 degrees of view on 2 x 2 pixels: centres at ndc +-1/2, rays (+-.5, +-.5, -1), length
+// sqrt(1.5).
+TEST(DepthFog, DistanceAlongTheRay) {
+  Tray tray = shallow_tray();
+  tray.buffers = test::Buffers(Rect{0, 0, 2, 2});
+  for (int c = 0; c < 3; ++c) tray.buffers.fill(plane_after(PlaneId::kColorR, c), 0.5f);
+  tray.buffers.fill(PlaneId::kSurfaceDepth, 10).fill(PlaneId::kDepth, 12);
+  tray.scene.camera->projection = perspective(std::numbers::pi / 2, 1, 0.1, 100, ClipSpace::kGl);
+  EXPECT_NEAR(tray.wet().aov(Aov::kPath, 0, 0), 2, 1e-6);
+  tray.look.of<DepthFog>().distance = DepthFog::Distance::kRay;
+  EXPECT_NEAR(tray.wet().aov(Aov::kPath, 0, 0), 2 * std::sqrt(1.5), 1e-6);
+}
+
+TEST(DepthFog, NegativeOffsetFogsTheSurfaceItself) {
+  Tray tray = shallow_tray();
+  tray.look.of<DepthFog>().density = 0;
+  tray.look.of<DepthFog>().offset = -0.5;  // f = .5, veil = .45
+  EXPECT_NEAR(tray.wet().aov(Aov::kTransmitted, 0, 0), 0.275, 1e-6);
+}
+
+}  // namespace
+}  // namespace limpid

@@ -1,0 +1,173 @@
+#include "limpid/plan/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr PlaneSet kBare = kColorPlanes | PlaneSet{PlaneId::kDepth};
+constexpr PlaneSet kShadow{PlaneId::kShadow};
+constexpr PlaneSet kAll = kBare | kReflectionPlanes | kSurfaceNormalPlanes | kShadow |
+                          PlaneSet{PlaneId::kColorA, PlaneId::kSurfaceDepth};
+
+/// A look in which nothing is neutral.
+Look busy_look() {
+  Look look;
+  look.of<PrismSplit>().strength = 0.004;
+  return look;
+}
+
+std::string text(const Look& look, const Inputs& inputs, StateSet outputs = {}) {
+  return to_text(make_plan(look, inputs, outputs));
+}
+
+TEST(Plan, KeepsEverythingWhenAllIsThere) {
+  EXPECT_EQ(text(busy_look(), {kAll, false, true}),
+            "wave_normals        kept, model plate: the frame has surface normals\n"
+            "prism_split         kept\n"
+            "refraction          kept\n"
+            "depth_fog           kept\n"
+            "water_shadow        kept\n"
+            "fresnel_reflection  kept\n"
+            "sun_highlight       kept\n");
+}
+
+TEST(Plan, SaysWhichInputIsAbsent) {
+  EXPECT_EQ(text(busy_look(), {kBare, true, false}),
+            "wave_normals        kept\n"
+            "prism_split         kept\n"
+            "refraction          kept\n"
+            "depth_fog           kept\n"
+            "water_shadow        dropped: input absent, no shadow\n"
+            "fresnel_reflection  dropped: input absent, no reflection\n"
+            "sun_highlight       dropped: input absent, no sun\n");
+}
+
+// Without normals nothing tilts, so nothing is refracted or split.
+TEST(Plan, WithoutWavesThereIsNothingToRefract) {
+  EXPECT_EQ(text(busy_look(), {kBare | kShadow, false, true}),
+            "wave_normals        dropped: input absent, no normal map\n"
+            "prism_split         dropped: neutral, its parameters change nothing here\n"
+            "refraction          dropped: neutral, its parameters change nothing here\n"
+            "depth_fog           kept\n"
+            "water_shadow        kept\n"
+            "fresnel_reflection  dropped: input absent, no reflection\n"
+            "sun_highlight       kept\n");
+}
+
+TEST(Plan, DropsWhatItsParametersMakeNeutral) {
+  Look look;
+  look.of<Refraction>().strength = 0;
+  look.of<DepthFog>().alpha = 0;
+  look.of<WaterShadow>().strength = 0;
+  look.of<SunHighlight>().strength = 0;
+  EXPECT_EQ(text(look, {kAll, false, true}),
+            "wave_normals        kept, model plate: the frame has surface normals\n"
+            "prism_split         dropped: neutral, its parameters change nothing here\n"
+            "refraction          dropped: neutral, its parameters change nothing here\n"
+            "depth_fog           dropped: neutral, its parameters change nothing here\n"
+            "water_shadow        dropped: neutral, its parameters change nothing here\n"
+            "fresnel_reflection  kept\n"
+            "sun_highlight       dropped: neutral, its parameters change nothing here\n");
+}
+
+TEST(Plan, DropsWavesThatNothingReads) {
+  Look look;
+  look.of<Refraction>().strength = 0;
+  const Inputs no_mirror_no_sun{kAll - kReflectionPlanes, false, false};
+  EXPECT_EQ(text(look, no_mirror_no_sun),
+            "wave_normals        dropped: unread, nothing reads what it makes\n"
+            "prism_split         dropped: neutral, its parameters change nothing here\n"
+            "refraction          dropped: neutral, its parameters change nothing here\n"
+            "depth_fog           kept\n"
+            "water_shadow        kept\n"
+            "fresnel_reflection  dropped: input absent, no reflection\n"
+            "sun_highlight       dropped: input absent, no sun\n");
+  // As an output of their own they are read.
+  const Plan plan = make_plan(look, no_mirror_no_sun, {StatePart::kNormal});
+  EXPECT_EQ(plan.operators[0].verdict, Verdict::kKept);
+  EXPECT_TRUE(plan.planes.covers(kSurfaceNormalPlanes));
+}
+
+TEST(Plan, DropsThePrismWhenNothingIsRefractedAndKeepsItsLookupOtherwise) {
+  Look look = busy_look();
+  look.of<Refraction>().strength = 0;
+  const Plan plan = make_plan(look, {kAll, false, true}, {});
+  EXPECT_EQ(plan.operators[1].verdict, Verdict::kKept);
+  EXPECT_EQ(plan.operators[2].verdict, Verdict::kKept) << "the prism is looked up by refraction";
+}
+
+TEST(Plan, PlateNormalsReplaceMaps) {
+  Look look;
+  ASSERT_EQ(look.of<WaveNormals>().model, WaveNormals::Model::kFourMaps);
+  const Plan with = make_plan(look, {kAll, true, true}, {});
+  EXPECT_EQ(with.look.of<WaveNormals>().model, WaveNormals::Model::kPlate);
+  EXPECT_TRUE(with.planes.covers(kSurfaceNormalPlanes));
+  const Plan without = make_plan(look, {kAll - kSurfaceNormalPlanes, true, true}, {});
+  EXPECT_EQ(without.look.of<WaveNormals>().model, WaveNormals::Model::kFourMaps);
+  // One channel of a normal is no normal.
+  const PlaneSet partial = kAll - PlaneSet{PlaneId::kSurfaceNormalZ};
+  EXPECT_EQ(make_plan(look, {partial, true, true}, {}).look.of<WaveNormals>().model,
+            WaveNormals::Model::kFourMaps);
+}
+
+TEST(Plan, PlateNormalsThatAreAskedForMustBeThere) {
+  Look look;
+  look.of<WaveNormals>().model = WaveNormals::Model::kPlate;
+  EXPECT_THAT(text(look, {kBare, true, true}),
+              HasSubstr("wave_normals        dropped: input absent, no surface_normal\n"));
+}
+
+TEST(Plan, ReadsOnlyWhatTheKeptOperatorsRead) {
+  Look look = busy_look();
+  EXPECT_EQ(make_plan(look, {kAll, false, true}, {}).planes, kAll);
+  look.of<WaterShadow>().strength = 0;
+  look.of<SunHighlight>().strength = 0;
+  EXPECT_EQ(make_plan(look, {kAll, false, true}, {}).planes, kAll - kShadow);
+  EXPECT_EQ(make_plan(look, {kBare, false, false}, {}).planes, kBare);
+  look = Look();
+  look.of<Refraction>().strength = 0;
+  EXPECT_EQ(make_plan(look, {kAll - kReflectionPlanes - kShadow, false, false}, {}).planes,
+            kBare | PlaneSet({PlaneId::kColorA, PlaneId::kSurfaceDepth}));
+}
+
+TEST(Plan, SaysWhatStateIsMade) {
+  Look look;
+  EXPECT_FALSE(make_plan(look, {kAll, false, true}, {}).made.has(StatePart::kPrism));
+  EXPECT_TRUE(make_plan(busy_look(), {kAll, false, true}, {}).made.has(StatePart::kPrism));
+  EXPECT_FALSE(make_plan(look, {kBare, false, true}, {}).made.has(StatePart::kFresnel));
+}
+
+// The way through the water is measured by the fog, whose color may be switched off.
+TEST(Plan, KeepsANeutralFogWhosePathIsWritten) {
+  Look look;
+  look.of<DepthFog>().alpha = 0;
+  const Inputs inputs{kAll, false, true};
+  EXPECT_THAT(text(look, inputs), HasSubstr("depth_fog           dropped: neutral"));
+  EXPECT_THAT(text(look, inputs, {StatePart::kPath}), HasSubstr("depth_fog           kept"));
+}
+
+TEST(Plan, RefusesWhatNoWaterCanBePutInto) {
+  const auto refusal = [](const Look& look, PlaneSet planes) -> std::string {
+    try {
+      make_plan(look, {planes, false, false}, {});
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal({}, kBare - PlaneSet{PlaneId::kColorG}), HasSubstr("no color"));
+  EXPECT_THAT(refusal({}, kColorPlanes), HasSubstr("no depth"));
+  Look bad;
+  bad.of<DepthFog>().density = -1;
+  EXPECT_EQ(refusal(bad, kAll), "depth_fog.density = -1: expected 0 ... 1000000 (1/scene unit)");
+  EXPECT_EQ(refusal({}, kBare), "");
+}
+
+}  // namespace
+}  // namespace limpid
