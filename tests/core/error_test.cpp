@@ -16,6 +16,7 @@ TEST(NearestName, FindsSlipsOfTheHandOnly) {
   const std::vector<std::string> known = {"strength", "density", "offset", "rejection"};
   EXPECT_EQ(nearest_name("strenght", known), "strength");
   EXPECT_EQ(nearest_name("densty", known), "density");
+  EXPECT_EQ(nearest_name("dnesiyt", known), "density");  // neighbours swapped, twice
   EXPECT_EQ(nearest_name("rejections", known), "rejection");
   EXPECT_EQ(nearest_name("offset", known), "offset");
   EXPECT_EQ(nearest_name("colour", known), "");
