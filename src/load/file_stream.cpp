@@ -84,6 +84,7 @@ Fault fault_of(int system_error) {
   switch (system_error) {
     case ENOSPC:
     case EDQUOT:
+    case EFBIG:
     case EIO:
     case ESTALE:
     case ETIMEDOUT:

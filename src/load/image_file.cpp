@@ -5,13 +5,13 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <fstream>
 #include <map>
 
 #include "limpid/core/error.h"
 
+#include "load/file_stream.h"
 #include "load/formats.h"
 #include "load/whole_file.h"
 #include "write/atomic_file.h"
@@ -102,8 +102,7 @@ void write_whole(const fs::path& path, const std::vector<char>& bytes) {
   out.close();
   if (!out) {
     const int cause = errno;
-    throw Error(path.string() + ": cannot be written: " + std::strerror(cause),
-                cause == ENOSPC || cause == EDQUOT ? Fault::kRetry : Fault::kJob);
+    throw Error(path.string() + ": cannot be written (" + describe(cause) + ")", fault_of(cause));
   }
   file.commit();
 }

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "limpid/write/unfinished.h"
+
 #include "load/file_stream.h"
 
 namespace limpid {
@@ -105,9 +107,20 @@ TEST(AtomicFile, ReplacesFilesOnly) {
   EXPECT_THAT(error_of("/dev/null"), StartsWith("/dev/null: is there and"));
 }
 
+TEST(RemoveUnfinishedFiles, LeavesNothingButWholeFiles) {
+  const fs::path here = folder();
+  AtomicFile whole(here / "whole.exr"), first(here / "a.exr"), second(here / "b.png");
+  whole.commit();
+  EXPECT_EQ(files_in(here), 3);
+  remove_unfinished_files().unlock();
+  EXPECT_EQ(files_in(here), 1);
+  EXPECT_THROW(first.commit(), Error);
+  EXPECT_EQ(files_in(here), 1);
+}
+
 TEST(FaultOf, WhatMayPassIsTriedAgain) {
-  for (int error : {ENOSPC, EDQUOT, EIO, ESTALE}) EXPECT_EQ(fault_of(error), Fault::kRetry);
-  for (int error : {EACCES, ENOENT, EROFS, EFBIG}) EXPECT_EQ(fault_of(error), Fault::kJob);
+  for (int error : {ENOSPC, EDQUOT, EFBIG, EIO, ESTALE}) EXPECT_EQ(fault_of(error), Fault::kRetry);
+  for (int error : {EACCES, ENOENT, EROFS}) EXPECT_EQ(fault_of(error), Fault::kJob);
 }
 
 }  // namespace
