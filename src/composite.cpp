@@ -1,8 +1,10 @@
 #include "limpid/composite.h"
 
 #include <chrono>
+#include <cmath>
 #include <map>
 
+#include "limpid/core/error.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 #include "limpid/version.h"
@@ -13,17 +15,44 @@ namespace limpid {
 namespace {
 
 /// The job's scene, completed by what only the plate knows: size, pixel aspect, a camera in its
-/// attributes.
+/// attributes. No chain can do without camera and water plane.
 Scene scene_of(const CompositeJob& job, const Plate& plate) {
   Scene scene = job.scene.scene;
   scene.camera = job.scene.camera
                      ? camera_for(*job.scene.camera, plate.display().size(), plate.pixel_aspect())
                      : plate.camera();
+  if (!scene.camera) {
+    throw Error(
+        "no camera found: expected a scene with [camera] view and projection (or fov_x, fov_y, "
+        "orthographic), or a plate with the attributes worldToCamera and worldToNDC");
+  }
+  if (!scene.water) {
+    throw Error("no water plane found: expected a scene with [water] up and height");
+  }
   scene.time = job.time;
   return scene;
 }
 
+/// What the depth planes hold. A near and far that were made up, as those of a bare field of view,
+/// would give wrong distances.
+DepthMeaning depth_of(const CompositeJob& job) {
+  const SceneFile& scene = job.scene;
+  const DepthKind kind = job.depth_kind.value_or(scene.depth);
+  const bool both = scene.near && scene.far;
+  if (kind == DepthKind::kNormalised && !(both && std::isfinite(*scene.far))) {
+    throw Error("depth of kind normalised: expected near and a finite far in the scene's [camera]");
+  }
+  const bool known = scene.camera && (scene.camera->lens == CameraSpec::Lens::kProjection || both);
+  if (kind == DepthKind::kDevice && !known) {
+    throw Error(
+        "depth of kind device: expected a projection, or near and far beside the lens, in the "
+        "scene's [camera]");
+  }
+  return {kind, scene.near.value_or(0), scene.far.value_or(0)};
+}
+
 Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
+  if (!plate.planes().has(PlaneId::kDepth)) plate.refuse_without("depth");
   StateSet shown;
   for (Aov aov : job.aovs) shown = shown | StateSet{aovs()[static_cast<std::size_t>(aov)].part};
   return make_plan(job.look,
@@ -71,11 +100,12 @@ void write(const CompositeJob& job, const Plate& plate, const Plan& plan, const 
   output.text = {{"limpid/version", kVersion},
                  {"limpid/look", to_toml(plan.look)},
                  {"limpid/plan", to_text(plan)}};
-  write_exr(job.output, output);
+  // The picture comes last: when anything fails, what was under its name before is still there.
   if (!job.preview.empty()) {
     const auto& c = canvas.target.color;
     write_preview(job.preview, c[0], c[1], c[2]);
   }
+  write_exr(job.output, output);
 }
 
 class Stopwatch {
@@ -96,6 +126,7 @@ class Stopwatch {
 
 Plan plan_composite(const CompositeJob& job) {
   const Plate plate = Plate::open(job.plate);
+  depth_of(job);
   return plan_of(job, plate, scene_of(job, plate));
 }
 
@@ -103,12 +134,11 @@ CompositeReport composite(const CompositeJob& job, Executor& executor) {
   Stopwatch watch;
   const Plate plate = Plate::open(job.plate);
   const Scene scene = scene_of(job, plate);
+  const DepthMeaning depth = depth_of(job);
   CompositeReport report;
   report.plan = plan_of(job, plate, scene);
 
-  LoadedPlate loaded = plate.read(report.plan.planes, scene,
-                                  {job.depth_kind.value_or(job.scene.depth),
-                                   job.scene.near.value_or(0), job.scene.far.value_or(0)});
+  LoadedPlate loaded = plate.read(report.plan.planes, scene, depth);
   LoadedTexture map;
   if (report.plan.reads_wave_map) {
     map = load_texture(job.look.of<WaveNormals>().map, job.plate.limits);

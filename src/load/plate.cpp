@@ -9,6 +9,8 @@
 #include "limpid/load/inspect.h"
 #include "limpid/load/scene_file.h"
 
+#include "load/layer_candidates.h"
+
 namespace limpid {
 namespace {
 
@@ -163,10 +165,7 @@ Plate Plate::open(const PlateRequest& request) {
   Plate plate(std::make_unique<State>());
   State& state = *plate.state_;
   state.resolve_all(request, false);
-  if (!state.choice("color")) {
-    throw Error("no color found; there is " + join(plate.channel_names()) +
-                "; name it with --layer color=LAYER");
-  }
+  if (!state.choice("color")) plate.refuse_without("color");
   const Rect display = plate.display();
   for (const auto& [role, choice] : state.choices) {
     const Rect other = state.part_of(choice.channels.front()).display;
@@ -176,8 +175,13 @@ Plate Plate::open(const PlateRequest& request) {
       if (r.x0 == 0 && r.y0 == 0) return size;
       return size + " at (" + std::to_string(r.x0) + ", " + std::to_string(r.y0) + ")";
     };
-    throw Error(std::string(role) + " is " + text(other) + " pixels and color is " + text(display) +
-                ": expected display windows of one size");
+    const auto name = [&](std::string_view of) {
+      const ChannelRef& ref = state.choices.at(of).channels.front();
+      return std::string(of) + " (" +
+             state.files[static_cast<std::size_t>(ref.file)].path.string() + ")";
+    };
+    throw Error(name(role) + " is " + text(other) + " pixels and " + name("color") + " is " +
+                text(display) + ": expected one display window");
   }
   return plate;
 }
@@ -220,14 +224,11 @@ std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
   return file.exr->attributes(ref.part);
 }
 
-std::vector<std::string> Plate::channel_names() const {
-  std::vector<std::string> names;
-  for (const PlateFile& file : state_->files) {
-    for (const ExrPart& part : file.parts) {
-      for (const ExrChannel& channel : part.channels) names.push_back(channel.name);
-    }
-  }
-  return names;
+void Plate::refuse_without(std::string_view role) const {
+  const auto sources = state_->sources_of(0, static_cast<int>(state_->files.size()));
+  throw Error("no " + std::string(role) + " found; there is " +
+              layer_list(group_layers(sources), sources) + "; name it with --layer " +
+              std::string(role) + "=LAYER");
 }
 
 LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const {

@@ -42,16 +42,17 @@ Compression compression_named(const std::string& text) {
   const auto found = std::find(kCompressions.begin(), kCompressions.end(), name);
   if (found == kCompressions.end()) {
     const std::vector<std::string> known(kCompressions.begin(), kCompressions.end());
-    throw Error("compression '" + name + "': expected one of " + join(known) +
-                did_you_mean(name, known));
+    throw Error(
+        "compression '" + name + "': expected one of " + join(known) + did_you_mean(name, known),
+        Fault::kUsage);
   }
   Compression compression{static_cast<Imf::Compression>(found - kCompressions.begin()), {}};
   if (colon == std::string::npos) return compression;
 
   const bool zip = name == "zip" || name == "zips", dwa = name == "dwaa" || name == "dwab";
   if (!zip && !dwa) {
-    throw Error("compression '" + text + "': " + name +
-                " has no level, only zip, zips, dwaa, dwab");
+    throw Error("compression '" + text + "': " + name + " has no level, only zip, zips, dwaa, dwab",
+                Fault::kUsage);
   }
   double level = 0;
   const char* end = text.data() + text.size();
@@ -60,7 +61,8 @@ Compression compression_named(const std::string& text) {
       zip ? level >= 1 && level <= 9 && level == std::floor(level) : level >= 0 && level <= 100000;
   if (failure != std::errc() || stop != end || !in_range) {
     throw Error("compression '" + text + "': expected a level of " +
-                (zip ? "1 ... 9, whole" : "0 ... 100000"));
+                    (zip ? "1 ... 9, whole" : "0 ... 100000"),
+                Fault::kUsage);
   }
   compression.level = level;
   return compression;
@@ -220,6 +222,8 @@ void check_complete(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+void validate_compression(const std::string& compression) { compression_named(compression); }
 
 void write_exr(const std::filesystem::path& path, const ExrOutput& output) {
   const std::string name = path.string();

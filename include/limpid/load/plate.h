@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limpid/core/frame.h"
@@ -59,8 +60,8 @@ class Plate {
   std::optional<Camera> camera() const;
   /// Attributes of the color's part, to be handed on.
   std::map<std::string, ExrFile::Attribute> attributes() const;
-  /// The channels in all files, for errors that list what there is.
-  std::vector<std::string> channel_names() const;
+  /// Throws the Error for a role that nothing feeds, with the list of all layers that there are.
+  [[noreturn]] void refuse_without(std::string_view role) const;
 
   /// Decodes the wanted planes and enters them (sanitise.h). Planes smaller than the picture are
   /// filled up with their role's `missing` value. Throws Error for damaged pixels, and for a depth

@@ -31,6 +31,9 @@ struct ExrOutput {
   std::map<std::string, std::array<float, 16>> matrices;
 };
 
+/// Throws Error of Fault::kUsage, with the nearest name, for what is no ExrOutput::compression.
+void validate_compression(const std::string& compression);
+
 /// Writes the file under a temporary name in the same folder, flushes it to disk and renames it:
 /// under `path` there is the old file or the whole new one, never a part. On failure the temporary
 /// file is removed and an Error thrown that names path and cause (Fault::kRetry where the disk is
