@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "limpid/core/error.h"
 #include "limpid/version.h"
 
 namespace limpid::tool {
@@ -43,6 +44,49 @@ void add_composite(CLI::App& verb, CompositeArguments& a) {
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+}
+
+std::vector<std::string> verbs_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+/// What is wrong with the first word that nobody expected.
+std::string unexpected(const CLI::App& app) {
+  const std::vector<std::string> rest = app.remaining(true);
+  const std::string word = rest.empty() ? "" : rest.front().substr(0, rest.front().find('='));
+  const bool is_option = word.starts_with('-');
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  if (parsed.empty() && !is_option) {
+    const std::vector<std::string> verbs = verbs_of(app);
+    return "'" + word + "' is no verb: expected one of " + join(verbs) + did_you_mean(word, verbs);
+  }
+  const std::string verb = parsed.empty() ? "" : " " + parsed.front()->get_name();
+  if (!is_option) return "limpid" + verb + ": '" + word + "' is one argument too many";
+  std::vector<std::string> known = options_of(app);
+  if (!parsed.empty()) {
+    for (const std::string& name : options_of(*parsed.front())) known.push_back(name);
+  }
+  return "limpid" + verb + " has no option '" + word + "': limpid help" + verb +
+         " lists what there is" + did_you_mean(word, known);
+}
+
+std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unexpected(app);
+  const std::string text = error.what();
+  constexpr std::string_view kNoNumber = "Could not convert: ";
+  if (text.starts_with(kNoNumber)) return text.substr(kNoNumber.size()) + ": expected a number";
+  return text;
 }
 
 }  // namespace
@@ -136,21 +180,23 @@ Parsed parse(int argc, char** argv) {
       app.exit(error, std::cout, std::cout);
       return finish(0);
     }
-    std::cerr << "limpid ERROR: " << error.what() << "\nlimpid help lists what there is\n";
+    std::cerr << "limpid ERROR: " << sentence_of(error, app) << "\n";
     return finish(kWrongUsage);
   }
   if (help.parsed() && !help_verb.empty()) {
     for (const CLI::App* verb : app.get_subcommands({})) {
       if (verb->get_name() != help_verb) continue;
-      std::cout << verb->help();
+      std::cout << verb->help("limpid");
       return finish(0);
     }
     a.verb = Verb::kOperators;
     a.operators.name = help_verb;
+    a.operators.verbs = verbs_of(app);
     return parsed;
   }
   if (help.parsed() || app.get_subcommands().empty()) {
-    std::cout << app.help();
+    // App::help() would give the help of the verb, which is `help`.
+    std::cout << app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
     return finish(help.parsed() ? 0 : kWrongUsage);
   }
   a.verb = composite.parsed()   ? (a.composite.dry_run ? Verb::kPlan : Verb::kComposite)

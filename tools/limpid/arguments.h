@@ -32,6 +32,7 @@ struct InspectArguments {
 struct OperatorsArguments {
   std::string name;  ///< one operator, or "" for the table of all
   std::string look;
+  std::vector<std::string> verbs;  ///< where `help` asks, to which they are known, too
 };
 
 struct CompareArguments {

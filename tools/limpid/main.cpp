@@ -1,9 +1,11 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "limpid/core/error.h"
 
+#include "signals.h"
 #include "verbs.h"
 
 namespace {
@@ -18,6 +20,15 @@ int exit_code_of(limpid::Fault fault) {
       break;
   }
   return 1;
+}
+
+/// Names come from files: they shall not steer a terminal, nor make two lines of a sentence.
+void print_error(std::string sentence) {
+  for (char& c : sentence) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = '?';
+  }
+  std::fprintf(stderr, "limpid ERROR: %s\n", sentence.c_str());
 }
 
 int run(const limpid::tool::Arguments& a) {
@@ -45,15 +56,16 @@ int main(int argc, char** argv) {
   const limpid::tool::Parsed parsed = limpid::tool::parse(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   try {
+    limpid::tool::end_cleanly_on_signals();
     return run(parsed.arguments);
   } catch (const limpid::Error& error) {
-    std::fprintf(stderr, "limpid ERROR: %s\n", error.what());
+    print_error(error.what());
     return exit_code_of(error.fault());
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "limpid ERROR: out of memory\n");
+    print_error("out of memory");
     return 75;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "limpid ERROR: %s\n", error.what());
+    print_error(error.what());
     return 1;
   }
 }

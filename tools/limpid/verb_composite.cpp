@@ -1,14 +1,29 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "limpid/composite.h"
+#include "limpid/core/error.h"
 #include "limpid/load/exr_file.h"
+#include "limpid/load/image_file.h"
 #include "limpid/load/look_file.h"
+#include "limpid/run/fused.h"
+#include "limpid/write/exr_writer.h"
 
 #include "data_folder.h"
 #include "verbs.h"
 
 namespace limpid::tool {
 namespace {
+
+/// What is wrong with a word of the command line is wrong usage, whatever it is elsewhere.
+template <class Work>
+auto as_usage(Work&& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(error.what(), Fault::kUsage);
+  }
+}
 
 LayerOverrides layer_overrides(const std::vector<std::string>& texts) {
   LayerOverrides overrides;
@@ -18,6 +33,7 @@ LayerOverrides layer_overrides(const std::vector<std::string>& texts) {
       throw Error("--layer " + text + ": expected ROLE=LAYER, as in depth=ViewLayer.Depth.Z",
                   Fault::kUsage);
     }
+    as_usage([&] { role_named(text.substr(0, equals)); });
     overrides[text.substr(0, equals)] = text.substr(equals + 1);
   }
   return overrides;
@@ -31,7 +47,7 @@ std::vector<Aov> aov_list(const std::vector<std::string>& names) {
       for (int i = 0; i < kAovCount; ++i) list.push_back(static_cast<Aov>(i));
       return list;
     }
-    list.push_back(aov_named(name));
+    list.push_back(as_usage([&] { return aov_named(name); }));
   }
   return list;
 }
@@ -40,6 +56,26 @@ Runner runner_named(const std::string& name) {
   if (name == "fused") return Runner::kFused;
   if (name == "reference") return Runner::kReference;
   throw Error("--runner " + name + ": expected fused or reference", Fault::kUsage);
+}
+
+/// "" for the best that the machine has.
+std::string simd_named(const std::string& name, Runner runner) {
+  if (name.empty()) return name;
+  if (runner == Runner::kReference) {
+    throw Error("--simd " + name + ": the reference runner has no instruction sets to choose from",
+                Fault::kUsage);
+  }
+  const std::vector<std::string> known = simd_targets();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return name;
+  throw Error("--simd " + name + ": expected one of " + join(known) + " on this machine" +
+                  did_you_mean(name, known),
+              Fault::kUsage);
+}
+
+std::string exr_named(const std::string& path) {
+  if (path.empty() || is_exr(path)) return path;
+  throw Error("-o " + path + ": expected a name that ends in .exr; --preview writes other formats",
+              Fault::kUsage);
 }
 
 CompositeJob job_of(const CompositeArguments& a) {
@@ -58,9 +94,10 @@ CompositeJob job_of(const CompositeArguments& a) {
   job.time = a.time;
   job.aovs = aov_list(a.aovs);
   job.runner = runner_named(a.runner);
-  job.simd = a.simd;
-  job.output = a.output;
+  job.simd = simd_named(a.simd, job.runner);
+  job.output = exr_named(a.output);
   job.preview = a.preview;
+  validate_compression(a.compression);
   job.compression = a.compression;
   job.store_float = a.store_float;
   return job;

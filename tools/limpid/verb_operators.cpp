@@ -66,9 +66,11 @@ int operators_verb(const OperatorsArguments& a) {
     print_parameter(p);
   }
   if (!found) {
-    throw Error("'" + a.name + "' is neither a verb nor an operator: expected one of " +
-                    join(names) + did_you_mean(a.name, names),
-                Fault::kUsage);
+    const char* what = a.verbs.empty() ? "' is no operator" : "' is neither a verb nor an operator";
+    names.insert(names.begin(), a.verbs.begin(), a.verbs.end());
+    throw Error(
+        "'" + a.name + what + ": expected one of " + join(names) + did_you_mean(a.name, names),
+        Fault::kUsage);
   }
   return 0;
 }
