@@ -1,0 +1,247 @@
+#include <gmock/gmock.h>
+
+#include "limpid/load/image_file.h"
+#include "limpid/run/fused.h"
+
+#include "tool/made_plate.h"
+#include "tool/tool.h"
+
+namespace limpid::test {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+using CompositeTest = ToolTest;
+
+TEST_F(CompositeTest, WritesHalfPizAndSaysSo) {
+  const Ran ran = composite("wet.exr");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.err, "");
+  EXPECT_THAT(ran.out, ContainsRegex("^wet\\.exr: 64x36, look look, read [0-9]+ ms, run [0-9]+ ms, "
+                                     "write [0-9]+ ms\n$"));
+  const std::string info = iinfo("wet.exr");
+  EXPECT_THAT(info, HasSubstr("64 x   36, 4 channel, half openexr"));
+  EXPECT_THAT(info, HasSubstr("channel list: R, G, B, A\n"));
+  EXPECT_THAT(info, HasSubstr("compression: \"piz\""));
+  EXPECT_EQ(files(), (Words{"look.toml", "plate.exr", "scene.toml", "waves.exr", "wet.exr"}));
+}
+
+TEST_F(CompositeTest, PutsWaterWhereThereIsWaterAndNowhereElse) {
+  composed("wet.exr");
+  const std::string shore = "16x31+0+5", sky = "64x3+0+0", pond = "48x20+16+16";
+  for (const std::string& dry : {shore, sky}) {
+    const Ran ran = oiiotool({"--fail", "0", "plate.exr", "--ch", "R,G,B,A", "--cut", dry,
+                              "wet.exr", "--cut", dry, "--diff"});
+    EXPECT_EQ(ran.code, 0) << ran.out;
+  }
+  const Ran wet = oiiotool({"--fail", "0.01", "--failpercent", "50", "plate.exr", "--ch", "R,G,B",
+                            "--cut", pond, "wet.exr", "--ch", "R,G,B", "--cut", pond, "--diff"});
+  EXPECT_EQ(wet.code, 1) << wet.out;
+}
+
+TEST_F(CompositeTest, FloatIsMorePrecise) {
+  composed("half.exr");
+  composed("float.exr", {"--float"});
+  EXPECT_THAT(iinfo("float.exr"), HasSubstr("4 channel, float openexr"));
+  EXPECT_TRUE(same("half.exr", "float.exr", 2e-3));
+  EXPECT_FALSE(same("half.exr", "float.exr", 0));
+}
+
+/// The values of all attributes of that name, as iinfo prints them, without quotes.
+Words values_of(const std::string& name, const std::string& info) {
+  Words values;
+  const std::string before = "    " + name + ": \"";
+  for (std::size_t at = info.find(before); at != std::string::npos; at = info.find(before, at)) {
+    at += before.size();
+    values.push_back(info.substr(at, info.find('"', at) - at));
+  }
+  return values;
+}
+
+TEST_F(CompositeTest, EveryCompressionHoldsThePicture) {
+  const auto expect_alike = [&](const std::string& name, const std::string& tolerance) {
+    composed(name + ".exr", {"--compression", name});
+    const Ran ran = limpid({"compare", name + ".exr", "piz.exr", "--tolerance", tolerance});
+    EXPECT_EQ(ran.code, 0) << name << ":\n" << ran.out << ran.err;
+  };
+  Words written;
+  for (const std::string name : {"piz", "none", "rle", "zips", "zip", "zip:9"}) {
+    expect_alike(name, "0");
+    written.push_back(name + ".exr");
+  }
+  for (const std::string name : {"pxr24", "b44", "b44a", "dwaa", "dwab", "dwaa:20"}) {
+    expect_alike(name, "0.1");
+    written.push_back(name + ".exr");
+  }
+  EXPECT_EQ(values_of("compression", iinfo(written)),
+            (Words{"piz", "none", "rle", "zips", "zip", "zip", "pxr24", "b44", "b44a", "dwaa",
+                   "dwab", "dwaa"}));
+}
+
+TEST_F(CompositeTest, AllAovsAreThereInTheirTypes) {
+  composed("aovs.exr", {"--aov", "all"});
+  EXPECT_THAT(
+      iinfo("aovs.exr"),
+      HasSubstr("channel list: R (half), G (half), B (half), A (half), confidence.Y (half), "
+                "fresnel.Y (half), highlight.R (half), highlight.G (half), highlight.B (half), "
+                "in_scatter.R (half), in_scatter.G (half), in_scatter.B (half), normal.X (half), "
+                "normal.Y (half), normal.Z (half), path.Z (float), reflected.R (half), "
+                "reflected.G (half), reflected.B (half), surface_depth.Z (float), "
+                "transmitted.R (half), transmitted.G (half), transmitted.B (half)\n"));
+  composed("two.exr", {"--aov", "path,fresnel"});
+  EXPECT_THAT(iinfo("two.exr"), HasSubstr("channel list: R (half), G (half), B (half), A (half), "
+                                          "fresnel.Y (half), path.Z (float)\n"));
+  composed("plain.exr");
+  EXPECT_EQ(oiiotool({"--fail", "0", "aovs.exr", "--ch", "R,G,B,A", "plain.exr", "--diff"}).code,
+            0);
+}
+
+/// Adds the four terms of the file up and compares them with its picture.
+Words sum_against_picture(const std::string& file, const std::string& tolerance) {
+  Words words{"--fail", tolerance, "--warn", tolerance};
+  for (const std::string term : {"transmitted", "in_scatter", "reflected", "highlight"}) {
+    words.insert(words.end(), {file, "--ch", "R=" + term + ".R,G=" + term + ".G,B=" + term + ".B"});
+    if (term != "transmitted") words.push_back("--add");
+  }
+  words.insert(words.end(), {file, "--ch", "R,G,B", "--diff"});
+  return words;
+}
+
+TEST_F(CompositeTest, AovsSumToThePicture) {
+  composed("half.exr", {"--aov", "all"});
+  composed("float.exr", {"--aov", "all", "--float"});
+  EXPECT_EQ(oiiotool(sum_against_picture("half.exr", "2e-3")).code, 0);
+  EXPECT_EQ(oiiotool(sum_against_picture("float.exr", "0")).code, 0);
+  for (const std::string term : {"in_scatter", "reflected", "highlight"}) {  // none is empty
+    const Ran ran = oiiotool({"float.exr", "--ch", term + ".G", "--printstats"});
+    EXPECT_THAT(ran.out, Not(HasSubstr("Stats Max: 0.000000"))) << term;
+  }
+}
+
+TEST_F(CompositeTest, ThePreviewIsAPicture) {
+  const Ran ran = composite("wet.exr", {"--preview", "wet.png"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, ::testing::EndsWith("\nwet.png\n"));
+  EXPECT_THAT(iinfo("wet.png"), HasSubstr("64 x   36, 3 channel, uint8 png"));
+  // It is the picture in sRGB, to half a step of 8 bits.
+  const Ran alike = oiiotool({"--fail", "0.005", "wet.exr", "--ch", "R,G,B", "--clamp:min=0:max=1",
+                              "--colorconvert", "linear", "sRGB", "wet.png", "--diff"});
+  EXPECT_EQ(alike.code, 0) << alike.out << alike.err;
+}
+
+TEST_F(CompositeTest, KeepsTheAttributesAndAddsItsOwn) {
+  composed("wet.exr", {"--set", "water_shadow.strength=0"});
+  const std::string info = iinfo("wet.exr");
+  EXPECT_THAT(info, HasSubstr("pond/studio: \"shallow end\""));
+  EXPECT_THAT(info, HasSubstr("shot/take: \"12b\""));
+  EXPECT_THAT(info, ContainsRegex("limpid/version: \"[0-9]+\\.[0-9]+\\.[0-9]+\""));
+  EXPECT_THAT(info, ContainsRegex("limpid/plan: \"wave_normals +kept"));
+  EXPECT_THAT(info, ContainsRegex("water_shadow +dropped: neutral"));
+  EXPECT_THAT(info, HasSubstr("limpid/look: \""));
+  EXPECT_THAT(info, HasSubstr("[refraction]"));
+}
+
+TEST_F(CompositeTest, ItsOwnOutputIsAPlate) {
+  composed("wet.exr", {"--layer", "depth=plate.exr"});
+  const Ran ran = limpid({"composite", "wet.exr", "--layer", "depth=plate.exr", "--scene",
+                          "scene.toml", "--look", "look.toml", "-o", "wetter.exr", "-q"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_FALSE(same("wetter.exr", "wet.exr", 0.01));
+}
+
+TEST_F(CompositeTest, SettingsWinOverTheLook) {
+  composed("wet.exr");
+  composed("same.exr", {"--set", "depth_fog.density=0.15"});
+  composed("clear.exr", {"--set", "depth_fog.density=0"});
+  composed("red.exr", {"--set", "depth_fog.density=1", "--set", "depth_fog.color=[1, 0, 0]"});
+  EXPECT_TRUE(same("wet.exr", "same.exr"));
+  EXPECT_FALSE(same("wet.exr", "clear.exr", 0.01));
+  EXPECT_FALSE(same("wet.exr", "red.exr", 0.1));
+  EXPECT_THAT(iinfo("red.exr"), HasSubstr("color = [1.0, 0.0, 0.0]"));
+}
+
+TEST_F(CompositeTest, LooksComeByNameAndByFile) {
+  const auto with_look = [&](const std::string& look, const std::string& output) {
+    return limpid(
+        {"composite", "plate.exr", "--scene", "scene.toml", "--look", look, "-o", output});
+  };
+  const Ran named = with_look("realistic", "realistic.exr");
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_THAT(named.out, HasSubstr(", look realistic,"));
+  write_text("calm.toml", "[wave_normals]\nstrength = 0.0\n");
+  const Ran file = with_look("calm.toml", "calm.exr");
+  EXPECT_EQ(file.code, 0) << file.err;
+  EXPECT_THAT(file.out, HasSubstr(", look calm,"));
+  EXPECT_FALSE(same("realistic.exr", "calm.exr", 0.01));
+}
+
+TEST_F(CompositeTest, TimeMovesTheWaves) {
+  composed("now.exr");
+  composed("zero.exr", {"--time", "0"});
+  composed("later.exr", {"--time", "1.5"});
+  EXPECT_TRUE(same("now.exr", "zero.exr"));
+  EXPECT_FALSE(same("now.exr", "later.exr", 0.001));
+}
+
+TEST_F(CompositeTest, ThreadsDoNotChangeAByte) {
+  composed("one.exr", {"--threads", "1"});
+  composed("two.exr", {"--threads", "2", "--aov", "path"});
+  composed("two_again.exr", {"--threads", "2"});
+  EXPECT_EQ(text_of("one.exr"), text_of("two_again.exr"));
+  EXPECT_NE(text_of("one.exr"), text_of("two.exr"));
+}
+
+TEST_F(CompositeTest, EveryInstructionSetGivesThePicture) {
+  composed("reference.exr", {"--runner", "reference", "--float"});
+  for (const std::string& name : simd_targets()) {
+    composed("simd.exr", {"--simd", name, "--float"});
+    EXPECT_TRUE(same("simd.exr", "reference.exr", 3e-4)) << name;
+  }
+  expect_no_composite({"plate.exr", "--scene", "scene.toml", "--simd", "nonsense"},
+                      {"--simd nonsense: expected one of ", "scalar", " on this machine"}, 2);
+  expect_no_composite(
+      {"plate.exr", "--scene", "scene.toml", "--runner", "reference", "--simd", "scalar"},
+      {"--simd scalar: the reference runner has no instruction sets"}, 2);
+}
+
+TEST_F(CompositeTest, VerboseTellsLayersAndPlan) {
+  const Ran ran = composite("wet.exr", {"-v"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, StartsWith("plate.exr\n"));
+  EXPECT_THAT(ran.out, ContainsRegex("refraction +kept"));
+}
+
+TEST_F(CompositeTest, PlanAndDryRunWriteNothing) {
+  const std::vector<std::string> before = files();
+  const Ran dry = composite("wet.exr", {"-n", "--preview", "wet.png"});
+  const Ran plan = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml",
+                           "--set", "water_shadow.strength=0", "--layer", "reflection=none"});
+  EXPECT_EQ(files(), before);
+  EXPECT_EQ(dry.code, 0) << dry.err;
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(dry.out, ContainsRegex("fresnel_reflection +kept"));
+  EXPECT_THAT(plan.out, ContainsRegex("fresnel_reflection +dropped: input absent, no reflection"));
+  EXPECT_THAT(plan.out, ContainsRegex("water_shadow +dropped: neutral"));
+}
+
+TEST_F(CompositeTest, SaysWhatDoesNotRunForWantOfInput) {
+  const Ran ran = composite("wet.exr", {"--layer", "shadow=none"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("\nwater_shadow does not run: no shadow\n"));
+}
+
+TEST_F(CompositeTest, CountsWhatItReplaced) {
+  write_plate(folder_ / "plate.exr", {.broken = true});
+  const Ran ran = composite("wet.exr", {"--aov", "transmitted,path"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("; NaN or inf replaced: color 2, depth 1, shadow 1\n"));
+  const Ran stats = oiiotool({"wet.exr", "--ch", "R,G,B,A", "--printstats"});
+  EXPECT_THAT(stats.out, HasSubstr("Stats NanCount: 0 0 0 0"));
+  EXPECT_THAT(stats.out, HasSubstr("Stats InfCount: 0 0 0 0"));
+}
+
+}  // namespace
+}  // namespace limpid::test
