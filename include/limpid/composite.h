@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "limpid/core/executor.h"
 #include "limpid/load/plate.h"
 #include "limpid/load/scene_file.h"
 #include "limpid/ops/look.h"
 #include "limpid/plan/plan.h"
-#include "limpid/run/executor.h"
 #include "limpid/run/target.h"
 
 namespace limpid {

@@ -3,8 +3,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include <hwy/targets.h>
-
 #include "limpid/core/error.h"
 
 #include "run/checks.h"
@@ -14,32 +12,16 @@ namespace limpid {
 
 // One for each instruction set that the build names, made by lanes_target.cpp.
 #define LIMPID_TARGET(name, highway) extern const FusedTarget kFused_##name;
-#include "run/targets.inc"
+#include "core/targets.inc"
 #undef LIMPID_TARGET
 
 namespace {
 
-struct Candidate {
-  const FusedTarget* target;
-  std::int64_t highway;  ///< 0 for what every machine has
-};
-
-constexpr Candidate kCandidates[] = {
-#define LIMPID_TARGET(name, highway) {&kFused_##name, highway},
-#include "run/targets.inc"
+constexpr const FusedTarget* kTargets[] = {
+#define LIMPID_TARGET(name, highway) &kFused_##name,
+#include "core/targets.inc"
 #undef LIMPID_TARGET
 };
-
-bool supported(const Candidate& c) {
-  return c.highway == 0 || (hwy::SupportedTargets() & c.highway) != 0;
-}
-
-const FusedTarget& chosen(const std::string& name) {
-  for (const Candidate& c : kCandidates) {
-    if (supported(c) && (name.empty() || name == c.target->name)) return *c.target;
-  }
-  throw Error("simd = " + name + ": expected one of " + join(simd_targets()) + " on this machine");
-}
 
 void check_extent(const Frame& frame) {
   for (const View<const float>& view : frame.planes) {
@@ -70,17 +52,9 @@ struct Tiles {
 
 }  // namespace
 
-std::vector<std::string> simd_targets() {
-  std::vector<std::string> names;
-  for (const Candidate& c : kCandidates) {
-    if (supported(c)) names.emplace_back(c.target->name);
-  }
-  return names;
-}
-
 void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
                Executor& executor, const FusedOptions& options) {
-  const FusedTarget& simd = chosen(options.simd);
+  const FusedTarget& simd = *kTargets[simd_index(options.simd)];
   check_run(plan, frame, target);
   check_extent(frame);
   const Size tile = options.tile;

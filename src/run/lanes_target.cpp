@@ -1,8 +1,8 @@
 // Compiled once for each instruction set, with that set's flags and LIMPID_LANES_TARGET naming it.
 // All that is instantiated here depends on the Lane type of the set, so that no function compiled
 // for one machine can be linked into the path of another.
+#include "core/lanes.h"
 #include "run/fused_tile.h"
-#include "run/lanes.h"
 
 namespace limpid::HWY_NAMESPACE {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/core/simd.h"
 #include "limpid/plan/plan.h"
-#include "limpid/run/executor.h"
 #include "limpid/run/target.h"
 
 namespace limpid {
@@ -17,9 +17,6 @@ struct FusedOptions {
   std::string simd = {};
   Size tile = {1024, 32};
 };
-
-/// The instruction sets that this library was built for and this machine has, best first.
-std::vector<std::string> simd_targets();
 
 /// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. The bits of
 /// the result depend on plan, frame, scene and instruction set, not on threads, tile size or order.

@@ -1,4 +1,4 @@
-#include "limpid/run/executor.h"
+#include "limpid/core/executor.h"
 
 #include <algorithm>
 #include <string>
