@@ -8,12 +8,10 @@
 #include "limpid/load/plate.h"
 #include "limpid/load/scene_file.h"
 #include "limpid/ops/look.h"
+#include "limpid/output.h"
 #include "limpid/plan/plan.h"
-#include "limpid/run/target.h"
 
 namespace limpid {
-
-enum class Runner { kFused, kReference };
 
 /// From files to files: what `limpid composite` does.
 struct CompositeJob {
@@ -23,14 +21,7 @@ struct CompositeJob {
   double time = 0;                      ///< seconds, for drifting waves
   Look look;
 
-  std::vector<Aov> aovs;
-  Runner runner = Runner::kFused;
-  std::string simd;  ///< "" for the best
-
-  std::filesystem::path output;   ///< EXR
-  std::filesystem::path preview;  ///< PNG, or empty for none
-  std::string compression = "piz";
-  bool store_float = false;  ///< half otherwise; depths and paths are float always
+  OutputChoice output;
 };
 
 /// What was done, for the report line.

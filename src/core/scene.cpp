@@ -20,11 +20,24 @@ void expect_unit(const char* what, const glm::dvec3& v) {
 
 }  // namespace
 
+PlaneAxes plane_axes(const glm::dvec3& up) {
+  const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
+  glm::dvec3 x = flat({1, 0, 0});
+  if (glm::length(x) < 1e-6) x = flat({0, 0, 1});
+  x = glm::normalize(x);
+  return {x, glm::cross(up, x)};
+}
+
 void Scene::validate() const {
   if (camera) camera->validate();
   if (water) {
     expect_unit("water.up", water->up);
     if (!std::isfinite(water->height)) throw Error("water.height is not a finite number");
+    for (const SineWave& w : water->waves) {
+      if (!std::isfinite(w.amplitude + w.k_x + w.k_y + w.phase + w.omega)) {
+        throw Error("water.waves holds a number that is not finite");
+      }
+    }
   }
   if (sun) {
     expect_unit("sun.direction", sun->direction);

@@ -50,7 +50,8 @@ class FileStream : public Imf::IStream {
   std::vector<char> buffer_;
 };
 
-/// Whether a failed system call is worth another try (disk full, file-size limit, network file gone) or not.
+/// Whether a failed system call is worth another try (disk full, file-size limit, network file
+/// gone) or not.
 Fault fault_of(int system_error);
 
 /// "no space left on device" for the number of a failed system call.

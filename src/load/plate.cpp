@@ -217,6 +217,14 @@ std::optional<Camera> Plate::camera() const {
   return camera_of(*file.exr, ref.part);
 }
 
+SceneFile Plate::scene() const {
+  const ChannelRef& ref = state_->color_ref();
+  const PlateFile& file = state_->files[static_cast<std::size_t>(ref.file)];
+  if (!file.exr) return {};
+  const std::optional<std::string> text = file.exr->text_attribute(ref.part, "limpid/scene");
+  return text ? scene_from_toml(*text, file.path.string() + ", limpid/scene") : SceneFile{};
+}
+
 std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
   const ChannelRef& ref = state_->color_ref();
   const PlateFile& file = state_->files[static_cast<std::size_t>(ref.file)];
@@ -258,37 +266,17 @@ LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning&
   for (const auto& [file, list] : requests)
     state_->files[static_cast<std::size_t>(file)].read(list);
 
-  for (const Role& role : roles()) {
-    const auto view = [&](int i) {
-      return loaded.planes[index_of(plane_after(role.first, i))].view();
-    };
-    if (!loaded.frame.plane(role.first)) continue;
-    std::int64_t& replaced = loaded.replaced.of(role);
-    switch (role.sanitise) {
-      case Sanitise::kColor:
-        for (int i = 0; i < role.count; ++i) {
-          if (loaded.frame.plane(plane_after(role.first, i))) replaced += sanitise_color(view(i));
-        }
-        break;
-      case Sanitise::kShadow:
-        replaced += sanitise_shadow(view(0));
-        break;
-      case Sanitise::kNormal:
-        replaced += sanitise_normal(view(0), view(1), view(2),
-                                    scene.water ? scene.water->up : glm::dvec3(0, 1, 0));
-        break;
-      case Sanitise::kDepth: {
-        const ChannelRef& ref = state_->choice(role.name)->channels.front();
-        const auto& channels = state_->part_of(ref).channels;
-        const bool half = std::any_of(channels.begin(), channels.end(), [&](const auto& c) {
-          return c.name == ref.name && c.type == SampleType::kHalf;
-        });
-        replaced += make_eye_depth(view(0), {depth.kind, half, depth.near, depth.far,
-                                             scene.camera ? &*scene.camera : nullptr, display()});
-        break;
-      }
-    }
-  }
+  const auto source_of = [&](const Role& role) -> DepthSource {
+    const ChannelRef& ref = state_->choice(role.name)->channels.front();
+    const auto& channels = state_->part_of(ref).channels;
+    const bool half = std::any_of(channels.begin(), channels.end(), [&](const auto& c) {
+      return c.name == ref.name && c.type == SampleType::kHalf;
+    });
+    return {depth.kind, half, depth.near, depth.far, scene.camera ? &*scene.camera : nullptr,
+            display()};
+  };
+  loaded.replaced = sanitise_planes(loaded.planes,
+                                    scene.water ? scene.water->up : glm::dvec3(0, 1, 0), source_of);
   return loaded;
 }
 

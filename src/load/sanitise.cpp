@@ -154,4 +154,33 @@ std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source)
   return 0;
 }
 
+SanitiseCounts sanitise_planes(std::span<Plane> planes, glm::dvec3 up,
+                               const std::function<DepthSource(const Role&)>& source_of) {
+  SanitiseCounts replaced;
+  for (const Role& role : roles()) {
+    const auto plane = [&](int i) -> Plane& {
+      return planes[static_cast<std::size_t>(index_of(plane_after(role.first, i)))];
+    };
+    if (!plane(0)) continue;
+    std::int64_t& count = replaced.of(role);
+    switch (role.sanitise) {
+      case Sanitise::kColor:
+        for (int i = 0; i < role.count; ++i) {
+          if (plane(i)) count += sanitise_color(plane(i).view());
+        }
+        break;
+      case Sanitise::kShadow:
+        count += sanitise_shadow(plane(0).view());
+        break;
+      case Sanitise::kNormal:
+        count += sanitise_normal(plane(0).view(), plane(1).view(), plane(2).view(), up);
+        break;
+      case Sanitise::kDepth:
+        count += make_eye_depth(plane(0).view(), source_of ? source_of(role) : DepthSource{});
+        break;
+    }
+  }
+  return replaced;
+}
+
 }  // namespace limpid

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "limpid/core/frame.h"
+#include "limpid/core/toml_text.h"
 
 #include "load/toml.h"
 
@@ -38,14 +39,31 @@ glm::dvec3 direction_of(const TomlNode& node) {
   const std::vector<double> v = node.finite_numbers(3);
   const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   if (largest == 0) node.refuse("a vector that is not zero");
-  return glm::normalize(glm::dvec3(v[0] / largest, v[1] / largest, v[2] / largest));
+  const glm::dvec3 direction(v[0], v[1], v[2]);
+  // What is unit to rounding stays as it is: a direction that was written out reads back the same.
+  if (std::abs(glm::dot(direction, direction) - 1) < 1e-14) return direction;
+  return glm::normalize(direction / largest);
+}
+
+/// [amplitude, k_x, k_y, phase] or with omega; without it, that of deep water: sqrt(9.81 m/s^2
+/// |k|).
+SineWave wave_of(const TomlNode& node) {
+  const bool with_omega = node.items.size() == 5;
+  const std::vector<double> n = node.finite_numbers(with_omega ? 5 : 4);
+  const double omega = with_omega ? n[4] : std::sqrt(9.81 * std::hypot(n[1], n[2]));
+  return {n[0], n[1], n[2], n[3], omega};
 }
 
 WaterPlane water_of(const TomlNode& table) {
-  table.expect_keys(Names{"up", "height"});
+  table.expect_keys(Names{"up", "height", "waves"});
   WaterPlane water;
   if (const TomlNode* up = table.find("up")) water.up = direction_of(*up);
   if (const TomlNode* height = table.find("height")) water.height = height->finite_number();
+  if (const TomlNode* waves = table.find("waves")) {
+    if (waves->kind != TomlNode::Kind::kList)
+      waves->refuse("a list of [amplitude, k_x, k_y, phase]");
+    for (const TomlNode& wave : waves->items) water.waves.push_back(wave_of(wave));
+  }
   return water;
 }
 
@@ -75,6 +93,13 @@ std::map<std::string, std::string> plates_of(const TomlNode& table, const fs::pa
     plates[node.key] = name.channels.empty() ? file : file + ":" + name.channels;
   }
   return plates;
+}
+
+fs::path geometry_of(const TomlNode& table, const fs::path& folder) {
+  table.expect_keys(Names{"gltf"});
+  const TomlNode* gltf = table.find("gltf");
+  if (!gltf) throw Error(table.place + "geometry: expected gltf = FILE");
+  return (folder / gltf->word()).lexically_normal();
 }
 
 /// What the file says of near and far, whatever they are used for.
@@ -181,21 +206,66 @@ void read_camera(const TomlNode& table, SceneFile& file) {
 
 }  // namespace
 
-SceneFile load_scene(const fs::path& path) {
-  const TomlNode root = parse_toml(path);
-  if (const TomlNode* geometry = root.find("geometry")) {
-    throw Error(geometry->key_place +
-                "geometry: this build renders no geometry; give [plates] instead");
-  }
-  root.expect_keys(Names{"plates", "camera", "water", "sun"});
+namespace {
+
+SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
+  root.expect_keys(Names{"geometry", "plates", "camera", "water", "sun"});
   SceneFile file;
   for (const TomlNode& table : root.items) {
-    if (table.key == "plates") file.plates = plates_of(table, fs::absolute(path).parent_path());
+    if (table.key == "geometry") file.geometry = geometry_of(table, folder);
+    if (table.key == "plates") file.plates = plates_of(table, folder);
     if (table.key == "camera") read_camera(table, file);
     if (table.key == "water") file.scene.water = water_of(table);
     if (table.key == "sun") file.scene.sun = sun_of(table);
   }
   return file;
+}
+
+std::string list_text(std::initializer_list<double> numbers) {
+  std::vector<std::string> texts;
+  for (double x : numbers) texts.push_back(toml_text(x));
+  return "[" + join(texts) + "]";
+}
+
+std::string matrix_text(const glm::dmat4& m) {
+  std::vector<std::string> rows;
+  for (int r = 0; r < 4; ++r) rows.push_back(list_text({m[0][r], m[1][r], m[2][r], m[3][r]}));
+  return "[" + join(rows) + "]";
+}
+
+}  // namespace
+
+SceneFile load_scene(const fs::path& path) {
+  return scene_of(parse_toml(path), fs::absolute(path).parent_path());
+}
+
+SceneFile scene_from_toml(const std::string& text, const std::string& name) {
+  return scene_of(parse_toml_text(text, name), {});
+}
+
+std::string to_toml(const Scene& scene) {
+  std::string text;
+  if (scene.camera) {
+    text += "[camera]\nview = " + matrix_text(scene.camera->view) +
+            "\nprojection = " + matrix_text(scene.camera->projection) + "\nclip = \"" +
+            std::string(kClips[static_cast<std::size_t>(scene.camera->clip)]) + "\"\n";
+  }
+  if (scene.water) {
+    const WaterPlane& water = *scene.water;
+    std::vector<std::string> waves;
+    for (const SineWave& w : water.waves) {
+      waves.push_back(list_text({w.amplitude, w.k_x, w.k_y, w.phase, w.omega}));
+    }
+    text += "[water]\nup = " + list_text({water.up.x, water.up.y, water.up.z}) +
+            "\nheight = " + toml_text(water.height) + "\nwaves = [" + join(waves) + "]\n";
+  }
+  if (scene.sun) {
+    const glm::dvec3& d = scene.sun->direction;
+    const Rgb<double>& c = scene.sun->color;
+    text += "[sun]\ndirection = " + list_text({d.x, d.y, d.z}) +
+            "\ncolor = " + list_text({c.r, c.g, c.b}) + "\n";
+  }
+  return text;
 }
 
 PlateName split_plate(std::string_view text) {

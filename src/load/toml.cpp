@@ -167,12 +167,14 @@ std::size_t TomlNode::choice(std::span<const std::string_view> words) const {
 }
 
 TomlNode parse_toml(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const std::string text = text_of_file(path);
+  return parse_toml_text(text_of_file(path), path.string());
+}
+
+TomlNode parse_toml_text(const std::string& text, const std::string& name) {
   try {
-    return converted(toml::parse(text, file), file, "");
+    return converted(toml::parse(text, name), name, "");
   } catch (const toml::parse_error& error) {
-    throw Error(place_of(file, error.source()) + std::string(error.description()));
+    throw Error(place_of(name, error.source()) + std::string(error.description()));
   }
 }
 

@@ -55,4 +55,7 @@ auto at_place(const std::string& place, Work&& work) {
 /// with the path, and with line and column where there are any.
 TomlNode parse_toml(const std::filesystem::path& path);
 
+/// The same of a text that did not come from a file of its own; `name` stands for the file.
+TomlNode parse_toml_text(const std::string& text, const std::string& name);
+
 }  // namespace limpid

@@ -33,8 +33,9 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   up = scene.water->up;
   t = on_plane(up, scene.camera->right(), scene.camera->up());
   b = glm::cross(up, t);
-  map_x = on_plane(up, {1, 0, 0}, {0, 0, 1});
-  map_y = glm::cross(up, map_x);
+  const PlaneAxes axes = plane_axes(up);
+  map_x = axes.x;
+  map_y = axes.y;
   eye_above = glm::dot(up, eye) - scene.water->height;
 }
 

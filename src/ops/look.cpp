@@ -1,9 +1,7 @@
 #include "limpid/ops/look.h"
 
-#include <charconv>
-#include <cstdio>
-
 #include "limpid/core/error.h"
+#include "limpid/core/toml_text.h"
 
 namespace limpid {
 namespace {
@@ -19,30 +17,11 @@ void for_each_table(L& look, Visit&& visit) {
   Chain::for_each([&]<class Op, int>() { visit(Op::kName, Op::fields(), look.template of<Op>()); });
 }
 
-std::string toml_text(const std::string& word) {
-  std::string quoted = "\"";
-  for (char c : word) {
-    if (const int code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f) {
-      char escaped[8];
-      std::snprintf(escaped, sizeof escaped, "\\u%04X", code);
-      quoted += escaped;
-      continue;
-    }
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
-/// The shortest text that reads back as the same float.
-std::string toml_text(double x) {
-  char digits[32];
-  const std::string text(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
-  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-}
-
-std::string toml_text(const Rgb<double>& c) {
-  return "[" + toml_text(c.r) + ", " + toml_text(c.g) + ", " + toml_text(c.b) + "]";
+std::string value_text(const Value& value) {
+  const Rgb<double>* c = std::get_if<Rgb<double>>(&value);
+  if (c) return "[" + toml_text(c->r) + ", " + toml_text(c->g) + ", " + toml_text(c->b) + "]";
+  const double* x = std::get_if<double>(&value);
+  return x ? toml_text(*x) : toml_text(std::get<std::string>(value));
 }
 
 }  // namespace
@@ -102,8 +81,7 @@ std::string to_toml(const Look& look) {
   for (const Parameter& p : parameters(look)) {
     if (p.table != table) text += (text.empty() ? "[" : "\n[") + std::string(p.table) + "]\n";
     table = p.table;
-    text += std::string(p.name) + " = " +
-            std::visit([](const auto& value) { return toml_text(value); }, p.value) + "\n";
+    text += std::string(p.name) + " = " + value_text(p.value) + "\n";
   }
   return text;
 }

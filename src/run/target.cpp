@@ -35,4 +35,10 @@ Aov aov_named(std::string_view name) {
               did_you_mean(name, known));
 }
 
+StateSet state_shown_by(std::span<const Aov> list) {
+  StateSet shown;
+  for (Aov aov : list) shown = shown | StateSet{kAovs[static_cast<std::size_t>(aov)].part};
+  return shown;
+}
+
 }  // namespace limpid

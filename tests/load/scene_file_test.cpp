@@ -183,7 +183,9 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
   };
   const std::string camera = "[camera]\n" + kView;
   const Case cases[] = {
-      {"[geometry]\ngltf = \"a.gltf\"\n", ":1:", "this build renders no geometry; give [plates]"},
+      {"[geometry]\nglft = \"a.gltf\"\n", ":2:1:", "did you mean 'gltf'?"},
+      {"[geometry]\n", ":1:", "expected gltf = FILE"},
+      {"[water]\nwaves = [[0.1, 1, 2]]\n", ":2:10:", "water.waves[0]"},
       {"[watr]\n", ":1:", "unknown table 'watr': expected one of plates, camera, water, sun"},
       {"water = 3\n", ":1:9: ", "water = 3: expected a table"},
       {"[plates]\ncolour = \"a.exr\"\n", ":2:1: ", "did you mean 'color'?"},
@@ -250,6 +252,34 @@ TEST(CameraFor, RefusesPicturesWithoutShape) {
                 camera_for(*file.camera, {960, 540}, std::nan(""));
               }),
               HasSubstr("pixel aspect nan"));
+}
+
+TEST(SceneFile, WrittenOutReadsBackToTheBit) {
+  Scene scene;
+  Camera camera;
+  camera.view[3] = {0.1, -1.0 / 3, 5e-9, 1};
+  camera.projection = perspective(0.7, 1.7, 0.1, 333, ClipSpace::kReversed, {0.1, 0});
+  camera.clip = ClipSpace::kReversed;
+  scene.camera = camera;
+  scene.water =
+      WaterPlane{glm::normalize(glm::dvec3(0.1, 0.9, -0.3)), 1.0 / 7, {{0.1, 2, 3, 4, 5}}};
+  scene.sun = Sun{glm::normalize(glm::dvec3(3, 1, 2)), {1.0 / 3, 2, 0}};
+  const SceneFile back = scene_from_toml(to_toml(scene), "text");
+  const Camera read = camera_for(*back.camera, {170, 100});
+  EXPECT_EQ(read.view, camera.view);
+  EXPECT_EQ(read.projection, camera.projection);
+  EXPECT_EQ(read.clip, camera.clip);
+  EXPECT_EQ(back.scene.water->up, scene.water->up);
+  EXPECT_EQ(back.scene.water->height, scene.water->height);
+  ASSERT_EQ(back.scene.water->waves.size(), 1u);
+  EXPECT_EQ(back.scene.water->waves[0].omega, 5);
+  EXPECT_EQ(back.scene.sun->direction, scene.sun->direction);
+  EXPECT_EQ(back.scene.sun->color, scene.sun->color);
+}
+
+TEST(SceneFile, WavesGetTheSpeedOfDeepWater) {
+  const SceneFile file = scene_from_toml("[water]\nwaves = [[0.1, 3, 4, 0.5]]\n", "text");
+  EXPECT_NEAR(file.scene.water->waves[0].omega, std::sqrt(9.81 * 5), 1e-12);
 }
 
 }  // namespace

@@ -92,14 +92,14 @@ CompositeJob job_of(const CompositeArguments& a) {
   job.look = look_for(a.look);
   for (const std::string& setting : a.settings) apply_setting(job.look, setting);
   job.time = a.time;
-  job.aovs = aov_list(a.aovs);
-  job.runner = runner_named(a.runner);
-  job.simd = simd_named(a.simd, job.runner);
-  job.output = exr_named(a.output);
-  job.preview = a.preview;
+  job.output.aovs = aov_list(a.aovs);
+  job.output.runner = runner_named(a.runner);
+  job.output.simd = simd_named(a.simd, job.output.runner);
+  job.output.picture = exr_named(a.output);
+  job.output.preview = a.preview;
   validate_compression(a.compression);
-  job.compression = a.compression;
-  job.store_float = a.store_float;
+  job.output.compression = a.compression;
+  job.output.store_float = a.store_float;
   return job;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -8,11 +9,29 @@
 
 namespace limpid {
 
-/// The calm surface: the points p with dot(up, p) = height. `up` is unit.
+/// A sine wave on the water: height amplitude sin(k_x x + k_y y + phase - omega t), with x and y
+/// along PlaneAxes and t the scene's time.
+struct SineWave {
+  double amplitude = 0;     ///< scene units
+  double k_x = 0, k_y = 0;  ///< rad / scene unit; the wave travels along (k_x, k_y)
+  double phase = 0;         ///< rad
+  double omega = 0;         ///< rad / s
+};
+
+/// The calm surface: the points p with dot(up, p) = height. `up` is unit. `waves` raise and lower
+/// it where it is rendered as geometry; the chain takes its waves from normals.
 struct WaterPlane {
   glm::dvec3 up{0, 1, 0};
   double height = 0;
+  std::vector<SineWave> waves = {};
 };
+
+/// Axes of the water plane that stay with the world: world x (z, should x be parallel to up)
+/// projected on the plane, and cross(up, x). Unit.
+struct PlaneAxes {
+  glm::dvec3 x, y;
+};
+PlaneAxes plane_axes(const glm::dvec3& up);
 
 /// `direction` is unit and points towards the sun; `color` scales its radiance.
 struct Sun {

@@ -13,6 +13,7 @@
 #include "limpid/load/layers.h"
 #include "limpid/load/limits.h"
 #include "limpid/load/sanitise.h"
+#include "limpid/load/scene_file.h"
 
 namespace limpid {
 
@@ -58,6 +59,9 @@ class Plate {
   double pixel_aspect() const;
   /// From the attributes of the file that has the color, see exr_camera.h.
   std::optional<Camera> camera() const;
+  /// From the attribute limpid/scene of that file, as `limpid render` writes it; empty where there
+  /// is none.
+  SceneFile scene() const;
   /// Attributes of the color's part, to be handed on.
   std::map<std::string, ExrFile::Attribute> attributes() const;
   /// Throws the Error for a role that nothing feeds, with the list of all layers that there are.

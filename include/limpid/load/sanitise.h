@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 
 #include <glm/vec3.hpp>
@@ -53,5 +55,10 @@ struct DepthSource {
 /// Returns how many were NaN. Throws Error when the kind needs a camera, or near and far, that is
 /// not there.
 std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source);
+
+/// All of the above, by role, to the planes that are there (by PlaneId). `source_of` says what the
+/// depth planes hold; without it they are linear eye depth in float.
+SanitiseCounts sanitise_planes(std::span<Plane> planes, glm::dvec3 up,
+                               const std::function<DepthSource(const Role&)>& source_of = {});
 
 }  // namespace limpid

@@ -37,10 +37,12 @@ Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1)
 
 /// What a scene file (TOML) says:
 ///
+///   [geometry] gltf: a scene to be rendered, relative to the scene file
 ///   [plates]  a key a role of core/frame.h: "FILE" or "FILE:CHANNELS", relative to the scene file
 ///   [camera]  view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl, d3d,
 ///             reversed; near, far; depth = eye, ray, inverse, normalised, device
-///   [water]   up, height            [sun]  direction, color
+///   [water]   up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
+///   [sun]     direction, color
 ///
 /// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
 /// unit. Without near and far a field of view gets 0.01 and infinity, an orthographic width 0 and
@@ -52,12 +54,20 @@ struct SceneFile {
   std::optional<double> near, far;  ///< as given; far may be +inf
   /// Role -> absolute "FILE" or "FILE:CHANNELS", for split_plate().
   std::map<std::string, std::string> plates;
+  std::filesystem::path geometry;  ///< glTF file, absolute, or empty
 };
 
 /// Throws Error, with "file:line:column: " in front, for what is not TOML, an unknown table or key
 /// (with the nearest known name), a value of the wrong type or length, NaN, and infinity but for
 /// far.
 SceneFile load_scene(const std::filesystem::path& path);
+
+/// The same from a text, as the attribute `limpid/scene` of a rendered plate holds it; `name`
+/// stands for the file in errors.
+SceneFile scene_from_toml(const std::string& text, const std::string& name);
+
+/// Camera, water and sun as a text that scene_from_toml() reads back to the bit.
+std::string to_toml(const Scene& scene);
 
 /// "FILE:CHANNELS" in its two parts: cut at the last ':' unless a '/' follows it; channels are ""
 /// where there are none.

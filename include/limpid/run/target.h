@@ -34,6 +34,8 @@ struct AovInfo {
 std::span<const AovInfo> aovs();
 /// Throws Error with the nearest name.
 Aov aov_named(std::string_view name);
+/// What state a run must make for these to be shown.
+StateSet state_shown_by(std::span<const Aov> list);
 
 /// Where a run writes. The picture must be there; each AOV may be. All views must cover the frame's
 /// work(). Pixels of a view outside work() are left alone.

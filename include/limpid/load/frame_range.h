@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limpid {
+
+/// The frames that a range names, as oiiotool reads it: "1-5", "1-100x33" (every 33rd), "10-1y3"
+/// (all but every 3rd), "1,3,7-9"; ranges may run down. Throws Error (Fault::kUsage) for anything
+/// else and for more than 1e6 frames.
+std::vector<int> frames_of(std::string_view range);
+
+/// The name with its frame number put in: %d or %04d, # (four digits), @ (one digit), runs of these
+/// added up. A name without any stays as it is. Throws Error (Fault::kUsage) for another % code.
+std::string name_of_frame(std::string_view pattern, int frame);
+
+/// Whether name_of_frame() puts a number into it.
+bool has_frame_number(std::string_view pattern);
+
+}  // namespace limpid

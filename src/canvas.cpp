@@ -1,0 +1,97 @@
+#include "canvas.h"
+
+#include "limpid/run/fused.h"
+#include "limpid/run/reference.h"
+#include "limpid/version.h"
+#include "limpid/write/preview.h"
+
+namespace limpid {
+namespace {
+
+/// Whether a channel is a length or a direction, which no mean can be taken of.
+bool is_geometry(Aov aov) {
+  return aov == Aov::kNormal || aov == Aov::kSurfaceDepth || aov == Aov::kPath;
+}
+
+float block_mean(const View<float>& from, int x, int y, int n) {
+  double sum = 0;
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) sum += from.at(x * n + i, y * n + j);
+  }
+  return static_cast<float>(sum / (n * n));
+}
+
+}  // namespace
+
+LoadedTexture wave_map_of(const Plan& plan, const Limits& limits) {
+  if (!plan.reads_wave_map) return {};
+  return load_texture(plan.look.of<WaveNormals>().map, limits);
+}
+
+Canvas::Canvas(Rect window, const OutputChoice& choice) : window_(window) {
+  for (int i = 0; i < 3; ++i) {
+    target_.color[i] = add(std::string(1, "RGB"[i]), !choice.store_float);
+  }
+  target_.alpha = add("A", !choice.store_float);
+  for (Aov aov : choice.aovs) {
+    const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
+    const bool length = info.suffixes == "Z";
+    for (std::size_t i = 0; i < info.suffixes.size(); ++i) {
+      const std::string name = std::string(info.name) + "." + info.suffixes[i];
+      target_.of(aov)[i] = add(name, !choice.store_float && !length);
+    }
+  }
+}
+
+View<float> Canvas::add(const std::string& name, bool half) {
+  planes_.emplace_back(window_);
+  channels_.push_back({name, planes_.back().view(), half});
+  return planes_.back().view();
+}
+
+void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
+                   const OutputChoice& choice, Executor& executor) const {
+  if (choice.runner == Runner::kReference) {
+    run_reference(plan, frame, scene, target_);
+  } else {
+    run_fused(plan, frame, scene, target_, executor, {.simd = choice.simd});
+  }
+}
+
+Canvas Canvas::filtered(int n, const OutputChoice& choice) const {
+  const Rect small{window_.x0 / n, window_.y0 / n, window_.x1 / n, window_.y1 / n};
+  Canvas canvas(small, choice);
+  const auto shrink = [&](const View<float>& from, const View<float>& to, bool mean) {
+    if (!from) return;
+    for (int y = small.y0; y < small.y1; ++y) {
+      for (int x = small.x0; x < small.x1; ++x) {
+        to.at(x, y) =
+            mean ? block_mean(from, x, y, n) : from.at(x * n + (n - 1) / 2, y * n + (n - 1) / 2);
+      }
+    }
+  };
+  for (int i = 0; i < 3; ++i) shrink(target_.color[i], canvas.target_.color[i], true);
+  shrink(target_.alpha, canvas.target_.alpha, true);
+  for (Aov aov : choice.aovs) {
+    for (int i = 0; i < 3; ++i) {
+      shrink(target_.of(aov)[i], canvas.target_.of(aov)[i], !is_geometry(aov));
+    }
+  }
+  return canvas;
+}
+
+void Canvas::write(ExrOutput described, const Plan& plan, const OutputChoice& choice) const {
+  described.data = window_;
+  described.compression = choice.compression;
+  described.channels = channels_;
+  described.text["limpid/version"] = kVersion;
+  described.text["limpid/look"] = to_toml(plan.look);
+  described.text["limpid/plan"] = to_text(plan);
+  if (!choice.preview.empty()) {
+    const auto& c = target_.color;
+    write_preview(choice.preview, c[0], c[1], c[2]);
+  }
+  write_exr(choice.picture, described);
+}
+
+}  // namespace limpid

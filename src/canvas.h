@@ -1,0 +1,46 @@
+#pragma once
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/load/plate.h"
+#include "limpid/output.h"
+#include "limpid/plan/plan.h"
+#include "limpid/run/target.h"
+#include "limpid/write/exr_writer.h"
+
+namespace limpid {
+
+/// The tiling normal map that a plan looks up; empty when it does not.
+LoadedTexture wave_map_of(const Plan& plan, const Limits& limits = {});
+
+/// The picture and the wanted AOVs in memory, with their names in the file.
+class Canvas {
+ public:
+  Canvas(Rect window, const OutputChoice& choice);
+
+  /// Runs the plan on the frame, by the chosen runner.
+  void paint(const Plan& plan, const Frame& frame, const Scene& scene, const OutputChoice& choice,
+             Executor& executor) const;
+
+  /// The same picture with each n x n block of pixels made one: lights and shares by their mean,
+  /// depths and normals by the sample nearest to the middle (the upper left of the four, for an
+  /// even n).
+  Canvas filtered(int n, const OutputChoice& choice) const;
+
+  /// Writes preview and picture; `described` has windows and attributes, the channels come from
+  /// here. The picture comes last: when anything fails, what was under its name before is still
+  /// there.
+  void write(ExrOutput described, const Plan& plan, const OutputChoice& choice) const;
+
+  const Target& target() const { return target_; }
+
+ private:
+  View<float> add(const std::string& name, bool half);
+
+  Rect window_;
+  std::vector<Plane> planes_;
+  std::vector<ExrOutputChannel> channels_;
+  Target target_;
+};
+
+}  // namespace limpid

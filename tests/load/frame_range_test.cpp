@@ -1,0 +1,41 @@
+#include "limpid/load/frame_range.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(FrameRange, ReadsWhatOiiotoolReads) {
+  EXPECT_THAT(frames_of("7"), ElementsAre(7));
+  EXPECT_THAT(frames_of("1-5"), ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_THAT(frames_of("1-100x33"), ElementsAre(1, 34, 67, 100));
+  EXPECT_THAT(frames_of("10-1y3"), ElementsAre(9, 8, 6, 5, 3, 2));
+  EXPECT_THAT(frames_of("1,3,7-9"), ElementsAre(1, 3, 7, 8, 9));
+  EXPECT_THAT(frames_of("-2-1"), ElementsAre(-2, -1, 0, 1));
+}
+
+TEST(FrameRange, RefusesTheRest) {
+  for (const char* text : {"", "a", "1-", "1-5x", "1-5x0", "1,,2", "1-5z2", "1 5", "0-99999999"}) {
+    EXPECT_THROW(frames_of(text), Error) << text;
+  }
+}
+
+TEST(FrameRange, PutsTheNumberIntoNames) {
+  EXPECT_EQ(name_of_frame("wet.%04d.exr", 12), "wet.0012.exr");
+  EXPECT_EQ(name_of_frame("wet.%d.exr", 12), "wet.12.exr");
+  EXPECT_EQ(name_of_frame("wet.#.exr", 12), "wet.0012.exr");
+  EXPECT_EQ(name_of_frame("wet.@@.exr", 7), "wet.07.exr");
+  EXPECT_EQ(name_of_frame("wet.exr", 7), "wet.exr");
+  EXPECT_EQ(name_of_frame("wet.%04d.exr", -3), "wet.-0003.exr");
+  EXPECT_THROW(name_of_frame("wet.%s.exr", 1), Error);
+  EXPECT_TRUE(has_frame_number("a.#.exr"));
+  EXPECT_FALSE(has_frame_number("a.exr"));
+}
+
+}  // namespace
+}  // namespace limpid
