@@ -1,5 +1,6 @@
+#include "ops/contract.h"
+
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <set>
 
@@ -7,127 +8,34 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/ops/look.h"
 
 #include "ops/probe_strip.h"
-#include "support.h"
 
-// What every operator of the chain promises, tested by the act of being in the chain.
+// What every operator of the chain promises, tested by the act of being in the chain: what it
+// declares, and what it does when applied alone. contract_picture_test.cpp has the rest.
 
 namespace limpid {
 namespace {
 
 using test::Buffers;
-using test::Picture;
+using test::candidates;
+using test::for_each_params;
+using test::label;
 using test::ProbeStrip;
+using test::random_params;
 using testing::HasSubstr;
 
-constexpr Size kSize{19, 7};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-template <class Op>
-std::string label(std::string_view field = "") {
-  return std::string(Op::kName) + "." + std::string(field);
-}
-
-/// Values that a parameter may have: its ends, its default, and what is often special.
-template <class P>
-std::vector<Value> candidates(const Field<P>& field) {
-  std::vector<Value> values = {field.get(P{})};
-  const auto inside = [&](double x) { return x >= field.range.min && x <= field.range.max; };
-  switch (field.kind) {
-    case FieldKind::kReal:
-      for (double x : {field.range.min, field.range.max, 0.0, 1.0}) {
-        if (inside(x)) values.emplace_back(x);
-      }
-      break;
-    case FieldKind::kColor:
-      for (double x : {field.range.min, field.range.max, 0.0, 1.0}) {
-        if (inside(x)) values.emplace_back(Rgb<double>{x, x, x});
-      }
-      break;
-    case FieldKind::kChoice:
-      for (std::string_view word : field.choices) values.emplace_back(std::string(word));
-      break;
-    case FieldKind::kText:
-      break;
-  }
-  return values;
-}
-
-/// Calls fn(params, text) for the defaults with every pair of parameters at every candidate.
-template <class Op, class Fn>
-void for_each_params(Fn&& fn) {
-  for (const auto& first : Op::fields()) {
-    for (const auto& second : Op::fields()) {
-      for (const Value& a : candidates(first)) {
-        for (const Value& b : candidates(second)) {
-          typename Op::Params params;
-          assign(Op::kName, first, params, a);
-          assign(Op::kName, second, params, b);
-          fn(params, label<Op>(first.name) + " = " + to_string(a) + ", " +
-                         std::string(second.name) + " = " + to_string(b));
-        }
-      }
-    }
-  }
-}
-
-/// Within the range, but no larger than a picture of noise can be compared in float.
-template <class Op>
-typename Op::Params random_params(int seed) {
-  typename Op::Params params;
-  int next = 0;
-  const auto random = [&] { return static_cast<double>(test::noise(seed, next++, 91)); };
-  for (const auto& field : Op::fields()) {
-    const double widest = field.unit == "uv per unit tilt" ? 0.2 : 40;
-    const double least = field.range.min > 0 ? 0.5 : -widest;
-    const double low = std::max(field.range.min, least), high = std::min(field.range.max, widest);
-    const auto number = [&] { return low + (high - low) * random(); };
-    if (field.kind == FieldKind::kReal) assign(Op::kName, field, params, number());
-    if (field.kind == FieldKind::kColor) {
-      assign(Op::kName, field, params, Rgb<double>{number(), number(), number()});
-    }
-    if (field.kind == FieldKind::kChoice) {
-      const double count = static_cast<double>(field.choices.size());
-      const auto index = static_cast<std::size_t>(std::min(random() * count, count - 1));
-      assign(Op::kName, field, params, std::string(field.choices[index]));
-    }
-  }
-  return params;
-}
-
 Context probe_context(StateSet made) {
-  static const Buffers buffers = test::noisy_frame(rect_of(kSize));
+  static const Buffers buffers = test::noisy_frame(rect_of(test::kContractSize));
   static const test::NoiseMap map(16, 8);
   Frame frame = buffers.frame;
   frame.wave_map = map.texture;
-  Scene scene = test::simple_scene(kSize);
+  Scene scene = test::simple_scene(test::kContractSize);
   scene.time = 3.7;
   return Context(scene, frame, 1.333, made);
-}
-
-/// All inputs that there are; the plate's normals only if asked for, so that the maps get a turn.
-struct World {
-  explicit World(bool plate_normals = true)
-      : buffers(test::noisy_frame(rect_of(kSize))), map(16, 8), scene(test::simple_scene(kSize)) {
-    buffers.frame.wave_map = map.texture;
-    if (!plate_normals) {
-      for (int c = 0; c < 3; ++c) {
-        buffers.frame.planes[index_of(PlaneId::kSurfaceNormalX) + c] = {};
-      }
-    }
-    scene.time = 3.7;
-  }
-  Buffers buffers;
-  test::NoiseMap map;
-  Scene scene;
-};
-
-bool same_bits(const Picture& a, const Picture& b) {
-  const std::vector<float> x = a.values(), y = b.values();
-  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0;
 }
 
 // --- what operators declare ---------------------------------------------------------------------
@@ -349,124 +257,6 @@ TEST(Contract, NeutralParametersAreTheIdentity) {
   });
   EXPECT_THAT(seen, testing::IsSupersetOf({"wave_normals", "prism_split", "refraction", "depth_fog",
                                            "water_shadow", "sun_highlight"}));
-}
-
-// --- what they do in pictures -------------------------------------------------------------------
-
-/// The plan with all operators kept that can be, neutral ones too.
-Plan eager_plan(const Look& look, const World& world) {
-  const Inputs inputs = test::inputs_of(world.buffers.frame, world.scene);
-  Plan plan = make_plan(look, inputs, test::all_state());
-  Chain::for_each([&]<class Op, int I>() {
-    if (plan.operators[I].verdict == Verdict::kAbsent) return;
-    plan.operators[I].verdict = Verdict::kKept;
-    plan.made = plan.made | Op::kMakes;
-    plan.planes = plan.planes | (Op::reads(plan.look.of<Op>()) & inputs.planes);
-  });
-  return plan;
-}
-
-Picture run(const Plan& plan, const World& world) {
-  Picture picture(world.buffers.frame.work());
-  run_reference(plan, world.buffers.frame, world.scene, picture.target);
-  return picture;
-}
-
-TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
-  std::set<std::string_view> dropped;
-  for (bool plate_normals : {false, true}) {
-    const World world(plate_normals);
-    Chain::for_each([&]<class Op, int I>() {
-      for_each_params<Op>([&](const auto& params, const std::string& what) {
-        Look look;
-        look.of<PrismSplit>().strength = std::is_same_v<Op, Refraction> ? 0 : 0.01;
-        look.of<Op>() = params;
-        const Plan plan =
-            make_plan(look, test::inputs_of(world.buffers.frame, world.scene), test::all_state());
-        if (plan.keeps(I)) return;
-        dropped.insert(Op::kName);
-        ASSERT_TRUE(same_bits(run(plan, world), run(eager_plan(look, world), world))) << what;
-      });
-    });
-  }
-  // The fog stays for the path.
-  EXPECT_THAT(dropped, testing::IsSupersetOf({"wave_normals", "prism_split", "refraction",
-                                              "water_shadow", "sun_highlight"}));
-}
-
-TEST(Contract, SaneInputMakesNoNan) {
-  for (bool plate_normals : {false, true}) {
-    const World world(plate_normals);
-    Chain::for_each([&]<class Op, int>() {
-      for_each_params<Op>([&](const auto& params, const std::string& what) {
-        Look look;
-        look.of<PrismSplit>().strength = 0.01;
-        look.of<Op>() = params;
-        for (const Picture& picture : {test::reference(look, world.buffers.frame, world.scene),
-                                       test::fused(look, world.buffers.frame, world.scene)}) {
-          for (float v : picture.values()) ASSERT_FALSE(std::isnan(v)) << what;
-          for (int y = 0; y < kSize.height; ++y) {
-            for (int x = 0; x < kSize.width; ++x) {
-              const Rgb<double> c = picture.color(x, y);
-              ASSERT_TRUE(std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b)) << what;
-            }
-          }
-        }
-      });
-    });
-  }
-}
-
-TEST(Contract, FloatAgreesWithDoubleAndTilesWithTheWhole) {
-  for (bool plate_normals : {false, true}) {
-    const World world(plate_normals);
-    Chain::for_each([&]<class Op, int>() {
-      for (int seed = 0; seed < 10; ++seed) {
-        Look look;
-        look.of<Op>() = random_params<Op>(seed);
-        const Frame& frame = world.buffers.frame;
-        const std::vector<float> judge = test::reference(look, frame, world.scene).values();
-        const Picture whole = test::fused(look, frame, world.scene);
-        const std::vector<float> got = whole.values();
-        std::size_t far = 0;
-        for (std::size_t i = 0; i < judge.size(); ++i) {
-          far += !(judge[i] == got[i] ||
-                   std::abs(judge[i] - got[i]) < 3e-4 * (1 + std::abs(judge[i])));
-        }
-        // A depth lookup on the edge of two texels may round either way.
-        EXPECT_LE(far, judge.size() / 500) << Op::kName << ", seed " << seed;
-        EXPECT_TRUE(same_bits(whole, test::fused(look, frame, world.scene, {.tile = {5, 3}}, 2)))
-            << Op::kName << ", seed " << seed;
-      }
-    });
-  }
-}
-
-TEST(Contract, PlanesThatThePlanDoesNotReadDoNotMatter) {
-  const World world;
-  Chain::for_each([&]<class Op, int>() {
-    Look look = test::still_look();
-    look.of<Op>() = typename Op::Params{};
-    const Inputs all = test::inputs_of(world.buffers.frame, world.scene);
-    Plan plan = make_plan(look, all, {});
-    // Only this operator and the waves it may look at.
-    plan.made = {};
-    plan.planes =
-        kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};
-    Chain::for_each([&]<class Other, int J>() {
-      const bool on = std::is_same_v<Other, Op> || std::is_same_v<Other, WaveNormals>;
-      plan.operators[J].verdict = on ? Verdict::kKept : Verdict::kUnread;
-      if (!on) return;
-      plan.made = plan.made | Other::kMakes;
-      plan.planes = plan.planes | Other::reads(plan.look.of<Other>());
-    });
-    World garbage;
-    for (int i = 0; i < kPlaneCount; ++i) {
-      const PlaneId id = static_cast<PlaneId>(i);
-      if (!plan.planes.has(id)) garbage.buffers.fill(id, 1e30f);
-    }
-    EXPECT_TRUE(same_bits(run(plan, world), run(plan, garbage))) << Op::kName;
-  });
 }
 
 }  // namespace

@@ -69,12 +69,18 @@ TEST(Refraction, SnapGoesBackWhereItWouldSeeThePost) {
   EXPECT_NEAR(got.aov(Aov::kPath, 3, 2), 5, 1e-6);  // depth where it landed 15
 }
 
-TEST(Refraction, SnapSwitchesThePrismOff) {
+TEST(Refraction, SnapSwitchesThePrismOffInEveryChannel) {
   Tray tray = tray_with_post();
-  tray.look.of<PrismSplit>().strength = 1.0 / 6;
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [](int x, int y) { return float(x + 100 * y); });
+  }
+  tray.buffers.normal({0.48, 0.8, 0.36});
+  tray.look.of<Refraction>().strength = 1.0 / 4.8;  // (1, .75) pixels
+  tray.look.of<PrismSplit>().strength = 1.0 / 4.8;
   const test::Picture got = tray.wet();
-  EXPECT_NEAR(got.aov(Aov::kTransmitted, 4, 2), 4, 1e-6);
-  EXPECT_NEAR(got.aov(Aov::kTransmitted, 2, 2), 4, 1e-5);  // one pixel by refraction, one by prism
+  test::expect_rgb(rgb_of(got, Aov::kTransmitted, 4, 2), {204, 204, 204}, 1e-4);
+  test::expect_rgb(rgb_of(got, Aov::kTransmitted, 2, 2), {279, 316, 353}, 1e-3);
 }
 
 // Fault of the model, kept: only the centre of the three prism taps is tested.

@@ -1,0 +1,143 @@
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ops/contract.h"
+
+// What every operator of the chain promises, seen in pictures of noise.
+
+namespace limpid {
+namespace {
+
+using test::for_each_params;
+using test::kContractSize;
+using test::Picture;
+using test::random_params;
+using test::World;
+
+bool same_bits(const Picture& a, const Picture& b) {
+  const std::vector<float> x = a.values(), y = b.values();
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0;
+}
+
+/// The plan with all operators kept that can be, neutral ones too.
+Plan eager_plan(const Look& look, const World& world) {
+  const Inputs inputs = test::inputs_of(world.buffers.frame, world.scene);
+  Plan plan = make_plan(look, inputs, test::all_state());
+  Chain::for_each([&]<class Op, int I>() {
+    if (plan.operators[I].verdict == Verdict::kAbsent) return;
+    plan.operators[I].verdict = Verdict::kKept;
+    plan.made = plan.made | Op::kMakes;
+    plan.planes = plan.planes | (Op::reads(plan.look.of<Op>()) & inputs.planes);
+  });
+  return plan;
+}
+
+Picture run(const Plan& plan, const World& world) {
+  Picture picture(world.buffers.frame.work());
+  run_reference(plan, world.buffers.frame, world.scene, picture.target);
+  return picture;
+}
+
+TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
+  std::set<std::string_view> dropped;
+  for (bool plate_normals : {false, true}) {
+    const World world(plate_normals);
+    Chain::for_each([&]<class Op, int I>() {
+      for_each_params<Op>([&](const auto& params, const std::string& what) {
+        Look look;
+        look.of<PrismSplit>().strength = std::is_same_v<Op, Refraction> ? 0 : 0.01;
+        look.of<Op>() = params;
+        const Plan plan =
+            make_plan(look, test::inputs_of(world.buffers.frame, world.scene), test::all_state());
+        if (plan.keeps(I)) return;
+        dropped.insert(Op::kName);
+        ASSERT_TRUE(same_bits(run(plan, world), run(eager_plan(look, world), world))) << what;
+      });
+    });
+  }
+  // The fog stays for the path.
+  EXPECT_THAT(dropped, testing::IsSupersetOf({"wave_normals", "prism_split", "refraction",
+                                              "water_shadow", "sun_highlight"}));
+}
+
+TEST(Contract, SaneInputMakesNoNan) {
+  for (bool plate_normals : {false, true}) {
+    const World world(plate_normals);
+    Chain::for_each([&]<class Op, int>() {
+      for_each_params<Op>([&](const auto& params, const std::string& what) {
+        Look look;
+        look.of<PrismSplit>().strength = 0.01;
+        look.of<Op>() = params;
+        for (const Picture& picture : {test::reference(look, world.buffers.frame, world.scene),
+                                       test::fused(look, world.buffers.frame, world.scene)}) {
+          for (float v : picture.values()) ASSERT_FALSE(std::isnan(v)) << what;
+          for (int y = 0; y < kContractSize.height; ++y) {
+            for (int x = 0; x < kContractSize.width; ++x) {
+              const Rgb<double> c = picture.color(x, y);
+              ASSERT_TRUE(std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b)) << what;
+            }
+          }
+        }
+      });
+    });
+  }
+}
+
+TEST(Contract, FloatAgreesWithDoubleAndTilesWithTheWhole) {
+  for (bool plate_normals : {false, true}) {
+    const World world(plate_normals);
+    Chain::for_each([&]<class Op, int>() {
+      for (int seed = 0; seed < 10; ++seed) {
+        Look look;
+        look.of<Op>() = random_params<Op>(seed);
+        const Frame& frame = world.buffers.frame;
+        const std::vector<float> judge = test::reference(look, frame, world.scene).values();
+        const Picture whole = test::fused(look, frame, world.scene);
+        const std::vector<float> got = whole.values();
+        std::size_t far = 0;
+        for (std::size_t i = 0; i < judge.size(); ++i) {
+          far += !(judge[i] == got[i] ||
+                   std::abs(judge[i] - got[i]) < 3e-4 * (1 + std::abs(judge[i])));
+        }
+        // A depth lookup on the edge of two texels may round either way.
+        EXPECT_LE(far, judge.size() / 500) << Op::kName << ", seed " << seed;
+        EXPECT_TRUE(same_bits(whole, test::fused(look, frame, world.scene, {.tile = {5, 3}}, 2)))
+            << Op::kName << ", seed " << seed;
+      }
+    });
+  }
+}
+
+TEST(Contract, PlanesThatThePlanDoesNotReadDoNotMatter) {
+  const World world;
+  Chain::for_each([&]<class Op, int>() {
+    Look look = test::still_look();
+    look.of<Op>() = typename Op::Params{};
+    const Inputs all = test::inputs_of(world.buffers.frame, world.scene);
+    Plan plan = make_plan(look, all, {});
+    // Only this operator and the waves it may look at.
+    plan.made = {};
+    plan.planes =
+        kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};
+    Chain::for_each([&]<class Other, int J>() {
+      const bool on = std::is_same_v<Other, Op> || std::is_same_v<Other, WaveNormals>;
+      plan.operators[J].verdict = on ? Verdict::kKept : Verdict::kUnread;
+      if (!on) return;
+      plan.made = plan.made | Other::kMakes;
+      plan.planes = plan.planes | Other::reads(plan.look.of<Other>());
+    });
+    World garbage;
+    for (int i = 0; i < kPlaneCount; ++i) {
+      const PlaneId id = static_cast<PlaneId>(i);
+      if (!plan.planes.has(id)) garbage.buffers.fill(id, 1e30f);
+    }
+    EXPECT_TRUE(same_bits(run(plan, world), run(plan, garbage))) << Op::kName;
+  });
+}
+
+}  // namespace
+}  // namespace limpid
