@@ -85,6 +85,19 @@ TEST(FresnelReflection, LookupFollowsTheTilt) {
   EXPECT_NEAR(mirrored(-10, 5), 0, 1e-5);
 }
 
+// All that comes from below the surface is dimmed by 1 - F, the light of the water too.
+TEST(FresnelReflection, DimsTheFogAsItDimsTheBottom) {
+  Tray tray = mirror_tray(kSixtyDegrees);
+  tray.look.of<DepthFog>() = {};
+  const test::Picture mirrored = tray.wet();
+  for (int c = 0; c < 3; ++c) tray.buffers.frame.planes[index_of(PlaneId::kReflectionR) + c] = {};
+  const test::Picture plain = tray.wet();
+  for (Aov term : {Aov::kTransmitted, Aov::kInScatter}) {
+    EXPECT_GT(plain.aov(term, 4, 4), 0);
+    EXPECT_NEAR(mirrored.aov(term, 4, 4) / plain.aov(term, 4, 4), 1 - .0597, 5e-5);
+  }
+}
+
 TEST(FresnelReflection, IsABlend) {
   const Size size{40, 30};
   test::Noise noise(size);
