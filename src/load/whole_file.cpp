@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <istream>
+#include <streambuf>
 #include <string>
 #include <string_view>
 
@@ -40,8 +42,7 @@ class Crc {
 
 class WholeFile {
  public:
-  explicit WholeFile(const std::filesystem::path& path)
-      : path_(path), in_(path, std::ios::binary) {}
+  WholeFile(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
 
   void check() {
     const std::string start(next(24));
@@ -62,9 +63,7 @@ class WholeFile {
     return {buffer_.data(), static_cast<std::size_t>(in_.gcount())};
   }
 
-  [[noreturn]] void refuse(const std::string& phrase) const {
-    throw Error(path_.string() + ": " + phrase);
-  }
+  [[noreturn]] void refuse(const std::string& phrase) const { throw Error(name_ + ": " + phrase); }
 
   std::string_view exactly(std::size_t count) {
     const std::string_view bytes = next(count);
@@ -115,19 +114,48 @@ class WholeFile {
   }
 
   // 0 and all bits set mean that the writer did not say.
-  void check_size(std::uint32_t expected) const {
-    const std::uintmax_t size = std::filesystem::file_size(path_);
+  void check_size(std::uint32_t expected) {
+    in_.clear();
+    const std::streamoff size = in_.seekg(0, std::ios::end).tellg();
     if (expected == ~0u || size >= expected) return;
     refuse("ends after " + std::to_string(size) + " bytes: expected " + std::to_string(expected));
   }
 
-  const std::filesystem::path& path_;
-  std::ifstream in_;
+  std::istream& in_;
+  std::string name_;
   std::array<char, 1 << 16> buffer_;
+};
+
+// Lets a stream read bytes where they are; positions as check_jpeg() and check_size() need them.
+class Bytes : public std::streambuf {
+ public:
+  explicit Bytes(std::string_view bytes) {
+    char* begin = const_cast<char*>(bytes.data());  // a get area is never written to
+    setg(begin, begin, begin + bytes.size());
+  }
+
+ private:
+  pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override {
+    char* base = from == std::ios::beg ? eback() : from == std::ios::end ? egptr() : gptr();
+    setg(eback(), base + offset, egptr());
+    return gptr() - eback();
+  }
+  pos_type seekpos(pos_type position, std::ios::openmode which) override {
+    return seekoff(position, std::ios::beg, which);
+  }
 };
 
 }  // namespace
 
-void check_whole(const std::filesystem::path& path) { WholeFile(path).check(); }
+void check_whole(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  WholeFile(in, path.string()).check();
+}
+
+void check_whole(std::string_view bytes, const std::string& name) {
+  Bytes buffer(bytes);
+  std::istream in(&buffer);
+  WholeFile(in, name).check();
+}
 
 }  // namespace limpid

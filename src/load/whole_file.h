@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace limpid {
 
@@ -7,5 +9,8 @@ namespace limpid {
 /// chunk: formats whose common readers make up the missing pixels or complain on stderr. Goes by
 /// the first bytes of the file, not its name; says nothing about other formats.
 void check_whole(const std::filesystem::path& path);
+
+/// The same of a file in memory, called `name` in the sentence.
+void check_whole(std::string_view bytes, const std::string& name);
 
 }  // namespace limpid

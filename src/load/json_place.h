@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace limpid {
+
+/// A value of a JSON document that knows its place, so that whoever reads it can say where it is
+/// wrong: "meshes[2].primitives[0].indices = 9: expected an index below 4". All that is not as
+/// asked for throws Error.
+class JsonPlace {
+ public:
+  explicit JsonPlace(const nlohmann::json& value, std::string path = "")
+      : value_(&value), path_(std::move(path)) {}
+
+  const std::string& path() const { return path_; }
+  [[noreturn]] void refuse(const std::string& expected) const;
+
+  /// The member of an object, if it is there.
+  std::optional<JsonPlace> find(std::string_view key) const;
+  /// The member of an object, which must be there.
+  JsonPlace at(std::string_view key) const;
+  /// The elements of the list `key` of this object; none when it is not there.
+  std::vector<JsonPlace> list(std::string_view key) const;
+  std::vector<JsonPlace> items() const;
+  /// How many list(key) would give.
+  std::size_t count(std::string_view key) const;
+  void expect_object() const;
+  /// The member "limpid" of the member "extras", where there is one.
+  std::optional<JsonPlace> extras() const;
+  /// Throws unless every key of the object is known; gives the nearest known name.
+  void expect_keys(const std::vector<std::string>& known) const;
+
+  std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
+  /// An index into a list of `count` things.
+  int index(std::size_t count) const;
+  double number() const;
+  bool boolean() const;
+  const std::string& text() const;
+  std::vector<double> numbers(std::size_t count) const;
+  /// Three numbers from 0 up.
+  std::vector<double> color() const;
+  /// The index in `words` of the word that this is.
+  std::size_t choice(std::span<const std::string_view> words) const;
+
+  friend bool operator==(const JsonPlace& a, const JsonPlace& b) { return a.value_ == b.value_; }
+
+ private:
+  const nlohmann::json* value_;
+  std::string path_;
+};
+
+/// Throws Error for text that is not JSON, or nested deeper than any glTF needs.
+nlohmann::json parse_json(std::string_view text);
+
+}  // namespace limpid
