@@ -34,6 +34,8 @@ struct Damage {
   const char* name;
   std::function<void(json&)> apply;
   const char* sentence;
+
+  friend void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
 };
 
 const char* const kCamera = R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])";
