@@ -186,7 +186,7 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[geometry]\nglft = \"a.gltf\"\n", ":2:1:", "did you mean 'gltf'?"},
       {"[geometry]\n", ":1:", "expected gltf = FILE"},
       {"[water]\nwaves = [[0.1, 1, 2]]\n", ":2:10:", "water.waves[0]"},
-      {"[watr]\n", ":1:", "unknown table 'watr': expected one of plates, camera, water, sun"},
+      {"[watr]\n", ":1:", "unknown table 'watr': expected one of geometry, plates, camera, water, sun"},
       {"water = 3\n", ":1:9: ", "water = 3: expected a table"},
       {"[plates]\ncolour = \"a.exr\"\n", ":2:1: ", "did you mean 'color'?"},
       {"[plates]\ncolor = 3\n", ":2:9: ", "plates.color = 3: expected a text"},

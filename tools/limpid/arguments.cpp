@@ -25,25 +25,69 @@ void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& s
       ->allow_extra_args(false);
 }
 
-void add_composite(CLI::App& verb, CompositeArguments& a) {
-  add_plates(verb, a.plates, a.scene, a.layers);
+void add_time(CLI::App& verb, WaterOptions& a) {
+  verb.add_option("--time", a.time, "Seconds, for waves and their drift (default: 0)")
+      ->option_text("S");
+}
+
+void add_look(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--look", a.look, "Look by name, or a look file (default: realistic)")
       ->option_text("NAME|FILE");
   verb.add_option("--set", a.settings, "One parameter: operator.parameter=value (repeatable)")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
+  verb.add_option("--aov", a.aovs,
+                  "Also write these terms: all, or a list of transmitted, in_scatter, reflected, "
+                  "highlight, fresnel, path, confidence, normal, surface_depth")
+      ->option_text("all|NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  add_time(verb, a);
+}
+
+void add_file(CLI::App& verb, WaterOptions& a) {
+  verb.add_option("-o", a.output, "EXR to write")->option_text("OUT.exr");
+  verb.add_option("--compression", a.compression,
+                  "none rle zips zip piz pxr24 b44 b44a dwaa dwab (default: piz)")
+      ->option_text("NAME[:LEVEL]");
+  verb.add_flag("--float", a.store_float, "Write float; half is the default");
+}
+
+void add_simd(CLI::App& verb, WaterOptions& a) {
+  verb.add_option("--simd", a.simd, "Instruction set (default: the best)")->option_text("NAME");
+}
+
+void add_picture(CLI::App& verb, WaterOptions& a) {
+  add_file(verb, a);
+  add_simd(verb, a);
+  verb.add_option("--preview", a.preview, "Also write a picture to look at")
+      ->option_text("OUT.png");
+  verb.add_option("--runner", a.runner, "fused (fast) or reference (double)")->option_text("NAME");
+  verb.add_flag("-n", a.dry_run, "Print the plan, write nothing");
+}
+
+void add_composite(CLI::App& verb, CompositeArguments& a) {
+  add_plates(verb, a.plates, a.scene, a.layers);
   verb.add_option("--depth-kind", a.depth_kind,
                   "What depth planes hold: eye, ray, inverse, normalised, device (default: the "
                   "scene's, or eye)")
       ->option_text("KIND");
-  verb.add_option("--time", a.time, "Seconds, for drifting waves (default: 0)")->option_text("S");
-  verb.add_option("--aov", a.aovs,
-                  "Also write these terms: all, or a list of transmitted, in_scatter, reflected, "
-                  "highlight, "
-                  "fresnel, path, confidence, normal, surface_depth")
-      ->option_text("all|NAME,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_look(verb, a.water);
+}
+
+void add_render(CLI::App& verb, RenderArguments& a) {
+  verb.add_option("scene", a.scene, "Scene file with [geometry]")
+      ->required()
+      ->option_text("SCENE.toml");
+  verb.add_option("--size", a.size, "Pixels (default: 1920x1080)")->option_text("WxH");
+  verb.add_option("--overscan", a.overscan, "Pixels beyond each side (default: 0)")
+      ->option_text("N");
+  verb.add_option("--shadow-map", a.shadow_map, "Texels a side (default: 2048)")->option_text("N");
+  verb.add_option("--frames", a.frames,
+                  "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes "
+                  "into names with %04d or #")
+      ->option_text("RANGE");
+  verb.add_option("--fps", a.fps, "Frames a second (default: 24)")->option_text("N");
 }
 
 std::vector<std::string> verbs_of(const CLI::App& app) {
@@ -109,21 +153,24 @@ Parsed parse(int argc, char** argv) {
   CLI::App& composite =
       *app.add_subcommand("composite", "Put water into a plate: PLATE... -o OUT.exr");
   add_composite(composite, a.composite);
-  composite.add_option("-o", a.composite.output, "EXR to write")->option_text("OUT.exr");
-  composite.add_option("--preview", a.composite.preview, "Also write a picture to look at")
-      ->option_text("OUT.png");
-  composite.add_option("--runner", a.composite.runner, "fused (fast) or reference (double)")
-      ->option_text("NAME");
-  composite
-      .add_option("--simd", a.composite.simd,
-                  "Instruction set of the fused runner (default: the best)")
-      ->option_text("NAME");
-  composite
-      .add_option("--compression", a.composite.compression,
-                  "none rle zips zip piz pxr24 b44 b44a dwaa dwab (default: piz)")
-      ->option_text("NAME[:LEVEL]");
-  composite.add_flag("--float", a.composite.store_float, "Write float; half is the default");
-  composite.add_flag("-n", a.composite.dry_run, "Print the plan, write nothing");
+  add_picture(composite, a.composite.water);
+
+  CLI::App& water =
+      *app.add_subcommand("water", "Render a scene and put water into it: SCENE.toml -o OUT.exr");
+  add_render(water, a.render);
+  water
+      .add_option("--samples", a.render.samples,
+                  "N x N samples a pixel, filtered after the water is in (default: 1)")
+      ->option_text("N");
+  add_look(water, a.render.water);
+  add_picture(water, a.render.water);
+
+  CLI::App& render =
+      *app.add_subcommand("render", "Render a scene's buffers: SCENE.toml -o PLATE.exr");
+  add_render(render, a.render);
+  add_time(render, a.render.water);
+  add_file(render, a.render.water);
+  add_simd(render, a.render.water);
 
   CLI::App& plan =
       *app.add_subcommand("plan", "Say what would run for a plate and a look, and why");
@@ -199,8 +246,10 @@ Parsed parse(int argc, char** argv) {
     std::cout << app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
     return finish(help.parsed() ? 0 : kWrongUsage);
   }
-  a.verb = composite.parsed()   ? (a.composite.dry_run ? Verb::kPlan : Verb::kComposite)
+  a.verb = composite.parsed()   ? (a.composite.water.dry_run ? Verb::kPlan : Verb::kComposite)
            : plan.parsed()      ? Verb::kPlan
+           : water.parsed()     ? Verb::kWater
+           : render.parsed()    ? Verb::kRender
            : inspect.parsed()   ? Verb::kInspect
            : operators.parsed() ? Verb::kOperators
                                 : Verb::kCompare;

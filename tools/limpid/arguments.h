@@ -12,15 +12,27 @@ struct CommonArguments {
   bool quiet = false, verbose = false;
 };
 
-struct CompositeArguments {
-  std::vector<std::string> plates;
-  std::string output;
-  std::string scene, look = "realistic";
-  std::vector<std::string> settings, layers, aovs;
-  std::string depth_kind;
+/// Look and output, for every verb that puts water into something.
+struct WaterOptions {
+  std::string look = "realistic";
+  std::vector<std::string> settings, aovs;
   double time = 0;
-  std::string preview, runner = "fused", simd, compression = "piz";
+  std::string output, preview, runner = "fused", simd, compression = "piz";
   bool store_float = false, dry_run = false;
+};
+
+struct CompositeArguments {
+  std::vector<std::string> plates, layers;
+  std::string scene, depth_kind;
+  WaterOptions water;
+};
+
+/// `render` and `water`.
+struct RenderArguments {
+  std::string scene, size = "1920x1080", frames;
+  int overscan = 0, samples = 1, shadow_map = 2048;
+  double fps = 24;
+  WaterOptions water;
 };
 
 struct InspectArguments {
@@ -42,12 +54,13 @@ struct CompareArguments {
   std::optional<double> hard_limit, clip;
 };
 
-enum class Verb { kNone, kComposite, kPlan, kInspect, kOperators, kCompare };
+enum class Verb { kNone, kComposite, kPlan, kRender, kWater, kInspect, kOperators, kCompare };
 
 struct Arguments {
   Verb verb = Verb::kNone;
   CommonArguments common;
   CompositeArguments composite;
+  RenderArguments render;
   InspectArguments inspect;
   OperatorsArguments operators;
   CompareArguments compare;

@@ -38,6 +38,10 @@ int run(const limpid::tool::Arguments& a) {
       return composite_verb(a.composite, a.common);
     case Verb::kPlan:
       return plan_verb(a.composite);
+    case Verb::kRender:
+      return render_verb(a.render, a.common);
+    case Verb::kWater:
+      return water_verb(a.render, a.common);
     case Verb::kInspect:
       return inspect_verb(a.inspect);
     case Verb::kOperators:

@@ -7,6 +7,8 @@
 namespace limpid::tool {
 
 int composite_verb(const CompositeArguments& arguments, const CommonArguments& common);
+int render_verb(const RenderArguments& arguments, const CommonArguments& common);
+int water_verb(const RenderArguments& arguments, const CommonArguments& common);
 int plan_verb(const CompositeArguments& arguments);
 int inspect_verb(const InspectArguments& arguments);
 int operators_verb(const OperatorsArguments& arguments);

@@ -1,0 +1,132 @@
+#include "limpid/water.h"
+
+#include <algorithm>
+
+#include "limpid/core/error.h"
+#include "limpid/version.h"
+#include "limpid/write/exr_camera.h"
+
+#include "canvas.h"
+#include "stopwatch.h"
+
+namespace limpid {
+namespace {
+
+Scene scene_of(const Model& model, const RenderJob& job) {
+  Scene scene = job.scene.scene;
+  const Size size = job.render.size;
+  if (job.scene.camera) scene.camera = camera_for(*job.scene.camera, size);
+  scene.time = job.time;
+  return scene_of_model(scene, model, size);
+}
+
+/// What can be rendered of this model in this scene.
+PlaneSet renderable(const Model& model, const Scene& scene) {
+  if (!scene.water)
+    throw Error("no water plane found: expected a scene with [water] up and height");
+  PlaneSet planes = kColorPlanes | kReflectionPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth};
+  if (scene.sun) planes = planes | PlaneSet{PlaneId::kShadow};
+  const bool water = std::any_of(model.instances.begin(), model.instances.end(),
+                                 [](const Instance& i) { return i.water; });
+  if (water) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
+  // A calm mesh has nothing to say that the plane does not; its normals would only keep others out.
+  if (water && !scene.water->waves.empty()) planes = planes | kSurfaceNormalPlanes;
+  return planes;
+}
+
+Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {
+  return make_plan(job.look,
+                   {.planes = renderable(model, scene),
+                    .wave_map = !job.look.of<WaveNormals>().map.empty(),
+                    .sun = scene.sun.has_value()},
+                   state_shown_by(job.output.aovs));
+}
+
+struct NamedPlane {
+  PlaneId plane;
+  const char* channel;
+};
+constexpr NamedPlane kPlaneChannels[] = {
+    {PlaneId::kColorR, "color.R"},
+    {PlaneId::kColorG, "color.G"},
+    {PlaneId::kColorB, "color.B"},
+    {PlaneId::kColorA, "color.A"},
+    {PlaneId::kDepth, "depth.Z"},
+    {PlaneId::kShadow, "shadow.Y"},
+    {PlaneId::kReflectionR, "reflection.R"},
+    {PlaneId::kReflectionG, "reflection.G"},
+    {PlaneId::kReflectionB, "reflection.B"},
+    {PlaneId::kSurfaceDepth, "surface.Z"},
+    {PlaneId::kSurfaceNormalX, "surface.NX"},
+    {PlaneId::kSurfaceNormalY, "surface.NY"},
+    {PlaneId::kSurfaceNormalZ, "surface.NZ"},
+};
+constexpr const char* kExtraChannels[kExtraPlaneCount] = {
+    "reflection.A", "reflection.Z", "below.R", "below.G", "below.B", "below.Z"};
+
+}  // namespace
+
+void render(const Model& model, const RenderJob& job, const PlateOutput& output,
+            Executor& executor) {
+  const Scene scene = scene_of(model, job);
+  const RenderedPlate plate =
+      render_plate(model, scene, job.render, renderable(model, scene), true, executor);
+  ExrOutput file;
+  file.data = plate.planes[0].view().window;
+  file.display = plate.frame.display;
+  file.compression = output.compression;
+  file.matrices = camera_attributes(*scene.camera);
+  file.text = {{"limpid/version", kVersion}, {"limpid/scene", to_toml(scene)}};
+  const auto add = [&](const std::string& name, const Plane& plane) {
+    if (plane)
+      file.channels.push_back({name, plane.view(), !output.store_float && !name.ends_with(".Z")});
+  };
+  for (const NamedPlane& named : kPlaneChannels) {
+    add(named.channel, plate.planes[static_cast<std::size_t>(index_of(named.plane))]);
+  }
+  for (int i = 0; i < kExtraPlaneCount; ++i) {
+    add(kExtraChannels[i], plate.extras[static_cast<std::size_t>(i)]);
+  }
+  write_exr(output.plate, file);
+}
+
+Plan plan_water(const Model& model, const WaterJob& job) {
+  return plan_of(model, scene_of(model, job.render), job);
+}
+
+CompositeReport water(const Model& model, const WaterJob& job, Executor& executor) {
+  if (job.samples < 1 || job.samples > 16) {
+    throw Error("samples = " + std::to_string(job.samples) + ": expected 1 ... 16");
+  }
+  Stopwatch watch;
+  const Scene scene = scene_of(model, job.render);
+  CompositeReport report;
+  report.plan = plan_of(model, scene, job);
+  RenderOptions options = job.render.render;
+  options.size = {options.size.width * job.samples, options.size.height * job.samples};
+  options.overscan *= job.samples;
+  RenderedPlate plate = render_plate(model, scene, options, report.plan.planes, false, executor);
+  report.replaced = sanitise_planes(plate.planes, scene.water->up);
+  const LoadedTexture map = wave_map_of(report.plan);
+  plate.frame.wave_map = map.texture;
+  report.size = job.render.render.size;
+  report.read_seconds = watch.lap();
+
+  const Canvas canvas(plate.frame.work(), job.output);
+  canvas.paint(report.plan, plate.frame, scene, job.output, executor);
+  report.run_seconds = watch.lap();
+
+  ExrOutput file;
+  file.display = rect_of(report.size);
+  file.matrices = camera_attributes(*scene.camera);
+  file.text = {{"limpid/scene", to_toml(scene)}};
+  if (job.samples > 1) {
+    canvas.filtered(job.samples, job.output).write(file, report.plan, job.output);
+  } else {
+    canvas.write(file, report.plan, job.output);
+  }
+  report.write_seconds = watch.lap();
+  return report;
+}
+
+}  // namespace limpid

@@ -1,0 +1,100 @@
+#include "water_options.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "limpid/core/error.h"
+#include "limpid/load/image_file.h"
+#include "limpid/load/look_file.h"
+#include "limpid/run/fused.h"
+#include "limpid/write/exr_writer.h"
+
+#include "data_folder.h"
+
+namespace limpid::tool {
+namespace {
+
+std::vector<Aov> aov_list(const std::vector<std::string>& names) {
+  std::vector<Aov> list;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      list.clear();
+      for (int i = 0; i < kAovCount; ++i) list.push_back(static_cast<Aov>(i));
+      return list;
+    }
+    list.push_back(as_usage([&] { return aov_named(name); }));
+  }
+  return list;
+}
+
+Runner runner_named(const std::string& name) {
+  if (name == "fused") return Runner::kFused;
+  if (name == "reference") return Runner::kReference;
+  throw Error("--runner " + name + ": expected fused or reference", Fault::kUsage);
+}
+
+/// "" for the best that the machine has.
+std::string simd_named(const std::string& name, Runner runner) {
+  if (name.empty()) return name;
+  if (runner == Runner::kReference) {
+    throw Error("--simd " + name + ": the reference runner has no instruction sets to choose from",
+                Fault::kUsage);
+  }
+  const std::vector<std::string> known = simd_targets();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return name;
+  throw Error("--simd " + name + ": expected one of " + join(known) + " on this machine" +
+                  did_you_mean(name, known),
+              Fault::kUsage);
+}
+
+std::string exr_named(const std::string& path) {
+  if (path.empty() || is_exr(path)) return path;
+  throw Error("-o " + path + ": expected a name that ends in .exr; --preview writes other formats",
+              Fault::kUsage);
+}
+
+}  // namespace
+
+Look look_of(const WaterOptions& a) {
+  Look look = look_for(a.look);
+  for (const std::string& setting : a.settings) apply_setting(look, setting);
+  return look;
+}
+
+void expect_output(const std::string& path) {
+  if (path.empty()) throw Error("no output: expected -o OUT.exr", Fault::kUsage);
+  exr_named(path);
+}
+
+OutputChoice output_of(const WaterOptions& a) {
+  OutputChoice output;
+  output.aovs = aov_list(a.aovs);
+  output.runner = runner_named(a.runner);
+  output.simd = simd_named(a.simd, output.runner);
+  output.picture = exr_named(a.output);
+  output.preview = a.preview;
+  validate_compression(a.compression);
+  output.compression = a.compression;
+  output.store_float = a.store_float;
+  return output;
+}
+
+void print_report(const CompositeReport& report, const Look& look, const OutputChoice& output,
+                  const CommonArguments& common) {
+  if (common.quiet) return;
+  if (common.verbose) std::printf("%s", to_text(report.plan).c_str());
+  std::printf("%s: %dx%d, look %s, read %.0f ms, run %.0f ms, write %.0f ms",
+              output.picture.c_str(), report.size.width, report.size.height, look.name.c_str(),
+              1e3 * report.read_seconds, 1e3 * report.run_seconds, 1e3 * report.write_seconds);
+  const std::string replaced = report.replaced.to_text();
+  if (!replaced.empty()) std::printf("; NaN or inf replaced: %s", replaced.c_str());
+  std::printf("\n");
+  if (!output.preview.empty()) std::printf("%s\n", output.preview.c_str());
+  for (const PlannedOperator& op : report.plan.operators) {
+    if (op.verdict == Verdict::kAbsent) {
+      std::printf("%s does not run: %s\n", std::string(op.name).c_str(), op.reason.c_str());
+    }
+  }
+}
+
+}  // namespace limpid::tool
