@@ -3,9 +3,9 @@
 #include <hwy/highway.h>
 
 /// The number type of the fused pass: one SIMD vector of float lanes, with the functions that
-/// formulas call (see core/number.h). For inclusion by the *_target.cpp files alone, which are compiled
-/// once for each instruction set: everything here lives in Highway's namespace for that set, so
-/// that no two copies share a symbol.
+/// formulas call (see core/number.h). For inclusion by the *_target.cpp files alone, which are
+/// compiled once for each instruction set: everything here lives in Highway's namespace for that
+/// set, so that no two copies share a symbol.
 
 namespace limpid::HWY_NAMESPACE {
 
