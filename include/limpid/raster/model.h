@@ -56,7 +56,8 @@ struct Mesh {
   int material = 0;
 };
 
-/// A mesh put into the world.
+/// A mesh put into the world. The matrix is affine and its determinant above 0: a mirrored mesh is
+/// stored as a mesh of its own, so that its triangles stay counter-clockwise from the front.
 struct Instance {
   int mesh = 0;
   glm::dmat4 world_from_mesh{1.0};
