@@ -178,6 +178,11 @@ void check(const Scene& scene, const RenderOptions& options) {
     throw Error("the scene has no camera: expected one in the scene file or in the geometry");
   }
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
+  const double above = glm::dot(scene.water->up, scene.camera->eye()) - scene.water->height;
+  if (!(above > 0)) {
+    throw Error("the camera is in the water, " + std::to_string(-above) +
+                " below its surface: expected an eye above it");
+  }
   const Size size = options.size;
   if (size.width < 1 || size.height < 1 || size.width > 32000 || size.height > 32000) {
     throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +

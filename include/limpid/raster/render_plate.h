@@ -13,7 +13,7 @@ struct RenderOptions {
   Size size{1920, 1080};
   int overscan = 0;            ///< pixels beyond each side of the display window
   int shadow_map_size = 2048;  ///< texels a side
-  std::string simd;            ///< "" for the best
+  std::string simd = {};       ///< "" for the best
 };
 
 /// Buffers of a plate that no frame holds yet but files do.
