@@ -27,7 +27,8 @@ LIMPID_LANES_INLINE Rgb<Lane> sample(const PyramidView& texture, const Fragment&
   const VI width = size_at(texture.width), height = size_at(texture.height);
   const VI start = hn::GatherIndex(kDI, texture.level_start, level);
   const auto place = [](Lane at, VI size, VI& low, VI& high) {
-    const Lane inside = min(at - floor(at), Lane(1));
+    const Lane part = at - floor(at);
+    const Lane inside = min(select(part > Lane(0), part, Lane(0)), Lane(1));  // NaN becomes 0
     const Lane texel = inside * Lane(hn::ConvertTo(kD, size)) - Lane(0.5);
     const Lane whole = floor(texel);
     const VI n = hn::ConvertTo(kDI, whole.v), last = hn::Sub(size, hn::Set(kDI, 1));

@@ -84,24 +84,19 @@ TEST(Rasteriser, InstructionSetsAgree) {
   }
 }
 
-TEST(Rasteriser, AwkwardSizesEqualTheSameMachinery) {
-  const Model model = mixed_model();
-  for (const Size size : {Size{1, 1}, {1, 67}, {131, 1}, {63, 65}, {64, 64}, {65, 63}, {129, 17}}) {
-    const RasterImage image = drawn(model, mixed_view(size.width, size.height), low_sun());
-    for (float value : values(image)) ASSERT_FALSE(std::isnan(value));
-    const Rect expected{0, 0, size.width, size.height};
-    EXPECT_EQ(image.depth.view().window, expected);
-  }
-}
-
-TEST(Rasteriser, OverscanAndCropsShowTheSamePicture) {
+TEST(Rasteriser, OverscanAndWindowsOfAwkwardSizesShowTheSamePicture) {
   const Model model = mixed_model();
   RasterView view = mixed_view(120, 90);
   const RasterImage whole = drawn(model, view, low_sun());
-  for (const Rect& window :
-       {Rect{-37, -11, 141, 130}, Rect{17, 23, 101, 77}, Rect{119, 89, 120, 90}}) {
+  std::vector<Rect> windows{{-37, -11, 141, 130}, {17, 23, 101, 77}};
+  for (const Size size : {Size{1, 1}, {1, 67}, {103, 1}, {63, 65}, {64, 64}, {65, 63}, {97, 17}}) {
+    windows.push_back({9, 5, 9 + size.width, 5 + size.height});
+  }
+  for (const Rect& window : windows) {
     view.window = window;
     const RasterImage part = drawn(model, view, low_sun());
+    EXPECT_EQ(part.depth.view().window, window);
+    for (float value : values(part)) ASSERT_FALSE(std::isnan(value));
     const Rect common = intersection(window, view.display);
     int other = 0;
     for (int y = common.y0; y < common.y1; ++y) {
@@ -169,6 +164,16 @@ TEST(Rasteriser, FlattenedInstancesAreDrawn) {
   const RasterImage image = drawn(model, perspective_view(40, 40, {0, 6, 0.01}, {0, 0, 0}));
   EXPECT_NEAR(at(image.depth, 20, 20), 6, 0.1);
   EXPECT_NEAR(at(image.normal[1], 20, 20), 1, 1e-6);
+}
+
+TEST(Rasteriser, ExtremeUvsGiveNoNaN) {
+  Model model = mixed_model();
+  for (Mesh& mesh : model.meshes) {
+    for (glm::vec2& uv : mesh.uvs) uv *= 3e37f;
+  }
+  for (float value : values(drawn(model, mixed_view(40, 30), low_sun()))) {
+    ASSERT_FALSE(std::isnan(value));
+  }
 }
 
 TEST(Rasteriser, FarAwayScenesKeepTheirShape) {
