@@ -85,7 +85,11 @@ void Canvas::write(ExrOutput described, const Plan& plan, const OutputChoice& ch
   described.compression = choice.compression;
   described.channels = channels_;
   described.text["limpid/version"] = kVersion;
-  described.text["limpid/look"] = to_toml(plan.look);
+  Look recorded =
+      plan.look;  // the file's name, not where it lay: the same job gives the same bytes anywhere
+  std::string& map = recorded.of<WaveNormals>().map;
+  map = std::filesystem::path(map).filename().string();
+  described.text["limpid/look"] = to_toml(recorded);
   described.text["limpid/plan"] = to_text(plan);
   if (!choice.preview.empty()) {
     const auto& c = target_.color;

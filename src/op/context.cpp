@@ -1,5 +1,7 @@
 #include "limpid/op/context.h"
 
+#include <string>
+
 #include <glm/geometric.hpp>
 
 #include "limpid/core/error.h"
@@ -37,6 +39,10 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   map_x = axes.x;
   map_y = axes.y;
   eye_above = glm::dot(up, eye) - scene.water->height;
+  if (!(eye_above > 0) && !scene.camera->orthographic()) {
+    throw Error("the camera is in the water, " + std::to_string(-eye_above) +
+                " below its surface: expected an eye above it");
+  }
 }
 
 }  // namespace limpid

@@ -21,7 +21,8 @@ LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v) {
 /// away from the camera. map_x, map_y: tangent frame that stays with the world, for tiling maps:
 /// world x (z, should x be parallel to up) projected on the plane, and cross(up, map_x).
 struct Context {
-  /// Throws Error unless the scene has a camera and a water plane, both valid.
+  /// Throws Error unless the scene has a camera and a water plane, both valid, and the eye is above
+  /// the water (an orthographic camera has no eye that could be below).
   Context(const Scene& scene, const Frame& frame, double ior, StateSet made);
 
   Rays rays;

@@ -27,8 +27,9 @@ LIMPID_INLINE F fresnel_schlick(F cosine, F f0) {
 /// Unpolarised reflectance of a smooth dielectric, exactly. `ior` is the index on the far side of
 /// the surface over the index on the viewer's side: 1.333 from air into water, 1/1.333 from below;
 /// beyond the critical angle the result is 1 (total internal reflection). V.n is clamped to 0
-/// ... 1. Cook & Torrance 1982, "A Reflectance Model for Computer Graphics"; |denominators| are at
-/// least ior^2 - 1 inside the valid range, so nothing is divided by 0.
+/// ... 1. Cook & Torrance 1982, "A Reflectance Model for Computer Graphics". The denominator
+/// c (g - c) + 1 is at least min(1, ior^2); g + c is 0 only at ior 1 and V.n 0, which the guard
+/// keeps from 0 / 0.
 template <class F>
 LIMPID_INLINE F fresnel_exact(F cosine, F ior) {
   const F c = saturate(cosine);

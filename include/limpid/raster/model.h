@@ -18,12 +18,12 @@
 namespace limpid {
 
 /// How a surface answers light. Base color c (times its texture), unit normal n, L to the sun, V to
-/// the viewer, sun color S:
-///   flat      c
-///   textured  c from the texture, unlit
-///   lambert   c (ambient + sat(n.L) shadow S)
-///   phong     c (ambient + sat(n.L) shadow S) + specular sat(R.V)^power S shadow, only where n.L >
-///   0 toon      c (ambient + ceil(5 sat(n.L) shadow) / 5 S)
+/// the viewer, R the mirrored L, sun color S:
+/// - flat: c
+/// - textured: c from the texture, unlit
+/// - lambert: c (ambient + sat(n.L) shadow S)
+/// - phong: lambert + specular sat(R.V)^power shadow S, the latter only where n.L is above 0
+/// - toon: c (ambient + ceil(5 sat(n.L) shadow) / 5 S)
 enum class Shading : std::uint8_t { kFlat, kTextured, kLambert, kPhong, kToon };
 
 /// RGBA float texels, linear, rows from the top; v runs down as in glTF. Repeats in both
