@@ -5,6 +5,8 @@
 #include "limpid/version.h"
 #include "limpid/write/preview.h"
 
+#include "write/atomic_file.h"
+
 namespace limpid {
 namespace {
 
@@ -26,6 +28,11 @@ float block_mean(const View<float>& from, int x, int y, int n) {
 LoadedTexture wave_map_of(const Plan& plan, const Limits& limits) {
   if (!plan.reads_wave_map) return {};
   return load_texture(plan.look.of<WaveNormals>().map, limits);
+}
+
+void expect_writable(const OutputChoice& choice) {
+  AtomicFile{choice.picture};
+  if (!choice.preview.empty()) AtomicFile{choice.preview};
 }
 
 Canvas::Canvas(Rect window, const OutputChoice& choice) : window_(window) {
@@ -80,13 +87,14 @@ Canvas Canvas::filtered(int n, const OutputChoice& choice) const {
   return canvas;
 }
 
-void Canvas::write(ExrOutput described, const Plan& plan, const OutputChoice& choice) const {
+void Canvas::write(ExrOutput described, const Plan& plan, const Look& look,
+                   const OutputChoice& choice) const {
   described.data = window_;
   described.compression = choice.compression;
   described.channels = channels_;
   described.text["limpid/version"] = kVersion;
-  Look recorded =
-      plan.look;  // the file's name, not where it lay: the same job gives the same bytes anywhere
+  // The map by its name, not where it lay: the same job gives the same bytes anywhere.
+  Look recorded = look;
   std::string& map = recorded.of<WaveNormals>().map;
   map = std::filesystem::path(map).filename().string();
   described.text["limpid/look"] = to_toml(recorded);

@@ -13,6 +13,10 @@ namespace limpid {
 /// The tiling normal map that a plan looks up; empty when it does not.
 LoadedTexture wave_map_of(const Plan& plan, const Limits& limits = {});
 
+/// Throws the Error that writing would end with, before the work is done: for a folder that is not
+/// there or cannot be written to.
+void expect_writable(const OutputChoice& choice);
+
 /// The picture and the wanted AOVs in memory, with their names in the file.
 class Canvas {
  public:
@@ -30,7 +34,8 @@ class Canvas {
   /// Writes preview and picture; `described` has windows and attributes, the channels come from
   /// here. The picture comes last: when anything fails, what was under its name before is still
   /// there.
-  void write(ExrOutput described, const Plan& plan, const OutputChoice& choice) const;
+  void write(ExrOutput described, const Plan& plan, const Look& look,
+             const OutputChoice& choice) const;
 
   const Target& target() const { return target_; }
 

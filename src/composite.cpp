@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "limpid/core/error.h"
+#include "limpid/write/exr_camera.h"
 
 #include "canvas.h"
 #include "stopwatch.h"
@@ -29,7 +30,7 @@ Scene scene_of(const CompositeJob& job, const Plate& plate) {
   if (!scene.water) {
     throw Error("no water plane found: expected a scene with [water] up and height");
   }
-  scene.time = job.time;
+  scene.time = job.time.value_or(carried.scene.time);
   return scene;
 }
 
@@ -75,6 +76,7 @@ CompositeReport composite(const CompositeJob& job, Executor& executor) {
   const DepthMeaning depth = depth_of(job);
   CompositeReport report;
   report.plan = plan_of(job, plate, scene);
+  expect_writable(job.output);
 
   LoadedPlate loaded = plate.read(report.plan.planes, scene, depth);
   const LoadedTexture map = wave_map_of(report.plan, job.plate.limits);
@@ -91,7 +93,9 @@ CompositeReport composite(const CompositeJob& job, Executor& executor) {
   file.display = plate.display();
   file.pixel_aspect = plate.pixel_aspect();
   file.inherited = plate.attributes();
-  canvas.write(file, report.plan, job.output);
+  file.matrices = camera_attributes(*scene.camera);
+  file.text = {{"limpid/scene", to_toml(scene)}};
+  canvas.write(file, report.plan, job.look, job.output);
   report.write_seconds = watch.lap();
   return report;
 }

@@ -29,6 +29,9 @@ PlaneSet renderable(const Model& model, const Scene& scene) {
   const bool water = std::any_of(model.instances.begin(), model.instances.end(),
                                  [](const Instance& i) { return i.water; });
   if (water) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
+  if (!water && !scene.water->waves.empty()) {
+    throw Error("water.waves move a mesh, and the geometry has none whose node says water = true");
+  }
   // A calm mesh has nothing to say that the plane does not; its normals would only keep others out.
   if (water && !scene.water->waves.empty()) planes = planes | kSurfaceNormalPlanes;
   return planes;
@@ -98,6 +101,15 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
   if (job.samples < 1 || job.samples > 16) {
     throw Error("samples = " + std::to_string(job.samples) + ": expected 1 ... 16");
   }
+  const Size size = job.render.render.size;
+  const int most = 32000 / job.samples;
+  if (std::max({size.width, size.height, job.render.render.overscan}) > most) {
+    throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                ", overscan " + std::to_string(job.render.render.overscan) + ", samples " +
+                std::to_string(job.samples) + ": expected at most " + std::to_string(most) +
+                " pixels a side");
+  }
+  expect_writable(job.output);
   Stopwatch watch;
   const Scene scene = scene_of(model, job.render);
   CompositeReport report;
@@ -121,9 +133,9 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
   file.matrices = camera_attributes(*scene.camera);
   file.text = {{"limpid/scene", to_toml(scene)}};
   if (job.samples > 1) {
-    canvas.filtered(job.samples, job.output).write(file, report.plan, job.output);
+    canvas.filtered(job.samples, job.output).write(file, report.plan, job.look, job.output);
   } else {
-    canvas.write(file, report.plan, job.output);
+    canvas.write(file, report.plan, job.look, job.output);
   }
   report.write_seconds = watch.lap();
   return report;

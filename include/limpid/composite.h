@@ -18,7 +18,7 @@ struct CompositeJob {
   PlateRequest plate;
   SceneFile scene;
   std::optional<DepthKind> depth_kind;  ///< instead of the scene's
-  double time = 0;                      ///< seconds, for drifting waves
+  std::optional<double> time;           ///< seconds, for drifting waves, instead of the plate's own
   Look look;
 
   OutputChoice output;

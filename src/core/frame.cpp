@@ -38,6 +38,14 @@ const Role& role_named(std::string_view name) {
               join(known) + did_you_mean(name, known));
 }
 
+std::string roles_text(PlaneSet planes) {
+  std::vector<std::string> names;
+  for (const Role& role : kRoles) {
+    if (!(planes & role.planes()).empty()) names.emplace_back(role.name);
+  }
+  return names.empty() ? "-" : join(names);
+}
+
 PlaneSet Frame::present() const {
   PlaneSet set;
   for (int i = 0; i < kPlaneCount; ++i) {

@@ -20,20 +20,19 @@ void for_each_pixel(const View<float>& plane, Fn&& fn) {
   }
 }
 
-/// Applies convert(value, x, y) to what is a number and not "nothing hit"; returns how many were
-/// NaN.
+/// Applies convert(value, x, y) to what is not "nothing hit"; returns how many values, or what they
+/// were converted to, were NaN or -inf.
 template <class Missed, class Convert>
 std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
-  std::int64_t nans = 0;
+  std::int64_t replaced = 0;
   for_each_pixel(plane, [&](float& z, int x, int y) {
-    if (std::isnan(z)) {
-      ++nans;
-      z = kNothingHit;
-    } else {
-      z = missed(z) ? kNothingHit : static_cast<float>(convert(static_cast<double>(z), x, y));
-    }
+    const float depth =
+        missed(z) ? kNothingHit : static_cast<float>(convert(static_cast<double>(z), x, y));
+    const bool means_nothing = std::isnan(depth) || depth == -kNothingHit;
+    replaced += means_nothing;
+    z = means_nothing ? kNothingHit : depth;
   });
-  return nans;
+  return replaced;
 }
 
 const Camera& camera_of(const DepthSource& source, const char* kind) {

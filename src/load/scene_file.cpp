@@ -204,12 +204,8 @@ void read_camera(const TomlNode& table, SceneFile& file) {
   file.camera = camera_of(table, file);
 }
 
-}  // namespace
-
-namespace {
-
 SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
-  root.expect_keys(Names{"geometry", "plates", "camera", "water", "sun"});
+  root.expect_keys(Names{"geometry", "plates", "camera", "water", "sun", "scene"});
   SceneFile file;
   for (const TomlNode& table : root.items) {
     if (table.key == "geometry") file.geometry = geometry_of(table, folder);
@@ -217,6 +213,10 @@ SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
     if (table.key == "camera") read_camera(table, file);
     if (table.key == "water") file.scene.water = water_of(table);
     if (table.key == "sun") file.scene.sun = sun_of(table);
+    if (table.key == "scene") {
+      table.expect_keys(Names{"time"});
+      if (const TomlNode* time = table.find("time")) file.scene.time = time->finite_number();
+    }
   }
   return file;
 }
@@ -244,7 +244,7 @@ SceneFile scene_from_toml(const std::string& text, const std::string& name) {
 }
 
 std::string to_toml(const Scene& scene) {
-  std::string text;
+  std::string text = "[scene]\ntime = " + toml_text(scene.time) + "\n";
   if (scene.camera) {
     text += "[camera]\nview = " + matrix_text(scene.camera->view) +
             "\nprojection = " + matrix_text(scene.camera->projection) + "\nclip = \"" +

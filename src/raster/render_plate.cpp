@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -38,6 +39,14 @@ Model raised_water(const Model& model, const WaterPlane& water, double time) {
       mesh.normals[i] =
           glm::vec3(glm::normalize(water.up - wave.slope_x * axes.x - wave.slope_y * axes.y));
     }
+    // Whichever way the mesh was wound, its front is the side that the viewer above looks at.
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+      const glm::dvec3 a(mesh.positions[mesh.indices[t]]), b(mesh.positions[mesh.indices[t + 1]]),
+          c(mesh.positions[mesh.indices[t + 2]]);
+      if (glm::dot(glm::cross(b - a, c - a), water.up) < 0) {
+        std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
+      }
+    }
     raised.instances.push_back({static_cast<int>(raised.meshes.size()), glm::dmat4(1.0), true});
     raised.meshes.push_back(std::move(mesh));
   }
@@ -48,7 +57,7 @@ Model raised_water(const Model& model, const WaterPlane& water, double time) {
 class PlateRenderer {
  public:
   PlateRenderer(const Model& model, const Scene& scene, const RenderOptions& options,
-                Executor& executor)
+                PlaneSet wanted, Executor& executor)
       : model_(model),
         scene_(scene),
         options_(options),
@@ -61,7 +70,8 @@ class PlateRenderer {
     plate_.planes.resize(kPlaneCount);
     plate_.extras.resize(kExtraPlaneCount);
     lighting_.sun = scene.sun.value_or(Sun{{0, 1, 0}, {0, 0, 0}});
-    if (scene.sun) {
+    const PlaneSet sunlit = kColorPlanes | kReflectionPlanes | PlaneSet{PlaneId::kShadow};
+    if (scene.sun && !(wanted & sunlit).empty()) {
       shadow_map_ = make_shadow_map(model, *scene.sun, std::nullopt, options.shadow_map_size,
                                     executor, options.simd);
       lighting_.shadow = &shadow_map_;
@@ -172,26 +182,36 @@ class PlateRenderer {
   RenderedPlate plate_;
 };
 
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 27;
+
 void check(const Scene& scene, const RenderOptions& options) {
   scene.validate();
   if (!scene.camera) {
     throw Error("the scene has no camera: expected one in the scene file or in the geometry");
   }
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
-  const double above = glm::dot(scene.water->up, scene.camera->eye()) - scene.water->height;
+  double crest = scene.water->height;
+  for (const SineWave& wave : scene.water->waves) crest += std::abs(wave.amplitude);
+  const double above = glm::dot(scene.water->up, scene.camera->eye()) - crest;
   if (!(above > 0)) {
     throw Error("the camera is in the water, " + std::to_string(-above) +
-                " below its surface: expected an eye above it");
+                " below its highest crest: expected an eye above it");
   }
   const Size size = options.size;
   if (size.width < 1 || size.height < 1 || size.width > 32000 || size.height > 32000) {
     throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
                 ": expected 1 ... 32000 pixels a side");
   }
-  const int limit = 32000 - std::max(size.width, size.height);
-  if (options.overscan < 0 || 2 * options.overscan > limit) {
+  const int limit = (32000 - std::max(size.width, size.height)) / 2;
+  if (options.overscan < 0 || options.overscan > limit) {
     throw Error("overscan " + std::to_string(options.overscan) + ": expected 0 ... " +
-                std::to_string(limit / 2) + " pixels");
+                std::to_string(limit) + " pixels");
+  }
+  const std::int64_t pixels = (std::int64_t{size.width} + 2 * options.overscan) *
+                              (std::int64_t{size.height} + 2 * options.overscan);
+  if (pixels > kMostPixels) {
+    throw Error(std::to_string(pixels) + " pixels with overscan and samples: expected at most " +
+                std::to_string(kMostPixels) + ", about 10 GB of buffers");
   }
   if (scene.sun && glm::dot(scene.sun->direction, scene.water->up) <= 0) {
     throw Error("the sun is below the horizon: expected a direction that points above the water");
@@ -203,7 +223,7 @@ void check(const Scene& scene, const RenderOptions& options) {
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
                            PlaneSet wanted, bool extras, Executor& executor) {
   check(scene, options);
-  PlateRenderer renderer(model, scene, options, executor);
+  PlateRenderer renderer(model, scene, options, wanted, executor);
   const PlaneSet dry = kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kShadow};
   renderer.draw_dry(wanted & dry);
   if (!(wanted & kReflectionPlanes).empty()) renderer.draw_reflection(extras);

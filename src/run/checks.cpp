@@ -1,6 +1,9 @@
 #include "run/checks.h"
 
+#include <algorithm>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "limpid/core/error.h"
 
@@ -13,8 +16,55 @@ float missing_value(PlaneId plane) {
   return 0;
 }
 
-void check_run(const Plan& plan, const Frame& frame, const Target& target) {
+namespace {
+
+void check_wave_map(const Texture& map) {
+  if (!map) throw Error("frame: the plan looks up a normal map, and the frame has none");
+  for (const View<const float>& channel : map.channels) {
+    if (!channel || channel.window.empty() || channel.window != map.channels[0].window) {
+      throw Error("frame: the normal map's channels are not three of one size");
+    }
+  }
+}
+
+/// The addresses that a view spans, first and one past the last.
+template <class T>
+std::pair<const float*, const float*> span_of(const View<T>& view) {
+  const std::ptrdiff_t across = (view.window.width() - 1) * view.x_stride;
+  const std::ptrdiff_t down = (view.window.height() - 1) * view.y_stride;
+  const std::ptrdiff_t low =
+      std::min<std::ptrdiff_t>(across, 0) + std::min<std::ptrdiff_t>(down, 0);
+  const std::ptrdiff_t high =
+      std::max<std::ptrdiff_t>(across, 0) + std::max<std::ptrdiff_t>(down, 0);
+  return {view.data + low, view.data + high + 1};
+}
+
+/// A target over its own input would be gathered from after it was written.
+void check_apart(const Frame& frame, const View<float>& out) {
+  if (!out) return;
+  const auto [out_begin, out_end] = span_of(out);
+  for (const View<const float>& in : frame.planes) {
+    if (!in) continue;
+    const auto [in_begin, in_end] = span_of(in);
+    if (std::less<>()(out_begin, in_end) && std::less<>()(in_begin, out_end)) {
+      throw Error("target: it lies over the memory of the frame, expected memory of its own");
+    }
+  }
+}
+
+}  // namespace
+
+void check_run(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target) {
   frame.validate();
+  if (plan.reads_wave_map) check_wave_map(frame.wave_map);
+  if (plan.made.has(StatePart::kHighlight) && !scene.sun) {
+    throw Error("scene: the plan has a sun highlight, and the scene has no sun");
+  }
+  for (const View<float>& view : target.color) check_apart(frame, view);
+  check_apart(frame, target.alpha);
+  for (const auto& views : target.aovs) {
+    for (const View<float>& view : views) check_apart(frame, view);
+  }
   if (!frame.present().covers(plan.planes)) {
     std::vector<std::string> absent;
     for (const Role& role : roles()) {

@@ -1,5 +1,6 @@
 #include "limpid/run/fused.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 
@@ -23,15 +24,11 @@ constexpr const FusedTarget* kTargets[] = {
 #undef LIMPID_TARGET
 };
 
-void check_extent(const Frame& frame) {
-  for (const View<const float>& view : frame.planes) {
-    if (!view) continue;
-    const std::int64_t last = std::abs(std::int64_t{view.y_stride}) * view.window.height() +
-                              std::abs(std::int64_t{view.x_stride}) * view.window.width();
-    if (last > std::numeric_limits<std::int32_t>::max()) {
-      throw Error("frame: a plane spans " + std::to_string(last) +
-                  " floats, expected at most 2^31");
-    }
+void check_extent(const View<const float>& view) {
+  const std::int64_t last = std::abs(std::int64_t{view.y_stride}) * view.window.height() +
+                            std::abs(std::int64_t{view.x_stride}) * view.window.width();
+  if (last > std::numeric_limits<std::int32_t>::max()) {
+    throw Error("frame: a plane spans " + std::to_string(last) + " floats, expected at most 2^31");
   }
 }
 
@@ -55,9 +52,12 @@ struct Tiles {
 void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
                Executor& executor, const FusedOptions& options) {
   const FusedTarget& simd = *kTargets[simd_index(options.simd)];
-  check_run(plan, frame, target);
-  check_extent(frame);
-  const Size tile = options.tile;
+  check_run(plan, frame, scene, target);
+  for (const View<const float>& view : frame.planes) check_extent(view);
+  for (const View<const float>& view : frame.wave_map.channels) check_extent(view);
+  const Rect work = frame.work();
+  const Size tile{std::min(options.tile.width, work.width()),
+                  std::min(options.tile.height, work.height())};
   if (tile.width < 1 || tile.height < 1) {
     throw Error("tile of " + std::to_string(tile.width) + "x" + std::to_string(tile.height) +
                 " pixels: expected at least 1x1");
@@ -67,7 +67,6 @@ void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const T
   for (int i = 0; i < Chain::kCount; ++i) job.keeps[i] = plan.keeps(i);
   for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));
   for (int i = 0; i < kAovCount; ++i) job.dry_aov[i] = aovs()[i].dry;
-  const Rect work = frame.work();
   const int across = (work.width() + tile.width - 1) / tile.width;
   const int down = (work.height() + tile.height - 1) / tile.height;
   Tiles tiles{job, simd, work, tile, across};

@@ -174,7 +174,7 @@ void write_dry(const Frame& frame, int x, int y, const Target& target) {
 }  // namespace
 
 void run_reference(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target) {
-  check_run(plan, frame, target);
+  check_run(plan, frame, scene, target);
   const Context context(scene, frame, plan.look.water.ior, plan.made);
   const Rect work = frame.work();
   ReferenceStrip strip(frame, work);

@@ -166,6 +166,23 @@ TEST(RenderPlate, WavesMoveTheSurfaceAndGiveItsTrueNormals) {
   EXPECT_GT(checked, 1000);
 }
 
+TEST(RenderPlate, NormalsPointOutOfTheWaterWhicheverWayItIsWound) {
+  Model turned = basin();
+  std::vector<std::uint32_t>& indices = turned.meshes[3].indices;
+  for (std::size_t t = 0; t < indices.size(); t += 3) std::swap(indices[t], indices[t + 1]);
+  const RenderedPlate plate =
+      render_plate(turned, over_basin(), {.size = kSize}, kEverything, false, *make_executor(1));
+  int wet = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      if (!std::isfinite(plate.frame.plane(PlaneId::kSurfaceDepth).at(x, y))) continue;
+      EXPECT_NEAR(plate.frame.plane(PlaneId::kSurfaceNormalY).at(x, y), 1, 1e-6);
+      ++wet;
+    }
+  }
+  EXPECT_GT(wet, 1000);
+}
+
 TEST(RenderPlate, BelowHoldsOnlyWhatIsUnderTheWater) {
   const Scene scene = over_basin();
   const RenderedPlate plate = render_basin(scene);
@@ -239,10 +256,15 @@ TEST(RenderPlate, RefusesScenesThatMeanNothing) {
   scene.water->height = 2.5;
   refused(scene, {.size = kSize}, "in the water");
   scene = good;
+  scene.water->waves = {{2.5, 1, 0, 0, 0}};
+  refused(scene, {.size = kSize}, "below its highest crest");
+  refused(good, {.size = kSize, .overscan = 2147483640}, "overscan 2147483640");
+  scene = good;
   scene.sun->direction = {0, -1, 0};
   refused(scene, {.size = kSize}, "below the horizon");
   refused(good, {.size = {0, 5}}, "size 0x5");
   refused(good, {.size = {40000, 5}}, "size 40000x5");
+  refused(good, {.size = {32000, 32000}}, "1024000000 pixels");
   refused(good, {.size = kSize, .overscan = -1}, "overscan -1");
 }
 

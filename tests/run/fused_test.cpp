@@ -165,6 +165,13 @@ TEST(Fused, RefusesWhatItCannotDo) {
   Scene blind = scene;
   blind.camera.reset();
   EXPECT_THROW(test::fused({}, b.frame, blind), Error);
+  const Picture apart(b.frame.work());
+  Target over = apart.target;
+  const View<const float> color = b.frame.plane(PlaneId::kColorR);
+  over.color[0] = {const_cast<float*>(color.data), 1, color.y_stride, color.window};
+  EXPECT_THROW(run_fused(make_plan({}, test::inputs_of(b.frame, scene)), b.frame, scene, over,
+                         *make_executor(1)),
+               Error);
   Picture small(Rect{0, 0, 2, 2});
   EXPECT_THROW(run_fused(make_plan({}, test::inputs_of(b.frame, scene)), b.frame, scene,
                          small.target, *make_executor(1)),

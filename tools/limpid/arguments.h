@@ -16,7 +16,7 @@ struct CommonArguments {
 struct WaterOptions {
   std::string look = "realistic";
   std::vector<std::string> settings, aovs;
-  double time = 0;
+  std::optional<double> time;
   std::string output, preview, runner = "fused", simd, compression = "piz";
   bool store_float = false, dry_run = false;
 };

@@ -55,7 +55,8 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
 }
 
 int plan_verb(const CompositeArguments& a) {
-  std::printf("%s", to_text(plan_composite(job_of(a))).c_str());
+  const Plan plan = plan_composite(job_of(a));
+  std::printf("%sreads %s\n", to_text(plan).c_str(), roles_text(plan.planes).c_str());
   return 0;
 }
 

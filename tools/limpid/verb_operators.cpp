@@ -8,14 +8,6 @@
 namespace limpid::tool {
 namespace {
 
-std::string planes_text(PlaneSet planes) {
-  std::vector<std::string> names;
-  for (const Role& role : roles()) {
-    if (!(planes & role.planes()).empty()) names.emplace_back(role.name);
-  }
-  return names.empty() ? "-" : join(names);
-}
-
 std::string state_text(StateSet set) {
   constexpr const char* kNames[] = {"normal",      "prism",      "position", "path",
                                     "transmitted", "in_scatter", "fresnel",  "reflected",
@@ -52,7 +44,7 @@ int operators_verb(const OperatorsArguments& a) {
     Chain::for_each([&]<class Op, int>() {
       std::printf("%-19s %s\n", std::string(Op::kName).c_str(), std::string(Op::kAbout).c_str());
       std::printf("%-19s   taps %s; uses %s; makes %s\n", "",
-                  planes_text(Op::reads(look.of<Op>())).c_str(), state_text(Op::kUses).c_str(),
+                  roles_text(Op::reads(look.of<Op>())).c_str(), state_text(Op::kUses).c_str(),
                   state_text(Op::kMakes).c_str());
     });
     std::printf("limpid operators NAME lists the parameters of one.\n");

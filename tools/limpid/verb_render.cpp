@@ -33,7 +33,7 @@ RenderJob job_of(const RenderArguments& a) {
     throw Error(a.scene + ": expected a [geometry] with a glTF file to render");
   }
   job.render = {size_named(a.size), a.overscan, a.shadow_map, a.water.simd};
-  job.time = a.water.time;
+  job.time = a.water.time.value_or(0);
   return job;
 }
 
@@ -46,7 +46,7 @@ struct Shot {
 
 std::vector<Shot> shots_of(const RenderArguments& a) {
   expect_output(a.water.output);
-  if (a.frames.empty()) return {{a.water.output, a.water.preview, a.water.time}};
+  if (a.frames.empty()) return {{a.water.output, a.water.preview, a.water.time.value_or(0)}};
   if (!(a.fps > 0) || std::isinf(a.fps)) {
     throw Error("--fps " + std::to_string(a.fps) + ": expected a number above 0", Fault::kUsage);
   }
@@ -61,7 +61,7 @@ std::vector<Shot> shots_of(const RenderArguments& a) {
   std::vector<Shot> shots;
   for (int frame : frames) {
     shots.push_back({name_of_frame(a.water.output, frame), name_of_frame(a.water.preview, frame),
-                     a.water.time + frame / a.fps});
+                     a.water.time.value_or(0) + frame / a.fps});
   }
   return shots;
 }
@@ -93,13 +93,15 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 }
 
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
+  if (a.water.dry_run && !a.frames.empty()) frames_of(a.frames);
   const std::vector<Shot> shots = a.water.dry_run ? std::vector<Shot>{} : shots_of(a);
   WaterJob job{job_of(a), look_of(a.water), a.samples, output_of(a.water)};
   set_file_threads(common.threads);
   const auto executor = make_executor(common.threads);
   const Model model = model_of(job.render, common);
   if (a.water.dry_run) {
-    std::printf("%s", to_text(plan_water(model, job)).c_str());
+    const Plan plan = plan_water(model, job);
+    std::printf("%srenders %s\n", to_text(plan).c_str(), roles_text(plan.planes).c_str());
     return 0;
   }
   for (const Shot& shot : shots) {

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "limpid/core/plane.h"
@@ -85,6 +86,8 @@ struct Role {
 std::span<const Role> roles();
 /// Throws Error with the nearest name when there is no such role.
 const Role& role_named(std::string_view name);
+/// "color, depth": the roles that have a plane in the set; "-" for none.
+std::string roles_text(PlaneSet planes);
 
 inline constexpr PlaneSet kColorPlanes{PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB};
 inline constexpr PlaneSet kReflectionPlanes{PlaneId::kReflectionR, PlaneId::kReflectionG,

@@ -28,7 +28,7 @@ struct PlateRequest {
   Limits limits;
 };
 
-/// What the depth planes of a plate hold.
+/// What the depth planes of a plate hold, the dry scene's and the water's alike.
 struct DepthMeaning {
   DepthKind kind = DepthKind::kEye;
   double near = 0, far = 0;  ///< for kNormalised

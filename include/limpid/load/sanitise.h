@@ -48,7 +48,7 @@ struct DepthSource {
   bool half = false;         ///< stored as half: 6e4 and above is "nothing hit", else 1e9 and above
   double near = 0, far = 0;  ///< kNormalised
   const Camera* camera = nullptr;  ///< kRay and kDevice
-  Rect display;                    ///< kRay
+  Rect display = {};               ///< kRay
 };
 
 /// Linear eye depth in place of whatever the plane holds; "nothing hit" and NaN become +inf.

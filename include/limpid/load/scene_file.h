@@ -42,7 +42,7 @@ Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1)
 ///   [camera]  view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl, d3d,
 ///             reversed; near, far; depth = eye, ray, inverse, normalised, device
 ///   [water]   up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
-///   [sun]     direction, color
+///   [sun]     direction, color      [scene]  time, in seconds
 ///
 /// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
 /// unit. Without near and far a field of view gets 0.01 and infinity, an orthographic width 0 and
@@ -66,7 +66,7 @@ SceneFile load_scene(const std::filesystem::path& path);
 /// stands for the file in errors.
 SceneFile scene_from_toml(const std::string& text, const std::string& name);
 
-/// Camera, water and sun as a text that scene_from_toml() reads back to the bit.
+/// Camera, water, sun and time as a text that scene_from_toml() reads back to the bit.
 std::string to_toml(const Scene& scene);
 
 /// "FILE:CHANNELS" in its two parts: cut at the last ':' unless a '/' follows it; channels are ""

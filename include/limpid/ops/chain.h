@@ -15,8 +15,8 @@
 ///
 /// To add an operator: its header (formula) and source (table of parameters) in ops/, a test in
 /// tests/ops/, its include above and its name in Chain below. `tools/dev new-op NAME` makes the
-/// files. Look keys, `limpid operators`, plan entry, reference and fused passes, contract tests and
-/// a benchmark row then come by themselves.
+/// files. Look keys, `limpid operators`, plan entry, reference and fused passes and contract tests
+/// then come by themselves.
 ///
 /// To add a model to an operator: a value in its enum and the word for it in its table (same place
 /// in both), its branch in apply(), its formula in optics/ when it has one, new parameters as

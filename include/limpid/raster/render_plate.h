@@ -42,8 +42,8 @@ struct RenderedPlate {
 /// plane where the model has no water mesh. Draws only the passes that `wanted` (and `extras`)
 /// need.
 ///
-/// Throws Error when the scene lacks camera or water, the plane passes through the eye, a size is
-/// out of bounds, and, where sun light is asked for, when the sun is missing or below the horizon.
+/// Throws Error when the scene lacks camera or water, the eye is not above every wave, the sun is
+/// below the horizon (without a sun there is ambient light alone), or a size is out of bounds.
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
                            PlaneSet wanted, bool extras, Executor& executor);
 

@@ -38,7 +38,8 @@ Aov aov_named(std::string_view name);
 StateSet state_shown_by(std::span<const Aov> list);
 
 /// Where a run writes. The picture must be there; each AOV may be. All views must cover the frame's
-/// work(). Pixels of a view outside work() are left alone.
+/// work(); pixels of a view outside it are left alone. No view may share memory with the frame,
+/// where lookups would find what was just written.
 struct Target {
   std::array<View<float>, 3> color;
   View<float> alpha;  ///< may be absent
