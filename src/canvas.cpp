@@ -10,9 +10,12 @@
 namespace limpid {
 namespace {
 
-/// Whether a channel is a length or a direction, which no mean can be taken of.
+/// Places in the picture are too fine for half.
+bool is_map(Aov aov) { return aovs()[static_cast<std::size_t>(aov)].suffixes == "UV"; }
+
+/// Whether a channel is a length, a place or a direction, which no mean can be taken of.
 bool is_geometry(Aov aov) {
-  return aov == Aov::kNormal || aov == Aov::kSurfaceDepth || aov == Aov::kPath;
+  return aov == Aov::kNormal || aov == Aov::kSurfaceDepth || aov == Aov::kPath || is_map(aov);
 }
 
 float block_mean(const View<float>& from, int x, int y, int n) {
@@ -42,10 +45,10 @@ Canvas::Canvas(Rect window, const OutputChoice& choice) : window_(window) {
   target_.alpha = add("A", !choice.store_float);
   for (Aov aov : choice.aovs) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
-    const bool length = info.suffixes == "Z";
+    const bool exact = info.suffixes == "Z" || is_map(aov);
     for (std::size_t i = 0; i < info.suffixes.size(); ++i) {
       const std::string name = std::string(info.name) + "." + info.suffixes[i];
-      target_.of(aov)[i] = add(name, !choice.store_float && !length);
+      target_.of(aov)[i] = add(name, !choice.store_float && !exact);
     }
   }
 }

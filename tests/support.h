@@ -166,7 +166,7 @@ class Picture {
 
 inline StateSet all_state() {
   StateSet all;
-  for (const AovInfo& info : aovs()) all = all | StateSet{info.part};
+  for (const AovInfo& info : aovs()) all = all | info.parts;
   return all;
 }
 

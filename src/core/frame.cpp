@@ -22,6 +22,16 @@ constexpr Role kRoles[] = {
      "depth of the water surface"},
     {"surface_normal", PlaneId::kSurfaceNormalX, 3, 0, Sanitise::kNormal,
      "world normal of the water surface"},
+    {"reflection_valid", PlaneId::kReflectionValid, 1, 0, Sanitise::kMask,
+     "1 where the reflection is real, 0 where the cut at the water left nothing"},
+    {"reflection_depth", PlaneId::kReflectionDepth, 1, kNothingHit, Sanitise::kDepth,
+     "depth of the mirrored scene along the mirrored ray"},
+    {"below_color", PlaneId::kBelowR, 3, 0, Sanitise::kColor,
+     "the dry scene without all that is above the water"},
+    {"below_depth", PlaneId::kBelowDepth, 1, kNothingHit, Sanitise::kDepth,
+     "depth of what below_color shows"},
+    {"surface_shadow", PlaneId::kSurfaceShadow, 1, 1, Sanitise::kShadow,
+     "visibility of the sun at the water surface"},
 };
 
 }  // namespace

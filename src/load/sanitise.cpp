@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -35,6 +36,20 @@ std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& 
   return replaced;
 }
 
+/// Clamped to 0 ... 1; NaN and inf become `otherwise` and are counted.
+std::int64_t sanitise_share(const View<float>& plane, float otherwise) {
+  std::int64_t replaced = 0;
+  for_each_pixel(plane, [&](float& s, int, int) {
+    if (std::isfinite(s)) {
+      s = s < 0 ? 0 : s > 1 ? 1 : s;
+    } else {
+      s = otherwise;
+      ++replaced;
+    }
+  });
+  return replaced;
+}
+
 const Camera& camera_of(const DepthSource& source, const char* kind) {
   if (source.camera == nullptr) {
     throw Error(std::string("depth of kind ") + kind + " needs a camera, and the scene has none");
@@ -44,29 +59,15 @@ const Camera& camera_of(const DepthSource& source, const char* kind) {
 
 }  // namespace
 
-std::int64_t& SanitiseCounts::of(const Role& role) {
-  switch (role.first) {
-    case PlaneId::kColorR:
-      return color;
-    case PlaneId::kDepth:
-      return depth;
-    case PlaneId::kShadow:
-      return shadow;
-    case PlaneId::kReflectionR:
-      return reflection;
-    case PlaneId::kSurfaceDepth:
-      return surface_depth;
-    default:
-      return surface_normal;
-  }
+std::int64_t SanitiseCounts::total() const {
+  return std::accumulate(by_role.begin(), by_role.end(), std::int64_t{0});
 }
 
 std::string SanitiseCounts::to_text() const {
-  SanitiseCounts copy = *this;
   std::vector<std::string> parts;
   for (const Role& role : roles()) {
-    if (copy.of(role) != 0) {
-      parts.push_back(std::string(role.name) + " " + std::to_string(copy.of(role)));
+    if (of(role) != 0) {
+      parts.push_back(std::string(role.name) + " " + std::to_string(of(role)));
     }
   }
   return join(parts);
@@ -82,18 +83,9 @@ std::int64_t sanitise_color(const View<float>& plane) {
   return replaced;
 }
 
-std::int64_t sanitise_shadow(const View<float>& plane) {
-  std::int64_t replaced = 0;
-  for_each_pixel(plane, [&](float& s, int, int) {
-    if (std::isfinite(s)) {
-      s = s < 0 ? 0 : s > 1 ? 1 : s;
-    } else {
-      s = 1;
-      ++replaced;
-    }
-  });
-  return replaced;
-}
+std::int64_t sanitise_shadow(const View<float>& plane) { return sanitise_share(plane, 1); }
+
+std::int64_t sanitise_mask(const View<float>& plane) { return sanitise_share(plane, 0); }
 
 std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
                              glm::dvec3 up) {
@@ -170,6 +162,9 @@ SanitiseCounts sanitise_planes(std::span<Plane> planes, glm::dvec3 up,
         break;
       case Sanitise::kShadow:
         count += sanitise_shadow(plane(0).view());
+        break;
+      case Sanitise::kMask:
+        count += sanitise_mask(plane(0).view());
         break;
       case Sanitise::kNormal:
         count += sanitise_normal(plane(0).view(), plane(1).view(), plane(2).view(), up);

@@ -1,10 +1,15 @@
 #include "limpid/op/context.h"
 
-#include <string>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include "limpid/core/error.h"
+#include "limpid/optics/depth.h"
 
 namespace limpid {
 namespace {
@@ -17,6 +22,26 @@ glm::dvec3 on_plane(const glm::dvec3& axis, const glm::dvec3& v, const glm::dvec
   return glm::normalize(glm::length(first) > 1e-6 ? first : flat(fallback));
 }
 
+/// Distance of the near plane along the view axis.
+double near_depth(const Camera& camera) {
+  const double at_near = camera.clip == ClipSpace::kGl    ? -1
+                         : camera.clip == ClipSpace::kD3d ? 0
+                                                          : 1;
+  return eye_depth_from_device(at_near, device_depth_of(camera));
+}
+
+Bounds bounds_of(const Frame& frame, PlaneSet planes) {
+  Rect window = frame.plane(PlaneId::kColorR).window;
+  for (int i = 0; i < kPlaneCount; ++i) {
+    const PlaneId id = static_cast<PlaneId>(i);
+    if (planes.has(id) && frame.plane(id)) window = intersection(window, frame.plane(id).window);
+  }
+  const glm::dvec2 corner(frame.display.x0, frame.display.y0);
+  const glm::dvec2 size(frame.display.width(), frame.display.height());
+  return {(glm::dvec2(window.x0, window.y0) + 0.5 - corner) / size,
+          (glm::dvec2(window.x1, window.y1) - 0.5 - corner) / size};
+}
+
 }  // namespace
 
 Context::Context(const Scene& scene, const Frame& frame, double index, StateSet parts)
@@ -24,12 +49,15 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
       time(scene.time),
       ior(index),
       wave_map(frame.wave_map),
+      environment(frame.environment),
       made(parts) {
   scene.validate();
   if (!scene.camera) throw Error("the scene has no camera, expected view and projection matrices");
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
   size = {frame.display.width(), frame.display.height()};
   corner = {frame.display.x0, frame.display.y0};
+  waves = scene.water->waves;
+  planes = frame.present();
   rays = rays_of(*scene.camera, size);
   eye = scene.camera->eye();
   up = scene.water->up;
@@ -39,10 +67,39 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   map_x = axes.x;
   map_y = axes.y;
   eye_above = glm::dot(up, eye) - scene.water->height;
-  if (!(eye_above > 0) && !scene.camera->orthographic()) {
-    throw Error("the camera is in the water, " + std::to_string(-eye_above) +
-                " below its surface: expected an eye above it");
+
+  const glm::dmat4& p = scene.camera->projection;
+  const glm::dmat3 to_view(scene.camera->view);
+  const auto row = [&](int r) { return glm::dvec3(p[0][r], p[1][r], p[2][r]) * to_view; };
+  to_u = 0.5 * (row(0) + row(3));
+  to_v = 0.5 * (row(3) - row(1));
+  forward = glm::dvec3(0, 0, -1) * to_view;
+  w_origin = p[3][3];
+  w_depth = -p[2][3];
+  over_step = {glm::dot(up, rays.origin_dx) * size.x, glm::dot(up, rays.origin_dy) * size.y};
+  under_step = {glm::dot(up, rays.ray_dx) * size.x, glm::dot(up, rays.ray_dy) * size.y};
+
+  double crest = 0;
+  for (const SineWave& wave : waves) crest += std::abs(wave.amplitude);
+  near = near_depth(*scene.camera);
+  double lowest = HUGE_VAL;  // of the window's corners, over the calm surface
+  for (const int x : {0, size.x}) {
+    for (const int y : {0, size.y}) {
+      lowest = std::min(lowest, eye_above + near * glm::dot(up, rays.ray_at(x, y)));
+    }
   }
+  submersible = !scene.camera->orthographic() && lowest < crest;
+
+  dry = bounds_of(frame, kColorPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kSurfaceDepth});
+  below = bounds_of(frame, kBelowPlanes);
+  reflection = bounds_of(
+      frame, kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth});
+}
+
+double Context::phase_at_eye(const SineWave& wave) const {
+  const double phase = wave.k_x * glm::dot(eye, map_x) + wave.k_y * glm::dot(eye, map_y) +
+                       wave.phase - std::fmod(wave.omega * time, 2 * std::numbers::pi);
+  return std::remainder(phase, 2 * std::numbers::pi);
 }
 
 }  // namespace limpid

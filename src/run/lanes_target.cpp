@@ -144,6 +144,42 @@ class FusedStrip {
     }
   }
 
+  /// What a probe may look up for the pixels of one vector.
+  struct Tap {
+    const FusedStrip& strip;
+    int vector;
+
+    LIMPID_LANES_INLINE Lane nearest(PlaneId plane, Vec2<Lane> shift) const {
+      const Source source = source_of(strip.job_, plane);
+      if (!source.data) return Lane(source.missing);
+      const Vec2<Lane> at = strip.in_texels(shift);
+      const VI x = hn::Add(strip.column(vector), hn::ConvertTo(kDI, floor(at.x + Lane(0.5)).v));
+      const VI y = hn::Add(hn::Set(kDI, strip.y_), hn::ConvertTo(kDI, floor(at.y + Lane(0.5)).v));
+      return gather(source, hn::Add(column_offset(source, x), row_offset(source, y)));
+    }
+    LIMPID_LANES_INLINE auto quad(Vec2<Lane> shift) const { return Taps(strip, vector, shift); }
+    template <class Quad>
+    LIMPID_LANES_INLINE Lane read(PlaneId plane, const Quad& q, int k) const {
+      const Source source = source_of(strip.job_, plane);
+      if (!source.data) return Lane(source.missing);
+      return gather(source, hn::Add(column_offset(source, k & 1 ? q.x1 : q.x0),
+                                    row_offset(source, k & 2 ? q.y1 : q.y0)));
+    }
+    template <class Quad>
+    LIMPID_LANES_INLINE Vec2<Lane> place(PlaneId plane, const Quad& q, int k) const {
+      const Rect window = source_of(strip.job_, plane).window;
+      const VI x = clamp(k & 1 ? q.x1 : q.x0, window.x0, window.x1 - 1);
+      const VI y = clamp(k & 2 ? q.y1 : q.y0, window.y0, window.y1 - 1);
+      return {Lane(hn::ConvertTo(kD, hn::Sub(x, strip.column(vector)))) / Lane(strip.width_),
+              Lane(hn::ConvertTo(kD, hn::Sub(y, hn::Set(kDI, strip.y_)))) / Lane(strip.height_)};
+    }
+  };
+
+  template <class Fn>
+  LIMPID_LANES_INLINE void probe(Fn&& fn) {
+    for (int v = 0; v < vectors_; ++v) fn(pixels_[v], Tap{*this, v});
+  }
+
  private:
   /// Indices of four taps in a channel.
   struct Corners {
@@ -164,6 +200,11 @@ class FusedStrip {
       y0 = hn::Add(hn::Set(kDI, strip.y_), hn::ConvertTo(kDI, whole_y.v));
       x1 = hn::Add(x0, hn::Set(kDI, 1));
       y1 = hn::Add(y0, hn::Set(kDI, 1));
+    }
+
+    /// Of the tap k: upper left, upper right, lower left, lower right.
+    LIMPID_LANES_INLINE Lane weight(int k) const {
+      return (k & 1 ? u : Lane(1) - u) * (k & 2 ? v : Lane(1) - v);
     }
 
     LIMPID_LANES_INLINE Corners corners(const Source& s) const {
@@ -283,11 +324,14 @@ bool FusedStrip::begin(const RowRays<Lane>& rays) {
     const Lane dry = own_at(depth, v);
     const Lane water = surface.data ? own_at(surface, v) : rays.calm_depth(x);
     const Mask inside = {hn::Lt(hn::Iota(kD, 0.0f), hn::Set(kD, static_cast<float>(remaining(v))))};
-    wet_[v] = inside && water < dry;
+    const Mask meets = water<dry, in_water = begins_in_water(c, rays, x)> Lane(0);
+    wet_[v] = inside && (meets || in_water);
     any_wet = any_wet || any(wet_[v]);
+    const Lane side = select(in_water, select(meets, Lane(-1), Lane(0)), Lane(1));
     // What a dry pixel gets instead keeps the formulas away from infinities; end() ignores the
-    // result.
-    begin_pixel(c, rays, x, select(wet_[v], water, Lane(1)), select(wet_[v], dry, Lane(2)),
+    // result. A pixel that looks through water alone has no surface, but a finite number for it.
+    const Lane other = select(in_water, min(dry, Lane(1e4)), Lane(1));
+    begin_pixel(c, rays, x, side, select(meets, water, other), select(wet_[v], dry, Lane(2)),
                 Rgb<Lane>{own_at(red, v), own_at(green, v), own_at(blue, v)}, pixels_[v]);
   }
   return any_wet;
@@ -310,10 +354,8 @@ void FusedStrip::end() const {
     for (int a = 0; a < kAovCount; ++a) {
       if (!target.aovs[a][0].data) continue;
       const Lane other(job_.dry_aov[a]);
-      const bool transmitted = static_cast<Aov>(a) == Aov::kTransmitted;
-      const Vec3<Lane> value =
-          select(wet_[v], aov_of(p, static_cast<Aov>(a)),
-                 transmitted ? Vec3<Lane>{dry.r, dry.g, dry.b} : Vec3<Lane>{other, other, other});
+      const Aov aov = static_cast<Aov>(a);
+      const Vec3<Lane> value = select(wet_[v], aov_of(p, aov), dry_aov_of(aov, dry, p.uv, other));
       store(target.aovs[a][0], v, value.x);
       store(target.aovs[a][1], v, value.y);
       store(target.aovs[a][2], v, value.z);

@@ -71,6 +71,44 @@ class ReferenceStrip {
     }
   }
 
+  /// Four texels around a place.
+  struct Quad {
+    int x, y;
+    double u, v;
+    double weight(int k) const { return (k & 1 ? u : 1 - u) * (k & 2 ? v : 1 - v); }
+  };
+
+  /// What a probe may look up for the pixel x of this row.
+  struct Tap {
+    const ReferenceStrip& strip;
+    int x;
+
+    double nearest(PlaneId plane, Vec2<double> shift) const {
+      const Vec2<double> at = strip.position(shift, x);
+      return strip.texel(plane, clamped_floor(at.x + 0.5), clamped_floor(at.y + 0.5));
+    }
+    Quad quad(Vec2<double> shift) const {
+      const Vec2<double> at = strip.position(shift, x);
+      return {clamped_floor(at.x), clamped_floor(at.y), at.x - std::floor(at.x),
+              at.y - std::floor(at.y)};
+    }
+    double read(PlaneId plane, const Quad& q, int k) const {
+      return strip.texel(plane, q.x + (k & 1), q.y + (k >> 1));
+    }
+    Vec2<double> place(PlaneId plane, const Quad& q, int k) const {
+      const Rect& w = strip.frame_.plane(plane).window;
+      const int column = std::clamp(q.x + (k & 1), w.x0, w.x1 - 1);
+      const int row = std::clamp(q.y + (k >> 1), w.y0, w.y1 - 1);
+      return {double(column - x) / strip.display_.width(),
+              double(row - strip.y_) / strip.display_.height()};
+    }
+  };
+
+  template <class Fn>
+  void probe(Fn&& fn) {
+    for_all([&](Pixel<double>& p, int x) { fn(p, Tap{*this, x}); });
+  }
+
  private:
   template <class Fn>
   void for_all(Fn&& fn) {
@@ -123,6 +161,8 @@ class ReferenceStrip {
 
 /// What stands in for the depths of a dry pixel while the operators pass over it.
 constexpr double kDrySurface = 1, kDryBottom = 2;
+/// And for the surface of a pixel that looks through water alone, into the distance.
+constexpr double kFarAway = 1e4;
 
 void begin_row(const Context& context, const Frame& frame, const Rect& work, int y,
                std::vector<Pixel<double>>& pixels, std::vector<char>& wet) {
@@ -136,9 +176,12 @@ void begin_row(const Context& context, const Frame& frame, const Rect& work, int
     const Rgb<double> color{frame.plane(PlaneId::kColorR).at(x, y),
                             frame.plane(PlaneId::kColorG).at(x, y),
                             frame.plane(PlaneId::kColorB).at(x, y)};
-    wet[i] = water < dry;
-    begin_pixel(context, rays, pixel_x, wet[i] ? water : kDrySurface, wet[i] ? dry : kDryBottom,
-                color, pixels[i]);
+    const bool meets = water<dry, in_water = begins_in_water(context, rays, pixel_x)> 0;
+    wet[i] = meets || in_water;
+    const double side = !in_water ? 1 : meets ? -1 : 0;
+    const double surface_depth = meets ? water : in_water ? min(dry, kFarAway) : kDrySurface;
+    begin_pixel(context, rays, pixel_x, side, surface_depth, wet[i] ? dry : kDryBottom, color,
+                pixels[i]);
   }
 }
 
@@ -157,17 +200,19 @@ void write_wet(const Pixel<double>& p, int x, int y, const Target& target) {
   }
 }
 
-void write_dry(const Frame& frame, int x, int y, const Target& target) {
+void write_dry(const Frame& frame, const Pixel<double>& p, int x, int y, const Target& target) {
   const auto color = [&](int i) { return frame.plane(plane_after(PlaneId::kColorR, i)).at(x, y); };
   for (int i = 0; i < 3; ++i) target.color[i].at(x, y) = color(i);
   const View<const float>& alpha = frame.plane(PlaneId::kColorA);
   if (target.alpha) target.alpha.at(x, y) = alpha ? alpha.at(x, y) : 1;
   for (int a = 0; a < kAovCount; ++a) {
-    for (int i = 0; i < 3; ++i) {
-      const View<float>& view = target.aovs[a][i];
-      const bool dry_color = static_cast<Aov>(a) == Aov::kTransmitted;
-      if (view) view.at(x, y) = dry_color ? color(i) : aovs()[a].dry;
-    }
+    const Vec3<double> value =
+        dry_aov_of(static_cast<Aov>(a), Rgb<double>{color(0), color(1), color(2)}, p.uv,
+                   double(aovs()[a].dry));
+    const auto& views = target.aovs[a];
+    if (views[0]) views[0].at(x, y) = static_cast<float>(value.x);
+    if (views[1]) views[1].at(x, y) = static_cast<float>(value.y);
+    if (views[2]) views[2].at(x, y) = static_cast<float>(value.z);
   }
 }
 
@@ -190,7 +235,7 @@ void run_reference(const Plan& plan, const Frame& frame, const Scene& scene, con
       if (wet[i]) {
         write_wet(strip.pixels()[i], x, y, target);
       } else {
-        write_dry(frame, x, y, target);
+        write_dry(frame, strip.pixels()[i], x, y, target);
       }
     }
   }

@@ -7,18 +7,38 @@
 namespace limpid {
 namespace {
 
+constexpr StateSet kLookups{StatePart::kPosition};
+
 constexpr AovInfo kAovs[kAovCount] = {
-    {"transmitted", "RGB", StatePart::kTransmitted, 0,
+    {"transmitted",
+     "RGB",
+     {StatePart::kTransmitted},
+     0,
      "light from below the surface; the dry picture on dry pixels"},
-    {"in_scatter", "RGB", StatePart::kInScatter, 0, "light that the water itself sends"},
-    {"reflected", "RGB", StatePart::kReflected, 0, "light mirrored by the surface"},
-    {"highlight", "RGB", StatePart::kHighlight, 0, "glint of the sun"},
-    {"fresnel", "Y", StatePart::kFresnel, 0, "reflectance"},
-    {"path", "Z", StatePart::kPath, 0, "way through the water, scene units"},
-    {"confidence", "Y", StatePart::kConfidence, 1, "1 where the lookup is real, 0 where invented"},
-    {"normal", "XYZ", StatePart::kNormal, 0, "unit world normal of the waves, 0 on dry pixels"},
-    {"surface_depth", "Z", StatePart::kNormal, std::numeric_limits<float>::infinity(),
+    {"in_scatter", "RGB", {StatePart::kInScatter}, 0, "light that the water itself sends"},
+    {"reflected", "RGB", {StatePart::kReflected}, 0, "light mirrored by the surface"},
+    {"highlight", "RGB", {StatePart::kHighlight}, 0, "glint of the sun"},
+    {"fresnel", "Y", {StatePart::kFresnel}, 0, "reflectance"},
+    {"transmittance",
+     "RGB",
+     {StatePart::kTransmittance},
+     1,
+     "share of light that survives the way through the water"},
+    {"path", "Z", {StatePart::kPath}, 0, "way through the water, scene units"},
+    {"confidence",
+     "Y",
+     {StatePart::kConfidence},
+     1,
+     "1 where the lookup is real, 0 where invented"},
+    {"normal", "XYZ", {StatePart::kNormal}, 0, "unit world normal of the waves, 0 on dry pixels"},
+    {"surface_depth",
+     "Z",
+     {},
+     std::numeric_limits<float>::infinity(),
      "eye depth of the water, inf on dry pixels"},
+    {"stmap.r", "UV", kLookups, 0, "where red was looked up, (0, 0) the lower left"},
+    {"stmap.g", "UV", kLookups, 0, "where green was looked up"},
+    {"stmap.b", "UV", kLookups, 0, "where blue was looked up"},
 };
 
 }  // namespace
@@ -37,7 +57,7 @@ Aov aov_named(std::string_view name) {
 
 StateSet state_shown_by(std::span<const Aov> list) {
   StateSet shown;
-  for (Aov aov : list) shown = shown | StateSet{kAovs[static_cast<std::size_t>(aov)].part};
+  for (Aov aov : list) shown = shown | kAovs[static_cast<std::size_t>(aov)].parts;
   return shown;
 }
 

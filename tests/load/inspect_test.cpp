@@ -50,9 +50,14 @@ found
   depth   ViewLayer.Depth.Z           (dry_multilayer_blender_half_zip.exr)  - layer 'ViewLayer.Depth' (Blender, Nuke, Natron)
   shadow  ViewLayer.Shadow.R          (dry_multilayer_blender_half_zip.exr)  - layer 'ViewLayer.Shadow' (Blender)
 not found
-  reflection      what a flat mirror in the water plane shows at each pixel
-  surface_depth   depth of the water surface
-  surface_normal  world normal of the water surface
+  reflection        what a flat mirror in the water plane shows at each pixel
+  surface_depth     depth of the water surface
+  surface_normal    world normal of the water surface
+  reflection_valid  1 where the reflection is real, 0 where the cut at the water left nothing
+  reflection_depth  depth of the mirrored scene along the mirrored ray
+  below_color       the dry scene without all that is above the water
+  below_depth       depth of what below_color shows
+  surface_shadow    visibility of the sun at the water surface
 )");
 }
 
@@ -88,10 +93,15 @@ found
   color  R G B A  (stereo.exr)  - part 'beauty' (Nuke, Arnold, oiiotool)
   depth  Z        (stereo.exr)  - part 'beauty' (beside the color)
 not found
-  shadow          visibility of the sun: 1 lit, 0 in shadow
-  reflection      what a flat mirror in the water plane shows at each pixel
-  surface_depth   depth of the water surface
-  surface_normal  world normal of the water surface
+  shadow            visibility of the sun: 1 lit, 0 in shadow
+  reflection        what a flat mirror in the water plane shows at each pixel
+  surface_depth     depth of the water surface
+  surface_normal    world normal of the water surface
+  reflection_valid  1 where the reflection is real, 0 where the cut at the water left nothing
+  reflection_depth  depth of the mirrored scene along the mirrored ray
+  below_color       the dry scene without all that is above the water
+  below_depth       depth of what below_color shows
+  surface_shadow    visibility of the sun at the water surface
 not used
   water_shadow.exr
 )");
@@ -101,8 +111,8 @@ TEST(Inspect, ARoleThatCouldNotBeDecidedShowsWhy) {
   const std::vector parts = {part({4, 4}, {"B", "G", "R"}, {})};
   const std::vector<InspectedFile> files = {{"a.exr", parts}};
   EXPECT_THAT(inspect_text(files, {}, {{"color", "color: 2 choices fit equally well"}}),
-              HasSubstr("not found\n  color           color: 2 choices fit equally well\n"
-                        "  depth           depth of the dry scene\n"));
+              HasSubstr("not found\n  color             color: 2 choices fit equally well\n"
+                        "  depth             depth of the dry scene\n"));
 }
 
 }  // namespace

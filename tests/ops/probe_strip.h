@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <concepts>
 #include <vector>
 
 #include "limpid/op/context.h"
@@ -61,6 +62,32 @@ class ProbeStrip {
     }
   }
 
+  struct Quad {
+    Vec2<double> shift;
+    double weight(int) const { return 0.25; }
+  };
+  struct Tap {
+    ProbeStrip& strip;
+    std::size_t i;
+    double nearest(PlaneId plane, Vec2<double> shift) const {
+      strip.note(shift);
+      return read(plane, {shift}, 0);
+    }
+    Quad quad(Vec2<double> shift) const {
+      strip.note(shift);
+      return {shift};
+    }
+    double read(PlaneId plane, const Quad&, int k) const {
+      strip.tapped = strip.tapped | PlaneSet{plane};
+      return texel(i + static_cast<std::size_t>(k), plane);
+    }
+    Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
+  };
+  template <class Fn>
+  void probe(Fn&& fn) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) fn(pixels[i], Tap{*this, i});
+  }
+
  private:
   static PlaneSet three(PlaneId first) {
     return {first, plane_after(first, 1), plane_after(first, 2)};
@@ -68,46 +95,68 @@ class ProbeStrip {
   static double texel(std::size_t i, PlaneId plane) {
     return 6 * noise(static_cast<int>(i), index_of(plane), 80);
   }
+  void note(Vec2<double> shift) {
+    farthest = max(farthest, max(std::abs(shift.x), std::abs(shift.y)));
+  }
   template <class Where>
-  void note(Where&& where) {
-    for (const Pixel<double>& p : pixels) {
-      const Vec2<double> shift = where(p);
-      farthest = max(farthest, max(std::abs(shift.x), std::abs(shift.y)));
-    }
+  requires std::invocable < Where, const Pixel<double>
+  & > void note(Where&& where) {
+    for (const Pixel<double>& p : pixels) note(where(p));
   }
 };
 
-/// A part of the running state as numbers, to see whether it changed.
-inline std::vector<double> values_of(const Pixel<double>& p, StatePart part) {
+/// Calls fn(member of a, member of b) for every number of a part of the running state.
+template <class P, class Q, class Fn>
+void each_number(P& a, Q& b, StatePart part, Fn&& fn) {
+  const auto two = [&](auto& v, auto& w) { fn(v.x, w.x), fn(v.y, w.y); };
+  const auto rgb = [&](auto& v, auto& w) { fn(v.r, w.r), fn(v.g, w.g), fn(v.b, w.b); };
   switch (part) {
     case StatePart::kNormal:
-      return {p.normal.x, p.normal.y, p.normal.z, p.tilt.x, p.tilt.y};
+      fn(a.normal.x, b.normal.x), fn(a.normal.y, b.normal.y), fn(a.normal.z, b.normal.z);
+      return two(a.tilt, b.tilt);
     case StatePart::kPrism:
-      return {p.prism_r.x, p.prism_r.y, p.prism_g.x, p.prism_g.y, p.prism_b.x, p.prism_b.y};
+      two(a.prism_r, b.prism_r), two(a.prism_g, b.prism_g), two(a.prism_b, b.prism_b);
+      return rgb(a.dispersion, b.dispersion);
     case StatePart::kPosition:
-      return {p.shift.x, p.shift.y, p.hit_depth};
+      two(a.shift, b.shift), two(a.shift_r, b.shift_r), two(a.shift_g, b.shift_g);
+      return two(a.shift_b, b.shift_b), fn(a.hit_depth, b.hit_depth);
     case StatePart::kPath:
-      return {p.path};
+      return fn(a.path, b.path);
+    case StatePart::kTransmittance:
+      return rgb(a.transmittance, b.transmittance);
     case StatePart::kTransmitted:
-      return {p.transmitted.r, p.transmitted.g, p.transmitted.b};
+      return rgb(a.transmitted, b.transmitted);
     case StatePart::kInScatter:
-      return {p.in_scatter.r, p.in_scatter.g, p.in_scatter.b};
+      return rgb(a.in_scatter, b.in_scatter);
+    case StatePart::kSunScatter:
+      return rgb(a.sun_near, b.sun_near), rgb(a.sun_far, b.sun_far);
     case StatePart::kFresnel:
-      return {p.fresnel};
+      return fn(a.fresnel, b.fresnel);
     case StatePart::kReflected:
-      return {p.reflected.r, p.reflected.g, p.reflected.b};
+      return rgb(a.reflected, b.reflected);
     case StatePart::kHighlight:
-      return {p.highlight.r, p.highlight.g, p.highlight.b};
+      return rgb(a.highlight, b.highlight);
     case StatePart::kConfidence:
-      return {p.confidence};
+      return fn(a.confidence, b.confidence);
   }
-  return {};
+}
+
+/// A part of the running state as numbers, to see whether it changed.
+inline std::vector<double> values_of(const Pixel<double>& p, StatePart part) {
+  std::vector<double> values;
+  each_number(p, p, part, [&](double v, double) { values.push_back(v); });
+  return values;
+}
+
+inline void copy_part(const Pixel<double>& from, StatePart part, Pixel<double>& to) {
+  each_number(from, to, part, [](double v, double& w) { w = v; });
 }
 
 constexpr StatePart kStateParts[] = {
-    StatePart::kNormal,      StatePart::kPrism,     StatePart::kPosition, StatePart::kPath,
-    StatePart::kTransmitted, StatePart::kInScatter, StatePart::kFresnel,  StatePart::kReflected,
-    StatePart::kHighlight,   StatePart::kConfidence};
+    StatePart::kNormal,    StatePart::kPrism,         StatePart::kPosition,
+    StatePart::kPath,      StatePart::kTransmittance, StatePart::kTransmitted,
+    StatePart::kInScatter, StatePart::kSunScatter,    StatePart::kFresnel,
+    StatePart::kReflected, StatePart::kHighlight,     StatePart::kConfidence};
 
 /// What the fixed part of a pixel says, then random state in the given parts; elsewhere it is as
 /// before the first operator.
@@ -122,6 +171,9 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
   p.surface_depth = 3 + number();
   p.dry_depth = p.surface_depth + 1.5 + number();
   p.ray_length = 1.2;
+  p.side = 1;
+  p.uv = {0.5 + 0.4 * number(), 0.5 + 0.4 * number()};
+  p.transmittance = {1, 1, 1};
   p.normal = up;
   p.hit_depth = p.dry_depth;
   p.confidence = 1;
@@ -134,12 +186,17 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
     p.prism_r = {0.01 * number(), 0};
     p.prism_g = {0.01 * number(), 0.01 * number()};
     p.prism_b = {0, 0.01 * number()};
+    p.dispersion = {-0.003, 0.001 * number(), 0.004};
   }
   if (random.has(StatePart::kPosition)) {
     p.shift = {0.05 * number(), 0.05 * number()};
+    p.shift_r = p.shift_b = p.shift;
+    p.shift_g = {0.05 * number(), 0.05 * number()};
     p.hit_depth = p.surface_depth + 2 + number();
   }
   if (random.has(StatePart::kPath)) p.path = 2 + number();
+  if (random.has(StatePart::kTransmittance)) p.transmittance = 0.5 * rgb();
+  if (random.has(StatePart::kSunScatter)) p.sun_near = 0.1 * rgb(), p.sun_far = 0.1 * rgb();
   if (random.has(StatePart::kTransmitted)) p.transmitted = rgb();
   if (random.has(StatePart::kInScatter)) p.in_scatter = rgb();
   if (random.has(StatePart::kFresnel)) p.fresnel = 0.5 + 0.5 * number();

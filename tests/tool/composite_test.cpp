@@ -89,8 +89,11 @@ TEST_F(CompositeTest, AllAovsAreThereInTheirTypes) {
                 "fresnel.Y (half), highlight.R (half), highlight.G (half), highlight.B (half), "
                 "in_scatter.R (half), in_scatter.G (half), in_scatter.B (half), normal.X (half), "
                 "normal.Y (half), normal.Z (half), path.Z (float), reflected.R (half), "
-                "reflected.G (half), reflected.B (half), surface_depth.Z (float), "
-                "transmitted.R (half), transmitted.G (half), transmitted.B (half)\n"));
+                "reflected.G (half), reflected.B (half), stmap.b.U (float), stmap.b.V (float), "
+                "stmap.g.U (float), stmap.g.V (float), stmap.r.U (float), stmap.r.V (float), "
+                "surface_depth.Z (float), transmittance.R (half), transmittance.G (half), "
+                "transmittance.B (half), transmitted.R (half), transmitted.G (half), transmitted.B "
+                "(half)\n"));
   composed("two.exr", {"--aov", "path,fresnel"});
   EXPECT_THAT(iinfo("two.exr"), HasSubstr("channel list: R (half), G (half), B (half), A (half), "
                                           "fresnel.Y (half), path.Z (float)\n"));

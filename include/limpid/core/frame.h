@@ -1,12 +1,12 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "limpid/core/enum_set.h"
 #include "limpid/core/plane.h"
 
 namespace limpid {
@@ -26,37 +26,22 @@ enum class PlaneId : std::uint8_t {
   kSurfaceNormalX,
   kSurfaceNormalY,
   kSurfaceNormalZ,
+  kReflectionValid,
+  kReflectionDepth,
+  kBelowR,
+  kBelowG,
+  kBelowB,
+  kBelowDepth,
+  kSurfaceShadow,
 };
-constexpr int kPlaneCount = 13;
+constexpr int kPlaneCount = 20;
 constexpr int index_of(PlaneId id) { return static_cast<int>(id); }
 /// The plane `step` places after `id`, as in plane_after(kColorR, 2) = kColorB.
 constexpr PlaneId plane_after(PlaneId id, int step) {
   return static_cast<PlaneId>(index_of(id) + step);
 }
 
-/// A set of planes.
-class PlaneSet {
- public:
-  constexpr PlaneSet() = default;
-  constexpr PlaneSet(std::initializer_list<PlaneId> ids) {
-    for (PlaneId id : ids) bits_ |= 1u << index_of(id);
-  }
-  constexpr bool has(PlaneId id) const { return (bits_ >> index_of(id)) & 1u; }
-  constexpr bool covers(PlaneSet s) const { return (s.bits_ & ~bits_) == 0; }
-  constexpr bool empty() const { return bits_ == 0; }
-  friend constexpr PlaneSet operator|(PlaneSet a, PlaneSet b) { return from(a.bits_ | b.bits_); }
-  friend constexpr PlaneSet operator&(PlaneSet a, PlaneSet b) { return from(a.bits_ & b.bits_); }
-  friend constexpr PlaneSet operator-(PlaneSet a, PlaneSet b) { return from(a.bits_ & ~b.bits_); }
-  friend constexpr bool operator==(PlaneSet, PlaneSet) = default;
-
- private:
-  static constexpr PlaneSet from(std::uint32_t bits) {
-    PlaneSet s;
-    s.bits_ = bits;
-    return s;
-  }
-  std::uint32_t bits_ = 0;
-};
+using PlaneSet = EnumSet<PlaneId>;
 
 /// What a NaN or infinity in a plane becomes when the frame is entered.
 enum class Sanitise : std::uint8_t {
@@ -64,6 +49,7 @@ enum class Sanitise : std::uint8_t {
   kDepth,   ///< NaN, and what stands for "nothing hit" -> +inf
   kShadow,  ///< NaN, inf -> 1, then clamped to 0 ... 1
   kNormal,  ///< made unit; NaN, inf or zero length -> up
+  kMask,    ///< NaN -> 0, then clamped to 0 ... 1
 };
 
 /// A group of planes that belong together, by the name that files and the command line use.
@@ -95,7 +81,11 @@ inline constexpr PlaneSet kReflectionPlanes{PlaneId::kReflectionR, PlaneId::kRef
 inline constexpr PlaneSet kSurfaceNormalPlanes{PlaneId::kSurfaceNormalX, PlaneId::kSurfaceNormalY,
                                                PlaneId::kSurfaceNormalZ};
 
-/// A picture that tiles the plane, three float channels r g b in memory that somebody else owns.
+inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, PlaneId::kBelowB,
+                                       PlaneId::kBelowDepth};
+
+/// A picture outside the screen (a map that tiles, an environment), three float channels r g b in
+/// memory that somebody else owns.
 struct Texture {
   std::array<View<const float>, 3> channels;
   explicit operator bool() const { return static_cast<bool>(channels[0]); }
@@ -109,6 +99,9 @@ struct Frame {
   Rect display;  ///< the picture that uv 0..1 and the camera's projection belong to
   std::array<View<const float>, kPlaneCount> planes;
   Texture wave_map;  ///< tiling normal map, values 0 ... 1, blue is up
+  /// The surroundings as a lat-long map of radiance: row 0 is straight up (the water's up), the
+  /// middle column looks along PlaneAxes::x, columns run towards PlaneAxes::y.
+  Texture environment;
 
   const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
   PlaneSet present() const;

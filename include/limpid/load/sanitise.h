@@ -20,13 +20,11 @@ namespace limpid {
 /// How many values were replaced because they were NaN or infinite where that means nothing (a
 /// depth of +inf means "nothing hit" and is not counted), by role.
 struct SanitiseCounts {
-  std::int64_t color = 0, depth = 0, shadow = 0, reflection = 0, surface_depth = 0,
-               surface_normal = 0;
+  std::array<std::int64_t, kPlaneCount> by_role{};  ///< at the role's first plane
 
-  std::int64_t total() const {
-    return color + depth + shadow + reflection + surface_depth + surface_normal;
-  }
-  std::int64_t& of(const Role& role);
+  std::int64_t& of(const Role& role) { return by_role[index_of(role.first)]; }
+  std::int64_t of(const Role& role) const { return by_role[index_of(role.first)]; }
+  std::int64_t total() const;
   /// "color 4, depth 2", or "" when nothing was replaced.
   std::string to_text() const;
 };
@@ -36,6 +34,9 @@ std::int64_t sanitise_color(const View<float>& plane);
 
 /// NaN, inf -> 1, then clamped to 0 ... 1. Returns how many were NaN or infinite.
 std::int64_t sanitise_shadow(const View<float>& plane);
+
+/// NaN, inf -> 0, then clamped to 0 ... 1. Returns how many were NaN or infinite.
+std::int64_t sanitise_mask(const View<float>& plane);
 
 /// Made unit; where a component is NaN or infinite or all are 0, `up` instead. Returns how many of
 /// those were NaN or infinite (renderers write 0 where there is no surface).

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -6,6 +8,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
 #include "limpid/op/pixel.h"
+#include "limpid/optics/waves.h"
 
 namespace limpid {
 
@@ -14,6 +17,11 @@ LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v) {
   return {F(v.x), F(v.y), F(v.z)};
 }
 
+/// Where planes can be looked up: the centres of their outermost texels, in uv.
+struct Bounds {
+  glm::dvec2 low, high;
+};
+
 /// What all pixels of a frame have in common, in double, made once a frame.
 ///
 /// t, b: tangent frame of the calm surface as the camera sees it: t is the camera's right projected
@@ -21,22 +29,38 @@ LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v) {
 /// away from the camera. map_x, map_y: tangent frame that stays with the world, for tiling maps:
 /// world x (z, should x be parallel to up) projected on the plane, and cross(up, map_x).
 struct Context {
-  /// Throws Error unless the scene has a camera and a water plane, both valid, and the eye is above
-  /// the water (an orthographic camera has no eye that could be below).
+  /// Throws Error unless the scene has a camera and a water plane, both valid.
   Context(const Scene& scene, const Frame& frame, double ior, StateSet made);
 
   Rays rays;
   glm::dvec3 eye;
   glm::dvec3 up, t, b;
   glm::dvec3 map_x, map_y;
-  double eye_above;   ///< signed height of the eye over the calm surface
-  glm::ivec2 size;    ///< of the display window
-  glm::ivec2 corner;  ///< of the display window
-  Sun sun;            ///< operators that need one declare it
+  double eye_above;  ///< signed height of the eye over the calm surface
+  /// A picture is seen through a window at the near distance; where that lies lower than the water,
+  /// the view begins in it. False when no pixel's does, as for orthographic cameras.
+  bool submersible;
+  double near;                  ///< eye depth of that window
+  std::vector<SineWave> waves;  ///< of the scene: what raises and lowers the water there
+  /// The screen, for directions d from the eye: uv = (dot(to_u, d), dot(to_v, d)) / w, and eye
+  /// depth = dot(forward, d). A point at eye depth Z has w = w_origin + w_depth Z.
+  glm::dvec3 to_u, to_v, forward;
+  double w_origin, w_depth;
+  /// Height over the calm surface of a point at eye depth Z on the ray at uv: eye_above + over + Z
+  /// under, where over and under change by these over the width and the height of the picture.
+  glm::dvec2 over_step, under_step;
+  PlaneSet planes;  ///< that the frame has: for operators that take more where there is more
+  Bounds dry, below, reflection;  ///< of color with depth, of the two others with theirs
+  glm::ivec2 size;                ///< of the display window
+  glm::ivec2 corner;              ///< of the display window
+  Sun sun;                        ///< operators that need one declare it
   double time;
   double ior;
-  Texture wave_map;
+  Texture wave_map, environment;
   StateSet made;  ///< what the operators of the plan make: neutral or absent ones make nothing
+
+  /// Phase of a wave below the eye, in rad, within a turn.
+  double phase_at_eye(const SineWave& wave) const;
 };
 
 /// The rays of one picture row in the number type of the runner. x and y are pixel coordinates
@@ -44,6 +68,7 @@ struct Context {
 template <class F>
 struct RowRays {
   Vec3<F> origin, origin_dx, ray, ray_dx;
+  F v;  ///< of the row's centre, 0 ... 1 down the picture
   F calm_over, calm_over_dx, calm_under, calm_under_dx;
 
   RowRays(const Context& c, double y)
@@ -51,6 +76,7 @@ struct RowRays {
         origin_dx(vec3_of<F>(c.rays.origin_dx)),
         ray(vec3_of<F>(c.rays.ray + y * c.rays.ray_dy)),
         ray_dx(vec3_of<F>(c.rays.ray_dx)),
+        v(F(y / c.size.y)),
         calm_over(F(-c.eye_above - dot(c.up, c.rays.origin + y * c.rays.origin_dy))),
         calm_over_dx(F(-dot(c.up, c.rays.origin_dx))),
         calm_under(F(dot(c.up, c.rays.ray + y * c.rays.ray_dy))),
@@ -73,28 +99,46 @@ struct RowRays {
   }
 };
 
-/// Fills what an operator may rely on from depth and dry color; see Pixel for what each part begins
-/// as.
+/// 1 where the view of this pixel begins in the water, 0 where it begins in the air.
 template <class F>
-LIMPID_INLINE void begin_pixel(const Context& c, const RowRays<F>& row, F x, F surface_depth,
-                               F dry_depth, Rgb<F> dry_color, Pixel<F>& p) {
+LIMPID_INLINE F begins_in_water(const Context& c, const RowRays<F>& row, F x) {
+  if (!c.submersible) return F(0);
+  const Vec3<F> start = F(c.near) * row.ray_at(x);  // relative to the eye
+  F height = F(c.eye_above) + dot(vec3_of<F>(c.up), start);
+  const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+  for (const SineWave& wave : c.waves) {
+    const F along = F(wave.k_x) * dot(start, map_x) + F(wave.k_y) * dot(start, map_y);
+    height = height - F(wave.amplitude) * sin(F(c.phase_at_eye(wave)) + along);
+  }
+  return select(height < F(0), F(1), F(0));
+}
+
+/// Fills what an operator may rely on from depths and dry color; see Pixel for what each part
+/// begins as.
+template <class F>
+LIMPID_INLINE void begin_pixel(const Context& c, const RowRays<F>& row, F x, F side,
+                               F surface_depth, F dry_depth, Rgb<F> dry_color, Pixel<F>& p) {
   const Vec3<F> ray = row.ray_at(x);
   const Vec2<F> none{F(0), F(0)};
   const Rgb<F> black{F(0), F(0), F(0)};
+  p.uv = {x * F(1.0 / c.size.x), row.v};
   p.ray_length = length(ray);
   p.to_viewer = (F(-1) / p.ray_length) * ray;
   p.surface_point = row.origin_at(x) + surface_depth * ray;
   p.surface_depth = surface_depth;
   p.dry_depth = dry_depth;
+  p.side = side;
   p.normal = vec3_of<F>(c.up);
   p.tilt = none;
   p.prism_r = p.prism_g = p.prism_b = none;
-  p.shift = none;
+  p.dispersion = black;
+  p.shift = p.shift_r = p.shift_g = p.shift_b = none;
   p.hit_depth = dry_depth;
   p.path = F(0);
   p.confidence = F(1);
+  p.transmittance = {F(1), F(1), F(1)};
   p.transmitted = dry_color;
-  p.in_scatter = black;
+  p.in_scatter = p.sun_near = p.sun_far = black;
   p.fresnel = F(0);
   p.reflected = black;
   p.highlight = black;

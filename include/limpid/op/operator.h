@@ -30,9 +30,17 @@
 ///   strip.bilinear_rgb(first, where, [&](Pixel<F>& p, Rgb<F> value) {});
 ///   strip.tiled_rgb(texture, where, [&](Pixel<F>& p, Rgb<F> value) {});   // where: periods of the
 ///   texture
+///   strip.probe([&](Pixel<F>& p, const auto& tap) { ... });   // where to look depends on what is
+///   seen
 ///
 /// with `where(const Pixel<F>&) -> Vec2<F>`, a shift in uv from the pixel's own centre. Taps are
 /// clamped to the plane's data window; a plane that is absent reads as its role's `missing` value.
+///
+/// A probe looks up as often as it likes, one pixel (or vector of pixels) at a time; the samplers
+/// above know all lookups of a strip beforehand and are faster. tap.nearest(plane, shift) is the
+/// texel there. tap.quad(shift) are the four texels that bilinear filtering mixes, k = 0 ... 3:
+/// quad.weight(k), tap.read(plane, quad, k), and tap.place(plane, quad, k), the shift of the centre
+/// of the texel that was read (clamped to the plane's window like the read itself).
 
 namespace limpid {
 

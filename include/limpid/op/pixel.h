@@ -1,44 +1,28 @@
 #pragma once
 #include <cstdint>
-#include <initializer_list>
 
+#include "limpid/core/enum_set.h"
 #include "limpid/core/vec.h"
 
 namespace limpid {
 
 /// The parts of a pixel's running state. Operators declare which they use and which they make.
 enum class StatePart : std::uint8_t {
-  kNormal,       ///< wave normal and its tilt
-  kPrism,        ///< how far each color channel departs from the common path
-  kPosition,     ///< where in the dry picture the refracted ray ends
-  kPath,         ///< length of the way through the water
-  kTransmitted,  ///< light from below the surface
-  kInScatter,    ///< light scattered into the view by the water
-  kFresnel,      ///< reflectance
-  kReflected,    ///< light mirrored by the surface
-  kHighlight,    ///< the sun's glint
-  kConfidence,   ///< 1 where the lookup is real, 0 where it is invented
+  kNormal,         ///< wave normal and its tilt
+  kPrism,          ///< how far each color channel departs from the common path
+  kPosition,       ///< where in the dry picture the refracted rays end
+  kPath,           ///< length of the way through the water
+  kTransmittance,  ///< share of light that survives that way
+  kTransmitted,    ///< light from below the surface
+  kInScatter,      ///< light scattered into the view by the water
+  kSunScatter,     ///< the sun's share of it
+  kFresnel,        ///< reflectance
+  kReflected,      ///< light mirrored by the surface
+  kHighlight,      ///< the sun's glint
+  kConfidence,     ///< 1 where the lookup is real, 0 where it is invented
 };
 
-class StateSet {
- public:
-  constexpr StateSet() = default;
-  constexpr StateSet(std::initializer_list<StatePart> parts) {
-    for (StatePart p : parts) bits_ |= 1u << static_cast<int>(p);
-  }
-  constexpr bool has(StatePart p) const { return (bits_ >> static_cast<int>(p)) & 1u; }
-  constexpr bool meets(StateSet s) const { return (bits_ & s.bits_) != 0; }
-  friend constexpr StateSet operator|(StateSet a, StateSet b) { return from(a.bits_ | b.bits_); }
-  friend constexpr bool operator==(StateSet, StateSet) = default;
-
- private:
-  static constexpr StateSet from(std::uint32_t bits) {
-    StateSet s;
-    s.bits_ = bits;
-    return s;
-  }
-  std::uint32_t bits_ = 0;
-};
+using StateSet = EnumSet<StatePart>;
 
 /// The terms whose sum is the picture.
 inline constexpr StateSet kOutputTerms{StatePart::kTransmitted, StatePart::kInScatter,
@@ -51,23 +35,34 @@ inline constexpr StateSet kOutputTerms{StatePart::kTransmitted, StatePart::kInSc
 template <class F>
 struct Pixel {
   // Set before the first operator, never written by one.
+  Vec2<F> uv;             ///< the pixel's own centre
   Vec3<F> to_viewer;      ///< V, unit, world
   Vec3<F> surface_point;  ///< world, relative to the eye
   F surface_depth;        ///< eye depth of the water at this pixel, finite
   F dry_depth;   ///< eye depth of the dry scene at this pixel, beyond surface_depth or +inf
   F ray_length;  ///< length of the pixel's ray per unit of eye depth
+  /// Where the view begins and whether it meets the surface: 1 from the air onto the water, -1 from
+  /// the water up to the surface, 0 in the water without meeting it. Always 1 unless
+  /// Context::submersible.
+  F side;
 
   Vec3<F> normal;                     ///< wave normal, unit, world; begins as the calm normal
   Vec2<F> tilt;                       ///< (n.t, -n.b): x right, y down; begins as 0
   Vec2<F> prism_r, prism_g, prism_b;  ///< shift of each channel beyond `shift`; begin as 0
+  Rgb<F> dispersion;  ///< index of refraction of each channel, beyond the common one; begins as 0
 
-  Vec2<F> shift;  ///< where the refracted ray ends; begins as 0
-  F hit_depth;    ///< dry eye depth there; begins as dry_depth
-  F path;         ///< scene units, >= 0; begins as 0
-  F confidence;   ///< begins as 1
+  Vec2<F> shift;                      ///< where the refracted ray ends; begins as 0
+  Vec2<F> shift_r, shift_g, shift_b;  ///< where each channel is looked up in the end; begin as 0
+  F hit_depth;                        ///< dry eye depth at `shift`; begins as dry_depth
+  F path;                ///< scene units, >= 0, +inf where the ray meets nothing; begins as 0
+  F confidence;          ///< begins as 1
+  Rgb<F> transmittance;  ///< begins as 1
 
   Rgb<F> transmitted;  ///< begins as the dry color at this pixel
   Rgb<F> in_scatter;   ///< begins as 0, as do all below
+  /// Parts of in_scatter that the sun lights: the first in the shadow of the surface point, the
+  /// second in that of the point where the ray ends.
+  Rgb<F> sun_near, sun_far;
   F fresnel;
   Rgb<F> reflected;
   Rgb<F> highlight;

@@ -44,27 +44,31 @@ struct Refraction {
     strip.nearest(
         PlaneId::kDepth, [](const Pixel<F>& p) { return p.shift; },
         [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
-    if (params.rejection == Rejection::kSnap) {
-      strip.each([](Pixel<F>& p) {
+    strip.each([&](Pixel<F>& p) {
+      Vec2<F> prism_r = p.prism_r, prism_g = p.prism_g, prism_b = p.prism_b;
+      if (params.rejection == Rejection::kSnap) {
         const auto above = p.hit_depth < p.surface_depth;
         const Vec2<F> none{F(0), F(0)};
         p.shift = select(above, none, p.shift);
-        p.prism_r = select(above, none, p.prism_r);
-        p.prism_g = select(above, none, p.prism_g);
-        p.prism_b = select(above, none, p.prism_b);
+        prism_r = select(above, none, prism_r);
+        prism_g = select(above, none, prism_g);
+        prism_b = select(above, none, prism_b);
         p.hit_depth = select(above, p.dry_depth, p.hit_depth);
         p.confidence = select(above, F(0), p.confidence);
-      });
-    }
+      }
+      p.shift_r = p.shift + prism_r;
+      p.shift_g = p.shift + prism_g;
+      p.shift_b = p.shift + prism_b;
+    });
     if (c.made.has(StatePart::kPrism)) {
       strip.bilinear(
-          PlaneId::kColorR, [](const Pixel<F>& p) { return p.shift + p.prism_r; },
+          PlaneId::kColorR, [](const Pixel<F>& p) { return p.shift_r; },
           [](Pixel<F>& p, F red) { p.transmitted.r = red; });
       strip.bilinear(
-          PlaneId::kColorG, [](const Pixel<F>& p) { return p.shift + p.prism_g; },
+          PlaneId::kColorG, [](const Pixel<F>& p) { return p.shift_g; },
           [](Pixel<F>& p, F green) { p.transmitted.g = green; });
       strip.bilinear(
-          PlaneId::kColorB, [](const Pixel<F>& p) { return p.shift + p.prism_b; },
+          PlaneId::kColorB, [](const Pixel<F>& p) { return p.shift_b; },
           [](Pixel<F>& p, F blue) { p.transmitted.b = blue; });
     } else {
       strip.bilinear_rgb(

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -16,18 +17,24 @@ enum class Aov {
   kReflected,
   kHighlight,
   kFresnel,
+  kTransmittance,
   kPath,
   kConfidence,
   kNormal,
   kSurfaceDepth,
+  kStmapR,
+  kStmapG,
+  kStmapB,
 };
-constexpr int kAovCount = 9;
+constexpr int kAovCount = 13;
 
 struct AovInfo {
   std::string_view name;      ///< of the layer
-  std::string_view suffixes;  ///< a letter a channel: "RGB", "XYZ", "Y", "Z"
-  StatePart part;             ///< state that it shows
-  float dry;                  ///< on dry pixels; `transmitted` has the dry color there instead
+  std::string_view suffixes;  ///< a letter a channel: "RGB", "XYZ", "UV", "Y", "Z"
+  StateSet parts;             ///< state that it shows
+  /// On dry pixels. There `transmitted` has the dry color instead, and the maps have the pixel's
+  /// own place.
+  float dry;
   std::string_view about;
 };
 /// In the order of Aov. The first four sum to the picture on every pixel.
@@ -55,6 +62,10 @@ struct Target {
 template <class F>
 LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
   const auto rgb = [](const Rgb<F>& c) { return Vec3<F>{c.r, c.g, c.b}; };
+  // As compositing programs have it: (0, 0) at the lower left of the picture.
+  const auto map = [&](const Vec2<F>& shift) {
+    return Vec3<F>{p.uv.x + shift.x, F(1) - (p.uv.y + shift.y), F(0)};
+  };
   switch (aov) {
     case Aov::kTransmitted:
       return rgb(p.transmitted);
@@ -66,6 +77,8 @@ LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
       return rgb(p.highlight);
     case Aov::kFresnel:
       return {p.fresnel, F(0), F(0)};
+    case Aov::kTransmittance:
+      return rgb(p.transmittance);
     case Aov::kPath:
       return {p.path, F(0), F(0)};
     case Aov::kConfidence:
@@ -73,9 +86,30 @@ LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
     case Aov::kNormal:
       return p.normal;
     case Aov::kSurfaceDepth:
-      return {p.surface_depth, F(0), F(0)};
+      return {select(abs(p.side) < F(0.5), F(HUGE_VAL), p.surface_depth), F(0), F(0)};
+    case Aov::kStmapR:
+      return map(p.shift_r);
+    case Aov::kStmapG:
+      return map(p.shift_g);
+    case Aov::kStmapB:
+      return map(p.shift_b);
   }
   return {F(0), F(0), F(0)};
+}
+
+/// The same of a dry pixel, from its dry color and its own place; `dry` is AovInfo::dry.
+template <class F>
+LIMPID_INLINE Vec3<F> dry_aov_of(Aov aov, Rgb<F> color, Vec2<F> uv, F dry) {
+  switch (aov) {
+    case Aov::kTransmitted:
+      return {color.r, color.g, color.b};
+    case Aov::kStmapR:
+    case Aov::kStmapG:
+    case Aov::kStmapB:
+      return {uv.x, F(1) - uv.y, F(0)};
+    default:
+      return {dry, dry, dry};
+  }
 }
 
 }  // namespace limpid

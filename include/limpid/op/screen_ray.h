@@ -1,0 +1,70 @@
+#pragma once
+#include "limpid/op/context.h"
+
+/// What operators know of the screen: where a ray that leaves the surface passes over it, and how
+/// high above the calm water what is seen there lies.
+
+namespace limpid {
+
+/// A ray from a pixel's surface point, as it crosses the screen. At s scene units from the surface
+/// it is seen shift_at(s) away from the pixel's own centre, at eye depth depth_at(s). Computed from
+/// differences, never from two positions: exact in float at any size of picture, and 0 at s = 0.
+template <class F>
+struct ScreenRay {
+  Vec2<F> across;  ///< shift = s across / (w + s w_step)
+  F w, w_step;     ///< w_step < 0 where the ray comes towards the viewer
+  F depth, depth_step;
+
+  LIMPID_INLINE ScreenRay(const Context& c, const Pixel<F>& p, Vec3<F> direction) {
+    depth = p.surface_depth;
+    depth_step = dot(vec3_of<F>(c.forward), direction);
+    w = F(c.w_origin) + F(c.w_depth) * depth;
+    w_step = F(c.w_depth) * depth_step;
+    across = {dot(vec3_of<F>(c.to_u), direction) - p.uv.x * w_step,
+              dot(vec3_of<F>(c.to_v), direction) - p.uv.y * w_step};
+  }
+
+  /// For s >= 0, +inf included (the vanishing point). Where the ray has passed the viewer's plane
+  /// the shift is huge and finite.
+  LIMPID_INLINE Vec2<F> shift_at(F s) const {
+    const F far = min(s, F(1e30));
+    return (far / max(w + far * w_step, F(1e-6) * w)) * across;
+  }
+  LIMPID_INLINE F depth_at(F s) const { return depth + min(s, F(1e30)) * depth_step; }
+
+  /// The s at a share t in 0 ... 1 of the way, on screen, to where it is at s = `end`.
+  LIMPID_INLINE F at_share(F t, F end) const {
+    return t * end * w / max(w + (F(1) - t) * end * w_step, F(1e-6) * w);
+  }
+
+  /// The s at which the shift has grown to `reach` times `across`, as in shift_at; +inf when it
+  /// never does.
+  LIMPID_INLINE F s_at(F reach) const {
+    const F rest = F(1) - reach * w_step;
+    return select(rest > F(0), reach * w / select(rest > F(0), rest, F(1)), F(HUGE_VAL));
+  }
+};
+
+/// Height over the calm surface of what lies at eye depth `depth` (+inf counts as 1e30) on the ray
+/// of the picture at `shift` from the pixel.
+template <class F>
+LIMPID_INLINE F height_at(const Context& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
+  const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
+  const F over = dot(vec3_of<F>(c.up), p.surface_point) - p.surface_depth * under;
+  const F there_under = under + shift.x * F(c.under_step.x) + shift.y * F(c.under_step.y);
+  const F there_over = over + shift.x * F(c.over_step.x) + shift.y * F(c.over_step.y);
+  return F(c.eye_above) + there_over + min(depth, F(1e30)) * there_under;
+}
+
+/// Eye depth of the calm surface at `shift` from the pixel, +inf where it is not met.
+template <class F>
+LIMPID_INLINE F calm_depth_at(const Context& c, const Pixel<F>& p, Vec2<F> shift) {
+  const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
+  const F over = dot(vec3_of<F>(c.up), p.surface_point) - p.surface_depth * under;
+  const F falls = F(0) - (under + shift.x * F(c.under_step.x) + shift.y * F(c.under_step.y));
+  const F above = F(c.eye_above) + over + shift.x * F(c.over_step.x) + shift.y * F(c.over_step.y);
+  const auto meets = above * falls > F(0);
+  return select(meets, above / select(meets, falls, F(1)), F(HUGE_VAL));
+}
+
+}  // namespace limpid
