@@ -1,0 +1,119 @@
+#pragma once
+#include "limpid/op/pixel.h"
+
+/// Bilinear lookups in which only some texels count: those below the surface for refraction, those
+/// that the mirror really saw for reflection. What lies in front never bleeds in, in any channel.
+///
+/// A `valid(quad, k)` says 1 or 0 of each tap. The share of valid weight is a continuous function
+/// of the place; where it is 1 the lookup is plain bilinear filtering. What is missing is made up
+/// from the last valid place on the way there (the offset is shortened), in proportion: so the
+/// picture has no step where a silhouette is crossed. The pixel's own texel must be valid.
+
+namespace limpid {
+
+template <class F, class Quad>
+struct ValidTaps {
+  Quad there, shortened;
+  F weight_there[4], weight_shortened[4];  ///< sum to 1, over both
+  F share;                                 ///< of `there`: 1 real, 0 made up
+  Vec2<F> place;                           ///< where most of the lookup comes from
+  bool some_made_up;
+
+  template <class Tap>
+  F read(const Tap& tap, PlaneId plane) const {
+    F sum = F(0);
+    for (int k = 0; k < 4; ++k) sum = sum + weight_there[k] * tap.read(plane, there, k);
+    if (!some_made_up) return sum;
+    for (int k = 0; k < 4; ++k) sum = sum + weight_shortened[k] * tap.read(plane, shortened, k);
+    return sum;
+  }
+
+  /// For depths: +inf where infinite ones prevail, and no 0 x inf.
+  template <class Tap>
+  F read_depth(const Tap& tap, PlaneId plane) const {
+    F sum = F(0);
+    const auto add = [&](const F* weight, const Quad& quad) {
+      for (int k = 0; k < 4; ++k) {
+        sum = sum + weight[k] * min(tap.read(plane, quad, k), F(1e30));
+      }
+    };
+    add(weight_there, there);
+    if (some_made_up) add(weight_shortened, shortened);
+    return select(sum < F(1e28), sum, F(HUGE_VAL));
+  }
+};
+
+/// Share of the weight at `shift` that is valid.
+template <class F, class Tap, class Valid>
+F valid_share(const Tap& tap, Vec2<F> shift, Valid&& valid) {
+  const auto quad = tap.quad(shift);
+  F share = F(0);
+  for (int k = 0; k < 4; ++k) share = share + quad.weight(k) * valid(quad, k);
+  return share;
+}
+
+/// The largest part of the way to `shift` at which half of the weight is valid: found from the far
+/// end in steps of an eighth, then by bisection, then by a secant, so that it moves smoothly with
+/// `shift`.
+template <class F, class Tap, class Valid>
+Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) {
+  constexpr int kSteps = 8, kHalvings = 6;
+  F low = F(0), high = F(1), share_low = F(1), share_high = share_there;
+  F found = F(0);
+  for (int i = kSteps - 1; i > 0; --i) {
+    const F t = F(double(i) / kSteps);
+    const F share = valid_share(tap, t * shift, valid);
+    const auto open = found < F(0.5);
+    const auto good = share >= F(0.5);
+    low = select(open && good, t, low);
+    share_low = select(open && good, share, share_low);
+    high = select(open && !good, t, high);
+    share_high = select(open && !good, share, share_high);
+    found = select(good, F(1), found);
+    if (!any(found < F(0.5))) break;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const F t = F(0.5) * (low + high);
+    const F share = valid_share(tap, t * shift, valid);
+    const auto good = share >= F(0.5);
+    low = select(good, t, low);
+    share_low = select(good, share, share_low);
+    high = select(good, high, t);
+    share_high = select(good, share_high, share);
+  }
+  const F fall = share_low - share_high;
+  const F t = low + (high - low) * saturate((share_low - F(0.5)) / max(fall, F(1e-6)));
+  // On steps wider than a texel the secant may land where nothing is valid.
+  const auto lands = valid_share(tap, t * shift, valid) > F(0.25);
+  return select(lands, t, low) * shift;
+}
+
+/// The taps for a lookup at `shift`.
+template <class F, class Tap, class Valid>
+auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
+  using Quad = decltype(tap.quad(shift));
+  ValidTaps<F, Quad> taps{tap.quad(shift), tap.quad(shift), {}, {}, F(0), shift, false};
+  for (int k = 0; k < 4; ++k) {
+    taps.weight_there[k] = taps.there.weight(k) * valid(taps.there, k);
+    taps.share = taps.share + taps.weight_there[k];
+    taps.weight_shortened[k] = F(0);
+  }
+  const auto whole = taps.share > F(1 - 1e-6);
+  taps.some_made_up = any(!whole);
+  if (!taps.some_made_up) return taps;
+  const Vec2<F> shortened = last_valid(tap, shift, taps.share, valid);
+  taps.place = select(taps.share >= F(0.5), shift, shortened);
+  taps.shortened = tap.quad(shortened);
+  F valid_weight = F(0);
+  for (int k = 0; k < 4; ++k) {
+    taps.weight_shortened[k] = taps.shortened.weight(k) * valid(taps.shortened, k);
+    valid_weight = valid_weight + taps.weight_shortened[k];
+  }
+  const F scale = max(F(1) - taps.share, F(0)) / max(valid_weight, F(1e-6));
+  for (int k = 0; k < 4; ++k) {
+    taps.weight_shortened[k] = select(whole, F(0), scale * taps.weight_shortened[k]);
+  }
+  return taps;
+}
+
+}  // namespace limpid
