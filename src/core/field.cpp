@@ -1,5 +1,7 @@
 #include "limpid/core/field.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -12,13 +14,41 @@ std::string number_text(double x) {
   return text;
 }
 
+std::string list_text(std::span<const double> numbers) {
+  std::vector<std::string> texts;
+  for (double x : numbers) texts.push_back(number_text(x));
+  return "[" + join(texts) + "]";
+}
+
+bool is_one_of(std::span<const std::string_view> words, const std::string* word) {
+  return word && std::find(words.begin(), words.end(), *word) != words.end();
+}
+
+/// "; did you mean 'x'?" where the value is a word that is near one of them.
+std::string slip(const std::string* word, const std::vector<std::string>& known) {
+  return word ? did_you_mean(*word, known) : "";
+}
+
 }  // namespace
 
 std::string to_string(const Value& value) {
   if (const double* x = std::get_if<double>(&value)) return number_text(*x);
   if (const std::string* word = std::get_if<std::string>(&value)) return *word;
-  const Rgb<double>& c = std::get<Rgb<double>>(value);
-  return "[" + number_text(c.r) + ", " + number_text(c.g) + ", " + number_text(c.b) + "]";
+  if (const Rgb<double>* c = std::get_if<Rgb<double>>(&value)) {
+    return list_text(std::array{c->r, c->g, c->b});
+  }
+  std::vector<std::string> rows;
+  for (const std::vector<double>& row : std::get<Rows>(value)) rows.push_back(list_text(row));
+  return "[" + join(rows) + "]";
+}
+
+std::string columns_text(const FieldInfo& field) {
+  std::string text;
+  for (std::size_t count = field.least_columns; count <= field.columns.size(); ++count) {
+    const std::vector<std::string> names(field.columns.begin(), field.columns.begin() + count);
+    text += (text.empty() ? "[" : " or [") + join(names) + "]";
+  }
+  return text;
 }
 
 namespace detail {
@@ -29,37 +59,52 @@ std::string range_text(const Range& range, std::string_view unit) {
   return text;
 }
 
-void check(const std::string& where, std::string_view unit, FieldKind kind, Range range,
-           std::span<const std::string_view> choices, const Value& value) {
+void check(std::string_view owner, const FieldInfo& field, const Value& value) {
   const auto fail = [&](const std::string& expected) {
-    throw Error(where + " = " + to_string(value) + ": expected " + expected);
+    throw Error(std::string(owner) + "." + std::string(field.name) + " = " + to_string(value) +
+                ": expected " + expected);
   };
+  const Range range = field.range;
   const auto inside = [&](double x) { return x >= range.min && x <= range.max; };  // false for NaN
-  switch (kind) {
-    case FieldKind::kReal: {
-      const double* x = std::get_if<double>(&value);
-      if (!x || !inside(*x)) fail(range_text(range, unit));
+  const std::string* word = std::get_if<std::string>(&value);
+  const double* x = std::get_if<double>(&value);
+  const std::vector<std::string> words(field.choices.begin(), field.choices.end());
+  switch (field.kind) {
+    case FieldKind::kReal:
+      if (!x || !inside(*x)) fail(range_text(range, field.unit));
       break;
-    }
     case FieldKind::kColor: {
       const Rgb<double>* c = std::get_if<Rgb<double>>(&value);
       if (!c || !inside(c->r) || !inside(c->g) || !inside(c->b)) {
-        fail("three numbers, each " + range_text(range, unit));
+        fail("three numbers, each " + range_text(range, field.unit));
       }
       break;
     }
-    case FieldKind::kChoice: {
-      const std::string* word = std::get_if<std::string>(&value);
-      std::vector<std::string> known(choices.begin(), choices.end());
-      for (const std::string& name : known) {
-        if (word && *word == name) return;
+    case FieldKind::kChoice:
+      if (!is_one_of(field.choices, word)) {
+        fail("one of " + join(words) + slip(word, words));
       }
-      fail("one of " + join(known) + (word ? did_you_mean(*word, known) : ""));
       break;
-    }
     case FieldKind::kText:
-      if (!std::holds_alternative<std::string>(value)) fail("a text");
+      if (!word) fail("a text");
       break;
+    case FieldKind::kCountOrWord:
+      if (x ? !inside(*x) || *x != std::floor(*x) : !is_one_of(field.choices, word)) {
+        fail("a whole number " + range_text(range, field.unit) + ", or " + join(words, " or ") +
+             slip(word, words));
+      }
+      break;
+    case FieldKind::kTable: {
+      const Rows* rows = std::get_if<Rows>(&value);
+      const auto fits = [&](const std::vector<double>& row) {
+        return row.size() >= field.least_columns && row.size() <= field.columns.size() &&
+               std::all_of(row.begin(), row.end(), inside);
+      };
+      if (!rows || !std::all_of(rows->begin(), rows->end(), fits)) {
+        fail("a list of " + columns_text(field) + ", each number " + range_text(range, field.unit));
+      }
+      break;
+    }
   }
 }
 

@@ -20,6 +20,11 @@ void expect_unit(const char* what, const glm::dvec3& v) {
 
 }  // namespace
 
+SineWave SineWave::from_row(std::span<const double> row) {
+  const double omega = row.size() > 4 ? row[4] : std::sqrt(9.81 * std::hypot(row[1], row[2]));
+  return {row[0], row[1], row[2], row[3], omega};
+}
+
 PlaneAxes plane_axes(const glm::dvec3& up) {
   const auto flat = [&](const glm::dvec3& v) { return v - glm::dot(v, up) * up; };
   glm::dvec3 x = flat({1, 0, 0});

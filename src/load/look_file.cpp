@@ -13,6 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string words_of(const Parameter& parameter) {
+  return join({parameter.choices.begin(), parameter.choices.end()});
+}
+
 std::string expected_of(const Parameter& parameter) {
   switch (parameter.kind) {
     case FieldKind::kReal:
@@ -20,14 +24,34 @@ std::string expected_of(const Parameter& parameter) {
     case FieldKind::kColor:
       return "three numbers [r, g, b]";
     case FieldKind::kChoice:
-      return "one of " + join(parameter.choices);
+      return "one of " + words_of(parameter);
     case FieldKind::kText:
       return "a text";
+    case FieldKind::kCountOrWord:
+      return "a whole number or one of " + words_of(parameter);
+    case FieldKind::kTable:
+      return "a list of " + columns_text(parameter);
   }
   return {};
 }
 
 bool is_number(const TomlNode& node) { return node.kind == TomlNode::Kind::kNumber; }
+
+bool is_list_of_numbers(const TomlNode& node) {
+  return node.kind == TomlNode::Kind::kList &&
+         std::all_of(node.items.begin(), node.items.end(), is_number);
+}
+
+std::optional<Rows> rows_of(const TomlNode& node) {
+  if (node.kind != TomlNode::Kind::kList) return std::nullopt;
+  Rows rows;
+  for (const TomlNode& item : node.items) {
+    if (!is_list_of_numbers(item)) return std::nullopt;
+    std::vector<double>& row = rows.emplace_back();
+    for (const TomlNode& number : item.items) row.push_back(number.number);
+  }
+  return rows;
+}
 
 /// The node as what the parameter holds; its range is left to Look::set.
 Value value_of(const TomlNode& node, const Parameter& parameter) {
@@ -36,14 +60,20 @@ Value value_of(const TomlNode& node, const Parameter& parameter) {
       if (is_number(node)) return node.number;
       break;
     case FieldKind::kColor:
-      if (node.kind == TomlNode::Kind::kList && node.items.size() == 3 &&
-          std::all_of(node.items.begin(), node.items.end(), is_number)) {
+      if (is_list_of_numbers(node) && node.items.size() == 3) {
         return Rgb<double>{node.items[0].number, node.items[1].number, node.items[2].number};
       }
       break;
     case FieldKind::kChoice:
     case FieldKind::kText:
       if (node.kind == TomlNode::Kind::kText) return node.text;
+      break;
+    case FieldKind::kCountOrWord:
+      if (is_number(node)) return node.number;
+      if (node.kind == TomlNode::Kind::kText) return node.text;
+      break;
+    case FieldKind::kTable:
+      if (const std::optional<Rows> rows = rows_of(node)) return *rows;
       break;
   }
   node.refuse(expected_of(parameter));
@@ -85,6 +115,16 @@ std::optional<Rgb<double>> color_in(std::string_view text) {
   return Rgb<double>{channels[0], channels[1], channels[2]};
 }
 
+/// Rows as TOML writes them: [[1, 2], [3, 4]].
+std::optional<Rows> rows_in(std::string_view text) {
+  try {
+    const TomlNode root = parse_toml_text("rows = " + std::string(text), "");
+    return root.items.size() == 1 ? rows_of(root.items[0]) : std::nullopt;
+  } catch (const Error&) {
+    return std::nullopt;  // the caller says it better
+  }
+}
+
 /// The text of a setting as what the parameter holds, or nothing where it cannot be that.
 std::optional<Value> value_in(std::string_view text, FieldKind kind) {
   switch (kind) {
@@ -92,9 +132,14 @@ std::optional<Value> value_in(std::string_view text, FieldKind kind) {
       return number_in(text);
     case FieldKind::kColor:
       return color_in(text);
+    case FieldKind::kCountOrWord:
+      if (const std::optional<double> count = number_in(text)) return *count;
+      [[fallthrough]];
     case FieldKind::kChoice:
     case FieldKind::kText:
       return std::string(without('"', '"', text));
+    case FieldKind::kTable:
+      return rows_in(text);
   }
   return std::nullopt;
 }

@@ -45,13 +45,10 @@ glm::dvec3 direction_of(const TomlNode& node) {
   return glm::normalize(direction / largest);
 }
 
-/// [amplitude, k_x, k_y, phase] or with omega; without it, that of deep water: sqrt(9.81 m/s^2
-/// |k|).
 SineWave wave_of(const TomlNode& node) {
-  const bool with_omega = node.items.size() == 5;
-  const std::vector<double> n = node.finite_numbers(with_omega ? 5 : 4);
-  const double omega = with_omega ? n[4] : std::sqrt(9.81 * std::hypot(n[1], n[2]));
-  return {n[0], n[1], n[2], n[3], omega};
+  constexpr std::size_t kAll = std::size(SineWave::kColumns);
+  const bool complete = node.items.size() == kAll;
+  return SineWave::from_row(node.finite_numbers(complete ? kAll : SineWave::kLeastColumns));
 }
 
 WaterPlane water_of(const TomlNode& table) {
@@ -221,7 +218,7 @@ SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
   return file;
 }
 
-std::string list_text(std::initializer_list<double> numbers) {
+std::string list_text(const std::vector<double>& numbers) {
   std::vector<std::string> texts;
   for (double x : numbers) texts.push_back(toml_text(x));
   return "[" + join(texts) + "]";
@@ -253,9 +250,7 @@ std::string to_toml(const Scene& scene) {
   if (scene.water) {
     const WaterPlane& water = *scene.water;
     std::vector<std::string> waves;
-    for (const SineWave& w : water.waves) {
-      waves.push_back(list_text({w.amplitude, w.k_x, w.k_y, w.phase, w.omega}));
-    }
+    for (const SineWave& wave : water.waves) waves.push_back(list_text(wave.to_row()));
     text += "[water]\nup = " + list_text({water.up.x, water.up.y, water.up.z}) +
             "\nheight = " + toml_text(water.height) + "\nwaves = [" + join(waves) + "]\n";
   }

@@ -1,5 +1,7 @@
 #include "limpid/ops/look.h"
 
+#include <array>
+
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
 
@@ -17,11 +19,21 @@ void for_each_table(L& look, Visit&& visit) {
   Chain::for_each([&]<class Op, int>() { visit(Op::kName, Op::fields(), look.template of<Op>()); });
 }
 
+std::string list_text(std::span<const double> numbers) {
+  std::vector<std::string> texts;
+  for (double x : numbers) texts.push_back(toml_text(x));
+  return "[" + join(texts) + "]";
+}
+
 std::string value_text(const Value& value) {
-  const Rgb<double>* c = std::get_if<Rgb<double>>(&value);
-  if (c) return "[" + toml_text(c->r) + ", " + toml_text(c->g) + ", " + toml_text(c->b) + "]";
-  const double* x = std::get_if<double>(&value);
-  return x ? toml_text(*x) : toml_text(std::get<std::string>(value));
+  if (const double* x = std::get_if<double>(&value)) return toml_text(*x);
+  if (const std::string* word = std::get_if<std::string>(&value)) return toml_text(*word);
+  if (const Rgb<double>* c = std::get_if<Rgb<double>>(&value)) {
+    return list_text(std::array{c->r, c->g, c->b});
+  }
+  std::vector<std::string> rows;
+  for (const std::vector<double>& row : std::get<Rows>(value)) rows.push_back(list_text(row));
+  return "[" + join(rows) + "]";
 }
 
 }  // namespace
@@ -61,16 +73,7 @@ void Look::validate() const {
 std::vector<Parameter> parameters(const Look& look) {
   std::vector<Parameter> all;
   for_each_table(look, [&](std::string_view table, auto fields, const auto& params) {
-    for (const auto& field : fields) {
-      all.push_back({table,
-                     field.name,
-                     field.unit,
-                     field.kind,
-                     field.range,
-                     {field.choices.begin(), field.choices.end()},
-                     field.about,
-                     field.get(params)});
-    }
+    for (const auto& field : fields) all.push_back({field, table, field.get(params)});
   });
   return all;
 }

@@ -3,10 +3,15 @@
 #include <cmath>
 #include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "limpid/core/scene.h"
 
 namespace limpid {
 namespace {
+
+using testing::HasSubstr;
 
 enum class Shape { kRound, kFlat };
 struct Params {
@@ -14,13 +19,18 @@ struct Params {
   double size = 2;
   Rgb<double> tint{0.5, 0.5, 0.5};
   std::string file;
+  int steps = 3;
+  std::vector<SineWave> waves;
 };
 constexpr std::string_view kShapes[] = {"round", "flat"};
+constexpr std::string_view kStepWords[] = {"march", "none"};
 constexpr Field<Params> kFields[] = {
     choice<&Params::shape, kShapes>("shape", "Its shape."),
     real<&Params::size>("size", "m", {0, 10}, "Its size."),
     color<&Params::tint>("tint", "", {0, 1}, "Its color."),
     text<&Params::file>("file", "Where it lies."),
+    count_or_word<&Params::steps, kStepWords>("steps", "", {0, 64}, "How many."),
+    table<&Params::waves>("waves", "", {-100, 100}, "What it swims on."),
 };
 constexpr std::span<const Field<Params>> kAll = kFields;
 
@@ -43,6 +53,11 @@ TEST(Field, TakesWhatIsDeclared) {
   EXPECT_EQ(refusal(1, 10.0), "");
   EXPECT_EQ(refusal(2, Rgb<double>{0, 1, 0.25}), "");
   EXPECT_EQ(refusal(3, "waves.exr"), "");
+  EXPECT_EQ(refusal(4, 0.0), "");
+  EXPECT_EQ(refusal(4, 64.0), "");
+  EXPECT_EQ(refusal(4, "march"), "");
+  EXPECT_EQ(refusal(5, Rows{}), "");
+  EXPECT_EQ(refusal(5, Rows{{0.1, 1, 2, 3, 4}, {-100, 100, 0, 0, -5}}), "");
 }
 
 TEST(Field, RefusesWithOneSentence) {
@@ -57,6 +72,51 @@ TEST(Field, RefusesWithOneSentence) {
             "thing.shape = rond: expected one of round, flat; did you mean 'round'?");
   EXPECT_EQ(refusal(0, 1.0), "thing.shape = 1: expected one of round, flat");
   EXPECT_EQ(refusal(3, 1.0), "thing.file = 1: expected a text");
+  EXPECT_EQ(refusal(4, 2.5),
+            "thing.steps = 2.5: expected a whole number 0 ... 64, or march or none");
+  EXPECT_EQ(refusal(4, -1.0),
+            "thing.steps = -1: expected a whole number 0 ... 64, or march or none");
+  EXPECT_THAT(refusal(4, 65.0), HasSubstr("= 65: expected a whole number"));
+  EXPECT_THAT(refusal(4, std::nan("")), HasSubstr("= nan: expected a whole number"));
+  EXPECT_THAT(refusal(4, std::numeric_limits<double>::infinity()), HasSubstr("= inf: expected"));
+  EXPECT_THAT(refusal(4, "marhc"), HasSubstr("or march or none; did you mean 'march'?"));
+  EXPECT_EQ(refusal(5, Rows{{1, 2, 3}}),
+            "thing.waves = [[1, 2, 3]]: expected a list of [amplitude, k_x, k_y, phase] or "
+            "[amplitude, k_x, k_y, phase, omega], each number -100 ... 100");
+  EXPECT_THAT(refusal(5, Rows{{1, 2, 3, 4, 5, 6}}), HasSubstr("expected a list of"));
+  EXPECT_THAT(refusal(5, Rows{{1, 2, 3, 4}, {}}), HasSubstr("[1, 2, 3, 4], []]: expected"));
+  EXPECT_THAT(refusal(5, Rows{{1, 2, 3, std::nan("")}}), HasSubstr("nan]]: expected"));
+  EXPECT_THAT(refusal(5, Rows{{1, 2, 300, 4}}), HasSubstr("each number -100 ... 100"));
+  EXPECT_THAT(refusal(5, 1.0), HasSubstr("thing.waves = 1: expected a list of"));
+}
+
+TEST(Field, CountsAndWordsShareAnInt) {
+  Params params;
+  const Field<Params>& steps = kFields[4];
+  assign("thing", steps, params, 7.0);
+  EXPECT_EQ(params.steps, 7);
+  assign("thing", steps, params, "march");
+  EXPECT_EQ(params.steps, -1);
+  assign("thing", steps, params, "none");
+  EXPECT_EQ(params.steps, -2);
+  EXPECT_NO_THROW(validate("thing", kAll, params));
+  params.steps = -3;  // no word, and below the range
+  EXPECT_THROW(validate("thing", kAll, params), Error);
+}
+
+// omega of deep water: sqrt(9.81 * |(3, 4)|) = sqrt(49.05).
+TEST(Field, RowsOfATableMayLeaveOutTheLastColumn) {
+  Params params;
+  assign("thing", kFields[5], params, Rows{{0.5, 3, -4, 1}, {0.25, 1, 0, 2, -6}});
+  ASSERT_EQ(params.waves.size(), 2u);
+  EXPECT_EQ(params.waves[0].amplitude, 0.5);
+  EXPECT_EQ(params.waves[0].k_x, 3);
+  EXPECT_EQ(params.waves[0].k_y, -4);
+  EXPECT_EQ(params.waves[0].phase, 1);
+  EXPECT_NEAR(params.waves[0].omega, 7.003571, 1e-6);
+  EXPECT_EQ(params.waves[1].omega, -6);
+  assign("thing", kFields[5], params, Rows{});
+  EXPECT_TRUE(params.waves.empty());
 }
 
 TEST(Field, ValidateFindsTheFirstBadParameter) {
@@ -76,6 +136,8 @@ TEST(Value, PrintsItself) {
   EXPECT_EQ(to_string(Value(0.03)), "0.03");
   EXPECT_EQ(to_string(Value("snap")), "snap");
   EXPECT_EQ(to_string(Value(Rgb<double>{1, 0.5, 0})), "[1, 0.5, 0]");
+  EXPECT_EQ(to_string(Value(Rows{})), "[]");
+  EXPECT_EQ(to_string(Value(Rows{{1, 0.5}, {-2}})), "[[1, 0.5], [-2]]");
 }
 
 }  // namespace

@@ -51,13 +51,24 @@ Value random_value(std::mt19937& random, const Parameter& p) {
       return Rgb<double>{random_real(random, p.range), random_real(random, p.range),
                          random_real(random, p.range)};
     case FieldKind::kChoice:
-      return p.choices[random() % p.choices.size()];
+      return std::string(p.choices[random() % p.choices.size()]);
     case FieldKind::kText: {
       std::string path = "/";
       for (char c : {'a', '"', '\\', '\n', '\t', '\x7f', '\'', '#', ' '}) {
         if (random() % 2) path += c;
       }
       return path + "\u00e9z";
+    }
+    case FieldKind::kCountOrWord:
+      if (random() % 2) return std::string(p.choices[random() % p.choices.size()]);
+      return std::floor(random_real(random, p.range));
+    case FieldKind::kTable: {
+      Rows rows(random() % 4);
+      for (std::vector<double>& row : rows) {
+        row.resize(p.least_columns + random() % (p.columns.size() - p.least_columns + 1));
+        for (double& x : row) x = random_real(random, p.range);
+      }
+      return rows;
     }
   }
   return {};

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,18 @@ std::vector<Value> candidates(const Field<P>& field) {
       break;
     case FieldKind::kText:
       break;
+    case FieldKind::kCountOrWord:
+      for (double x : {field.range.min, field.range.max, 1.0}) {
+        if (inside(x)) values.emplace_back(x);
+      }
+      for (std::string_view word : field.choices) values.emplace_back(std::string(word));
+      break;
+    case FieldKind::kTable:
+      values.emplace_back(Rows{});
+      for (double x : {field.range.min, field.range.max, 0.0, 1.0}) {
+        if (inside(x)) values.emplace_back(Rows(2, std::vector<double>(field.columns.size(), x)));
+      }
+      break;
   }
   return values;
 }
@@ -76,10 +89,22 @@ typename Op::Params random_params(int seed) {
     if (field.kind == FieldKind::kColor) {
       assign(Op::kName, field, params, Rgb<double>{number(), number(), number()});
     }
-    if (field.kind == FieldKind::kChoice) {
+    const auto word = [&] {
       const double count = static_cast<double>(field.choices.size());
       const auto index = static_cast<std::size_t>(std::min(random() * count, count - 1));
-      assign(Op::kName, field, params, std::string(field.choices[index]));
+      return std::string(field.choices[index]);
+    };
+    if (field.kind == FieldKind::kChoice) assign(Op::kName, field, params, word());
+    if (field.kind == FieldKind::kCountOrWord) {
+      const double count = std::floor(std::min(number(), 8.0));
+      assign(Op::kName, field, params, random() < 0.5 ? Value(word()) : Value(count));
+    }
+    if (field.kind == FieldKind::kTable) {
+      Rows rows(3, std::vector<double>(field.columns.size()));
+      for (std::vector<double>& row : rows) {
+        for (double& x : row) x = std::clamp(2 * random() - 1, field.range.min, field.range.max);
+      }
+      assign(Op::kName, field, params, rows);
     }
   }
   return params;

@@ -111,7 +111,23 @@ TEST(Contract, OutOfRangeIsRefusedByName) {
         }
       }
       if (field.kind == FieldKind::kChoice) refused(Op::kName, field.name, "nonesuch");
-      if (field.kind != FieldKind::kReal) refused(Op::kName, field.name, 1.0);
+      if (field.kind == FieldKind::kCountOrWord) {
+        for (double x : beyond(field.range)) refused(Op::kName, field.name, x);
+        refused(Op::kName, field.name, field.range.min + 0.5);
+        refused(Op::kName, field.name, "nonesuch");
+      }
+      if (field.kind == FieldKind::kTable) {
+        const std::vector<double> ok(field.columns.size(), field.range.min);
+        for (double x : beyond(field.range)) {
+          std::vector<double> row = ok;
+          row.back() = x;
+          refused(Op::kName, field.name, Rows{ok, row});
+        }
+        refused(Op::kName, field.name, Rows{std::vector<double>(field.least_columns - 1)});
+        refused(Op::kName, field.name, Rows{std::vector<double>(field.columns.size() + 1)});
+      }
+      const bool number = field.kind == FieldKind::kReal || field.kind == FieldKind::kCountOrWord;
+      if (!number) refused(Op::kName, field.name, 1.0);
     }
   });
 }

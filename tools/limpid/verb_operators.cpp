@@ -9,23 +9,37 @@ namespace limpid::tool {
 namespace {
 
 std::string state_text(StateSet set) {
-  constexpr const char* kNames[] = {"normal",      "prism",      "position", "path",
-                                    "transmitted", "in_scatter", "fresnel",  "reflected",
-                                    "highlight",   "confidence"};
+  constexpr const char* kNames[] = {"normal",        "prism",       "position",   "path",
+                                    "transmittance", "transmitted", "in_scatter", "sun_scatter",
+                                    "fresnel",       "reflected",   "highlight",  "confidence"};
   std::vector<std::string> names;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < static_cast<int>(std::size(kNames)); ++i) {
     if (set.has(static_cast<StatePart>(i))) names.emplace_back(kNames[i]);
   }
   return names.empty() ? "-" : join(names);
 }
 
-void print_parameter(const Parameter& p) {
-  std::string allowed;
-  if (p.kind == FieldKind::kChoice) {
-    allowed = join(p.choices, " | ");
-  } else if (p.kind != FieldKind::kText) {
-    allowed = detail::range_text(p.range, p.unit);
+std::string allowed_text(const Parameter& p) {
+  const std::string words = join({p.choices.begin(), p.choices.end()}, " | ");
+  const std::string range = detail::range_text(p.range, p.unit);
+  switch (p.kind) {
+    case FieldKind::kReal:
+    case FieldKind::kColor:
+      return range;
+    case FieldKind::kChoice:
+      return words;
+    case FieldKind::kText:
+      return {};
+    case FieldKind::kCountOrWord:
+      return range + " | " + words;
+    case FieldKind::kTable:
+      return "[" + columns_text(p) + ", ...], each number " + range;
   }
+  return {};
+}
+
+void print_parameter(const Parameter& p) {
+  const std::string allowed = allowed_text(p);
   std::printf("  %-12s = %-20s %s\n", std::string(p.name).c_str(), to_string(p.value).c_str(),
               std::string(p.about).c_str());
   if (!allowed.empty()) std::printf("  %-12s   %-20s %s\n", "", "", allowed.c_str());

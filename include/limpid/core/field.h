@@ -26,8 +26,11 @@
 
 namespace limpid {
 
-/// What a field holds, as text files and the command line see it: a number, a word, or a color.
-using Value = std::variant<double, std::string, Rgb<double>>;
+using Rows = std::vector<std::vector<double>>;
+
+/// What a field holds, as text files and the command line see it: a number, a word, a color, or the
+/// rows of a table.
+using Value = std::variant<double, std::string, Rgb<double>, Rows>;
 
 std::string to_string(const Value& value);
 
@@ -36,16 +39,25 @@ struct Range {
   double min, max;
 };
 
-enum class FieldKind { kReal, kChoice, kColor, kText };
+enum class FieldKind { kReal, kChoice, kColor, kText, kCountOrWord, kTable };
 
-template <class P>
-struct Field {
+/// What is declared of a parameter, whatever struct it is a member of.
+struct FieldInfo {
   std::string_view name;
   std::string_view unit;  ///< "" for a pure number
   FieldKind kind;
-  Range range;                                ///< kReal, and each channel of kColor
-  std::span<const std::string_view> choices;  ///< kChoice: the words, in the order of the enum
+  Range range;                                ///< of every number
+  std::span<const std::string_view> choices;  ///< kChoice, in the order of the enum; kCountOrWord
+  std::span<const std::string_view> columns;  ///< kTable: what the numbers of a row are
+  std::size_t least_columns;                  ///< kTable: the rest may be left out
   std::string_view about;                     ///< one sentence
+};
+
+/// The numbers of a row as an example of one, each column by its name: "[a, b] or [a, b, c]".
+std::string columns_text(const FieldInfo& field);
+
+template <class P>
+struct Field : FieldInfo {
   Value (*get)(const P&);
   void (*set)(P&, const Value&);  ///< unchecked: go through assign()
 };
@@ -62,22 +74,15 @@ using ParamsOf = typename MemberOf<decltype(M)>::Params;
 
 std::string range_text(const Range& range, std::string_view unit);
 
-/// Throws Error, beginning with `where` = "operator.parameter", unless `value` fits the
-/// declaration.
-void check(const std::string& where, std::string_view unit, FieldKind kind, Range range,
-           std::span<const std::string_view> choices, const Value& value);
+/// Throws Error, beginning with "owner.name", unless `value` fits the declaration.
+void check(std::string_view owner, const FieldInfo& field, const Value& value);
 }  // namespace detail
 
 template <auto M>
 constexpr Field<detail::ParamsOf<M>> real(std::string_view name, std::string_view unit, Range range,
                                           std::string_view about) {
   using P = detail::ParamsOf<M>;
-  return {name,
-          unit,
-          FieldKind::kReal,
-          range,
-          {},
-          about,
+  return {{name, unit, FieldKind::kReal, range, {}, {}, 0, about},
           [](const P& p) -> Value { return p.*M; },
           [](P& p, const Value& v) { p.*M = std::get<double>(v); }};
 }
@@ -86,12 +91,7 @@ template <auto M>
 constexpr Field<detail::ParamsOf<M>> color(std::string_view name, std::string_view unit,
                                            Range range, std::string_view about) {
   using P = detail::ParamsOf<M>;
-  return {name,
-          unit,
-          FieldKind::kColor,
-          range,
-          {},
-          about,
+  return {{name, unit, FieldKind::kColor, range, {}, {}, 0, about},
           [](const P& p) -> Value { return p.*M; },
           [](P& p, const Value& v) { p.*M = std::get<Rgb<double>>(v); }};
 }
@@ -99,12 +99,7 @@ constexpr Field<detail::ParamsOf<M>> color(std::string_view name, std::string_vi
 template <auto M>
 constexpr Field<detail::ParamsOf<M>> text(std::string_view name, std::string_view about) {
   using P = detail::ParamsOf<M>;
-  return {name,
-          "",
-          FieldKind::kText,
-          {},
-          {},
-          about,
+  return {{name, "", FieldKind::kText, {}, {}, {}, 0, about},
           [](const P& p) -> Value { return p.*M; },
           [](P& p, const Value& v) { p.*M = std::get<std::string>(v); }};
 }
@@ -115,12 +110,7 @@ template <auto M, const auto& Words>
 constexpr Field<detail::ParamsOf<M>> choice(std::string_view name, std::string_view about) {
   using P = detail::ParamsOf<M>;
   using E = std::remove_cvref_t<decltype(std::declval<P>().*M)>;
-  return {name,
-          "",
-          FieldKind::kChoice,
-          {},
-          Words,
-          about,
+  return {{name, "", FieldKind::kChoice, {}, Words, {}, 0, about},
           [](const P& p) -> Value { return std::string(Words[static_cast<std::size_t>(p.*M)]); },
           [](P& p, const Value& v) {
             const std::string& word = std::get<std::string>(v);
@@ -130,22 +120,60 @@ constexpr Field<detail::ParamsOf<M>> choice(std::string_view name, std::string_v
           }};
 }
 
+/// An int that counts, or -1 - i for the word `Words[i]`: `steps = 4` or `steps = "march"`. `Words`
+/// is a static array, the range begins at 0 or above.
+template <auto M, const auto& Words>
+constexpr Field<detail::ParamsOf<M>> count_or_word(std::string_view name, std::string_view unit,
+                                                   Range range, std::string_view about) {
+  using P = detail::ParamsOf<M>;
+  constexpr int kWords = static_cast<int>(std::size(Words));
+  return {{name, unit, FieldKind::kCountOrWord, range, Words, {}, 0, about},
+          [](const P& p) -> Value {
+            const bool word = p.*M < 0 && p.*M >= -kWords;
+            if (word) return std::string(Words[static_cast<std::size_t>(-1 - p.*M)]);
+            return static_cast<double>(p.*M);
+          },
+          [](P& p, const Value& v) {
+            if (const double* count = std::get_if<double>(&v)) p.*M = static_cast<int>(*count);
+            for (int i = 0; i < kWords; ++i) {
+              if (v == Value(std::string(Words[i]))) p.*M = -1 - i;
+            }
+          }};
+}
+
+/// A vector of rows of numbers, each number in the range: `waves = [[0.05, 1, 0, 0]]`. The type of
+/// a row has kColumns and kLeastColumns, from_row() and to_row() (see SineWave).
+template <auto M>
+constexpr Field<detail::ParamsOf<M>> table(std::string_view name, std::string_view unit,
+                                           Range range, std::string_view about) {
+  using P = detail::ParamsOf<M>;
+  using Row = typename std::remove_cvref_t<decltype(std::declval<P>().*M)>::value_type;
+  return {{name, unit, FieldKind::kTable, range, {}, Row::kColumns, Row::kLeastColumns, about},
+          [](const P& p) -> Value {
+            Rows rows;
+            for (const Row& row : p.*M) rows.push_back(row.to_row());
+            return rows;
+          },
+          [](P& p, const Value& v) {
+            (p.*M).clear();
+            for (const std::vector<double>& row : std::get<Rows>(v)) {
+              (p.*M).push_back(Row::from_row(row));
+            }
+          }};
+}
+
 /// Sets one parameter after checking kind, range and NaN. Throws Error that names `owner.field`,
 /// the value and what was expected; `params` is unchanged then.
 template <class P>
 void assign(std::string_view owner, const Field<P>& field, P& params, const Value& value) {
-  detail::check(std::string(owner) + "." + std::string(field.name), field.unit, field.kind,
-                field.range, field.choices, value);
+  detail::check(owner, field, value);
   field.set(params, value);
 }
 
 /// Throws Error at the first parameter outside its declared range.
 template <class P>
 void validate(std::string_view owner, std::span<const Field<P>> fields, const P& params) {
-  for (const Field<P>& field : fields) {
-    detail::check(std::string(owner) + "." + std::string(field.name), field.unit, field.kind,
-                  field.range, field.choices, field.get(params));
-  }
+  for (const Field<P>& field : fields) detail::check(owner, field, field.get(params));
 }
 
 }  // namespace limpid

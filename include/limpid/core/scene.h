@@ -1,5 +1,7 @@
 #pragma once
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -16,6 +18,13 @@ struct SineWave {
   double k_x = 0, k_y = 0;  ///< rad / scene unit; the wave travels along (k_x, k_y)
   double phase = 0;         ///< rad
   double omega = 0;         ///< rad / s
+
+  /// How files write a wave: a row of these numbers. Without omega it is that of deep water,
+  /// sqrt(9.81 m/s^2 |k|).
+  static constexpr std::string_view kColumns[] = {"amplitude", "k_x", "k_y", "phase", "omega"};
+  static constexpr std::size_t kLeastColumns = 4;
+  static SineWave from_row(std::span<const double> row);
+  std::vector<double> to_row() const { return {amplitude, k_x, k_y, phase, omega}; }
 };
 
 /// The calm surface: the points p with dot(up, p) = height. `up` is unit. `waves` raise and lower

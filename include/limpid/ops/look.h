@@ -42,12 +42,8 @@ struct Look {
 };
 
 /// One parameter as data, without its struct: for listings and for text that records a look.
-struct Parameter {
-  std::string_view table, name, unit;
-  FieldKind kind;
-  Range range;
-  std::vector<std::string> choices;
-  std::string_view about;
+struct Parameter : FieldInfo {
+  std::string_view table;
   Value value;
 };
 
