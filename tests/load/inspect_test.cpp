@@ -76,7 +76,7 @@ TEST(Inspect, PartsWindowsAndStorage) {
   deep.channels.push_back({"id", SampleType::kUint});
   const std::vector parts = {beauty, deep};
   const std::vector shadow = {part({480, 270}, {"Y"}, {})};
-  EXPECT_EQ(inspected({{"stereo.exr", parts}, {"water_shadow.exr", shadow}}),
+  EXPECT_EQ(inspected({{"stereo.exr", parts}, {"reflection_shadow.exr", shadow}}),
             R"(stereo.exr
   part 0 'beauty': data window 240x135 at (96, 108), display window 480x270, dwaa, tiled, pixel aspect 2, view left
     (no layer)  R G B A  half
@@ -86,7 +86,7 @@ TEST(Inspect, PartsWindowsAndStorage) {
     (no layer)  Z ZBack  float
     chroma      RY       half, one in 2x2
     (no layer)  id       uint
-water_shadow.exr
+reflection_shadow.exr
   part 0: 480x270, zip, scan lines
     (no layer)  Y  half
 found
@@ -103,7 +103,7 @@ not found
   below_depth       depth of what below_color shows
   surface_shadow    visibility of the sun at the water surface
 not used
-  water_shadow.exr
+  reflection_shadow.exr
 )");
 }
 

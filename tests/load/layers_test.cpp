@@ -253,14 +253,44 @@ TEST(FindLayers, TheOnlyPartMayBeCalledAnything) {
 
 TEST(FindLayers, OurOwnNames) {
   EXPECT_EQ(
-      found({"color.A", "color.B", "color.G", "color.R", "depth.Z", "reflection.B", "reflection.G",
-             "reflection.R", "shadow.Y", "surface.NX", "surface.NY", "surface.NZ", "surface.Z"}),
+      found({"below.B",      "below.G",      "below.R",      "below.Z",      "color.A",
+             "color.B",      "color.G",      "color.R",      "depth.Z",      "reflection.A",
+             "reflection.B", "reflection.G", "reflection.R", "reflection.Z", "shadow.Y",
+             "surface.NX",   "surface.NY",   "surface.NZ",   "surface.Z",    "surface_shadow.Y"}),
       "color: color.R color.G color.B color.A\n"
       "depth: depth.Z\n"
       "shadow: shadow.Y\n"
       "reflection: reflection.R reflection.G reflection.B\n"
       "surface_depth: surface.Z\n"
-      "surface_normal: surface.NX surface.NY surface.NZ\n");
+      "surface_normal: surface.NX surface.NY surface.NZ\n"
+      "reflection_valid: reflection.A\n"
+      "reflection_depth: reflection.Z\n"
+      "below_color: below.R below.G below.B\n"
+      "below_depth: below.Z\n"
+      "surface_shadow: surface_shadow.Y\n");
+}
+
+TEST(FindLayers, RolesAreLayersByTheirNames) {
+  EXPECT_EQ(found({"below_color.B", "below_color.G", "below_color.R", "below_depth.Z",
+                   "reflection_depth.V", "reflection_valid.Y", "water shadow.R"}),
+            "reflection_valid: reflection_valid.Y\n"
+            "reflection_depth: reflection_depth.V\n"
+            "below_color: below_color.R below_color.G below_color.B\n"
+            "below_depth: below_depth.Z\n"
+            "surface_shadow: water shadow.R\n");
+  EXPECT_EQ(found({"View.Below Colour.B", "View.Below Colour.G", "View.Below Colour.R",
+                   "View.Water Reflection Depth.Z", "View.Surface Shadow.Y"}),
+            "reflection_depth: View.Water Reflection Depth.Z\n"
+            "below_color: View.Below Colour.R View.Below Colour.G View.Below Colour.B\n"
+            "surface_shadow: View.Surface Shadow.Y\n");
+}
+
+// The alpha of a mirrored picture from elsewhere is no mask of what is real.
+TEST(FindLayers, OnlyOurOwnReflectionHasItsMaskInAlpha) {
+  EXPECT_EQ(found({"View.reflection.A", "View.reflection.B", "View.reflection.G",
+                   "View.reflection.R", "View.reflection.Z"}),
+            "reflection: View.reflection.R View.reflection.G View.reflection.B\n");
+  EXPECT_EQ(found(kRgba, "reflection.exr"), "reflection: R G B\n");
 }
 
 TEST(FindLayers, OurOwnNamesWinOverLayersAndThoseOverFileNames) {
@@ -277,13 +307,21 @@ TEST(FindLayers, FilesOfOneKindByTheirNames) {
                 source(2, "dry_normal.exr", {"X", "Y", "Z"}), source(3, "reflection.exr", kRgba),
                 source(4, "shadow.exr", {"Y"}), source(5, "water_depth.exr", {"Z"}),
                 source(6, "water_normal_waves.exr", {"X", "Y", "Z"}),
-                source(7, "water_shadow.exr", {"Y"}), source(8, "truth_flat.exr", kRgb)}),
+                source(7, "water_shadow.exr", {"Y"}), source(8, "truth_flat.exr", kRgb),
+                source(9, "below_color.exr", kRgb), source(10, "below_depth.exr", {"Z"}),
+                source(11, "reflection_depth.exr", {"Z"}),
+                source(12, "reflection_valid.exr", {"Y"})}),
       "color: R G B A\n"
       "depth: 1:Z\n"
       "shadow: 4:Y\n"
       "reflection: 3:R 3:G 3:B\n"
       "surface_depth: 5:Z\n"
-      "surface_normal: 6:X 6:Y 6:Z\n");
+      "surface_normal: 6:X 6:Y 6:Z\n"
+      "reflection_valid: 12:Y\n"
+      "reflection_depth: 11:Z\n"
+      "below_color: 9:R 9:G 9:B\n"
+      "below_depth: 10:Z\n"
+      "surface_shadow: 7:Y\n");
 }
 
 TEST(FindLayers, WaterFilesNeverFeedTheDryScene) {
@@ -291,9 +329,12 @@ TEST(FindLayers, WaterFilesNeverFeedTheDryScene) {
   EXPECT_EQ(found({"Z"}, "WaterZ.0001.exr"), "surface_depth: Z\n");
   EXPECT_EQ(found({"ViewLayer.Depth.Z"}, "water_depth.exr"), "surface_depth: ViewLayer.Depth.Z\n");
   EXPECT_EQ(found({"depth.Z"}, "surface_depth.exr"), "surface_depth: depth.Z\n");
-  EXPECT_EQ(found({"Y"}, "water_shadow.exr"), "");
-  EXPECT_EQ(found({"Z"}, "reflection_depth.exr"), "");
+  EXPECT_EQ(found({"Y"}, "water_shadow.exr"), "surface_shadow: Y\n");
+  EXPECT_EQ(found({"Y"}, "SurfaceShadow_v2.exr"), "surface_shadow: Y\n");
+  EXPECT_EQ(found({"Z"}, "reflection_depth.exr"), "reflection_depth: Z\n");
+  EXPECT_EQ(found({"Z"}, "below_depth.exr"), "below_depth: Z\n");
   EXPECT_EQ(found({"Z"}, "reflection.exr"), "");
+  EXPECT_EQ(found({"Y"}, "water_reflection_shadow.exr"), "");
 }
 
 TEST(FindLayers, DryNormalsAreNoSurfaceAndNoDepth) {
@@ -460,6 +501,14 @@ TEST(ChooseLayer, AWholeFile) {
   EXPECT_EQ(chosen("reflection", "", {source(0, "mirror.exr", {"A", "B", "G", "R", "Z"})}),
             "reflection: R G B\n");
   EXPECT_EQ(chosen("shadow", "", {source(0, "a.exr", {"light.sun.V"})}), "shadow: light.sun.V\n");
+  EXPECT_EQ(chosen("below_color", "", kBlender),
+            "below_color: ViewLayer.Combined.R ViewLayer.Combined.G ViewLayer.Combined.B\n");
+  EXPECT_EQ(chosen("below_depth", "", kBlender), "below_depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("reflection_depth", "", kBlender), "reflection_depth: ViewLayer.Depth.Z\n");
+  EXPECT_EQ(chosen("surface_shadow", "", kBlender), "surface_shadow: ViewLayer.Shadow.R\n");
+  EXPECT_EQ(chosen("reflection_valid", "", {source(0, "a.exr", kRgb)}), "reflection_valid: R\n");
+  EXPECT_EQ(chosen("reflection_valid", "", {source(0, "a.exr", {"reflection.A", "reflection.R"})}),
+            "reflection_valid: reflection.A\n");
 }
 
 TEST(ChooseLayer, AWholeFileWithNothingForTheRole) {
