@@ -1,8 +1,10 @@
 #include "limpid/water.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "limpid/core/error.h"
+#include "limpid/raster/mirror.h"
 #include "limpid/version.h"
 #include "limpid/write/exr_camera.h"
 
@@ -24,8 +26,12 @@ Scene scene_of(const Model& model, const RenderJob& job) {
 PlaneSet renderable(const Model& model, const Scene& scene) {
   if (!scene.water)
     throw Error("no water plane found: expected a scene with [water] up and height");
-  PlaneSet planes = kColorPlanes | kReflectionPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth};
-  if (scene.sun) planes = planes | PlaneSet{PlaneId::kShadow};
+  PlaneSet planes = kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth};
+  if (scene.sun) planes = planes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
+  if (scene.camera && above_water(*scene.camera, *scene.water)) {
+    planes =
+        planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
+  }
   const bool water = std::any_of(model.instances.begin(), model.instances.end(),
                                  [](const Instance& i) { return i.water; });
   if (water) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
@@ -63,9 +69,15 @@ constexpr NamedPlane kPlaneChannels[] = {
     {PlaneId::kSurfaceNormalX, "surface.NX"},
     {PlaneId::kSurfaceNormalY, "surface.NY"},
     {PlaneId::kSurfaceNormalZ, "surface.NZ"},
+    {PlaneId::kReflectionValid, "reflection.A"},
+    {PlaneId::kReflectionDepth, "reflection.Z"},
+    {PlaneId::kBelowR, "below.R"},
+    {PlaneId::kBelowG, "below.G"},
+    {PlaneId::kBelowB, "below.B"},
+    {PlaneId::kBelowDepth, "below.Z"},
+    {PlaneId::kSurfaceShadow, "surface_shadow.Y"},
 };
-constexpr const char* kExtraChannels[kExtraPlaneCount] = {
-    "reflection.A", "reflection.Z", "below.R", "below.G", "below.B", "below.Z"};
+static_assert(std::size(kPlaneChannels) == kPlaneCount);
 
 }  // namespace
 
@@ -73,7 +85,7 @@ void render(const Model& model, const RenderJob& job, const PlateOutput& output,
             Executor& executor) {
   const Scene scene = scene_of(model, job);
   const RenderedPlate plate =
-      render_plate(model, scene, job.render, renderable(model, scene), true, executor);
+      render_plate(model, scene, job.render, renderable(model, scene), executor);
   ExrOutput file;
   file.data = plate.planes[0].view().window;
   file.display = plate.frame.display;
@@ -86,9 +98,6 @@ void render(const Model& model, const RenderJob& job, const PlateOutput& output,
   };
   for (const NamedPlane& named : kPlaneChannels) {
     add(named.channel, plate.planes[static_cast<std::size_t>(index_of(named.plane))]);
-  }
-  for (int i = 0; i < kExtraPlaneCount; ++i) {
-    add(kExtraChannels[i], plate.extras[static_cast<std::size_t>(i)]);
   }
   write_exr(output.plate, file);
 }
@@ -117,7 +126,7 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
   RenderOptions options = job.render.render;
   options.size = {options.size.width * job.samples, options.size.height * job.samples};
   options.overscan *= job.samples;
-  RenderedPlate plate = render_plate(model, scene, options, report.plan.planes, false, executor);
+  RenderedPlate plate = render_plate(model, scene, options, report.plan.planes, executor);
   report.replaced = sanitise_planes(plate.planes, scene.water->up);
   const LoadedTexture map = wave_map_of(report.plan);
   plate.frame.wave_map = map.texture;

@@ -12,6 +12,13 @@ namespace {
 
 glm::dvec4 row(const glm::dmat4& m, int r) { return {m[0][r], m[1][r], m[2][r], m[3][r]}; }
 
+/// Nearer than this the plane passes through the eye.
+constexpr double kNearest = 1e-9;
+
+double height_over(const WaterPlane& plane, const Camera& camera) {
+  return glm::dot(plane.up, camera.eye()) - plane.height;
+}
+
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 }  // namespace
@@ -26,9 +33,13 @@ glm::dmat4 mirror(const WaterPlane& plane) {
   return m;
 }
 
+bool above_water(const Camera& camera, const WaterPlane& plane) {
+  return height_over(plane, camera) >= kNearest;
+}
+
 Camera mirrored_camera(const Camera& camera, const WaterPlane& plane) {
-  const double above = glm::dot(plane.up, camera.eye()) - plane.height;
-  if (std::abs(above) < 1e-9) throw Error("camera: its eye lies in the water plane");
+  const double above = height_over(plane, camera);
+  if (std::abs(above) < kNearest) throw Error("camera: its eye lies in the water plane");
   Camera mirrored = camera;
   mirrored.view = camera.view * mirror(plane);
   // A plane transforms by the inverse transpose; the side away from the mirrored eye stays.

@@ -10,48 +10,23 @@
 #include <glm/matrix.hpp>
 
 #include "limpid/core/error.h"
-#include "limpid/optics/waves.h"
 #include "limpid/raster/mirror.h"
 #include "limpid/raster/rasterise.h"
 #include "limpid/raster/shadow_map.h"
 
+#include "raster/water_surface.h"
+
 namespace limpid {
 namespace {
 
-/// The water of a model as it stands at one time: its meshes in world space, every vertex raised by
-/// the waves, with the true normals of the raised surface.
-Model raised_water(const Model& model, const WaterPlane& water, double time) {
-  const PlaneAxes axes = plane_axes(water.up);
-  Model raised;
-  raised.materials.emplace_back();
-  raised.materials[0].double_sided = true;
-  for (const Instance& instance : model.instances) {
-    if (!instance.water) continue;
-    Mesh mesh = model.meshes[static_cast<std::size_t>(instance.mesh)];
-    mesh.material = 0;
-    mesh.uvs.clear();
-    mesh.normals.resize(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-      const glm::dvec3 p(instance.world_from_mesh * glm::dvec4(mesh.positions[i], 1));
-      const WaveHeight wave =
-          wave_height(water.waves, glm::dot(p, axes.x), glm::dot(p, axes.y), time);
-      mesh.positions[i] = glm::vec3(p + wave.height * water.up);
-      mesh.normals[i] =
-          glm::vec3(glm::normalize(water.up - wave.slope_x * axes.x - wave.slope_y * axes.y));
-    }
-    // Whichever way the mesh was wound, its front is the side that the viewer above looks at.
-    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-      const glm::dvec3 a(mesh.positions[mesh.indices[t]]), b(mesh.positions[mesh.indices[t + 1]]),
-          c(mesh.positions[mesh.indices[t + 2]]);
-      if (glm::dot(glm::cross(b - a, c - a), water.up) < 0) {
-        std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
-      }
-    }
-    raised.instances.push_back({static_cast<int>(raised.meshes.size()), glm::dmat4(1.0), true});
-    raised.meshes.push_back(std::move(mesh));
-  }
-  return raised;
-}
+// The planes of each pass.
+const PlaneSet kDryPlanes =
+    kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kShadow};
+const PlaneSet kMirrorPlanes =
+    kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
+const PlaneSet kBelowColorPlanes = kBelowPlanes - PlaneSet{PlaneId::kBelowDepth};
+const PlaneSet kSurfacePlanes =
+    kSurfaceNormalPlanes | PlaneSet{PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow};
 
 /// One plate in the making: what all its passes share.
 class PlateRenderer {
@@ -68,9 +43,9 @@ class PlateRenderer {
         rasteriser_(model) {
     plate_.frame.display = display_;
     plate_.planes.resize(kPlaneCount);
-    plate_.extras.resize(kExtraPlaneCount);
     lighting_.sun = scene.sun.value_or(Sun{{0, 1, 0}, {0, 0, 0}});
-    const PlaneSet sunlit = kColorPlanes | kReflectionPlanes | PlaneSet{PlaneId::kShadow};
+    const PlaneSet sunlit = kColorPlanes | kReflectionPlanes | kBelowColorPlanes |
+                            PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
     if (scene.sun && !(wanted & sunlit).empty()) {
       shadow_map_ = make_shadow_map(model, *scene.sun, std::nullopt, options.shadow_map_size,
                                     executor, options.simd);
@@ -94,46 +69,63 @@ class PlateRenderer {
     if (planes.shadow) keep(PlaneId::kShadow, std::move(image.shadow));
   }
 
-  void draw_reflection(bool extras) {
+  void draw_reflection(PlaneSet wanted) {
+    const bool valid = wanted.has(PlaneId::kReflectionValid);
+    const bool depth = wanted.has(PlaneId::kReflectionDepth);
     const Camera mirrored = mirrored_camera(*scene_.camera, *scene_.water);
-    RasterImage image = draw(mirrored, {.color = true, .depth = extras}, std::nullopt, true);
+    const RasterWanted planes{.color = wanted.meets(kReflectionPlanes), .depth = valid || depth};
+    RasterImage image = draw(mirrored, planes, std::nullopt, true);
     keep_color(PlaneId::kReflectionR, image);
-    if (!extras) return;
-    // Where a back face comes first, the mirror looks into a solid that the water cut open.
-    const RasterImage open = draw(mirrored, {.depth = true}, std::nullopt, true, false);
-    Plane valid(window_);
-    for_each_pixel([&](int x, int y) {
-      const float front = image.depth.view().at(x, y), any = open.depth.view().at(x, y);
-      valid.view().at(x, y) = any < front ? 0.0f : 1.0f;
-    });
-    keep(ExtraPlane::kReflectionValid, std::move(valid));
-    keep(ExtraPlane::kReflectionDepth, std::move(image.depth));
+    if (valid) {
+      // Where a back face comes first, the mirror looks into a solid that the water cut open.
+      const RasterImage open = draw(mirrored, {.depth = true}, std::nullopt, true, false);
+      Plane mask(window_);
+      for_each_pixel([&](int x, int y) {
+        const float front = image.depth.view().at(x, y), any = open.depth.view().at(x, y);
+        mask.view().at(x, y) = any < front ? 0.0f : 1.0f;
+      });
+      keep(PlaneId::kReflectionValid, std::move(mask));
+    }
+    if (depth) keep(PlaneId::kReflectionDepth, std::move(image.depth));
   }
 
-  void draw_below() {
+  void draw_below(PlaneSet wanted) {
     const WaterPlane& water = *scene_.water;
-    RasterImage image =
-        draw(*scene_.camera, {.color = true, .depth = true}, glm::dvec4(-water.up, water.height));
-    for (int c = 0; c < 3; ++c) {
-      keep(static_cast<ExtraPlane>(static_cast<int>(ExtraPlane::kBelowR) + c),
-           std::move(image.color[c]));
-    }
-    keep(ExtraPlane::kBelowDepth, std::move(image.depth));
+    const RasterWanted planes{.color = wanted.meets(kBelowColorPlanes),
+                              .depth = wanted.has(PlaneId::kBelowDepth)};
+    RasterImage image = draw(*scene_.camera, planes, glm::dvec4(-water.up, water.height));
+    keep_color(PlaneId::kBelowR, image);
+    if (planes.depth) keep(PlaneId::kBelowDepth, std::move(image.depth));
   }
 
-  void draw_surface(bool normals) {
-    const Model water = raised_water(model_, *scene_.water, scene_.time);
-    if (water.instances.empty()) return;  // the chain derives the calm plane itself
-    Rasteriser rasteriser(water);
-    RasterImage image;
-    rasteriser.draw({*scene_.camera, display_, window_, RasterSubject::kWater}, lighting_,
-                    {.depth = true, .normal = normals}, executor_, image, options_.simd);
-    if (normals) {
-      for (int c = 0; c < 3; ++c) {
-        keep(plane_after(PlaneId::kSurfaceNormalX, c), std::move(image.normal[c]));
-      }
+  void draw_surface(PlaneSet wanted) {
+    const Camera& camera = *scene_.camera;
+    const WaterPlane& water = *scene_.water;
+    const bool shadow = wanted.has(PlaneId::kSurfaceShadow);
+    const Model model = raised_water(model_, water, scene_.time);
+    const bool has_mesh = !model.instances.empty();
+    SeenSurface surface;
+    if (has_mesh) {
+      const bool normals = shadow || wanted.meets(kSurfaceNormalPlanes);
+      RasterImage image;
+      Rasteriser(model).draw({camera, display_, window_, RasterSubject::kWater}, lighting_,
+                             {.depth = true, .normal = normals}, executor_, image, options_.simd);
+      if (normals) point_out_of_water(water.up, image.normal);
+      surface = {std::move(image.depth), std::move(image.normal)};
+    } else if (shadow) {
+      surface = calm_surface(camera, water, display_, window_);
     }
-    keep(PlaneId::kSurfaceDepth, std::move(image.depth));
+    if (shadow && lighting_.shadow) {
+      keep(PlaneId::kSurfaceShadow,
+           surface_shadow(surface, camera, water, display_, shadow_map_, executor_));
+    }
+    if (!has_mesh) return;  // the chain derives the calm plane itself
+    if (wanted.has(PlaneId::kSurfaceDepth)) keep(PlaneId::kSurfaceDepth, std::move(surface.depth));
+    if (!wanted.meets(kSurfaceNormalPlanes)) return;
+    for (int c = 0; c < 3; ++c) {
+      keep(plane_after(PlaneId::kSurfaceNormalX, c),
+           std::move(surface.normal[static_cast<std::size_t>(c)]));
+    }
   }
 
   RenderedPlate finished() && { return std::move(plate_); }
@@ -151,9 +143,6 @@ class PlateRenderer {
     Plane& slot = plate_.planes[static_cast<std::size_t>(index_of(id))];
     slot = std::move(plane);
     plate_.frame.planes[static_cast<std::size_t>(index_of(id))] = slot.view();
-  }
-  void keep(ExtraPlane id, Plane plane) {
-    plate_.extras[static_cast<std::size_t>(id)] = std::move(plane);
   }
   void keep_color(PlaneId first, RasterImage& image) {
     for (int c = 0; c < 3; ++c) {
@@ -190,13 +179,6 @@ void check(const Scene& scene, const RenderOptions& options) {
     throw Error("the scene has no camera: expected one in the scene file or in the geometry");
   }
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
-  double crest = scene.water->height;
-  for (const SineWave& wave : scene.water->waves) crest += std::abs(wave.amplitude);
-  const double above = glm::dot(scene.water->up, scene.camera->eye()) - crest;
-  if (!(above > 0)) {
-    throw Error("the camera is in the water, " + std::to_string(-above) +
-                " below its highest crest: expected an eye above it");
-  }
   const Size size = options.size;
   if (size.width < 1 || size.height < 1 || size.width > 32000 || size.height > 32000) {
     throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
@@ -221,15 +203,14 @@ void check(const Scene& scene, const RenderOptions& options) {
 }  // namespace
 
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
-                           PlaneSet wanted, bool extras, Executor& executor) {
+                           PlaneSet wanted, Executor& executor) {
   check(scene, options);
+  if (!above_water(*scene.camera, *scene.water)) wanted = wanted - kMirrorPlanes;
   PlateRenderer renderer(model, scene, options, wanted, executor);
-  const PlaneSet dry = kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kShadow};
-  renderer.draw_dry(wanted & dry);
-  if (!(wanted & kReflectionPlanes).empty()) renderer.draw_reflection(extras);
-  if (extras) renderer.draw_below();
-  const bool normals = !(wanted & kSurfaceNormalPlanes).empty();
-  if (normals || wanted.has(PlaneId::kSurfaceDepth)) renderer.draw_surface(normals);
+  if (wanted.meets(kDryPlanes)) renderer.draw_dry(wanted);
+  if (wanted.meets(kMirrorPlanes)) renderer.draw_reflection(wanted);
+  if (wanted.meets(kBelowPlanes)) renderer.draw_below(wanted);
+  if (wanted.meets(kSurfacePlanes)) renderer.draw_surface(wanted);
   return std::move(renderer).finished();
 }
 

@@ -69,13 +69,15 @@ Scene over_basin() {
   return scene;
 }
 
-const PlaneSet kEverything =
-    kColorPlanes | kReflectionPlanes | kSurfaceNormalPlanes |
-    PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kShadow, PlaneId::kSurfaceDepth};
+const PlaneSet kMirror =
+    kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
+const PlaneSet kEverything = kColorPlanes | kMirror | kBelowPlanes | kSurfaceNormalPlanes |
+                             PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kShadow,
+                                      PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow};
 
-RenderedPlate render_basin(const Scene& scene, PlaneSet wanted = kEverything, bool extras = true,
-                           int overscan = 0, int threads = 1) {
-  return render_plate(basin(), scene, {.size = kSize, .overscan = overscan}, wanted, extras,
+RenderedPlate render_basin(const Scene& scene, PlaneSet wanted = kEverything, int overscan = 0,
+                           int threads = 1) {
+  return render_plate(basin(), scene, {.size = kSize, .overscan = overscan}, wanted,
                       *make_executor(threads));
 }
 
@@ -121,14 +123,13 @@ TEST(RenderPlate, ReflectionOfAFlatMirrorIsTheSceneUpsideDown) {
   under.water =
       WaterPlane{{0, 1, 0}, -50};  // far below: it cuts nothing, and the sun must be above it
   under.sun->direction = scene.sun->direction;
-  const RenderedPlate image = render_plate(turned, under, {.size = kSize},
-                                           PlaneSet{PlaneId::kDepth}, false, *make_executor(1));
+  const RenderedPlate image =
+      render_plate(turned, under, {.size = kSize}, PlaneSet{PlaneId::kDepth}, *make_executor(1));
   int same = 0, checked = 0;
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       if (!std::isfinite(plate.frame.plane(PlaneId::kSurfaceDepth).at(x, y))) continue;
-      const float mirrored =
-          plate.extras[static_cast<std::size_t>(ExtraPlane::kReflectionDepth)].view().at(x, y);
+      const float mirrored = plate.frame.plane(PlaneId::kReflectionDepth).at(x, y);
       const float expected = image.frame.plane(PlaneId::kDepth).at(x, y);
       ++checked;
       same += mirrored == expected || std::abs(mirrored - expected) < 1e-4f * expected;
@@ -171,7 +172,7 @@ TEST(RenderPlate, NormalsPointOutOfTheWaterWhicheverWayItIsWound) {
   std::vector<std::uint32_t>& indices = turned.meshes[3].indices;
   for (std::size_t t = 0; t < indices.size(); t += 3) std::swap(indices[t], indices[t + 1]);
   const RenderedPlate plate =
-      render_plate(turned, over_basin(), {.size = kSize}, kEverything, false, *make_executor(1));
+      render_plate(turned, over_basin(), {.size = kSize}, kEverything, *make_executor(1));
   int wet = 0;
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
@@ -190,8 +191,7 @@ TEST(RenderPlate, BelowHoldsOnlyWhatIsUnderTheWater) {
   int found = 0;
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
-      const double depth =
-          plate.extras[static_cast<std::size_t>(ExtraPlane::kBelowDepth)].view().at(x, y);
+      const double depth = plate.frame.plane(PlaneId::kBelowDepth).at(x, y);
       if (!std::isfinite(depth)) continue;
       const glm::dvec3 p = scene.camera->eye() + depth * rays.ray_at(x + 0.5, y + 0.5);
       EXPECT_LT(p.y, 1e-4);
@@ -202,15 +202,26 @@ TEST(RenderPlate, BelowHoldsOnlyWhatIsUnderTheWater) {
 }
 
 TEST(RenderPlate, DrawsOnlyWhatIsWanted) {
-  const PlaneSet wanted = kColorPlanes | PlaneSet{PlaneId::kDepth};
-  const RenderedPlate plate = render_basin(over_basin(), wanted, false);
-  EXPECT_EQ(plate.frame.present(), wanted);
-  for (const Plane& extra : plate.extras) EXPECT_FALSE(extra);
+  const RenderedPlate all = render_basin(over_basin());
+  EXPECT_EQ(all.frame.present(), kEverything);
+  for (const Role& role : roles()) {
+    const RenderedPlate plate = render_basin(over_basin(), role.planes());
+    ASSERT_EQ(plate.frame.present(), role.planes()) << role.name;
+    for (int i = 0; i < role.count; ++i) {
+      const PlaneId id = plane_after(role.first, i);
+      for (int y = 0; y < kSize.height; ++y) {
+        EXPECT_EQ(std::memcmp(plate.frame.plane(id).row(y), all.frame.plane(id).row(y),
+                              sizeof(float) * kSize.width),
+                  0)
+            << role.name;
+      }
+    }
+  }
 }
 
 TEST(RenderPlate, OverscanContinuesThePicture) {
   const RenderedPlate tight = render_basin(over_basin());
-  const RenderedPlate wide = render_basin(over_basin(), kEverything, true, 9);
+  const RenderedPlate wide = render_basin(over_basin(), kEverything, 9);
   EXPECT_EQ(wide.frame.plane(PlaneId::kDepth).window,
             (Rect{-9, -9, kSize.width + 9, kSize.height + 9}));
   EXPECT_EQ(wide.frame.work(), rect_of(kSize));
@@ -224,7 +235,7 @@ TEST(RenderPlate, OverscanContinuesThePicture) {
 
 TEST(RenderPlate, SameBitsForAnyThreadCount) {
   const RenderedPlate one = render_basin(over_basin()),
-                      two = render_basin(over_basin(), kEverything, true, 0, 2);
+                      two = render_basin(over_basin(), kEverything, 0, 2);
   for (int i = 0; i < kPlaneCount; ++i) {
     const View<const float>&a = one.frame.planes[i], &b = two.frame.planes[i];
     ASSERT_EQ(static_cast<bool>(a), static_cast<bool>(b));
@@ -235,10 +246,128 @@ TEST(RenderPlate, SameBitsForAnyThreadCount) {
   }
 }
 
+/// In the water of the basin, looking up through it at the slab.
+Scene under_water() {
+  Scene scene = over_basin();
+  scene.camera->view =
+      glm::lookAt(glm::dvec3(0.5, -0.6, 1), glm::dvec3(0, 0.5, -2.5), glm::dvec3(0, 1, 0));
+  return scene;
+}
+
+TEST(RenderPlate, TheSurfaceIsSeenFromBelow) {
+  Scene scene = under_water();
+  scene.water->waves = {{0.05, 1.1, 0.7, 0.3, 2}};
+  const RenderedPlate plate = render_basin(scene);
+  EXPECT_EQ(plate.frame.present(), kEverything - kMirror);
+  const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
+  const PlaneAxes axes = plane_axes(scene.water->up);
+  int seen = 0, dry_behind = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const double depth = plate.frame.plane(PlaneId::kSurfaceDepth).at(x, y);
+      if (!std::isfinite(depth)) continue;
+      const glm::dvec3 p = scene.camera->eye() + depth * rays.ray_at(x + 0.5, y + 0.5);
+      const WaveHeight wave =
+          wave_height(scene.water->waves, glm::dot(p, axes.x), glm::dot(p, axes.y), scene.time);
+      EXPECT_NEAR(p.y, wave.height, 0.002);
+      const glm::dvec3 n =
+          glm::normalize(scene.water->up - wave.slope_x * axes.x - wave.slope_y * axes.y);
+      for (int c = 0; c < 3; ++c) {
+        const PlaneId id = plane_after(PlaneId::kSurfaceNormalX, c);
+        EXPECT_NEAR(plate.frame.plane(id).at(x, y), n[c], 0.01);
+      }
+      ++seen;
+      const double dry = plate.frame.plane(PlaneId::kDepth).at(x, y);
+      dry_behind += std::isfinite(dry) && dry > depth;
+    }
+  }
+  EXPECT_GT(seen, 2000);
+  EXPECT_GT(dry_behind, 100);  // the slab above
+}
+
+TEST(RenderPlate, AnEyeInTheWaterPlaneSeesTheDryScene) {
+  for (const double height : {-0.5, 0.0, 1e-10}) {
+    Scene scene = over_basin();
+    scene.camera->view =
+        glm::lookAt(glm::dvec3(0.5, height, 3), glm::dvec3(0, height, -3), glm::dvec3(0, 1, 0));
+    const RenderedPlate plate = render_basin(scene);
+    EXPECT_EQ(plate.frame.present(), kEverything - kMirror) << height;
+    const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
+    const View<const float>& depth = plate.frame.plane(PlaneId::kDepth);
+    const int x = kSize.width / 2, y = kSize.height / 2;  // the wall at z = -6
+    EXPECT_NEAR(3 + depth.at(x, y) * rays.ray_at(x + 0.5, y + 0.5).z, -6, 1e-4) << height;
+  }
+  Scene above = over_basin();
+  above.water->waves = {{2.5, 0.3, 0, 0, 0}};  // a crest over the eye, which is over the plane
+  EXPECT_EQ(render_basin(above).frame.present(), kEverything);
+}
+
+// The slab spans x -1 ... 1 and z -2 ... -3 at a height of 1 ... 1.3; with the sun at 45 degrees in
+// +x its shadow on the water reaches from x = -2 (-2.3 at the far end) to 0 (-0.3).
+void expect_shadow_of_the_slab(const Scene& scene, const RenderedPlate& plate, double height) {
+  const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
+  const glm::dvec3 eye = scene.camera->eye();
+  int dark = 0, lit = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const float shadow = plate.frame.plane(PlaneId::kSurfaceShadow).at(x, y);
+      const glm::dvec3 ray = rays.ray_at(x + 0.5, y + 0.5);
+      const glm::dvec3 p = eye + (height - eye.y) / ray.y * ray;
+      const bool water = (height - eye.y) / ray.y > 0 && std::abs(p.x) < 4 && p.z > -5.5;
+      if (!water) continue;
+      const double far = (-2 - p.z), slab = 1 + 0.3 * far - height;  // its height above the water
+      const double edge =
+          std::min({far, 1 - far, p.x + 1 + slab, 1 - slab - p.x});  // how far within the shadow
+      if (std::abs(edge) < 0.1) continue;
+      EXPECT_EQ(shadow, edge > 0 ? 0 : 1) << p.x << ' ' << p.z;
+      ++(edge > 0 ? dark : lit);
+    }
+  }
+  EXPECT_GT(dark, 40);
+  EXPECT_GT(lit, 500);
+}
+
+TEST(RenderPlate, WhatStandsOverTheWaterShadowsItsSurface) {
+  for (Scene scene : {over_basin(), under_water()}) {
+    scene.sun->direction = glm::normalize(glm::dvec3(1, 1, 0));
+    const RenderedPlate plate = render_basin(scene);
+    expect_shadow_of_the_slab(scene, plate, 0);
+    const RenderedPlate alone = render_basin(scene, PlaneSet{PlaneId::kSurfaceShadow});
+    expect_shadow_of_the_slab(scene, alone, 0);
+
+    Model no_mesh = basin();
+    no_mesh.instances.pop_back();
+    const RenderedPlate calm =
+        render_plate(no_mesh, scene, {.size = kSize}, kEverything, *make_executor(2));
+    EXPECT_FALSE(calm.frame.plane(PlaneId::kSurfaceDepth));
+    expect_shadow_of_the_slab(scene, calm, 0);
+
+    // The lifted surface meets the same rays of the sun elsewhere: a wave of no slope lifts it.
+    scene.water->waves = {{0.4, 0, 0, 1.5707963267948966, 0}};
+    expect_shadow_of_the_slab(scene, render_basin(scene), 0.4);
+  }
+}
+
+TEST(RenderPlate, TheSurfaceIsLitWhereThereIsNoneAndHasNoShadowWithoutSun) {
+  Scene scene = over_basin();
+  const RenderedPlate plate = render_basin(scene);
+  int none = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      if (std::isfinite(plate.frame.plane(PlaneId::kSurfaceDepth).at(x, y))) continue;
+      EXPECT_EQ(plate.frame.plane(PlaneId::kSurfaceShadow).at(x, y), 1);
+      ++none;
+    }
+  }
+  EXPECT_GT(none, 100);
+  scene.sun.reset();
+  EXPECT_FALSE(render_basin(scene).frame.plane(PlaneId::kSurfaceShadow));
+}
+
 TEST(RenderPlate, RefusesScenesThatMeanNothing) {
   const auto refused = [](const Scene& scene, RenderOptions options, const char* why) {
     try {
-      render_plate(basin(), scene, options, kEverything, false, *make_executor(1));
+      render_plate(basin(), scene, options, kEverything, *make_executor(1));
       ADD_FAILURE() << "accepted: " << why;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
@@ -251,14 +380,6 @@ TEST(RenderPlate, RefusesScenesThatMeanNothing) {
   scene = good;
   scene.water.reset();
   refused(scene, {.size = kSize}, "no water");
-  scene = good;
-  scene.water->height = 2;
-  refused(scene, {.size = kSize}, "water");
-  scene.water->height = 2.5;
-  refused(scene, {.size = kSize}, "in the water");
-  scene = good;
-  scene.water->waves = {{2.5, 1, 0, 0, 0}};
-  refused(scene, {.size = kSize}, "below its highest crest");
   refused(good, {.size = kSize, .overscan = 2147483640}, "overscan 2147483640");
   scene = good;
   scene.sun->direction = {0, -1, 0};

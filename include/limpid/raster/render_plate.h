@@ -16,36 +16,31 @@ struct RenderOptions {
   std::string simd = {};       ///< "" for the best
 };
 
-/// Buffers of a plate that no frame holds yet but files do.
-enum class ExtraPlane {
-  kReflectionValid,  ///< 1 where the mirror sees a front face or the sky, 0 where it looks into
-                     ///< what the water cut open
-  kReflectionDepth,  ///< linear eye depth along the mirrored ray from the mirrored eye, +inf for
-                     ///< the sky
-  kBelowR,  ///< color of what lies below the calm surface alone (a clip plane at the water)
-  kBelowG,
-  kBelowB,
-  kBelowDepth,  ///< its linear eye depth, +inf where nothing is
-};
-constexpr int kExtraPlaneCount = 6;
-
 /// The planes of a rendered plate, over the display window and the overscan.
 struct RenderedPlate {
   Frame frame;  ///< views into `planes`, by PlaneId
   std::vector<Plane> planes;
-  std::vector<Plane> extras;  ///< by ExtraPlane; empty ones were not asked for
 };
 
 /// What the camera sees, from a model: its own source of buffers for who has no renderer at hand.
-/// Color, depth and shadow of the dry scene; the mirrored scene cut at the water (mirror.h); depth
-/// and normals of the water's own meshes, raised and lowered by scene.water.waves, or of the calm
-/// plane where the model has no water mesh. Draws only the passes that `wanted` (and `extras`)
-/// need.
+/// Draws only the passes that `wanted` needs:
+/// - color, depth and shadow of the dry scene, from above the water or in it;
+/// - the mirrored scene cut at the water (mirror.h), its eye depth along the mirrored ray, and
+/// where
+///   it is real: 1 for a front face or the sky, 0 where it looks into what the water cut open. An
+///   eye below the calm plane sees no mirror, and these planes stay empty;
+/// - below: what lies under the calm plane alone, by a clip plane at the water;
+/// - depth and normals of the water's own meshes, raised and lowered by scene.water.waves, seen
+/// from
+///   either side, and the sun's visibility there. Without a water mesh depth and normals stay
+///   empty, as the chain derives them from the calm plane, and the shadow is that on the calm
+///   plane.
+/// Without a sun there is ambient light alone, and the surface shadow stays empty.
 ///
-/// Throws Error when the scene lacks camera or water, the eye is not above every wave, the sun is
-/// below the horizon (without a sun there is ambient light alone), or a size is out of bounds.
+/// Throws Error when the scene lacks camera or water, the sun is below the horizon, or a size is
+/// out of bounds.
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
-                           PlaneSet wanted, bool extras, Executor& executor);
+                           PlaneSet wanted, Executor& executor);
 
 /// The scene of a model: `scene`, with the model's camera (its aspect made that of `size`) and sun
 /// where it has none.
