@@ -198,6 +198,7 @@ bool is_structural(std::string_view attribute) {
                                          "preview",
                                          "pixelAspectRatio",
                                          "maxSamplesPerPixel",
+                                         "deepImageState",
                                          "dwaCompressionLevel"};
   return std::find(std::begin(kNames), std::end(kNames), attribute) != std::end(kNames);
 }

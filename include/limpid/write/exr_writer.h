@@ -1,13 +1,10 @@
 #pragma once
-#include <array>
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "limpid/core/plane.h"
-#include "limpid/load/exr_file.h"
+#include "limpid/write/exr_heading.h"
 
 namespace limpid {
 
@@ -18,17 +15,10 @@ struct ExrOutputChannel {
       true;  ///< stored as half; finite values beyond 65504 are clamped to it, inf stays inf
 };
 
-struct ExrOutput {
-  Rect data, display;
-  double pixel_aspect = 1;
+struct ExrOutput : ExrHeading {
   std::string compression =
       "piz";  ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab; "name:level" for dwa and zip
   std::vector<ExrOutputChannel> channels;
-  /// Attributes of the input, passed on byte for byte; those that describe the storage of pixels,
-  /// and those that `text` or `matrices` name too, are left out.
-  std::map<std::string, ExrFile::Attribute> inherited;
-  std::map<std::string, std::string> text;  ///< our own, as string attributes
-  std::map<std::string, std::array<float, 16>> matrices;
 };
 
 /// Throws Error of Fault::kUsage, with the nearest name, for what is no ExrOutput::compression.

@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "limpid/core/plane.h"
+#include "limpid/write/exr_heading.h"
+
+namespace limpid {
+
+/// The water of a picture as a volume, for compositors that work in depth. The views must cover the
+/// data window; depths are eye depths, of which 1e9 and above counts as infinite.
+struct DeepWater : ExrHeading {
+  View<const float> front;  ///< surface eye depth; +inf: no water here
+  View<const float> back;   ///< where the water ends; +inf: it does not
+  /// The share of light 0 ... 1 that survives the way from front to back.
+  std::array<View<const float>, 3> transmittance;
+  std::array<View<const float>, 3> in_scatter;  ///< color of the whole volume, premultiplied
+  /// What a unit of eye depth takes from the light, 1/unit; decides where endless water ends.
+  std::array<double, 3> extinction{};
+  std::string compression = "zips";  ///< none, rle, zips or "zips:level"; deep files have no other
+  bool half = true;                  ///< R G B are stored as half; all else is always float
+};
+
+/// Throws Error of Fault::kUsage for what is no DeepWater::compression.
+void validate_deep_compression(const std::string& compression);
+
+/// Writes a deep scan-line file with one volume sample where there is water and none elsewhere:
+/// Z, ZBack, R G B (the in-scatter), AR AG AB (1 - transmittance) and A, their mean. By OpenEXR's
+/// "Interpreting Deep Pixels" a part x of such a sample lets T^x through, which is Beer-Lambert, so
+/// that what is put into the water is absorbed as it should be.
+///
+/// A sample of alpha 1 is a wall and cannot be split, so the alphas end at 1 - 2^-24, the largest
+/// float below 1; half would end at 1 - 2^-11 and lose the density of all but shallow water. Water
+/// denser than that (optical depth 16.6 from front to back) is too clear in between. Endless water
+/// ends where the light of every channel has fallen to 2^-24, 16.6 / the smallest extinction above
+/// 0 behind the front; hosts choke on an infinite ZBack. With one sample a pixel the channels that
+/// are absorbed faster are then too clear in between.
+///
+/// A depth that is the same at front and back is no water. Transmittance is clamped to 0 ... 1,
+/// half colors to 65504. Throws Error for NaN, for a back before the front, for a color that is not
+/// finite and for endless water without extinction; and as write_exr().
+void write_deep_water(const std::filesystem::path& path, const DeepWater& water);
+
+}  // namespace limpid

@@ -1,0 +1,85 @@
+#include "write/exr_heading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfOpaqueAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVersion.h>
+
+#include "load/exr_header.h"
+#include "write/exr_streams.h"
+
+namespace limpid {
+namespace {
+
+constexpr std::size_t kMaxName = 255;
+
+Imath::Box2i box_of(const Rect& r) { return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}}; }
+
+/// Attributes that every header has are typed; all others go through as bytes.
+void inherit(Imf::Header& header, const std::string& name, const ExrFile::Attribute& attribute) {
+  BytesStream bytes(attribute.bytes);
+  const int size = static_cast<int>(attribute.bytes.size());
+  if (const auto own = header.find(name); own != header.end()) {
+    if (attribute.type != own.attribute().typeName()) {
+      throw Error("attribute '" + name + "' of type '" + attribute.type + "': expected '" +
+                  own.attribute().typeName() + "'");
+    }
+    own.attribute().readValueFrom(bytes, size, Imf::EXR_VERSION);
+    return;
+  }
+  Imf::OpaqueAttribute opaque(attribute.type.c_str());
+  opaque.readValueFrom(bytes, size, Imf::EXR_VERSION);
+  header.insert(name, opaque);
+}
+
+}  // namespace
+
+void check_heading(const ExrHeading& heading) {
+  if (heading.data.empty()) throw Error("the data window is empty: expected at least 1x1");
+  if (heading.display.empty()) throw Error("the display window is empty: expected at least 1x1");
+  if (!(heading.pixel_aspect > 0) || !std::isfinite(heading.pixel_aspect)) {
+    throw Error("pixel aspect ratio " + std::to_string(heading.pixel_aspect) +
+                ": expected a number above 0");
+  }
+  const auto check_name = [&](const std::string& name) {
+    if (is_structural(name) || name.empty() || name.size() > kMaxName) {
+      throw Error("attribute name '" + name +
+                  "': expected a name of 1 ... 255 letters that does "
+                  "not describe how pixels are stored");
+    }
+  };
+  for (const auto& [name, value] : heading.text) check_name(name);
+  for (const auto& [name, value] : heading.matrices) check_name(name);
+}
+
+Imf::Header header_of(const ExrHeading& heading, const Compression& compression) {
+  Imf::Header header(box_of(heading.display), box_of(heading.data),
+                     static_cast<float>(heading.pixel_aspect));
+  for (const auto& [name, attribute] : heading.inherited) {
+    const bool ours = heading.text.contains(name) || heading.matrices.contains(name);
+    if (!ours && !is_structural(name)) inherit(header, name, attribute);
+  }
+  header.compression() = compression.method;
+  if (compression.level) {
+    const auto level = *compression.level;
+    const bool zip =
+        compression.method == Imf::ZIP_COMPRESSION || compression.method == Imf::ZIPS_COMPRESSION;
+    if (zip) {
+      header.zipCompressionLevel() = static_cast<int>(level);
+    } else {
+      header.dwaCompressionLevel() = static_cast<float>(level);
+    }
+  }
+  for (const auto& [name, value] : heading.text) header.insert(name, Imf::StringAttribute(value));
+  for (const auto& [name, value] : heading.matrices) {
+    Imath::M44f matrix;
+    std::copy(value.begin(), value.end(), matrix.getValue());
+    header.insert(name, Imf::M44fAttribute(matrix));
+  }
+  return header;
+}
+
+}  // namespace limpid

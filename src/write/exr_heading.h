@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+
+#include <OpenEXR/ImfHeader.h>
+
+#include "limpid/write/exr_heading.h"
+
+#include "write/exr_compression.h"
+
+namespace limpid {
+
+/// Throws Error (without the path) for windows, aspect ratios and attribute names that cannot be
+/// written.
+void check_heading(const ExrHeading& heading);
+
+/// All of the header but the channels. Throws Error (without the path) for an inherited attribute
+/// of another type than the one that OpenEXR knows by this name.
+Imf::Header header_of(const ExrHeading& heading, const Compression& compression);
+
+}  // namespace limpid
