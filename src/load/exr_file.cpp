@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfThreading.h>
 
+#include "load/exr_deep.h"
 #include "load/exr_header.h"
 #include "load/exr_pixels.h"
 
@@ -80,43 +81,49 @@ std::string label(const std::vector<ExrPart>& parts, int part) {
   return "part " + std::to_string(part) + (name.empty() ? "" : " ('" + name + "')");
 }
 
+/// Throws Error unless there is such a part.
+const ExrPart& checked_part(const std::vector<ExrPart>& parts, int part) {
+  if (part < 0 || part >= static_cast<int>(parts.size())) {
+    throw Error("part " + std::to_string(part) + ": expected 0 ... " +
+                std::to_string(parts.size() - 1));
+  }
+  return parts[part];
+}
+
+/// Throws Error unless the part has such a channel, with a sample for every pixel.
+void check_channel(const ExrPart& part, const std::string& where, const std::string& name) {
+  const auto channel = std::find_if(part.channels.begin(), part.channels.end(),
+                                    [&](const ExrChannel& c) { return c.name == name; });
+  if (channel == part.channels.end()) {
+    std::vector<std::string> known, listed;
+    for (const ExrChannel& c : part.channels) known.push_back(c.name);
+    listed.assign(known.begin(), known.begin() + std::min(known.size(), kMostNamesInError));
+    if (listed.size() < known.size()) {
+      listed.push_back("... (" + std::to_string(known.size()) + " in all)");
+    }
+    throw Error("no channel '" + name + "' in " + where + ": expected one of " + join(listed) +
+                did_you_mean(name, known));
+  }
+  if (channel->x_sampling != 1 || channel->y_sampling != 1) {
+    throw Error("channel '" + name + "' is stored for every " +
+                std::to_string(channel->x_sampling) + "x" + std::to_string(channel->y_sampling) +
+                " pixels, which is supported for Y RY BY alone");
+  }
+}
+
 /// Throws Error unless the requests fit one part of the file.
 void check_requests(const std::vector<ExrPart>& parts, std::span<const ExrRequest> requests,
                     const Limits& limits) {
   std::int64_t bytes = 0;
   for (const ExrRequest& request : requests) {
-    const int last = static_cast<int>(parts.size()) - 1;
-    if (request.part < 0 || request.part > last) {
-      throw Error("part " + std::to_string(request.part) + ": expected 0 ... " +
-                  std::to_string(last));
-    }
+    const ExrPart& part = checked_part(parts, request.part);
     if (request.part != requests[0].part) {
       throw Error("channels of parts " + std::to_string(requests[0].part) + " and " +
                   std::to_string(request.part) + " in one request: expected one part");
     }
-    const ExrPart& part = parts[request.part];
     const std::string where = label(parts, request.part);
-    if (part.deep) {
-      throw Error(where + " holds deep samples, which are not supported: expected flat pixels");
-    }
-    const auto channel =
-        std::find_if(part.channels.begin(), part.channels.end(),
-                     [&](const ExrChannel& c) { return c.name == request.channel; });
-    if (channel == part.channels.end()) {
-      std::vector<std::string> known, listed;
-      for (const ExrChannel& c : part.channels) known.push_back(c.name);
-      listed.assign(known.begin(), known.begin() + std::min(known.size(), kMostNamesInError));
-      if (listed.size() < known.size()) {
-        listed.push_back("... (" + std::to_string(known.size()) + " in all)");
-      }
-      throw Error("no channel '" + request.channel + "' in " + where + ": expected one of " +
-                  join(listed) + did_you_mean(request.channel, known));
-    }
-    if (channel->x_sampling != 1 || channel->y_sampling != 1) {
-      throw Error("channel '" + request.channel + "' is stored for every " +
-                  std::to_string(channel->x_sampling) + "x" + std::to_string(channel->y_sampling) +
-                  " pixels, which is supported for Y RY BY alone");
-    }
+    if (part.deep) throw Error(where + " holds deep samples: expected flat pixels");
+    check_channel(part, where, request.channel);
     if (!request.into) throw Error("channel '" + request.channel + "' has no memory to be read to");
     bytes += request.into.window.area() * std::int64_t{sizeof(float)};
     if (bytes > limits.max_memory) {
@@ -142,7 +149,8 @@ struct ExrFile::State {
   State(const std::filesystem::path& path, const Limits& chosen)
       : file(std::make_shared<FileHandle>(path)), stream(file), limits(chosen) {
     headers = read_exr_headers(stream, limits);
-    check_exr_headers(headers, limits, stream.tellg(), file->size());
+    header_end = stream.tellg();
+    check_exr_headers(headers, limits, header_end, file->size());
     stream.seekg(0);
     image.emplace(stream, Imf::globalThreadCount(), /*reconstructChunkOffsetTable=*/false);
     check_same(*image, headers);
@@ -172,6 +180,13 @@ struct ExrFile::State {
     }
   }
 
+  void read_deep(int part, std::span<const std::string> channels,
+                 const std::function<void(const DeepBlock&)>& sink) {
+    FileStream own(file);
+    own.seekg(header_end);
+    read_deep_stored(*image, own, {headers, part, channels, limits}, sink);
+  }
+
   /// The attribute's bytes when it is there, of that type and long enough, else null.
   const std::vector<char>* find(int part, const std::string& name, std::string_view type,
                                 std::size_t bytes) const {
@@ -183,10 +198,7 @@ struct ExrFile::State {
   }
 
   int checked(int part) const {
-    if (part < 0 || part >= static_cast<int>(parts.size())) {
-      throw Error(file->path().string() + ": part " + std::to_string(part) + ": expected 0 ... " +
-                  std::to_string(parts.size() - 1));
-    }
+    with_path(file->path(), [&] { checked_part(parts, part); });
     return part;
   }
 
@@ -194,6 +206,7 @@ struct ExrFile::State {
   FileStream stream;
   Limits limits;
   std::vector<ExrHeader> headers;
+  std::uint64_t header_end = 0;
   std::vector<ExrPart> parts;
   std::optional<Imf::MultiPartInputFile> image;
   std::mutex mutex;
@@ -214,12 +227,26 @@ const std::filesystem::path& ExrFile::path() const { return state_->file->path()
 
 const std::vector<ExrPart>& ExrFile::parts() const { return state_->parts; }
 
+const Limits& ExrFile::limits() const { return state_->limits; }
+
 void ExrFile::read(std::span<const ExrRequest> requests) const {
   if (requests.empty()) return;
   with_path(path(), [&] {
     check_requests(state_->parts, requests, state_->limits);
     const std::lock_guard lock(state_->mutex);
     state_->read(requests);
+  });
+}
+
+void ExrFile::read_deep(int part, std::span<const std::string> channels,
+                        const std::function<void(const DeepBlock&)>& sink) const {
+  with_path(path(), [&] {
+    const ExrPart& asked = checked_part(parts(), part);
+    const std::string where = label(parts(), part);
+    if (!asked.deep) throw Error(where + " holds flat pixels: expected deep samples");
+    for (const std::string& channel : channels) check_channel(asked, where, channel);
+    const std::lock_guard lock(state_->mutex);
+    state_->read_deep(part, channels, sink);
   });
 }
 

@@ -43,16 +43,6 @@ std::int64_t sample_bytes(const ExrPart& part, std::int64_t width, std::int64_t 
   return bytes;
 }
 
-std::int64_t chunks_of(const ExrHeader& header) {
-  const std::int64_t width = header.part.data.width(), height = header.part.data.height();
-  if (header.part.tiled) {
-    const std::int64_t columns = (width + header.tile_width - 1) / header.tile_width;
-    return columns * ((height + header.tile_height - 1) / header.tile_height);
-  }
-  const std::int64_t lines = kChunkLines[header.compression];
-  return (height + lines - 1) / lines;
-}
-
 /// OpenEXR holds two chunks a thread as they are stored and, for tiles, a row of them as floats.
 void check_memory(const ExrHeader& header, const Limits& limits) {
   const ExrPart& part = header.part;
@@ -74,6 +64,20 @@ void check_memory(const ExrHeader& header, const Limits& limits) {
 }
 
 }  // namespace
+
+std::int64_t chunks_of(const ExrHeader& header) {
+  const std::int64_t width = header.part.data.width(), height = header.part.data.height();
+  if (header.part.tiled) {
+    const std::int64_t columns = (width + header.tile_width - 1) / header.tile_width;
+    return columns * ((height + header.tile_height - 1) / header.tile_height);
+  }
+  const std::int64_t lines = kChunkLines[header.compression];
+  return (height + lines - 1) / lines;
+}
+
+std::int64_t most_unpacked(const ExrHeader& header, std::int64_t packed) {
+  return packed * kMostShrink[header.compression];
+}
 
 void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
                        std::uint64_t header_end, std::uint64_t file_size) {

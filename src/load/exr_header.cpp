@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kVersion = 2;
-constexpr std::uint32_t kTiledFlag = 0x200, kDeepFlag = 0x800, kMultiPartFlag = 0x1000;
+constexpr std::uint32_t kTiledFlag = 0x200, kDeepFlag = 0x800;
 constexpr std::uint32_t kKnownFlags = kTiledFlag | 0x400 | kDeepFlag | kMultiPartFlag;
 constexpr std::size_t kMaxName = 255;
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{64} << 20;

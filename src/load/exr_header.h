@@ -13,6 +13,9 @@ namespace limpid {
 inline constexpr std::array<std::string_view, 10> kCompressions{
     "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
 
+/// Of the version field behind the magic number: chunks begin with the number of their part.
+inline constexpr std::uint32_t kMultiPartFlag = 0x1000;
+
 /// Whether an attribute describes how pixels are stored, or shows them (the preview): such ones
 /// belong to one file and are not handed on to another.
 bool is_structural(std::string_view attribute);
@@ -36,6 +39,12 @@ std::vector<ExrHeader> read_exr_headers(FileStream& stream, const Limits& limits
 /// where the headers end in the file.
 void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
                        std::uint64_t header_end, std::uint64_t file_size);
+
+/// How many chunks the pixels of a part make (tiled: of level 0), which come first in its table.
+std::int64_t chunks_of(const ExrHeader& header);
+
+/// The most that so many bytes of the part's pixels can become when they are decompressed.
+std::int64_t most_unpacked(const ExrHeader& header, std::int64_t packed);
 
 /// Whether the table of chunks, where the stream stands, has a place for each chunk of the one
 /// part.

@@ -62,17 +62,23 @@ inline void write_bytes(const std::filesystem::path& path, const std::vector<cha
   std::ofstream(path, std::ios::binary).write(bytes.data(), std::ssize(bytes));
 }
 
-/// Opens a file and reads every channel of every flat part. Returns the error's text, or "".
+/// Opens a file and reads every channel of every part. Returns the error's text, or "".
 inline std::string failure_of(const std::filesystem::path& path) {
   try {
     const ExrFile file = ExrFile::open(path);
     for (int part = 0; part < static_cast<int>(file.parts().size()); ++part) {
       const ExrPart& p = file.parts()[part];
+      std::vector<std::string> names;
+      for (const ExrChannel& channel : p.channels) names.push_back(channel.name);
+      if (p.deep) {
+        file.read_deep(part, names, [](const DeepBlock&) {});
+        continue;
+      }
       std::vector<Plane> planes;
       std::vector<ExrRequest> requests;
-      for (const ExrChannel& channel : p.channels) {
-        planes.emplace_back(p.deep ? Rect{0, 0, 1, 1} : p.data);
-        requests.push_back({part, channel.name, planes.back().view()});
+      for (const std::string& name : names) {
+        planes.emplace_back(p.data);
+        requests.push_back({part, name, planes.back().view()});
       }
       file.read(requests);
     }

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,10 +42,17 @@ struct ExrRequest {
   float missing = 0;
 };
 
+/// Some whole pixels of a deep part, row by row, with all their samples as floats.
+struct DeepBlock {
+  Rect window;
+  std::vector<std::size_t> first;          ///< pixel i has the samples first[i] <= s < first[i + 1]
+  std::vector<std::vector<float>> values;  ///< of each channel asked for, in that order, by sample
+};
+
 /// An EXR file, opened: its headers are read and checked against the limits, no pixel is. Scan-line
 /// and tiled (level 0), multi-part, mixed sample types; luminance-chroma (Y RY BY, subsampled)
-/// reads as the channels R G B, in half precision. Deep parts are listed and refused when read.
-/// One file may be read from several threads; the reads follow one another.
+/// reads as the channels R G B, in half precision. Deep parts have their own way of reading. One
+/// file may be read from several threads; the reads follow one another.
 class ExrFile {
  public:
   /// Throws Error (one sentence, begins with the path) for a file that is missing, not an EXR,
@@ -56,12 +64,20 @@ class ExrFile {
 
   const std::filesystem::path& path() const;
   const std::vector<ExrPart>& parts() const;
+  const Limits& limits() const;  ///< what it was opened with
 
   /// Decodes the requested channels, all of one part in one pass; half and uint become float. Views
   /// that hold whole rows of the data window are decoded in place. Throws Error for an unknown
   /// channel and for truncated or damaged pixels (never silent black); what was written by then is
   /// unspecified.
   void read(std::span<const ExrRequest> requests) const;
+
+  /// Decodes channels of a deep part (scan-line, or tiled: level 0) and hands them to `sink`, some
+  /// lines or one tile at a time, each pixel of the data window once; never more of the samples are
+  /// in memory. How many there are is checked against the limits and the size of the file before
+  /// any is allocated. Throws Error as read() does. `sink` must not read from this file.
+  void read_deep(int part, std::span<const std::string> channels,
+                 const std::function<void(const DeepBlock&)>& sink) const;
 
   /// A 4x4 matrix attribute by name, 16 floats in memory order, as in `worldToCamera`. These three
   /// are empty where the attribute is absent or of another type.

@@ -1,0 +1,37 @@
+#pragma once
+#include <array>
+
+#include "limpid/core/plane.h"
+#include "limpid/load/exr_file.h"
+#include "limpid/load/sanitise.h"
+
+namespace limpid {
+
+/// A deep picture seen with a water surface in it, flattened twice. All planes have the window of
+/// the surface. Colors are premultiplied.
+struct DeepLayers {
+  std::array<Plane, 4> color;  ///< R G B A of all samples
+  Plane depth;                 ///< of the nearest sample with any alpha; +inf: none
+  /// R G B of what lies behind the surface, as if nothing were in front; 0 where there is no water.
+  std::array<Plane, 3> below_color;
+  Plane below_depth;        ///< of the nearest such sample with any alpha; +inf: none
+  SanitiseCounts replaced;  ///< color and depth, by value
+};
+
+/// Reads the channels R G B A Z, and where they are there ZBack AR AG AB, of a deep part and
+/// flattens them by OpenEXR's "Interpreting Deep Pixels": samples may lie in any order, volume
+/// samples that overlap one another or a point are split and merged, and one that spans the surface
+/// is split there, so that its depth below is that of the surface. A point on the surface is not
+/// behind it. The picture is read block by block, never all of its samples at once.
+///
+/// `surface` is the depth of the surface, +inf where there is no water, measured as Z is (eye
+/// depth, or the distance from the camera for both, and then for the results too); its data may be
+/// null where no pixel has water. It may reach beyond the data window, where there are no samples.
+///
+/// Depths of 1e9 and above, 6e4 in half, are "nothing hit": such a sample (a sky) is behind
+/// everything and its depth +inf. A sample whose Z is NaN or -inf is left out. One without a finite
+/// back above its front is a point. NaN and inf in colors and alphas become 0, alphas are clamped
+/// to 0 ... 1. Throws Error that names a channel that is missing, and as ExrFile::read_deep().
+DeepLayers read_deep_layers(const ExrFile& file, int part, View<const float> surface);
+
+}  // namespace limpid

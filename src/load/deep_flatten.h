@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace limpid {
+
+/// R G B A, each with the alpha that belongs to it. A sample is a volume when back > front, else a
+/// point at front. Front is not NaN, back is finite for volumes, alphas are 0 ... 1, colors finite;
+/// the color of A is its alpha.
+struct DeepSample {
+  double front, back;
+  std::array<double, 4> color, alpha;
+};
+
+struct FlatPixel {
+  std::array<double, 4> color{};
+  double depth = std::numeric_limits<double>::infinity();
+};
+
+/// Flattens one pixel after the other; keeps its memory between them.
+class DeepFlattener {
+ public:
+  /// The samples behind the depth `from`, composited front to back. OpenEXR "Interpreting Deep
+  /// Pixels", with the sums that its splits and merges come to: a volume of alpha a and length L
+  /// has the extinction -ln(1-a)/L and the emission C (-ln(1-a)/a)/L everywhere in it, and what
+  /// overlaps adds up. Takes n log n for n samples, however they overlap.
+  FlatPixel flatten(std::span<const DeepSample> samples, double from);
+
+ private:
+  /// What happens at one depth happens in this order.
+  enum class Kind { kVolumeEnds, kPoint, kOpaqueVolume, kVolumeBegins };
+  struct Event {
+    double depth;
+    Kind kind;
+    std::uint32_t sample;
+  };
+  std::vector<Event> events_;
+};
+
+}  // namespace limpid

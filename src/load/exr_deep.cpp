@@ -1,0 +1,146 @@
+#include "load/exr_deep.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <OpenEXR/ImfDeepFrameBuffer.h>
+#include <OpenEXR/ImfDeepScanLineInputPart.h>
+#include <OpenEXR/ImfDeepTiledInputPart.h>
+
+#include "load/exr_deep_chunks.h"
+
+namespace limpid {
+namespace {
+
+constexpr std::int64_t kMostLines = 32;
+constexpr std::int64_t kMostSamples = std::int64_t{1} << 20;
+
+/// The address of pixel (0, 0) when that of the window's first pixel is `memory`. It may lie
+/// outside the memory, so it is computed in integers.
+char* origin_of(void* memory, const Rect& window, std::ptrdiff_t bytes) {
+  const std::ptrdiff_t before = window.x0 + std::ptrdiff_t{window.y0} * window.width();
+  return reinterpret_cast<char*>(reinterpret_cast<std::uintptr_t>(memory) -
+                                 static_cast<std::uintptr_t>(before * bytes));
+}
+
+/// One block being read: the counts first, then, when they are as many as the chunks claim, memory
+/// for the samples.
+class BlockReader {
+ public:
+  BlockReader(std::span<const std::string> channels, const Limits& limits)
+      : channels_(channels), limits_(limits), pointers_(channels.size()) {
+    block_.values.resize(channels.size());
+  }
+
+  Imf::DeepFrameBuffer begin(const Rect& window, std::int64_t samples) {
+    const auto pixels = static_cast<std::size_t>(window.area());
+    const std::int64_t bytes =
+        window.area() * (4 + 8 + 8 * std::ssize(channels_)) + samples * 4 * std::ssize(channels_);
+    if (bytes > limits_.max_memory) {
+      throw Error("deep pixels of " + std::to_string(bytes) +
+                  " bytes in one piece need more memory than the limit of " +
+                  std::to_string(limits_.max_memory) + " bytes");
+    }
+    block_.window = window;
+    samples_ = samples;
+    counts_.assign(pixels, 0);
+    const auto slice_width = static_cast<std::size_t>(window.width());
+    Imf::DeepFrameBuffer frame;
+    frame.insertSampleCountSlice({Imf::UINT, origin_of(counts_.data(), window, sizeof(unsigned)),
+                                  sizeof(unsigned), sizeof(unsigned) * slice_width});
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      pointers_[c].assign(pixels, nullptr);
+      frame.insert(channels_[c],
+                   {Imf::FLOAT, origin_of(pointers_[c].data(), window, sizeof(float*)),
+                    sizeof(float*), sizeof(float*) * slice_width, sizeof(float)});
+    }
+    return frame;
+  }
+
+  void allocate() {
+    block_.first.assign(counts_.size() + 1, 0);
+    std::inclusive_scan(counts_.begin(), counts_.end(), block_.first.begin() + 1, std::plus<>(),
+                        std::size_t{0});
+    if (block_.first.back() != static_cast<std::size_t>(samples_)) {
+      throw Error("truncated or damaged (" + std::to_string(block_.first.back()) +
+                  " deep samples where " + std::to_string(samples_) + " are stored)");
+    }
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      block_.values[c].resize(block_.first.back());
+      for (std::size_t i = 0; i < counts_.size(); ++i) {
+        pointers_[c][i] = block_.values[c].data() + block_.first[i];
+      }
+    }
+  }
+
+  const DeepBlock& block() const { return block_; }
+
+ private:
+  std::span<const std::string> channels_;
+  const Limits& limits_;
+  std::int64_t samples_ = 0;
+  std::vector<unsigned> counts_;
+  std::vector<std::vector<float*>> pointers_;
+  DeepBlock block_;
+};
+
+void read_lines(Imf::MultiPartInputFile& file, const DeepRequest& request,
+                std::span<const std::int64_t> line_samples,
+                const std::function<void(const DeepBlock&)>& sink) {
+  const Rect& data = request.headers[request.part].part.data;
+  Imf::DeepScanLineInputPart part(file, request.part);
+  BlockReader reader(request.channels, request.limits);
+  for (Rect lines = data; lines.y0 < data.y1; lines.y0 = lines.y1) {
+    std::int64_t samples = 0;
+    lines.y1 = lines.y0;
+    while (lines.y1 < data.y1 && lines.y1 - lines.y0 < kMostLines) {
+      const std::int64_t more = line_samples[static_cast<std::size_t>(lines.y1 - data.y0)];
+      if (lines.y1 > lines.y0 && samples + more > kMostSamples) break;
+      samples += more;
+      ++lines.y1;
+    }
+    part.setFrameBuffer(reader.begin(lines, samples));
+    part.readPixelSampleCounts(lines.y0, lines.y1 - 1);
+    reader.allocate();
+    part.readPixels(lines.y0, lines.y1 - 1);
+    sink(reader.block());
+  }
+}
+
+void read_tiles(Imf::MultiPartInputFile& file, const DeepRequest& request,
+                std::span<const std::int64_t> tile_samples,
+                const std::function<void(const DeepBlock&)>& sink) {
+  const ExrHeader& header = request.headers[request.part];
+  Imf::DeepTiledInputPart part(file, request.part);
+  BlockReader reader(request.channels, request.limits);
+  for (std::size_t tile = 0; tile < tile_samples.size(); ++tile) {
+    const Rect window = deep_chunk_window(header, static_cast<std::int64_t>(tile));
+    const auto column = static_cast<int>((window.x0 - header.part.data.x0) / header.tile_width);
+    const auto row = static_cast<int>((window.y0 - header.part.data.y0) / header.tile_height);
+    part.setFrameBuffer(reader.begin(window, tile_samples[tile]));
+    part.readPixelSampleCount(column, row);
+    reader.allocate();
+    part.readTile(column, row);
+    sink(reader.block());
+  }
+}
+
+}  // namespace
+
+void read_deep_stored(Imf::MultiPartInputFile& file, FileStream& stream, const DeepRequest& request,
+                      const std::function<void(const DeepBlock&)>& sink) {
+  const std::string& compression = request.headers[request.part].part.compression;
+  if (compression != "none" && compression != "rle" && compression != "zips") {
+    throw Error("deep samples with compression '" + compression +
+                "': expected one of none, rle, zips");
+  }
+  const std::vector<std::int64_t> samples =
+      deep_chunk_samples(stream, request.headers, request.part, request.limits);
+  if (request.headers[request.part].part.tiled) {
+    read_tiles(file, request, samples, sink);
+  } else {
+    read_lines(file, request, samples, sink);
+  }
+}
+
+}  // namespace limpid

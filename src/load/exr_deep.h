@@ -1,0 +1,25 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+
+#include <OpenEXR/ImfMultiPartInputFile.h>
+
+#include "load/exr_header.h"
+
+namespace limpid {
+
+/// What reading one deep part takes. The channels are valid.
+struct DeepRequest {
+  const std::vector<ExrHeader>& headers;
+  int part;
+  std::span<const std::string> channels;
+  const Limits& limits;
+};
+
+/// Decodes a deep part block by block. `stream` is one of our own on the file, at the tables of
+/// chunks. Throws Error (without the path) or what OpenEXR throws.
+void read_deep_stored(Imf::MultiPartInputFile& file, FileStream& stream, const DeepRequest& request,
+                      const std::function<void(const DeepBlock&)>& sink);
+
+}  // namespace limpid
