@@ -92,19 +92,52 @@ TEST(Fresnel, NormalsThatFaceAwayCountAsGrazing) {
   EXPECT_EQ(fresnel_rim(1.0000001, 3.0), 0);
 }
 
+TEST(Fresnel, LinearAndInversePowerHandWorked) {
+  EXPECT_NEAR(fresnel_linear(std::cos(60 * kDegree)), 0.5, 1e-15);
+  EXPECT_EQ(fresnel_linear(1.0), 0);
+  EXPECT_EQ(fresnel_linear(0.0), 1);
+  EXPECT_NEAR(fresnel_inverse_power(0.5, 1.0, 3.0), 0.875, 1e-15);
+  EXPECT_NEAR(fresnel_inverse_power(0.5, 0.4, 2.0), 0.9, 1e-15);
+  EXPECT_NEAR(fresnel_inverse_power(1.0, 0.4, 2.0), 0.6, 1e-15);
+  EXPECT_EQ(fresnel_inverse_power(0.9, 0.0, 3.0), 1);
+}
+
+TEST(Fresnel, LinearAndInversePowerStayBetweenZeroAndOneAndRise) {
+  for (double intensity : {0.5, 1.0, 5.0}) {
+    double linear_before = 0, power_before = 0;
+    for (double cosine = 1.1; cosine >= -1; cosine -= 0.01) {
+      const double linear = fresnel_linear(cosine);
+      const double power = fresnel_inverse_power(cosine, intensity, 3.0);
+      EXPECT_GE(linear, linear_before);
+      EXPECT_GE(power, power_before);
+      linear_before = linear;
+      power_before = power;
+    }
+    EXPECT_EQ(linear_before, 1);
+    EXPECT_EQ(power_before, 1);
+  }
+  // Where the article's own formula is 1 - 5 * 0.729 = -2.6.
+  EXPECT_EQ(fresnel_inverse_power(0.9, 5.0, 3.0), 0);
+}
+
 TEST(Fresnel, ApproximationsAreAsFarOffAsTheySay) {
   double schlick_worst = 0, schlick_at = 0, rim_worst = 0, rim_at = 0;
+  double linear_worst = 0, linear_at = 0;
   for (double degrees = 0; degrees <= 90; degrees += 0.1) {
     const double s = std::abs(schlick(degrees) - exact(degrees));
     const double r = rim(degrees) - exact(degrees);
     if (s > schlick_worst) schlick_worst = s, schlick_at = degrees;
     if (r > rim_worst) rim_worst = r, rim_at = degrees;
+    const double l = fresnel_linear(std::cos(degrees * kDegree)) - exact(degrees);
+    if (l > linear_worst) linear_worst = l, linear_at = degrees;
   }
   EXPECT_LE(schlick_worst, 0.06);
   EXPECT_GE(schlick_worst, 0.055);
   EXPECT_NEAR(schlick_at, 84, 1);
   EXPECT_NEAR(rim_worst, 0.216, 1e-3);
   EXPECT_NEAR(rim_at, 80, 1);
+  EXPECT_NEAR(linear_worst, 0.53, 5e-3);
+  EXPECT_NEAR(linear_at, 73, 1);
 }
 
 }  // namespace

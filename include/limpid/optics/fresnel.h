@@ -14,6 +14,21 @@ LIMPID_INLINE F fresnel_rim(F cosine, F power) {
   return pow(max(F(1) - abs(cosine), F(0)), power);
 }
 
+/// 1 - sat(V.n), with the calm normal: "How to create Water shader in Monogame XNA". Not physical:
+/// 0 at normal incidence, where water reflects 0.02; up to 0.53 too much at 73 deg.
+template <class F>
+LIMPID_INLINE F fresnel_linear(F cosine) {
+  return F(1) - saturate(cosine);
+}
+
+/// sat(1 - intensity sat(V.n)^power), for both >= 0: Rito15 2021, "Making a Water Shader", which
+/// goes negative for an intensity above 1; here that is 0. Not physical: at normal incidence 1 -
+/// intensity, so a smaller intensity reflects more; 1 at grazing angles as it should be.
+template <class F>
+LIMPID_INLINE F fresnel_inverse_power(F cosine, F intensity, F power) {
+  return saturate(F(1) - intensity * pow(saturate(cosine), power));
+}
+
 /// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering": f0 + (1 - f0)(1 -
 /// V.n)^5, with V.n clamped to 0 ... 1. For water within 0.06 of the exact reflectance (worst at 84
 /// deg).
