@@ -28,9 +28,9 @@ struct Channel {
     color += through * (u > 0 ? medium.light * (-std::expm1(-u) / u) : medium.light);
     through *= std::exp(-u);
   }
-  void close(double wall) {
-    color += through * wall;
-    through = 0;
+  void over(double alpha, double premultiplied) {
+    color += through * premultiplied;
+    through *= 1 - alpha;
   }
 };
 
@@ -53,29 +53,51 @@ struct Inside {
       density[c].light += whole.light * share;
     }
   }
-};
-
-/// Samples at one and the same depth, of one channel: opaque ones hide the others and share.
-struct Coincident {
-  Medium sum{};
-  double walls = 0;
-  int opaque = 0;
-
-  void add(double alpha, double color) {
-    if (alpha >= 1) {
-      ++opaque;
-      walls += color;
-    } else {
-      const Medium medium = medium_of(alpha, color);
-      sum.optical_depth += medium.optical_depth;
-      sum.light += medium.light;
+  void put(std::array<Channel, 4>& channels, double length) const {
+    if (length <= 0) return;
+    for (int c = 0; c < 4; ++c) {
+      channels[c].over(
+          {std::max(0.0, density[c].optical_depth * length), density[c].light * length});
     }
   }
+};
+
+/// Samples at one and the same depth, of one channel: opaque ones hide the others and share. One
+/// alone is composited as it is.
+struct Coincident {
+  int count = 0, opaque = 0;
+  double alpha = 0, color = 0;  ///< of the first
+  Medium sum{};
+  double walls = 0;
+
+  void add(double next_alpha, double next_color) {
+    if (++count == 1) {
+      alpha = next_alpha;
+      color = next_color;
+      return;
+    }
+    if (count == 2) merge(alpha, color);
+    merge(next_alpha, next_color);
+  }
   void put(Channel& channel) const {
-    if (opaque > 0) {
-      channel.close(walls / opaque);
+    if (count < 2) {
+      channel.over(alpha, color);
+    } else if (opaque > 0) {
+      channel.over(1, walls / opaque);
     } else {
       channel.over(sum);
+    }
+  }
+
+ private:
+  void merge(double a, double c) {
+    if (a >= 1) {
+      ++opaque;
+      walls += c;
+    } else {
+      const Medium medium = medium_of(a, c);
+      sum.optical_depth += medium.optical_depth;
+      sum.light += medium.light;
     }
   }
 };
@@ -86,15 +108,15 @@ bool any(const std::array<double, 4>& alpha, bool (*holds)(double)) {
 
 }  // namespace
 
-FlatPixel DeepFlattener::flatten(std::span<const DeepSample> samples, double from) {
-  FlatPixel flat;
+double DeepFlattener::collect(std::span<const DeepSample> samples, double from) {
+  double nearest = std::numeric_limits<double>::infinity();
   events_.clear();
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     const DeepSample& sample = samples[i];
     const bool volume = sample.back > sample.front;
     if (volume ? sample.back <= from : sample.front <= from) continue;
     const double front = volume ? std::max(sample.front, from) : sample.front;
-    if (any(sample.alpha, [](double a) { return a > 0; })) flat.depth = std::min(flat.depth, front);
+    if (any(sample.alpha, [](double a) { return a > 0; })) nearest = std::min(nearest, front);
     if (!volume) {
       events_.push_back({front, Kind::kPoint, i});
       continue;
@@ -110,32 +132,32 @@ FlatPixel DeepFlattener::flatten(std::span<const DeepSample> samples, double fro
   std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
     return std::tie(a.depth, a.kind, a.sample) < std::tie(b.depth, b.kind, b.sample);
   });
+  return nearest;
+}
 
+FlatPixel DeepFlattener::flatten(std::span<const DeepSample> samples, double from) {
+  FlatPixel flat;
+  flat.depth = collect(samples, from);
   std::array<Channel, 4> channels;
   Inside inside;
   double depth = 0;
-  for (std::size_t i = 0; i < events_.size();) {
-    const Event& event = events_[i];
-    if (inside.volumes > 0 && event.depth > depth) {
-      const double length = event.depth - depth;
-      for (int c = 0; c < 4; ++c) {
-        channels[c].over({std::max(0.0, inside.density[c].optical_depth * length),
-                          inside.density[c].light * length});
-      }
-    }
-    depth = event.depth;
-    if (event.kind == Kind::kVolumeBegins || event.kind == Kind::kVolumeEnds) {
-      inside.add(samples[event.sample], event.kind == Kind::kVolumeBegins ? 1 : -1);
-      ++i;
+  for (std::size_t i = 0, past = 0; i < events_.size(); i = past) {
+    const Kind kind = events_[i].kind;
+    if (inside.volumes > 0) inside.put(channels, events_[i].depth - depth);
+    depth = events_[i].depth;
+    past = i + 1;
+    if (kind == Kind::kVolumeBegins || kind == Kind::kVolumeEnds) {
+      inside.add(samples[events_[i].sample], kind == Kind::kVolumeBegins ? 1 : -1);
       continue;
     }
     std::array<Coincident, 4> here{};
-    const auto same = [&](const Event& e) { return e.depth == depth && e.kind == event.kind; };
-    for (; i < events_.size() && same(events_[i]); ++i) {
-      const DeepSample& sample = samples[events_[i].sample];
+    for (past = i;
+         past < events_.size() && events_[past].depth == depth && events_[past].kind == kind;
+         ++past) {
+      const DeepSample& sample = samples[events_[past].sample];
       for (int c = 0; c < 4; ++c) {
-        if (event.kind == Kind::kOpaqueVolume && sample.alpha[c] < 1) continue;
-        here[c].add(sample.alpha[c], sample.color[c]);
+        const bool concerned = kind == Kind::kPoint || sample.alpha[c] >= 1;
+        if (concerned) here[c].add(sample.alpha[c], sample.color[c]);
       }
     }
     for (int c = 0; c < 4; ++c) here[c].put(channels[c]);

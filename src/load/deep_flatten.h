@@ -37,6 +37,9 @@ class DeepFlattener {
     Kind kind;
     std::uint32_t sample;
   };
+  /// Fills `events_`, in order; returns the depth of the nearest sample with any alpha.
+  double collect(std::span<const DeepSample> samples, double from);
+
   std::vector<Event> events_;
 };
 

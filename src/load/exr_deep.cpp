@@ -23,8 +23,8 @@ char* origin_of(void* memory, const Rect& window, std::ptrdiff_t bytes) {
                                  static_cast<std::uintptr_t>(before * bytes));
 }
 
-/// One block being read: the counts first, then, when they are as many as the chunks claim, memory
-/// for the samples.
+/// One block of whole chunks being read: the counts first, then, when each chunk has as many as it
+/// claims, memory for the samples.
 class BlockReader {
  public:
   BlockReader(std::span<const std::string> channels, const Limits& limits)
@@ -32,7 +32,9 @@ class BlockReader {
     block_.values.resize(channels.size());
   }
 
-  Imf::DeepFrameBuffer begin(const Rect& window, std::int64_t samples) {
+  /// `claimed`: samples of each chunk, which are of one size.
+  Imf::DeepFrameBuffer begin(const Rect& window, std::span<const std::int64_t> claimed) {
+    const std::int64_t samples = std::reduce(claimed.begin(), claimed.end());
     const auto pixels = static_cast<std::size_t>(window.area());
     const std::int64_t bytes =
         window.area() * (4 + 8 + 8 * std::ssize(channels_)) + samples * 4 * std::ssize(channels_);
@@ -42,7 +44,7 @@ class BlockReader {
                   std::to_string(limits_.max_memory) + " bytes");
     }
     block_.window = window;
-    samples_ = samples;
+    claimed_ = claimed;
     counts_.assign(pixels, 0);
     const auto slice_width = static_cast<std::size_t>(window.width());
     Imf::DeepFrameBuffer frame;
@@ -61,9 +63,13 @@ class BlockReader {
     block_.first.assign(counts_.size() + 1, 0);
     std::inclusive_scan(counts_.begin(), counts_.end(), block_.first.begin() + 1, std::plus<>(),
                         std::size_t{0});
-    if (block_.first.back() != static_cast<std::size_t>(samples_)) {
-      throw Error("truncated or damaged (" + std::to_string(block_.first.back()) +
-                  " deep samples where " + std::to_string(samples_) + " are stored)");
+    const std::size_t chunk = counts_.size() / claimed_.size();
+    for (std::size_t i = 0; i < claimed_.size(); ++i) {
+      const std::size_t counted = block_.first[(i + 1) * chunk] - block_.first[i * chunk];
+      if (counted != static_cast<std::size_t>(claimed_[i])) {
+        throw Error("truncated or damaged (" + std::to_string(counted) + " deep samples where " +
+                    std::to_string(claimed_[i]) + " are stored)");
+      }
     }
     for (std::size_t c = 0; c < channels_.size(); ++c) {
       block_.values[c].resize(block_.first.back());
@@ -78,7 +84,7 @@ class BlockReader {
  private:
   std::span<const std::string> channels_;
   const Limits& limits_;
-  std::int64_t samples_ = 0;
+  std::span<const std::int64_t> claimed_;
   std::vector<unsigned> counts_;
   std::vector<std::vector<float*>> pointers_;
   DeepBlock block_;
@@ -99,7 +105,9 @@ void read_lines(Imf::MultiPartInputFile& file, const DeepRequest& request,
       samples += more;
       ++lines.y1;
     }
-    part.setFrameBuffer(reader.begin(lines, samples));
+    part.setFrameBuffer(
+        reader.begin(lines, line_samples.subspan(static_cast<std::size_t>(lines.y0 - data.y0),
+                                                 static_cast<std::size_t>(lines.height()))));
     part.readPixelSampleCounts(lines.y0, lines.y1 - 1);
     reader.allocate();
     part.readPixels(lines.y0, lines.y1 - 1);
@@ -117,7 +125,7 @@ void read_tiles(Imf::MultiPartInputFile& file, const DeepRequest& request,
     const Rect window = deep_chunk_window(header, static_cast<std::int64_t>(tile));
     const auto column = static_cast<int>((window.x0 - header.part.data.x0) / header.tile_width);
     const auto row = static_cast<int>((window.y0 - header.part.data.y0) / header.tile_height);
-    part.setFrameBuffer(reader.begin(window, tile_samples[tile]));
+    part.setFrameBuffer(reader.begin(window, tile_samples.subspan(tile, 1)));
     part.readPixelSampleCount(column, row);
     reader.allocate();
     part.readTile(column, row);

@@ -17,6 +17,7 @@
 #include <sys/resource.h>
 
 #include "limpid/core/error.h"
+#include "limpid/load/deep.h"
 
 namespace limpid {
 namespace {
@@ -201,6 +202,35 @@ TEST(DeepWriter, OpenExrFlattensItToItsAlphaAndColor) {
     const auto [x, y] = pixel;
     EXPECT_EQ(a.view().at(x, y), sample.empty() ? 0 : sample.at("A"));
     EXPECT_EQ(r.view().at(x, y), sample.empty() ? 0 : sample.at("R"));
+  }
+}
+
+TEST(DeepWriter, OurReaderSplitsItByBeerAndLambert) {
+  const fs::path path = folder() / "a.exr";
+  const Pool pool;
+  DeepWater water = pool.water();
+  water.half = false;
+  write_deep_water(path, water);
+  Plane middle(kData);
+  for (int y = kData.y0; y < kData.y1; ++y) {
+    std::fill_n(middle.view().row(y), kData.width(), 6.5f + static_cast<float>(y));
+  }
+  const DeepLayers layers = read_deep_layers(ExrFile::open(path), 0, std::as_const(middle).view());
+  EXPECT_EQ(layers.replaced.total(), 0);
+  for (int y = kData.y0; y < kData.y1; ++y) {
+    for (int x = kData.x0; x < kData.x1; ++x) {
+      const bool wet = Pool::wet(x, y);
+      EXPECT_EQ(layers.depth.view().at(x, y), pool.front.view().at(x, y));
+      const double below = Pool::thickness(x) - 1.5;
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(layers.color[c].view().at(x, y), wet ? pool.in_scatter[c].view().at(x, y) : 0,
+                    1e-6);
+        EXPECT_NEAR(layers.below_color[c].view().at(x, y),
+                    wet && below > 0 ? (1 - std::exp(-kExtinction[c] * below)) * (c + 1) : 0, 2e-6);
+      }
+      EXPECT_EQ(layers.below_depth.view().at(x, y),
+                wet && below > 0 ? middle.view().at(x, y) : kInf);
+    }
   }
 }
 
