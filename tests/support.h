@@ -177,8 +177,16 @@ inline Inputs inputs_of(const Frame& frame, const Scene& scene) {
 /// A look in which every operator is neutral or absent but those set afterwards.
 inline Look still_look() {
   Look look;
+  look.of<PrismSplit>().model = PrismSplit::Model::kAxis;
+  look.of<PrismSplit>().strength = 0;
+  look.of<Refraction>().model = Refraction::Model::kNormalOffset;
+  look.of<Refraction>().rejection = Refraction::Rejection::kSnap;
+  look.of<Refraction>().off_frame = Refraction::OffFrame::kClamp;
   look.of<Refraction>().strength = 0;
+  look.of<DepthFog>().model = DepthFog::Model::kLinear;
+  look.of<DepthFog>().distance = DepthFog::Distance::kEye;
   look.of<DepthFog>().alpha = 0;
+  look.of<WaterShadow>().model = WaterShadow::Model::kDarken;
   look.of<WaterShadow>().strength = 0;
   look.of<SunHighlight>().strength = 0;
   return look;

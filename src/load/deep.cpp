@@ -70,14 +70,14 @@ class SampleReader {
       const auto value = [&](int channel) { return block.values[channel][s]; };
       const float front = value(channels_.z);
       if (std::isnan(front) || front == -kInf) {
-        ++replaced_.depth;
+        ++replaced_.of(PlaneId::kDepth);
         continue;
       }
       DeepSample sample;
       sample.front = sample.back = front >= channels_.nothing ? kInf : front;
       if (channels_.back >= 0) {
         const float back = value(channels_.back);
-        if (std::isnan(back) || back == -kInf) ++replaced_.depth;
+        if (std::isnan(back) || back == -kInf) ++replaced_.of(PlaneId::kDepth);
         if (back > front && back < channels_.back_nothing) sample.back = back;
       }
       for (int c = 0; c < 3; ++c) sample.color[c] = finite(value(channels_.color[c]));
@@ -96,7 +96,7 @@ class SampleReader {
  private:
   float finite(float value) {
     if (std::isfinite(value)) return value;
-    ++replaced_.color;
+    ++replaced_.of(PlaneId::kColorR);
     return 0;
   }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 
 #include "limpid/core/error.h"
 #include "limpid/optics/depth.h"
@@ -76,6 +77,14 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   forward = glm::dvec3(0, 0, -1) * to_view;
   w_origin = p[3][3];
   w_depth = -p[2][3];
+  // z / w in 0 ... 1, whatever range the projection has: GL's is twice as long, reversed ones run
+  // backwards.
+  const glm::dvec2 z(p[3][2], -p[2][2]), one(w_origin, w_depth);
+  const glm::dvec2 device = scene.camera->clip == ClipSpace::kGl    ? 0.5 * (z + one)
+                            : scene.camera->clip == ClipSpace::kD3d ? z
+                                                                    : one - z;
+  device_offset = device.x;
+  device_scale = device.y;
   over_step = {glm::dot(up, rays.origin_dx) * size.x, glm::dot(up, rays.origin_dy) * size.y};
   under_step = {glm::dot(up, rays.ray_dx) * size.x, glm::dot(up, rays.ray_dy) * size.y};
 

@@ -239,8 +239,8 @@ TEST(Deep, ValuesThatMeanNothingAreReplacedAndCounted) {
       one_pixel({broken, point(kNan, 5, 1), point(-kInf, 5, 1), point(4, 0.5f, kInf),
                  volume(6, kNan, 0, 7), point(7, 9, -1)},
                 1, {"ZBack"});
-  EXPECT_EQ(layers.replaced.depth, 3);
-  EXPECT_EQ(layers.replaced.color, 4);
+  EXPECT_EQ(layers.replaced.of(PlaneId::kDepth), 3);
+  EXPECT_EQ(layers.replaced.of(PlaneId::kColorR), 4);
   const Pixel p = pixel_of(layers, 0, 0);
   EXPECT_FLOAT_EQ(p.r, 0.5f * 0.5f);
   EXPECT_FLOAT_EQ(p.g, 0.5f * 1);

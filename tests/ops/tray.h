@@ -33,10 +33,12 @@ struct Tray {
   Look look = still_look();
 };
 
-/// Noise everywhere but nothing mirrored, seen by a perspective camera.
+/// Noise everywhere but nothing mirrored and no layer below, seen by a perspective camera.
 struct Noise {
   explicit Noise(Size size) : buffers(noisy_frame(rect_of(size))), scene(simple_scene(size)) {
-    for (int c = 0; c < 3; ++c) buffers.frame.planes[index_of(PlaneId::kReflectionR) + c] = {};
+    for (PlaneId first : {PlaneId::kReflectionR, PlaneId::kBelowR}) {
+      for (int c = 0; c < 3; ++c) buffers.frame.planes[index_of(first) + c] = {};
+    }
   }
   Picture wet() const { return reference(look, buffers.frame, scene); }
 

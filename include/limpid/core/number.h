@@ -18,8 +18,6 @@ LIMPID_INLINE double abs(double x) { return std::fabs(x); }
 LIMPID_INLINE double sqrt(double x) { return std::sqrt(x); }
 LIMPID_INLINE double floor(double x) { return std::floor(x); }
 LIMPID_INLINE double exp(double x) { return std::exp(x); }
-LIMPID_INLINE double sin(double x) { return std::sin(x); }
-LIMPID_INLINE double cos(double x) { return std::cos(x); }
 /// x^p for x >= 0; pow(0, 0) = 1.
 LIMPID_INLINE double pow(double x, double p) { return std::pow(x, p); }
 LIMPID_INLINE bool any(bool condition) { return condition; }

@@ -22,6 +22,9 @@ namespace limpid {
 struct SanitiseCounts {
   std::array<std::int64_t, kPlaneCount> by_role{};  ///< at the role's first plane
 
+  /// `first` is the role's first plane.
+  std::int64_t& of(PlaneId first) { return by_role[index_of(first)]; }
+  std::int64_t of(PlaneId first) const { return by_role[index_of(first)]; }
   std::int64_t& of(const Role& role) { return by_role[index_of(role.first)]; }
   std::int64_t of(const Role& role) const { return by_role[index_of(role.first)]; }
   std::int64_t total() const;

@@ -46,6 +46,7 @@ struct Context {
   /// depth = dot(forward, d). A point at eye depth Z has w = w_origin + w_depth Z.
   glm::dvec3 to_u, to_v, forward;
   double w_origin, w_depth;
+  double device_offset, device_scale;  ///< of device_depth()
   /// Height over the calm surface of a point at eye depth Z on the ray at uv: eye_above + over + Z
   /// under, where over and under change by these over the width and the height of the picture.
   glm::dvec2 over_step, under_step;
@@ -58,6 +59,13 @@ struct Context {
   double ior;
   Texture wave_map, environment;
   StateSet made;  ///< what the operators of the plan make: neutral or absent ones make nothing
+
+  /// Depth after projection, 0 at the near plane, 1 at the far plane or at infinity.
+  template <class F>
+  LIMPID_INLINE F device_depth(F eye_depth) const {
+    return (F(device_offset) + F(device_scale) * eye_depth) /
+           (F(w_origin) + F(w_depth) * eye_depth);
+  }
 
   /// Phase of a wave below the eye, in rad, within a turn.
   double phase_at_eye(const SineWave& wave) const;

@@ -1,5 +1,8 @@
 #pragma once
 #include "limpid/op/operator.h"
+#include "limpid/op/screen_ray.h"
+#include "limpid/op/valid_lookup.h"
+#include "limpid/optics/refract.h"
 
 namespace limpid {
 
@@ -8,73 +11,385 @@ namespace limpid {
 /// `normal_offset` ("Realistic Water"): uv' = uv + strength * tilt. No depth, no index of
 /// refraction: calm water does not shift at all.
 ///
-/// What lies above the surface must not be seen through it. rejection `none` takes what is at uv'.
-/// `snap` (the article's): where the dry depth nearest to uv' is in front of this pixel's surface,
-/// uv' goes back to uv and the prism is switched off; confidence is 0 there. Its faults are kept:
-/// only the centre of the three prism taps is tested, the color tap is bilinear where the depth tap
-/// is nearest, and the choice is hard (a halo).
+/// `dudv_offset` (Digiorgio 2024, "How to create Water shader in Monogame XNA"): uv' = uv - 0.001 /
+/// z (1, 1) + strength * tilt, with z the surface's depth after projection (0 near ... 1 far).
+/// Meant for the model dudv of the waves, whose tilt is the distortion map. Kept as the article has
+/// it: the first term is an almost constant shift to the upper left, not a bend that grows with
+/// depth.
+///
+/// `snell`: from the surface point along the refracted ray (Heckbert 1989, "Writing a Ray Tracer"),
+/// bent at the wave's normal by water.ior, to the dry geometry that the depth plane shows. How far:
+/// with `steps` 0 as deep as the bottom at the pixel itself; with k, k times as deep as the bottom
+/// that the last guess has found; with "march", to where the ray passes behind the depth plane
+/// (McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", with equal steps on screen, then
+/// bisection). A march that leaves the picture goes on to the level of the last bottom it saw. From
+/// below the ray is bent outwards; where it is totally reflected nothing is transmitted by the
+/// surface and the lookup stays at the pixel.
+///
+/// What lies above the surface must not be seen through it. `rejection` `none` takes what is there.
+/// `snap` (article 2): where the dry depth nearest to uv' is in front of this pixel's surface, uv'
+/// goes back to uv and the prism is switched off. Its faults are kept: only the centre of the three
+/// prism taps is tested, the color tap is bilinear where the depth tap is nearest, and the choice
+/// is hard (a halo). `shorten`: each texel of each channel is tested against the surface in front
+/// of it (op/valid_lookup.h). A frame with a below layer needs none of them: its color and depth
+/// are taken.
+///
+/// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
+/// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
+/// end, faded in over a twentieth of the picture.
+///
+/// `confidence` is the share of the lookup that is real: 0 for what was rejected or is off frame.
+/// `path` is the refracted way through the water: with snell the ray's own, else that of the bottom
+/// found, taken for flat.
 struct Refraction {
-  enum class Model { kNormalOffset };
-  enum class Rejection { kNone, kSnap };
+  enum class Model { kNormalOffset, kDudvOffset, kSnell };
+  enum class Rejection { kNone, kSnap, kShorten };
+  enum class OffFrame { kClamp, kShorten, kFog };
+  static constexpr int kMarch = -1;  ///< a value of steps
   struct Params {
-    Model model = Model::kNormalOffset;
+    Model model = Model::kSnell;
     double strength = 0.03;
-    Rejection rejection = Rejection::kSnap;
+    Rejection rejection = Rejection::kShorten;
+    int steps = kMarch;
+    OffFrame off_frame = OffFrame::kShorten;
   };
 
   static constexpr std::string_view kName = "refraction";
   static constexpr std::string_view kAbout =
       "Looks up the dry picture where the refracted ray ends.";
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism};
-  static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kTransmitted,
+  static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted,
                                    StatePart::kConfidence};
   static std::span<const Field<Params>> fields();
-  static PlaneSet reads(const Params&) { return kColorPlanes | PlaneSet{PlaneId::kDepth}; }
-  static Needs needs(const Params& p) { return {.planes = reads(p)}; }
-  static double reach(const Params& p) { return abs(p.strength); }
+  static PlaneSet reads(const Params&) {
+    return kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kSurfaceDepth};
+  }
+  static Needs needs(const Params&) { return {.planes = kColorPlanes | PlaneSet{PlaneId::kDepth}}; }
+  static double reach(const Params& p) {
+    if (p.model == Model::kSnell) return HUGE_VAL;
+    return abs(p.strength) + (p.model == Model::kDudvOffset ? kDudvShift / kLeastDeviceDepth : 0);
+  }
   static bool neutral(const Params& p, StateSet made) {
-    return (p.strength == 0 || !made.has(StatePart::kNormal)) && !made.has(StatePart::kPrism);
+    return p.model == Model::kNormalOffset && !made.has(StatePart::kPrism) &&
+           (p.strength == 0 || !made.has(StatePart::kNormal));
   }
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    const F strength(params.strength);
-    strip.each([&](Pixel<F>& p) { p.shift = strength * p.tilt; });
-    strip.nearest(
-        PlaneId::kDepth, [](const Pixel<F>& p) { return p.shift; },
-        [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
-    strip.each([&](Pixel<F>& p) {
-      Vec2<F> prism_r = p.prism_r, prism_g = p.prism_g, prism_b = p.prism_b;
-      if (params.rejection == Rejection::kSnap) {
-        const auto above = p.hit_depth < p.surface_depth;
-        const Vec2<F> none{F(0), F(0)};
-        p.shift = select(above, none, p.shift);
-        prism_r = select(above, none, prism_r);
-        prism_g = select(above, none, prism_g);
-        prism_b = select(above, none, prism_b);
-        p.hit_depth = select(above, p.dry_depth, p.hit_depth);
-        p.confidence = select(above, F(0), p.confidence);
-      }
-      p.shift_r = p.shift + prism_r;
-      p.shift_g = p.shift + prism_g;
-      p.shift_b = p.shift + prism_b;
-    });
-    if (c.made.has(StatePart::kPrism)) {
-      strip.bilinear(
-          PlaneId::kColorR, [](const Pixel<F>& p) { return p.shift_r; },
-          [](Pixel<F>& p, F red) { p.transmitted.r = red; });
-      strip.bilinear(
-          PlaneId::kColorG, [](const Pixel<F>& p) { return p.shift_g; },
-          [](Pixel<F>& p, F green) { p.transmitted.g = green; });
-      strip.bilinear(
-          PlaneId::kColorB, [](const Pixel<F>& p) { return p.shift_b; },
-          [](Pixel<F>& p, F blue) { p.transmitted.b = blue; });
+    const Planes planes = planes_of(c);
+    switch (params.model) {
+      case Model::kNormalOffset:
+      case Model::kDudvOffset:
+        aim_by_offset(params, c, strip);
+        break;
+      case Model::kSnell:
+        aim_by_snell(params, c, planes, strip);
+        break;
+    }
+    if (params.model != Model::kSnell) {
+      strip.nearest(
+          planes.depth, [](const Pixel<F>& p) { return p.shift; },
+          [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
+    }
+    strip.each([&](Pixel<F>& p) { keep_in_frame(params, planes.bounds, p); });
+    if (params.rejection == Rejection::kSnap && !planes.below) {
+      strip.each([](Pixel<F>& p) { snap(p); });
+    }
+    if (params.rejection == Rejection::kShorten && !planes.below) {
+      strip.probe([&](Pixel<F>& p, const auto& tap) { look_up_valid(c, planes, p, tap); });
     } else {
-      strip.bilinear_rgb(
-          PlaneId::kColorR, [](const Pixel<F>& p) { return p.shift; },
+      look_up(c, planes, strip);
+    }
+    strip.each([&](Pixel<F>& p) {
+      if (params.model != Model::kSnell) measure_path(c, p);
+      if (params.off_frame == OffFrame::kFog) fog_off_frame(planes.bounds, p);
+    });
+  }
+
+ private:
+  static constexpr double kDudvShift = 0.001, kLeastDeviceDepth = 0.01;
+
+  /// What is looked up: the dry scene, or that below the water alone, where the frame has it.
+  struct Planes {
+    PlaneId color, depth;
+    Bounds bounds;
+    bool below;
+  };
+  static Planes planes_of(const Context& c) {
+    if (c.planes.covers(kBelowPlanes))
+      return {PlaneId::kBelowR, PlaneId::kBelowDepth, c.below, true};
+    return {PlaneId::kColorR, PlaneId::kDepth, c.dry, false};
+  }
+
+  template <class F>
+  static LIMPID_INLINE void place_channels(Vec2<F> r, Vec2<F> g, Vec2<F> b, Pixel<F>& p) {
+    p.shift_r = r + p.prism_r;
+    p.shift_g = g + p.prism_g;
+    p.shift_b = b + p.prism_b;
+  }
+
+  // --- where to look ----------------------------------------------------------------------------
+
+  /// In a thin prism the deviation grows with n - 1: so do the channels' offsets.
+  template <class Strip>
+  static void aim_by_offset(const Params& params, const Context& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const F strength(params.strength), per_index(c.ior > 1 ? 1 / (c.ior - 1) : 0);
+    const bool dudv = params.model == Model::kDudvOffset;
+    strip.each([&](Pixel<F>& p) {
+      p.shift = strength * p.tilt;
+      if (dudv) {
+        const F shift = F(-kDudvShift) / max(c.device_depth(p.surface_depth), F(kLeastDeviceDepth));
+        p.shift = p.shift + Vec2<F>{shift, shift};
+      }
+      p.shift = select(abs(p.side) > F(0.5), p.shift, Vec2<F>{F(0), F(0)});
+      const auto bent = [&](F index) { return (F(1) + index * per_index) * p.shift; };
+      place_channels(bent(p.dispersion.r), bent(p.dispersion.g), bent(p.dispersion.b), p);
+    });
+  }
+
+  /// The refracted ray of one pixel, and how fast it falls away from the surface.
+  template <class F>
+  struct Bent {
+    Vec3<F> direction;
+    F fall;  ///< distance from the calm surface gained per unit of way
+    F goes;  ///< 1, or 0 where nothing is refracted
+  };
+  template <class F>
+  static LIMPID_INLINE Bent<F> bend(const Context& c, const Pixel<F>& p, F ior) {
+    const auto from_air = p.side > F(0);
+    const Vec3<F> normal = select(from_air, p.normal, F(-1) * p.normal);
+    const Refracted<F> ray = refract(p.to_viewer, normal, select(from_air, F(1) / ior, ior));
+    const F rise = dot(vec3_of<F>(c.up), ray.direction);
+    const auto goes = ray.total < F(0.5) && abs(p.side) > F(0.5);
+    // A ray that hardly falls would end nowhere; waves may even send one upwards.
+    return {ray.direction, max(select(from_air, F(0) - rise, rise), F(0.02)),
+            select(goes, F(1), F(0))};
+  }
+
+  template <class Strip>
+  static void aim_by_snell(const Params& params, const Context& c, const Planes& planes,
+                           Strip& strip) {
+    using F = typename Strip::Number;
+    const F ior(c.ior);
+    const bool split = c.made.has(StatePart::kPrism);
+    strip.probe([&](Pixel<F>& p, const auto& tap) {
+      const Bent<F> bent = bend(c, p, ior);
+      const ScreenRay<F> ray(c, p, bent.direction);
+      const Found<F> found = params.steps == kMarch
+                                 ? march(c, planes, p, tap, ray, bent.fall)
+                                 : iterate(params.steps, c, planes, p, tap, ray, bent.fall);
+      const auto goes = bent.goes > F(0.5);
+      const Vec2<F> none{F(0), F(0)};
+      p.path = select(goes, found.way, F(0));
+      p.shift = select(goes, ray.shift_at(found.way), none);
+      p.hit_depth = select(goes, ray.depth_at(found.way), p.dry_depth);
+      p.confidence = select(goes, found.sure, F(1));
+      if (!split) return place_channels(p.shift, p.shift, p.shift, p);
+      const auto channel = [&](F index) {
+        const Bent<F> own = bend(c, p, ior + index);
+        const ScreenRay<F> own_ray(c, p, own.direction);
+        return select(goes, own_ray.shift_at(found.way * bent.fall / own.fall), none);
+      };
+      place_channels(channel(p.dispersion.r), channel(p.dispersion.g), channel(p.dispersion.b), p);
+    });
+  }
+
+  template <class F>
+  struct Found {
+    F way;   ///< along the ray, +inf where it meets nothing
+    F sure;  ///< 1 where the bottom was seen, 0 where it is a guess
+  };
+
+  /// How far below the surface point (above it, from below) a point seen on the screen lies.
+  template <class F>
+  static LIMPID_INLINE F drop_to(const Context& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
+    const F surface = F(c.eye_above) + dot(vec3_of<F>(c.up), p.surface_point);
+    return max(p.side * (surface - height_at(c, p, shift, depth)), F(0));
+  }
+
+  template <class F, class Tap>
+  static Found<F> iterate(int steps, const Context& c, const Planes& planes, const Pixel<F>& p,
+                          const Tap& tap, const ScreenRay<F>& ray, F fall) {
+    F way = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth) / fall;
+    for (int i = 0; i < steps; ++i) way = to_level(c, planes, p, tap, ray, fall, way);
+    return {select(way < F(1e20), way, F(HUGE_VAL)), F(1)};
+  }
+
+  template <class F, class Tap>
+  static Found<F> march(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
+                        const ScreenRay<F>& ray, F fall) {
+    constexpr int kSteps = 48, kHalvings = 6;
+    const F end = ray.s_at(reach_in(planes.bounds, p.uv, ray.across));
+    const F most = min(end, F(1e30));
+    F before = F(0), after = F(1), last_drop = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth);
+    F found = F(0), lost = F(0), in_front = F(1);
+    const auto behind = [&](F t, F& drop) {
+      const F way = ray.at_share(t, most);
+      const Vec2<F> shift = ray.shift_at(way);
+      const F depth = tap.nearest(planes.depth, shift);
+      drop = drop_to(c, p, shift, depth);
+      return drop > F(0) && ray.depth_at(way) >= depth;
+    };
+    for (int i = 1; i <= kSteps; ++i) {
+      const F t(double(i) / kSteps);
+      F drop;
+      const auto hit = behind(t, drop);
+      const auto open = found + lost < F(0.5);
+      const auto came_from_sight = in_front > F(0.5);
+      found = select(open && hit && came_from_sight, F(1), found);
+      lost = select(open && hit && !came_from_sight, F(1), lost);
+      after = select(open && hit, t, after);
+      before = select(open && !hit, t, before);
+      last_drop = select(open && !hit && drop > F(0), drop, last_drop);
+      in_front = select(drop > F(0), F(1), F(0));
+      if (!any(found + lost < F(0.5))) break;
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+      const F t = F(0.5) * (before + after);
+      F drop;
+      const auto hit = behind(t, drop);
+      after = select(hit, t, after);
+      before = select(hit, before, t);
+      last_drop = select(hit, drop, last_drop);
+    }
+    const auto seen = found > F(0.5);
+    const F met = ray.at_share(after, most);
+    const F way = select(seen, to_level(c, planes, p, tap, ray, fall, met),
+                         select(lost > F(0.5), last_drop / fall, max(last_drop / fall, most)));
+    return {select(way < F(1e20), way, F(HUGE_VAL)), found};
+  }
+
+  /// Where the ray meets the level of the bottom that is seen at `way`, mixed from four texels;
+  /// `way` itself where nothing below the surface is seen.
+  template <class F, class Tap>
+  static F to_level(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
+                    const ScreenRay<F>& ray, F fall, F way) {
+    const auto quad = tap.quad(ray.shift_at(way));
+    F level = F(0), weight = F(0);
+    for (int k = 0; k < 4; ++k) {
+      const F depth = tap.read(planes.depth, quad, k);
+      const F drop = drop_to(c, p, tap.place(planes.depth, quad, k), depth);
+      const F share = select(drop > F(0), quad.weight(k), F(0));
+      level = level + share * drop;
+      weight = weight + share;
+    }
+    const auto seen = weight > F(1e-3);
+    return select(seen, level / (max(weight, F(1e-3)) * fall), way);
+  }
+
+  /// How many times `across` fits between uv and the edge that it leads to.
+  template <class F>
+  static LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
+    const auto along = [](F at, F low, F high, F step) {
+      const F room = select(step > F(0), high - at, at - low);
+      return max(room, F(0)) / max(abs(step), F(1e-20));
+    };
+    return min(along(uv.x, F(b.low.x), F(b.high.x), across.x),
+               along(uv.y, F(b.low.y), F(b.high.y), across.y));
+  }
+
+  // --- off the frame ----------------------------------------------------------------------------
+
+  template <class F>
+  static LIMPID_INLINE void keep_in_frame(const Params& params, const Bounds& bounds, Pixel<F>& p) {
+    const auto inside = [&](Vec2<F> shift) { return reach_in(bounds, p.uv, shift) >= F(1); };
+    p.confidence = select(inside(p.shift), p.confidence, F(0));
+    if (params.off_frame == OffFrame::kClamp) return;
+    const auto shortened = [&](Vec2<F> shift) {
+      return min(reach_in(bounds, p.uv, shift), F(1)) * shift;
+    };
+    if (params.off_frame == OffFrame::kShorten) p.shift = shortened(p.shift);
+    p.shift_r = shortened(p.shift_r);
+    p.shift_g = shortened(p.shift_g);
+    p.shift_b = shortened(p.shift_b);
+  }
+
+  template <class F>
+  static LIMPID_INLINE void fog_off_frame(const Bounds& b, Pixel<F>& p) {
+    const auto beyond = [](F at, F low, F high) { return max(max(low - at, at - high), F(0)); };
+    const F over = max(beyond(p.uv.x + p.shift.x, F(b.low.x), F(b.high.x)),
+                       beyond(p.uv.y + p.shift.y, F(b.low.y), F(b.high.y)));
+    const F kept = saturate(F(1) - F(20) * over);
+    p.transmitted = kept * p.transmitted;
+    p.path = select(kept > F(0), p.path / max(kept, F(1e-30)), F(HUGE_VAL));
+  }
+
+  // --- what is seen there -----------------------------------------------------------------------
+
+  template <class F>
+  static LIMPID_INLINE void snap(Pixel<F>& p) {
+    const auto above = p.hit_depth < p.surface_depth;
+    const Vec2<F> none{F(0), F(0)};
+    p.shift = select(above, none, p.shift);
+    p.shift_r = select(above, none, p.shift_r);
+    p.shift_g = select(above, none, p.shift_g);
+    p.shift_b = select(above, none, p.shift_b);
+    p.hit_depth = select(above, p.dry_depth, p.hit_depth);
+    p.confidence = select(above, F(0), p.confidence);
+  }
+
+  template <class Strip>
+  static void look_up(const Context& c, const Planes& planes, Strip& strip) {
+    using F = typename Strip::Number;
+    if (!c.made.has(StatePart::kPrism)) {
+      return strip.bilinear_rgb(
+          planes.color, [](const Pixel<F>& p) { return p.shift_g; },
           [](Pixel<F>& p, Rgb<F> color) { p.transmitted = color; });
     }
+    strip.bilinear(
+        planes.color, [](const Pixel<F>& p) { return p.shift_r; },
+        [](Pixel<F>& p, F red) { p.transmitted.r = red; });
+    strip.bilinear(
+        plane_after(planes.color, 1), [](const Pixel<F>& p) { return p.shift_g; },
+        [](Pixel<F>& p, F green) { p.transmitted.g = green; });
+    strip.bilinear(
+        plane_after(planes.color, 2), [](const Pixel<F>& p) { return p.shift_b; },
+        [](Pixel<F>& p, F blue) { p.transmitted.b = blue; });
+  }
+
+  template <class F, class Tap>
+  static void look_up_valid(const Context& c, const Planes& planes, Pixel<F>& p, const Tap& tap) {
+    const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
+    const auto valid = [&](const auto& quad, int k) {
+      const F depth = tap.read(planes.depth, quad, k);
+      const F surface = surface_plane ? tap.read(PlaneId::kSurfaceDepth, quad, k)
+                                      : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
+      return select(depth > surface, F(1), F(0));
+    };
+    const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
+    const auto taps = valid_taps(tap, p.shift_g, valid);
+    p.shift_g = taps.place;
+    p.transmitted.g = taps.read(tap, green);
+    F share = taps.share;
+    if (c.made.has(StatePart::kPrism)) {
+      const auto taps_r = valid_taps(tap, p.shift_r, valid);
+      const auto taps_b = valid_taps(tap, p.shift_b, valid);
+      const auto taps_common = valid_taps(tap, p.shift, valid);
+      p.shift_r = taps_r.place;
+      p.shift_b = taps_b.place;
+      p.shift = taps_common.place;
+      p.transmitted.r = taps_r.read(tap, red);
+      p.transmitted.b = taps_b.read(tap, blue);
+      p.hit_depth = taps_common.read_depth(tap, planes.depth);
+      share = F(1.0 / 3) * (taps_r.share + taps.share + taps_b.share);
+    } else {
+      p.shift = p.shift_r = p.shift_b = taps.place;
+      p.transmitted.r = taps.read(tap, red);
+      p.transmitted.b = taps.read(tap, blue);
+      p.hit_depth = taps.read_depth(tap, planes.depth);
+    }
+    p.confidence = p.confidence * share;
+  }
+
+  /// Of a bottom as deep as the one found, taken for flat, below a calm surface.
+  template <class F>
+  static LIMPID_INLINE void measure_path(const Context& c, Pixel<F>& p) {
+    const F cosine = abs(dot(vec3_of<F>(c.up), p.to_viewer));
+    const F bent = refracted_cosine(cosine, select(p.side > F(0), F(1 / c.ior), F(c.ior)));
+    const F straight = p.ray_length * max(p.hit_depth - p.surface_depth, F(0));
+    p.path = straight * cosine / max(bent, F(0.02));
   }
 };
 

@@ -1,0 +1,232 @@
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "limpid/ops/refraction.h"
+#include "limpid/optics/water_index.h"
+
+#include "ops/tray.h"
+
+// Model `snell` against closed forms: a camera 2 above calm water, a bottom that is a plane.
+
+namespace limpid {
+namespace {
+
+constexpr Size kSize{64, 48};
+constexpr double kIor = 1.333;
+
+/// The bottom is the plane y = -depth + slope z (z grows towards the camera).
+struct Basin {
+  Basin(double depth, double slope) : buffers(rect_of(kSize)), scene(test::simple_scene(kSize)) {
+    const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
+    const glm::dvec3 eye = scene.camera->eye();
+    for (int c = 0; c < 3; ++c) {
+      buffers.set(plane_after(PlaneId::kColorR, c),
+                  [](int x, int y) { return float(x + 100 * y); });
+    }
+    buffers.set(PlaneId::kDepth, [&](int x, int y) {
+      const glm::dvec3 ray = rays.ray_at(x + 0.5, y + 0.5);
+      const double meets = (-depth + slope * eye.z - eye.y) / (ray.y - slope * ray.z);
+      return meets > 0 ? static_cast<float>(meets) : test::kInf;
+    });
+    look = test::still_look();
+    Refraction::Params& p = look.of<Refraction>();
+    p.model = Refraction::Model::kSnell;
+    p.rejection = Refraction::Rejection::kNone;
+    p.off_frame = Refraction::OffFrame::kClamp;
+    look.of<DepthFog>().distance = DepthFog::Distance::kEye;
+  }
+
+  /// Where the refracted ray of a pixel ends, worked out in the world.
+  struct Hit {
+    glm::dvec2 uv;
+    double path;
+  };
+  Hit hit(int x, int y, double depth, double slope, double ior = kIor) const {
+    const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
+    const glm::dvec3 eye = scene.camera->eye(), ray = rays.ray_at(x + 0.5, y + 0.5);
+    const glm::dvec3 surface = eye + (-eye.y / ray.y) * ray;
+    const glm::dvec3 in = glm::normalize(ray);
+    const glm::dvec3 sideways = glm::dvec3(in.x, 0, in.z) / ior;
+    const glm::dvec3 t = sideways - glm::dvec3(0, std::sqrt(1 - glm::dot(sideways, sideways)), 0);
+    const double way = (-depth + slope * surface.z) / (t.y - slope * t.z);
+    const glm::dvec4 clip =
+        scene.camera->projection * scene.camera->view * glm::dvec4(surface + way * t, 1);
+    return {{0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w}, way};
+  }
+
+  test::Picture wet() const { return test::reference(look, buffers.frame, scene); }
+
+  test::Buffers buffers;
+  Scene scene;
+  Look look;
+};
+
+double inside(const glm::dvec2& uv) { return std::min({uv.x, uv.y, 1 - uv.x, 1 - uv.y}); }
+
+/// Largest error of the map, in pixels, over the pixels whose ray ends well inside the picture.
+double map_error(const Basin& basin, double depth, double slope) {
+  const test::Picture got = basin.wet();
+  double worst = 0;
+  int seen = 0;
+  for (int y = 20; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const Basin::Hit expected = basin.hit(x, y, depth, slope);
+      if (inside(expected.uv) < 0.05) continue;
+      ++seen;
+      worst =
+          std::max(worst, std::abs(got.aov(Aov::kStmapG, x, y, 0) - expected.uv.x) * kSize.width);
+      worst =
+          std::max(worst, std::abs(got.aov(Aov::kStmapG, x, y, 1) - expected.uv.y) * kSize.height);
+    }
+  }
+  EXPECT_GT(seen, 500);
+  return worst;
+}
+
+TEST(Snell, FlatBottomIsExactForAnySteps) {
+  for (int steps : {0, 1, 4, Refraction::kMarch}) {
+    Basin basin(0.5, 0);
+    basin.look.of<Refraction>().steps = steps;
+    EXPECT_LT(map_error(basin, 0.5, 0), 1e-3) << steps;
+  }
+}
+
+TEST(Snell, SlopingBottomTakesStepsOrAMarch) {
+  std::vector<double> errors;
+  for (int steps : {0, 1, 4, Refraction::kMarch}) {
+    Basin basin(0.5, 0.12);
+    basin.look.of<Refraction>().steps = steps;
+    errors.push_back(map_error(basin, 0.5, 0.12));
+  }
+  EXPECT_GT(errors[0], 0.5) << "the depth at the pixel is not that where the ray ends";
+  EXPECT_LT(errors[1], errors[0]);
+  EXPECT_LT(errors[2], 0.1);
+  EXPECT_LT(errors[3], 0.2);
+}
+
+TEST(Snell, StraightDownNothingShifts) {
+  test::Tray tray({9, 9});
+  Refraction::Params& p = tray.look.of<Refraction>();
+  p.model = Refraction::Model::kSnell;
+  for (int steps : {0, 2, Refraction::kMarch}) {
+    p.steps = steps;
+    const test::Picture got = tray.wet();
+    EXPECT_NEAR(got.aov(Aov::kStmapG, 4, 4, 0), 0.5, 1e-6);
+    EXPECT_NEAR(got.aov(Aov::kStmapG, 4, 4, 1), 0.5, 1e-6);
+  }
+}
+
+// Seen from straight above, a facet tilted by a turns the ray by a - asin(sin a / n).
+TEST(Snell, ATiltedFacetBendsByItsAngle) {
+  test::Tray tray({60, 3});
+  tray.buffers.fill(PlaneId::kDepth, 20);  // 10 below the surface
+  const double a = 0.3;
+  tray.buffers.normal({std::sin(a), std::cos(a), 0});
+  Refraction::Params& p = tray.look.of<Refraction>();
+  p.model = Refraction::Model::kSnell;
+  const double turn = a - std::asin(std::sin(a) / kIor);
+  for (int steps : {0, 3, Refraction::kMarch}) {
+    p.steps = steps;
+    const double shift = tray.wet().aov(Aov::kStmapG, 30, 1, 0) * 60 - 30.5;
+    // The facet leans right, so its ray goes left.
+    EXPECT_NEAR(shift, -10 * std::tan(turn), 1e-2) << steps;
+  }
+}
+
+TEST(Snell, SkyUnderWaterHasNoEnd) {
+  Basin basin(0.5, 0);
+  basin.buffers.fill(PlaneId::kDepth, test::kInf);
+  for (int steps : {0, 2, Refraction::kMarch}) {
+    basin.look.of<Refraction>().steps = steps;
+    for (float v : basin.wet().values()) EXPECT_FALSE(std::isnan(v)) << steps;
+  }
+}
+
+TEST(Snell, OffTheFrameIsInventedAndSaidSo) {
+  Basin basin(3, 0);  // so deep that the lowest rows look below the picture
+  for (auto policy :
+       {Refraction::OffFrame::kClamp, Refraction::OffFrame::kShorten, Refraction::OffFrame::kFog}) {
+    basin.look.of<Refraction>().off_frame = policy;
+    const test::Picture got = basin.wet();
+    EXPECT_EQ(got.aov(Aov::kConfidence, 32, 47), 0);
+    EXPECT_EQ(got.aov(Aov::kConfidence, 32, 24), 1);
+    if (policy == Refraction::OffFrame::kFog) {
+      EXPECT_EQ(got.aov(Aov::kTransmitted, 32, 47), 0);
+    } else {
+      EXPECT_NEAR(got.aov(Aov::kTransmitted, 32, 47), 32 + 4700, 40);
+    }
+  }
+}
+
+TEST(Snell, OverscanIsUsedWhereThereIsSome) {
+  Basin basin(3, 0);
+  const Rect wide{-16, -16, kSize.width + 16, kSize.height + 60};
+  const Rays rays = rays_of(*basin.scene.camera, {kSize.width, kSize.height});
+  const glm::dvec3 eye = basin.scene.camera->eye();
+  for (int c = 0; c < 3; ++c) {
+    basin.buffers.set(
+        plane_after(PlaneId::kColorR, c), [](int x, int y) { return float(x + 100 * y); }, wide);
+  }
+  basin.buffers.set(
+      PlaneId::kDepth,
+      [&](int x, int y) {
+        const double meets = (-3 - eye.y) / rays.ray_at(x + 0.5, y + 0.5).y;
+        return meets > 0 ? static_cast<float>(meets) : test::kInf;
+      },
+      wide);
+  const Basin::Hit expected = basin.hit(32, 47, 3, 0);
+  ASSERT_LT(expected.uv.y, 0);
+  const test::Picture got = basin.wet();
+  EXPECT_EQ(got.aov(Aov::kConfidence, 32, 47), 1);
+  EXPECT_NEAR(got.aov(Aov::kStmapG, 32, 47, 1), expected.uv.y, 2e-3);
+}
+
+// --- dispersion ---------------------------------------------------------------------------------
+
+TEST(Dispersion, ChannelsGoWhereTheirIndexSendsThem) {
+  Basin basin(0.5, 0);
+  basin.look.water.ior = water_index(kGreenWavelength);
+  basin.look.of<PrismSplit>().model = PrismSplit::Model::kDispersion;
+  const test::Picture got = basin.wet();
+  const struct {
+    Aov map;
+    double wavelength;
+  } channels[] = {{Aov::kStmapR, kRedWavelength},
+                  {Aov::kStmapG, kGreenWavelength},
+                  {Aov::kStmapB, kBlueWavelength}};
+  for (const auto& [map, wavelength] : channels) {
+    const Basin::Hit expected = basin.hit(30, 30, 0.5, 0, water_index(wavelength));
+    EXPECT_NEAR(got.aov(map, 30, 30, 0), expected.uv.x, 1e-6);
+    EXPECT_NEAR(got.aov(map, 30, 30, 1), expected.uv.y, 1e-6);
+  }
+}
+
+TEST(Dispersion, IsCollinearWithRefractionAndBendsBlueMost) {
+  Basin basin(0.5, 0);
+  basin.look.of<PrismSplit>().model = PrismSplit::Model::kDispersion;
+  const test::Picture got = basin.wet();
+  for (int y = 24; y < 40; ++y) {
+    const auto map = [&](Aov which) {
+      return glm::dvec2(got.aov(which, 20, y, 0), got.aov(which, 20, y, 1));
+    };
+    const glm::dvec2 own((20 + 0.5) / kSize.width, 1 - (y + 0.5) / kSize.height);
+    const glm::dvec2 red = map(Aov::kStmapR) - own, blue = map(Aov::kStmapB) - own;
+    EXPECT_GT(glm::length(blue), glm::length(red));
+    EXPECT_NEAR(red.x * blue.y - red.y * blue.x, 0, 2e-7);
+  }
+}
+
+TEST(Dispersion, WithoutGainItIsNoPrismBitForBit) {
+  Basin basin(0.5, 0.1);
+  basin.look.of<PrismSplit>().model = PrismSplit::Model::kDispersion;
+  basin.look.of<PrismSplit>().gain = 0;
+  const std::vector<float> without = basin.wet().values();
+  basin.look.of<PrismSplit>().model = PrismSplit::Model::kAxis;
+  basin.look.of<PrismSplit>().strength = 0;
+  EXPECT_EQ(without, basin.wet().values());
+}
+
+}  // namespace
+}  // namespace limpid
