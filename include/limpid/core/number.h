@@ -20,6 +20,9 @@ LIMPID_INLINE double floor(double x) { return std::floor(x); }
 LIMPID_INLINE double exp(double x) { return std::exp(x); }
 /// x^p for x >= 0; pow(0, 0) = 1.
 LIMPID_INLINE double pow(double x, double p) { return std::pow(x, p); }
+/// Of an angle in radians; lanes keep their accuracy for -1000 ... 1000.
+LIMPID_INLINE double sin(double x) { return std::sin(x); }
+LIMPID_INLINE double cos(double x) { return std::cos(x); }
 LIMPID_INLINE bool any(bool condition) { return condition; }
 
 /// Clamped to 0 ... 1.

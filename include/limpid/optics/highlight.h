@@ -29,8 +29,8 @@ LIMPID_INLINE F blinn_phong_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, F power) {
 
 /// Density of facets whose normal leans by this sine from the mean one, in 1/sr: alpha^2 / (pi
 /// (sin^2 + alpha^2 cos^2)^2), for sin^2 0 ... 1. The sine keeps the digits that a cosine near 1
-/// has lost. `alpha` is the roughness, 1e-3 ... 1; the variance of the slopes, where known, is
-/// alpha^2 / 2 along each axis.
+/// has lost. `alpha` is the roughness, 1e-3 ... 1; slopes of variance s along each axis
+/// are commonly given sqrt(2 s), as if they were Gaussian.
 template <class F>
 LIMPID_INLINE F ggx_distribution_of_sine(F sine_square, F alpha) {
   const F square = alpha * alpha;

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <span>
 
-#include <glm/vec3.hpp>
-
+#include "limpid/core/number.h"
 #include "limpid/core/scene.h"
 
 namespace limpid {
@@ -13,15 +12,40 @@ struct WaveHeight {
   double height = 0, slope_x = 0, slope_y = 0;
 };
 
-/// Sum of sines at the plane coordinates x, y and the time t. Phases stay exact for any t: omega t
-/// is reduced in double before the sine.
+/// Slopes of the surface along PlaneAxes.
+template <class F>
+struct Slopes {
+  F x, y;
+};
+
+/// What is the same everywhere in a wave's phase at the time t. Stays exact for any t: omega t is
+/// reduced in double before it is used.
+inline double wave_offset(const SineWave& wave, double t) {
+  return wave.phase - std::fmod(wave.omega * t, 2 * M_PI);
+}
+
+/// Phase at the plane coordinates x, y; `offset` is wave_offset.
+template <class F>
+LIMPID_INLINE F wave_phase(const SineWave& wave, F x, F y, F offset) {
+  return F(wave.k_x) * x + F(wave.k_y) * y + offset;
+}
+
+/// Slopes of one sine, amplitude k cos(phase).
+template <class F>
+LIMPID_INLINE Slopes<F> sine_slopes(const SineWave& wave, F phase) {
+  const F cosine = cos(phase);
+  return {F(wave.amplitude * wave.k_x) * cosine, F(wave.amplitude * wave.k_y) * cosine};
+}
+
+/// Sum of sines at the plane coordinates x, y and the time t.
 inline WaveHeight wave_height(std::span<const SineWave> waves, double x, double y, double t) {
   WaveHeight sum;
   for (const SineWave& w : waves) {
-    const double phase = w.k_x * x + w.k_y * y + w.phase - std::fmod(w.omega * t, 2 * M_PI);
-    sum.height += w.amplitude * std::sin(phase);
-    sum.slope_x += w.amplitude * w.k_x * std::cos(phase);
-    sum.slope_y += w.amplitude * w.k_y * std::cos(phase);
+    const double phase = wave_phase(w, x, y, wave_offset(w, t));
+    const Slopes<double> slopes = sine_slopes(w, phase);
+    sum.height += w.amplitude * sin(phase);
+    sum.slope_x += slopes.x;
+    sum.slope_y += slopes.y;
   }
   return sum;
 }

@@ -1,0 +1,65 @@
+#include "limpid/optics/water_types.h"
+
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+namespace limpid {
+namespace {
+
+constexpr int kCount = static_cast<int>(WaterType::kJerlov9C) + 1;
+
+TEST(WaterTypes, EachHasAWord) {
+  ASSERT_EQ(std::size(kWaterTypes), kCount);
+  EXPECT_EQ(kWaterTypes[static_cast<int>(WaterType::kCustom)], "custom");
+  EXPECT_EQ(kWaterTypes[static_cast<int>(WaterType::kPure)], "pure");
+  EXPECT_EQ(kWaterTypes[static_cast<int>(WaterType::kJerlovIB)], "IB");
+  EXPECT_EQ(kWaterTypes[static_cast<int>(WaterType::kJerlovIII)], "III");
+  EXPECT_EQ(kWaterTypes[static_cast<int>(WaterType::kJerlov1C)], "1C");
+  EXPECT_EQ(kWaterTypes[static_cast<int>(WaterType::kJerlov9C)], "9C");
+}
+
+TEST(WaterTypes, PureWaterOnlyAbsorbs) {
+  const WaterOptics pure = water_optics(WaterType::kPure);
+  EXPECT_EQ(pure.absorption, (Rgb<double>{.340, .0565, .00922}));
+  EXPECT_EQ(pure.down_attenuation, pure.absorption);
+}
+
+TEST(WaterTypes, CustomIsEmpty) {
+  EXPECT_EQ(water_optics(WaterType::kCustom).absorption, (Rgb<double>{0, 0, 0}));
+  EXPECT_EQ(water_optics(WaterType::kCustom).down_attenuation, (Rgb<double>{0, 0, 0}));
+}
+
+TEST(WaterTypes, JerlovHandWorked) {
+  const WaterOptics clear = water_optics(WaterType::kJerlovI);
+  EXPECT_EQ(clear.down_attenuation, (Rgb<double>{.36, .063, .019}));
+  EXPECT_NEAR(clear.absorption.r, .34632, 5e-6);  // .36 / 1.0395
+  EXPECT_NEAR(clear.absorption.g, .06061, 5e-6);
+  EXPECT_NEAR(clear.absorption.b, .01828, 5e-6);
+  const WaterOptics murky = water_optics(WaterType::kJerlov9C);
+  EXPECT_EQ(murky.down_attenuation, (Rgb<double>{.76, .63, 1.60}));
+  EXPECT_NEAR(murky.absorption.b, 1.53920, 5e-6);
+  EXPECT_EQ(detail::absorption_from_down_attenuation(0.3, 0.34), 0.34);
+}
+
+TEST(WaterTypes, NoneIsClearerThanPureWaterAndEachMurkierThanTheLast) {
+  for (int i = 2; i < kCount; ++i) {
+    const WaterOptics w = water_optics(static_cast<WaterType>(i));
+    const WaterOptics before = water_optics(static_cast<WaterType>(i - 1));
+    for (auto channel : {&Rgb<double>::r, &Rgb<double>::g, &Rgb<double>::b}) {
+      EXPECT_GE(w.absorption.*channel, kPureWaterAbsorption.*channel) << i;
+      EXPECT_LT(w.absorption.*channel, w.down_attenuation.*channel) << i;
+      EXPECT_GE(w.down_attenuation.*channel, before.down_attenuation.*channel) << i;
+    }
+  }
+}
+
+// Ocean water is blue, coastal water green.
+TEST(WaterTypes, ClearestColor) {
+  const auto down = [](WaterType type) { return water_optics(type).down_attenuation; };
+  EXPECT_LT(down(WaterType::kJerlovI).b, down(WaterType::kJerlovI).g);
+  EXPECT_LT(down(WaterType::kJerlov1C).g, down(WaterType::kJerlov1C).b);
+}
+
+}  // namespace
+}  // namespace limpid
