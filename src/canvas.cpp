@@ -1,5 +1,6 @@
 #include "canvas.h"
 
+#include "limpid/core/error.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 #include "limpid/version.h"
@@ -31,6 +32,20 @@ float block_mean(const View<float>& from, int x, int y, int n) {
 LoadedTexture wave_map_of(const Plan& plan, const Limits& limits) {
   if (!plan.reads_wave_map) return {};
   return load_texture(plan.look.of<WaveNormals>().map, limits);
+}
+
+bool has_environment(const SceneFile& scene) {
+  if (scene.environment.empty()) return false;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(scene.environment, ignored)) {
+    throw Error("plates.environment: " + scene.environment.string() + ": no such file");
+  }
+  return true;
+}
+
+LoadedTexture environment_of(const Plan& plan, const SceneFile& scene, const Limits& limits) {
+  if (!plan.reads_environment) return {};
+  return load_environment(scene.environment, scene.environment_rotation, limits);
 }
 
 void expect_writable(const OutputChoice& choice) {

@@ -2,7 +2,8 @@
 #include <vector>
 
 #include "limpid/core/executor.h"
-#include "limpid/load/plate.h"
+#include "limpid/load/scene_file.h"
+#include "limpid/load/texture.h"
 #include "limpid/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/target.h"
@@ -12,6 +13,12 @@ namespace limpid {
 
 /// The tiling normal map that a plan looks up; empty when it does not.
 LoadedTexture wave_map_of(const Plan& plan, const Limits& limits = {});
+
+/// Whether the scene file names surroundings. Throws Error when it does and they are not there.
+bool has_environment(const SceneFile& scene);
+
+/// The surroundings that a plan looks up; empty when it does not.
+LoadedTexture environment_of(const Plan& plan, const SceneFile& scene, const Limits& limits = {});
 
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not
 /// there or cannot be written to.

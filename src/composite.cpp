@@ -57,7 +57,8 @@ Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
   return make_plan(job.look,
                    {.planes = plate.planes(),
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
-                    .sun = scene.sun.has_value()},
+                    .sun = scene.sun.has_value(),
+                    .environment = has_environment(job.scene)},
                    state_shown_by(job.output.aovs));
 }
 
@@ -81,6 +82,8 @@ CompositeReport composite(const CompositeJob& job, Executor& executor) {
   LoadedPlate loaded = plate.read(report.plan.planes, scene, depth);
   const LoadedTexture map = wave_map_of(report.plan, job.plate.limits);
   loaded.frame.wave_map = map.texture;
+  const LoadedTexture environment = environment_of(report.plan, job.scene, job.plate.limits);
+  loaded.frame.environment = environment.texture;
   report.size = loaded.frame.work().size();
   report.replaced = loaded.replaced;
   report.read_seconds = watch.lap();

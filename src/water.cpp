@@ -47,7 +47,8 @@ Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {
   return make_plan(job.look,
                    {.planes = renderable(model, scene),
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
-                    .sun = scene.sun.has_value()},
+                    .sun = scene.sun.has_value(),
+                    .environment = has_environment(job.render.scene)},
                    state_shown_by(job.output.aovs));
 }
 
@@ -130,6 +131,8 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
   report.replaced = sanitise_planes(plate.planes, scene.water->up);
   const LoadedTexture map = wave_map_of(report.plan);
   plate.frame.wave_map = map.texture;
+  const LoadedTexture environment = environment_of(report.plan, job.render.scene);
+  plate.frame.environment = environment.texture;
   report.size = job.render.render.size;
   report.read_seconds = watch.lap();
 

@@ -171,7 +171,8 @@ inline StateSet all_state() {
 }
 
 inline Inputs inputs_of(const Frame& frame, const Scene& scene) {
-  return {frame.present(), static_cast<bool>(frame.wave_map), scene.sun.has_value()};
+  return {frame.present(), static_cast<bool>(frame.wave_map), scene.sun.has_value(),
+          static_cast<bool>(frame.environment)};
 }
 
 /// A look in which every operator is neutral or absent but those set afterwards.

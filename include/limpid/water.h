@@ -14,7 +14,7 @@ struct RenderJob {
 
 /// `limpid render`: all buffers of the model as one plate with our own layer names (color, depth,
 /// shadow, reflection, below, surface) and camera, water and sun as attributes, so that composite()
-/// needs nothing else.
+/// needs nothing else but the environment, if the look reads one.
 struct PlateOutput {
   std::filesystem::path plate;
   std::string compression = "piz";

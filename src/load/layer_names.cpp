@@ -230,7 +230,8 @@ std::vector<std::string> match(const LayerRule& rule, const LayerGroup& group) {
   const auto names_fit = [&] {
     switch (rule.rank) {
       case LayerRank::kOwn:
-        return lower_case(group.path) == rule.layer && group.water == rule.layer.starts_with("surface");
+        return lower_case(group.path) == rule.layer &&
+               group.water == rule.layer.starts_with("surface");
       case LayerRank::kLayer:
         return group.named && one_of(with_water(group), rule.layer);
       case LayerRank::kFileName:

@@ -10,70 +10,12 @@
 #include "limpid/load/scene_file.h"
 
 #include "load/layer_candidates.h"
+#include "load/plate_file.h"
 
 namespace limpid {
 namespace {
 
 constexpr std::string_view kNone = "none";
-
-/// Color of a picture with straight alpha, in place: the chain knows premultiplied color only.
-void premultiply(ImageFile& image) {
-  const auto found = std::find(image.channels.begin(), image.channels.end(), "A");
-  if (found == image.channels.end()) return;
-  const std::size_t alpha = static_cast<std::size_t>(found - image.channels.begin());
-  const Rect& w = image.window;
-  for (std::size_t i = 0; i < image.planes.size(); ++i) {
-    if (i == alpha) continue;
-    const View<float> color = image.planes[i].view(), a = image.planes[alpha].view();
-    for (int y = w.y0; y < w.y1; ++y) {
-      for (int x = w.x0; x < w.x1; ++x) color.at(x, y) *= a.at(x, y);
-    }
-  }
-}
-
-/// A file of either sort behind one face: parts, and channels that decode into views.
-struct PlateFile {
-  std::filesystem::path path;
-  std::optional<ExrFile> exr;
-  std::optional<ImageFile> image;
-  std::vector<ExrPart> parts;
-
-  static PlateFile open(const std::filesystem::path& path, const Limits& limits) {
-    PlateFile file;
-    file.path = path;
-    if (is_exr(path)) {
-      file.exr = ExrFile::open(path, limits);
-      file.parts = file.exr->parts();
-    } else {
-      file.image = read_image(path, limits);
-      if (file.image->straight_alpha) premultiply(*file.image);
-      ExrPart part;
-      part.data = part.display = file.image->window;
-      part.compression = "none";
-      for (const std::string& name : file.image->channels) {
-        part.channels.push_back({name, SampleType::kFloat, 1, 1});
-      }
-      file.parts = {part};
-    }
-    return file;
-  }
-
-  void read(std::span<const ExrRequest> requests) const {
-    if (exr) return exr->read(requests);
-    for (const ExrRequest& r : requests) {
-      const auto found = std::find(image->channels.begin(), image->channels.end(), r.channel);
-      const View<const float> from =
-          image->planes[static_cast<std::size_t>(found - image->channels.begin())].view();
-      const Rect& w = r.into.window;
-      for (int y = w.y0; y < w.y1; ++y) {
-        for (int x = w.x0; x < w.x1; ++x) {
-          const bool inside = from.window.contains({x, y, x + 1, y + 1});
-          r.into.at(x, y) = inside ? from.at(x, y) : r.missing;
-        }
-      }
-    }
-  }
-};
 
 /// "FILE:CHANNELS", "FILE" or "CHANNELS" as on a command line: a file is what exists or ends like
 /// an EXR.
@@ -277,31 +219,6 @@ LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning&
   };
   loaded.replaced = sanitise_planes(loaded.planes,
                                     scene.water ? scene.water->up : glm::dvec3(0, 1, 0), source_of);
-  return loaded;
-}
-
-LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits) {
-  const PlateFile file = PlateFile::open(path, limits);
-  const ExrPart& part = file.parts.front();
-  const auto name_of = [&](std::string_view letter, std::size_t position) -> std::string {
-    for (const ExrChannel& c : part.channels) {
-      if (c.name == letter) return c.name;
-    }
-    return file.image && position < part.channels.size() ? part.channels[position].name : "";
-  };
-  LoadedTexture loaded;
-  std::vector<ExrRequest> requests;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::string name = name_of(std::array{"R", "G", "B"}[i], i);
-    if (name.empty()) throw Error(path.string() + ": a normal map needs the channels R, G and B");
-    loaded.planes.emplace_back(part.data);
-    requests.push_back({0, name, loaded.planes.back().view(), 0});
-  }
-  file.read(requests);
-  for (std::size_t i = 0; i < 3; ++i) {
-    sanitise_color(loaded.planes[i].view());
-    loaded.texture.channels[i] = loaded.planes[i].view();
-  }
   return loaded;
 }
 

@@ -78,18 +78,35 @@ Sun sun_of(const TomlNode& table) {
   return sun;
 }
 
-std::map<std::string, std::string> plates_of(const TomlNode& table, const fs::path& folder) {
-  Names known;
+fs::path path_of(const TomlNode& node, const fs::path& folder) {
+  if (node.word().empty()) node.refuse("FILE");
+  return (folder / node.word()).lexically_normal();
+}
+
+/// "FILE" or "FILE:CHANNELS" of a role.
+std::string plate_of(const TomlNode& node, const fs::path& folder) {
+  const PlateName name = split_plate(node.word());
+  if (name.file.empty() || node.text.back() == ':') node.refuse("FILE or FILE:CHANNELS");
+  const std::string file = (folder / name.file).lexically_normal().string();
+  return name.channels.empty() ? file : file + ":" + name.channels;
+}
+
+void read_plates(const TomlNode& table, const fs::path& folder, SceneFile& file) {
+  Names known = {"environment", "environment_rotation"};
   for (const Role& role : roles()) known.emplace_back(role.name);
   table.expect_keys(known);
-  std::map<std::string, std::string> plates;
   for (const TomlNode& node : table.items) {
-    const PlateName name = split_plate(node.word());
-    if (name.file.empty() || node.text.back() == ':') node.refuse("FILE or FILE:CHANNELS");
-    const std::string file = (folder / name.file).lexically_normal().string();
-    plates[node.key] = name.channels.empty() ? file : file + ":" + name.channels;
+    if (node.key == "environment") {
+      file.environment = path_of(node, folder);
+    } else if (node.key == "environment_rotation") {
+      if (!table.find("environment")) {
+        throw Error(node.key_place + node.path + ": expected an environment beside it");
+      }
+      file.environment_rotation = node.finite_number() * std::numbers::pi / 180;
+    } else {
+      file.plates[node.key] = plate_of(node, folder);
+    }
   }
-  return plates;
 }
 
 fs::path geometry_of(const TomlNode& table, const fs::path& folder) {
@@ -206,7 +223,7 @@ SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
   SceneFile file;
   for (const TomlNode& table : root.items) {
     if (table.key == "geometry") file.geometry = geometry_of(table, folder);
-    if (table.key == "plates") file.plates = plates_of(table, folder);
+    if (table.key == "plates") read_plates(table, folder, file);
     if (table.key == "camera") read_camera(table, file);
     if (table.key == "water") file.scene.water = water_of(table);
     if (table.key == "sun") file.scene.sun = sun_of(table);

@@ -63,6 +63,7 @@ void drop_absent_input(Plan& plan, const Inputs& inputs, StateSet) {
     }
     if (needs.sun && !inputs.sun) absent.emplace_back("sun");
     if (needs.wave_map && !inputs.wave_map) absent.emplace_back("normal map");
+    if (needs.environment && !inputs.environment) absent.emplace_back("environment");
     if (!absent.empty()) drop(plan.operators[i], Verdict::kAbsent, "no " + join(absent, ", no "));
   }
 }
@@ -120,6 +121,7 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs) {
     plan.made = plan.made | declared(plan.look, i).makes;
     plan.planes = plan.planes | declared(plan.look, i).reads;
     plan.reads_wave_map |= declared(plan.look, i).needs.wave_map;
+    plan.reads_environment |= declared(plan.look, i).needs.environment;
   }
   plan.planes = plan.planes & inputs.planes;
   return plan;

@@ -18,11 +18,12 @@ float missing_value(PlaneId plane) {
 
 namespace {
 
-void check_wave_map(const Texture& map) {
-  if (!map) throw Error("frame: the plan looks up a normal map, and the frame has none");
-  for (const View<const float>& channel : map.channels) {
-    if (!channel || channel.window.empty() || channel.window != map.channels[0].window) {
-      throw Error("frame: the normal map's channels are not three of one size");
+/// `name` as in "a normal map".
+void check_texture(const Texture& texture, const std::string& name) {
+  if (!texture) throw Error("frame: the plan looks up " + name + ", and the frame has none");
+  for (const View<const float>& channel : texture.channels) {
+    if (!channel || channel.window.empty() || channel.window != texture.channels[0].window) {
+      throw Error("frame: " + name + " has channels that are not three of one size");
     }
   }
 }
@@ -56,7 +57,8 @@ void check_apart(const Frame& frame, const View<float>& out) {
 
 void check_run(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target) {
   frame.validate();
-  if (plan.reads_wave_map) check_wave_map(frame.wave_map);
+  if (plan.reads_wave_map) check_texture(frame.wave_map, "a normal map");
+  if (plan.reads_environment) check_texture(frame.environment, "an environment");
   if (plan.made.has(StatePart::kHighlight) && !scene.sun) {
     throw Error("scene: the plan has a sun highlight, and the scene has no sun");
   }

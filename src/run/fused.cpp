@@ -55,6 +55,7 @@ void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const T
   check_run(plan, frame, scene, target);
   for (const View<const float>& view : frame.planes) check_extent(view);
   for (const View<const float>& view : frame.wave_map.channels) check_extent(view);
+  for (const View<const float>& view : frame.environment.channels) check_extent(view);
   const Rect work = frame.work();
   const Size tile{std::min(options.tile.width, work.width()),
                   std::min(options.tile.height, work.height())};

@@ -97,6 +97,19 @@ TEST(SceneFile, PlatesAreRelativeToTheFile) {
   EXPECT_EQ(file.plates.at("reflection"), (folder / "a:b/c.exr:R,G,B").lexically_normal().string());
 }
 
+TEST(SceneFile, TheEnvironmentIsAFileAndAnAngle) {
+  const SceneFile file = scene_of(
+      "[plates]\nenvironment = \"../sky:2.exr\"\nenvironment_rotation = -90\n"
+      "color = \"a.exr\"\n");
+  EXPECT_EQ(file.environment, (own_folder() / "../sky:2.exr").lexically_normal());
+  EXPECT_NEAR(file.environment_rotation, -std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(file.plates.size(), 1u);
+  const SceneFile plain = scene_of("[plates]\nenvironment = \"/sky.hdr\"\n");
+  EXPECT_EQ(plain.environment, "/sky.hdr");
+  EXPECT_EQ(plain.environment_rotation, 0);
+  EXPECT_TRUE(scene_of("").environment.empty());
+}
+
 TEST(SceneFile, PlateNamesSplitAtTheLastColonThatNoSlashFollows) {
   const auto parts = [](const char* text) {
     const PlateName name = split_plate(text);
@@ -194,6 +207,13 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[plates]\ncolor = \"\"\n", ":2:9: ", "expected FILE or FILE:CHANNELS"},
       {"[plates]\ncolor = \":Z\"\n", ":2:9: ", "expected FILE or FILE:CHANNELS"},
       {"[plates]\ncolor = \"a.exr:\"\n", ":2:9: ", "expected FILE or FILE:CHANNELS"},
+      {"[plates]\nenvironment = \"\"\n", ":2:15: ", "environment = \"\": expected FILE"},
+      {"[plates]\nenvironment = 3\n", ":2:15: ", "plates.environment = 3: expected a text"},
+      {"[plates]\nenviroment = \"a\"\n", ":2:1: ", "did you mean 'environment'?"},
+      {"[plates]\nenvironment_rotation = 3\n",
+       ":2:1: ", "plates.environment_rotation: expected an environment beside it"},
+      {"[plates]\nenvironment = \"a\"\nenvironment_rotation = inf\n",
+       ":3:24: ", "environment_rotation = inf: expected a finite number"},
       {"[water]\nupp = [0, 1, 0]\n", ":2:1: ", "did you mean 'up'?"},
       {"[water]\nup = [0, 0, 0]\n", ":2:6: ", "= [0, 0, 0]: expected a vector that is not zero"},
       {"[water]\nup = [0, nan, 0]\n", ":2:10: ", "water.up[1] = nan: expected a finite number"},

@@ -179,6 +179,33 @@ TEST(Fused, RefusesWhatItCannotDo) {
   EXPECT_THROW(Plane(Rect{0, 0, 0, 0}), Error);
 }
 
+TEST(Fused, APlanThatReadsTexturesNeedsThemWhole) {
+  const Size size{4, 4};
+  Buffers b = test::noisy_frame(rect_of(size));
+  const Scene scene = test::simple_scene(size);
+  const Picture picture(b.frame.work());
+  Plan plan = make_plan({}, test::inputs_of(b.frame, scene));
+  plan.reads_environment = true;
+  const auto refusal = [&]() -> std::string {
+    try {
+      run_reference(plan, b.frame, scene, picture.target);
+      run_fused(plan, b.frame, scene, picture.target, *make_executor(1));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(), "frame: the plan looks up an environment, and the frame has none");
+  const test::NoiseMap sky(8, 4), other(8, 5);
+  b.frame.environment = sky.texture;
+  EXPECT_EQ(refusal(), "");
+  b.frame.environment.channels[2] = other.texture.channels[2];
+  EXPECT_EQ(refusal(), "frame: an environment has channels that are not three of one size");
+  plan.reads_environment = false;
+  plan.reads_wave_map = true;
+  EXPECT_EQ(refusal(), "frame: the plan looks up a normal map, and the frame has none");
+}
+
 TEST(Fused, SumOfTheFirstFourAovsIsThePicture) {
   const Size size{50, 30};
   const Buffers b = test::noisy_frame(rect_of(size));

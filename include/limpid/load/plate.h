@@ -78,14 +78,4 @@ class Plate {
   std::unique_ptr<State> state_;
 };
 
-/// A texture that owns its planes.
-struct LoadedTexture {
-  Texture texture;
-  std::vector<Plane> planes;
-};
-
-/// The first three channels of a picture file as a tiling texture: R G B of an EXR, or any other
-/// format as image_file.h reads it. Throws Error when it has fewer.
-LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits = {});
-
 }  // namespace limpid

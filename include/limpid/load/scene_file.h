@@ -38,7 +38,9 @@ Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1)
 /// What a scene file (TOML) says:
 ///
 ///   [geometry] gltf: a scene to be rendered, relative to the scene file
-///   [plates]  a key a role of core/frame.h: "FILE" or "FILE:CHANNELS", relative to the scene file
+///   [plates]  a key a role of core/frame.h: "FILE" or "FILE:CHANNELS", relative to the scene file;
+///             environment: a picture of the surroundings (texture.h), environment_rotation:
+///             degrees from PlaneAxes::x to where its middle looks, counter-clockwise from above
 ///   [camera]  view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl, d3d,
 ///             reversed; near, far; depth = eye, ray, inverse, normalised, device
 ///   [water]   up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
@@ -54,7 +56,9 @@ struct SceneFile {
   std::optional<double> near, far;  ///< as given; far may be +inf
   /// Role -> absolute "FILE" or "FILE:CHANNELS", for split_plate().
   std::map<std::string, std::string> plates;
-  std::filesystem::path geometry;  ///< glTF file, absolute, or empty
+  std::filesystem::path geometry;     ///< glTF file, absolute, or empty
+  std::filesystem::path environment;  ///< picture file, absolute, or empty
+  double environment_rotation = 0;    ///< rad
 };
 
 /// Throws Error, with "file:line:column: " in front, for what is not TOML, an unknown table or key

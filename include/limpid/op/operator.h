@@ -49,6 +49,7 @@ struct Needs {
   PlaneSet planes;
   bool sun = false;
   bool wave_map = false;
+  bool environment = false;
 };
 
 template <class T>

@@ -15,6 +15,7 @@ struct Inputs {
   PlaneSet planes;        ///< that the plate has
   bool wave_map = false;  ///< a tiling normal map is at hand
   bool sun = false;
+  bool environment = false;  ///< a picture of the surroundings is at hand
 };
 
 /// Why an operator runs or does not.
@@ -41,6 +42,8 @@ struct Plan {
 
   /// Whether an operator that is kept looks up the tiling normal map.
   bool reads_wave_map = false;
+  /// Whether one looks up the surroundings.
+  bool reads_environment = false;
 
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
 };

@@ -1,0 +1,39 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "limpid/core/frame.h"
+#include "limpid/core/plane.h"
+#include "limpid/load/limits.h"
+
+namespace limpid {
+
+/// A texture that owns its planes.
+struct LoadedTexture {
+  Texture texture;
+  std::vector<Plane> planes;
+};
+
+/// The first three channels of a picture file as a tiling texture: R G B of an EXR, or any other
+/// format as image_file.h reads it. NaN and infinities become 0. Throws Error when it has fewer.
+LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits = {});
+
+/// The surroundings from a picture file of either layout, with channels as load_texture() reads
+/// them, as the lat-long map that Frame::environment is:
+/// - lat-long: twice as wide as high. The middle of the top row is straight up, and columns run to
+///   the right as one sees them from inside, that is clockwise from above: as all renderers have
+///   it. Texels are areas, the outermost columns meet in an edge.
+/// - cube: six square faces one below the other, in the order and the orientation that OpenEXR's
+///   ImfEnvmap.h draws, +Y being up and +Z where the middle of a lat-long map looks. Centres of
+///   outermost texels lie on the cube's edges, as there. It is resampled (bilinear) to four times
+///   the width and twice the height of a face.
+/// An EXR's attribute `envmap` must agree with the picture's shape, which decides without one.
+///
+/// The file's up is the water's up; its middle looks along PlaneAxes::x, turned by `rotation` (rad)
+/// about up, counter-clockwise from above. That is how Blender sees a file, with its z up; with y
+/// up in the scene, and the file's middle to look along z as OpenEXR says, a quarter turn
+/// clockwise. Turning by parts of a texel mixes neighbours. Throws Error for other shapes.
+LoadedTexture load_environment(const std::filesystem::path& path, double rotation,
+                               const Limits& limits = {});
+
+}  // namespace limpid

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "limpid/load/exr_file.h"
+#include "limpid/load/image_file.h"
+#include "limpid/load/limits.h"
+
+namespace limpid {
+
+/// A picture file of either sort behind one face: parts, and channels that decode into views. A
+/// picture that is no EXR is read when it is opened, its color multiplied by straight alpha.
+struct PlateFile {
+  std::filesystem::path path;
+  std::optional<ExrFile> exr;
+  std::optional<ImageFile> image;
+  std::vector<ExrPart> parts;
+
+  static PlateFile open(const std::filesystem::path& path, const Limits& limits);
+  void read(std::span<const ExrRequest> requests) const;
+};
+
+}  // namespace limpid

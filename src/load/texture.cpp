@@ -1,0 +1,93 @@
+#include "limpid/load/texture.h"
+
+#include <array>
+#include <string>
+
+#include "limpid/core/error.h"
+#include "limpid/load/sanitise.h"
+
+#include "load/environment.h"
+#include "load/plate_file.h"
+
+namespace limpid {
+namespace {
+
+/// `what` is said to need the channels, as in "a normal map".
+LoadedTexture rgb_of(const PlateFile& file, const std::string& what) {
+  const ExrPart& part = file.parts.front();
+  const auto name_of = [&](std::string_view letter, std::size_t position) -> std::string {
+    for (const ExrChannel& c : part.channels) {
+      if (c.name == letter) return c.name;
+    }
+    return file.image && position < part.channels.size() ? part.channels[position].name : "";
+  };
+  LoadedTexture loaded;
+  std::vector<ExrRequest> requests;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = name_of(std::array{"R", "G", "B"}[i], i);
+    if (name.empty()) {
+      throw Error(file.path.string() + ": " + what + " needs the channels R, G and B");
+    }
+    loaded.planes.emplace_back(part.data);
+    requests.push_back({0, name, loaded.planes.back().view(), 0});
+  }
+  file.read(requests);
+  for (std::size_t i = 0; i < 3; ++i) {
+    sanitise_color(loaded.planes[i].view());
+    loaded.texture.channels[i] = loaded.planes[i].view();
+  }
+  return loaded;
+}
+
+/// The layout that the shape of the picture tells, and the attribute `envmap` where there is one.
+EnvironmentLayout layout_of(const PlateFile& file) {
+  const Rect& data = file.parts.front().data;
+  const bool lat_long = data.width() == 2 * data.height(), cube = data.height() == 6 * data.width();
+  std::string said;
+  bool agrees = lat_long || cube;
+  if (file.exr) {
+    const auto attributes = file.exr->attributes(0);
+    const auto found = attributes.find("envmap");
+    if (found != attributes.end() && found->second.type == "envmap" &&
+        found->second.bytes.size() == 1) {
+      const bool says_cube = found->second.bytes[0] != 0;
+      said = std::string("an attribute envmap that says ") + (says_cube ? "cube" : "lat-long") +
+             " and ";
+      agrees = says_cube ? cube : lat_long;
+    }
+  }
+  if (!agrees) {
+    throw Error(file.path.string() + ": " + said + std::to_string(data.width()) + "x" +
+                std::to_string(data.height()) +
+                " pixels: expected a lat-long map, twice as wide as high, or the six faces of a "
+                "cube, one below the other");
+  }
+  return cube ? EnvironmentLayout::kCube : EnvironmentLayout::kLatLong;
+}
+
+void check_size(const PlateFile& file, Size size, const Limits& limits) {
+  const std::int64_t pixels = rect_of(size).area();
+  if (pixels <= limits.max_pixels && pixels * 12 <= limits.max_memory) return;
+  throw Error(file.path.string() + ": becomes a lat-long map of " + std::to_string(size.width) +
+              "x" + std::to_string(size.height) + " pixels, more than the limit");
+}
+
+}  // namespace
+
+LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits) {
+  return rgb_of(PlateFile::open(path, limits), "a normal map");
+}
+
+LoadedTexture load_environment(const std::filesystem::path& path, double rotation,
+                               const Limits& limits) {
+  const PlateFile file = PlateFile::open(path, limits);
+  const EnvironmentLayout layout = layout_of(file);
+  const int face = file.parts.front().data.width();
+  if (layout == EnvironmentLayout::kCube) check_size(file, lat_long_of_cube(face), limits);
+  LoadedTexture loaded = rgb_of(file, "an environment");
+  loaded.planes = environment_planes(loaded.planes, layout, rotation);
+  for (std::size_t i = 0; i < 3; ++i) loaded.texture.channels[i] = loaded.planes[i].view();
+  return loaded;
+}
+
+}  // namespace limpid

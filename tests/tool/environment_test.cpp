@@ -1,0 +1,65 @@
+#include <numbers>
+
+#include <gmock/gmock.h>
+
+#include "canvas.h"
+#include "tool/made_plate.h"
+#include "tool/tool.h"
+
+/// The surroundings that a scene names: there or refused, loaded when the plan looks them up.
+
+namespace limpid::test {
+namespace {
+
+class EnvironmentTest : public ToolTest {
+ protected:
+  void write_scene(const std::string& environment) const {
+    write_text("sky.toml", "[plates]\nenvironment = \"" + environment + "\"\n" + scene_toml());
+  }
+};
+
+TEST_F(EnvironmentTest, ThatIsNotThereIsRefusedByEveryVerb) {
+  write_scene("absent_sky.exr");
+  const Words parts = {"plates.environment: ", "absent_sky.exr: no such file"};
+  expect_no_composite({"plate.exr", "--scene", "sky.toml"}, parts);
+  expect_refused(limpid({"plan", "plate.exr", "--scene", "sky.toml"}), parts);
+  write_text("pool.toml", "[plates]\nenvironment = \"absent_sky.exr\"\n[geometry]\ngltf = \"" +
+                              std::string(LIMPID_DATA) + "/scenes/pool.gltf\"\n[water]\n");
+  expect_refused(limpid({"water", "pool.toml", "-n"}), parts);
+  expect_refused(limpid({"water", "pool.toml", "-o", "wet.exr"}), parts);
+  std::filesystem::create_directory(folder_ / "absent_sky.exr");
+  expect_refused(limpid({"plan", "plate.exr", "--scene", "sky.toml"}), parts);
+}
+
+TEST_F(EnvironmentTest, ThatNothingReadsChangesNothing) {
+  composed("wet.exr");
+  write_scene("waves.exr");  // no lat-long map, and not read
+  const Ran ran =
+      limpid({"composite", "plate.exr", "--scene", "sky.toml", "--look", "look.toml", "--set",
+              "fresnel_reflection.reflectance=schlick", "-o", "sky_wet.exr", "-q"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(same("sky_wet.exr", "wet.exr"));
+}
+
+TEST_F(EnvironmentTest, IsLoadedAndTurnedForAPlanThatReadsIt) {
+  ASSERT_EQ(oiiotool({"--pattern", "constant:color=0,0,0", "8x4", "3", "--point:color=5,6,7", "3,1",
+                      "-o", "sky.exr"})
+                .code,
+            0);
+  SceneFile scene;
+  EXPECT_FALSE(has_environment(scene));
+  scene.environment = folder_ / "sky.exr";
+  scene.environment_rotation = 0.25 * 2 * std::numbers::pi;
+  EXPECT_TRUE(has_environment(scene));
+  Plan plan;
+  EXPECT_FALSE(environment_of(plan, scene).texture);
+  plan.reads_environment = true;
+  const LoadedTexture sky = environment_of(plan, scene);
+  EXPECT_EQ(sky.texture.channels[0].window, (Rect{0, 0, 8, 4}));
+  EXPECT_EQ(sky.texture.channels[2].at(6, 1), 7);  // mirrored from 3 to 4, turned by two
+  EXPECT_EQ(sky.texture.channels[2].at(4, 1), 0);
+  EXPECT_THROW(environment_of(plan, scene, {.max_pixels = 31}), Error);
+}
+
+}  // namespace
+}  // namespace limpid::test
