@@ -20,9 +20,9 @@ LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limi
 
 /// The surroundings from a picture file of either layout, with channels as load_texture() reads
 /// them, as the lat-long map that Frame::environment is:
-/// - lat-long: twice as wide as high. The middle of the top row is straight up, and columns run to
-///   the right as one sees them from inside, that is clockwise from above: as all renderers have
-///   it. Texels are areas, the outermost columns meet in an edge.
+/// - lat-long: twice as wide as high. The top row is straight up, and columns run to the right as
+///   one sees them from inside, that is clockwise from above: as all renderers have it. Texels are
+///   areas, the outermost columns meet in an edge.
 /// - cube: six square faces one below the other, in the order and the orientation that OpenEXR's
 ///   ImfEnvmap.h draws, +Y being up and +Z where the middle of a lat-long map looks. Centres of
 ///   outermost texels lie on the cube's edges, as there. It is resampled (bilinear) to four times
