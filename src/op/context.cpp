@@ -47,6 +47,7 @@ Bounds bounds_of(const Frame& frame, PlaneSet planes) {
 
 Context::Context(const Scene& scene, const Frame& frame, double index, StateSet parts)
     : sun(scene.sun.value_or(Sun{})),
+      has_sun(scene.sun.has_value()),
       time(scene.time),
       ior(index),
       wave_map(frame.wave_map),

@@ -5,7 +5,7 @@ namespace {
 
 using P = WaterShadow::Params;
 
-constexpr std::string_view kModels[] = {"darken"};
+constexpr std::string_view kModels[] = {"darken", "scatter"};
 
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>("model", "What the shadow falls on."),

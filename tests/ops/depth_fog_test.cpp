@@ -1,5 +1,6 @@
 #include "limpid/ops/depth_fog.h"
 
+#include "ops/probe_strip.h"
 #include "ops/tray.h"
 
 namespace limpid {
@@ -91,6 +92,40 @@ TEST(DepthFog, NegativeOffsetFogsTheSurfaceItself) {
   tray.look.of<DepthFog>().density = 0;
   tray.look.of<DepthFog>().offset = -0.5;  // f = .5, veil = .45
   EXPECT_NEAR(tray.wet().aov(Aov::kTransmitted, 0, 0), 0.275, 1e-6);
+}
+
+TEST(DepthFog, LinearSaysWhatSurvives) {
+  const test::Picture got = shallow_tray().wet();
+  test::expect_rgb(rgb_of(got, Aov::kTransmittance, 1, 1), {0.73, 0.73, 0.73});
+}
+
+// The straight way is longer than the refracted one by this much on a flat bottom.
+TEST(DepthFog, RefractedDistanceOfAFlatBottom) {
+  const Tray tray({1, 1});
+  DepthFog::Params params;
+  const auto path = [&](DepthFog::Distance distance, StateSet made, double angle, double depth) {
+    test::ProbeStrip strip;
+    strip.pixels.push_back(test::random_pixel(0, {}));
+    Pixel<double>& p = strip.pixels[0];
+    p.to_viewer = {std::sin(angle), std::cos(angle), 0};
+    p.surface_depth = 3;
+    p.dry_depth = p.hit_depth = 3 + depth / std::cos(angle) / p.ray_length;
+    p.path = 0.7;
+    params.distance = distance;
+    DepthFog::apply(params, Context(tray.scene, tray.buffers.frame, 1.333, made), strip);
+    return p.path;
+  };
+  constexpr double kDegree = std::numbers::pi / 180;
+  using enum DepthFog::Distance;
+  for (auto [degrees, ratio] :
+       {std::pair{0, 1.0}, {30, 1.07}, {45, 1.20}, {60, 1.52}, {75, 2.66}}) {
+    const double angle = degrees * kDegree, straight = path(kRay, {}, angle, 2);
+    EXPECT_NEAR(straight, 2 / std::cos(angle), 1e-12);
+    EXPECT_NEAR(straight / path(kRefracted, {}, angle, 2), ratio, 0.005);
+    EXPECT_EQ(path(kRefracted, {StatePart::kPosition}, angle, 2), 0.7);  // as refraction found it
+  }
+  EXPECT_EQ(path(kRefracted, {}, 0.5, HUGE_VAL), HUGE_VAL);
+  EXPECT_EQ(path(kRefracted, {}, std::numbers::pi / 2, HUGE_VAL), HUGE_VAL);
 }
 
 }  // namespace

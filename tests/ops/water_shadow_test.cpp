@@ -75,5 +75,84 @@ TEST(WaterShadow, DarkensMoreWithStrengthAndNeverBrightens) {
   }
 }
 
+// --- scatter ------------------------------------------------------------------------------------
+
+/// Murky water 4 deep under an overhead sun, in part lit from all around, shadow on the left half.
+Tray half_shaded_murk() {
+  Tray tray = half_shaded();
+  tray.scene.sun = Sun{};
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  fog = {.model = DepthFog::Model::kBeerLambert, .absorption = {0, 0, 0}, .anisotropy = 0};
+  fog.scattering = {0.5, 0.5, 0.5};
+  fog.ambient = {0.25, 0.25, 0.25};
+  fog.sunlight = DepthFog::Sunlight::kNone;
+  tray.look.of<WaterShadow>() = {.model = WaterShadow::Model::kScatter, .strength = 1};
+  return tray;
+}
+
+// The sun's part and the ambient part are .25 (1 - e^-2) each; tau = 2 has 1/2 - 1/(e^2 - 1) of the
+// sun's at the far end.
+constexpr double kPart = 0.2161662;
+constexpr double kFar = 0.3434824;
+
+double in_scatter(const Tray& tray, int x) { return tray.wet().aov(Aov::kInScatter, x, 1); }
+
+TEST(WaterShadow, ScatterTakesTheSunsPartOnly) {
+  const Tray tray = half_shaded_murk();
+  EXPECT_NEAR(in_scatter(tray, 7), 2 * kPart, 1e-6);
+  EXPECT_NEAR(in_scatter(tray, 2), kPart, 1e-6);
+  const test::Picture got = tray.wet();
+  for (int x : {2, 7}) EXPECT_NEAR(got.aov(Aov::kTransmitted, x, 1), 0.5 * std::exp(-2.0), 1e-6);
+}
+
+TEST(WaterShadow, ScatterKnowsTheSurfaceFromTheBottom) {
+  Tray tray = half_shaded_murk();
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 1);
+  EXPECT_NEAR(in_scatter(tray, 2), kPart + (1 - kFar) * kPart, 1e-6);
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 0.25f);
+  EXPECT_NEAR(in_scatter(tray, 2), kPart + 0.25 * (1 - kFar) * kPart, 1e-6);
+  EXPECT_NEAR(in_scatter(tray, 7), kPart + (0.25 * (1 - kFar) + kFar) * kPart, 1e-6);
+  tray.look.of<WaterShadow>().strength = 0.5;
+  EXPECT_NEAR(in_scatter(tray, 7), kPart + (0.625 * (1 - kFar) + kFar) * kPart, 1e-6);
+}
+
+// As in IsLookedUpWhereTheRefractedRayEnds: from column 3 half way into the light. Where the view
+// enters the water it is in the shadow.
+TEST(WaterShadow, ScatterFollowsTheRefractedRay) {
+  Tray tray = half_shaded_murk();
+  tray.buffers.normal({0.6, 0.8, 0});
+  tray.look.of<Refraction>().strength = 0.25;
+  EXPECT_NEAR(in_scatter(tray, 3), kPart + 0.5 * kFar * kPart, 1e-5);
+  EXPECT_NEAR(in_scatter(tray, 4), kPart + kFar * kPart, 1e-5);
+}
+
+TEST(WaterShadow, ScatterIsNothingInClearWater) {
+  Tray tray = half_shaded_murk();
+  tray.look.of<DepthFog>().scattering = {0, 0, 0};
+  const test::Picture got = tray.wet();
+  test::expect_rgb(got.color(2, 1), got.color(7, 1), 0);
+  test::expect_rgb(got.color(2, 1), {0.5, 0.5, 0.5}, 1e-7);
+}
+
+TEST(WaterShadow, ScatterNeverGoesBelowBlack) {
+  Tray tray = half_shaded_murk();
+  tray.look.of<DepthFog>().ambient = {0, 0, 0};
+  tray.look.of<DepthFog>().scattering = {0.1, 0.7, 3};
+  const test::Picture got = tray.wet();
+  test::expect_rgb(rgb_of(got, Aov::kInScatter, 2, 1), {0, 0, 0});
+  for (int c = 0; c < 3; ++c) EXPECT_GE(got.aov(Aov::kInScatter, 2, 1, c), 0);
+}
+
+TEST(WaterShadow, ScatterIsDroppedWhereNoSunScatters) {
+  Tray tray = half_shaded_murk();
+  tray.look.of<DepthFog>().scattering = {0, 0, 0};
+  const Inputs inputs = test::inputs_of(tray.buffers.frame, tray.scene);
+  const auto verdict = [&] { return make_plan(tray.look, inputs).operators[4].verdict; };
+  EXPECT_EQ(make_plan(tray.look, inputs).operators[4].name, WaterShadow::kName);
+  EXPECT_EQ(verdict(), Verdict::kNeutral);
+  tray.look.of<DepthFog>().scattering = {0.5, 0.5, 0.5};
+  EXPECT_EQ(verdict(), Verdict::kKept);
+}
+
 }  // namespace
 }  // namespace limpid

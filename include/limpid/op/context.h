@@ -55,6 +55,7 @@ struct Context {
   glm::ivec2 size;                ///< of the display window
   glm::ivec2 corner;              ///< of the display window
   Sun sun;                        ///< operators that need one declare it
+  bool has_sun;                   ///< for those that do with or without
   double time;
   double ior;
   Texture wave_map, environment;

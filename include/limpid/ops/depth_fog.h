@@ -1,21 +1,48 @@
 #pragma once
 #include "limpid/op/operator.h"
 #include "limpid/optics/fog.h"
+#include "limpid/optics/refract.h"
+#include "limpid/optics/scattering.h"
+#include "limpid/optics/water_types.h"
 
 namespace limpid {
 
-/// Dims and tints what lies under the surface by the length of the way through the water.
+/// Dims what lies under the surface by the length d of the way through the water, and adds what the
+/// water itself sends to the viewer.
 ///
-/// The way, by `distance`: `eye` is the difference of eye depths between the hit and this pixel's
-/// surface, `ray` the same along the pixel's straight ray. Never below 0; +inf where the ray ends
-/// in the sky.
+/// d, by `distance`: `eye` is the difference of eye depths between the hit and this pixel's
+/// surface, `ray` the same along the pixel's straight ray, `refracted` the way that refraction
+/// found; without refraction that of a flat bottom, straight way * cos_i / cos_t. Never below 0,
+/// +inf where the ray ends in the sky. Views that begin in the water go straight, to the surface or
+/// to what stands before it, whatever `distance` says.
 ///
 /// `linear` ("Realistic Water"): f = 1 - sat(density d - offset), c = lerp(color, u, f), out =
 /// lerp(u, c, alpha). So transmitted keeps the share 1 - alpha (1 - f), and alpha (1 - f) color
-/// comes in.
+/// comes in. Not physical: no light, one number for all channels.
+///
+/// `beer_lambert`: with a `absorption`, b `scattering`, p Henyey-Greenstein's phase function, z the
+/// depth under the calm surface, E what the sun sends onto a surface that faces it (pi times its
+/// color, so that a white Lambert one shows that color), each per channel:
+///
+///   transmitted *= exp(-(a + b) d) exp(-K z / cos_sun) crossing
+///   in_scatter = b ambient integral of exp(-(a + b) s)
+///              + b p E' integral of exp(-(a + b) s) exp(-K z(s) / cos_sun), s = 0 ... d
+///
+/// K is the loss of light on its way down: that of the `water_type` if it has one, else a + b (1 -
+/// g), for what is scattered goes on forwards, mostly. By `sunlight` this way is not made (`none`:
+/// K = 0, E' = E), or made along the sun's straight ray (E' = E), or along its refracted one: E' =
+/// (1 - F) E cos_i / cos_t, what the surface lets in, in a wider beam. By `crossing` the change of
+/// radiance at the surface is made or not: (1 - F_sun) / n^2 for the bottom (0.0664 for F_sun when
+/// the sky alone lights it), 1 / n^2 for the sun's in-scatter; (1 - F) of the view is
+/// fresnel_reflection's. `ambient` is radiance as the viewer in the air sees it and loses nothing.
+/// A view that begins in the water crosses nothing, and what it sees through the surface from below
+/// is not lit through water. A sun at the horizon or under it counts as none. Light is scattered
+/// once: very murky water comes out too dark.
 struct DepthFog {
-  enum class Model { kLinear };
-  enum class Distance { kEye, kRay };
+  enum class Model { kLinear, kBeerLambert };
+  enum class Distance { kEye, kRay, kRefracted };
+  enum class Sunlight { kNone, kStraight, kRefracted };
+  enum class Crossing { kNone, kRadiance };
   struct Params {
     Model model = Model::kLinear;
     Distance distance = Distance::kEye;
@@ -23,34 +50,125 @@ struct DepthFog {
     double offset = 0;
     Rgb<double> color{0.02, 0.10, 0.12};
     double alpha = 0.9;
+    Rgb<double> absorption = kPureWaterAbsorption;
+    Rgb<double> scattering{0, 0, 0};
+    WaterType water_type = WaterType::kCustom;
+    double anisotropy = 0.92;  // 1.8 % is thrown back, as by Petzold's ocean water
+    Rgb<double> ambient{0, 0, 0};
+    Sunlight sunlight = Sunlight::kRefracted;
+    Crossing crossing = Crossing::kNone;
   };
 
   static constexpr std::string_view kName = "depth_fog";
   static constexpr std::string_view kAbout = "Dims and tints by the way through the water.";
-  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kTransmitted};
-  static constexpr StateSet kMakes{StatePart::kPath, StatePart::kTransmitted,
-                                   StatePart::kInScatter};
+  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted};
+  static constexpr StateSet kMakes{StatePart::kPath, StatePart::kTransmittance,
+                                   StatePart::kTransmitted, StatePart::kInScatter,
+                                   StatePart::kSunScatter};
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params&) { return {}; }
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
-  /// density 0 leaves every pixel as it is, unless a negative offset lifts the fog at distance 0.
-  static bool neutral(const Params& p, StateSet) {
-    return p.alpha == 0 || (p.density == 0 && p.offset >= 0);
+  static bool neutral(const Params& p, StateSet);
+
+  template <class Strip>
+  static void apply(const Params& params, const Context& c, Strip& strip) {
+    using F = typename Strip::Number;
+    strip.each([&](Pixel<F>& p) { p.path = way_length(params.distance, c, p); });
+    if (params.model == Model::kLinear) {
+      linear(params, strip);
+    } else {
+      beer_lambert(params, c, strip);
+    }
+  }
+
+ private:
+  /// What the pixels of a frame have in common.
+  struct Medium {
+    Rgb<double> rate;      ///< a + b
+    Rgb<double> down;      ///< K / cos_sun: what sunlight loses for each depth
+    Rgb<double> ambient;   ///< b ambient
+    Rgb<double> sun;       ///< b E'
+    glm::dvec3 to_sun;     ///< unit, in the water
+    double bottom, water;  ///< crossing, of the bottom's light and of the sun's in-scatter
+    bool glows, sunlit;    ///< whether there is in-scatter of each kind
+  };
+  static Medium medium_of(const Params& params, const Context& c);
+
+  template <class F>
+  static LIMPID_INLINE Rgb<F> rgb_of(const Rgb<double>& c) {
+    return {F(c.r), F(c.g), F(c.b)};
+  }
+
+  template <class F>
+  static LIMPID_INLINE F way_length(Distance distance, const Context& c, const Pixel<F>& p) {
+    F d = max(p.hit_depth - p.surface_depth, F(0));
+    if (distance != Distance::kEye) d = p.ray_length * d;
+    if (distance == Distance::kRefracted) {
+      const F cosine = max(abs(dot(p.to_viewer, vec3_of<F>(c.up))), F(1e-6));  // against inf * 0
+      d = c.made.has(StatePart::kPosition) ? p.path
+                                           : d * cosine / refracted_cosine(cosine, F(1 / c.ior));
+    }
+    if (!c.submersible) return d;
+    const F straight = p.ray_length * select(p.side < F(0), p.surface_depth, p.dry_depth);
+    return select(p.side > F(0), d, straight);
   }
 
   template <class Strip>
-  static void apply(const Params& params, const Context&, Strip& strip) {
+  static void linear(const Params& params, Strip& strip) {
     using F = typename Strip::Number;
     const F density(params.density), offset(params.offset), alpha(params.alpha);
-    const Rgb<F> color{F(params.color.r), F(params.color.g), F(params.color.b)};
-    const bool along_ray = params.distance == Distance::kRay;
+    const Rgb<F> color = rgb_of<F>(params.color);
     strip.each([&](Pixel<F>& p) {
-      const F depth_difference = max(p.hit_depth - p.surface_depth, F(0));
-      p.path = along_ray ? p.ray_length * depth_difference : depth_difference;
       const F veil = alpha * (F(1) - linear_fog(p.path, density, offset));
-      p.transmitted = (F(1) - veil) * p.transmitted;
+      const F clear = F(1) - veil;
+      p.transmittance = {clear, clear, clear};
+      p.transmitted = clear * p.transmitted;
       p.in_scatter = veil * color;
+    });
+  }
+
+  template <class Strip>
+  static void beer_lambert(const Params& params, const Context& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const Medium medium = medium_of(params, c);
+    const Rgb<F> rate = rgb_of<F>(medium.rate), down = rgb_of<F>(medium.down);
+    const Rgb<F> ambient = rgb_of<F>(medium.ambient), sun = rgb_of<F>(medium.sun);
+    const Vec3<F> up = vec3_of<F>(c.up), to_sun = vec3_of<F>(medium.to_sun);
+    const F eta(1 / c.ior), anisotropy(params.anisotropy), bottom(medium.bottom),
+        water(medium.water);
+    const F eye_depth(c.eye_above < 0 ? -c.eye_above : 0);
+    strip.each([&](Pixel<F>& p) {
+      // Of the view in the water: away from the viewer.
+      const auto from_air = p.side > F(0);
+      const Vec3<F> view =
+          select(from_air, refract(p.to_viewer, up, eta).direction, F(-1) * p.to_viewer);
+      const F length = min(p.path, F(3e38)), sink = F(0) - dot(view, up);
+      const F begin = select(from_air, F(0), eye_depth);
+      const Way<F> way{length, sink, begin, max(begin + sink * length, F(0))};
+
+      p.transmittance = transmittance(length, rate);
+      // What is above the surface, seen from below, is not lit through the water.
+      const F under = select(p.side < F(0), F(0), way.end);
+      const Rgb<F> lit = select(from_air, bottom, F(1)) * transmittance(under, down);
+      p.transmitted = lit * p.transmittance * p.transmitted;
+
+      p.in_scatter = p.sun_near = p.sun_far = {F(0), F(0), F(0)};
+      if (medium.glows) {
+        p.in_scatter = ambient * Rgb<F>{column_light(rate.r, length), column_light(rate.g, length),
+                                        column_light(rate.b, length)};
+      }
+      if (medium.sunlit) {
+        const F turned = henyey_greenstein(dot(to_sun, view), anisotropy);
+        const F seen = select(from_air, water, F(1)) * turned;
+        const SunColumn<F> red = sun_column(way, rate.r, down.r);
+        const SunColumn<F> green = sun_column(way, rate.g, down.g);
+        const SunColumn<F> blue = sun_column(way, rate.b, down.b);
+        const Rgb<F> light = seen * (sun * Rgb<F>{red.light, green.light, blue.light});
+        p.sun_far = light * Rgb<F>{red.far_share, green.far_share, blue.far_share};
+        p.sun_near = light - p.sun_far;
+        p.in_scatter = p.in_scatter + light;
+      }
     });
   }
 };
