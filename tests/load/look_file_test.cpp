@@ -97,6 +97,16 @@ TEST(LookFile, IntegersAreNumbers) {
   EXPECT_EQ(look.of<DepthFog>().color, (Rgb<double>{1, 0, 0.5}));
 }
 
+TEST(LookFile, WavesAreRowsWithOrWithoutOmega) {
+  const Look look = load_look(
+      written("waves.toml", "[wave_normals]\nwaves = [[0.05, 3, 4, 0], [0.1, 1, 0, -2, 5.5]]\n"));
+  const std::vector<SineWave>& waves = look.of<WaveNormals>().waves;
+  ASSERT_EQ(waves.size(), 2u);
+  EXPECT_EQ(waves[0].k_y, 4);
+  EXPECT_NEAR(waves[0].omega, 7.003571, 1e-6);  // sqrt(9.81 * 5)
+  EXPECT_EQ(waves[1].to_row(), (std::vector<double>{0.1, 1, 0, -2, 5.5}));
+}
+
 TEST(LookFile, MapIsRelativeToTheFile) {
   const auto map_of = [](const std::string& map) {
     const fs::path path = written("map.toml", "[wave_normals]\nmap = \"" + map + "\"\n");
@@ -146,6 +156,11 @@ TEST(LookFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[depth_fog]\ncolor = [1, 2, -3]\n", ":2:9: ", "= [1, 2, -3]: expected three numbers, each"},
       {"[depth_fog]\ncolor = [1, 2, \"x\"]\n", ":2:9: ", "expected three numbers [r, g, b]"},
       {"[wave_normals]\nmap = 3\n", ":2:7: ", "wave_normals.map = 3: expected a text"},
+      {"[wave_normals]\nwaves = 3\n", ":2:9: ", "= 3: expected a list of [amplitude, k_x, k_y,"},
+      {"[wave_normals]\nwaves = [1, 2, 3, 4]\n", ":2:9: ", "expected a list of [amplitude,"},
+      {"[wave_normals]\nwaves = [[1, 2, 3, \"4\"]]\n", ":2:9: ", "expected a list of [amplitude"},
+      {"[wave_normals]\nwaves = [[1, 2, 3]]\n", ":2:9: ", "wave_normals.waves = [[1, 2, 3]]: exp"},
+      {"[wave_normals]\nwaves = [[1, 2, 3, nan]]\n", ":2:9: ", "each number -1000000 ... 1000000"},
       {"refraction = 3\n", ":1:14: ", "refraction = 3: expected a table"},
       {"[[refraction]]\nstrength = 1\n", ":1:", "refraction = a list of 1: expected a table"},
       {"[refraction]\nstrength = 1\nstrength = 2\n", ":3:", "strength"},
@@ -230,6 +245,11 @@ TEST(ApplySetting, TakesNumbersColorsWordsAndTexts) {
   EXPECT_EQ(look.of<Refraction>().rejection, Refraction::Rejection::kNone);
   apply_setting(look, "refraction.rejection=\"snap\"");
   EXPECT_EQ(look.of<Refraction>().rejection, Refraction::Rejection::kSnap);
+  apply_setting(look, "wave_normals.waves=[[0.05,1,0,0,2], [0.1, 0, 2, 1, 3]]");
+  ASSERT_EQ(look.of<WaveNormals>().waves.size(), 2u);
+  EXPECT_EQ(look.of<WaveNormals>().waves[1].to_row(), (std::vector<double>{0.1, 0, 2, 1, 3}));
+  apply_setting(look, "wave_normals.waves=[]");
+  EXPECT_TRUE(look.of<WaveNormals>().waves.empty());
   apply_setting(look, "wave_normals.map=/maps/a=b.png");
   EXPECT_EQ(look.of<WaveNormals>().map, "/maps/a=b.png");
   apply_setting(look, "wave_normals.map=waves.png");
@@ -255,6 +275,12 @@ TEST(ApplySetting, ErrorsSayWhatWasExpectedAndLeaveTheLookAlone) {
       {"refraction.rejection=1", "refraction.rejection = 1: expected one of none, snap"},
       {"refraction.rejection=snp", "did you mean 'snap'?"},
       {"depth_fog.color=1", "depth_fog.color = 1: expected three numbers [r, g, b]"},
+      {"wave_normals.waves=", "wave_normals.waves = : expected a list of [amplitude, k_x, k_y, ph"},
+      {"wave_normals.waves=[1,2,3,4]", "expected a list of [amplitude, k_x, k_y, phase] or ["},
+      {"wave_normals.waves=[[1,2,3,4]", "expected a list of [amplitude, k_x, k_y, phase] or ["},
+      {"wave_normals.waves=[[1,2,3]]", "wave_normals.waves = [[1, 2, 3]]: expected a list of"},
+      {"wave_normals.waves=[]\nx=1", "expected a list of [amplitude, k_x, k_y, phase] or ["},
+      {"wave_normals.waves=[[1,2,3,inf]]", "inf]]: expected a list of"},
       {"depth_fog.color=[1,2]", "expected three numbers"},
       {"depth_fog.color=[1,2,3,4]", "expected three numbers"},
       {"depth_fog.color=[1,2,]", "expected three numbers"},
