@@ -175,17 +175,28 @@ inline Inputs inputs_of(const Frame& frame, const Scene& scene) {
           static_cast<bool>(frame.environment)};
 }
 
+/// Pure water, the light's way down and the surface left out: fog by one thing at a time.
+inline DepthFog::Params plain_fog(DepthFog::Model model) {
+  DepthFog::Params fog;
+  fog.model = model;
+  fog.distance = DepthFog::Distance::kEye;
+  fog.water_type = WaterType::kCustom;
+  fog.scattering = fog.ambient = {0, 0, 0};
+  fog.crossing = DepthFog::Crossing::kNone;
+  return fog;
+}
+
 /// A look in which every operator is neutral or absent but those set afterwards.
 inline Look still_look() {
   Look look;
+  look.of<WaveNormals>().model = WaveNormals::Model::kFourMaps;
   look.of<PrismSplit>().model = PrismSplit::Model::kAxis;
   look.of<PrismSplit>().strength = 0;
   look.of<Refraction>().model = Refraction::Model::kNormalOffset;
   look.of<Refraction>().rejection = Refraction::Rejection::kSnap;
   look.of<Refraction>().off_frame = Refraction::OffFrame::kClamp;
   look.of<Refraction>().strength = 0;
-  look.of<DepthFog>().model = DepthFog::Model::kLinear;
-  look.of<DepthFog>().distance = DepthFog::Distance::kEye;
+  look.of<DepthFog>() = plain_fog(DepthFog::Model::kLinear);
   look.of<DepthFog>().alpha = 0;
   look.of<WaterShadow>().model = WaterShadow::Model::kDarken;
   look.of<WaterShadow>().strength = 0;

@@ -25,7 +25,7 @@ constexpr double kN = 1.333;
 Tray clear_tray() {
   Tray tray({3, 2});
   tray.buffers.fill(PlaneId::kDepth, 12);
-  tray.look.of<DepthFog>() = {.model = DepthFog::Model::kBeerLambert};
+  tray.look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kBeerLambert);
   return tray;
 }
 
@@ -325,12 +325,13 @@ Pixel<double> fogged(const DepthFog::Params& params, const Scene& scene, StateSe
 }
 
 DepthFog::Params params_of(const Textbook& t) {
-  return {.model = DepthFog::Model::kBeerLambert,
-          .distance = Distance::kRefracted,
-          .absorption = {t.a, t.a, t.a},
-          .scattering = {t.b, t.b, t.b},
-          .anisotropy = t.g,
-          .sunlight = t.sunlight};
+  DepthFog::Params fog = test::plain_fog(DepthFog::Model::kBeerLambert);
+  fog.distance = Distance::kRefracted;
+  fog.absorption = {t.a, t.a, t.a};
+  fog.scattering = {t.b, t.b, t.b};
+  fog.anisotropy = t.g;
+  fog.sunlight = t.sunlight;
+  return fog;
 }
 
 template <class Fn>

@@ -12,7 +12,7 @@ using test::Tray;
 Tray shallow_tray() {
   Tray tray({3, 2});
   tray.buffers.fill(PlaneId::kDepth, 12);
-  tray.look.of<DepthFog>() = {};
+  tray.look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kLinear);
   return tray;
 }
 
@@ -28,7 +28,7 @@ TEST(DepthFog, HandWorkedPixel) {
 TEST(DepthFog, IsTheArticlesTwoBlends) {
   const Size size{40, 30};
   test::Noise noise(size);
-  noise.look.of<DepthFog>() = {};
+  noise.look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kLinear);
   noise.look.of<DepthFog>().offset = 0.1;
   const test::Picture got = noise.wet();
   each_wet(got, size, [&](int x, int y) {
@@ -102,7 +102,7 @@ TEST(DepthFog, LinearSaysWhatSurvives) {
 // The straight way is longer than the refracted one by this much on a flat bottom.
 TEST(DepthFog, RefractedDistanceOfAFlatBottom) {
   const Tray tray({1, 1});
-  DepthFog::Params params;
+  DepthFog::Params params = test::plain_fog(DepthFog::Model::kLinear);
   const auto path = [&](DepthFog::Distance distance, StateSet made, double angle, double depth) {
     test::ProbeStrip strip;
     strip.pixels.push_back(test::random_pixel(0, {}));

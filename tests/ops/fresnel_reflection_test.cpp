@@ -88,7 +88,7 @@ TEST(FresnelReflection, LookupFollowsTheTilt) {
 // All that comes from below the surface is dimmed by 1 - F, the light of the water too.
 TEST(FresnelReflection, DimsTheFogAsItDimsTheBottom) {
   Tray tray = mirror_tray(kSixtyDegrees);
-  tray.look.of<DepthFog>() = {};
+  tray.look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kLinear);
   const test::Picture mirrored = tray.wet();
   for (int c = 0; c < 3; ++c) tray.buffers.frame.planes[index_of(PlaneId::kReflectionR) + c] = {};
   const test::Picture plain = tray.wet();

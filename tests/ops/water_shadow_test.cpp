@@ -36,7 +36,7 @@ TEST(WaterShadow, FullStrengthIsBlack) {
 
 TEST(WaterShadow, FallsOnTheFogToo) {
   Tray tray = half_shaded();
-  tray.look.of<DepthFog>() = {};
+  tray.look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kLinear);
   const test::Picture got = tray.wet();
   for (Aov term : {Aov::kTransmitted, Aov::kInScatter}) {
     EXPECT_GT(got.aov(term, 7, 1), 0);

@@ -96,7 +96,8 @@ class Fixture {
 
 Look realistic_look() {
   Look look;
-  look.of<Refraction>() = {Refraction::Model::kNormalOffset, 0.03, Refraction::Rejection::kSnap};
+  look.of<Refraction>() = {Refraction::Model::kNormalOffset, 0.03, Refraction::Rejection::kSnap, 0,
+                           Refraction::OffFrame::kClamp};
   look.of<PrismSplit>() = {PrismSplit::Model::kAxis, 0.004};
   look.of<DepthFog>() = {
       DepthFog::Model::kLinear, DepthFog::Distance::kEye, 0.15, 0, {0.02, 0.10, 0.12}, 0.9};

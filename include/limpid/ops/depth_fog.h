@@ -44,19 +44,19 @@ struct DepthFog {
   enum class Sunlight { kNone, kStraight, kRefracted };
   enum class Crossing { kNone, kRadiance };
   struct Params {
-    Model model = Model::kLinear;
-    Distance distance = Distance::kEye;
+    Model model = Model::kBeerLambert;
+    Distance distance = Distance::kRefracted;
     double density = 0.15;
     double offset = 0;
     Rgb<double> color{0.02, 0.10, 0.12};
     double alpha = 0.9;
     Rgb<double> absorption = kPureWaterAbsorption;
-    Rgb<double> scattering{0, 0, 0};
-    WaterType water_type = WaterType::kCustom;
+    Rgb<double> scattering{0.10, 0.12, 0.14};
+    WaterType water_type = WaterType::kJerlovII;
     double anisotropy = 0.92;  // 1.8 % is thrown back, as by Petzold's ocean water
-    Rgb<double> ambient{0, 0, 0};
+    Rgb<double> ambient{0.1, 0.1, 0.1};
     Sunlight sunlight = Sunlight::kRefracted;
-    Crossing crossing = Crossing::kNone;
+    Crossing crossing = Crossing::kRadiance;
   };
 
   static constexpr std::string_view kName = "depth_fog";

@@ -255,8 +255,10 @@ struct Refraction {
       last_drop = select(hit, drop, last_drop);
     }
     const auto seen = found > F(0.5);
+    // The depth plane is a staircase; the level between its texels is smooth. On walls it says nothing.
     const F met = ray.at_share(after, most);
-    const F way = select(seen, to_level(c, planes, p, tap, ray, fall, met),
+    const F smooth = to_level(c, planes, p, tap, ray, fall, met);
+    const F way = select(seen, min(max(smooth, F(0.98) * met), F(1.02) * met),
                          select(lost > F(0.5), last_drop / fall, max(last_drop / fall, most)));
     return {select(way < F(1e20), way, F(HUGE_VAL)), found};
   }

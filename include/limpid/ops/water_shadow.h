@@ -17,8 +17,8 @@ namespace limpid {
 struct WaterShadow {
   enum class Model { kDarken, kScatter };
   struct Params {
-    Model model = Model::kDarken;
-    double strength = 0.5;
+    Model model = Model::kScatter;
+    double strength = 1;
   };
 
   static constexpr std::string_view kName = "water_shadow";

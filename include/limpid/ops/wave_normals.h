@@ -37,7 +37,7 @@ namespace limpid {
 struct WaveNormals {
   enum class Model { kFourMaps, kTwoFlows, kDudv, kSines, kSlopes, kPlate };
   struct Params {
-    Model model = Model::kFourMaps;
+    Model model = Model::kSlopes;
     double strength = 0.5;
     double tile_size = 4;
     double speed = 0.3;
