@@ -32,11 +32,13 @@ double near_depth(const Camera& camera) {
 }
 
 Bounds bounds_of(const Frame& frame, PlaneSet planes) {
-  Rect window = frame.plane(PlaneId::kColorR).window;
+  Rect window;
   for (int i = 0; i < kPlaneCount; ++i) {
     const PlaneId id = static_cast<PlaneId>(i);
-    if (planes.has(id) && frame.plane(id)) window = intersection(window, frame.plane(id).window);
+    if (!planes.has(id) || !frame.plane(id)) continue;
+    window = window.empty() ? frame.plane(id).window : intersection(window, frame.plane(id).window);
   }
+  if (window.empty()) window = frame.display;
   const glm::dvec2 corner(frame.display.x0, frame.display.y0);
   const glm::dvec2 size(frame.display.width(), frame.display.height());
   return {(glm::dvec2(window.x0, window.y0) + 0.5 - corner) / size,

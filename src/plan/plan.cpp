@@ -38,6 +38,15 @@ void drop(PlannedOperator& op, Verdict verdict, std::string reason) {
   op.reason = std::move(reason);
 }
 
+template <class Wanted>
+PlannedOperator& planned(Plan& plan) {
+  PlannedOperator* found = nullptr;
+  Chain::for_each([&]<class Op, int I>() {
+    if constexpr (std::is_same_v<Op, Wanted>) found = &plan.operators[I];
+  });
+  return *found;
+}
+
 // The rules. Each looks at the whole plan, changes it, and leaves its reason with the operator.
 
 /// Normals that came with the plate are better than any that could be made up.
@@ -46,11 +55,16 @@ void take_plate_normals(Plan& plan, const Inputs& inputs, StateSet) {
   WaveNormals::Params& params = plan.look.of<WaveNormals>();
   if (params.model == WaveNormals::Model::kPlate) return;
   params.model = WaveNormals::Model::kPlate;
-  Chain::for_each([&]<class Op, int I>() {
-    if constexpr (std::is_same_v<Op, WaveNormals>) {
-      plan.operators[I].reason = "model plate: the frame has surface normals";
-    }
-  });
+  planned<WaveNormals>(plan).reason = "model plate: the frame has surface normals";
+}
+
+/// A picture of the surroundings is the next best mirror.
+void take_other_reflection(Plan& plan, const Inputs& inputs, StateSet) {
+  FresnelReflection::Params& params = plan.look.of<FresnelReflection>();
+  if (params.source != FresnelReflection::Source::kPlanar || !inputs.environment) return;
+  if (inputs.planes.covers(kReflectionPlanes)) return;
+  params.source = FresnelReflection::Source::kEnvironment;
+  planned<FresnelReflection>(plan).reason = "source environment: the frame has no reflection";
 }
 
 void drop_absent_input(Plan& plan, const Inputs& inputs, StateSet) {
@@ -98,8 +112,20 @@ void drop_unread(Plan& plan, const Inputs&, StateSet outputs) {
   }
 }
 
+/// What the mirror did not see comes from the surroundings, where there is a picture of them.
+void fill_reflection(Plan& plan, const Inputs& inputs, StateSet) {
+  const PlannedOperator& mirror = planned<FresnelReflection>(plan);
+  const bool planar =
+      plan.look.of<FresnelReflection>().source == FresnelReflection::Source::kPlanar;
+  if (mirror.verdict != Verdict::kKept || !planar || !inputs.environment) return;
+  if (!inputs.planes.has(PlaneId::kReflectionValid)) return;
+  plan.reads_environment = true;
+  planned<FresnelReflection>(plan).reason = "environment where the reflection is not valid";
+}
+
 using Rule = void (*)(Plan&, const Inputs&, StateSet outputs);
-constexpr Rule kRules[] = {take_plate_normals, drop_absent_input, drop_neutral, drop_unread};
+constexpr Rule kRules[] = {take_plate_normals, take_other_reflection, drop_absent_input,
+                           drop_neutral,       drop_unread,           fill_reflection};
 
 }  // namespace
 

@@ -63,7 +63,8 @@ void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const T
     throw Error("tile of " + std::to_string(tile.width) + "x" + std::to_string(tile.height) +
                 " pixels: expected at least 1x1");
   }
-  const Context context(scene, frame, plan.look.water.ior, plan.made);
+  Context context(scene, frame, plan.look.water.ior, plan.made);
+  if (!plan.reads_environment) context.environment = {};  // nobody has checked it
   FusedJob job{plan, frame, context, target, {}, {}, {}};
   for (int i = 0; i < Chain::kCount; ++i) job.keeps[i] = plan.keeps(i);
   for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));

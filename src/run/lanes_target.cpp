@@ -29,6 +29,16 @@ LIMPID_LANES_INLINE Source source_of(const FusedJob& job, PlaneId plane) {
           job.missing[index_of(plane)]};
 }
 
+/// A channel of a texture, with its corner at (0, 0).
+LIMPID_LANES_INLINE Source source_of(const Texture& texture, int channel) {
+  const View<const float>& view = texture.channels[channel];
+  return {view.data,
+          static_cast<int>(view.x_stride),
+          static_cast<int>(view.y_stride),
+          {0, 0, view.window.width(), view.window.height()},
+          0};
+}
+
 LIMPID_LANES_INLINE VI clamp(VI x, int low, int high) {
   return hn::Min(hn::Max(x, hn::Set(kDI, low)), hn::Set(kDI, high));
 }
@@ -129,17 +139,9 @@ class FusedStrip {
 
   template <class Where, class Into>
   LIMPID_LANES_INLINE void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
-    const auto channel = [&](int c) {
-      const View<const float>& view = texture.channels[c];
-      return Source{view.data,
-                    static_cast<int>(view.x_stride),
-                    static_cast<int>(view.y_stride),
-                    {0, 0, view.window.width(), view.window.height()},
-                    0};
-    };
-    const Source r = channel(0), g = channel(1), b = channel(2);
+    const Source r = source_of(texture, 0), g = source_of(texture, 1), b = source_of(texture, 2);
     for (int v = 0; v < vectors_; ++v) {
-      const WrappedTaps taps(r.window.width(), r.window.height(), where(pixels_[v]));
+      const WrappedTaps taps(r.window.width(), r.window.height(), where(pixels_[v]), true);
       into(pixels_[v], Rgb<Lane>{taps.sample(r), taps.sample(g), taps.sample(b)});
     }
   }
@@ -172,6 +174,11 @@ class FusedStrip {
       const VI y = clamp(k & 2 ? q.y1 : q.y0, window.y0, window.y1 - 1);
       return {Lane(hn::ConvertTo(kD, hn::Sub(x, strip.column(vector)))) / Lane(strip.width_),
               Lane(hn::ConvertTo(kD, hn::Sub(y, hn::Set(kDI, strip.y_)))) / Lane(strip.height_)};
+    }
+    LIMPID_LANES_INLINE Rgb<Lane> lat_long_rgb(const Texture& map, Vec2<Lane> at) const {
+      const Source r = source_of(map, 0), g = source_of(map, 1), b = source_of(map, 2);
+      const WrappedTaps taps(r.window.width(), r.window.height(), at, false);
+      return {taps.sample(r), taps.sample(g), taps.sample(b)};
     }
   };
 
@@ -223,21 +230,24 @@ class FusedStrip {
     LIMPID_LANES_INLINE Lane sample(const Source& s) const { return sample(s, corners(s)); }
   };
 
-  /// The same on a texture that repeats; positions in periods.
+  /// The same on a texture that repeats; positions in periods. Or that repeats in x alone:
+  /// positions in y are 0 ... 1 then, and taps end at its edges.
   struct WrappedTaps {
     VI x0, x1, y0, y1;
     Lane u, v;
 
-    LIMPID_LANES_INLINE WrappedTaps(int width, int height, Vec2<Lane> periods) {
+    LIMPID_LANES_INLINE WrappedTaps(int width, int height, Vec2<Lane> periods, bool both) {
       const Lane x = fraction(periods.x) * Lane(width) - Lane(0.5);
-      const Lane y = fraction(periods.y) * Lane(height) - Lane(0.5);
+      const Lane y = (both ? fraction(periods.y) : periods.y) * Lane(height) - Lane(0.5);
       const Lane whole_x = floor(x), whole_y = floor(y);
       u = x - whole_x;
       v = y - whole_y;
       x0 = wrapped(hn::ConvertTo(kDI, whole_x.v), width);
-      y0 = wrapped(hn::ConvertTo(kDI, whole_y.v), height);
+      y0 = hn::ConvertTo(kDI, whole_y.v);
       x1 = wrapped(hn::Add(x0, hn::Set(kDI, 1)), width);
-      y1 = wrapped(hn::Add(y0, hn::Set(kDI, 1)), height);
+      y1 = hn::Add(y0, hn::Set(kDI, 1));
+      y0 = both ? wrapped(y0, height) : clamp(y0, 0, height - 1);
+      y1 = both ? wrapped(y1, height) : clamp(y1, 0, height - 1);
     }
 
     /// 0 for an infinite position, so that every tap lies in the texture.

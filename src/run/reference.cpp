@@ -102,6 +102,10 @@ class ReferenceStrip {
       return {double(column - x) / strip.display_.width(),
               double(row - strip.y_) / strip.display_.height()};
     }
+    Rgb<double> lat_long_rgb(const Texture& map, Vec2<double> at) const {
+      return {lat_long_at(map.channels[0], at), lat_long_at(map.channels[1], at),
+              lat_long_at(map.channels[2], at)};
+    }
   };
 
   template <class Fn>
@@ -147,6 +151,19 @@ class ReferenceStrip {
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto at = [&](int i, int j) -> double {
       return view.at(view.window.x0 + (i + width) % width, view.window.y0 + (j + height) % height);
+    };
+    const double u = x - x0, v = y - y0;
+    return lerp(lerp(at(x0, y0), at(x0 + 1, y0), u), lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), u),
+                v);
+  }
+
+  static double lat_long_at(const View<const float>& view, Vec2<double> place) {
+    const int width = view.window.width(), height = view.window.height();
+    const double x = (place.x - std::floor(place.x)) * width - 0.5, y = place.y * height - 0.5;
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    const auto at = [&](int i, int j) -> double {
+      return view.at(view.window.x0 + (i + width) % width,
+                     view.window.y0 + std::clamp(j, 0, height - 1));
     };
     const double u = x - x0, v = y - y0;
     return lerp(lerp(at(x0, y0), at(x0 + 1, y0), u), lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), u),
@@ -220,7 +237,8 @@ void write_dry(const Frame& frame, const Pixel<double>& p, int x, int y, const T
 
 void run_reference(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target) {
   check_run(plan, frame, scene, target);
-  const Context context(scene, frame, plan.look.water.ior, plan.made);
+  Context context(scene, frame, plan.look.water.ior, plan.made);
+  if (!plan.reads_environment) context.environment = {};  // nobody has checked it
   const Rect work = frame.work();
   ReferenceStrip strip(frame, work);
   std::vector<char> wet(work.width());

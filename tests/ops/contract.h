@@ -115,8 +115,10 @@ struct World {
   explicit World(bool plate_normals = true)
       : buffers(noisy_frame(rect_of(kContractSize))),
         map(16, 8),
+        sky(12, 6),
         scene(simple_scene(kContractSize)) {
     buffers.frame.wave_map = map.texture;
+    buffers.frame.environment = sky.texture;
     if (!plate_normals) {
       for (int c = 0; c < 3; ++c) {
         buffers.frame.planes[index_of(PlaneId::kSurfaceNormalX) + c] = {};
@@ -125,7 +127,7 @@ struct World {
     scene.time = 3.7;
   }
   Buffers buffers;
-  NoiseMap map;
+  NoiseMap map, sky;
   Scene scene;
 };
 

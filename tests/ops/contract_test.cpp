@@ -30,9 +30,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Context probe_context(StateSet made) {
   static const Buffers buffers = test::noisy_frame(rect_of(test::kContractSize));
-  static const test::NoiseMap map(16, 8);
+  static const test::NoiseMap map(16, 8), sky(12, 6);
   Frame frame = buffers.frame;
   frame.wave_map = map.texture;
+  frame.environment = sky.texture;
   Scene scene = test::simple_scene(test::kContractSize);
   scene.time = 3.7;
   return Context(scene, frame, 1.333, made);
@@ -212,6 +213,8 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
       EXPECT_TRUE(Op::reads(params).covers(strip.tapped)) << what;
       EXPECT_TRUE(strip.tapped.covers(Op::reads(params))) << what << " declares more than it taps";
       EXPECT_EQ(Op::needs(params).wave_map, strip.map_tapped) << what;
+      // It may stand in for what a plane lacks, too.
+      EXPECT_TRUE(strip.environment_tapped || !Op::needs(params).environment) << what;
     });
   });
 }

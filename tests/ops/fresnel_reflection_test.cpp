@@ -1,5 +1,8 @@
 #include "limpid/ops/fresnel_reflection.h"
 
+#include <utility>
+
+#include "ops/probe_strip.h"
 #include "ops/tray.h"
 
 namespace limpid {
@@ -13,8 +16,34 @@ Tray mirror_tray(Vec3<double> normal = {0, 1, 0}) {
   Tray tray({10, 10});
   for (int c = 0; c < 3; ++c) tray.buffers.fill(plane_after(PlaneId::kReflectionR, c), 2);
   tray.buffers.normal(normal);
+  tray.look.of<FresnelReflection>().lookup = FresnelReflection::Lookup::kOffset;
   return tray;
 }
+
+/// One pixel that looks along its axis, so many degrees from straight down (from straight up with
+/// the camera below the surface), into white light through the surface and white light in it.
+struct Glance {
+  Glance(double degrees, double height) : buffers(rect_of({1, 1})) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const glm::dvec3 eye(0, height, 0);
+    const glm::dvec3 along(std::sin(angle), height > 0 ? -std::cos(angle) : std::cos(angle), 0);
+    Camera camera;
+    camera.view = glm::lookAt(eye, eye + along, glm::dvec3(0, 0, 1));
+    camera.projection = perspective(0.01, 1, 0.1, 1e3, ClipSpace::kGl);
+    scene.camera = camera;
+    scene.water = WaterPlane{};
+    for (int c = 0; c < 3; ++c) buffers.fill(plane_after(PlaneId::kColorR, c), 1);
+    buffers.fill(PlaneId::kDepth, 900);
+    look.of<FresnelReflection>().source = FresnelReflection::Source::kConstant;
+    look.of<FresnelReflection>().color = {1, 1, 1};
+  }
+  test::Picture wet() const { return test::reference(look, buffers.frame, scene); }
+  double fresnel() const { return wet().aov(Aov::kFresnel, 0, 0); }
+
+  test::Buffers buffers;
+  Scene scene;
+  Look look = test::still_look();
+};
 
 const Vec3<double> kSixtyDegrees{std::sqrt(0.75), 0.5, 0};
 
@@ -33,12 +62,31 @@ TEST(FresnelReflection, ModelsAtSixtyDegrees) {
     double value;
   };
   for (const Row& row : {Row{Reflectance::kExact, .0597}, Row{Reflectance::kSchlick, .0510},
-                         Row{Reflectance::kRim, .1250}}) {
+                         Row{Reflectance::kRim, .1250}, Row{Reflectance::kInversePower, .8750},
+                         Row{Reflectance::kLinear, 0}}) {
     Tray tray = mirror_tray(kSixtyDegrees);
     tray.look.of<FresnelReflection>().reflectance = row.model;
     const test::Picture got = tray.wet();
     EXPECT_NEAR(got.aov(Aov::kFresnel, 4, 4), row.value, 5e-5);
     EXPECT_NEAR(got.color(4, 4).r, lerp(0.5, 2.0, row.value), 2e-4);
+  }
+}
+
+// 1 - .5 (cos 60)^2 of the normal; 1 - cos 60 of the calm surface, whatever the normal.
+TEST(FresnelReflection, ParametersOfTheArticles) {
+  Tray tray = mirror_tray(kSixtyDegrees);
+  FresnelReflection::Params& params = tray.look.of<FresnelReflection>();
+  params.reflectance = Reflectance::kInversePower;
+  params.intensity = 0.5;
+  params.power = 2;
+  EXPECT_NEAR(tray.wet().aov(Aov::kFresnel, 4, 4), .875, 1e-6);
+  params.intensity = 100;
+  EXPECT_EQ(tray.wet().aov(Aov::kFresnel, 4, 4), 0);
+  for (const Vec3<double>& normal : {Vec3<double>{0, 1, 0}, kSixtyDegrees}) {
+    Glance glance(60, 3);
+    glance.buffers.normal(normal);
+    glance.look.of<FresnelReflection>().reflectance = Reflectance::kLinear;
+    EXPECT_NEAR(glance.fresnel(), 0.5, 1e-6);
   }
 }
 
@@ -105,6 +153,8 @@ TEST(FresnelReflection, IsABlend) {
     noise.buffers.set(plane_after(PlaneId::kReflectionR, c),
                       [=](int x, int y) { return 3 * test::noise(x, y, 70 + c); });
   }
+  noise.buffers.fill(PlaneId::kReflectionValid, 1);
+  noise.look.of<FresnelReflection>().lookup = FresnelReflection::Lookup::kOffset;
   noise.look.of<FresnelReflection>().strength = 0;
   const test::Picture got = noise.wet();
   each_wet(got, size, [&](int x, int y) {
@@ -113,8 +163,96 @@ TEST(FresnelReflection, IsABlend) {
     EXPECT_LE(f, 1);
     const double under = noise.buffers.frame.plane(PlaneId::kColorB).at(x, y);
     const double mirrored = noise.buffers.frame.plane(PlaneId::kReflectionB).at(x, y);
+    EXPECT_NEAR(got.aov(Aov::kTransmitted, x, y, 2), (1 - f) * under, 1e-6);
+    EXPECT_NEAR(got.aov(Aov::kReflected, x, y, 2), f * mirrored, 1e-6);
     EXPECT_NEAR(got.color(x, y).b, lerp(under, mirrored, f), 1e-6);
   });
+}
+
+// White below and white around: the surface is not to be seen.
+TEST(FresnelReflection, WhiteFurnace) {
+  const Size size{40, 30};
+  test::Noise noise(size);
+  for (int c = 0; c < 3; ++c) noise.buffers.fill(plane_after(PlaneId::kColorR, c), 1);
+  const float one = 1;
+  for (View<const float>& view : noise.buffers.frame.environment.channels)
+    view = {&one, 0, 0, {0, 0, 8, 4}};
+  FresnelReflection::Params& params = noise.look.of<FresnelReflection>();
+  params.source = FresnelReflection::Source::kEnvironment;
+  for (Reflectance model : {Reflectance::kRim, Reflectance::kLinear, Reflectance::kInversePower,
+                            Reflectance::kSchlick, Reflectance::kExact}) {
+    params.reflectance = model;
+    const test::Picture exact = noise.wet();
+    const test::Picture fast = test::fused(noise.look, noise.buffers.frame, noise.scene);
+    each_wet(exact, size, [&](int x, int y) {
+      const double f = exact.aov(Aov::kFresnel, x, y);
+      EXPECT_TRUE(f >= 0 && f <= 1) << f;
+      test::expect_rgb(exact.color(x, y), {1, 1, 1}, 1e-7);
+      test::expect_rgb(fast.color(x, y), {1, 1, 1}, 3e-7);
+    });
+  }
+}
+
+// --- from below ---------------------------------------------------------------------------------
+
+// sin t = 1.333 / 2; s: ((1.333 cos 30 - cos t) / (1.333 cos 30 + cos t))^2 = .04632, p: .00472.
+TEST(FresnelReflection, ExactFromBelowWhateverTheModel) {
+  for (Reflectance model : {Reflectance::kRim, Reflectance::kLinear, Reflectance::kInversePower,
+                            Reflectance::kSchlick, Reflectance::kExact}) {
+    for (const auto& [degrees, expected] : {std::pair{30., .02552}, {48.7, 1.}, {80., 1.}}) {
+      Glance glance(degrees, -2);
+      glance.look.of<FresnelReflection>().reflectance = model;
+      EXPECT_NEAR(glance.fresnel(), expected, 1e-5) << degrees;
+    }
+  }
+  EXPECT_LT(Glance(48.5, -2).fresnel(), 0.8);
+}
+
+TEST(FresnelReflection, SameFromBothSidesAlongOnePath) {
+  for (double above : {0.0, 20.0, 45.0, 60.0, 80.0}) {
+    const double degree = std::numbers::pi / 180;
+    const double below = std::asin(std::sin(above * degree) / 1.333) / degree;
+    EXPECT_NEAR(Glance(above, 3).fresnel(), Glance(below, -2).fresnel(), 1e-5) << above;
+  }
+}
+
+TEST(FresnelReflection, LosesNothingFromBelow) {
+  for (double degrees : {0.0, 30.0, 45.0, 70.0}) {
+    test::expect_rgb(Glance(degrees, -2).wet().color(0, 0), {1, 1, 1});
+  }
+}
+
+// What lies between the viewer and the surface was applied before: it dims the mirror too, and its
+// own light is not dimmed by the surface.
+TEST(FresnelReflection, TheWaterInFrontOfTheUndersideStaysInFront) {
+  const Glance glance(0, -2);
+  FresnelReflection::Params params = glance.look.of<FresnelReflection>();
+  params.color = {4, 4, 4};
+  const Context context(glance.scene, glance.buffers.frame, 1.333, {});
+  ASSERT_TRUE(context.submersible);
+  test::ProbeStrip strip;
+  for (double side : {-1.0, 0.0, 1.0}) {
+    Pixel<double> p = test::random_pixel(1, {});
+    p.to_viewer = {0, side < 0 ? -1.0 : 1.0, 0};
+    p.side = side;
+    p.transmittance = {0.5, 0.25, 0.125};
+    p.transmitted = {0.6, 0.6, 0.6};
+    p.in_scatter = {0.3, 0.3, 0.3};
+    strip.pixels.push_back(p);
+  }
+  FresnelReflection::apply(params, context, strip);
+  const double f = 0.0203731, t = 0.6 * (1 - f), s = 0.3 * (1 - f);
+  const Pixel<double>&below = strip.pixels[0], &within = strip.pixels[1], &above = strip.pixels[2];
+  test::expect_rgb(below.transmitted, {t, t, t});
+  test::expect_rgb(below.in_scatter, {0.3, 0.3, 0.3});
+  test::expect_rgb(below.reflected, {2 * f, f, f / 2});
+  EXPECT_EQ(within.fresnel, 0);
+  test::expect_rgb(within.transmitted, {0.6, 0.6, 0.6}, 0);
+  test::expect_rgb(within.in_scatter, {0.3, 0.3, 0.3}, 0);
+  test::expect_rgb(within.reflected, {0, 0, 0}, 0);
+  test::expect_rgb(above.transmitted, {t, t, t});
+  test::expect_rgb(above.in_scatter, {s, s, s});
+  test::expect_rgb(above.reflected, {4 * f, 4 * f, 4 * f});
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <concepts>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "limpid/op/context.h"
 
 #include "support.h"
@@ -17,7 +19,7 @@ class ProbeStrip {
 
   std::vector<Pixel<double>> pixels;
   PlaneSet tapped;
-  bool map_tapped = false;
+  bool map_tapped = false, environment_tapped = false;
   double farthest = 0;  ///< tap, in uv along either axis
 
   template <class Fn>
@@ -82,6 +84,11 @@ class ProbeStrip {
       return texel(i + static_cast<std::size_t>(k), plane);
     }
     Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
+    Rgb<double> lat_long_rgb(const Texture&, Vec2<double> at) const {
+      strip.environment_tapped = true;
+      EXPECT_TRUE(at.y >= 0 && at.y <= 1) << at.y;
+      return {at.x, at.y, 0.5};
+    }
   };
   template <class Fn>
   void probe(Fn&& fn) {

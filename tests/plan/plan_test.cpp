@@ -48,6 +48,33 @@ TEST(Plan, SaysWhichInputIsAbsent) {
             "sun_highlight       dropped: input absent, no sun\n");
 }
 
+TEST(Plan, MirrorsTheEnvironmentWithoutAReflection) {
+  const Inputs inputs{.planes = kBare, .wave_map = true, .environment = true};
+  const Plan plan = make_plan(busy_look(), inputs);
+  EXPECT_THAT(to_text(plan),
+              HasSubstr("fresnel_reflection  kept, source environment: the frame has "
+                        "no reflection\n"));
+  EXPECT_EQ(plan.look.of<FresnelReflection>().source, FresnelReflection::Source::kEnvironment);
+  EXPECT_TRUE(plan.reads_environment);
+  Look constant = busy_look();
+  constant.of<FresnelReflection>().source = FresnelReflection::Source::kConstant;
+  const Plan plain = make_plan(constant, inputs);
+  EXPECT_EQ(plain.look.of<FresnelReflection>().source, FresnelReflection::Source::kConstant);
+  EXPECT_FALSE(plain.reads_environment);
+  EXPECT_THAT(text(constant, {kBare, true}), HasSubstr("fresnel_reflection  kept\n"));
+}
+
+TEST(Plan, ReadsTheEnvironmentBesideAReflectionOnlyToFillIt) {
+  Inputs inputs{.planes = kAll, .wave_map = true, .environment = true};
+  EXPECT_FALSE(make_plan(busy_look(), inputs).reads_environment);
+  inputs.planes = kAll | PlaneSet{PlaneId::kReflectionValid};
+  const Plan plan = make_plan(busy_look(), inputs);
+  EXPECT_TRUE(plan.reads_environment);
+  EXPECT_TRUE(plan.planes.has(PlaneId::kReflectionValid));
+  EXPECT_THAT(to_text(plan), HasSubstr("fresnel_reflection  kept, environment where the reflection "
+                                       "is not valid\n"));
+}
+
 // Without normals nothing tilts, so nothing is refracted or split.
 TEST(Plan, WithoutWavesThereIsNothingToRefract) {
   EXPECT_EQ(text(busy_look(), {kBare | kShadow, false, true}),

@@ -105,6 +105,7 @@ Look realistic_look() {
   FresnelReflection::Params& mirror = look.of<FresnelReflection>();
   mirror.reflectance = FresnelReflection::Reflectance::kRim;
   mirror.power = 3;
+  mirror.lookup = FresnelReflection::Lookup::kOffset;
   mirror.strength = 0.02;
   look.of<SunHighlight>() = {SunHighlight::Model::kBlinnPhong, 200, 1};
   return look;

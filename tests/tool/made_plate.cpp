@@ -150,7 +150,7 @@ std::string look_toml() {
          "[prism_split]\nstrength = 0.004\n\n"
          "[depth_fog]\ndensity = 0.15\ncolor = [0.02, 0.10, 0.12]\nalpha = 0.9\n\n"
          "[water_shadow]\nstrength = 0.5\n\n"
-         "[fresnel_reflection]\nreflectance = \"schlick\"\nstrength = 0.02\n\n"
+         "[fresnel_reflection]\nreflectance = \"schlick\"\nlookup = \"offset\"\nstrength = 0.02\n\n"
          "[sun_highlight]\npower = 20.0\nstrength = 0.5\n";
 }
 

@@ -31,6 +31,7 @@ Look realistic() {
   FresnelReflection::Params& mirror = look.of<FresnelReflection>();
   mirror.reflectance = FresnelReflection::Reflectance::kRim;
   mirror.power = 3;
+  mirror.lookup = FresnelReflection::Lookup::kOffset;
   mirror.strength = 0.02;
   look.of<SunHighlight>() = {};
   return look;

@@ -18,6 +18,8 @@ LIMPID_INLINE double abs(double x) { return std::fabs(x); }
 LIMPID_INLINE double sqrt(double x) { return std::sqrt(x); }
 LIMPID_INLINE double floor(double x) { return std::floor(x); }
 LIMPID_INLINE double exp(double x) { return std::exp(x); }
+/// Of finite numbers, -pi ... pi; atan2(0, 0) = 0.
+LIMPID_INLINE double atan2(double y, double x) { return std::atan2(y, x); }
 /// x^p for x >= 0; pow(0, 0) = 1.
 LIMPID_INLINE double pow(double x, double p) { return std::pow(x, p); }
 /// Of an angle in radians; lanes keep their accuracy for -1000 ... 1000.

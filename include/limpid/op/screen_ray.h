@@ -56,6 +56,31 @@ LIMPID_INLINE F height_at(const Context& c, const Pixel<F>& p, Vec2<F> shift, F 
   return F(c.eye_above) + there_over + min(depth, F(1e30)) * there_under;
 }
 
+/// The way from the pixel's surface point to what is seen at `shift` from the pixel at eye depth
+/// `depth` (+inf counts as 1e30). From differences, like a ScreenRay.
+template <class F>
+LIMPID_INLINE Vec3<F> way_to(const Context& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
+  const auto across = [&](const glm::dvec3& dx, const glm::dvec3& dy) {
+    return shift.x * vec3_of<F>(double(c.size.x) * dx) +
+           shift.y * vec3_of<F>(double(c.size.y) * dy);
+  };
+  const F far = min(depth, F(1e30));
+  return (p.ray_length * (p.surface_depth - far)) * p.to_viewer +
+         across(c.rays.origin_dx, c.rays.origin_dy) + far * across(c.rays.ray_dx, c.rays.ray_dy);
+}
+
+/// How many times `across` fits between uv and the edge that it leads to. Rounding that leads over
+/// the edge of the outermost texel does not stop a way along it.
+template <class F>
+LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
+  const auto along = [](F at, F low, F high, F step) {
+    const F room = select(step > F(0), high - at, at - low);
+    return (max(room, F(0)) + F(1e-5)) / max(abs(step), F(1e-20));
+  };
+  return min(along(uv.x, F(b.low.x), F(b.high.x), across.x),
+             along(uv.y, F(b.low.y), F(b.high.y), across.y));
+}
+
 /// Eye depth of the calm surface at `shift` from the pixel, +inf where it is not met.
 template <class F>
 LIMPID_INLINE F calm_depth_at(const Context& c, const Pixel<F>& p, Vec2<F> shift) {
