@@ -186,19 +186,27 @@ inline DepthFog::Params plain_fog(DepthFog::Model model) {
   return fog;
 }
 
-/// A look in which every operator is neutral or absent but those set afterwards.
-inline Look still_look() {
+/// The models of "Realistic Water", which are the plainest to work out by hand.
+inline Look article_look() {
   Look look;
   look.of<WaveNormals>().model = WaveNormals::Model::kFourMaps;
   look.of<PrismSplit>().model = PrismSplit::Model::kAxis;
-  look.of<PrismSplit>().strength = 0;
-  look.of<Refraction>().model = Refraction::Model::kNormalOffset;
-  look.of<Refraction>().rejection = Refraction::Rejection::kSnap;
-  look.of<Refraction>().off_frame = Refraction::OffFrame::kClamp;
-  look.of<Refraction>().strength = 0;
+  Refraction::Params& refraction = look.of<Refraction>();
+  refraction.model = Refraction::Model::kNormalOffset;
+  refraction.rejection = Refraction::Rejection::kSnap;
+  refraction.off_frame = Refraction::OffFrame::kClamp;
   look.of<DepthFog>() = plain_fog(DepthFog::Model::kLinear);
+  look.of<WaterShadow>() = {WaterShadow::Model::kDarken, 0.5};
+  look.of<FresnelReflection>().lookup = FresnelReflection::Lookup::kOffset;
+  look.of<SunHighlight>().model = SunHighlight::Model::kBlinnPhong;
+  return look;
+}
+
+/// The same with every operator neutral or absent but those set afterwards.
+inline Look still_look() {
+  Look look = article_look();
+  look.of<Refraction>().strength = 0;
   look.of<DepthFog>().alpha = 0;
-  look.of<WaterShadow>().model = WaterShadow::Model::kDarken;
   look.of<WaterShadow>().strength = 0;
   look.of<SunHighlight>().strength = 0;
   return look;

@@ -28,10 +28,13 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Context probe_context(StateSet made) {
+Context probe_context(StateSet made, PlaneSet absent = {}) {
   static const Buffers buffers = test::noisy_frame(rect_of(test::kContractSize));
   static const test::NoiseMap map(16, 8), sky(12, 6);
   Frame frame = buffers.frame;
+  for (int i = 0; i < kPlaneCount; ++i) {
+    if (absent.has(static_cast<PlaneId>(i))) frame.planes[i] = {};
+  }
   frame.wave_map = map.texture;
   frame.environment = sky.texture;
   Scene scene = test::simple_scene(test::kContractSize);
@@ -145,10 +148,11 @@ TEST(Contract, NeedsArePlanesThatAreRead) {
 
 /// Applies to 32 pixels whose state is random in all parts.
 template <class Op>
-ProbeStrip probed(const typename Op::Params& params, StateSet random, StateSet made) {
+ProbeStrip probed(const typename Op::Params& params, StateSet random, StateSet made,
+                  PlaneSet absent = {}) {
   ProbeStrip strip;
   for (int i = 0; i < 32; ++i) strip.pixels.push_back(test::random_pixel(i, random));
-  Op::apply(params, probe_context(made), strip);
+  Op::apply(params, probe_context(made, absent), strip);
   return strip;
 }
 
@@ -210,8 +214,11 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
   Chain::for_each([&]<class Op, int>() {
     for_each_params<Op>([&](const auto& params, const std::string& what) {
       const ProbeStrip strip = probed<Op>(params, everything(), everything());
-      EXPECT_TRUE(Op::reads(params).covers(strip.tapped)) << what;
-      EXPECT_TRUE(strip.tapped.covers(Op::reads(params))) << what << " declares more than it taps";
+      // With a layer below, the dry scene itself is not looked at.
+      const ProbeStrip bare = probed<Op>(params, everything(), everything(), kBelowPlanes);
+      const PlaneSet tapped = strip.tapped | bare.tapped;
+      EXPECT_TRUE(Op::reads(params).covers(tapped)) << what;
+      EXPECT_TRUE(tapped.covers(Op::reads(params))) << what << " declares more than it taps";
       EXPECT_EQ(Op::needs(params).wave_map, strip.map_tapped) << what;
       // It may stand in for what a plane lacks, too.
       EXPECT_TRUE(strip.environment_tapped || !Op::needs(params).environment) << what;

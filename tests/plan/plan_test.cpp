@@ -5,6 +5,8 @@
 
 #include "limpid/core/error.h"
 
+#include "support.h"
+
 namespace limpid {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr PlaneSet kAll = kBare | kReflectionPlanes | kSurfaceNormalPlanes | kSh
 
 /// A look in which nothing is neutral.
 Look busy_look() {
-  Look look;
+  Look look = test::article_look();
   look.of<PrismSplit>().strength = 0.004;
   return look;
 }
@@ -88,7 +90,7 @@ TEST(Plan, WithoutWavesThereIsNothingToRefract) {
 }
 
 TEST(Plan, DropsWhatItsParametersMakeNeutral) {
-  Look look;
+  Look look = test::article_look();
   look.of<Refraction>().strength = 0;
   look.of<DepthFog>().alpha = 0;
   look.of<WaterShadow>().strength = 0;
@@ -104,7 +106,7 @@ TEST(Plan, DropsWhatItsParametersMakeNeutral) {
 }
 
 TEST(Plan, DropsWavesThatNothingReads) {
-  Look look;
+  Look look = test::article_look();
   look.of<Refraction>().strength = 0;
   const Inputs no_mirror_no_sun{kAll - kReflectionPlanes, false, false};
   EXPECT_EQ(text(look, no_mirror_no_sun),
@@ -130,7 +132,7 @@ TEST(Plan, DropsThePrismWhenNothingIsRefractedAndKeepsItsLookupOtherwise) {
 }
 
 TEST(Plan, PlateNormalsReplaceMaps) {
-  Look look;
+  Look look = test::article_look();
   ASSERT_EQ(look.of<WaveNormals>().model, WaveNormals::Model::kFourMaps);
   const Plan with = make_plan(look, {kAll, true, true}, {});
   EXPECT_EQ(with.look.of<WaveNormals>().model, WaveNormals::Model::kPlate);
@@ -144,7 +146,7 @@ TEST(Plan, PlateNormalsReplaceMaps) {
 }
 
 TEST(Plan, PlateNormalsThatAreAskedForMustBeThere) {
-  Look look;
+  Look look = test::article_look();
   look.of<WaveNormals>().model = WaveNormals::Model::kPlate;
   EXPECT_THAT(text(look, {kBare, true, true}),
               HasSubstr("wave_normals        dropped: input absent, no surface_normal\n"));
@@ -157,14 +159,14 @@ TEST(Plan, ReadsOnlyWhatTheKeptOperatorsRead) {
   look.of<SunHighlight>().strength = 0;
   EXPECT_EQ(make_plan(look, {kAll, false, true}, {}).planes, kAll - kShadow);
   EXPECT_EQ(make_plan(look, {kBare, false, false}, {}).planes, kBare);
-  look = Look();
+  look = test::article_look();
   look.of<Refraction>().strength = 0;
   EXPECT_EQ(make_plan(look, {kAll - kReflectionPlanes - kShadow, false, false}, {}).planes,
             kBare | PlaneSet({PlaneId::kColorA, PlaneId::kSurfaceDepth}));
 }
 
 TEST(Plan, SaysWhatStateIsMade) {
-  Look look;
+  Look look = test::article_look();
   EXPECT_FALSE(make_plan(look, {kAll, false, true}, {}).made.has(StatePart::kPrism));
   EXPECT_TRUE(make_plan(busy_look(), {kAll, false, true}, {}).made.has(StatePart::kPrism));
   EXPECT_FALSE(make_plan(look, {kBare, false, true}, {}).made.has(StatePart::kFresnel));
@@ -172,7 +174,7 @@ TEST(Plan, SaysWhatStateIsMade) {
 
 // The way through the water is measured by the fog, whose color may be switched off.
 TEST(Plan, KeepsANeutralFogWhosePathIsWritten) {
-  Look look;
+  Look look = test::article_look();
   look.of<DepthFog>().alpha = 0;
   const Inputs inputs{kAll, false, true};
   EXPECT_THAT(text(look, inputs), HasSubstr("depth_fog           dropped: neutral"));

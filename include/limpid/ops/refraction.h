@@ -61,8 +61,13 @@ struct Refraction {
   static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted,
                                    StatePart::kConfidence};
   static std::span<const Field<Params>> fields();
-  static PlaneSet reads(const Params&) {
-    return kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kSurfaceDepth};
+  static PlaneSet reads(const Params& p) {
+    const PlaneSet depths{PlaneId::kDepth, PlaneId::kBelowDepth};
+    const bool blind = p.model == Model::kSnell && p.steps == 0 && p.rejection == Rejection::kNone;
+    PlaneSet planes = kColorPlanes | (kBelowPlanes - depths);
+    if (!blind) planes = planes | depths;
+    if (p.rejection == Rejection::kShorten) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
+    return planes;
   }
   static Needs needs(const Params&) { return {.planes = kColorPlanes | PlaneSet{PlaneId::kDepth}}; }
   static double reach(const Params& p) {
@@ -87,7 +92,7 @@ struct Refraction {
         aim_by_snell(params, c, planes, strip);
         break;
     }
-    if (params.model != Model::kSnell) {
+    if (params.model != Model::kSnell || params.rejection == Rejection::kSnap) {
       strip.nearest(
           planes.depth, [](const Pixel<F>& p) { return p.shift; },
           [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
@@ -255,7 +260,8 @@ struct Refraction {
       last_drop = select(hit, drop, last_drop);
     }
     const auto seen = found > F(0.5);
-    // The depth plane is a staircase; the level between its texels is smooth. On walls it says nothing.
+    // The depth plane is a staircase; the level between its texels is smooth. On walls it says
+    // nothing.
     const F met = ray.at_share(after, most);
     const F smooth = to_level(c, planes, p, tap, ray, fall, met);
     const F way = select(seen, min(max(smooth, F(0.98) * met), F(1.02) * met),
