@@ -86,6 +86,7 @@ inline Buffers noisy_frame(Rect display) {
     b.set(static_cast<PlaneId>(i), [&](int x, int y) { return 2 * noise(x, y, i); });
   }
   b.set(PlaneId::kShadow, [](int x, int y) { return noise(x, y, 40) > 0.3f ? 1.0f : 0.0f; });
+  b.set(PlaneId::kSurfaceShadow, [](int x, int y) { return noise(x, y, 47); });
   b.set(PlaneId::kSurfaceDepth,
         [](int x, int y) { return noise(x / 7, y / 5, 41) > 0.25f ? 3 + noise(x, y, 42) : kInf; });
   b.set(PlaneId::kDepth, [](int x, int y) {

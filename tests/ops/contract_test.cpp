@@ -28,6 +28,7 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Of a frame that has every plane, or all but some.
 Context probe_context(StateSet made, PlaneSet absent = {}) {
   static const Buffers buffers = test::noisy_frame(rect_of(test::kContractSize));
   static const test::NoiseMap map(16, 8), sky(12, 6);
@@ -214,10 +215,17 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
   Chain::for_each([&]<class Op, int>() {
     for_each_params<Op>([&](const auto& params, const std::string& what) {
       const ProbeStrip strip = probed<Op>(params, everything(), everything());
-      // With a layer below, the dry scene itself is not looked at.
-      const ProbeStrip bare = probed<Op>(params, everything(), everything(), kBelowPlanes);
-      const PlaneSet tapped = strip.tapped | bare.tapped;
-      EXPECT_TRUE(Op::reads(params).covers(tapped)) << what;
+      EXPECT_TRUE(Op::reads(params).covers(strip.tapped)) << what;
+      // Some planes are tapped only where a better one is absent.
+      PlaneSet tapped = strip.tapped;
+      for (const Role& role : roles()) {
+        const PlaneSet optional = Op::reads(params) & role.planes();
+        if (optional.empty() || Op::needs(params).planes.meets(optional)) continue;
+        if (optional.meets(kColorPlanes | PlaneSet{PlaneId::kDepth})) continue;
+        const ProbeStrip without = probed<Op>(params, everything(), everything(), optional);
+        tapped = tapped | without.tapped;
+        EXPECT_TRUE(Op::reads(params).covers(without.tapped)) << what;
+      }
       EXPECT_TRUE(tapped.covers(Op::reads(params))) << what << " declares more than it taps";
       EXPECT_EQ(Op::needs(params).wave_map, strip.map_tapped) << what;
       // It may stand in for what a plane lacks, too.

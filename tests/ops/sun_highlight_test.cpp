@@ -72,6 +72,90 @@ TEST(SunHighlight, NothingWithTheSunBehindTheWater) {
   }
 }
 
+constexpr SunHighlight::Model kModels[] = {
+    SunHighlight::Model::kPhong, SunHighlight::Model::kBlinnPhong, SunHighlight::Model::kGgx};
+
+// The shadow that fell on the surface is better than the one on the bottom seen through it.
+TEST(SunHighlight, ShadowOfTheSurfacePointWhereThereIsOne) {
+  for (auto model : kModels) {
+    Tray tray = sunny_tray();
+    tray.buffers.normal(half_way());
+    tray.look.of<SunHighlight>().model = model;
+    const double lit = tray.wet().aov(Aov::kHighlight, 2, 1);
+    EXPECT_GT(lit, 1);
+    tray.buffers.fill(PlaneId::kShadow, 0);
+    EXPECT_EQ(tray.wet().aov(Aov::kHighlight, 2, 1), 0);
+    tray.buffers.fill(PlaneId::kSurfaceShadow, 0.25f);
+    EXPECT_NEAR(tray.wet().aov(Aov::kHighlight, 2, 1), 0.25 * lit, 1e-6 * lit);
+  }
+}
+
+// A camera below the surface that looks up at it: no glint, whatever the normals.
+TEST(SunHighlight, NoneFromBelow) {
+  for (auto model : kModels) {
+    Tray tray = sunny_tray();
+    tray.buffers.normal(half_way());
+    tray.look.of<SunHighlight>().model = model;
+    tray.scene.camera->projection = perspective(1, 1, 0.1, 100, ClipSpace::kGl);
+    EXPECT_GT(tray.wet().aov(Aov::kHighlight, 3, 2), 0);
+    tray.scene.camera->view =
+        glm::lookAt(glm::dvec3(0, -10, 0), glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -1));
+    for (const auto& picture :
+         {tray.wet(), test::fused(tray.look, tray.buffers.frame, tray.scene)}) {
+      EXPECT_FALSE(std::isinf(picture.aov(Aov::kSurfaceDepth, 3, 2)));
+      EXPECT_EQ(picture.aov(Aov::kHighlight, 3, 2), 0);
+    }
+  }
+}
+
+// alpha 0.2, half vector at 15 degrees, viewer straight above, light at 30: density .04 / (pi
+// (cos(15)^2 (.04 - 1) + 1)^2) = 1.1702, visibility .5 / (cos(30) + sqrt(.75 * .96 + .04)) =
+// .28772, N.L .86603, reflectance of 15 degrees .020428: .0059567 / sr, times pi and the color.
+TEST(SunHighlight, GgxByHand) {
+  Tray tray = sunny_tray();
+  tray.look.of<SunHighlight>() = {SunHighlight::Model::kGgx, 200, 1, 0.2};
+  const double lobe = 0.0059567;
+  const Rgb<double> sun{3 * std::numbers::pi, 2 * std::numbers::pi, std::numbers::pi};
+  test::expect_rgb(rgb_of(tray.wet(), Aov::kHighlight, 2, 2), lobe * sun, 1e-6);
+}
+
+// Water as smooth as can be shows the disc: the reflectance of 15 degrees times the irradiance over
+// the solid angle, pi 3 / 6.794e-5. Twice the strength is twice that.
+TEST(SunHighlight, GgxIsNoBrighterThanTheMirroredSun) {
+  Tray tray = sunny_tray();
+  tray.buffers.normal(half_way());
+  tray.look.of<SunHighlight>() = {SunHighlight::Model::kGgx, 200, 1, 0.001};
+  const double disc = std::numbers::pi * 3 / 6.794e-5;
+  const double glint = tray.wet().aov(Aov::kHighlight, 2, 2);
+  EXPECT_NEAR(glint / disc, 0.020428, 1e-6);
+  tray.look.of<SunHighlight>().strength = 2;
+  EXPECT_NEAR(tray.wet().aov(Aov::kHighlight, 2, 2), 2 * glint, 1e-3);
+  // Anywhere, at any roughness: at most the whole disc.
+  const Size size{40, 30};
+  test::Noise noise(size);
+  for (double roughness : {0.001, 0.01, 0.1, 1.0}) {
+    noise.look.of<SunHighlight>() = {SunHighlight::Model::kGgx, 200, 1, roughness};
+    const test::Picture got = noise.wet();
+    each_wet(got, size, [&](int x, int y) {
+      EXPECT_GE(got.aov(Aov::kHighlight, x, y), 0);
+      EXPECT_LE(got.aov(Aov::kHighlight, x, y), disc);
+    });
+  }
+}
+
+// What the articles' lobes do not: a rougher sea is duller in the mirror direction and brighter
+// beside it.
+TEST(SunHighlight, GgxSpreadsTheSameLight) {
+  Tray tray = sunny_tray();
+  const auto glint = [&](Vec3<double> normal, double roughness) {
+    tray.buffers.normal(normal);
+    tray.look.of<SunHighlight>() = {SunHighlight::Model::kGgx, 200, 1, roughness};
+    return tray.wet().aov(Aov::kHighlight, 2, 2);
+  };
+  EXPECT_GT(glint(half_way(), 0.02), 3 * glint(half_way(), 0.04));
+  EXPECT_LT(glint({0, 1, 0}, 0.02), glint({0, 1, 0}, 0.04) / 3);
+}
+
 TEST(SunHighlight, NeverMoreThanStrengthTimesSun) {
   const Size size{40, 30};
   test::Noise noise(size);

@@ -69,7 +69,7 @@ struct Refraction {
     if (p.rejection == Rejection::kShorten) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
     return planes;
   }
-  static Needs needs(const Params&) { return {.planes = kColorPlanes | PlaneSet{PlaneId::kDepth}}; }
+  static Needs needs(const Params&) { return {.planes = kColorPlanes}; }
   static double reach(const Params& p) {
     if (p.model == Model::kSnell) return HUGE_VAL;
     return abs(p.strength) + (p.model == Model::kDudvOffset ? kDudvShift / kLeastDeviceDepth : 0);

@@ -84,4 +84,16 @@ LIMPID_INLINE F ggx_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, F alpha, F ior) {
   return ggx_mirror_lobe(n, v, l, alpha) * fresnel_exact(dot(l, normalize_or(l + v, zero)), ior);
 }
 
+/// Solid angle of the sun's disc seen from the Earth, in sr: 0.2665 degrees of angular radius.
+inline constexpr double kSunSolidAngle = 6.794e-5;
+
+/// ggx_lobe for the sun, times whose irradiance it is no brighter than the disc itself in a mirror
+/// of that reflectance: a point for a sun would blaze on smooth water without bounds.
+template <class F>
+LIMPID_INLINE F sun_glint_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, F alpha, F ior) {
+  const Vec3<F> zero{F(0), F(0), F(0)};
+  const F mirrored = min(ggx_mirror_lobe(n, v, l, alpha), F(1 / kSunSolidAngle));
+  return mirrored * fresnel_exact(dot(l, normalize_or(l + v, zero)), ior);
+}
+
 }  // namespace limpid
