@@ -148,6 +148,7 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs) {
     plan.planes = plan.planes | declared(plan.look, i).reads;
     plan.reads_wave_map |= declared(plan.look, i).needs.wave_map;
     plan.reads_environment |= declared(plan.look, i).needs.environment;
+    plan.needs_sun |= declared(plan.look, i).needs.sun;
   }
   plan.planes = plan.planes & inputs.planes;
   return plan;

@@ -59,7 +59,7 @@ void check_run(const Plan& plan, const Frame& frame, const Scene& scene, const T
   frame.validate();
   if (plan.reads_wave_map) check_texture(frame.wave_map, "a normal map");
   if (plan.reads_environment) check_texture(frame.environment, "an environment");
-  if (plan.made.has(StatePart::kHighlight) && !scene.sun) {
+  if (plan.needs_sun && !scene.sun) {
     throw Error("scene: the plan has a sun highlight, and the scene has no sun");
   }
   for (const View<float>& view : target.color) check_apart(frame, view);

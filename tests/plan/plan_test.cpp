@@ -36,7 +36,8 @@ TEST(Plan, KeepsEverythingWhenAllIsThere) {
             "depth_fog           kept\n"
             "water_shadow        kept\n"
             "fresnel_reflection  kept\n"
-            "sun_highlight       kept\n");
+            "sun_highlight       kept\n"
+            "penetration         dropped: neutral, its parameters change nothing here\n");
 }
 
 TEST(Plan, SaysWhichInputIsAbsent) {
@@ -47,7 +48,8 @@ TEST(Plan, SaysWhichInputIsAbsent) {
             "depth_fog           kept\n"
             "water_shadow        dropped: input absent, no shadow\n"
             "fresnel_reflection  dropped: input absent, no reflection\n"
-            "sun_highlight       dropped: input absent, no sun\n");
+            "sun_highlight       dropped: input absent, no sun\n"
+            "penetration         dropped: neutral, its parameters change nothing here\n");
 }
 
 TEST(Plan, MirrorsTheEnvironmentWithoutAReflection) {
@@ -86,7 +88,8 @@ TEST(Plan, WithoutWavesThereIsNothingToRefract) {
             "depth_fog           kept\n"
             "water_shadow        kept\n"
             "fresnel_reflection  dropped: input absent, no reflection\n"
-            "sun_highlight       kept\n");
+            "sun_highlight       kept\n"
+            "penetration         dropped: neutral, its parameters change nothing here\n");
 }
 
 TEST(Plan, DropsWhatItsParametersMakeNeutral) {
@@ -102,7 +105,8 @@ TEST(Plan, DropsWhatItsParametersMakeNeutral) {
             "depth_fog           dropped: neutral, its parameters change nothing here\n"
             "water_shadow        dropped: neutral, its parameters change nothing here\n"
             "fresnel_reflection  kept\n"
-            "sun_highlight       dropped: neutral, its parameters change nothing here\n");
+            "sun_highlight       dropped: neutral, its parameters change nothing here\n"
+            "penetration         dropped: neutral, its parameters change nothing here\n");
 }
 
 TEST(Plan, DropsWavesThatNothingReads) {
@@ -116,7 +120,8 @@ TEST(Plan, DropsWavesThatNothingReads) {
             "depth_fog           kept\n"
             "water_shadow        kept\n"
             "fresnel_reflection  dropped: input absent, no reflection\n"
-            "sun_highlight       dropped: input absent, no sun\n");
+            "sun_highlight       dropped: input absent, no sun\n"
+            "penetration         dropped: neutral, its parameters change nothing here\n");
   // As an output of their own they are read.
   const Plan plan = make_plan(look, no_mirror_no_sun, {StatePart::kNormal});
   EXPECT_EQ(plan.operators[0].verdict, Verdict::kKept);

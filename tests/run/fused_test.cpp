@@ -207,6 +207,20 @@ TEST(Fused, APlanThatReadsTexturesNeedsThemWhole) {
   EXPECT_EQ(refusal(), "frame: the plan looks up a normal map, and the frame has none");
 }
 
+TEST(Fused, APlanWithAGlintNeedsASun) {
+  const Size size{4, 4};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  Scene scene = test::simple_scene(size);
+  const Picture picture(b.frame.work());
+  const Plan plan = make_plan({}, test::inputs_of(b.frame, scene));
+  scene.sun.reset();
+  EXPECT_THROW(run_reference(plan, b.frame, scene, picture.target), Error);
+  Look look;
+  look.of<Penetration>().model = Penetration::Model::kViewAngle;  // makes highlights, needs no sun
+  const Plan sunless = make_plan(look, test::inputs_of(b.frame, scene));
+  EXPECT_NO_THROW(run_reference(sunless, b.frame, scene, picture.target));
+}
+
 TEST(Fused, SumOfTheFirstFourAovsIsThePicture) {
   const Size size{50, 30};
   const Buffers b = test::noisy_frame(rect_of(size));

@@ -5,6 +5,7 @@
 #include "limpid/op/operator.h"
 #include "limpid/ops/depth_fog.h"
 #include "limpid/ops/fresnel_reflection.h"
+#include "limpid/ops/penetration.h"
 #include "limpid/ops/prism_split.h"
 #include "limpid/ops/refraction.h"
 #include "limpid/ops/sun_highlight.h"
@@ -40,6 +41,6 @@ struct OperatorList {
 };
 
 using Chain = OperatorList<WaveNormals, PrismSplit, Refraction, DepthFog, WaterShadow,
-                           FresnelReflection, SunHighlight>;
+                           FresnelReflection, SunHighlight, Penetration>;
 
 }  // namespace limpid

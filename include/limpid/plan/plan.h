@@ -44,6 +44,8 @@ struct Plan {
   bool reads_wave_map = false;
   /// Whether one looks up the surroundings.
   bool reads_environment = false;
+  /// Whether one needs to know where the sun stands.
+  bool needs_sun = false;
 
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
 };
