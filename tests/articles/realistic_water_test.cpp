@@ -194,12 +194,29 @@ TEST(RealisticWater, WavesBendTheMirror) {
   EXPECT_NEAR(got.aov(Aov::kReflected, 50, 1, 1), 0.008 * 1, 1e-6);
 }
 
+// The article's unsolved problem: below the cut at the water its mirror shows the sky behind, which
+// waves bring into view. 50.5 + 1.2 = 51.7, between two texels of sky: .008 of it.
+TEST(RealisticWater, TheCutInTheMirror) {
+  Tray tray = realistic_tray(kWide);
+  tray.buffers.normal({0.6, 0.8, 0});
+  const auto sky = [](int x, int) { return x < 51 ? 0.f : 1.f; };
+  for (int c = 0; c < 3; ++c) tray.buffers.set(plane_after(PlaneId::kReflectionR, c), sky);
+  EXPECT_NEAR(tray.wet().aov(Aov::kReflected, 50, 1), 0.008, 1e-6);  // kept, unless the frame says
+  // Departs: what the mirror did not see is not shown, where the frame tells.
+  tray.buffers.set(PlaneId::kReflectionValid, [](int x, int) { return x < 51 ? 1.f : 0.f; });
+  EXPECT_EQ(tray.wet().aov(Aov::kReflected, 50, 1), 0);
+}
+
 // H half way between V = (0, 1, 0) and L = (.96, .28, 0): (.6, .8, 0) * 1.6. n.H = .8 with calm
 // water: .8^200 = 4.15e-20, nothing; 1 with n = H.
 TEST(RealisticWater, HighlightAroundTheHalfVector) {
   Tray tray = realistic_tray(kEight);
   tray.scene.sun = Sun{{0.96, 0.28, 0}, {1, 1, 1}};
   EXPECT_LT(tray.wet().aov(Aov::kHighlight, 3, 3), 1e-15);
+  // L = (.28, .96, 0): n.H^2 = (1 + .96) / 2 = .98, .98^100 = .1326196.
+  Tray steep = realistic_tray(kEight);
+  steep.scene.sun = Sun{{0.28, 0.96, 0}, {1, 1, 1}};
+  EXPECT_NEAR(steep.wet().aov(Aov::kHighlight, 3, 3), 0.1326196, 1e-5);
   tray.buffers.normal({0.6, 0.8, 0});
   const test::Picture got = tray.wet();
   EXPECT_NEAR(got.aov(Aov::kHighlight, 3, 3), 1, 2e-5);
