@@ -1,5 +1,7 @@
 #include "canvas.h"
 
+#include <iterator>
+
 #include "limpid/core/error.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
@@ -48,8 +50,15 @@ LoadedTexture environment_of(const Plan& plan, const SceneFile& scene, const Lim
   return load_environment(scene.environment, scene.environment_rotation, limits);
 }
 
+std::vector<Aov> computed_aovs(const OutputChoice& choice) {
+  std::vector<Aov> list = choice.aovs;
+  if (!choice.deep.empty()) list.insert(list.end(), std::begin(kDeepAovs), std::end(kDeepAovs));
+  return list;
+}
+
 void expect_writable(const OutputChoice& choice) {
   AtomicFile{choice.picture};
+  if (!choice.deep.empty()) AtomicFile{choice.deep};
   if (!choice.preview.empty()) AtomicFile{choice.preview};
 }
 
@@ -66,21 +75,32 @@ Canvas::Canvas(Rect window, const OutputChoice& choice) : window_(window) {
       target_.of(aov)[i] = add(name, !choice.store_float && !exact);
     }
   }
+  for (Aov aov : computed_aovs(choice)) {
+    for (std::size_t i = 0; i < aovs()[static_cast<std::size_t>(aov)].suffixes.size(); ++i) {
+      if (!target_.of(aov)[i]) target_.of(aov)[i] = add();
+    }
+  }
 }
 
-View<float> Canvas::add(const std::string& name, bool half) {
+View<float> Canvas::add() {
   planes_.emplace_back(window_);
-  channels_.push_back({name, planes_.back().view(), half});
   return planes_.back().view();
 }
 
+View<float> Canvas::add(const std::string& name, bool half) {
+  const View<float> view = add();
+  channels_.push_back({name, view, half});
+  return view;
+}
+
 void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
-                   const OutputChoice& choice, Executor& executor) const {
+                   const OutputChoice& choice, Executor& executor) {
   if (choice.runner == Runner::kReference) {
     run_reference(plan, frame, scene, target_);
   } else {
     run_fused(plan, frame, scene, target_, executor, {.simd = choice.simd});
   }
+  if (!choice.deep.empty()) extent_ = water_extent(plan, frame, scene, target_);
 }
 
 Canvas Canvas::filtered(int n, const OutputChoice& choice) const {
@@ -105,6 +125,19 @@ Canvas Canvas::filtered(int n, const OutputChoice& choice) const {
   return canvas;
 }
 
+DeepWater Canvas::deep_water(const ExrHeading& heading, const OutputChoice& choice) const {
+  DeepWater water;
+  static_cast<ExrHeading&>(water) = heading;
+  water.front = extent_.front.view();
+  water.back = extent_.back.view();
+  for (std::size_t c = 0; c < 3; ++c) {
+    water.transmittance[c] = target_.of(Aov::kTransmittance)[c];
+    water.in_scatter[c] = target_.of(Aov::kInScatter)[c];
+  }
+  water.half = !choice.store_float;
+  return water;
+}
+
 void Canvas::write(ExrOutput described, const Plan& plan, const Look& look,
                    const OutputChoice& choice) const {
   described.data = window_;
@@ -121,6 +154,7 @@ void Canvas::write(ExrOutput described, const Plan& plan, const Look& look,
     const auto& c = target_.color;
     write_preview(choice.preview, c[0], c[1], c[2]);
   }
+  if (!choice.deep.empty()) write_deep_water(choice.deep, deep_water(described, choice));
   write_exr(choice.picture, described);
 }
 

@@ -7,7 +7,10 @@
 #include "limpid/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/target.h"
+#include "limpid/write/deep_writer.h"
 #include "limpid/write/exr_writer.h"
+
+#include "deep_output.h"
 
 namespace limpid {
 
@@ -20,6 +23,9 @@ bool has_environment(const SceneFile& scene);
 /// The surroundings that a plan looks up; empty when it does not.
 LoadedTexture environment_of(const Plan& plan, const SceneFile& scene, const Limits& limits = {});
 
+/// The AOVs that are computed: those that are asked for and those that a deep file is made of.
+std::vector<Aov> computed_aovs(const OutputChoice& choice);
+
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not
 /// there or cannot be written to.
 void expect_writable(const OutputChoice& choice);
@@ -29,30 +35,34 @@ class Canvas {
  public:
   Canvas(Rect window, const OutputChoice& choice);
 
-  /// Runs the plan on the frame, by the chosen runner.
+  /// Runs the plan on the frame, by the chosen runner. The plan must make what computed_aovs()
+  /// show.
   void paint(const Plan& plan, const Frame& frame, const Scene& scene, const OutputChoice& choice,
-             Executor& executor) const;
+             Executor& executor);
 
   /// The same picture with each n x n block of pixels made one: lights and shares by their mean,
   /// depths and normals by the sample nearest to the middle (the upper left of the four, for an
-  /// even n).
+  /// even n). Without what a deep file needs: its samples have no mean.
   Canvas filtered(int n, const OutputChoice& choice) const;
 
-  /// Writes preview and picture; `described` has windows and attributes, the channels come from
-  /// here. The picture comes last: when anything fails, what was under its name before is still
-  /// there.
+  /// Writes preview, deep file and picture; `described` has windows and attributes, the channels
+  /// come from here. The picture comes last: when anything fails, what was under its name before is
+  /// still there.
   void write(ExrOutput described, const Plan& plan, const Look& look,
              const OutputChoice& choice) const;
 
   const Target& target() const { return target_; }
 
  private:
+  View<float> add();
   View<float> add(const std::string& name, bool half);
+  DeepWater deep_water(const ExrHeading& heading, const OutputChoice& choice) const;
 
   Rect window_;
   std::vector<Plane> planes_;
   std::vector<ExrOutputChannel> channels_;
   Target target_;
+  WaterExtent extent_;  ///< of what is painted, if a deep file is to be written
 };
 
 }  // namespace limpid

@@ -59,7 +59,7 @@ Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
                     .sun = scene.sun.has_value(),
                     .environment = has_environment(job.scene)},
-                   state_shown_by(job.output.aovs));
+                   state_shown_by(computed_aovs(job.output)));
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ CompositeReport composite(const CompositeJob& job, Executor& executor) {
   report.replaced = loaded.replaced;
   report.read_seconds = watch.lap();
 
-  const Canvas canvas(loaded.frame.work(), job.output);
+  Canvas canvas(loaded.frame.work(), job.output);
   canvas.paint(report.plan, loaded.frame, scene, job.output, executor);
   report.run_seconds = watch.lap();
 

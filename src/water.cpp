@@ -49,7 +49,7 @@ Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
                     .sun = scene.sun.has_value(),
                     .environment = has_environment(job.render.scene)},
-                   state_shown_by(job.output.aovs));
+                   state_shown_by(computed_aovs(job.output)));
 }
 
 struct NamedPlane {
@@ -111,6 +111,11 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
   if (job.samples < 1 || job.samples > 16) {
     throw Error("samples = " + std::to_string(job.samples) + ": expected 1 ... 16");
   }
+  if (job.samples > 1 && !job.output.deep.empty()) {
+    throw Error("samples = " + std::to_string(job.samples) + " and a deep file: expected 1, " +
+                    "for depths of several samples have no mean",
+                Fault::kUsage);
+  }
   const Size size = job.render.render.size;
   const int most = 32000 / job.samples;
   if (std::max({size.width, size.height, job.render.render.overscan}) > most) {
@@ -136,7 +141,7 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
   report.size = job.render.render.size;
   report.read_seconds = watch.lap();
 
-  const Canvas canvas(plate.frame.work(), job.output);
+  Canvas canvas(plate.frame.work(), job.output);
   canvas.paint(report.plan, plate.frame, scene, job.output, executor);
   report.run_seconds = watch.lap();
 

@@ -42,6 +42,11 @@ constexpr Field<P> kFields[] = {
 
 constexpr Rgb<double> kBlack{0, 0, 0};
 
+Rgb<double> absorption_of(const P& params) {
+  if (params.water_type == WaterType::kCustom) return params.absorption;
+  return water_optics(params.water_type).absorption;
+}
+
 }  // namespace
 
 std::span<const Field<P>> DepthFog::fields() { return kFields; }
@@ -53,21 +58,24 @@ bool DepthFog::neutral(const Params& p, StateSet) {
          p.crossing == Crossing::kNone;
 }
 
+Rgb<double> DepthFog::extinction(const Params& params) {
+  return absorption_of(params) + params.scattering;
+}
+
 DepthFog::Medium DepthFog::medium_of(const Params& params, const Context& c) {
   // A sun on the horizon gives the water no light, and would divide by 0.
   const double cosine = glm::dot(c.sun.direction, c.up);
   const bool day = c.has_sun && cosine > 1e-6;
   const double f_sun = day ? fresnel_exact(cosine, c.ior) : kDiffuseAirToWater;
 
-  const WaterOptics named = water_optics(params.water_type);
   const bool custom = params.water_type == WaterType::kCustom;
-  const Rgb<double> absorption = custom ? params.absorption : named.absorption;
-  const Rgb<double> falling = custom || params.water_type == WaterType::kPure
-                                  ? absorption + (1 - params.anisotropy) * params.scattering
-                                  : named.down_attenuation;
+  const Rgb<double> falling =
+      custom || params.water_type == WaterType::kPure
+          ? absorption_of(params) + (1 - params.anisotropy) * params.scattering
+          : water_optics(params.water_type).down_attenuation;
 
   Medium m{};
-  m.rate = absorption + params.scattering;
+  m.rate = extinction(params);
   m.ambient = params.scattering * params.ambient;
   m.to_sun = c.sun.direction;
   if (day) {

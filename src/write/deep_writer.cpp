@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -24,8 +23,6 @@
 namespace limpid {
 namespace {
 
-constexpr float kInfinite = 1e9f;  ///< depths from here on mean "nothing hit", as in load/sanitise
-constexpr float kLargestFinite = 999999936;               ///< the float before
 constexpr float kMostAlpha = 1 - 0x1p-24f;                ///< the float before 1
 constexpr double kMostOpticalDepth = 16.635532333438686;  ///< -ln(2^-24)
 
@@ -44,19 +41,10 @@ std::string at(int x, int y) {
   return " at pixel (" + std::to_string(x) + ", " + std::to_string(y) + ")";
 }
 
-/// How far endless water reaches behind its front; nothing when it takes no light.
-std::optional<double> reach_of(const DeepWater& water) {
-  std::optional<double> reach;
-  for (double extinction : water.extinction) {
-    if (extinction > 0) reach = std::max(reach.value_or(0), kMostOpticalDepth / extinction);
-  }
-  return reach;
-}
-
 /// The water of one pixel; nothing where there is none. Throws Error for values that mean nothing.
 std::optional<Sample> sample_at(const DeepWater& water, std::optional<double> reach, int x, int y) {
   const float front = water.front.at(x, y), back = water.back.at(x, y);
-  if (front >= kInfinite) return std::nullopt;
+  if (front >= kInfiniteDepth) return std::nullopt;
   if (!std::isfinite(front)) {
     throw Error("front depth " + std::to_string(front) + at(x, y) + ": expected a number or +inf");
   }
@@ -69,13 +57,13 @@ std::optional<Sample> sample_at(const DeepWater& water, std::optional<double> re
   Sample sample;
   sample[kZ] = front;
   sample[kBack] = back;
-  if (back >= kInfinite) {
+  if (back >= kInfiniteDepth) {
     if (!reach) {
       throw Error("back depth is infinite" + at(x, y) +
                   " and no channel has extinction: expected some, which says where to end");
     }
-    const double end = std::min<double>(front + *reach, kLargestFinite);
-    sample[kBack] = std::max(static_cast<float>(end), std::nextafter(front, kInfinite));
+    const double end = std::min<double>(front + *reach, kLargestDepth);
+    sample[kBack] = std::max(static_cast<float>(end), std::nextafter(front, kInfiniteDepth));
   }
   double coverage = 0;
   for (int c = 0; c < 3; ++c) {
@@ -176,7 +164,7 @@ class Lines {
 
 void write_samples(Imf::DeepScanLineOutputFile& file, const DeepWater& water) {
   const Rect& data = water.data;
-  const auto reach = reach_of(water);
+  const auto reach = deep_reach(water.extinction);
   const int most = static_cast<int>(
       std::clamp<std::int64_t>(kBlockBytes / (kPixelBytes * data.width()), 1, data.height()));
   Lines lines(data.width(), most);
@@ -194,6 +182,14 @@ void write_samples(Imf::DeepScanLineOutputFile& file, const DeepWater& water) {
 }
 
 }  // namespace
+
+std::optional<double> deep_reach(const std::array<double, 3>& extinction) {
+  std::optional<double> reach;
+  for (double e : extinction) {
+    if (e > 0) reach = std::max(reach.value_or(0), kMostOpticalDepth / e);
+  }
+  return reach;
+}
 
 void validate_deep_compression(const std::string& compression) {
   const Imf::Compression method = compression_named(compression).method;

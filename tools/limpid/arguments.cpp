@@ -62,6 +62,9 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
   add_simd(verb, a);
   verb.add_option("--preview", a.preview, "Also write a picture to look at")
       ->option_text("OUT.png");
+  verb.add_option("--deep", a.deep,
+                  "Also write the water as deep samples, always compressed by zips")
+      ->option_text("OUT.exr");
   verb.add_option("--runner", a.runner, "fused (fast) or reference (double)")->option_text("NAME");
   verb.add_flag("-n", a.dry_run, "Print the plan, write nothing");
 }

@@ -17,7 +17,7 @@ struct WaterOptions {
   std::string look = "realistic";
   std::vector<std::string> settings, aovs;
   std::optional<double> time;
-  std::string output, preview, runner = "fused", simd, compression = "piz";
+  std::string output, preview, deep, runner = "fused", simd, compression = "piz";
   bool store_float = false, dry_run = false;
 };
 

@@ -40,18 +40,19 @@ RenderJob job_of(const RenderArguments& a) {
 /// A frame of a sequence and its place in time; one frame without a number where no range was
 /// given.
 struct Shot {
-  std::string output, preview;
+  std::string output, preview, deep;
   double time;
 };
 
 std::vector<Shot> shots_of(const RenderArguments& a) {
   expect_output(a.water.output);
-  if (a.frames.empty()) return {{a.water.output, a.water.preview, a.water.time.value_or(0)}};
+  const WaterOptions& w = a.water;
+  if (a.frames.empty()) return {{w.output, w.preview, w.deep, w.time.value_or(0)}};
   if (!(a.fps > 0) || std::isinf(a.fps)) {
     throw Error("--fps " + std::to_string(a.fps) + ": expected a number above 0", Fault::kUsage);
   }
   const std::vector<int> frames = frames_of(a.frames);
-  for (const std::string& name : {a.water.output, a.water.preview}) {
+  for (const std::string& name : {w.output, w.preview, w.deep}) {
     if (frames.size() > 1 && !name.empty() && !has_frame_number(name)) {
       throw Error(name + ": expected %04d or # for the numbers of " +
                       std::to_string(frames.size()) + " frames",
@@ -60,8 +61,8 @@ std::vector<Shot> shots_of(const RenderArguments& a) {
   }
   std::vector<Shot> shots;
   for (int frame : frames) {
-    shots.push_back({name_of_frame(a.water.output, frame), name_of_frame(a.water.preview, frame),
-                     a.water.time.value_or(0) + frame / a.fps});
+    shots.push_back({name_of_frame(w.output, frame), name_of_frame(w.preview, frame),
+                     name_of_frame(w.deep, frame), w.time.value_or(0) + frame / a.fps});
   }
   return shots;
 }
@@ -108,6 +109,7 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
     job.render.time = shot.time;
     job.output.picture = shot.output;
     job.output.preview = shot.preview;
+    job.output.deep = shot.deep;
     print_report(water(model, job, *executor), job.look, job.output, common);
   }
   return 0;

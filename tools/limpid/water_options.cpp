@@ -47,10 +47,11 @@ std::string simd_named(const std::string& name, Runner runner) {
               Fault::kUsage);
 }
 
-std::string exr_named(const std::string& path) {
+std::string exr_named(const std::string& option, const std::string& path) {
   if (path.empty() || is_exr(path)) return path;
-  throw Error("-o " + path + ": expected a name that ends in .exr; --preview writes other formats",
-              Fault::kUsage);
+  throw Error(
+      option + " " + path + ": expected a name that ends in .exr; --preview writes other formats",
+      Fault::kUsage);
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ Look look_of(const WaterOptions& a) {
 
 void expect_output(const std::string& path) {
   if (path.empty()) throw Error("no output: expected -o OUT.exr", Fault::kUsage);
-  exr_named(path);
+  exr_named("-o", path);
 }
 
 OutputChoice output_of(const WaterOptions& a) {
@@ -71,8 +72,12 @@ OutputChoice output_of(const WaterOptions& a) {
   output.aovs = aov_list(a.aovs);
   output.runner = runner_named(a.runner);
   output.simd = simd_named(a.simd, output.runner);
-  output.picture = exr_named(a.output);
+  output.picture = exr_named("-o", a.output);
   output.preview = a.preview;
+  output.deep = exr_named("--deep", a.deep);
+  if (!a.deep.empty() && a.deep == a.output) {
+    throw Error("--deep " + a.deep + ": expected another name than the picture's", Fault::kUsage);
+  }
   validate_compression(a.compression);
   output.compression = a.compression;
   output.store_float = a.store_float;
@@ -89,7 +94,9 @@ void print_report(const CompositeReport& report, const Look& look, const OutputC
   const std::string replaced = report.replaced.to_text();
   if (!replaced.empty()) std::printf("; NaN or inf replaced: %s", replaced.c_str());
   std::printf("\n");
-  if (!output.preview.empty()) std::printf("%s\n", output.preview.c_str());
+  for (const auto& also : {output.preview, output.deep}) {
+    if (!also.empty()) std::printf("%s\n", also.c_str());
+  }
   for (const PlannedOperator& op : report.plan.operators) {
     if (op.verdict == Verdict::kAbsent) {
       std::printf("%s does not run: %s\n", std::string(op.name).c_str(), op.reason.c_str());

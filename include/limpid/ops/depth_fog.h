@@ -70,6 +70,8 @@ struct DepthFog {
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
+  /// a + b of the model beer_lambert: what a unit of the way takes from the light.
+  static Rgb<double> extinction(const Params& params);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {

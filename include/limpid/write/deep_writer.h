@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "limpid/core/plane.h"
@@ -8,8 +9,12 @@
 
 namespace limpid {
 
+/// Depths from here on are infinite.
+inline constexpr float kInfiniteDepth = 1e9f;
+inline constexpr float kLargestDepth = 999999936;  ///< the float before
+
 /// The water of a picture as a volume, for compositors that work in depth. The views must cover the
-/// data window; depths are eye depths, of which 1e9 and above counts as infinite.
+/// data window; depths are eye depths.
 struct DeepWater : ExrHeading {
   View<const float> front;  ///< surface eye depth; +inf: no water here
   View<const float> back;   ///< where the water ends; +inf: it does not
@@ -21,6 +26,9 @@ struct DeepWater : ExrHeading {
   std::string compression = "zips";  ///< none, rle, zips or "zips:level"; deep files have no other
   bool half = true;                  ///< R G B are stored as half; all else is always float
 };
+
+/// How far behind its front endless water is made to end; nothing when it takes no light.
+std::optional<double> deep_reach(const std::array<double, 3>& extinction);
 
 /// Throws Error of Fault::kUsage for what is no DeepWater::compression.
 void validate_deep_compression(const std::string& compression);

@@ -1,0 +1,24 @@
+#pragma once
+#include "limpid/core/frame.h"
+#include "limpid/core/plane.h"
+#include "limpid/core/scene.h"
+#include "limpid/plan/plan.h"
+#include "limpid/run/target.h"
+
+namespace limpid {
+
+/// What a deep file of the water is made of.
+inline constexpr Aov kDeepAovs[] = {Aov::kInScatter, Aov::kTransmittance, Aov::kPath,
+                                    Aov::kSurfaceDepth};
+
+/// Where the water begins and ends on the straight ray of each pixel, in eye depth. The front is
+/// +inf on dry pixels; the back is always finite, and the front again where there is no sample.
+struct WaterExtent {
+  Plane front, back;
+};
+
+/// From the AOVs path and surface_depth of a frame that was run; OutputChoice::deep says how.
+WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scene,
+                         const Target& target);
+
+}  // namespace limpid
