@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,6 +14,8 @@
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
+#include "arguments.h"
+#include "canvas.h"
 #include "made_plate.h"
 #include "opencv_chain.h"
 
@@ -36,16 +36,6 @@ Look realistic() {
   look.of<SunHighlight>() = {};
   return look;
 }
-
-struct Canvas {
-  explicit Canvas(Rect window) {
-    for (int i = 0; i < 4; ++i) planes.emplace_back(window);
-    for (int i = 0; i < 3; ++i) target.color[i] = planes[i].view();
-    target.alpha = planes[3].view();
-  }
-  std::vector<Plane> planes;
-  Target target;
-};
 
 struct Row {
   std::string name;
@@ -74,7 +64,7 @@ void measure_error(const Target& judge, const Target& got, Row& row) {
   row.max_error = *std::max_element(errors.begin(), errors.end());
 }
 
-void bench_size(const char* label, Size size, int rounds, const std::string& simd) {
+void bench_size(const char* label, Size size, const Arguments& arguments) {
   const MadePlate plate(size);
   const Look look = realistic();
   const Plan plan = make_plan(look, {plate.frame.present(), false, true});
@@ -95,10 +85,12 @@ void bench_size(const char* label, Size size, int rounds, const std::string& sim
                   [&](const Target& t) { run_reference(plan, plate.frame, plate.scene, t); }});
   rows.push_back({"OpenCV chain, 1 thread", opencv(1)});
   rows.push_back({"OpenCV chain, 2 threads", opencv(2)});
-  for (const std::string& target : simd.empty() ? simd_targets() : std::vector<std::string>{simd}) {
+  const std::vector<std::string> targets =
+      arguments.simd.empty() ? simd_targets() : std::vector<std::string>{arguments.simd};
+  for (const std::string& target : targets) {
     rows.push_back({"fused " + target + ", 1 thread", fused(*one, target)});
   }
-  const std::string best = simd.empty() ? simd_targets()[0] : simd;
+  const std::string best = arguments.best_simd();
   rows.push_back({"fused " + best + ", 2 threads", fused(*two, best)});
 
   Canvas judge(plate.frame.display), canvas(plate.frame.display);
@@ -107,7 +99,7 @@ void bench_size(const char* label, Size size, int rounds, const std::string& sim
     row.run(canvas.target);
     measure_error(judge.target, canvas.target, row);
   }
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < arguments.rounds; ++round) {
     for (Row& row : rows) {
       if (&row == &rows[0] && round > 1) continue;  // the reference is slow; two rounds tell enough
       const auto start = std::chrono::steady_clock::now();
@@ -125,7 +117,7 @@ void bench_size(const char* label, Size size, int rounds, const std::string& sim
   }
   const double pixels = double(size.width) * size.height, rival = rows[1].best_seconds;
   std::printf("%s, %dx%d, %.0f %% wet, best of %d rounds\n", label, size.width, size.height,
-              100.0 * wet / pixels, rounds);
+              100.0 * wet / pixels, arguments.rounds);
   std::printf("  %-28s %10s %10s %9s %12s %12s %10s\n", "runner", "ns/pixel", "ms", "x rival",
               "mean error", "p99.99", "max");
   for (const Row& row : rows) {
@@ -139,21 +131,11 @@ void bench_size(const char* label, Size size, int rounds, const std::string& sim
 }  // namespace limpid::bench
 
 int main(int argc, char** argv) {
-  int rounds = 7;
-  std::string simd;
-  for (int i = 1; i < argc; ++i) {
-    const bool has_value = i + 1 < argc;
-    if (std::strcmp(argv[i], "--rounds") == 0 && has_value) {
-      rounds = std::max(1, std::atoi(argv[++i]));
-    } else if (std::strcmp(argv[i], "--simd") == 0 && has_value) {
-      simd = argv[++i];
-    } else {
-      std::fprintf(stderr, "usage: limpid_bench [--rounds N] [--simd NAME]\n");
-      return 2;
-    }
-  }
-  std::printf("look realistic on a plate with normals; rival = OpenCV chain, 1 thread\n");
-  limpid::bench::bench_size("1080p", {1920, 1080}, rounds, simd);
-  limpid::bench::bench_size("4K", {3840, 2160}, rounds, simd);
-  return 0;
+  using namespace limpid::bench;
+  return run_program("limpid_bench", [&] {
+    const Arguments arguments = arguments_of(argc, argv);
+    std::printf("look realistic on a plate with normals; rival = OpenCV chain, 1 thread\n");
+    bench_size("1080p", {1920, 1080}, arguments);
+    bench_size("4K", {3840, 2160}, arguments);
+  });
 }

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -17,8 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "limpid/core/simd.h"
-
+#include "arguments.h"
 #include "raster_llvmpipe.h"
 #include "raster_scene.h"
 
@@ -53,7 +51,7 @@ void read_all(int file, void* data, std::size_t bytes) {
 
 /// What the rival's process does: 'd' draws and tells the milliseconds, 'p' sends the picture, 'n'
 /// the renderer's name, the end of the pipe ends it.
-int serve(int scene_index, int from, int to) {
+void serve(int scene_index, int from, int to) {
   GlRasteriser rival;
   rival.load(raster_scene(scene_index));
   char order = 0;
@@ -72,7 +70,6 @@ int serve(int scene_index, int from, int to) {
       write_all(to, name.data(), name.size());
     }
   }
-  return 0;
 }
 
 class Rival {
@@ -160,7 +157,7 @@ Difference difference(const RasterScene& scene, const RasterImage& ours,
   return d;
 }
 
-void bench_scene(int index, int rounds, const std::string& simd) {
+void bench_scene(int index, const Arguments& arguments) {
   const RasterScene scene = raster_scene(index);
   Rasteriser rasteriser(scene.model);
   RasterImage image;
@@ -169,11 +166,11 @@ void bench_scene(int index, int rounds, const std::string& simd) {
   const auto draw = [&](Executor& executor) {
     const Clock::time_point start = Clock::now();
     rasteriser.draw(scene.view, scene.lighting, {.color = true, .depth = true}, executor, image,
-                    simd);
+                    arguments.simd);
     return milliseconds_since(start);
   };
   std::array<double, 4> best{1e30, 1e30, 1e30, 1e30};
-  for (int round = -1; round < rounds; ++round) {  // the first round warms up
+  for (int round = -1; round < arguments.rounds; ++round) {  // the first round warms up
     const std::array<double, 4> took{rival_one.draw(), draw(*one), rival_two.draw(), draw(*two)};
     for (std::size_t i = 0; i < 4 && round >= 0; ++i) best[i] = std::min(best[i], took[i]);
   }
@@ -187,42 +184,25 @@ void bench_scene(int index, int rounds, const std::string& simd) {
   std::fflush(stdout);
 }
 
-int bench(int rounds, const std::string& simd) {
+void bench(const Arguments& arguments) {
   std::printf(
       "rival: %s; ours: %s; 1080p, Phong and a texture, float color and depth; ms, best of "
       "%d rounds\n",
-      Rival(2, "0").renderer().c_str(), simd.empty() ? simd_targets()[0].c_str() : simd.c_str(),
-      rounds);
+      Rival(2, "0").renderer().c_str(), arguments.best_simd().c_str(), arguments.rounds);
   std::printf("%-20s %26s   %26s   %s\n", "", "1 thread: rival, ours", "2 threads: rival, ours",
               "mean difference: color, depth, pixels off by > 0.02");
-  for (int i = 0; i < kRasterScenes; ++i) bench_scene(i, rounds, simd);
-  return 0;
+  for (int i = 0; i < kRasterScenes; ++i) bench_scene(i, arguments);
 }
 
 }  // namespace
 }  // namespace limpid::bench
 
 int main(int argc, char** argv) {
-  int rounds = 7;
-  std::string simd;
-  try {
+  using namespace limpid::bench;
+  return run_program("limpid_raster_bench", [&] {
     if (argc == 5 && std::strcmp(argv[1], "--rival") == 0) {
-      return limpid::bench::serve(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
+      return serve(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
     }
-    for (int i = 1; i < argc; ++i) {
-      const bool has_value = i + 1 < argc;
-      if (std::strcmp(argv[i], "--rounds") == 0 && has_value) {
-        rounds = std::max(1, std::atoi(argv[++i]));
-      } else if (std::strcmp(argv[i], "--simd") == 0 && has_value) {
-        simd = argv[++i];
-      } else {
-        std::fprintf(stderr, "usage: limpid_raster_bench [--rounds N] [--simd NAME]\n");
-        return 2;
-      }
-    }
-    return limpid::bench::bench(rounds, simd);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "limpid_raster_bench: %s\n", e.what());
-    return 1;
-  }
+    bench(arguments_of(argc, argv));
+  });
 }

@@ -1,0 +1,93 @@
+// Speed against error: ways to refract, each with its time and its distance from a path-traced
+// picture of the same water, the plate lagoon. Rounds go over all rows in turn; the best counts.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "canvas.h"
+#include "error_lagoon.h"
+
+namespace limpid::bench {
+namespace {
+
+struct Row {
+  std::string name;
+  Plan plan;
+  TruthError error = {};
+  double best_seconds = 1e30;
+};
+
+/// The normals are calm: normal_offset shifts nothing, whatever its strength.
+Look without_refraction() {
+  Look look = Lagoon::truth_look();
+  look.of<Refraction>().model = Refraction::Model::kNormalOffset;
+  look.of<Refraction>().strength = 0;
+  return look;
+}
+
+std::vector<Row> rows_of(const Lagoon& lagoon) {
+  using Rejection = Refraction::Rejection;
+  std::vector<Row> rows;
+  rows.push_back({"no refraction", lagoon.plan(without_refraction())});
+  for (const int steps : {0, 1, 2, 4, Refraction::kMarch}) {
+    const std::string way =
+        steps == Refraction::kMarch ? "snell march" : "snell steps " + std::to_string(steps);
+    const std::pair<const char*, Rejection> rejections[] = {
+        {"none", Rejection::kNone}, {"snap", Rejection::kSnap}, {"shorten", Rejection::kShorten}};
+    for (const auto& [name, rejection] : rejections) {
+      Look look = Lagoon::truth_look();
+      look.of<Refraction>().steps = steps;
+      look.of<Refraction>().rejection = rejection;
+      rows.push_back({way + ", " + name, lagoon.plan(look)});
+    }
+  }
+  return rows;
+}
+
+void bench(const Arguments& arguments) {
+  const Lagoon lagoon(LIMPID_DATA "/plates/lagoon");
+  const std::string simd = arguments.best_simd();
+  const auto executor = make_executor(1);
+  Canvas canvas(lagoon.window());
+  std::vector<Row> rows = rows_of(lagoon);
+  for (Row& row : rows) {
+    lagoon.run(row.plan, canvas.target, *executor, simd);
+    row.error =
+        lagoon.error_of({canvas.target.color[0], canvas.target.color[1], canvas.target.color[2]});
+  }
+  for (int round = 0; round < arguments.rounds; ++round) {
+    for (Row& row : rows) {
+      const auto start = std::chrono::steady_clock::now();
+      lagoon.run(row.plan, canvas.target, *executor, simd);
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      row.best_seconds = std::min(row.best_seconds, took.count());
+    }
+  }
+
+  const Size size = lagoon.window().size();
+  const double pixels = double(size.width) * size.height;
+  std::printf("lagoon, calm, %dx%d, %.0f %% wet; of these %.1f %% in frame\n", size.width,
+              size.height, 100 * lagoon.wet_share(), 100 * lagoon.in_frame_share());
+  std::printf(
+      "error: mean |picture - truth| / mean truth, values clipped at 4; "
+      "time: fused %s, 1 thread, best of %d rounds\n",
+      simd.c_str(), arguments.rounds);
+  std::printf("  %-24s %10s %10s %10s\n", "refraction", "all wet", "in frame", "ns/pixel");
+  const TruthError dry = lagoon.error_of(lagoon.dry());
+  std::printf("  %-24s %10.4f %10.4f %10s\n", "no water at all", dry.wet, dry.in_frame, "");
+  for (const Row& row : rows) {
+    std::printf("  %-24s %10.4f %10.4f %10.2f\n", row.name.c_str(), row.error.wet,
+                row.error.in_frame, 1e9 * row.best_seconds / pixels);
+  }
+}
+
+}  // namespace
+}  // namespace limpid::bench
+
+int main(int argc, char** argv) {
+  using namespace limpid::bench;
+  return run_program("limpid_error_bench", [&] { bench(arguments_of(argc, argv)); });
+}

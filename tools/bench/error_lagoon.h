@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/plane.h"
+#include "limpid/load/plate.h"
+#include "limpid/ops/look.h"
+#include "limpid/plan/plan.h"
+#include "limpid/run/target.h"
+
+namespace limpid::bench {
+
+/// How far a picture is from the truth: mean |picture - truth| over mean truth, of red, green and
+/// blue together, larger values counted as 4 (glints reach 3700).
+struct TruthError {
+  double wet = 0;       ///< over all wet pixels
+  double in_frame = 0;  ///< over those whose bottom the dry picture shows
+};
+
+/// The plate lagoon with calm water, and the path-traced picture of it to judge by. A wet pixel is
+/// `in frame` where the look of truth_look() finds the bottom: what the others see lies outside the
+/// dry picture, and any error there is one of guessing.
+class Lagoon {
+ public:
+  /// `folder` is data/plates/lagoon. Throws Error as Plate does.
+  explicit Lagoon(const std::filesystem::path& folder);
+
+  /// The water as the truth has it (see the README of the plate), marched, rejection shorten.
+  static Look truth_look();
+
+  Rect window() const { return plate_.frame.work(); }
+  Plan plan(const Look& look, StateSet outputs = {}) const;
+  /// One fused pass.
+  void run(const Plan& plan, const Target& target, Executor& executor,
+           const std::string& simd = {}) const;
+
+  TruthError error_of(const std::array<View<const float>, 3>& color) const;
+  /// The dry picture.
+  std::array<View<const float>, 3> dry() const;
+  double wet_share() const;       ///< of all pixels
+  double in_frame_share() const;  ///< of the wet ones
+
+ private:
+  bool wet(int x, int y) const;
+
+  Scene scene_;
+  LoadedPlate plate_;
+  std::array<Plane, 3> truth_;
+  Plane sure_;  ///< confidence of the look of truth_look()
+};
+
+}  // namespace limpid::bench
