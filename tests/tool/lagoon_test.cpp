@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include "../../tools/bench/canvas.h"
+#include "../../tools/bench/error_lagoon.h"
+
+/// Water on the plate lagoon, by the fused runner, beside a path-traced picture of the same water.
+
+namespace limpid::test {
+namespace {
+
+using bench::Lagoon;
+using bench::TruthError;
+
+class LagoonTest : public ::testing::Test {
+ protected:
+  TruthError error_of(const Look& look) const {
+    const bench::Canvas canvas(lagoon_.window());
+    lagoon_.run(lagoon_.plan(look), canvas.target, *make_executor(2));
+    return lagoon_.error_of(
+        {canvas.target.color[0], canvas.target.color[1], canvas.target.color[2]});
+  }
+  const Lagoon lagoon_{LIMPID_DATA "/plates/lagoon"};
+};
+
+TEST_F(LagoonTest, MostOfTheBottomIsInTheFrame) {
+  EXPECT_GT(lagoon_.in_frame_share(), 0.7);
+  EXPECT_LT(lagoon_.in_frame_share(), 0.85);  // else the rays that leave it were not noticed
+}
+
+TEST_F(LagoonTest, MarchedWaterIsNearTheTruth) {
+  EXPECT_LT(error_of(Lagoon::truth_look()).wet, 0.08);
+  EXPECT_GT(lagoon_.error_of(lagoon_.dry()).wet, 0.5);
+}
+
+TEST_F(LagoonTest, EveryReadingOfTheDepthGetsNearer) {
+  Look look = Lagoon::truth_look();
+  look.of<Refraction>().model = Refraction::Model::kNormalOffset;
+  double last = error_of(look).in_frame;
+  look.of<Refraction>().model = Refraction::Model::kSnell;
+  for (const int steps : {0, 1, 2, 4, Refraction::kMarch}) {
+    look.of<Refraction>().steps = steps;
+    const double error = error_of(look).in_frame;
+    EXPECT_LT(error, 0.85 * last) << "steps " << steps;
+    last = error;
+  }
+}
+
+}  // namespace
+}  // namespace limpid::test
