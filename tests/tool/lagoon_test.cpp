@@ -29,6 +29,7 @@ TEST_F(LagoonTest, MostOfTheBottomIsInTheFrame) {
 
 TEST_F(LagoonTest, MarchedWaterIsNearTheTruth) {
   EXPECT_LT(error_of(Lagoon::truth_look()).wet, 0.08);
+  EXPECT_LT(error_of(Lagoon::truth_look()).in_frame, 0.027);
   EXPECT_GT(lagoon_.error_of(lagoon_.dry()).wet, 0.5);
 }
 

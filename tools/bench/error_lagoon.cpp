@@ -63,7 +63,8 @@ Look Lagoon::truth_look() {
   mirror.reflectance = FresnelReflection::Reflectance::kExact;
   mirror.source = FresnelReflection::Source::kPlanar;
   mirror.lookup = FresnelReflection::Lookup::kRay;
-  look.of<SunHighlight>().strength = 0;
+  look.of<SunHighlight>().model = SunHighlight::Model::kGgx;
+  look.of<SunHighlight>().roughness = 0;  // a calm sea mirrors the sun's disc
   return look;
 }
 

@@ -22,9 +22,10 @@ namespace limpid {
 /// with `steps` 0 as deep as the bottom at the pixel itself; with k, k times as deep as the bottom
 /// that the last guess has found; with "march", to where the ray passes behind the depth plane
 /// (McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", with equal steps on screen, then
-/// bisection). A march that leaves the picture goes on to the level of the last bottom it saw. From
-/// below the ray is bent outwards; where it is totally reflected nothing is transmitted by the
-/// surface and the lookup stays at the pixel.
+/// bisection). Where it meets nothing in the picture, or passes behind what stands before the water
+/// and comes out under the bottom, 4 steps make the guess. From below the ray is bent outwards;
+/// where it is totally reflected nothing is transmitted by the surface and the lookup stays at the
+/// pixel.
 ///
 /// What lies above the surface must not be seen through it. `rejection` `none` takes what is there.
 /// `snap` (article 2): where the dry depth nearest to uv' is in front of this pixel's surface, uv'
@@ -225,10 +226,10 @@ struct Refraction {
   template <class F, class Tap>
   static Found<F> march(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
                         const ScreenRay<F>& ray, F fall) {
-    constexpr int kSteps = 48, kHalvings = 6;
+    constexpr int kSteps = 48, kHalvings = 6, kGuesses = 4;
     const F end = ray.s_at(reach_in(planes.bounds, p.uv, ray.across));
     const F most = min(end, F(1e30));
-    F before = F(0), after = F(1), last_drop = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth);
+    F before = F(0), after = F(1);
     F found = F(0), lost = F(0), in_front = F(1);
     const auto behind = [&](F t, F& drop) {
       const F way = ray.at_share(t, most);
@@ -247,7 +248,6 @@ struct Refraction {
       lost = select(open && hit && !came_from_sight, F(1), lost);
       after = select(open && hit, t, after);
       before = select(open && !hit, t, before);
-      last_drop = select(open && !hit && drop > F(0), drop, last_drop);
       in_front = select(drop > F(0), F(1), F(0));
       if (!any(found + lost < F(0.5))) break;
     }
@@ -257,15 +257,14 @@ struct Refraction {
       const auto hit = behind(t, drop);
       after = select(hit, t, after);
       before = select(hit, before, t);
-      last_drop = select(hit, drop, last_drop);
     }
     const auto seen = found > F(0.5);
     // The depth plane is a staircase; the level between its texels is smooth. On walls it says
     // nothing.
     const F met = ray.at_share(after, most);
     const F smooth = to_level(c, planes, p, tap, ray, fall, met);
-    const F way = select(seen, min(max(smooth, F(0.98) * met), F(1.02) * met),
-                         select(lost > F(0.5), last_drop / fall, max(last_drop / fall, most)));
+    F way = min(max(smooth, F(0.98) * met), F(1.02) * met);
+    if (any(!seen)) way = select(seen, way, iterate(kGuesses, c, planes, p, tap, ray, fall).way);
     return {select(way < F(1e20), way, F(HUGE_VAL)), found};
   }
 

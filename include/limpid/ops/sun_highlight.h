@@ -19,14 +19,15 @@ namespace limpid {
 /// is pi times its color: a white wall that faces the sun shows that color, as the raster pass has
 /// it. Never brighter than the Fresnel reflectance of the sun's disc, that is the irradiance over
 /// its solid angle. `roughness` is alpha; alpha^2, the mean square slope of the waves too small to
-/// see, is 0.003 + 0.00512 wind / (m/s) for all waves of an open sea (Cox & Munk 1954).
+/// see, is 0.003 + 0.00512 wind / (m/s) for all waves of an open sea (Cox & Munk 1954). 0 is a
+/// mirror: the sun's disc itself, of 0.2665 degrees of radius.
 struct SunHighlight {
   enum class Model { kPhong, kBlinnPhong, kGgx };
   struct Params {
-    Model model = Model::kBlinnPhong;
+    Model model = Model::kGgx;
     double power = 200;
     double strength = 1;
-    double roughness = 0.03;
+    double roughness = 0.01;
   };
 
   static constexpr std::string_view kName = "sun_highlight";
@@ -64,6 +65,7 @@ struct SunHighlight {
       case Model::kBlinnPhong:
         return blinn_phong_lobe(n, v, l, F(params.power));
       case Model::kGgx:
+        if (params.roughness == 0) return sun_disc_lobe(n, v, l, F(c.ior));
         return sun_glint_lobe(n, v, l, F(params.roughness), F(c.ior));
     }
     return F(0);

@@ -96,4 +96,16 @@ LIMPID_INLINE F sun_glint_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, F alpha, F ior) 
   return mirrored * fresnel_exact(dot(l, normalize_or(l + v, zero)), ior);
 }
 
+/// The sun's disc in a perfect mirror of that reflectance: ggx_lobe of alpha 0, for a sun as large
+/// as ours. F / kSunSolidAngle where the mirrored view ends on the disc, else 0.
+template <class F>
+LIMPID_INLINE F sun_disc_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, F ior) {
+  // The chord from the disc's middle to its rim; angles this small are lost in a float's cosine.
+  constexpr double kChord = 0.0046514;
+  const F cosine = dot(n, v);
+  const Vec3<F> off = (F(2) * cosine) * n - v - l;
+  const auto hits = dot(off, off) < F(kChord * kChord) && cosine > F(0);
+  return select(hits, F(1 / kSunSolidAngle) * fresnel_exact(cosine, ior), F(0));
+}
+
 }  // namespace limpid
