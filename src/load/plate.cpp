@@ -10,6 +10,7 @@
 #include "limpid/load/scene_file.h"
 
 #include "load/layer_candidates.h"
+#include "load/plate_deep.h"
 #include "load/plate_file.h"
 
 namespace limpid {
@@ -28,6 +29,12 @@ PlateName split_layer(const std::string& text) {
   const PlateName split = split_plate(text);
   return names_file(split.file) ? split : PlateName{"", text};
 }
+
+/// What is wanted of a deep part.
+struct DeepRequest {
+  Rect window;
+  PlaneSet planes;
+};
 
 }  // namespace
 
@@ -82,6 +89,37 @@ struct Plate::State {
     return find_layer(role, sources_of(0, searched));
   }
 
+  /// Whether the plane is one that the deep samples of that part give.
+  bool is_deep(const ChannelRef& ref, PlaneId plane) const {
+    return part_of(ref).deep && ref.name == deep_channel(plane);
+  }
+
+  bool gives_deep_below(PlaneSet wanted) const {
+    for (const std::string_view role : {"below_color", "below_depth"}) {
+      const LayerChoice* below = choice(role);
+      const PlaneId first = role_named(role).first;
+      if (below && wanted.has(first) && is_deep(below->channels.front(), first)) return true;
+    }
+    return false;
+  }
+
+  /// A deep part that gives the color shows what lies below the water, too.
+  void add_deep_below(const PlateRequest& request) {
+    if (!choice("color") || !is_deep(color_ref(), PlaneId::kColorR)) return;
+    const ChannelRef part = color_ref();
+    for (const Role& role : roles()) {
+      const bool open = !choices.contains(role.name) && !problems.contains(role.name) &&
+                        !request.layers.contains(std::string(role.name));
+      if (!open || !kBelowPlanes.covers(role.planes())) continue;
+      LayerChoice below{{}, "deep samples behind the water"};
+      for (int i = 0; i < role.count; ++i) {
+        const std::string_view channel = deep_channel(plane_after(role.first, i));
+        below.channels.push_back({part.file, part.part, std::string(channel)});
+      }
+      choices.emplace(role.name, std::move(below));
+    }
+  }
+
   void resolve_all(const PlateRequest& request, bool collect_problems) {
     for (const auto& [name, text] : request.layers) role_named(name);
     for (const std::filesystem::path& path : request.files) {
@@ -95,6 +133,7 @@ struct Plate::State {
         problems.emplace(role.name, error.what());
       }
     }
+    add_deep_below(request);
   }
 };
 
@@ -187,8 +226,11 @@ LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning&
   loaded.planes.resize(kPlaneCount);
   const Rect work = intersection(display(), state_->part_of(state_->color_ref()).data);
   if (work.empty()) throw Error("color: its data window lies outside the display window");
+  // What lies below begins at the surface.
+  if (state_->gives_deep_below(wanted)) wanted = wanted | PlaneSet{PlaneId::kSurfaceDepth};
 
   std::map<int, std::vector<ExrRequest>> requests;  // by file; each file decodes in one go
+  std::map<std::pair<int, int>, DeepRequest> deep;  // by file and part, read after all the others
   for (const Role& role : roles()) {
     const LayerChoice* choice = state_->choice(role.name);
     if (!choice) continue;
@@ -199,6 +241,11 @@ LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning&
       const Rect data = state_->part_of(ref).data;
       const Rect window{std::min(data.x0, work.x0), std::min(data.y0, work.y0),
                         std::max(data.x1, work.x1), std::max(data.y1, work.y1)};
+      if (state_->is_deep(ref, id)) {
+        DeepRequest& request = deep[{ref.file, ref.part}];
+        request = {window, request.planes | PlaneSet{id}};
+        continue;
+      }
       Plane& plane = loaded.planes[index_of(id)];
       plane = Plane(window);
       loaded.frame.planes[index_of(id)] = plane.view();
@@ -219,6 +266,10 @@ LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning&
   };
   loaded.replaced = sanitise_planes(loaded.planes,
                                     scene.water ? scene.water->up : glm::dvec3(0, 1, 0), source_of);
+  for (const auto& [place, request] : deep) {
+    const ExrFile& file = *state_->files[static_cast<std::size_t>(place.first)].exr;
+    read_deep_planes(file, place.second, request.planes, request.window, scene, depth, loaded);
+  }
   return loaded;
 }
 

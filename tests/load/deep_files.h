@@ -10,6 +10,17 @@ namespace limpid::exr_test {
 /// One deep sample: channel name -> value.
 using DeepValues = std::map<std::string, float>;
 
+/// One of color (red, 2 red, 3 red).
+inline DeepValues point(float z, float red, float alpha) {
+  return {{"Z", z}, {"ZBack", z}, {"R", red}, {"G", 2 * red}, {"B", 3 * red}, {"A", alpha}};
+}
+
+inline DeepValues volume(float front, float back, float red, float alpha) {
+  DeepValues sample = point(front, red, alpha);
+  sample["ZBack"] = back;
+  return sample;
+}
+
 /// A deep picture to be written by OpenEXR: the channels with their types, and the samples of the
 /// pixels that have any.
 struct DeepPicture {

@@ -13,23 +13,15 @@ namespace {
 using exr_test::DeepPicture;
 using exr_test::DeepValues;
 using exr_test::error_of;
+using exr_test::point;
 using exr_test::rgbaz;
 using exr_test::temporary;
+using exr_test::volume;
 using exr_test::write_deep_picture;
 using ::testing::HasSubstr;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-DeepValues point(float z, float red, float alpha) {
-  return {{"Z", z}, {"ZBack", z}, {"R", red}, {"G", 2 * red}, {"B", 3 * red}, {"A", alpha}};
-}
-
-DeepValues volume(float front, float back, float red, float alpha) {
-  DeepValues sample = point(front, red, alpha);
-  sample["ZBack"] = back;
-  return sample;
-}
 
 /// What one pixel comes to.
 struct Pixel {

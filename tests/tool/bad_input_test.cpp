@@ -100,11 +100,14 @@ TEST_F(BadInputTest, SizesThatDiffer) {
 }
 
 TEST_F(BadInputTest, DeepFile) {
-  const Ran made =
-      oiiotool({"plate.exr", "--ch", "R,G,B,A,Z=depth.Z", "--deepen", "-o", "deep.exr"});
+  const Ran made = oiiotool({"plate.exr", "--ch", "R,G,B,Z=depth.Z", "--deepen", "-o", "deep.exr"});
   ASSERT_EQ(made.code, 0) << made.err;
-  ASSERT_THAT(iinfo("deep.exr"), ::testing::HasSubstr("deep"));
-  expect_bad_plate("deep.exr", {"deep.exr: ", "deep"});
+  expect_bad_plate("deep.exr", {"deep.exr: no channel 'A'", "R, G, B, A and Z"});
+  const Words with_kind = {"deep.exr", "--scene", "scene.toml", "--depth-kind", "inverse"};
+  expect_no_composite(with_kind, {"deep.exr: holds deep samples", "kind eye or ray"});
+  // Other buffers are no samples: there is no one value a pixel.
+  expect_no_composite({"plate.exr", "--scene", "scene.toml", "--layer", "shadow=deep.exr:R"},
+                      {"deep.exr: part 0", "holds deep samples", "flat pixels"});
 }
 
 TEST_F(BadInputTest, SingularCamera) {

@@ -42,7 +42,9 @@ struct LoadedPlate {
 };
 
 /// A frame as it lies in files: opened, every role found, no pixel read. A role is decided by
-/// `layers`, else by `named`, else found among `files`.
+/// `layers`, else by `named`, else found among `files`. A deep part (load/deep.h) gives color and
+/// depth, and where no other layer does, below_color and below_depth: what its samples hold behind
+/// the surface. Samples that a renderer left out behind opaque ones are black and infinitely far.
 class Plate {
  public:
   /// Throws Error: a file that cannot be opened, no color (the list of what there is), two
@@ -68,8 +70,9 @@ class Plate {
   [[noreturn]] void refuse_without(std::string_view role) const;
 
   /// Decodes the wanted planes and enters them (sanitise.h). Planes smaller than the picture are
-  /// filled up with their role's `missing` value. Throws Error for damaged pixels, and for a depth
-  /// kind that needs what the scene lacks.
+  /// filled up with their role's `missing` value. What is below the water in deep samples begins at
+  /// the surface depth, or else at the scene's calm plane. Throws Error for damaged pixels, for a
+  /// depth kind that needs what the scene lacks, and for deep samples of a kind but eye or ray.
   LoadedPlate read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const;
 
  private:

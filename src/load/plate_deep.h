@@ -1,0 +1,21 @@
+#pragma once
+#include <string_view>
+
+#include "limpid/load/exr_file.h"
+#include "limpid/load/plate.h"
+
+namespace limpid {
+
+/// The channel of a deep part whose samples give the plane, or "" for planes that come from flat
+/// pixels alone.
+std::string_view deep_channel(PlaneId plane);
+
+/// Reads these planes (those of deep_channel()) from a deep part (load/deep.h) and enters them in
+/// `loaded`, which has its display window and, where there is one, the surface depth already. Below
+/// is what lies behind that surface, or else behind the calm plane; for views that begin in the
+/// water it is all. Throws Error when below is asked for and the scene lacks camera or water, for a
+/// depth kind that deep samples cannot have, and as read_deep_layers().
+void read_deep_planes(const ExrFile& file, int part, PlaneSet planes, const Rect& window,
+                      const Scene& scene, const DepthMeaning& depth, LoadedPlate& loaded);
+
+}  // namespace limpid
