@@ -11,7 +11,7 @@ using test::Tray;
 Tray sunny_tray() {
   Tray tray({6, 4});
   tray.scene.sun = Sun{{0.5, std::sqrt(0.75), 0}, {3, 2, 1}};
-  tray.look.of<SunHighlight>() = {};
+  tray.look.of<SunHighlight>() = {.model = SunHighlight::Model::kBlinnPhong};
   return tray;
 }
 

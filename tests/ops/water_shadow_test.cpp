@@ -82,7 +82,9 @@ Tray half_shaded_murk() {
   Tray tray = half_shaded();
   tray.scene.sun = Sun{};
   DepthFog::Params& fog = tray.look.of<DepthFog>();
-  fog = {.model = DepthFog::Model::kBeerLambert, .absorption = {0, 0, 0}, .anisotropy = 0};
+  fog = test::plain_fog(DepthFog::Model::kBeerLambert);
+  fog.absorption = {0, 0, 0};
+  fog.anisotropy = 0;
   fog.scattering = {0.5, 0.5, 0.5};
   fog.ambient = {0.25, 0.25, 0.25};
   fog.sunlight = DepthFog::Sunlight::kNone;

@@ -17,7 +17,7 @@ using test::Buffers;
 using test::Picture;
 
 Look busy_look() {
-  Look look;
+  Look look = test::article_look();
   look.of<PrismSplit>().strength = 0.01;
   look.of<SunHighlight>().power = 20;
   return look;

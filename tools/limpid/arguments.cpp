@@ -31,7 +31,7 @@ void add_time(CLI::App& verb, WaterOptions& a) {
 }
 
 void add_look(CLI::App& verb, WaterOptions& a) {
-  verb.add_option("--look", a.look, "Look by name, or a look file (default: realistic)")
+  verb.add_option("--look", a.look, "Look by name, or a look file (default: physical)")
       ->option_text("NAME|FILE");
   verb.add_option("--set", a.settings, "One parameter: operator.parameter=value (repeatable)")
       ->option_text("KEY=VALUE")

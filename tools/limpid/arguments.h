@@ -14,7 +14,7 @@ struct CommonArguments {
 
 /// Look and output, for every verb that puts water into something.
 struct WaterOptions {
-  std::string look = "realistic";
+  std::string look = "physical";
   std::vector<std::string> settings, aovs;
   std::optional<double> time;
   std::string output, preview, deep, runner = "fused", simd, compression = "piz";

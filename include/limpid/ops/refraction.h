@@ -63,10 +63,7 @@ struct Refraction {
                                    StatePart::kConfidence};
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params& p) {
-    const PlaneSet depths{PlaneId::kDepth, PlaneId::kBelowDepth};
-    const bool blind = p.model == Model::kSnell && p.steps == 0 && p.rejection == Rejection::kNone;
-    PlaneSet planes = kColorPlanes | (kBelowPlanes - depths);
-    if (!blind) planes = planes | depths;
+    PlaneSet planes = kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kDepth};
     if (p.rejection == Rejection::kShorten) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
     return planes;
   }
@@ -93,7 +90,9 @@ struct Refraction {
         aim_by_snell(params, c, planes, strip);
         break;
     }
-    if (params.model != Model::kSnell || params.rejection == Rejection::kSnap) {
+    // A march knows the depth where it ends; but snap asks what is seen there.
+    const bool knows = params.model == Model::kSnell && params.steps != 0;
+    if (!knows || params.rejection == Rejection::kSnap) {
       strip.nearest(
           planes.depth, [](const Pixel<F>& p) { return p.shift; },
           [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
@@ -259,13 +258,22 @@ struct Refraction {
       before = select(hit, before, t);
     }
     const auto seen = found > F(0.5);
-    // The depth plane is a staircase; the level between its texels is smooth. On walls it says
-    // nothing.
+    // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
+    // or so away.
     const F met = ray.at_share(after, most);
     const F smooth = to_level(c, planes, p, tap, ray, fall, met);
-    F way = min(max(smooth, F(0.98) * met), F(1.02) * met);
+    const F texel = F(1.5) / max(length_on_screen(c, ray.shift_at(most)), F(1));
+    F way = min(max(smooth, ray.at_share(max(after - texel, F(0)), most)),
+                ray.at_share(min(after + texel, F(1)), most));
     if (any(!seen)) way = select(seen, way, iterate(kGuesses, c, planes, p, tap, ray, fall).way);
     return {select(way < F(1e20), way, F(HUGE_VAL)), found};
+  }
+
+  /// In pixels.
+  template <class F>
+  static LIMPID_INLINE F length_on_screen(const Context& c, Vec2<F> shift) {
+    const F x = F(c.size.x) * shift.x, y = F(c.size.y) * shift.y;
+    return sqrt(x * x + y * y);
   }
 
   /// Where the ray meets the level of the bottom that is seen at `way`, mixed from four texels;
@@ -284,17 +292,6 @@ struct Refraction {
     }
     const auto seen = weight > F(1e-3);
     return select(seen, level / (max(weight, F(1e-3)) * fall), way);
-  }
-
-  /// How many times `across` fits between uv and the edge that it leads to.
-  template <class F>
-  static LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
-    const auto along = [](F at, F low, F high, F step) {
-      const F room = select(step > F(0), high - at, at - low);
-      return max(room, F(0)) / max(abs(step), F(1e-20));
-    };
-    return min(along(uv.x, F(b.low.x), F(b.high.x), across.x),
-               along(uv.y, F(b.low.y), F(b.high.y), across.y));
   }
 
   // --- off the frame ----------------------------------------------------------------------------
