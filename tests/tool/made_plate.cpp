@@ -146,12 +146,15 @@ std::string scene_toml(const std::string& more) {
 
 std::string look_toml() {
   return "[wave_normals]\nmodel = \"four_maps\"\nmap = \"waves.exr\"\ntile_size = 3.0\n\n"
-         "[refraction]\nmodel = \"normal_offset\"\nrejection = \"snap\"\nstrength = 0.03\n\n"
-         "[prism_split]\nstrength = 0.004\n\n"
-         "[depth_fog]\ndensity = 0.15\ncolor = [0.02, 0.10, 0.12]\nalpha = 0.9\n\n"
-         "[water_shadow]\nstrength = 0.5\n\n"
+         "[refraction]\nmodel = \"normal_offset\"\nrejection = \"snap\"\noff_frame = "
+         "\"clamp\"\nstrength = 0.03\n\n"
+         "[prism_split]\nmodel = \"axis\"\nstrength = 0.004\n\n"
+         "[depth_fog]\nmodel = \"linear\"\ndistance = \"eye\"\ndensity = 0.15\n"
+         "color = [0.02, 0.10, 0.12]\nalpha = 0.9\nwater_type = \"custom\"\n"
+         "scattering = [0, 0, 0]\nambient = [0, 0, 0]\ncrossing = \"none\"\n\n"
+         "[water_shadow]\nmodel = \"darken\"\nstrength = 0.5\n\n"
          "[fresnel_reflection]\nreflectance = \"schlick\"\nlookup = \"offset\"\nstrength = 0.02\n\n"
-         "[sun_highlight]\npower = 20.0\nstrength = 0.5\n";
+         "[sun_highlight]\nmodel = \"blinn_phong\"\npower = 20.0\nstrength = 0.5\n";
 }
 
 }  // namespace limpid::test
