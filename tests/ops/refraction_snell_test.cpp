@@ -25,10 +25,11 @@ struct Basin {
       buffers.set(plane_after(PlaneId::kColorR, c),
                   [](int x, int y) { return float(x + 100 * y); });
     }
+    bottom = Plane(rect_of(kSize));
     buffers.set(PlaneId::kDepth, [&](int x, int y) {
       const glm::dvec3 ray = rays.ray_at(x + 0.5, y + 0.5);
       const double meets = (-depth + slope * eye.z - eye.y) / (ray.y - slope * ray.z);
-      return meets > 0 ? static_cast<float>(meets) : test::kInf;
+      return bottom.view().at(x, y) = meets > 0 ? static_cast<float>(meets) : test::kInf;
     });
     look = test::still_look();
     Refraction::Params& p = look.of<Refraction>();
@@ -61,6 +62,7 @@ struct Basin {
   test::Buffers buffers;
   Scene scene;
   Look look;
+  Plane bottom;  ///< its depth
 };
 
 double inside(const glm::dvec2& uv) { return std::min({uv.x, uv.y, 1 - uv.x, 1 - uv.y}); }
@@ -142,6 +144,35 @@ TEST(Snell, SkyUnderWaterHasNoEnd) {
     basin.look.of<Refraction>().steps = steps;
     for (float v : basin.wet().values()) EXPECT_FALSE(std::isnan(v)) << steps;
   }
+}
+
+// A block that reaches almost up to the surface: rays from behind it end on the bottom that it
+// hides. They must not show the block's face, which they never meet.
+TEST(Snell, WhatStandsUnderWaterHidesTheBottomAndIsNotSmeared) {
+  const auto block = [](int x, int y) { return x >= 20 && x < 44 && y >= 34 && y < 40; };
+  Basin basin(0.5, 0), face(0.1, 0);
+  basin.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    const Basin& seen = block(x, y) ? face : basin;
+    return seen.bottom.view().at(x, y);
+  });
+  for (int c = 0; c < 3; ++c) {
+    basin.buffers.set(plane_after(PlaneId::kColorR, c),
+                      [&](int x, int y) { return block(x, y) ? 1e4f : 1.0f; });
+  }
+  basin.look.of<Refraction>().rejection = Refraction::Rejection::kShorten;
+  const test::Picture got = basin.wet();
+  int hidden = 0;
+  for (int y = 24; y < 34; ++y) {
+    for (int x = 24; x < 40; ++x) {
+      const glm::dvec2 uv = basin.hit(x, y, 0.5, 0).uv;
+      const int row = static_cast<int>((1 - uv.y) * kSize.height);
+      if (!block(x, row - 1) || !block(x, row + 1)) continue;
+      ++hidden;
+      EXPECT_LT(got.aov(Aov::kTransmitted, x, y), 1.1) << x << ", " << y;
+      EXPECT_LT(got.aov(Aov::kConfidence, x, y), 0.01) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(hidden, 10);
 }
 
 TEST(Snell, OffTheFrameIsInventedAndSaidSo) {

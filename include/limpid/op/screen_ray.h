@@ -92,4 +92,13 @@ LIMPID_INLINE F calm_depth_at(const Context& c, const Pixel<F>& p, Vec2<F> shift
   return select(meets, above / select(meets, falls, F(1)), F(HUGE_VAL));
 }
 
+/// How much calm_depth_at changes from one row of pixels to the next.
+template <class F>
+LIMPID_INLINE F calm_depth_step(const Context& c, const Pixel<F>& p, Vec2<F> shift) {
+  const F row(1.0 / c.size.y);
+  const F here = min(calm_depth_at(c, p, shift), F(1e30));
+  const F below = min(calm_depth_at(c, p, Vec2<F>{shift.x, shift.y + row}), F(1e30));
+  return abs(here - below);
+}
+
 }  // namespace limpid

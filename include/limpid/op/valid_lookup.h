@@ -19,6 +19,13 @@ struct ValidTaps {
   Vec2<F> place;                           ///< where most of the lookup comes from
   bool some_made_up;
 
+  /// 1 but for rounding; less where not even the last resort was bearable.
+  F weight() const {
+    F sum = F(0);
+    for (int k = 0; k < 4; ++k) sum = sum + weight_there[k] + weight_shortened[k];
+    return sum;
+  }
+
   template <class Tap>
   F read(const Tap& tap, PlaneId plane) const {
     F sum = F(0);
@@ -88,9 +95,10 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
   return select(lands, t, low) * shift;
 }
 
-/// The taps for a lookup at `shift`.
-template <class F, class Tap, class Valid>
-auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
+/// The taps for a lookup at `shift`. Should nothing on the way be `valid`, what is `bearable` there
+/// stands in for it: the pixel's own texel is always that.
+template <class F, class Tap, class Valid, class Bearable>
+auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable) {
   using Quad = decltype(tap.quad(shift));
   ValidTaps<F, Quad> taps{tap.quad(shift), tap.quad(shift), {}, {}, F(0), shift, false};
   for (int k = 0; k < 4; ++k) {
@@ -104,9 +112,12 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
   const Vec2<F> shortened = last_valid(tap, shift, taps.share, valid);
   taps.place = select(taps.share >= F(0.5), shift, shortened);
   taps.shortened = tap.quad(shortened);
+  // Half of the weight is valid there, unless nothing on the way is.
+  const auto found = valid_share(tap, shortened, valid) > F(0.25);
   F valid_weight = F(0);
   for (int k = 0; k < 4; ++k) {
-    taps.weight_shortened[k] = taps.shortened.weight(k) * valid(taps.shortened, k);
+    const F counts = select(found, valid(taps.shortened, k), bearable(taps.shortened, k));
+    taps.weight_shortened[k] = taps.shortened.weight(k) * counts;
     valid_weight = valid_weight + taps.weight_shortened[k];
   }
   const F scale = max(F(1) - taps.share, F(0)) / max(valid_weight, F(1e-6));
@@ -114,6 +125,11 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
     taps.weight_shortened[k] = select(whole, F(0), scale * taps.weight_shortened[k]);
   }
   return taps;
+}
+
+template <class F, class Tap, class Valid>
+auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
+  return valid_taps(tap, shift, valid, valid);
 }
 
 }  // namespace limpid

@@ -22,10 +22,10 @@ namespace limpid {
 /// with `steps` 0 as deep as the bottom at the pixel itself; with k, k times as deep as the bottom
 /// that the last guess has found; with "march", to where the ray passes behind the depth plane
 /// (McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", with equal steps on screen, then
-/// bisection). Where it meets nothing in the picture, or passes behind what stands before the water
-/// and comes out under the bottom, 4 steps make the guess. From below the ray is bent outwards;
-/// where it is totally reflected nothing is transmitted by the surface and the lookup stays at the
-/// pixel.
+/// bisection). What lies far before the ray hides the bottom and is not hit. A ray that comes out
+/// from behind it under the bottom goes on to the level of the bottom that it saw last; one that
+/// meets nothing in the picture to where 4 steps guess. From below the ray is bent outwards; where
+/// it is totally reflected nothing is transmitted by the surface and the lookup stays at the pixel.
 ///
 /// What lies above the surface must not be seen through it. `rejection` `none` takes what is there.
 /// `snap` (article 2): where the dry depth nearest to uv' is in front of this pixel's surface, uv'
@@ -101,8 +101,8 @@ struct Refraction {
     if (params.rejection == Rejection::kSnap && !planes.below) {
       strip.each([](Pixel<F>& p) { snap(p); });
     }
-    if (params.rejection == Rejection::kShorten && !planes.below) {
-      strip.probe([&](Pixel<F>& p, const auto& tap) { look_up_valid(c, planes, p, tap); });
+    if (params.rejection == Rejection::kShorten) {
+      strip.probe([&](Pixel<F>& p, const auto& tap) { look_up_valid(params, c, planes, p, tap); });
     } else {
       look_up(c, planes, strip);
     }
@@ -214,6 +214,15 @@ struct Refraction {
     return max(p.side * (surface - height_at(c, p, shift, depth)), F(0));
   }
 
+  /// The same of what a texel shows: 0 where that tells nothing, for it stands above the surface or
+  /// the layer below is empty there (cut away, where the bottom rises out of the water).
+  template <class F>
+  static LIMPID_INLINE F seen_drop(const Context& c, const Planes& planes, const Pixel<F>& p,
+                                   Vec2<F> shift, F depth) {
+    const F drop = drop_to(c, p, shift, depth);
+    return planes.below ? select(depth < F(1e30), drop, F(0)) : drop;
+  }
+
   template <class F, class Tap>
   static Found<F> iterate(int steps, const Context& c, const Planes& planes, const Pixel<F>& p,
                           const Tap& tap, const ScreenRay<F>& ray, F fall) {
@@ -222,51 +231,72 @@ struct Refraction {
     return {select(way < F(1e20), way, F(HUGE_VAL)), F(1)};
   }
 
+  /// Where a ray stands against what the depth plane shows there.
+  template <class F>
+  struct Sight {
+    F drop;    ///< of what is seen, below the surface point; 0 when it stands before the water
+    F behind;  ///< 1 where the ray has passed behind it
+    F past;    ///< 1 where it lies far before the ray: it hides the bottom, it is not hit
+  };
+
+  template <class F, class Tap>
+  static Sight<F> look(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
+                       const ScreenRay<F>& ray, F way, F texels) {
+    const Vec2<F> shift = ray.shift_at(way);
+    const F seen = tap.nearest(planes.depth, shift), own = ray.depth_at(way);
+    const F drop = seen_drop(c, planes, p, shift, seen);
+    const auto behind = drop > F(0) && own >= seen;
+    // A slope is missed by as much as its depth changes from texel to texel.
+    const F calm = min(calm_depth_at(c, p, shift), own);
+    const F slack = F(0.25) * (own - calm) + texels * calm_depth_step(c, p, shift);
+    return {drop, select(behind, F(1), F(0)), select(behind && own - seen > slack, F(1), F(0))};
+  }
+
   template <class F, class Tap>
   static Found<F> march(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
                         const ScreenRay<F>& ray, F fall) {
     constexpr int kSteps = 48, kHalvings = 6, kGuesses = 4;
     const F end = ray.s_at(reach_in(planes.bounds, p.uv, ray.across));
     const F most = min(end, F(1e30));
-    F before = F(0), after = F(1);
-    F found = F(0), lost = F(0), in_front = F(1);
-    const auto behind = [&](F t, F& drop) {
-      const F way = ray.at_share(t, most);
-      const Vec2<F> shift = ray.shift_at(way);
-      const F depth = tap.nearest(planes.depth, shift);
-      drop = drop_to(c, p, shift, depth);
-      return drop > F(0) && ray.depth_at(way) >= depth;
-    };
+    const F pixels = max(length_on_screen(c, ray.shift_at(most)), F(1));
+    const F stride = F(1.0 / kSteps) * pixels;
+    F before = F(0), after = F(1), last_drop = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth);
+    F found = F(0), hidden = F(0);
     for (int i = 1; i <= kSteps; ++i) {
       const F t(double(i) / kSteps);
-      F drop;
-      const auto hit = behind(t, drop);
-      const auto open = found + lost < F(0.5);
-      const auto came_from_sight = in_front > F(0.5);
-      found = select(open && hit && came_from_sight, F(1), found);
-      lost = select(open && hit && !came_from_sight, F(1), lost);
+      const Sight<F> at = look(c, planes, p, tap, ray, ray.at_share(t, most), stride);
+      const auto open = found < F(0.5);
+      const auto hit = at.behind > F(0.5) && at.past < F(0.5);
+      const auto free = at.behind < F(0.5) && at.drop > F(0);
       after = select(open && hit, t, after);
       before = select(open && !hit, t, before);
-      in_front = select(drop > F(0), F(1), F(0));
-      if (!any(found + lost < F(0.5))) break;
+      last_drop = select(open && free, at.drop, last_drop);
+      hidden = select(open && !hit, select(free, F(0), F(1)), hidden);
+      found = select(hit, F(1), found);
+      if (!any(found < F(0.5))) break;
     }
     for (int i = 0; i < kHalvings; ++i) {
       const F t = F(0.5) * (before + after);
-      F drop;
-      const auto hit = behind(t, drop);
+      const auto hit = look(c, planes, p, tap, ray, ray.at_share(t, most), F(1)).behind > F(0.5);
       after = select(hit, t, after);
       before = select(hit, before, t);
     }
-    const auto seen = found > F(0.5);
+    const F met = ray.at_share(after, most);
+    // The bisection may have gone to the edge of what hides the bottom.
+    const auto seen =
+        found > F(0.5) && hidden < F(0.5) && look(c, planes, p, tap, ray, met, F(2)).past < F(0.5);
     // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
     // or so away.
-    const F met = ray.at_share(after, most);
     const F smooth = to_level(c, planes, p, tap, ray, fall, met);
-    const F texel = F(1.5) / max(length_on_screen(c, ray.shift_at(most)), F(1));
+    const F texel = F(1.5) / pixels;
     F way = min(max(smooth, ray.at_share(max(after - texel, F(0)), most)),
                 ray.at_share(min(after + texel, F(1)), most));
-    if (any(!seen)) way = select(seen, way, iterate(kGuesses, c, planes, p, tap, ray, fall).way);
-    return {select(way < F(1e20), way, F(HUGE_VAL)), found};
+    if (any(!seen)) {
+      const F guess = select(found > F(0.5), last_drop / fall,
+                             iterate(kGuesses, c, planes, p, tap, ray, fall).way);
+      way = select(seen, way, guess);
+    }
+    return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
   }
 
   /// In pixels.
@@ -285,7 +315,7 @@ struct Refraction {
     F level = F(0), weight = F(0);
     for (int k = 0; k < 4; ++k) {
       const F depth = tap.read(planes.depth, quad, k);
-      const F drop = drop_to(c, p, tap.place(planes.depth, quad, k), depth);
+      const F drop = seen_drop(c, planes, p, tap.place(planes.depth, quad, k), depth);
       const F share = select(drop > F(0), quad.weight(k), F(0));
       level = level + share * drop;
       weight = weight + share;
@@ -353,35 +383,46 @@ struct Refraction {
         [](Pixel<F>& p, F blue) { p.transmitted.b = blue; });
   }
 
+  /// A texel counts where it lies under the surface, and not so far before the end of a ray that it
+  /// must hide it. A layer below lies under the surface wherever there is anything.
   template <class F, class Tap>
-  static void look_up_valid(const Context& c, const Planes& planes, Pixel<F>& p, const Tap& tap) {
+  static void look_up_valid(const Params& params, const Context& c, const Planes& planes,
+                            Pixel<F>& p, const Tap& tap) {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
-    const auto valid = [&](const auto& quad, int k) {
+    const F share_of_way(params.model == Model::kSnell ? 0.4 : 0);
+    const F ray_end = min(p.hit_depth, F(1e30));
+    const auto lies = [&](const auto& quad, int k, F share) {
       const F depth = tap.read(planes.depth, quad, k);
       const F surface = surface_plane ? tap.read(PlaneId::kSurfaceDepth, quad, k)
                                       : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
-      return select(depth > surface, F(1), F(0));
+      const F least = surface + share * max(ray_end - surface, F(0));
+      const auto there = planes.below ? depth < F(1e30) : depth > surface;
+      return select(there && (depth > least || share <= F(0)), F(1), F(0));
     };
+    const auto valid = [&](const auto& quad, int k) { return lies(quad, k, share_of_way); };
+    const auto bearable = [&](const auto& quad, int k) { return lies(quad, k, F(0)); };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
-    const auto taps = valid_taps(tap, p.shift_g, valid);
+    // Where even the pixel's own texel of the layer below is empty, the dry color stays.
+    const Rgb<F> own = p.transmitted;
+    const auto taps = valid_taps(tap, p.shift_g, valid, bearable);
     p.shift_g = taps.place;
-    p.transmitted.g = taps.read(tap, green);
+    p.transmitted.g = select(taps.weight() > F(0.5), taps.read(tap, green), own.g);
     F share = taps.share;
     if (c.made.has(StatePart::kPrism)) {
-      const auto taps_r = valid_taps(tap, p.shift_r, valid);
-      const auto taps_b = valid_taps(tap, p.shift_b, valid);
-      const auto taps_common = valid_taps(tap, p.shift, valid);
+      const auto taps_r = valid_taps(tap, p.shift_r, valid, bearable);
+      const auto taps_b = valid_taps(tap, p.shift_b, valid, bearable);
+      const auto taps_common = valid_taps(tap, p.shift, valid, bearable);
       p.shift_r = taps_r.place;
       p.shift_b = taps_b.place;
       p.shift = taps_common.place;
-      p.transmitted.r = taps_r.read(tap, red);
-      p.transmitted.b = taps_b.read(tap, blue);
+      p.transmitted.r = select(taps_r.weight() > F(0.5), taps_r.read(tap, red), own.r);
+      p.transmitted.b = select(taps_b.weight() > F(0.5), taps_b.read(tap, blue), own.b);
       p.hit_depth = taps_common.read_depth(tap, planes.depth);
       share = F(1.0 / 3) * (taps_r.share + taps.share + taps_b.share);
     } else {
       p.shift = p.shift_r = p.shift_b = taps.place;
-      p.transmitted.r = taps.read(tap, red);
-      p.transmitted.b = taps.read(tap, blue);
+      p.transmitted.r = select(taps.weight() > F(0.5), taps.read(tap, red), own.r);
+      p.transmitted.b = select(taps.weight() > F(0.5), taps.read(tap, blue), own.b);
       p.hit_depth = taps.read_depth(tap, planes.depth);
     }
     p.confidence = p.confidence * share;
