@@ -34,6 +34,9 @@ TEST_F(VerbsTest, OperatorsListsTheChain) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   Chain::for_each([&]<class Op, int>() {
     EXPECT_THAT(ran.out, HasSubstr("\n" + std::string(Op::kName) + " "));
+    for (const auto& field : Op::fields()) {
+      EXPECT_THAT(ran.out, ContainsRegex("\n  " + std::string(field.name) + " +="));
+    }
   });
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "limpid/plan/plan.h"
@@ -45,6 +46,12 @@ void print_parameter(const Parameter& p) {
   if (!allowed.empty()) std::printf("  %-12s   %-20s %s\n", "", "", allowed.c_str());
 }
 
+void print_table(const std::vector<Parameter>& all, std::string_view table) {
+  for (const Parameter& p : all) {
+    if (p.table == table) print_parameter(p);
+  }
+}
+
 }  // namespace
 
 int operators_verb(const OperatorsArguments& a) {
@@ -56,28 +63,26 @@ int operators_verb(const OperatorsArguments& a) {
   if (a.name.empty()) {
     std::printf("In the order in which they run; what each taps, needs of the state, and makes:\n");
     Chain::for_each([&]<class Op, int>() {
-      std::printf("%-19s %s\n", std::string(Op::kName).c_str(), std::string(Op::kAbout).c_str());
+      std::printf("\n%-19s %s\n", std::string(Op::kName).c_str(), std::string(Op::kAbout).c_str());
       std::printf("%-19s   taps %s; uses %s; makes %s\n", "",
                   roles_text(Op::reads(look.of<Op>())).c_str(), state_text(Op::kUses).c_str(),
                   state_text(Op::kMakes).c_str());
+      print_table(all, Op::kName);
     });
-    std::printf("limpid operators NAME lists the parameters of one.\n");
+    std::printf("\n%-19s %s\n", std::string(Water::kName).c_str(),
+                std::string(Water::kAbout).c_str());
+    print_table(all, Water::kName);
     return 0;
   }
-  bool found = false;
-  for (const Parameter& p : all) {
-    if (p.table != a.name) continue;
-    if (!found) std::printf("[%s]\n", a.name.c_str());
-    found = true;
-    print_parameter(p);
-  }
-  if (!found) {
+  if (std::find(names.begin(), names.end(), a.name) == names.end()) {
     const char* what = a.verbs.empty() ? "' is no operator" : "' is neither a verb nor an operator";
     names.insert(names.begin(), a.verbs.begin(), a.verbs.end());
     throw Error(
         "'" + a.name + what + ": expected one of " + join(names) + did_you_mean(a.name, names),
         Fault::kUsage);
   }
+  std::printf("[%s]\n", a.name.c_str());
+  print_table(all, a.name);
   return 0;
 }
 
