@@ -28,7 +28,7 @@ PlaneSet renderable(const Model& model, const Scene& scene) {
     throw Error("no water plane found: expected a scene with [water] up and height");
   PlaneSet planes = kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth};
   if (scene.sun) planes = planes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
-  if (scene.camera && above_water(*scene.camera, *scene.water)) {
+  if (scene.camera && sees_mirror(*scene.camera, *scene.water)) {
     planes =
         planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
   }

@@ -92,7 +92,9 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   under_step = {glm::dot(up, rays.ray_dx) * size.x, glm::dot(up, rays.ray_dy) * size.y};
 
   double crest = 0;
-  for (const SineWave& wave : waves) crest += std::abs(wave.amplitude);
+  if (planes.has(PlaneId::kSurfaceDepth)) {
+    for (const SineWave& wave : waves) crest += std::abs(wave.amplitude);
+  }
   near = near_depth(*scene.camera);
   double lowest = HUGE_VAL;  // of the window's corners, over the calm surface
   for (const int x : {0, size.x}) {

@@ -33,13 +33,13 @@ glm::dmat4 mirror(const WaterPlane& plane) {
   return m;
 }
 
-bool above_water(const Camera& camera, const WaterPlane& plane) {
-  return height_over(plane, camera) >= kNearest;
+bool sees_mirror(const Camera& camera, const WaterPlane& plane) {
+  return std::abs(height_over(plane, camera)) >= kNearest;
 }
 
 Camera mirrored_camera(const Camera& camera, const WaterPlane& plane) {
   const double above = height_over(plane, camera);
-  if (std::abs(above) < kNearest) throw Error("camera: its eye lies in the water plane");
+  if (!sees_mirror(camera, plane)) throw Error("camera: its eye lies in the water plane");
   Camera mirrored = camera;
   mirrored.view = camera.view * mirror(plane);
   // A plane transforms by the inverse transpose; the side away from the mirrored eye stays.

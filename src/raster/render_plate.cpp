@@ -205,7 +205,7 @@ void check(const Scene& scene, const RenderOptions& options) {
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
                            PlaneSet wanted, Executor& executor) {
   check(scene, options);
-  if (!above_water(*scene.camera, *scene.water)) wanted = wanted - kMirrorPlanes;
+  if (!sees_mirror(*scene.camera, *scene.water)) wanted = wanted - kMirrorPlanes;
   PlateRenderer renderer(model, scene, options, wanted, executor);
   if (wanted.meets(kDryPlanes)) renderer.draw_dry(wanted);
   if (wanted.meets(kMirrorPlanes)) renderer.draw_reflection(wanted);

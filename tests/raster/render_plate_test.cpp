@@ -258,7 +258,7 @@ TEST(RenderPlate, TheSurfaceIsSeenFromBelow) {
   Scene scene = under_water();
   scene.water->waves = {{0.05, 1.1, 0.7, 0.3, 2}};
   const RenderedPlate plate = render_basin(scene);
-  EXPECT_EQ(plate.frame.present(), kEverything - kMirror);
+  EXPECT_EQ(plate.frame.present(), kEverything);
   const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
   const PlaneAxes axes = plane_axes(scene.water->up);
   int seen = 0, dry_behind = 0;
@@ -285,8 +285,37 @@ TEST(RenderPlate, TheSurfaceIsSeenFromBelow) {
   EXPECT_GT(dry_behind, 100);  // the slab above
 }
 
-TEST(RenderPlate, AnEyeInTheWaterPlaneSeesTheDryScene) {
-  for (const double height : {-0.5, 0.0, 1e-10}) {
+TEST(RenderPlate, TheUndersideMirrorsWhatIsInTheWater) {
+  const Scene scene = under_water();
+  const RenderedPlate plate = render_basin(scene);
+  const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
+  int floor = 0, wall = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const glm::dvec3 eye = scene.camera->eye(), ray = rays.ray_at(x + 0.5, y + 0.5);
+      // In the mirror the floor is at y = 1, and the wall goes up to there from the water.
+      if (eye.y + (-6 - eye.z) / ray.z * ray.y < 0.01) continue;
+      const double to_floor = (1 - eye.y) / ray.y, to_wall = (-6 - eye.z) / ray.z;
+      const double depth = plate.frame.plane(PlaneId::kReflectionDepth).at(x, y);
+      const double blue = plate.frame.plane(PlaneId::kReflectionB).at(x, y);
+      const double red = plate.frame.plane(PlaneId::kReflectionR).at(x, y);
+      if (to_wall > 0 && to_wall < 0.99 * to_floor && std::abs(eye.x + to_wall * ray.x) < 4.9) {
+        EXPECT_NEAR(depth, to_wall, 1e-4 * to_wall);
+        EXPECT_GT(blue, red);
+        ++wall;
+      } else if (to_floor < 0.99 * to_wall && std::abs(eye.x + to_floor * ray.x) < 7.9) {
+        EXPECT_NEAR(depth, to_floor, 1e-4 * to_floor);
+        EXPECT_GT(red, blue);
+        ++floor;
+      }
+    }
+  }
+  EXPECT_GT(floor, 500);
+  EXPECT_GT(wall, 500);
+}
+
+TEST(RenderPlate, AnEyeInTheWaterPlaneSeesTheDrySceneAndNoMirror) {
+  for (const double height : {-1e-10, 0.0, 1e-10}) {
     Scene scene = over_basin();
     scene.camera->view =
         glm::lookAt(glm::dvec3(0.5, height, 3), glm::dvec3(0, height, -3), glm::dvec3(0, 1, 0));

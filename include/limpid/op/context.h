@@ -79,6 +79,7 @@ struct RowRays {
   Vec3<F> origin, origin_dx, ray, ray_dx;
   F v;  ///< of the row's centre, 0 ... 1 down the picture
   F calm_over, calm_over_dx, calm_under, calm_under_dx;
+  F window;  ///< eye depth where the view begins, should it be able to begin in the water; else 0
 
   RowRays(const Context& c, double y)
       : origin(vec3_of<F>(c.rays.origin + y * c.rays.origin_dy)),
@@ -89,17 +90,19 @@ struct RowRays {
         calm_over(F(-c.eye_above - dot(c.up, c.rays.origin + y * c.rays.origin_dy))),
         calm_over_dx(F(-dot(c.up, c.rays.origin_dx))),
         calm_under(F(dot(c.up, c.rays.ray + y * c.rays.ray_dy))),
-        calm_under_dx(F(dot(c.up, c.rays.ray_dx))) {}
+        calm_under_dx(F(dot(c.up, c.rays.ray_dx))),
+        window(F(c.submersible ? c.near : 0)) {}
 
   LIMPID_INLINE Vec3<F> ray_at(F x) const { return ray + x * ray_dx; }
   LIMPID_INLINE Vec3<F> origin_at(F x) const { return origin + x * origin_dx; }
 
-  /// Eye depth of the calm surface, +inf where the ray does not meet it in front of the eye.
+  /// Eye depth of the calm surface, +inf where the ray does not meet it where the view is.
   LIMPID_INLINE F calm_depth(F x) const {
     const F over = calm_over + x * calm_over_dx;
     const F under = calm_under + x * calm_under_dx;
     const auto meets = over * under > F(0);
-    return select(meets, over / select(meets, under, F(1)), F(HUGE_VAL));
+    const F depth = over / select(meets, under, F(1));
+    return select(meets && depth >= window, depth, F(HUGE_VAL));
   }
 
  private:
@@ -108,13 +111,15 @@ struct RowRays {
   }
 };
 
-/// 1 where the view of this pixel begins in the water, 0 where it begins in the air.
+/// 1 where the view of this pixel begins in the water, 0 where it begins in the air. Without a
+/// plane of the surface it is the calm one that is met, and so the calm one that counts here.
 template <class F>
 LIMPID_INLINE F begins_in_water(const Context& c, const RowRays<F>& row, F x) {
   if (!c.submersible) return F(0);
   const Vec3<F> start = F(c.near) * row.ray_at(x);  // relative to the eye
   F height = F(c.eye_above) + dot(vec3_of<F>(c.up), start);
   const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+  if (!c.planes.has(PlaneId::kSurfaceDepth)) return select(height < F(0), F(1), F(0));
   for (const SineWave& wave : c.waves) {
     const F along = F(wave.k_x) * dot(start, map_x) + F(wave.k_y) * dot(start, map_y);
     height = height - F(wave.amplitude) * sin(F(c.phase_at_eye(wave)) + along);

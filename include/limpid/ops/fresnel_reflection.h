@@ -32,7 +32,9 @@ namespace limpid {
 /// Where the frame tells which texels of the reflection the mirror really saw (at least half), only
 /// those count, and only their depths: what stands behind the cut at the surface is never shown. In
 /// its place is the last valid one on the way from the pixel (op/valid_lookup.h); should there be
-/// none, not even at the pixel, the environment; without one, black.
+/// none, not even at the pixel, the environment; without one, black. The planes show the eye's side
+/// of the surface. A camera half in the water sees a little of the other one, always at flat
+/// angles: there, what comes through stands for what is mirrored.
 struct FresnelReflection {
   enum class Reflectance { kRim, kLinear, kInversePower, kSchlick, kExact };
   enum class Source { kPlanar, kEnvironment, kConstant };
@@ -152,7 +154,7 @@ struct FresnelReflection {
     const F strength(params.strength);
     const bool ray = params.lookup == Lookup::kRay;
     const bool depths = ray && c.planes.has(PlaneId::kReflectionDepth);
-    if (!depths && !c.planes.has(PlaneId::kReflectionValid)) {
+    if (!depths && !c.planes.has(PlaneId::kReflectionValid) && !c.submersible) {
       return strip.bilinear_rgb(
           PlaneId::kReflectionR,
           [&](const Pixel<F>& p) {
@@ -222,12 +224,19 @@ struct FresnelReflection {
         valid_taps(tap, shift, [&](const auto& quad, int k) { return valid(c, tap, quad, k); });
     Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
                 taps.read(tap, PlaneId::kReflectionB)};
-    if (!c.environment || !taps.some_made_up) return seen;
-    F rest = F(1);
-    for (int k = 0; k < 4; ++k) rest = rest - taps.weight_there[k] - taps.weight_shortened[k];
-    const auto lacking = rest > F(1e-5);
-    if (!any(lacking)) return seen;
-    return seen + select(lacking, rest, F(0)) * surroundings(c, p, tap);
+    F lacks = F(0);
+    if (taps.some_made_up) {
+      lacks = F(1);
+      for (int k = 0; k < 4; ++k) lacks = lacks - taps.weight_there[k] - taps.weight_shortened[k];
+    }
+    if (c.submersible) {
+      const auto other_side = p.side * F(c.eye_above) < F(0);
+      seen = select(other_side, p.transmitted, seen);
+      lacks = select(other_side, F(0), lacks);
+    }
+    const auto lacking = lacks > F(1e-5);
+    if (!c.environment || !any(lacking)) return seen;
+    return seen + select(lacking, lacks, F(0)) * surroundings(c, p, tap);
   }
 };
 

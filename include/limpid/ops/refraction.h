@@ -33,7 +33,7 @@ namespace limpid {
 /// prism taps is tested, the color tap is bilinear where the depth tap is nearest, and the choice
 /// is hard (a halo). `shorten`: each texel of each channel is tested against the surface in front
 /// of it (op/valid_lookup.h). A frame with a below layer needs none of them: its color and depth
-/// are taken.
+/// are taken, unless the view may begin in the water, where it also looks up into the air.
 ///
 /// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
@@ -122,7 +122,7 @@ struct Refraction {
     bool below;
   };
   static Planes planes_of(const Context& c) {
-    if (c.planes.covers(kBelowPlanes))
+    if (c.planes.covers(kBelowPlanes) && !c.submersible)
       return {PlaneId::kBelowR, PlaneId::kBelowDepth, c.below, true};
     return {PlaneId::kColorR, PlaneId::kDepth, c.dry, false};
   }
@@ -393,8 +393,13 @@ struct Refraction {
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto lies = [&](const auto& quad, int k, F share) {
       const F depth = tap.read(planes.depth, quad, k);
-      const F surface = surface_plane ? tap.read(PlaneId::kSurfaceDepth, quad, k)
-                                      : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
+      F surface = surface_plane ? tap.read(PlaneId::kSurfaceDepth, quad, k)
+                                : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
+      if (c.submersible) {
+        // Where the view begins in the water, what lies there has no surface before it.
+        const F height = height_at(c, p, tap.place(planes.depth, quad, k), depth);
+        surface = select(depth <= surface && p.side * height <= F(0), F(0), surface);
+      }
       const F least = surface + share * max(ray_end - surface, F(0));
       const auto there = planes.below ? depth < F(1e30) : depth > surface;
       return select(there && (depth > least || share <= F(0)), F(1), F(0));

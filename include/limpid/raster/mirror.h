@@ -10,11 +10,11 @@ namespace limpid {
 /// Reflects points in the plane: I - 2 p p^T. Mirroring twice is the identity; winding flips.
 glm::dmat4 mirror(const WaterPlane& plane);
 
-/// Whether the eye is above the plane, where a mirror in it can be seen from.
-bool above_water(const Camera& camera, const WaterPlane& plane);
+/// Whether the eye is off the plane, above it or below, where a mirror in it can be seen from.
+bool sees_mirror(const Camera& camera, const WaterPlane& plane);
 
 /// The camera that sees, at every pixel, what a flat mirror in the plane shows the given one there:
-/// its view is view * mirror(plane), and its near plane is the water plane, so that nothing below
+/// its view is view * mirror(plane), and its near plane is the water plane, so that nothing beyond
 /// is drawn. Its depth buffer means nothing any more (store linear depth apart). Throws Error when
 /// the plane passes through the eye.
 Camera mirrored_camera(const Camera& camera, const WaterPlane& plane);
