@@ -22,18 +22,22 @@
 namespace limpid::bench {
 namespace {
 
+/// data/looks/realistic.toml, with the plate's normals.
 Look realistic() {
   Look look;
-  look.of<Refraction>().strength = 0.03;
-  look.of<PrismSplit>().strength = 0.004;
-  look.of<DepthFog>() = {};
-  look.of<WaterShadow>().strength = 0.5;
+  look.of<Refraction>() = {Refraction::Model::kNormalOffset, 0.03, Refraction::Rejection::kSnap, 0,
+                           Refraction::OffFrame::kClamp};
+  look.of<PrismSplit>() = {PrismSplit::Model::kAxis, 0.004};
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.model = DepthFog::Model::kLinear;
+  fog.distance = DepthFog::Distance::kEye;
+  look.of<WaterShadow>() = {WaterShadow::Model::kDarken, 0.5};
   FresnelReflection::Params& mirror = look.of<FresnelReflection>();
   mirror.reflectance = FresnelReflection::Reflectance::kRim;
   mirror.power = 3;
   mirror.lookup = FresnelReflection::Lookup::kOffset;
   mirror.strength = 0.02;
-  look.of<SunHighlight>() = {};
+  look.of<SunHighlight>() = {SunHighlight::Model::kBlinnPhong, 200, 1};
   return look;
 }
 
