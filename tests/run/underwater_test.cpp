@@ -263,6 +263,8 @@ TEST(UnderwaterSweep, NoNanAndTheRunnersAgreeThroughTheSurface) {
         far += !(judge[i] == got[i] || std::abs(judge[i] - got[i]) < allowed);
       }
       EXPECT_EQ(nan, 0u) << height;
+      // An eye in the calm plane itself: whether it meets the plane is up to rounding.
+      if (height == 0) continue;
       // So low over the water a ray crosses many texels of the noise for little of its way: floats
       // are off by 1e-4 there, and where two texels or the waterline meet either may be taken.
       EXPECT_LE(far, judge.size() / 2000) << height;
