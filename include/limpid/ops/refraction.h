@@ -32,8 +32,10 @@ namespace limpid {
 /// goes back to uv and the prism is switched off. Its faults are kept: only the centre of the three
 /// prism taps is tested, the color tap is bilinear where the depth tap is nearest, and the choice
 /// is hard (a halo). `shorten`: each texel of each channel is tested against the surface in front
-/// of it (op/valid_lookup.h). A frame with a below layer needs none of them: its color and depth
-/// are taken, unless the view may begin in the water, where it also looks up into the air.
+/// of it (op/valid_lookup.h); along snell's rays what stands under water far before their end hides
+/// that, too, and does not count. Where the frame has a layer below, that is looked up instead of
+/// the dry scene, and nothing above the water is there to be rejected; not so where the view may
+/// begin in the water, from where one looks up into the air as well.
 ///
 /// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
