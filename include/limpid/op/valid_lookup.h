@@ -1,4 +1,7 @@
 #pragma once
+#include <cmath>
+
+#include "limpid/core/frame.h"
 #include "limpid/op/pixel.h"
 
 /// Bilinear lookups in which only some texels count: those below the surface for refraction, those
