@@ -53,6 +53,7 @@ void bench(const Arguments& arguments) {
   const auto executor = make_executor(1);
   Canvas canvas(lagoon.window());
   std::vector<Row> rows = rows_of(lagoon);
+  std::erase_if(rows, [&](const Row& row) { return !arguments.wants_row(row.name); });
   for (Row& row : rows) {
     lagoon.run(row.plan, canvas.target, *executor, simd);
     row.error =

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <opencv2/core/utility.hpp>
 
+#include "limpid/load/look_file.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
@@ -22,31 +24,21 @@
 namespace limpid::bench {
 namespace {
 
-/// data/looks/realistic.toml, with the plate's normals.
-Look realistic() {
-  Look look;
-  look.of<Refraction>() = {Refraction::Model::kNormalOffset, 0.03, Refraction::Rejection::kSnap, 0,
-                           Refraction::OffFrame::kClamp};
-  look.of<PrismSplit>() = {PrismSplit::Model::kAxis, 0.004};
-  DepthFog::Params& fog = look.of<DepthFog>();
-  fog.model = DepthFog::Model::kLinear;
-  fog.distance = DepthFog::Distance::kEye;
-  look.of<WaterShadow>() = {WaterShadow::Model::kDarken, 0.5};
-  FresnelReflection::Params& mirror = look.of<FresnelReflection>();
-  mirror.reflectance = FresnelReflection::Reflectance::kRim;
-  mirror.power = 3;
-  mirror.lookup = FresnelReflection::Lookup::kOffset;
-  mirror.strength = 0.02;
-  look.of<SunHighlight>() = {SunHighlight::Model::kBlinnPhong, 200, 1};
-  return look;
-}
-
 struct Row {
   std::string name;
   std::function<void(const Target&)> run;
+  int most_rounds = std::numeric_limits<int>::max();
   double best_seconds = 1e30;
   double mean_error = 0, p9999_error = 0, max_error = 0;
 };
+
+/// 0 where there is no such row.
+double seconds_of(const std::vector<Row>& rows, std::string_view name) {
+  for (const Row& row : rows) {
+    if (row.name == name) return row.best_seconds;
+  }
+  return 0;
+}
 
 void measure_error(const Target& judge, const Target& got, Row& row) {
   std::vector<double> errors;
@@ -70,8 +62,9 @@ void measure_error(const Target& judge, const Target& got, Row& row) {
 
 void bench_size(const char* label, Size size, const Arguments& arguments) {
   const MadePlate plate(size);
-  const Look look = realistic();
-  const Plan plan = make_plan(look, {plate.frame.present(), false, true});
+  const Look look = load_look(LIMPID_DATA "/looks/realistic.toml");
+  const Plan plan =
+      make_plan(look, {.planes = plate.frame.present(), .wave_map = true, .sun = true});
   const auto one = make_executor(1), two = make_executor(2);
   const auto fused = [&](Executor& executor, const std::string& target) {
     return [&, target](const Target& t) {
@@ -86,7 +79,8 @@ void bench_size(const char* label, Size size, const Arguments& arguments) {
   };
   std::vector<Row> rows;
   rows.push_back({"reference, double, 1 thread",
-                  [&](const Target& t) { run_reference(plan, plate.frame, plate.scene, t); }});
+                  [&](const Target& t) { run_reference(plan, plate.frame, plate.scene, t); },
+                  size.height > 1080 ? 1 : 2});
   rows.push_back({"OpenCV chain, 1 thread", opencv(1)});
   rows.push_back({"OpenCV chain, 2 threads", opencv(2)});
   const std::vector<std::string> targets =
@@ -97,6 +91,8 @@ void bench_size(const char* label, Size size, const Arguments& arguments) {
   const std::string best = arguments.best_simd();
   rows.push_back({"fused " + best + ", 2 threads", fused(*two, best)});
 
+  std::erase_if(rows, [&](const Row& row) { return !arguments.wants_row(row.name); });
+
   Canvas judge(plate.frame.display), canvas(plate.frame.display);
   run_reference(plan, plate.frame, plate.scene, judge.target);
   for (Row& row : rows) {
@@ -105,23 +101,17 @@ void bench_size(const char* label, Size size, const Arguments& arguments) {
   }
   for (int round = 0; round < arguments.rounds; ++round) {
     for (Row& row : rows) {
-      if (&row == &rows[0] && round > 1) continue;  // the reference is slow; two rounds tell enough
+      if (round >= row.most_rounds) continue;
       const auto start = std::chrono::steady_clock::now();
       row.run(canvas.target);
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
       row.best_seconds = std::min(row.best_seconds, took.count());
     }
   }
-  int wet = 0;
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      wet += plate.frame.plane(PlaneId::kSurfaceDepth).at(x, y) <
-             plate.frame.plane(PlaneId::kDepth).at(x, y);
-    }
-  }
-  const double pixels = double(size.width) * size.height, rival = rows[1].best_seconds;
+  const double pixels = double(size.width) * size.height,
+               rival = seconds_of(rows, "OpenCV chain, 1 thread");
   std::printf("%s, %dx%d, %.0f %% wet, best of %d rounds\n", label, size.width, size.height,
-              100.0 * wet / pixels, arguments.rounds);
+              100 * plate.wet_share(), arguments.rounds);
   std::printf("  %-28s %10s %10s %9s %12s %12s %10s\n", "runner", "ns/pixel", "ms", "x rival",
               "mean error", "p99.99", "max");
   for (const Row& row : rows) {
@@ -137,9 +127,9 @@ void bench_size(const char* label, Size size, const Arguments& arguments) {
 int main(int argc, char** argv) {
   using namespace limpid::bench;
   return run_program("limpid_bench", [&] {
-    const Arguments arguments = arguments_of(argc, argv);
-    std::printf("look realistic on a plate with normals; rival = OpenCV chain, 1 thread\n");
-    bench_size("1080p", {1920, 1080}, arguments);
-    bench_size("4K", {3840, 2160}, arguments);
+    const Arguments arguments = arguments_of(argc, argv, true);
+    std::printf("look realistic, four lookups of a normal map; rival = OpenCV chain, 1 thread\n");
+    if (arguments.wants_size("1080p")) bench_size("1080p", {1920, 1080}, arguments);
+    if (arguments.wants_size("4K")) bench_size("4K", {3840, 2160}, arguments);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -11,17 +12,31 @@ namespace {
 
 constexpr float kNothingHit = std::numeric_limits<float>::infinity();
 
-/// Waves as a sum of sines: slopes along world x and z.
-glm::dvec2 slopes(double x, double z) {
-  glm::dvec2 s(0);
-  double amplitude = 0.05;
-  for (int i = 0; i < 5; ++i) {
-    const double angle = 0.7 + 1.3 * i, k = 1.5 * std::pow(1.7, i);
-    const glm::dvec2 d(std::cos(angle), std::sin(angle));
-    s += amplitude * std::cos(k * (d.x * x + d.y * z) + 1.7 * i) * d;
-    amplitude *= 0.8;
+constexpr PlaneId kPlanes[] = {PlaneId::kColorR,      PlaneId::kColorG,      PlaneId::kColorB,
+                               PlaneId::kColorA,      PlaneId::kDepth,       PlaneId::kShadow,
+                               PlaneId::kReflectionR, PlaneId::kReflectionG, PlaneId::kReflectionB,
+                               PlaneId::kSurfaceDepth};
+
+constexpr int kMapSize = 512;
+
+/// Slopes of the waves in the map, a sum of sines that are whole within it. The longest is the
+/// map's side, the shortest a thirtieth.
+glm::dvec2 slopes(double u, double v) {
+  constexpr int kWaves[][2] = {{1, 2},  {-2, 1}, {3, 2},   {2, -4},  {-5, 3}, {6, 4},
+                               {-3, 8}, {9, -5}, {11, 10}, {-15, 7}, {8, 19}, {27, -12}};
+  glm::dvec2 sum(0);
+  for (const auto& wave : kWaves) {
+    const glm::dvec2 k(wave[0], wave[1]);
+    const double length = glm::length(k);
+    const double phase = 2 * std::numbers::pi * (k.x * u + k.y * v) + 2.4 * length;
+    sum += 0.16 * std::pow(length, -0.6) * std::cos(phase) / length * k;
   }
-  return s;
+  return sum;
+}
+
+/// A normal's component as a PNG has it: whole 255ths.
+float as_byte(double component) {
+  return static_cast<float>(std::round(255 * (0.5 + 0.5 * component))) / 255;
 }
 
 }  // namespace
@@ -33,12 +48,13 @@ MadePlate::MadePlate(Size size) {
   scene.camera = camera;
   scene.water = WaterPlane{};
   scene.sun = Sun{glm::normalize(glm::dvec3(-0.2, 0.45, -0.87)), {3, 2.8, 2.4}};
+  scene.time = 1.7;  // no lookup of the map falls on whole texels
 
+  make_map();
   frame.display = rect_of(size);
-  planes_.reserve(kPlaneCount);
-  for (int i = 0; i < kPlaneCount; ++i) {
-    planes_.emplace_back(frame.display);
-    frame.planes[i] = planes_.back().view();
+  for (const PlaneId id : kPlanes) {
+    planes_[index_of(id)] = Plane(frame.display);
+    frame.planes[index_of(id)] = planes_[index_of(id)].view();
   }
   const auto put = [&](PlaneId id, int x, int y, double value) {
     planes_[index_of(id)].view().at(x, y) = static_cast<float>(value);
@@ -74,13 +90,34 @@ MadePlate::MadePlate(Size size) {
       }
       put(PlaneId::kColorA, x, y, 1);
       put(PlaneId::kShadow, x, y, std::fmod(std::abs(at.x + 0.3 * at.z), 2.5) < 0.5 ? 0 : 1);
-      const glm::dvec2 s = slopes(at.x, at.z);
-      const glm::dvec3 n = glm::normalize(glm::dvec3(-s.x, 1, -s.y));
-      put(PlaneId::kSurfaceNormalX, x, y, n.x);
-      put(PlaneId::kSurfaceNormalY, x, y, n.y);
-      put(PlaneId::kSurfaceNormalZ, x, y, n.z);
     }
   }
+}
+
+void MadePlate::make_map() {
+  const Rect window = rect_of({kMapSize, kMapSize});
+  for (int c = 0; c < 3; ++c) {
+    map_[c] = Plane(window);
+    frame.wave_map.channels[c] = map_[c].view();
+  }
+  for (int y = 0; y < kMapSize; ++y) {
+    for (int x = 0; x < kMapSize; ++x) {
+      const glm::dvec2 s = slopes((x + 0.5) / kMapSize, (y + 0.5) / kMapSize);
+      const glm::dvec3 n = glm::normalize(glm::dvec3(-s.x, -s.y, 1));
+      for (int c = 0; c < 3; ++c) map_[c].view().at(x, y) = as_byte(n[c]);
+    }
+  }
+}
+
+double MadePlate::wet_share() const {
+  const View<const float>& water = frame.plane(PlaneId::kSurfaceDepth);
+  const View<const float>& dry = frame.plane(PlaneId::kDepth);
+  const Rect& w = frame.display;
+  double wet = 0;
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) wet += water.at(x, y) < dry.at(x, y);
+  }
+  return wet / (double(w.width()) * w.height());
 }
 
 }  // namespace limpid::bench

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -30,6 +31,64 @@ cv::Mat sampled(const cv::Mat& source, const cv::Mat& x, const cv::Mat& y, int f
   return out;
 }
 
+/// Pixel coordinates, as planes.
+struct Grid {
+  explicit Grid(cv::Size size) {
+    cv::Mat column(1, size.width, CV_32F), row(size.height, 1, CV_32F);
+    for (int i = 0; i < size.width; ++i) column.at<float>(0, i) = static_cast<float>(i);
+    for (int i = 0; i < size.height; ++i) row.at<float>(i, 0) = static_cast<float>(i);
+    cv::repeat(column, size.height, 1, x);
+    cv::repeat(row, 1, size.width, y);
+  }
+  /// The part along `axis` of the rays through the pixels' centres.
+  cv::Mat along(const glm::dvec3& axis, const Rays& rays) const {
+    const double dx = glm::dot(axis, rays.ray_dx), dy = glm::dot(axis, rays.ray_dy);
+    cv::Mat out;
+    cv::addWeighted(x, dx, y, dy, glm::dot(axis, rays.ray) + 0.5 * (dx + dy), out);
+    return out;
+  }
+  cv::Mat x, y;
+};
+
+/// Unit normals by four drifting lookups of the tiling map.
+void four_maps(const WaveNormals::Params& waves, const Context& c, const Grid& grid,
+               const cv::Mat& surface, cv::Mat n[3]) {
+  const cv::Mat channels[3] = {mat_of(c.wave_map.channels[0]), mat_of(c.wave_map.channels[1]),
+                               mat_of(c.wave_map.channels[2])};
+  cv::Mat map, sum, sample, at_x, at_y;
+  cv::merge(channels, 3, map);
+  const double per_x = map.cols / waves.tile_size, per_y = map.rows / waves.tile_size;
+  const cv::Mat base_x = surface.mul(grid.along(c.map_x, c.rays), per_x);
+  const cv::Mat base_y = surface.mul(grid.along(c.map_y, c.rays), per_y);
+  const double begin_x = std::fmod(glm::dot(c.eye, c.map_x) * per_x, map.cols) - 0.5;
+  const double begin_y = std::fmod(glm::dot(c.eye, c.map_y) * per_y, map.rows) - 0.5;
+  const double drift = waves.speed * c.time;
+  const double drifts[4][2] = {{drift, 0}, {-drift, 0}, {0, drift}, {0, -drift}};
+  for (const auto& [x, y] : drifts) {
+    cv::add(base_x, begin_x + x * per_x, at_x);
+    cv::add(base_y, begin_y + y * per_y, at_y);
+    cv::remap(map, sample, at_x, at_y, cv::INTER_LINEAR, cv::BORDER_WRAP);
+    if (sum.empty()) {
+      std::swap(sum, sample);
+    } else {
+      sum += sample;
+    }
+  }
+  // up + strength ((sum / 2 - 1) in the axes of the map - up)
+  cv::Matx34d blend;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 axes(c.map_x[i], c.map_y[i], c.up[i]);
+    for (int k = 0; k < 3; ++k) blend(i, k) = 0.5 * waves.strength * axes[k];
+    blend(i, 3) = c.up[i] - waves.strength * (axes.x + axes.y + axes.z + c.up[i]);
+  }
+  cv::transform(sum, sum, blend);
+  cv::split(sum, n);
+  cv::Mat length = cv::Mat::zeros(surface.size(), CV_32F);
+  for (int i = 0; i < 3; ++i) cv::accumulateSquare(n[i], length);
+  cv::sqrt(length, length);
+  for (int i = 0; i < 3; ++i) cv::divide(n[i], length, n[i]);
+}
+
 }  // namespace
 
 void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
@@ -38,21 +97,19 @@ void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
   const cv::Size size(width, height);
   const Context c(scene, frame, look.water.ior, {});
   const auto plane = [&](PlaneId id) { return mat_of(frame.plane(id)); };
-  const cv::Mat n[3] = {plane(PlaneId::kSurfaceNormalX), plane(PlaneId::kSurfaceNormalY),
-                        plane(PlaneId::kSurfaceNormalZ)};
   const cv::Mat depth = plane(PlaneId::kDepth), surface = plane(PlaneId::kSurfaceDepth);
   const cv::Mat wet = surface < depth;
 
-  // Pixel grid and unit direction to the viewer.
-  cv::Mat column(1, width, CV_32F), row(height, 1, CV_32F), grid_x, grid_y;
-  for (int x = 0; x < width; ++x) column.at<float>(0, x) = static_cast<float>(x);
-  for (int y = 0; y < height; ++y) row.at<float>(y, 0) = static_cast<float>(y);
-  cv::repeat(column, height, 1, grid_x);
-  cv::repeat(row, 1, width, grid_y);
+  const Grid grid(size);
+  cv::Mat n[3];
+  four_maps(look.of<WaveNormals>(), c, grid, surface, n);
+
+  // Unit direction to the viewer.
   cv::Mat view[3], square = cv::Mat::zeros(size, CV_32F);
   for (int i = 0; i < 3; ++i) {
-    const double base = c.rays.ray[i] + 0.5 * (c.rays.ray_dx[i] + c.rays.ray_dy[i]);
-    cv::addWeighted(grid_x, -c.rays.ray_dx[i], grid_y, -c.rays.ray_dy[i], -base, view[i]);
+    glm::dvec3 axis(0);
+    axis[i] = -1;
+    view[i] = grid.along(axis, c.rays);
     cv::accumulateSquare(view[i], square);
   }
   cv::Mat length;
@@ -61,14 +118,14 @@ void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
 
   // Refraction with rejection.
   const auto& refraction = look.of<Refraction>();
-  cv::Mat tilt_x = dot(n, c.t), tilt_y = dot(n, -c.b), shift_x, shift_y;
+  cv::Mat tilt_x = dot(n, c.t), tilt_y = dot(n, -c.b);
   cv::Mat at_x, at_y, hit, above;
-  cv::scaleAdd(tilt_x, refraction.strength * width, grid_x, at_x);
-  cv::scaleAdd(tilt_y, refraction.strength * height, grid_y, at_y);
+  cv::scaleAdd(tilt_x, refraction.strength * width, grid.x, at_x);
+  cv::scaleAdd(tilt_y, refraction.strength * height, grid.y, at_y);
   hit = sampled(depth, at_x, at_y, cv::INTER_NEAREST);
   cv::compare(hit, surface, above, cv::CMP_LT);
-  grid_x.copyTo(at_x, above);
-  grid_y.copyTo(at_y, above);
+  grid.x.copyTo(at_x, above);
+  grid.y.copyTo(at_y, above);
   depth.copyTo(hit, above);
 
   // Prism.
@@ -94,8 +151,8 @@ void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
   shade.convertTo(shade, -1, dark, 1 - dark);
   const auto& mirror = look.of<FresnelReflection>();
   cv::Mat mirror_x, mirror_y;
-  cv::scaleAdd(tilt_x, mirror.strength * width, grid_x, mirror_x);
-  cv::scaleAdd(tilt_y, mirror.strength * height, grid_y, mirror_y);
+  cv::scaleAdd(tilt_x, mirror.strength * width, grid.x, mirror_x);
+  cv::scaleAdd(tilt_y, mirror.strength * height, grid.y, mirror_y);
   cv::Mat cosine = n[0].mul(view[0]) + n[1].mul(view[1]) + n[2].mul(view[2]);
   cv::Mat fresnel = 1 - cv::abs(cosine);
   cv::max(fresnel, 0.0, fresnel);

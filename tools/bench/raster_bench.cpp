@@ -159,6 +159,7 @@ Difference difference(const RasterScene& scene, const RasterImage& ours,
 
 void bench_scene(int index, const Arguments& arguments) {
   const RasterScene scene = raster_scene(index);
+  if (!arguments.wants_row(scene.label)) return;
   Rasteriser rasteriser(scene.model);
   RasterImage image;
   Rival rival_one(index, "0"), rival_two(index, "2");
