@@ -75,7 +75,10 @@ void check_size(const PlateFile& file, Size size, const Limits& limits) {
 }  // namespace
 
 LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits) {
-  return rgb_of(PlateFile::open(path, limits), "a normal map");
+  LoadedTexture loaded = rgb_of(PlateFile::open(path, limits), "a normal map");
+  loaded.bytes = pack_bytes(loaded.texture);
+  if (!loaded.bytes.empty()) loaded.texture.bytes = loaded.bytes.data();
+  return loaded;
 }
 
 LoadedTexture load_environment(const std::filesystem::path& path, double rotation,

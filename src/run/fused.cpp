@@ -1,6 +1,8 @@
 #include "limpid/run/fused.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 
@@ -24,6 +26,20 @@ constexpr const FusedTarget* kTargets[] = {
 #undef LIMPID_TARGET
 };
 
+/// State that somebody reads before it is made.
+StateSet begins_of(const Plan& plan, const Target& target) {
+  StateSet begins, made, shown = kOutputTerms;
+  Chain::for_each([&]<class Op, int I>() {
+    if (!plan.keeps(I)) return;
+    begins = begins | (StateSet(Op::kUses) - made);
+    made = made | Op::kMakes;
+  });
+  for (int a = 0; a < kAovCount; ++a) {
+    if (target.aovs[a][0]) shown = shown | aovs()[a].parts;
+  }
+  return begins | (shown - made);
+}
+
 void check_extent(const View<const float>& view) {
   const std::int64_t last = std::abs(std::int64_t{view.y_stride}) * view.window.height() +
                             std::abs(std::int64_t{view.x_stride}) * view.window.width();
@@ -31,6 +47,27 @@ void check_extent(const View<const float>& view) {
     throw Error("frame: a plane spans " + std::to_string(last) + " floats, expected at most 2^31");
   }
 }
+
+class SteadyClock : public StopClock {
+ public:
+  std::int64_t now() override {
+    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+  }
+  void add(const Laps& laps) override {
+    for (std::size_t i = 0; i < laps.size(); ++i) sums_[i] += laps[i];
+  }
+  RunTimes times() const {
+    RunTimes times;
+    for (std::size_t i = 0; i < times.operators.size(); ++i) {
+      times.operators[i] = 1e-9 * static_cast<double>(sums_[i]);
+    }
+    times.rest = 1e-9 * static_cast<double>(sums_[kRest]);
+    return times;
+  }
+
+ private:
+  std::array<std::atomic<std::int64_t>, Chain::kCount + 1> sums_{};
+};
 
 struct Tiles {
   const FusedJob& job;
@@ -65,14 +102,18 @@ void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const T
   }
   Context context(scene, frame, plan.look.water.ior, plan.made);
   if (!plan.reads_environment) context.environment = {};  // nobody has checked it
-  FusedJob job{plan, frame, context, target, {}, {}, {}};
+  FusedJob job{plan, frame, context, target, {}, {}, {}, begins_of(plan, target), false, nullptr};
+  SteadyClock clock;
+  if (options.times) job.clock = &clock;
   for (int i = 0; i < Chain::kCount; ++i) job.keeps[i] = plan.keeps(i);
   for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));
   for (int i = 0; i < kAovCount; ++i) job.dry_aov[i] = aovs()[i].dry;
+  for (const auto& views : target.aovs) job.writes_aovs |= bool(views[0]);
   const int across = (work.width() + tile.width - 1) / tile.width;
   const int down = (work.height() + tile.height - 1) / tile.height;
   Tiles tiles{job, simd, work, tile, across};
   executor.run(across * down, Tiles::run, &tiles);
+  if (options.times) *options.times = clock.times();
 }
 
 }  // namespace limpid

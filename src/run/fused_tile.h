@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 
 #include "limpid/core/frame.h"
 #include "limpid/op/context.h"
@@ -7,6 +8,18 @@
 #include "limpid/run/target.h"
 
 namespace limpid {
+
+/// Measures the operators of a run. Behind an interface, for the code that is compiled for one
+/// instruction set must not instantiate anything of the standard library.
+class StopClock {
+ public:
+  static constexpr int kRest = Chain::kCount;  ///< what is no operator's: loading and storing
+  using Laps = std::array<std::int64_t, Chain::kCount + 1>;
+  virtual ~StopClock() = default;
+  virtual std::int64_t now() = 0;
+  /// Of one tile, on any thread.
+  virtual void add(const Laps& laps) = 0;
+};
 
 /// Everything that one tile of the fused pass needs; checked before, trusted in the loops.
 struct FusedJob {
@@ -17,6 +30,9 @@ struct FusedJob {
   std::array<bool, Chain::kCount> keeps;   ///< Plan::keeps
   std::array<float, kPlaneCount> missing;  ///< Role::missing
   std::array<float, kAovCount> dry_aov;    ///< AovInfo::dry
+  StateSet begins;                         ///< state that is read before an operator makes it
+  bool writes_aovs;                        ///< whether the target has any
+  StopClock* clock;                        ///< null unless the run is timed
 };
 
 /// The fused pass as compiled for one instruction set.

@@ -197,8 +197,8 @@ void begin_row(const Context& context, const Frame& frame, const Rect& work, int
     wet[i] = meets || in_water;
     const double side = !in_water ? 1 : meets ? -1 : 0;
     const double surface_depth = meets ? water : in_water ? min(dry, kFarAway) : kDrySurface;
-    begin_pixel(context, rays, pixel_x, side, surface_depth, wet[i] ? dry : kDryBottom, color,
-                pixels[i]);
+    begin_pixel(context, rays, pixel_x, side, surface_depth, wet[i] ? dry : kDryBottom, pixels[i]);
+    begin_state(kWholeState, context, color, pixels[i]);
   }
 }
 

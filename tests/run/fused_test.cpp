@@ -79,6 +79,43 @@ TEST_P(FusedOnTarget, NormalMapAgreesWithTheReference) {
   EXPECT_GT(wet, 500);
 }
 
+/// Eight bits of a value are one fetch for three channels, by a way of its own.
+TEST_P(FusedOnTarget, PackedNormalMapAgreesWithTheReference) {
+  const Size size{133, 21};
+  Buffers b = test::noisy_frame(rect_of(size));
+  for (int c = 0; c < 3; ++c) b.frame.planes[index_of(PlaneId::kSurfaceNormalX) + c] = {};
+  for (const Size map_size : {Size{1, 1}, Size{1, 5}, Size{7, 3}, Size{16, 8}}) {
+    std::vector<Plane> planes;
+    Texture map;
+    for (std::size_t c = 0; c < 3; ++c) {
+      planes.emplace_back(rect_of(map_size));
+      for (int y = 0; y < map_size.height; ++y) {
+        for (int x = 0; x < map_size.width; ++x) {
+          const double value = test::noise(x, y, static_cast<int>(c));
+          planes[c].view().at(x, y) = static_cast<float>(std::round(255 * value) / 255);
+        }
+      }
+      map.channels[c] = planes[c].view();
+    }
+    const std::vector<std::uint32_t> bytes = pack_bytes(map);
+    map.bytes = bytes.data();
+    ASSERT_FALSE(bytes.empty());
+    b.frame.wave_map = map;
+    Scene scene = test::simple_scene(size);
+    scene.time = 7.7;
+    const Picture judge = test::reference(busy_look(), b.frame, scene);
+    const Picture got = test::fused(busy_look(), b.frame, scene, {.simd = GetParam()});
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_NEAR(judge.aov(Aov::kNormal, x, y, c), got.aov(Aov::kNormal, x, y, c), 3e-5)
+              << map_size.width << "x" << map_size.height << " at " << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
 TEST_P(FusedOnTarget, SameBitsForAnyTileSizeAndThreadCount) {
   const Size size{261, 75};
   const Buffers b = test::noisy_frame(rect_of(size));

@@ -107,6 +107,8 @@ void MadePlate::make_map() {
       for (int c = 0; c < 3; ++c) map_[c].view().at(x, y) = as_byte(n[c]);
     }
   }
+  map_bytes_ = pack_bytes(frame.wave_map);
+  frame.wave_map.bytes = map_bytes_.data();
 }
 
 double MadePlate::wet_share() const {

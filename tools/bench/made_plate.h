@@ -23,6 +23,7 @@ struct MadePlate {
 
   std::array<Plane, kPlaneCount> planes_;
   std::array<Plane, 3> map_;
+  std::vector<std::uint32_t> map_bytes_;
 };
 
 }  // namespace limpid::bench

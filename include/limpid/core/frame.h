@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limpid/core/enum_set.h"
 #include "limpid/core/plane.h"
@@ -88,8 +89,16 @@ inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, Plane
 /// memory that somebody else owns.
 struct Texture {
   std::array<View<const float>, 3> channels;
+  /// The same again as r | g << 8 | b << 16 where every value is k / 255, as pack_bytes() makes it;
+  /// or null. A third of the fetches for maps that tile.
+  const std::uint32_t* bytes = nullptr;
   explicit operator bool() const { return static_cast<bool>(channels[0]); }
 };
+
+/// What Texture::bytes points to: width + 1 texels in each of height + 1 rows, the first column and
+/// row once more at the end. Empty for a texture with any value but k / 255, k = 0 ... 255, to
+/// within 1e-6: pictures of 8 bits have no others.
+std::vector<std::uint32_t> pack_bytes(const Texture& texture);
 
 /// The buffers of one picture, as views. Everything is already in the conventions of the chain:
 /// linear eye depth (+inf where nothing was hit), scene-linear premultiplied color, shadow 1 = lit,

@@ -20,7 +20,7 @@ LIMPID_INLINE double floor(double x) { return std::floor(x); }
 LIMPID_INLINE double exp(double x) { return std::exp(x); }
 /// Of finite numbers, -pi ... pi; atan2(0, 0) = 0.
 LIMPID_INLINE double atan2(double y, double x) { return std::atan2(y, x); }
-/// x^p for x >= 0; pow(0, 0) = 1.
+/// x^p for x >= 0; pow(0, 0) = 1. The exponent is a double for lanes, too.
 LIMPID_INLINE double pow(double x, double p) { return std::pow(x, p); }
 /// Of an angle in radians; lanes keep their accuracy for -1000 ... 1000.
 LIMPID_INLINE double sin(double x) { return std::sin(x); }

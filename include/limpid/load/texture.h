@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace limpid {
 struct LoadedTexture {
   Texture texture;
   std::vector<Plane> planes;
+  std::vector<std::uint32_t> bytes;  ///< of a tiling texture of 8 bits
 };
 
 /// The first three channels of a picture file as a tiling texture: R G B of an EXR, or any other

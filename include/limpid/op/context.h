@@ -127,14 +127,11 @@ LIMPID_INLINE F begins_in_water(const Context& c, const RowRays<F>& row, F x) {
   return select(height < F(0), F(1), F(0));
 }
 
-/// Fills what an operator may rely on from depths and dry color; see Pixel for what each part
-/// begins as.
+/// Fills what no operator writes; see Pixel.
 template <class F>
 LIMPID_INLINE void begin_pixel(const Context& c, const RowRays<F>& row, F x, F side,
-                               F surface_depth, F dry_depth, Rgb<F> dry_color, Pixel<F>& p) {
+                               F surface_depth, F dry_depth, Pixel<F>& p) {
   const Vec3<F> ray = row.ray_at(x);
-  const Vec2<F> none{F(0), F(0)};
-  const Rgb<F> black{F(0), F(0), F(0)};
   p.uv = {x * F(1.0 / c.size.x), row.v};
   p.ray_length = length(ray);
   p.to_viewer = (F(-1) / p.ray_length) * ray;
@@ -142,20 +139,34 @@ LIMPID_INLINE void begin_pixel(const Context& c, const RowRays<F>& row, F x, F s
   p.surface_depth = surface_depth;
   p.dry_depth = dry_depth;
   p.side = side;
-  p.normal = vec3_of<F>(c.up);
-  p.tilt = none;
-  p.prism_r = p.prism_g = p.prism_b = none;
-  p.dispersion = black;
-  p.shift = p.shift_r = p.shift_g = p.shift_b = none;
-  p.hit_depth = dry_depth;
-  p.path = F(0);
-  p.confidence = F(1);
-  p.transmittance = {F(1), F(1), F(1)};
-  p.transmitted = dry_color;
-  p.in_scatter = p.sun_near = p.sun_far = black;
-  p.fresnel = F(0);
-  p.reflected = black;
-  p.highlight = black;
+}
+
+/// Gives these parts of the state what Pixel says that they begin as, once begin_pixel() is done.
+template <class F>
+LIMPID_INLINE void begin_state(StateSet parts, const Context& c, Rgb<F> dry_color, Pixel<F>& p) {
+  const Vec2<F> none{F(0), F(0)};
+  const Rgb<F> black{F(0), F(0), F(0)};
+  if (parts.has(StatePart::kNormal)) {
+    p.normal = vec3_of<F>(c.up);
+    p.tilt = none;
+  }
+  if (parts.has(StatePart::kPrism)) {
+    p.prism_r = p.prism_g = p.prism_b = none;
+    p.dispersion = black;
+  }
+  if (parts.has(StatePart::kPosition)) {
+    p.shift = p.shift_r = p.shift_g = p.shift_b = none;
+    p.hit_depth = p.dry_depth;
+  }
+  if (parts.has(StatePart::kPath)) p.path = F(0);
+  if (parts.has(StatePart::kConfidence)) p.confidence = F(1);
+  if (parts.has(StatePart::kTransmittance)) p.transmittance = {F(1), F(1), F(1)};
+  if (parts.has(StatePart::kTransmitted)) p.transmitted = dry_color;
+  if (parts.has(StatePart::kInScatter)) p.in_scatter = black;
+  if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = black;
+  if (parts.has(StatePart::kFresnel)) p.fresnel = F(0);
+  if (parts.has(StatePart::kReflected)) p.reflected = black;
+  if (parts.has(StatePart::kHighlight)) p.highlight = black;
 }
 
 }  // namespace limpid

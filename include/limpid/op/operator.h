@@ -59,7 +59,7 @@ concept Operator = requires(const typename T::Params& params, StateSet made) {
   { T::kName } -> std::convertible_to<std::string_view>;   // its table in look files
   { T::kAbout } -> std::convertible_to<std::string_view>;  // one sentence
   { T::kUses } -> std::convertible_to<StateSet>;           // state it reads
-  { T::kMakes } -> std::convertible_to<StateSet>;          // state it writes
+  { T::kMakes } -> std::convertible_to<StateSet>;          // state it writes, each part whole
   { T::fields() } -> std::same_as<std::span<const Field<typename T::Params>>>;
   { T::reads(params) } -> std::same_as<PlaneSet>;  // every plane it may tap
   { T::needs(params) } -> std::same_as<Needs>;     // without these it is dropped

@@ -24,6 +24,12 @@ enum class StatePart : std::uint8_t {
 
 using StateSet = EnumSet<StatePart>;
 
+inline constexpr StateSet kWholeState{
+    StatePart::kNormal,    StatePart::kPrism,         StatePart::kPosition,
+    StatePart::kPath,      StatePart::kTransmittance, StatePart::kTransmitted,
+    StatePart::kInScatter, StatePart::kSunScatter,    StatePart::kFresnel,
+    StatePart::kReflected, StatePart::kHighlight,     StatePart::kConfidence};
+
 /// The terms whose sum is the picture.
 inline constexpr StateSet kOutputTerms{StatePart::kTransmitted, StatePart::kInScatter,
                                        StatePart::kReflected, StatePart::kHighlight};

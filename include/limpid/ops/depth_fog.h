@@ -127,6 +127,7 @@ struct DepthFog {
       p.transmittance = {clear, clear, clear};
       p.transmitted = clear * p.transmitted;
       p.in_scatter = veil * color;
+      p.sun_near = p.sun_far = {F(0), F(0), F(0)};
     });
   }
 

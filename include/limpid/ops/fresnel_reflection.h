@@ -95,11 +95,11 @@ struct FresnelReflection {
     const F cosine = dot(p.to_viewer, p.normal);
     switch (params.reflectance) {
       case Reflectance::kRim:
-        return fresnel_rim(cosine, F(params.power));
+        return fresnel_rim(cosine, params.power);
       case Reflectance::kLinear:
         return fresnel_linear(dot(p.to_viewer, vec3_of<F>(c.up)));
       case Reflectance::kInversePower:
-        return fresnel_inverse_power(cosine, F(params.intensity), F(params.power));
+        return fresnel_inverse_power(cosine, F(params.intensity), params.power);
       case Reflectance::kSchlick:
         return fresnel_schlick(cosine, F(params.f0));
       case Reflectance::kExact:

@@ -38,9 +38,9 @@ struct Penetration {
     using F = typename Strip::Number;
     if (params.model == Model::kNone) return;
     const Vec3<F> up = vec3_of<F>(c.up);
-    const F alpha(params.alpha), amount(params.amount), power(params.power);
+    const F alpha(params.alpha), amount(params.amount);
     strip.own3(PlaneId::kColorR, [&](Pixel<F>& p, Vec3<F> dry) {
-      const F seen_through = amount * pow(saturate(dot(p.to_viewer, up)), power);
+      const F seen_through = amount * pow(saturate(dot(p.to_viewer, up)), params.power);
       const F a = select(p.side > F(0.5), saturate(alpha - seen_through), F(1));
       p.transmitted = a * p.transmitted + (F(1) - a) * Rgb<F>{dry.x, dry.y, dry.z};
       p.in_scatter = a * p.in_scatter;

@@ -44,7 +44,10 @@ struct PrismSplit {
     if (params.model == Model::kDispersion) {
       const F red(params.gain * (water_index(kRedWavelength) - water_index(kGreenWavelength)));
       const F blue(params.gain * (water_index(kBlueWavelength) - water_index(kGreenWavelength)));
-      return strip.each([&](Pixel<F>& p) { p.dispersion = {red, F(0), blue}; });
+      return strip.each([&](Pixel<F>& p) {
+        p.prism_r = p.prism_g = p.prism_b = {F(0), F(0)};
+        p.dispersion = {red, F(0), blue};
+      });
     }
     const F strength(params.strength);
     strip.each([&](Pixel<F>& p) {
@@ -52,6 +55,7 @@ struct PrismSplit {
       p.prism_r = {s.x, F(0)};
       p.prism_g = F(0.5) * s;
       p.prism_b = {F(0), s.y};
+      p.dispersion = {F(0), F(0), F(0)};
     });
   }
 };

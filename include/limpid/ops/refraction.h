@@ -60,7 +60,7 @@ struct Refraction {
   static constexpr std::string_view kName = "refraction";
   static constexpr std::string_view kAbout =
       "Looks up the dry picture where the refracted ray ends.";
-  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism};
+  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kTransmitted};
   static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted,
                                    StatePart::kConfidence};
   static std::span<const Field<Params>> fields();
@@ -151,6 +151,7 @@ struct Refraction {
         p.shift = p.shift + Vec2<F>{shift, shift};
       }
       p.shift = select(abs(p.side) > F(0.5), p.shift, Vec2<F>{F(0), F(0)});
+      p.confidence = F(1);
       const auto bent = [&](F index) { return (F(1) + index * per_index) * p.shift; };
       place_channels(bent(p.dispersion.r), bent(p.dispersion.g), bent(p.dispersion.b), p);
     });

@@ -61,9 +61,9 @@ struct SunHighlight {
     const Vec3<F> n = p.normal, v = p.to_viewer, l = vec3_of<F>(c.sun.direction);
     switch (params.model) {
       case Model::kPhong:
-        return phong_lobe(n, v, l, F(params.power));
+        return phong_lobe(n, v, l, params.power);
       case Model::kBlinnPhong:
-        return blinn_phong_lobe(n, v, l, F(params.power));
+        return blinn_phong_lobe(n, v, l, params.power);
       case Model::kGgx:
         if (params.roughness == 0) return sun_disc_lobe(n, v, l, F(c.ior));
         return sun_glint_lobe(n, v, l, F(params.roughness), F(c.ior));

@@ -10,7 +10,7 @@ namespace limpid {
 /// normal incidence, where water reflects 0.02; up to 0.216 too much at 80 deg; the |.| hides
 /// normals that face away.
 template <class F>
-LIMPID_INLINE F fresnel_rim(F cosine, F power) {
+LIMPID_INLINE F fresnel_rim(F cosine, double power) {
   return pow(max(F(1) - abs(cosine), F(0)), power);
 }
 
@@ -25,7 +25,7 @@ LIMPID_INLINE F fresnel_linear(F cosine) {
 /// goes negative for an intensity above 1; here that is 0. Not physical: at normal incidence 1 -
 /// intensity, so a smaller intensity reflects more; 1 at grazing angles as it should be.
 template <class F>
-LIMPID_INLINE F fresnel_inverse_power(F cosine, F intensity, F power) {
+LIMPID_INLINE F fresnel_inverse_power(F cosine, F intensity, double power) {
   return saturate(F(1) - intensity * pow(saturate(cosine), power));
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -11,11 +12,19 @@
 
 namespace limpid {
 
+/// What a run spent its time on, in seconds, all threads together. Asking the clock takes time, too:
+/// a timed run is some percent slower.
+struct RunTimes {
+  std::array<double, Chain::kCount> operators{};  ///< in chain order
+  double rest = 0;                                ///< loading, starting and storing pixels
+};
+
 struct FusedOptions {
   /// Instruction set by name, "" for the best this machine has: scalar sse4 avx2 avx512 neon. An
   /// unknown name or one that the machine lacks is refused.
   std::string simd = {};
   Size tile = {1024, 32};
+  RunTimes* times = nullptr;  ///< filled when it is there
 };
 
 /// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. The bits of

@@ -1,0 +1,67 @@
+#pragma once
+#include "run/source.h"
+
+/// Bilinear filtering for lanes. For inclusion by lanes_target.cpp alone.
+
+namespace limpid::HWY_NAMESPACE {
+
+/// Where bilinear filtering looks: the upper left one of four texels and how much the right and the
+/// lower ones count. Beyond the window's edge its outermost texels stand for all, so the four lie
+/// inside.
+struct Spot {
+  Places upper_left;
+  Lane u, v;
+
+  Spot() = default;
+  /// Of a vector whose first pixel is (x, y), for shifts in texels; NaN becomes the lower end.
+  LIMPID_LANES_INLINE Spot(const Source& s, int x, int y, Vec2<Lane> shift) {
+    const Lane first(s.window.x0 - x), iota(hn::Iota(kD, 0.0f));
+    const VI column = along(first - iota, s.width(), shift.x, u);
+    const VI row = along(Lane(s.window.y0 - y), s.height(), shift.y, v);
+    const VI own = hn::Iota(kDI, x - s.window.x0);
+    upper_left = Places(s.index(hn::Add(own, column), hn::Add(hn::Set(kDI, y - s.window.y0), row)));
+  }
+
+ private:
+  /// From the pixel itself; `first` is where the window begins, seen from there.
+  static LIMPID_LANES_INLINE VI along(Lane first, int count, Lane shift, Lane& weight) {
+    const Lane last = first + Lane(count - 1);
+    const Lane at = min(max(shift, first), last);
+    const Lane whole = count > 1 ? min(floor(at), last - Lane(1)) : first;
+    weight = at - whole;
+    return whole_of(whole);
+  }
+};
+
+/// Index of the texel nearest to each pixel's shift.
+LIMPID_LANES_INLINE VI nearest_place(const Source& s, int x, int y, Vec2<Lane> shift) {
+  const Lane half(0.5), iota(hn::Iota(kD, 0.0f));
+  const auto along = [&](Lane first, int count, Lane by) LIMPID_LANES_LAMBDA {
+    return whole_of(min(max(floor(by + half), first), first + Lane(count - 1)) - first);
+  };
+  return s.index(along(Lane(s.window.x0 - x) - iota, s.width(), shift.x),
+                 along(Lane(s.window.y0 - y), s.height(), shift.y));
+}
+
+/// Whether the two taps of a row lie side by side in memory.
+LIMPID_LANES_INLINE bool has_pairs(const Source& s) { return s.x_stride == 1 && s.width() > 1; }
+
+/// Of N channels that are alike. A window of one column or one row has the same texel twice.
+template <int N, bool kPairs>
+LIMPID_LANES_INLINE void sample(const Source* sources, const Spot& spot, Lane* out) {
+  const Source& s = sources[0];
+  const int right = s.width() > 1 ? s.x_stride : 0, down = s.height() > 1 ? s.y_stride : 0;
+  const auto row = [&](const float* data) LIMPID_LANES_LAMBDA {
+    if constexpr (kPairs) {
+      const Pair pair = fetch_pairs(data, spot.upper_left);
+      return lerp(pair.left, pair.right, spot.u);
+    } else {
+      return lerp(fetch(data, spot.upper_left), fetch(data + right, spot.upper_left), spot.u);
+    }
+  };
+  for (int c = 0; c < N; ++c) {
+    out[c] = lerp(row(sources[c].data), row(sources[c].data + down), spot.v);
+  }
+}
+
+}  // namespace limpid::HWY_NAMESPACE
