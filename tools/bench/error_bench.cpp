@@ -1,7 +1,5 @@
 // Speed against error: ways to refract, each with its time and its distance from a path-traced
-// picture of the same water, the plate lagoon. Rounds go over all rows in turn; the best counts.
-#include <algorithm>
-#include <chrono>
+// picture of the same water, the plate lagoon.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -9,15 +7,14 @@
 #include "arguments.h"
 #include "canvas.h"
 #include "error_lagoon.h"
+#include "rows.h"
 
 namespace limpid::bench {
 namespace {
 
-struct Row {
-  std::string name;
+struct WayRow : Row {
   Plan plan;
   TruthError error = {};
-  double best_seconds = 1e30;
 };
 
 /// The normals are calm: normal_offset shifts nothing, whatever its strength.
@@ -28,10 +25,10 @@ Look without_refraction() {
   return look;
 }
 
-std::vector<Row> rows_of(const Lagoon& lagoon) {
+std::vector<WayRow> rows_of(const Lagoon& lagoon) {
   using Rejection = Refraction::Rejection;
-  std::vector<Row> rows;
-  rows.push_back({"no refraction", lagoon.plan(without_refraction())});
+  std::vector<WayRow> rows;
+  rows.push_back({{"no refraction", {}}, lagoon.plan(without_refraction())});
   for (const int steps : {0, 1, 2, 4, Refraction::kMarch}) {
     const std::string way =
         steps == Refraction::kMarch ? "snell march" : "snell steps " + std::to_string(steps);
@@ -41,7 +38,7 @@ std::vector<Row> rows_of(const Lagoon& lagoon) {
       Look look = Lagoon::truth_look();
       look.of<Refraction>().steps = steps;
       look.of<Refraction>().rejection = rejection;
-      rows.push_back({way + ", " + name, lagoon.plan(look)});
+      rows.push_back({{way + ", " + name, {}}, lagoon.plan(look)});
     }
   }
   return rows;
@@ -52,21 +49,17 @@ void bench(const Arguments& arguments) {
   const std::string simd = arguments.best_simd();
   const auto executor = make_executor(1);
   Canvas canvas(lagoon.window());
-  std::vector<Row> rows = rows_of(lagoon);
-  std::erase_if(rows, [&](const Row& row) { return !arguments.wants_row(row.name); });
-  for (Row& row : rows) {
-    lagoon.run(row.plan, canvas.target, *executor, simd);
+  std::vector<WayRow> rows = rows_of(lagoon);
+  std::erase_if(rows, [&](const WayRow& row) { return !arguments.wants_row(row.name); });
+  for (WayRow& row : rows) {
+    row.run = [&] {
+      return seconds_of([&] { lagoon.run(row.plan, canvas.target, *executor, simd); });
+    };
+    row.run();
     row.error =
         lagoon.error_of({canvas.target.color[0], canvas.target.color[1], canvas.target.color[2]});
   }
-  for (int round = 0; round < arguments.rounds; ++round) {
-    for (Row& row : rows) {
-      const auto start = std::chrono::steady_clock::now();
-      lagoon.run(row.plan, canvas.target, *executor, simd);
-      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-      row.best_seconds = std::min(row.best_seconds, took.count());
-    }
-  }
+  time_rows(rows, arguments.rounds);
 
   const Size size = lagoon.window().size();
   const double pixels = double(size.width) * size.height;
@@ -79,7 +72,7 @@ void bench(const Arguments& arguments) {
   std::printf("  %-24s %10s %10s %10s\n", "refraction", "all wet", "in frame", "ns/pixel");
   const TruthError dry = lagoon.error_of(lagoon.dry());
   std::printf("  %-24s %10.4f %10.4f %10s\n", "no water at all", dry.wet, dry.in_frame, "");
-  for (const Row& row : rows) {
+  for (const WayRow& row : rows) {
     std::printf("  %-24s %10.4f %10.4f %10.2f\n", row.name.c_str(), row.error.wet,
                 row.error.in_frame, 1e9 * row.best_seconds / pixels);
   }

@@ -1,27 +1,23 @@
 #pragma once
-#include <memory>
 #include <vector>
 
+#include "gl_process.h"
 #include "raster_scene.h"
 
 namespace limpid::bench {
 
-/// The same pictures by OpenGL on EGL without a surface: Mesa's llvmpipe where there is no GPU.
-/// Float color and depth targets, the shading of the material in GLSL.
-class GlRasteriser {
+/// The same pictures by OpenGL: float color and depth targets, the shading of the material in GLSL.
+/// Needs a GlContext.
+class GlRasteriser : public GlDrawing {
  public:
-  GlRasteriser();
-  ~GlRasteriser();
+  explicit GlRasteriser(const RasterScene& scene);
 
-  void load(const RasterScene& scene);
-  void draw();  ///< returns when the picture is there
-  /// Red, green, blue and depth planes one after the other, rows from the top.
-  std::vector<float> picture() const;
-  const char* renderer() const;
+  void draw() override;
+  std::vector<float> picture() const override;  ///< red, green, blue, depth
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Size size_;
+  int indices_ = 0;
 };
 
 }  // namespace limpid::bench

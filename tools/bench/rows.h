@@ -1,0 +1,36 @@
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace limpid::bench {
+
+/// A row of a table: something to time.
+struct Row {
+  std::string name;
+  std::function<double()> run;  ///< does it once and tells the seconds it took
+  int most_rounds = std::numeric_limits<int>::max();  ///< for what is slow
+  double best_seconds = 1e30;
+};
+
+template <class Body>
+double seconds_of(Body&& body) {
+  const auto start = std::chrono::steady_clock::now();
+  body();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Rounds go over all rows in turn, so that a noisy neighbour hits them alike; the best one counts.
+template <class AnyRow>
+void time_rows(std::vector<AnyRow>& rows, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    for (AnyRow& row : rows) {
+      if (round < row.most_rounds) row.best_seconds = std::min(row.best_seconds, row.run());
+    }
+  }
+}
+
+}  // namespace limpid::bench
