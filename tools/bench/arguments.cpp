@@ -21,6 +21,10 @@ int number_of_rounds(std::string_view text) {
 
 std::string Arguments::best_simd() const { return simd.empty() ? simd_targets()[0] : simd; }
 
+void Arguments::expect_rows(bool any) const {
+  if (!any) throw Error("--rows " + rows + ": no row has this in its name", Fault::kUsage);
+}
+
 Arguments arguments_of(int argc, char** argv, bool has_sizes) {
   Arguments arguments;
   for (int i = 1; i < argc; i += 2) {

@@ -17,6 +17,8 @@ struct Arguments {
 
   std::string best_simd() const;
   bool wants_row(const std::string& name) const { return name.find(rows) != std::string::npos; }
+  /// Throws Error unless `any` row was wanted.
+  void expect_rows(bool any) const;
   bool wants_size(std::string_view label) const { return size.empty() || size == label; }
 };
 

@@ -51,6 +51,7 @@ void bench(const Arguments& arguments) {
   Canvas canvas(lagoon.window());
   std::vector<WayRow> rows = rows_of(lagoon);
   std::erase_if(rows, [&](const WayRow& row) { return !arguments.wants_row(row.name); });
+  arguments.expect_rows(!rows.empty());
   for (WayRow& row : rows) {
     row.run = [&] {
       return seconds_of([&] { lagoon.run(row.plan, canvas.target, *executor, simd); });

@@ -1,6 +1,5 @@
 #include "gl_context.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -79,16 +78,13 @@ void use_target(Size size, bool depth) {
 }
 
 std::vector<float> read_planes(std::initializer_list<GLenum> channels, Size size) {
-  const std::ptrdiff_t width = size.width, height = size.height;
-  std::vector<float> planes(channels.size() * static_cast<std::size_t>(width * height));
+  const std::size_t area =
+      static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+  std::vector<float> planes(channels.size() * area);
   float* plane = planes.data();
   for (const GLenum channel : channels) {
     glReadPixels(0, 0, size.width, size.height, channel, GL_FLOAT, plane);
-    for (std::ptrdiff_t y = 0; y < height / 2; ++y) {
-      float* row = plane + y * width;
-      std::swap_ranges(row, row + width, plane + (height - 1 - y) * width);
-    }
-    plane += width * height;
+    plane += area;
   }
   expect_gl(glGetError() == GL_NO_ERROR, "reading the picture");
   return planes;

@@ -34,8 +34,8 @@ GLuint use_program(const char* vertex, const char* fragment);
 /// Draws into a float color buffer of this size from now on, with a float depth buffer if wanted.
 void use_target(Size size, bool depth);
 
-/// Channels of the target (GL_RED, GL_DEPTH_COMPONENT ...) as planes one after the other; the row
-/// that OpenGL has at the bottom comes last.
+/// Channels of the target (GL_RED, GL_DEPTH_COMPONENT ...) as planes one after the other, rows as
+/// OpenGL has them, from the bottom.
 std::vector<float> read_planes(std::initializer_list<GLenum> channels, Size size);
 
 }  // namespace limpid::bench

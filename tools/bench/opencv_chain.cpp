@@ -1,12 +1,11 @@
 #include "opencv_chain.h"
 
-#include <cmath>
+#include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "limpid/op/context.h"
 
 namespace limpid::bench {
 namespace {
@@ -41,45 +40,48 @@ struct Grid {
     cv::repeat(row, 1, size.width, y);
   }
   /// The part along `axis` of the rays through the pixels' centres.
-  cv::Mat along(const glm::dvec3& axis, const Rays& rays) const {
-    const double dx = glm::dot(axis, rays.ray_dx), dy = glm::dot(axis, rays.ray_dy);
+  cv::Mat along(const glm::dvec3& axis, const RealisticNumbers& numbers) const {
     cv::Mat out;
-    cv::addWeighted(x, dx, y, dy, glm::dot(axis, rays.ray) + 0.5 * (dx + dy), out);
+    cv::addWeighted(x, glm::dot(axis, numbers.ray_dx), y, glm::dot(axis, numbers.ray_dy),
+                    glm::dot(axis, numbers.ray), out);
     return out;
   }
   cv::Mat x, y;
 };
 
 /// Unit normals by four drifting lookups of the tiling map.
-void four_maps(const WaveNormals::Params& waves, const Context& c, const Grid& grid,
+void four_maps(const RealisticNumbers& numbers, const Texture& texture, const Grid& grid,
                const cv::Mat& surface, cv::Mat n[3]) {
-  const cv::Mat channels[3] = {mat_of(c.wave_map.channels[0]), mat_of(c.wave_map.channels[1]),
-                               mat_of(c.wave_map.channels[2])};
-  cv::Mat map, sum, sample, at_x, at_y;
+  const cv::Mat channels[3] = {mat_of(texture.channels[0]), mat_of(texture.channels[1]),
+                               mat_of(texture.channels[2])};
+  // remap is much slower where it has to wrap. So places are brought to within a period, -0.5 ...
+  // 0.5, and looked up from 0.5 on in four copies of the map, which have room for a drift of
+  // another period.
+  cv::Mat map, four, sum, sample, at_x, at_y;
   cv::merge(channels, 3, map);
-  const double per_x = map.cols / waves.tile_size, per_y = map.rows / waves.tile_size;
-  const cv::Mat base_x = surface.mul(grid.along(c.map_x, c.rays), per_x);
-  const cv::Mat base_y = surface.mul(grid.along(c.map_y, c.rays), per_y);
-  const double begin_x = std::fmod(glm::dot(c.eye, c.map_x) * per_x, map.cols) - 0.5;
-  const double begin_y = std::fmod(glm::dot(c.eye, c.map_y) * per_y, map.rows) - 0.5;
-  const double drift = waves.speed * c.time;
-  const double drifts[4][2] = {{drift, 0}, {-drift, 0}, {0, drift}, {0, -drift}};
-  for (const auto& [x, y] : drifts) {
-    cv::add(base_x, begin_x + x * per_x, at_x);
-    cv::add(base_y, begin_y + y * per_y, at_y);
-    cv::remap(map, sample, at_x, at_y, cv::INTER_LINEAR, cv::BORDER_WRAP);
+  cv::repeat(map, 2, 2, four);
+  const auto in_period = [&](const glm::dvec3& axis) {
+    cv::Mat at = surface.mul(grid.along(axis, numbers)), whole;
+    at.convertTo(whole, CV_32S);
+    cv::subtract(at, whole, at, cv::noArray(), CV_32F);
+    return at;
+  };
+  const cv::Mat base_x = in_period(numbers.map_u), base_y = in_period(numbers.map_v);
+  for (const glm::dvec2& at : numbers.map_begin) {
+    const glm::dvec2 begin = 0.5 + glm::fract(at - 0.5);
+    base_x.convertTo(at_x, -1, map.cols, begin.x * map.cols - 0.5);
+    base_y.convertTo(at_y, -1, map.rows, begin.y * map.rows - 0.5);
+    cv::remap(four, sample, at_x, at_y, cv::INTER_LINEAR, cv::BORDER_WRAP);
     if (sum.empty()) {
       std::swap(sum, sample);
     } else {
       sum += sample;
     }
   }
-  // up + strength ((sum / 2 - 1) in the axes of the map - up)
   cv::Matx34d blend;
   for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 axes(c.map_x[i], c.map_y[i], c.up[i]);
-    for (int k = 0; k < 3; ++k) blend(i, k) = 0.5 * waves.strength * axes[k];
-    blend(i, 3) = c.up[i] - waves.strength * (axes.x + axes.y + axes.z + c.up[i]);
+    for (int k = 0; k < 3; ++k) blend(i, k) = numbers.blend[k][i];
+    blend(i, 3) = numbers.blend_begin[i];
   }
   cv::transform(sum, sum, blend);
   cv::split(sum, n);
@@ -91,25 +93,22 @@ void four_maps(const WaveNormals::Params& waves, const Context& c, const Grid& g
 
 }  // namespace
 
-void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
-                      const Target& target) {
-  const int width = frame.display.width(), height = frame.display.height();
-  const cv::Size size(width, height);
-  const Context c(scene, frame, look.water.ior, {});
+void run_opencv_chain(const RealisticNumbers& numbers, const Frame& frame, const Target& target) {
+  const cv::Size size(numbers.size.width, numbers.size.height);
   const auto plane = [&](PlaneId id) { return mat_of(frame.plane(id)); };
   const cv::Mat depth = plane(PlaneId::kDepth), surface = plane(PlaneId::kSurfaceDepth);
   const cv::Mat wet = surface < depth;
 
   const Grid grid(size);
   cv::Mat n[3];
-  four_maps(look.of<WaveNormals>(), c, grid, surface, n);
+  four_maps(numbers, frame.wave_map, grid, surface, n);
 
   // Unit direction to the viewer.
   cv::Mat view[3], square = cv::Mat::zeros(size, CV_32F);
   for (int i = 0; i < 3; ++i) {
     glm::dvec3 axis(0);
     axis[i] = -1;
-    view[i] = grid.along(axis, c.rays);
+    view[i] = grid.along(axis, numbers);
     cv::accumulateSquare(view[i], square);
   }
   cv::Mat length;
@@ -117,11 +116,10 @@ void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
   for (cv::Mat& v : view) cv::divide(v, length, v);
 
   // Refraction with rejection.
-  const auto& refraction = look.of<Refraction>();
-  cv::Mat tilt_x = dot(n, c.t), tilt_y = dot(n, -c.b);
+  cv::Mat tilt_x = dot(n, numbers.tilt_x), tilt_y = dot(n, numbers.tilt_y);
   cv::Mat at_x, at_y, hit, above;
-  cv::scaleAdd(tilt_x, refraction.strength * width, grid.x, at_x);
-  cv::scaleAdd(tilt_y, refraction.strength * height, grid.y, at_y);
+  cv::scaleAdd(tilt_x, numbers.refract_shift.x, grid.x, at_x);
+  cv::scaleAdd(tilt_y, numbers.refract_shift.y, grid.y, at_y);
   hit = sampled(depth, at_x, at_y, cv::INTER_NEAREST);
   cv::compare(hit, surface, above, cv::CMP_LT);
   grid.x.copyTo(at_x, above);
@@ -129,8 +127,7 @@ void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
   depth.copyTo(hit, above);
 
   // Prism.
-  const double prism = look.of<PrismSplit>().strength;
-  cv::Mat prism_x = tilt_x * (prism * width), prism_y = tilt_y * (prism * height);
+  cv::Mat prism_x = tilt_x * numbers.prism_shift.x, prism_y = tilt_y * numbers.prism_shift.y;
   prism_x.setTo(0, above);
   prism_y.setTo(0, above);
   cv::Mat half_x, half_y;
@@ -141,44 +138,39 @@ void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
                       sampled(plane(PlaneId::kColorB), at_x, at_y + prism_y, cv::INTER_LINEAR)};
 
   // Fog, shadow, Fresnel, highlight.
-  const auto& fog = look.of<DepthFog>();
   cv::Mat veil = hit - surface;
-  veil.convertTo(veil, -1, fog.density, -fog.offset);
+  veil.convertTo(veil, -1, numbers.fog_density, -numbers.fog_offset);
   cv::min(cv::max(veil, 0.0), 1.0, veil);
-  veil *= fog.alpha;
+  veil *= numbers.fog_alpha;
   cv::Mat shade = sampled(plane(PlaneId::kShadow), at_x, at_y, cv::INTER_LINEAR);
-  const double dark = look.of<WaterShadow>().strength;
+  const double dark = numbers.shadow_strength;
   shade.convertTo(shade, -1, dark, 1 - dark);
-  const auto& mirror = look.of<FresnelReflection>();
   cv::Mat mirror_x, mirror_y;
-  cv::scaleAdd(tilt_x, mirror.strength * width, grid.x, mirror_x);
-  cv::scaleAdd(tilt_y, mirror.strength * height, grid.y, mirror_y);
+  cv::scaleAdd(tilt_x, numbers.mirror_shift.x, grid.x, mirror_x);
+  cv::scaleAdd(tilt_y, numbers.mirror_shift.y, grid.y, mirror_y);
   cv::Mat cosine = n[0].mul(view[0]) + n[1].mul(view[1]) + n[2].mul(view[2]);
   cv::Mat fresnel = 1 - cv::abs(cosine);
   cv::max(fresnel, 0.0, fresnel);
-  cv::pow(fresnel, mirror.power, fresnel);
+  cv::pow(fresnel, numbers.rim_power, fresnel);
   cv::Mat half[3], half_square = cv::Mat::zeros(size, CV_32F), lobe;
   for (int i = 0; i < 3; ++i) {
-    half[i] = view[i] + c.sun.direction[i];
+    half[i] = view[i] + numbers.sun_direction[i];
     cv::accumulateSquare(half[i], half_square);
   }
   cv::sqrt(half_square, half_square);
   lobe = n[0].mul(half[0]) + n[1].mul(half[1]) + n[2].mul(half[2]);
   cv::divide(lobe, half_square, lobe);
   cv::max(lobe, 0.0, lobe);
-  const auto& glint = look.of<SunHighlight>();
-  cv::pow(lobe, glint.power, lobe);
-  cv::multiply(lobe, plane(PlaneId::kShadow), lobe, glint.strength);
+  cv::pow(lobe, numbers.sun_power, lobe);
+  cv::multiply(lobe, plane(PlaneId::kShadow), lobe);
 
-  const double tint[3] = {fog.color.r, fog.color.g, fog.color.b};
-  const double sun[3] = {c.sun.color.r, c.sun.color.g, c.sun.color.b};
   for (int i = 0; i < 3; ++i) {
-    cv::Mat u = under[i] + veil.mul(tint[i] - under[i]);
+    cv::Mat u = under[i] + veil.mul(numbers.fog_color[i] - under[i]);
     cv::multiply(u, shade, u);
     const cv::Mat mirrored =
         sampled(plane(plane_after(PlaneId::kReflectionR, i)), mirror_x, mirror_y, cv::INTER_LINEAR);
     u += fresnel.mul(mirrored - u);
-    cv::scaleAdd(lobe, sun[i], u, u);
+    cv::scaleAdd(lobe, numbers.sun_color[i], u, u);
     cv::Mat out = mat_of(target.color[i]);
     plane(plane_after(PlaneId::kColorR, i)).copyTo(out);
     u.copyTo(out, wet);

@@ -1,8 +1,8 @@
 #pragma once
 #include "limpid/core/frame.h"
-#include "limpid/core/scene.h"
-#include "limpid/ops/look.h"
 #include "limpid/run/target.h"
+
+#include "realistic_numbers.h"
 
 namespace limpid::bench {
 
@@ -10,7 +10,6 @@ namespace limpid::bench {
 /// whole-picture remap, multiply, pow, compare. The rival in the bench table. Positions, rays and
 /// temporaries are its own; inputs and outputs are shared without copies. Uses as many threads as
 /// cv::setNumThreads allows.
-void run_opencv_chain(const Look& look, const Frame& frame, const Scene& scene,
-                      const Target& target);
+void run_opencv_chain(const RealisticNumbers& numbers, const Frame& frame, const Target& target);
 
 }  // namespace limpid::bench

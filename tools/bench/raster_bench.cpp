@@ -50,9 +50,10 @@ Difference difference(const RasterScene& scene, const RasterImage& ours,
   return d;
 }
 
-void bench_scene(int index, const Arguments& arguments) {
+/// False where this row is not wanted.
+bool bench_scene(int index, const Arguments& arguments) {
   const RasterScene scene = raster_scene(index);
-  if (!arguments.wants_row(scene.label)) return;
+  if (!arguments.wants_row(scene.label)) return false;
   Rasteriser rasteriser(scene.model);
   RasterImage image;
   GlProcess rival_one(std::to_string(index), 1), rival_two(std::to_string(index), 2);
@@ -78,6 +79,7 @@ void bench_scene(int index, const Arguments& arguments) {
               best(0), best(1), best(0) / best(1), best(2), best(3), best(2) / best(3),
               d.mean_color, d.mean_depth, d.other_percent);
   std::fflush(stdout);
+  return true;
 }
 
 void bench(const Arguments& arguments) {
@@ -87,7 +89,9 @@ void bench(const Arguments& arguments) {
       GlProcess("2", 1).renderer().c_str(), arguments.best_simd().c_str(), arguments.rounds);
   std::printf("%-20s %26s   %26s   %s\n", "", "1 thread: rival, ours", "2 threads: rival, ours",
               "mean difference: color, depth, pixels off by > 0.02");
-  for (int i = 0; i < kRasterScenes; ++i) bench_scene(i, arguments);
+  bool any = false;
+  for (int i = 0; i < kRasterScenes; ++i) any |= bench_scene(i, arguments);
+  arguments.expect_rows(any);
 }
 
 std::unique_ptr<GlDrawing> drawing_of(const std::string& index) {

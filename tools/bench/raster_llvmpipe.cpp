@@ -1,5 +1,6 @@
 #include "raster_llvmpipe.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -119,7 +120,16 @@ void GlRasteriser::draw() {
 }
 
 std::vector<float> GlRasteriser::picture() const {
-  return read_planes({GL_RED, GL_GREEN, GL_BLUE, GL_DEPTH_COMPONENT}, size_);
+  std::vector<float> planes = read_planes({GL_RED, GL_GREEN, GL_BLUE, GL_DEPTH_COMPONENT}, size_);
+  const std::ptrdiff_t width = size_.width, height = size_.height;
+  for (int p = 0; p < 4; ++p) {  // the top row is to come first
+    float* plane = planes.data() + p * width * height;
+    for (std::ptrdiff_t y = 0; y < height / 2; ++y) {
+      std::swap_ranges(plane + y * width, plane + (y + 1) * width,
+                       plane + (height - 1 - y) * width);
+    }
+  }
+  return planes;
 }
 
 }  // namespace limpid::bench

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "chain_bench.h"
+
+namespace limpid::bench {
+
+/// The rows with their times and errors, and below them how `simd` does against each goal whose
+/// rows are there.
+void print_table(const ChainBench& bench, const std::string& label, const Arguments& arguments);
+
+}  // namespace limpid::bench
