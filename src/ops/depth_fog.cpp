@@ -1,5 +1,7 @@
 #include "limpid/ops/depth_fog.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -47,6 +49,37 @@ Rgb<double> absorption_of(const P& params) {
   return water_optics(params.water_type).absorption;
 }
 
+double largest(const Rgb<double>& c) { return std::max({c.r, c.g, c.b}); }
+
+/// The largest of of(part) over the channels, where part(color) is the channel of a color.
+template <class Of>
+double largest_of(Of&& of) {
+  return std::max({of([](const Rgb<double>& c) { return c.r; }),
+                   of([](const Rgb<double>& c) { return c.g; }),
+                   of([](const Rgb<double>& c) { return c.b; })});
+}
+
+/// Largest difference between a color and what is looked up.
+double apart(const Rgb<double>& color, const Ranges& ranges) {
+  const auto of = [](double c, const Range& seen) { return std::max(c - seen.min, seen.max - c); };
+  return std::max(
+      {of(color.r, ranges.color[0]), of(color.g, ranges.color[1]), of(color.b, ranges.color[2])});
+}
+
+/// Share that survives a way; 0 where in float no bit of it does.
+double survives(double rate, double way) {
+  const double tau = bound_product(rate, way);
+  return tau > 104.5 ? 0 : std::exp(-tau);
+}
+
+/// No less than column_light.
+double column(double rate, double way) { return rate > 0 ? std::min(way, 1 / rate) : way; }
+
+/// What the linear fog puts before a way.
+double veil(const P& params, double way) {
+  return params.alpha * (1 - linear_fog(way, params.density, params.offset));
+}
+
 }  // namespace
 
 std::span<const Field<P>> DepthFog::fields() { return kFields; }
@@ -60,6 +93,91 @@ bool DepthFog::neutral(const Params& p, StateSet) {
 
 Rgb<double> DepthFog::extinction(const Params& params) {
   return absorption_of(params) + params.scattering;
+}
+
+double DepthFog::bound(const P& params, const Context& c, const Ranges& ranges) {
+  const double way = ranges.way.max, bright = ranges.brightest();
+  if (params.model == Model::kLinear) {
+    return bound_product(veil(params, way), apart(params.color, ranges));
+  }
+  const Medium m = medium_of(params, c);
+  const double sun = m.water * brightest_phase(params, c, m);
+  return largest_of([&](auto part) {
+    const double taken = 1 - m.bottom * survives(part(m.rate) + part(m.down), way);
+    return bound_product(taken, bright) +
+           bound_product(part(m.ambient) + sun * part(m.sun), column(part(m.rate), way));
+  });
+}
+
+void DepthFog::reckon(const P& params, const Context& c, Ranges& ranges) {
+  // Should refraction run, hit and path are its own; else they are the pixel's.
+  Range way = c.made.has(StatePart::kPosition) ? ranges.hit : ranges.own;
+  if (params.distance == Distance::kRefracted && c.made.has(StatePart::kPosition)) {
+    way = ranges.path;
+  } else if (params.distance == Distance::kRefracted) {
+    const auto bent = [&](double cosine) {
+      return cosine / std::max(refracted_cosine(cosine, 1 / c.ior), 1e-6);
+    };
+    const Range cosine = ranges.cosine();
+    way = {bound_product(way.min, bent(std::max(cosine.min - 1e-6, 0.0))),
+           bound_product(way.max, ranges.ray_length.max * bent(cosine.max))};
+  } else if (params.distance == Distance::kRay) {
+    way = {way.min * ranges.ray_length.min, bound_product(way.max, ranges.ray_length.max)};
+  }
+  ranges.way = {0.999 * way.min, 1.001 * way.max};  // they are computed in float
+
+  const double bright = ranges.brightest();
+  if (params.model == Model::kLinear) {
+    ranges.through = 1 - veil(params, ranges.way.min);
+    ranges.light = std::max({ranges.light, bright, largest(params.color)});
+    return;
+  }
+  const Medium m = medium_of(params, c);
+  const double sun = m.water * brightest_phase(params, c, m);
+  const auto sun_of = [&](auto part) {
+    return bound_product(sun * part(m.sun), column(part(m.rate), ranges.way.max));
+  };
+  ranges.through =
+      largest_of([&](auto part) { return m.bottom * survives(part(m.rate), ranges.way.min); });
+  ranges.sun_light = largest_of(sun_of);
+  ranges.sun_far = largest_of([&](auto part) {
+    const double tau = bound_product(part(m.rate), ranges.way.min);
+    return bound_product(sun_of(part), tau > 2 ? 1 / tau : 0.5);
+  });
+  ranges.light = std::max(
+      ranges.light, largest_of([&](auto part) {
+        return bright + bound_product(part(m.ambient), column(part(m.rate), ranges.way.max)) +
+               sun_of(part);
+      }));
+}
+
+double DepthFog::beyond(const P& params, const Context& c, const Ranges& ranges) {
+  const double way = ranges.way.min, bright = ranges.brightest();
+  if (params.model == Model::kLinear) {
+    const double full = veil(params, HUGE_VAL);
+    return bound_product(1 - full, ranges.contrast()) +
+           bound_product(full - veil(params, way), apart(params.color, ranges));
+  }
+  const Medium m = medium_of(params, c);
+  const double sun = m.water * brightest_phase(params, c, m);
+  return largest_of([&](auto part) {
+    const double rate = part(m.rate);
+    if (survives(rate, 3e38) > 0) return HUGE_VAL;  // there is no endless way in float
+    const double left = survives(rate, way);
+    return bound_product(left, m.bottom * bright) +
+           left / rate * (part(m.ambient) + sun * part(m.sun));
+  });
+}
+
+/// The largest value of the phase function: views go down into the water at least as steeply as
+/// refraction leads them, and the sun stands above it.
+double DepthFog::brightest_phase(const P& params, const Context& c, const Medium& m) {
+  if (!m.sunlit) return 0;
+  const double sink = refracted_cosine(0.0, 1 / c.ior);
+  const double rise = glm::dot(m.to_sun, c.up);
+  const double level = std::sqrt(std::max((1 - sink * sink) * (1 - rise * rise), 0.0));
+  const double least = params.anisotropy < 0 ? -1 : level - sink * rise;
+  return henyey_greenstein(least, params.anisotropy) * 1.0001;
 }
 
 DepthFog::Medium DepthFog::medium_of(const Params& params, const Context& c) {

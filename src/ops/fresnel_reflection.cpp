@@ -1,5 +1,8 @@
 #include "limpid/ops/fresnel_reflection.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace limpid {
 namespace {
 
@@ -24,5 +27,16 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> FresnelReflection::fields() { return kFields; }
+
+/// F is at most 1. What planes and surroundings hold is not looked at.
+double FresnelReflection::bound(const P& params, const Context&, const Ranges& ranges) {
+  if (params.source != Source::kConstant) return HUGE_VAL;
+  return std::max({params.color.r, params.color.g, params.color.b}) + ranges.light;
+}
+
+void FresnelReflection::reckon(const P& params, const Context&, Ranges& ranges) {
+  const bool known = params.source == Source::kConstant;
+  ranges.above += known ? std::max({params.color.r, params.color.g, params.color.b}) : HUGE_VAL;
+}
 
 }  // namespace limpid

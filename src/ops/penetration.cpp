@@ -1,5 +1,8 @@
 #include "limpid/ops/penetration.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace limpid {
 namespace {
 
@@ -18,5 +21,13 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> Penetration::fields() { return kFields; }
+
+/// What is let through, most where one looks down most, replaces as much of the finished surface.
+double Penetration::bound(const P& params, const Context&, const Ranges& ranges) {
+  if (params.model == Model::kNone) return 0;
+  const double through = params.amount * std::pow(ranges.cosine().max, params.power);
+  const double away = 1 - std::clamp(params.alpha - through, 0.0, 1.0);
+  return bound_product(away, ranges.brightest() + ranges.light + ranges.above);
+}
 
 }  // namespace limpid

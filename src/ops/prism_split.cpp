@@ -1,5 +1,8 @@
 #include "limpid/ops/prism_split.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace limpid {
 namespace {
 
@@ -17,5 +20,17 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> PrismSplit::fields() { return kFields; }
+
+/// Each channel of a lookup becomes another that is in reach; its path stays the common one.
+double PrismSplit::bound(const P&, const Context&, const Ranges& ranges) {
+  return bound_product(ranges.through, ranges.contrast());
+}
+
+double PrismSplit::stretch(const P& params, const Context& c) {
+  if (params.model != Model::kDispersion || c.ior <= 1) return 1;
+  const Rgb<double> index = water_index_rgb();
+  const double widest = std::max(std::abs(index.r - index.g), std::abs(index.b - index.g));
+  return 1 + params.gain * widest / (c.ior - 1);
+}
 
 }  // namespace limpid

@@ -1,5 +1,8 @@
 #include "limpid/ops/refraction.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace limpid {
 namespace {
 
@@ -26,5 +29,45 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> Refraction::fields() { return kFields; }
+
+/// Without it another color in reach is seen. And the way through the water is another: how much
+/// that matters is not known here.
+double Refraction::bound(const P&, const Context& c, const Ranges& ranges) {
+  return c.made.has(StatePart::kTransmittance) ? HUGE_VAL : ranges.contrast();
+}
+
+void Refraction::reckon(const P& params, const Context& c, Ranges& ranges) {
+  const Range surface = ranges.surface, seen = ranges.looked_up;
+  const bool fades = params.off_frame == OffFrame::kFog;
+  // Where not even a pixel's own texel of the layer below holds anything, the depth there is none.
+  const bool nothing =
+      planes_of(c).below && params.rejection == Rejection::kShorten && !(seen.max < 1e30);
+  const bool known = surface.max < HUGE_VAL && !nothing;
+  ranges.hit = {known ? std::max(seen.min - surface.max, 0.0) : 0,
+                std::max(seen.max - surface.min, 0.0)};
+  if (params.model == Model::kSnell) {
+    // Heights are differences of numbers as large as these, in float.
+    const double slack = 2e-6 * (std::abs(c.eye_above) + surface.max);
+    const double drop = params.steps == 0
+                            ? bound_product(ranges.own.min, std::max(ranges.sink.min, 0.0))
+                            : ranges.least_drop;
+    ranges.path = {known ? std::max(drop - slack, 0.0) : 0, HUGE_VAL};
+    // The ray's own depth where it ends; a texel's where one is looked up.
+    const bool of_texel = params.steps == 0 || params.rejection == Rejection::kShorten;
+    if (!of_texel) ranges.hit = {0, HUGE_VAL};
+  } else {
+    const auto bent = [&](double cosine) {
+      return cosine / std::max(refracted_cosine(cosine, 1 / c.ior), 0.02);
+    };
+    const Range cosine = ranges.cosine();
+    ranges.path = {bound_product(ranges.hit.min, bent(std::max(cosine.min - 1e-6, 0.0))),
+                   bound_product(ranges.hit.max, ranges.ray_length.max * bent(cosine.max))};
+  }
+  if (!fades) return;
+  ranges.path.max = HUGE_VAL;
+  for (Range& color : ranges.color) {
+    color = {std::min(color.min, 0.0), std::max(color.max, 0.0)};
+  }
+}
 
 }  // namespace limpid

@@ -1,5 +1,7 @@
 #include "limpid/ops/sun_highlight.h"
 
+#include <algorithm>
+
 namespace limpid {
 namespace {
 
@@ -18,5 +20,16 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> SunHighlight::fields() { return kFields; }
+
+/// Phong's lobes reach 1, and no mirror is brighter than the sun's disc.
+double SunHighlight::bound(const P& params, const Context& c, const Ranges& ranges) {
+  const double lobe = params.model == Model::kGgx ? std::numbers::pi / kSunSolidAngle : 1;
+  const double light = std::max({c.sun.color.r, c.sun.color.g, c.sun.color.b});
+  return params.strength * lobe * light * std::max(ranges.own_shadow.max, 0.0);
+}
+
+void SunHighlight::reckon(const P& params, const Context& c, Ranges& ranges) {
+  ranges.above += bound(params, c, ranges);
+}
 
 }  // namespace limpid

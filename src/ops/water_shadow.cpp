@@ -1,5 +1,7 @@
 #include "limpid/ops/water_shadow.h"
 
+#include <algorithm>
+
 namespace limpid {
 namespace {
 
@@ -15,5 +17,24 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> WaterShadow::fields() { return kFields; }
+
+/// `darken` takes strength (1 - shadow) of all light from below, `scatter` of the sun's alone.
+double WaterShadow::bound(const P& params, const Context&, const Ranges& ranges) {
+  const auto off = [](const Range& shadow) { return std::max(1 - shadow.min, shadow.max - 1); };
+  if (params.model == Model::kDarken) {
+    return bound_product(params.strength * off(ranges.shadow), ranges.light);
+  }
+  return bound_product(params.strength * std::max(off(ranges.shadow), off(ranges.own_shadow)),
+                       ranges.sun_light);
+}
+
+double WaterShadow::displaced(const P& params, const Ranges& ranges) {
+  const Range &there = ranges.shadow, &own = ranges.own_shadow;
+  if (params.model == Model::kDarken) {
+    return bound_product(params.strength * (there.max - there.min), ranges.light);
+  }
+  const double spread = std::max(there.max, own.max) - std::min(there.min, own.min);
+  return bound_product(params.strength * spread, ranges.sun_far);
+}
 
 }  // namespace limpid

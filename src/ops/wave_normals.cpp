@@ -1,5 +1,7 @@
 #include "limpid/ops/wave_normals.h"
 
+#include <cmath>
+
 namespace limpid {
 namespace {
 
@@ -27,5 +29,8 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> WaveNormals::fields() { return kFields; }
+
+/// All that comes after hangs on them.
+double WaveNormals::bound(const P&, const Context&, const Ranges&) { return HUGE_VAL; }
 
 }  // namespace limpid

@@ -1,6 +1,7 @@
 #include "limpid/plan/plan.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "limpid/core/error.h"
@@ -124,13 +125,48 @@ void fill_reflection(Plan& plan, const Inputs& inputs, StateSet) {
 }
 
 using Rule = void (*)(Plan&, const Inputs&, StateSet outputs);
+
+/// The first rules make the plan; those without a function look at the cells of a frame.
+constexpr RuleInfo kRuleInfos[] = {
+    {"take_plate_normals", "Normals of the plate replace those of maps and waves."},
+    {"take_other_reflection", "The surroundings replace a reflection that is not there."},
+    {"drop_absent_input", "What lacks an input that it cannot do without does not run."},
+    {"drop_neutral", "What its parameters make the identity does not run."},
+    {"drop_unread", "What nothing reads does not run."},
+    {"fill_reflection", "The surroundings are seen where the reflection is not valid."},
+    {"copy_dry", "Cells without a wet pixel are copied."},
+    {"skip_rejection", "Without foreground in reach refraction need not test for it."},
+    {"skip_hidden", "Where fog hides the end of every way, nothing is refracted."},
+    {"skip_invisible", "What changes a cell by less than is left of max_error does not run there."},
+    {"skip_unread", "What nothing that still runs in a cell reads does not run there."},
+};
 constexpr Rule kRules[] = {take_plate_normals, take_other_reflection, drop_absent_input,
                            drop_neutral,       drop_unread,           fill_reflection};
 
+/// Says of each operator which rule spoke of it last.
+void apply_rules(Plan& plan, const Inputs& inputs, StateSet outputs) {
+  for (std::size_t i = 0; i < std::size(kRules); ++i) {
+    const std::vector<PlannedOperator> before = plan.operators;
+    kRules[i](plan, inputs, outputs);
+    for (std::size_t j = 0; j < before.size(); ++j) {
+      PlannedOperator& now = plan.operators[j];
+      if (now.verdict != before[j].verdict || now.reason != before[j].reason) {
+        now.rule = kRuleInfos[i].name;
+      }
+    }
+  }
+}
+
 }  // namespace
 
-Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs) {
+std::span<const RuleInfo> rules() { return kRuleInfos; }
+
+Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double max_error) {
   look.validate();
+  if (!(max_error >= 0) || std::isinf(max_error)) {
+    throw Error("max_error = " + std::to_string(max_error) +
+                ": expected a finite number from 0 up (white = 1)");
+  }
   if (!inputs.planes.covers(kColorPlanes))
     throw Error("no color: there is nothing to put water into");
   if (!inputs.planes.has(PlaneId::kDepth)) {
@@ -138,8 +174,10 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs) {
   }
   Plan plan;
   plan.look = look;
+  plan.outputs = outputs;
+  plan.max_error = max_error;
   Chain::for_each([&]<class Op, int>() { plan.operators.push_back({Op::kName, {}, {}}); });
-  for (Rule rule : kRules) rule(plan, inputs, outputs);
+  apply_rules(plan, inputs, outputs);
 
   plan.planes = kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};
   for (int i = 0; i < Chain::kCount; ++i) {
@@ -155,8 +193,8 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs) {
 }
 
 std::string to_text(const Plan& plan) {
-  constexpr std::array<const char*, 4> kWords = {"kept", "dropped: neutral",
-                                                 "dropped: input absent", "dropped: unread"};
+  constexpr std::array<const char*, 5> kWords = {
+      "kept", "dropped: neutral", "dropped: input absent", "dropped: unread", "dropped: invisible"};
   std::string text;
   for (const PlannedOperator& op : plan.operators) {
     char line[256];

@@ -7,6 +7,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/op/context.h"
 #include "limpid/op/pixel.h"
+#include "limpid/op/ranges.h"
 
 /// The operator contract.
 ///
@@ -54,8 +55,18 @@ struct Needs {
   bool environment = false;
 };
 
+/// What an operator must tell of itself. `bound` is a promise: left out, whichever of the other
+/// operators run, it changes no channel of the picture by more than this where `ranges` hold (0:
+/// not a bit of it, and what makes nothing but kOutputTerms leaves those as they are). HUGE_VAL
+/// where nothing is known. So that bounds add up, an operator passes on of the light before it a
+/// share of at most 1. One that makes anything that later bounds are made of says so, besides, in
+///
+///   static void reckon(const Params&, const Context&, Ranges& ranges);
+///
+/// which widens or narrows `ranges` to what holds after it, be it left out or not.
 template <class T>
-concept Operator = requires(const typename T::Params& params, StateSet made) {
+concept Operator = requires(const typename T::Params& params, StateSet made, const Context& context,
+                            const Ranges& ranges) {
   { T::kName } -> std::convertible_to<std::string_view>;   // its table in look files
   { T::kAbout } -> std::convertible_to<std::string_view>;  // one sentence
   { T::kUses } -> std::convertible_to<StateSet>;           // state it reads
@@ -66,6 +77,8 @@ concept Operator = requires(const typename T::Params& params, StateSet made) {
   { T::reach(params) } -> std::same_as<double>;    // how far its taps go, in uv; tilts are below 1
   // The parameters make it the identity on all but kPath, given what the operators before it make.
   { T::neutral(params, made) } -> std::same_as<bool>;
+  // At most this much of any channel of the picture is its doing, where `ranges` hold.
+  { T::bound(params, context, ranges) } -> std::same_as<double>;
   // and: template <class Strip> static void apply(const Params&, const Context&, Strip&);
 };
 

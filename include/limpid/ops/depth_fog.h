@@ -70,6 +70,11 @@ struct DepthFog {
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Context& c, Ranges& ranges);
+  /// How much the picture changes at most when the way through the water counts as endless and the
+  /// light at its end as the pixel's own, for refraction is left out. 0 where no bit of it is left.
+  static double beyond(const Params& params, const Context& c, const Ranges& ranges);
   /// a + b of the model beer_lambert: what a unit of the way takes from the light.
   static Rgb<double> extinction(const Params& params);
 
@@ -96,6 +101,7 @@ struct DepthFog {
     bool glows, sunlit;    ///< whether there is in-scatter of each kind
   };
   static Medium medium_of(const Params& params, const Context& c);
+  static double brightest_phase(const Params& params, const Context& c, const Medium& medium);
 
   template <class F>
   static LIMPID_INLINE Rgb<F> rgb_of(const Rgb<double>& c) {

@@ -71,6 +71,8 @@ struct FresnelReflection {
     return p.lookup == Lookup::kRay ? HUGE_VAL : abs(p.strength);
   }
   static bool neutral(const Params&, StateSet) { return false; }
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Context& c, Ranges& ranges);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {

@@ -32,6 +32,7 @@ struct Penetration {
   static bool neutral(const Params& p, StateSet) {
     return p.model == Model::kNone || (p.alpha == 1 && p.amount == 0);
   }
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {

@@ -37,6 +37,10 @@ struct PrismSplit {
     if (p.model == Model::kDispersion) return p.gain == 0;
     return p.strength == 0 || !made.has(StatePart::kNormal);
   }
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  /// How many times as far as the common one the channels' lookups go, where refraction offsets
+  /// them by their index.
+  static double stretch(const Params& params, const Context& c);
 
   template <class Strip>
   static void apply(const Params& params, const Context&, Strip& strip) {

@@ -78,6 +78,20 @@ struct Refraction {
     return p.model == Model::kNormalOffset && !made.has(StatePart::kPrism) &&
            (p.strength == 0 || !made.has(StatePart::kNormal));
   }
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Context& c, Ranges& ranges);
+
+  /// What is looked up: the dry scene, or that below the water alone, where the frame has it.
+  struct Planes {
+    PlaneId color, depth;
+    Bounds bounds;
+    bool below;
+  };
+  static Planes planes_of(const Context& c) {
+    if (c.planes.covers(kBelowPlanes) && !c.submersible)
+      return {PlaneId::kBelowR, PlaneId::kBelowDepth, c.below, true};
+    return {PlaneId::kColorR, PlaneId::kDepth, c.dry, false};
+  }
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {
@@ -116,18 +130,6 @@ struct Refraction {
 
  private:
   static constexpr double kDudvShift = 0.001, kLeastDeviceDepth = 0.01;
-
-  /// What is looked up: the dry scene, or that below the water alone, where the frame has it.
-  struct Planes {
-    PlaneId color, depth;
-    Bounds bounds;
-    bool below;
-  };
-  static Planes planes_of(const Context& c) {
-    if (c.planes.covers(kBelowPlanes) && !c.submersible)
-      return {PlaneId::kBelowR, PlaneId::kBelowDepth, c.below, true};
-    return {PlaneId::kColorR, PlaneId::kDepth, c.dry, false};
-  }
 
   template <class F>
   static LIMPID_INLINE void place_channels(Vec2<F> r, Vec2<F> g, Vec2<F> b, Pixel<F>& p) {

@@ -39,6 +39,8 @@ struct SunHighlight {
   static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet) { return p.strength == 0; }
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Context& c, Ranges& ranges);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {

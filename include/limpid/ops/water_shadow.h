@@ -36,6 +36,10 @@ struct WaterShadow {
   static bool neutral(const Params& p, StateSet made) {
     return p.strength == 0 || (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
   }
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  /// How much the picture changes at most when the shadow is looked up elsewhere in reach, or as
+  /// if no sunlight were scattered at the end of the way.
+  static double displaced(const Params& params, const Ranges& ranges);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {

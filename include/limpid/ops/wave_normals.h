@@ -62,6 +62,7 @@ struct WaveNormals {
   static bool neutral(const Params& p, StateSet) {
     return p.model != Model::kPlate && p.strength == 0;
   }
+  static double bound(const Params& params, const Context& c, const Ranges& ranges);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {

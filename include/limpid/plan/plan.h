@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,16 +22,26 @@ struct Inputs {
 /// Why an operator runs or does not.
 enum class Verdict {
   kKept,
-  kNeutral,  ///< its parameters make it the identity
-  kAbsent,   ///< an input that it cannot do without is not there
-  kUnread,   ///< nothing reads what it makes
+  kNeutral,    ///< its parameters make it the identity
+  kAbsent,     ///< an input that it cannot do without is not there
+  kUnread,     ///< nothing reads what it makes
+  kInvisible,  ///< no cell of a frame needs it (plan/survey.h); never in a Plan, made before pixels
 };
 
 struct PlannedOperator {
   std::string_view name;
   Verdict verdict = Verdict::kKept;
-  std::string reason;  ///< one phrase, "" for a plain kKept
+  std::string reason;          ///< one phrase, "" for a plain kKept
+  std::string_view rule = {};  ///< that decided, "" for a plain kKept
 };
+
+/// A rule of the planner: what it is called and what it does.
+struct RuleInfo {
+  std::string_view name, about;
+};
+/// In the order in which they look at a plan. The last ones look at each cell of a frame, after
+/// which the plan is not another, but runs less (plan/survey.h).
+std::span<const RuleInfo> rules();
 
 /// What of the chain will run for a job, and why the rest will not. A value: it can be printed,
 /// compared and tested without pixels.
@@ -39,6 +50,9 @@ struct Plan {
   std::vector<PlannedOperator> operators;  ///< one an operator, in chain order
   StateSet made;                           ///< by the operators that are kept
   PlaneSet planes;                         ///< that must be read from the plate
+  StateSet outputs;                        ///< that is written besides the picture
+  /// What may be left out together changes no channel of a pixel by more than this (white = 1).
+  double max_error = 0;
 
   /// Whether an operator that is kept looks up the tiling normal map.
   bool reads_wave_map = false;
@@ -51,8 +65,9 @@ struct Plan {
 };
 
 /// `outputs`: the state that is written besides the picture itself (AOVs). Throws Error for a look
-/// outside its ranges, and when color or depth is absent (there is nothing to put water into).
-Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs = {});
+/// outside its ranges, when color or depth is absent (there is nothing to put water into), and for
+/// a max_error that is negative or not finite.
+Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs = {}, double max_error = 0);
 
 /// A line an operator: name, kept or dropped, reason.
 std::string to_text(const Plan& plan);

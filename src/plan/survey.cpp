@@ -1,0 +1,396 @@
+#include "limpid/plan/survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "limpid/core/simd.h"
+
+#include "plan/cell_rules.h"
+#include "plan/survey_scan.h"
+
+namespace limpid {
+
+// One for each instruction set that the build names, made by survey_target.cpp.
+#define LIMPID_TARGET(name, highway) extern const ScanTarget kScan_##name;
+#include "core/targets.inc"
+#undef LIMPID_TARGET
+
+namespace {
+
+constexpr const ScanTarget* kTargets[] = {
+#define LIMPID_TARGET(name, highway) &kScan_##name,
+#include "core/targets.inc"
+#undef LIMPID_TARGET
+};
+
+/// What is kept of a cell for the cells that look into it; least values with their sign turned.
+enum Extreme {
+  kNear,  ///< depth that is looked up
+  kFar,
+  kGap,   ///< 1 if a texel does not lie under water for sure
+  kDrop,  ///< depth of the bottom under the calm surface
+  kShadowLow,
+  kShadowHigh,
+  kColorLow,
+  kColorHigh = kColorLow + 3,
+  kExtremeCount = kColorHigh + 3,
+};
+
+constexpr int kBlocksInCell = 4, kBlockWidth = Survey::kCell.width / kBlocksInCell;
+
+/// Whole parts that it takes to cover so many pixels.
+int count_of(int pixels, int part) { return (pixels + part - 1) / part; }
+
+/// How far lookups of the plan that follow the refracted ray go, in uv.
+double reach_of(const Plan& plan, const Context& context) {
+  double reach = 0, stretch = 1;
+  Chain::for_each([&]<class Op, int I>() {
+    if (!plan.keeps(I) || std::is_same_v<Op, FresnelReflection>) return;  // it follows another ray
+    const auto& params = plan.look.of<Op>();
+    reach += Op::reach(params);
+    if constexpr (std::is_same_v<Op, PrismSplit>) stretch = PrismSplit::stretch(params, context);
+  });
+  return reach * stretch;
+}
+
+/// See WetSeen: a few roundings of each number that goes into it.
+CalmError calm_error(const Context& c) {
+  const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
+    return std::abs(glm::dot(c.up, at)) + 4 * c.size.x * std::abs(glm::dot(c.up, dx)) +
+           4 * c.size.y * std::abs(glm::dot(c.up, dy));
+  };
+  const Rays& r = c.rays;
+  return {
+      static_cast<float>(1e-6 * (std::abs(c.eye_above) + most(r.origin, r.origin_dx, r.origin_dy))),
+      static_cast<float>(1e-6 * most(r.ray, r.ray_dx, r.ray_dy))};
+}
+
+template <class E>
+void raise(E& to, const E& by) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = to[i] < by[i] ? by[i] : to[i];
+}
+
+Rect united(const Rect& a, const Rect& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+}  // namespace
+
+struct Survey::Scan {
+  Survey& survey;
+  const Plan& plan;
+  const Frame& frame;
+  const Context& context;
+  const ScanTarget& target;
+  Refraction::Planes looked_up;
+  CellRules rules;
+  CalmError error;
+  PlaneSet wanted;       // of those that are looked up
+  PlaneId own_shadow;    // on the surface
+  int reach_x, reach_y;  // in blocks
+  bool everywhere;       // all blocks are in reach of all cells
+  bool same_windows;     // taps at depth and surface find the same pixel
+  Extremes all;          // of all blocks, if so
+
+  Scan(Survey& s, const Plan& p, const Frame& f, const Context& c, const ScanTarget& t)
+      : survey(s),
+        plan(p),
+        frame(f),
+        context(c),
+        target(t),
+        looked_up(Refraction::planes_of(c)),
+        rules(p, c),
+        error(calm_error(c)) {}
+
+  static void none(Extremes& extremes) { extremes.fill(-HUGE_VALF); }
+
+  Rect pixels_of_block(int column, int row) const {
+    const int x = survey.work_.x0 + (column - survey.left_) * kBlockWidth;
+    const int y = survey.work_.y0 + (row - survey.up_) * kCell.height;
+    return {x, y, x + kBlockWidth, y + kCell.height};
+  }
+  glm::dvec3 ray_at(int x, int y) const {
+    return context.rays.ray_at(x - context.corner.x, y - context.corner.y);
+  }
+
+  void choose_planes();
+  void lay_out();
+  void scan_block(int column, int row);
+  void scan_water(const Rect& block, Extremes& extremes, Own* own);
+  void scan_plane(PlaneId plane, const Rect& block, Extremes& extremes, int low, int high);
+  Range sink_of(const Rect& pixels) const;
+  void decide_cell(int index, const Extremes& reached);
+  bool no_foreground(const Own& own, const Extremes& reached) const;
+
+  // Tasks, one a row of blocks or cells.
+  static void scan_row(void* self, int row);
+  static void reach_across(void* self, int row);
+  static void decide_row(void* self, int row);
+};
+
+/// Only what a rule reads. Colors tell how much is lost by an error, and so only where one is
+/// borne.
+void Survey::Scan::choose_planes() {
+  own_shadow =
+      context.planes.has(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
+  wanted = plan.planes & PlaneSet{PlaneId::kShadow};
+  if (plan.made.has(StatePart::kPosition)) wanted = wanted | PlaneSet{looked_up.depth};
+  if (plan.max_error > 0) {
+    for (int c = 0; c < 3; ++c) wanted = wanted | PlaneSet{plane_after(looked_up.color, c)};
+  }
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  same_windows = !surface || surface.window == frame.plane(PlaneId::kDepth).window;
+}
+
+void Survey::Scan::lay_out() {
+  choose_planes();
+  const bool refracts = plan.made.has(StatePart::kPosition);
+  const Rect work = frame.work();
+  Rect area = work;
+  for (int i = 0; i < kPlaneCount && refracts; ++i) {
+    const bool looked_at = wanted.has(static_cast<PlaneId>(i)) || i == index_of(PlaneId::kDepth);
+    if (looked_at && frame.planes[i]) area = united(area, frame.planes[i].window);
+  }
+  // Two texels more, for filtering and for rounding.
+  const double uv = refracts ? reach_of(plan, context) : 0;
+  const auto texels = [&](double size) {
+    return refracts ? static_cast<int>(std::min(uv * size + 2, double{1 << 24})) : 0;
+  };
+  const int far_x = texels(context.size.x), far_y = texels(context.size.y);
+  area = intersection(area, {work.x0 - far_x, work.y0 - far_y, work.x1 + far_x, work.y1 + far_y});
+
+  Survey& s = survey;
+  s.work_ = work;
+  s.cells_ = {count_of(work.width(), kCell.width), count_of(work.height(), kCell.height)};
+  s.left_ = count_of(work.x0 - area.x0, kBlockWidth);
+  s.up_ = count_of(work.y0 - area.y0, kCell.height);
+  s.blocks_ = {
+      s.left_ + std::max(kBlocksInCell * s.cells_.width, count_of(area.x1 - work.x0, kBlockWidth)),
+      s.up_ + std::max(s.cells_.height, count_of(area.y1 - work.y0, kCell.height))};
+  reach_x = std::min(count_of(far_x, kBlockWidth), s.blocks_.width);
+  reach_y = std::min(count_of(far_y, kCell.height), s.blocks_.height);
+  everywhere = reach_x == s.blocks_.width && reach_y == s.blocks_.height;
+  const auto cells = static_cast<std::size_t>(s.count());
+  const auto rows = static_cast<std::size_t>(s.blocks_.height);
+  s.own_.assign(cells, Own{});
+  s.needs_.assign(cells, CellNeeds{});
+  s.extremes_.resize(rows * static_cast<std::size_t>(s.blocks_.width));
+  s.across_.resize(rows * static_cast<std::size_t>(s.cells_.width));
+}
+
+// --- what the planes hold ------------------------------------------------------------------------
+
+void Survey::Scan::scan_row(void* self, int row) {
+  Scan& s = *static_cast<Scan*>(self);
+  for (int column = 0; column < s.survey.blocks_.width; ++column) s.scan_block(column, row);
+}
+
+void Survey::Scan::scan_block(int column, int row) {
+  const Rect block = pixels_of_block(column, row);
+  Extremes& extremes =
+      survey.extremes_[static_cast<std::size_t>(row) * survey.blocks_.width + column];
+  none(extremes);
+  const Rect own_pixels = intersection(block, survey.work_);
+  Own* own = nullptr;
+  if (!own_pixels.empty()) {
+    const int cell =
+        (row - survey.up_) * survey.cells_.width + (column - survey.left_) / kBlocksInCell;
+    own = &survey.own_[static_cast<std::size_t>(cell)];
+  }
+  scan_water(block, extremes, own);
+  if (own && own->wet > 0 && frame.plane(own_shadow)) {
+    const LowHigh lit = target.range(frame.plane(own_shadow), own_pixels);
+    own->shadow_low = std::min(own->shadow_low, lit.low);
+    own->shadow_high = std::max(own->shadow_high, lit.high);
+  }
+  if (wanted.has(looked_up.depth)) scan_plane(looked_up.depth, block, extremes, kNear, kFar);
+  if (wanted.has(PlaneId::kShadow)) {
+    scan_plane(PlaneId::kShadow, block, extremes, kShadowLow, kShadowHigh);
+  }
+  for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
+    const int low = kColorLow + c, high = kColorHigh + c;
+    scan_plane(plane_after(looked_up.color, c), block, extremes, low, high);
+    if (!looked_up.below || !own) continue;
+    // Where the layer below holds nothing, the dry color stays.
+    const LowHigh dry = target.range(frame.plane(plane_after(PlaneId::kColorR, c)), own_pixels);
+    extremes[low] = std::max(extremes[low], -dry.low);
+    extremes[high] = std::max(extremes[high], dry.high);
+  }
+}
+
+void Survey::Scan::scan_water(const Rect& block, Extremes& extremes, Own* own) {
+  const View<const float>& depth = frame.plane(PlaneId::kDepth);
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  Rect there = intersection(block, depth.window);
+  if (surface) there = intersection(there, surface.window);
+  if (there.empty()) return;
+  const WetSeen whole = target.wet(context, error, depth, surface, there);
+  extremes[kGap] = !same_windows || whole.sure < there.area() ? 1 : 0;
+  if (whole.wet > 0) {
+    extremes[kDrop] =
+        static_cast<float>(-bound_product(whole.own_near, std::max(sink_of(there).min, 0.0)));
+  }
+  if (!own) return;
+  const Rect inside = intersection(there, survey.work_);
+  const WetSeen seen = inside == there ? whole : target.wet(context, error, depth, surface, inside);
+  if (seen.wet == 0) return;
+  own->wet += seen.wet;
+  own->surface_near = std::min(own->surface_near, seen.surface_near);
+  own->surface_far = std::max(own->surface_far, seen.surface_far);
+  own->near = std::min(own->near, seen.own_near);
+  own->far = std::max(own->far, seen.own_far);
+}
+
+void Survey::Scan::scan_plane(PlaneId plane, const Rect& block, Extremes& extremes, int low,
+                              int high) {
+  const View<const float>& view = frame.plane(plane);
+  const Rect there = intersection(block, view.window);
+  if (there.empty()) return;  // taps end at the window's edge, which is in reach then, too
+  const LowHigh range = target.range(view, there);
+  extremes[low] = -range.low;
+  extremes[high] = range.high;
+}
+
+/// Depth under the surface gained by a unit of eye depth. It changes evenly over the picture.
+Range Survey::Scan::sink_of(const Rect& pixels) const {
+  Range sink{HUGE_VAL, -HUGE_VAL};
+  for (const int x : {pixels.x0, pixels.x1}) {
+    for (const int y : {pixels.y0, pixels.y1}) {
+      const double here = -glm::dot(context.up, ray_at(x, y));
+      sink = {std::min(sink.min, here), std::max(sink.max, here)};
+    }
+  }
+  return sink;
+}
+
+// --- what that means for a cell ------------------------------------------------------------------
+
+void Survey::Scan::reach_across(void* self, int row) {
+  const Scan& s = *static_cast<Scan*>(self);
+  const Size cells = s.survey.cells_, blocks = s.survey.blocks_;
+  const Extremes* from = s.survey.extremes_.data() + static_cast<std::size_t>(row) * blocks.width;
+  Extremes* to = s.survey.across_.data() + static_cast<std::size_t>(row) * cells.width;
+  for (int cell = 0; cell < cells.width; ++cell) {
+    const int first = s.survey.left_ + cell * kBlocksInCell;
+    const int end = std::min(first + kBlocksInCell + s.reach_x, blocks.width);
+    none(to[cell]);
+    for (int i = std::max(first - s.reach_x, 0); i < end; ++i) raise(to[cell], from[i]);
+  }
+}
+
+void Survey::Scan::decide_row(void* self, int row) {
+  Scan& s = *static_cast<Scan*>(self);
+  const int width = s.survey.cells_.width, here = row + s.survey.up_;
+  const int first = std::max(here - s.reach_y, 0);
+  const int end = std::min(here + s.reach_y + 1, s.survey.blocks_.height);
+  for (int column = 0; column < width; ++column) {
+    Extremes reached = s.all;
+    if (!s.everywhere) {
+      none(reached);
+      for (int i = first; i < end; ++i) {
+        raise(reached, s.survey.across_[static_cast<std::size_t>(i) * width + column]);
+      }
+    }
+    s.decide_cell(row * width + column, reached);
+  }
+}
+
+bool Survey::Scan::no_foreground(const Own& own, const Extremes& reached) const {
+  if (!plan.made.has(StatePart::kPosition)) return false;
+  const Refraction::Params& params = plan.look.of<Refraction>();
+  switch (params.rejection) {
+    case Refraction::Rejection::kNone:
+      return false;
+    case Refraction::Rejection::kSnap:
+      return looked_up.below || -reached[kNear] >= own.surface_far;
+    case Refraction::Rejection::kShorten:
+      if (params.model == Refraction::Model::kSnell) return false;
+      return looked_up.below ? reached[kFar] < 1e30f : reached[kGap] == 0;
+  }
+  return false;
+}
+
+void Survey::Scan::decide_cell(int index, const Extremes& reached) {
+  const Own& own = survey.own_[static_cast<std::size_t>(index)];
+  CellNeeds& needs = survey.needs_[static_cast<std::size_t>(index)];
+  if (own.wet == 0) {
+    needs = rules.dry();
+    return;
+  }
+  const auto range = [&](int low, int high) -> Range { return {-reached[low], reached[high]}; };
+  const Rect pixels = survey.pixels(index);
+  Ranges ranges;
+  ranges.surface = {own.surface_near, own.surface_far};
+  ranges.own = {own.near, own.far};
+  ranges.sink = sink_of(pixels);
+  ranges.ray_length.max = 1;
+  for (const int x : {pixels.x0, pixels.x1}) {
+    for (const int y : {pixels.y0, pixels.y1}) {
+      ranges.ray_length.max = std::max(ranges.ray_length.max, glm::length(ray_at(x, y)));
+    }
+  }
+  if (wanted.has(looked_up.depth)) ranges.looked_up = range(kNear, kFar);
+  // Depths under the calm surface are known of the dry scene, and where the surface is calm.
+  if (everywhere && !looked_up.below && !frame.plane(PlaneId::kSurfaceDepth)) {
+    ranges.least_drop = -reached[kDrop];
+  }
+  if (wanted.has(PlaneId::kShadow)) ranges.shadow = range(kShadowLow, kShadowHigh);
+  if (frame.plane(own_shadow)) {
+    ranges.own_shadow = {own.shadow_low, own.shadow_high};
+  } else {
+    ranges.own_shadow = {1, 1};
+  }
+  for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
+    ranges.color[static_cast<std::size_t>(c)] = range(kColorLow + c, kColorHigh + c);
+  }
+  needs = rules.decide(ranges, no_foreground(own, reached));
+}
+
+Rect Survey::pixels(int index) const {
+  const int x = work_.x0 + index % cells_.width * kCell.width;
+  const int y = work_.y0 + index / cells_.width * kCell.height;
+  return intersection({x, y, x + kCell.width, y + kCell.height}, work_);
+}
+
+void Survey::make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+                  const std::string& simd) {
+  Scan scan(*this, plan, frame, context, *kTargets[simd_index(simd)]);
+  scan.lay_out();
+  if (!context.submersible) {
+    executor.run(blocks_.height, Scan::scan_row, &scan);
+    Scan::none(scan.all);
+    if (scan.everywhere) {
+      for (const Extremes& extremes : extremes_) raise(scan.all, extremes);
+    } else {
+      executor.run(blocks_.height, Scan::reach_across, &scan);
+    }
+    executor.run(cells_.height, Scan::decide_row, &scan);
+  }
+  sum_up(plan);
+}
+
+void Survey::sum_up(const Plan& plan) {
+  summary_ = {};
+  for (int i = 0; i < count(); ++i) {
+    const CellNeeds& needs = cell(i);
+    const std::int64_t area = pixels(i).area();
+    const auto add = [&](CellCount& to, bool is) {
+      to.cells += is ? 1 : 0;
+      to.pixels += is ? area : 0;
+    };
+    add(summary_.all, true);
+    add(summary_.dry, needs.dry);
+    add(summary_.opaque, needs.opaque);
+    add(summary_.open, needs.open);
+    add(summary_.full, needs.skips == 0 && !needs.open);
+    for (int op = 0; op < Chain::kCount; ++op) {
+      add(summary_.runs[static_cast<std::size_t>(op)], plan.keeps(op) && needs.needs(op));
+    }
+    summary_.bound = std::max(summary_.bound, double{needs.bound});
+  }
+  for (const Own& own : own_) summary_.wet += own.wet;
+}
+
+}  // namespace limpid

@@ -1,0 +1,123 @@
+// Compiled once for each instruction set, as run/lanes_target.cpp is; the same holds here.
+#include "core/lanes.h"
+#include "plan/survey_scan.h"
+
+namespace limpid::HWY_NAMESPACE {
+namespace {
+
+/// `count` texels of a row; lanes beyond hold the last one again.
+LIMPID_LANES_INLINE Lane load(const float* from, std::ptrdiff_t x_stride, int count) {
+  if (x_stride == 1 && count >= kLanes) return Lane(hn::LoadU(kD, from));
+  alignas(64) float buffer[kLanes];
+  for (int i = 0; i < kLanes; ++i) buffer[i] = from[(i < count ? i : count - 1) * x_stride];
+  return Lane(hn::Load(kD, buffer));
+}
+
+/// Where a row of a view begins, at column x0.
+LIMPID_LANES_INLINE const float* row_of(const View<const float>& view, int x0, int y) {
+  return view.data + std::ptrdiff_t{y - view.window.y0} * view.y_stride +
+         std::ptrdiff_t{x0 - view.window.x0} * view.x_stride;
+}
+
+LIMPID_LANES_INLINE float least(Lane v) {
+  alignas(64) float lanes[kLanes];
+  hn::Store(v.v, kD, lanes);
+  float result = lanes[0];
+  for (int i = 1; i < kLanes; ++i) result = lanes[i] < result ? lanes[i] : result;
+  return result;
+}
+LIMPID_LANES_INLINE float greatest(Lane v) { return -least(Lane(0) - v); }
+
+LIMPID_LANES_INLINE float sum(Lane v) {
+  alignas(64) float lanes[kLanes];
+  hn::Store(v.v, kD, lanes);
+  float result = 0;
+  for (int i = 0; i < kLanes; ++i) result += lanes[i];
+  return result;
+}
+
+LowHigh range(const View<const float>& view, const Rect& pixels) {
+  Lane low(HUGE_VAL), high(-HUGE_VAL);
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const float* row = row_of(view, pixels.x0, y);
+    const int width = pixels.x1 - pixels.x0;
+    for (int x = 0; x < width; x += kLanes) {
+      const Lane value = load(row + x * view.x_stride, view.x_stride, width - x);
+      low = min(low, value);
+      high = max(high, value);
+    }
+  }
+  return {least(low), greatest(high)};
+}
+
+/// Between which depths the surface lies.
+struct Surface {
+  Lane near, far;
+};
+
+/// Of the calm plane: |over| / under with `under` counted towards it, both off by their error.
+LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const CalmError& error, Lane x) {
+  const Lane infinite(HUGE_VAL);
+  const Lane over = rays.calm_over + x * rays.calm_over_dx;
+  const Lane along = rays.calm_under + x * rays.calm_under_dx;
+  const Lane height = abs(over), off(error.over);
+  const Lane under = select(over < Lane(0), Lane(0) - along, along);
+  const Lane most = under + Lane(error.under), surely = under - Lane(error.under);
+  // An eye in the plane itself, by all that is known, may see water anywhere.
+  const Mask beside = height <= off;
+  const Mask meets = most > Lane(0), sure = surely > Lane(0) && !beside;
+  const Lane near = select(meets, (height - off) / select(meets, most, Lane(1)), infinite);
+  const Lane far = select(sure, (height + off) / select(sure, surely, Lane(1)), infinite);
+  return {select(beside, Lane(0), near), far};
+}
+
+WetSeen wet(const Context& context, const CalmError& error, const View<const float>& depth,
+            const View<const float>& surface, const Rect& pixels) {
+  const Lane infinite(HUGE_VAL), zero(0), one(1);
+  Lane wet(0), sure(0), surface_near(HUGE_VAL), surface_far(0), own_near(HUGE_VAL), own_far(0);
+  const int width = pixels.x1 - pixels.x0;
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const float* depths = row_of(depth, pixels.x0, y);
+    const float* surfaces = surface.data ? row_of(surface, pixels.x0, y) : nullptr;
+    const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
+    for (int x = 0; x < width; x += kLanes) {
+      const int count = width - x;
+      const Lane dry = load(depths + x * depth.x_stride, depth.x_stride, count);
+      Surface water{};
+      if (surfaces) {
+        water.near = water.far = load(surfaces + x * surface.x_stride, surface.x_stride, count);
+      } else {
+        const VI column = hn::Iota(kDI, pixels.x0 + x);
+        water = calm(rays, error, Lane(hn::ConvertTo(kD, column)) + Lane(0.5 - context.corner.x));
+      }
+      const Mask inside = Lane(hn::Iota(kD, 0.0f)) < Lane(count);
+      const Mask may = inside && water.near < dry, must = inside && water.far < dry;
+      wet = wet + select(may, one, zero);
+      sure = sure + select(must, one, zero);
+      surface_near = min(surface_near, select(may, water.near, infinite));
+      surface_far = max(surface_far, select(may, water.far, zero));
+      own_near = min(own_near, select(may, select(must, dry - water.far, zero), infinite));
+      own_far = max(own_far, select(may, dry - water.near, zero));
+    }
+  }
+  return {static_cast<int>(sum(wet)),
+          static_cast<int>(sum(sure)),
+          least(surface_near),
+          greatest(surface_far),
+          least(own_near),
+          greatest(own_far)};
+}
+
+}  // namespace
+}  // namespace limpid::HWY_NAMESPACE
+
+namespace limpid {
+
+#define LIMPID_JOIN_(a, b) a##b
+#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
+
+extern const ScanTarget LIMPID_JOIN(kScan_, LIMPID_LANES_TARGET);
+const ScanTarget LIMPID_JOIN(kScan_, LIMPID_LANES_TARGET) = {HWY_NAMESPACE::range,
+                                                             HWY_NAMESPACE::wet};
+
+}  // namespace limpid

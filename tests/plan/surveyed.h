@@ -1,0 +1,100 @@
+#pragma once
+#include <map>
+#include <utility>
+
+#include "limpid/plan/survey.h"
+#include "limpid/run/fused.h"
+#include "limpid/run/reference.h"
+
+#include "support.h"
+
+/// A survey as plainly as it can be obeyed: for each kind of cell the whole picture is run without
+/// what such cells skip, and their pixels are taken from that.
+
+namespace limpid::test {
+
+inline Survey surveyed(const Plan& plan, const Frame& frame, const Scene& scene) {
+  Survey survey;
+  const Context context(scene, frame, plan.look.water.ior, plan.made);
+  survey.make(plan, frame, context, *make_executor(1));
+  return survey;
+}
+
+using RunPlan = void (*)(const Plan&, const Frame&, const Scene&, const Target&);
+
+inline void by_reference(const Plan& plan, const Frame& frame, const Scene& scene,
+                         const Target& target) {
+  run_reference(plan, frame, scene, target);
+}
+inline void by_fused(const Plan& plan, const Frame& frame, const Scene& scene,
+                     const Target& target) {
+  run_fused(plan, frame, scene, target, *make_executor(1));
+}
+
+inline Picture picture_of(const Plan& plan, const Frame& frame, const Scene& scene, RunPlan run) {
+  Picture picture(frame.work());
+  run(plan, frame, scene, picture.target);
+  return picture;
+}
+
+/// The picture with every pixel run as the cells of this kind are. State that is made stays
+/// declared as made. An endless way is had from a scene that is infinitely far, without offset.
+inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene, RunPlan run) {
+  plan.max_error = 0;
+  const Rect window = frame.plane(PlaneId::kDepth).window;
+  Buffers far(window);
+  if (kind.opaque) {
+    const View<const float>& depth = frame.plane(PlaneId::kDepth);
+    const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+    const Context context(scene, frame, 1.333, {});
+    far.set(PlaneId::kDepth, [&](int x, int y) {
+      const RowRays<double> rays(context, y - context.corner.y + 0.5);
+      const double water = surface ? surface.at(x, y) : rays.calm_depth(x - context.corner.x + 0.5);
+      return water < depth.at(x, y) ? kInf : depth.at(x, y);
+    });
+    frame.planes[index_of(PlaneId::kDepth)] = far.frame.plane(PlaneId::kDepth);
+    for (PlaneId id :
+         {PlaneId::kBelowR, PlaneId::kBelowG, PlaneId::kBelowB, PlaneId::kBelowDepth}) {
+      frame.planes[index_of(id)] = {};
+      plan.planes = plan.planes - PlaneSet{id};
+    }
+    Refraction::Params& params = plan.look.of<Refraction>();
+    params.model = Refraction::Model::kNormalOffset;
+    params.strength = 0;
+    params.rejection = Refraction::Rejection::kNone;
+    params.off_frame = Refraction::OffFrame::kClamp;
+  } else if (kind.open) {
+    // What snap asks of the depths is no more than its test, but for rays that know theirs.
+    Refraction::Params& params = plan.look.of<Refraction>();
+    const bool knows = params.model == Refraction::Model::kSnell && params.steps != 0;
+    if (params.rejection == Refraction::Rejection::kSnap && !knows) {
+      params.rejection = Refraction::Rejection::kNone;
+    }
+  }
+  Chain::for_each([&]<class Op, int I>() {
+    const bool stands_in = kind.opaque && std::is_same_v<Op, Refraction>;
+    if (!kind.needs(I) && !stands_in) plan.operators[I].verdict = Verdict::kInvisible;
+  });
+  return picture_of(plan, frame, scene, run);
+}
+
+/// Calls visit(needs, x, y, picture) for each pixel, with the picture as its cell is run.
+template <class Visit>
+void for_each_as_surveyed(const Survey& survey, const Plan& plan, const Frame& frame,
+                          const Scene& scene, RunPlan run, Visit&& visit) {
+  std::map<std::pair<int, int>, Picture> pictures;
+  for (int i = 0; i < survey.count(); ++i) {
+    const CellNeeds& needs = survey.cell(i);
+    const std::pair<int, int> kind{needs.skips, needs.opaque * 2 + needs.open};
+    if (!pictures.contains(kind)) {
+      pictures.emplace(kind, run_as(needs, plan, frame, scene, run));
+    }
+    const Picture& picture = pictures.at(kind);
+    const Rect pixels = survey.pixels(i);
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+      for (int x = pixels.x0; x < pixels.x1; ++x) visit(needs, x, y, picture);
+    }
+  }
+}
+
+}  // namespace limpid::test
