@@ -67,6 +67,13 @@ CalmError calm_error(const Context& c) {
       static_cast<float>(1e-6 * most(r.ray, r.ray_dx, r.ray_dy))};
 }
 
+/// Calls visit(i) for the blocks that `pixels` meet.
+template <class Visit>
+void for_each_block(const Rect& pixels, Blocks blocks, Visit&& visit) {
+  const int end = (pixels.x1 - 1 - blocks.x0) / blocks.width;
+  for (int i = (pixels.x0 - blocks.x0) / blocks.width; i <= end; ++i) visit(i);
+}
+
 template <class E>
 void raise(E& to, const E& by) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] = to[i] < by[i] ? by[i] : to[i];
@@ -106,10 +113,22 @@ struct Survey::Scan {
 
   static void none(Extremes& extremes) { extremes.fill(-HUGE_VALF); }
 
-  Rect pixels_of_block(int column, int row) const {
-    const int x = survey.work_.x0 + (column - survey.left_) * kBlockWidth;
-    const int y = survey.work_.y0 + (row - survey.up_) * kCell.height;
-    return {x, y, x + kBlockWidth, y + kCell.height};
+  /// Blocks first ... end - 1 of a row of them.
+  struct Chunk {
+    int row, first, end;
+  };
+  Rect pixels_of(const Chunk& c) const {
+    const int x = survey.work_.x0 - survey.left_ * kBlockWidth;
+    const int y = survey.work_.y0 + (c.row - survey.up_) * kCell.height;
+    return {x + c.first * kBlockWidth, y, x + c.end * kBlockWidth, y + kCell.height};
+  }
+  Extremes& extremes_of(int column, int row) const {
+    return survey.extremes_[static_cast<std::size_t>(row) * survey.blocks_.width + column];
+  }
+  /// Of the cell that has this block.
+  Own& own_of(int column, int row) const {
+    return survey.own_[static_cast<std::size_t>(row - survey.up_) * survey.cells_.width +
+                       (column - survey.left_) / kBlocksInCell];
   }
   glm::dvec3 ray_at(int x, int y) const {
     return context.rays.ray_at(x - context.corner.x, y - context.corner.y);
@@ -117,9 +136,10 @@ struct Survey::Scan {
 
   void choose_planes();
   void lay_out();
-  void scan_block(int column, int row);
-  void scan_water(const Rect& block, Extremes& extremes, Own* own);
-  void scan_plane(PlaneId plane, const Rect& block, Extremes& extremes, int low, int high);
+  void scan_chunk(const Chunk& chunk);
+  void scan_water(const Chunk& chunk);
+  template <class Into>
+  void scan_plane(PlaneId plane, const Rect& within, const Chunk& chunk, Into&& into);
   Range sink_of(const Rect& pixels) const;
   void decide_cell(int index, const Extremes& reached);
   bool no_foreground(const Own& own, const Extremes& reached) const;
@@ -184,73 +204,89 @@ void Survey::Scan::lay_out() {
 
 void Survey::Scan::scan_row(void* self, int row) {
   Scan& s = *static_cast<Scan*>(self);
-  for (int column = 0; column < s.survey.blocks_.width; ++column) s.scan_block(column, row);
+  const int width = s.survey.blocks_.width;
+  for (int first = 0; first < width; first += Blocks::kMost) {
+    s.scan_chunk({row, first, std::min(first + Blocks::kMost, width)});
+  }
 }
 
-void Survey::Scan::scan_block(int column, int row) {
-  const Rect block = pixels_of_block(column, row);
-  Extremes& extremes =
-      survey.extremes_[static_cast<std::size_t>(row) * survey.blocks_.width + column];
-  none(extremes);
-  const Rect own_pixels = intersection(block, survey.work_);
-  Own* own = nullptr;
-  if (!own_pixels.empty()) {
-    const int cell =
-        (row - survey.up_) * survey.cells_.width + (column - survey.left_) / kBlocksInCell;
-    own = &survey.own_[static_cast<std::size_t>(cell)];
+void Survey::Scan::scan_chunk(const Chunk& chunk) {
+  for (int i = chunk.first; i < chunk.end; ++i) none(extremes_of(i, chunk.row));
+  scan_water(chunk);
+  if (frame.plane(own_shadow) && plan.planes.has(own_shadow)) {
+    scan_plane(own_shadow, survey.work_, chunk, [&](int column, LowHigh lit) {
+      Own& own = own_of(column, chunk.row);
+      own.shadow_low = std::min(own.shadow_low, lit.low);
+      own.shadow_high = std::max(own.shadow_high, lit.high);
+    });
   }
-  scan_water(block, extremes, own);
-  if (own && own->wet > 0 && frame.plane(own_shadow)) {
-    const LowHigh lit = target.range(frame.plane(own_shadow), own_pixels);
-    own->shadow_low = std::min(own->shadow_low, lit.low);
-    own->shadow_high = std::max(own->shadow_high, lit.high);
+  const auto keep = [&](PlaneId plane, const Rect& within, int low, int high) {
+    scan_plane(plane, within, chunk, [&](int column, LowHigh seen) {
+      Extremes& extremes = extremes_of(column, chunk.row);
+      extremes[low] = std::max(extremes[low], -seen.low);
+      extremes[high] = std::max(extremes[high], seen.high);
+    });
+  };
+  const auto window = [&](PlaneId plane) { return frame.plane(plane).window; };
+  if (wanted.has(looked_up.depth)) {
+    keep(looked_up.depth, window(looked_up.depth), kNear, kFar);
   }
-  if (wanted.has(looked_up.depth)) scan_plane(looked_up.depth, block, extremes, kNear, kFar);
   if (wanted.has(PlaneId::kShadow)) {
-    scan_plane(PlaneId::kShadow, block, extremes, kShadowLow, kShadowHigh);
+    keep(PlaneId::kShadow, window(PlaneId::kShadow), kShadowLow, kShadowHigh);
   }
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
-    const int low = kColorLow + c, high = kColorHigh + c;
-    scan_plane(plane_after(looked_up.color, c), block, extremes, low, high);
-    if (!looked_up.below || !own) continue;
+    const PlaneId plane = plane_after(looked_up.color, c);
+    keep(plane, window(plane), kColorLow + c, kColorHigh + c);
     // Where the layer below holds nothing, the dry color stays.
-    const LowHigh dry = target.range(frame.plane(plane_after(PlaneId::kColorR, c)), own_pixels);
-    extremes[low] = std::max(extremes[low], -dry.low);
-    extremes[high] = std::max(extremes[high], dry.high);
+    const PlaneId dry = plane_after(PlaneId::kColorR, c);
+    if (looked_up.below) keep(dry, survey.work_, kColorLow + c, kColorHigh + c);
   }
 }
 
-void Survey::Scan::scan_water(const Rect& block, Extremes& extremes, Own* own) {
+/// Calls into(column, range) for each block of the chunk that has texels of the plane within a
+/// rectangle. Taps end at the edge of the plane's window, which is in reach where they do.
+template <class Into>
+void Survey::Scan::scan_plane(PlaneId plane, const Rect& within, const Chunk& chunk, Into&& into) {
+  const Rect there = intersection(pixels_of(chunk), within);
+  if (there.empty()) return;
+  std::array<LowHigh, Blocks::kMost> seen;
+  const Blocks blocks{pixels_of(chunk).x0, kBlockWidth};
+  target.range(frame.plane(plane), there, blocks, seen.data());
+  for_each_block(there, blocks, [&](int i) { into(chunk.first + i, seen[i]); });
+}
+
+void Survey::Scan::scan_water(const Chunk& chunk) {
   const View<const float>& depth = frame.plane(PlaneId::kDepth);
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
-  Rect there = intersection(block, depth.window);
+  Rect there = intersection(pixels_of(chunk), depth.window);
   if (surface) there = intersection(there, surface.window);
   if (there.empty()) return;
-  const WetSeen whole = target.wet(context, error, depth, surface, there);
-  extremes[kGap] = !same_windows || whole.sure < there.area() ? 1 : 0;
-  if (whole.wet > 0) {
-    extremes[kDrop] =
-        static_cast<float>(-bound_product(whole.own_near, std::max(sink_of(there).min, 0.0)));
-  }
-  if (!own) return;
-  const Rect inside = intersection(there, survey.work_);
-  const WetSeen seen = inside == there ? whole : target.wet(context, error, depth, surface, inside);
-  if (seen.wet == 0) return;
-  own->wet += seen.wet;
-  own->surface_near = std::min(own->surface_near, seen.surface_near);
-  own->surface_far = std::max(own->surface_far, seen.surface_far);
-  own->near = std::min(own->near, seen.own_near);
-  own->far = std::max(own->far, seen.own_far);
-}
-
-void Survey::Scan::scan_plane(PlaneId plane, const Rect& block, Extremes& extremes, int low,
-                              int high) {
-  const View<const float>& view = frame.plane(plane);
-  const Rect there = intersection(block, view.window);
-  if (there.empty()) return;  // taps end at the window's edge, which is in reach then, too
-  const LowHigh range = target.range(view, there);
-  extremes[low] = -range.low;
-  extremes[high] = range.high;
+  const Blocks blocks{pixels_of(chunk).x0, kBlockWidth};
+  std::array<WetSeen, Blocks::kMost> seen;
+  target.wet(context, error, depth, surface, there, blocks, seen.data());
+  for_each_block(there, blocks, [&](int i) {
+    const int column = chunk.first + i;
+    const Rect block = intersection(pixels_of({chunk.row, column, column + 1}), there);
+    const Rect inside = intersection(block, survey.work_);
+    Extremes& extremes = extremes_of(column, chunk.row);
+    extremes[kGap] = !same_windows || seen[i].sure < block.area() ? 1 : 0;
+    if (everywhere && seen[i].wet > 0) {
+      const double sink = std::max(sink_of(block).min, 0.0);
+      extremes[kDrop] = static_cast<float>(-bound_product(seen[i].own_near, sink));
+    }
+    if (inside.empty()) return;
+    WetSeen water = seen[i];
+    if (!(inside == block)) {
+      target.wet(context, error, depth, surface, inside, {inside.x0, kBlockWidth}, &water);
+    }
+    if (water.wet == 0) return;
+    Own& own = own_of(column, chunk.row);
+    own.wet += water.wet;
+    own.surface_near = std::min(own.surface_near, water.surface_near);
+    own.surface_far = std::max(own.surface_far, water.surface_far);
+    own.near = std::min(own.near, water.own_near);
+    own.far = std::max(own.far, water.own_far);
+  });
 }
 
 /// Depth under the surface gained by a unit of eye depth. It changes evenly over the picture.

@@ -24,11 +24,19 @@ struct CalmError {
   float over, under;
 };
 
-/// The look at the planes, as compiled for one instruction set. Rectangles lie within the windows.
+/// Blocks of a row of them, `width` pixels wide from x0 on. Memory is read fastest along a row of
+/// the picture: so they are looked at together.
+struct Blocks {
+  static constexpr int kMost = 32;
+  int x0, width;
+};
+
+/// The look at the planes, as compiled for one instruction set. `pixels` lie within the windows;
+/// out[i] is of those in block i, and left alone where there are none.
 struct ScanTarget {
-  LowHigh (*range)(const View<const float>& view, const Rect& pixels);
-  WetSeen (*wet)(const Context& context, const CalmError& error, const View<const float>& depth,
-                 const View<const float>& surface, const Rect& pixels);
+  void (*range)(const View<const float>& view, const Rect& pixels, Blocks blocks, LowHigh* out);
+  void (*wet)(const Context& context, const CalmError& error, const View<const float>& depth,
+              const View<const float>& surface, const Rect& pixels, Blocks blocks, WetSeen* out);
 };
 
 }  // namespace limpid

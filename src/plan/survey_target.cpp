@@ -36,18 +36,39 @@ LIMPID_LANES_INLINE float sum(Lane v) {
   return result;
 }
 
-LowHigh range(const View<const float>& view, const Rect& pixels) {
-  Lane low(HUGE_VAL), high(-HUGE_VAL);
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    const float* row = row_of(view, pixels.x0, y);
-    const int width = pixels.x1 - pixels.x0;
-    for (int x = 0; x < width; x += kLanes) {
-      const Lane value = load(row + x * view.x_stride, view.x_stride, width - x);
-      low = min(low, value);
-      high = max(high, value);
-    }
+/// Calls visit(block, x0, x1) for the blocks that `pixels` meet, with the columns of each.
+template <class Visit>
+LIMPID_LANES_INLINE void for_each_block(const Rect& pixels, Blocks blocks, Visit&& visit) {
+  int block = (pixels.x0 - blocks.x0) / blocks.width;
+  for (int x0 = pixels.x0; x0 < pixels.x1; ++block) {
+    const int end = blocks.x0 + (block + 1) * blocks.width;
+    const int x1 = end < pixels.x1 ? end : pixels.x1;
+    visit(block, x0, x1);
+    x0 = x1;
   }
-  return {least(low), greatest(high)};
+}
+
+struct RangeLanes {
+  Lane low{HUGE_VAL}, high{-HUGE_VAL};
+};
+
+void range(const View<const float>& view, const Rect& pixels, Blocks blocks, LowHigh* out) {
+  RangeLanes lanes[Blocks::kMost];
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const float* row = row_of(view, 0, y);
+    for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
+      RangeLanes r = lanes[block];
+      for (int x = x0; x < x1; x += kLanes) {
+        const Lane value = load(row + x * view.x_stride, view.x_stride, x1 - x);
+        r.low = min(r.low, value);
+        r.high = max(r.high, value);
+      }
+      lanes[block] = r;
+    });
+  }
+  for_each_block(pixels, blocks, [&](int block, int, int) {
+    out[block] = {least(lanes[block].low), greatest(lanes[block].high)};
+  });
 }
 
 /// Between which depths the surface lies.
@@ -71,41 +92,64 @@ LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const CalmError& err
   return {select(beside, Lane(0), near), far};
 }
 
-WetSeen wet(const Context& context, const CalmError& error, const View<const float>& depth,
-            const View<const float>& surface, const Rect& pixels) {
-  const Lane infinite(HUGE_VAL), zero(0), one(1);
-  Lane wet(0), sure(0), surface_near(HUGE_VAL), surface_far(0), own_near(HUGE_VAL), own_far(0);
-  const int width = pixels.x1 - pixels.x0;
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    const float* depths = row_of(depth, pixels.x0, y);
-    const float* surfaces = surface.data ? row_of(surface, pixels.x0, y) : nullptr;
-    const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
-    for (int x = 0; x < width; x += kLanes) {
-      const int count = width - x;
-      const Lane dry = load(depths + x * depth.x_stride, depth.x_stride, count);
-      Surface water{};
-      if (surfaces) {
-        water.near = water.far = load(surfaces + x * surface.x_stride, surface.x_stride, count);
-      } else {
-        const VI column = hn::Iota(kDI, pixels.x0 + x);
-        water = calm(rays, error, Lane(hn::ConvertTo(kD, column)) + Lane(0.5 - context.corner.x));
-      }
+struct WetLanes {
+  Lane wet{0}, sure{0}, surface_near{HUGE_VAL}, surface_far{0}, own_near{HUGE_VAL}, own_far{0};
+
+  LIMPID_LANES_INLINE void add(Lane dry, Surface water, Mask inside) {
+    const Lane infinite(HUGE_VAL), zero(0), one(1);
+    const Mask may = inside && water.near < dry, must = inside && water.far < dry;
+    wet = wet + select(may, one, zero);
+    sure = sure + select(must, one, zero);
+    surface_near = min(surface_near, select(may, water.near, infinite));
+    surface_far = max(surface_far, select(may, water.far, zero));
+    own_near = min(own_near, select(may, select(must, dry - water.far, zero), infinite));
+    own_far = max(own_far, select(may, dry - water.near, zero));
+  }
+};
+
+/// With water_at(x, count): the surface of `count` pixels from the column x on.
+template <class WaterAt>
+LIMPID_LANES_INLINE void add_row(const View<const float>& depth, int y, const Rect& pixels,
+                                 Blocks blocks, WetLanes* lanes, WaterAt&& water_at) {
+  const float* depths = row_of(depth, 0, y);
+  for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
+    WetLanes w = lanes[block];
+    for (int x = x0; x < x1; x += kLanes) {
+      const int count = x1 - x;
       const Mask inside = Lane(hn::Iota(kD, 0.0f)) < Lane(count);
-      const Mask may = inside && water.near < dry, must = inside && water.far < dry;
-      wet = wet + select(may, one, zero);
-      sure = sure + select(must, one, zero);
-      surface_near = min(surface_near, select(may, water.near, infinite));
-      surface_far = max(surface_far, select(may, water.far, zero));
-      own_near = min(own_near, select(may, select(must, dry - water.far, zero), infinite));
-      own_far = max(own_far, select(may, dry - water.near, zero));
+      w.add(load(depths + x * depth.x_stride, depth.x_stride, count), water_at(x, count), inside);
+    }
+    lanes[block] = w;
+  });
+}
+
+void wet(const Context& context, const CalmError& error, const View<const float>& depth,
+         const View<const float>& surface, const Rect& pixels, Blocks blocks, WetSeen* out) {
+  WetLanes lanes[Blocks::kMost];
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    if (surface.data) {
+      const float* surfaces = row_of(surface, 0, y);
+      add_row(depth, y, pixels, blocks, lanes, [&](int x, int count) {
+        const Lane water = load(surfaces + x * surface.x_stride, surface.x_stride, count);
+        return Surface{water, water};
+      });
+    } else {
+      const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
+      add_row(depth, y, pixels, blocks, lanes, [&](int x, int) {
+        const Lane column(hn::ConvertTo(kD, hn::Iota(kDI, x)));
+        return calm(rays, error, column + Lane(0.5 - context.corner.x));
+      });
     }
   }
-  return {static_cast<int>(sum(wet)),
-          static_cast<int>(sum(sure)),
-          least(surface_near),
-          greatest(surface_far),
-          least(own_near),
-          greatest(own_far)};
+  for_each_block(pixels, blocks, [&](int block, int, int) {
+    const WetLanes& w = lanes[block];
+    out[block] = {static_cast<int>(sum(w.wet)),
+                  static_cast<int>(sum(w.sure)),
+                  least(w.surface_near),
+                  greatest(w.surface_far),
+                  least(w.own_near),
+                  greatest(w.own_far)};
+  });
 }
 
 }  // namespace

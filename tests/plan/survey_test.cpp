@@ -10,8 +10,6 @@ namespace {
 using test::Buffers;
 using test::surveyed;
 
-constexpr int kRefraction = 2, kShadow = 4, kHighlight = 6;
-
 /// Water at depth 4 over a bottom at depth 6, lit, seen level from above: 3 x 5 cells, offsets by
 /// less than a cell.
 constexpr Size kSize{384, 80};
