@@ -86,8 +86,8 @@ struct Tiles {
 
 }  // namespace
 
-void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
-               Executor& executor, const FusedOptions& options) {
+void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
+                      const Target& target, Executor& executor, const FusedOptions& options) {
   const FusedTarget& simd = *kTargets[simd_index(options.simd)];
   check_run(plan, frame, scene, target);
   for (const View<const float>& view : frame.planes) check_extent(view);
@@ -102,7 +102,20 @@ void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const T
   }
   Context context(scene, frame, plan.look.water.ior, plan.made);
   if (!plan.reads_environment) context.environment = {};  // nobody has checked it
-  FusedJob job{plan, frame, context, target, {}, {}, {}, begins_of(plan, target), false, nullptr};
+  survey_.make(plan, frame, context, executor, options.simd);
+  Context open = context;
+  open.foreground = false;
+  FusedJob job{plan, frame, context, open, target};
+  job.cells = &survey_.cell(0);
+  job.cells_across = survey_.across();
+  job.begins = begins_of(plan, target);
+  Chain::for_each([&]<class Op, int I>() {
+    job.keeps[I] = plan.keeps(I);
+    job.makes[I] = Op::kMakes;
+  });
+  for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));
+  for (int i = 0; i < kAovCount; ++i) job.dry_aov[i] = aovs()[i].dry;
+  for (const auto& views : target.aovs) job.writes_aovs |= bool(views[0]);
   SteadyClock clock;
   if (options.times) job.clock = &clock;
   for (int i = 0; i < Chain::kCount; ++i) job.keeps[i] = plan.keeps(i);
@@ -114,6 +127,11 @@ void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const T
   Tiles tiles{job, simd, work, tile, across};
   executor.run(across * down, Tiles::run, &tiles);
   if (options.times) *options.times = clock.times();
+}
+
+void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
+               Executor& executor, const FusedOptions& options) {
+  FusedRunner().run(plan, frame, scene, target, executor, options);
 }
 
 }  // namespace limpid

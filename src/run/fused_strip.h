@@ -26,8 +26,8 @@ class FusedStrip {
         width_(static_cast<float>(job.context.size.x)),
         height_(static_cast<float>(job.context.size.y)) {}
 
-  /// Loads depths and dry color and starts each pixel; false when none is wet.
-  bool begin(const RowRays<Lane>& rays);
+  /// Loads depths and starts each pixel with these parts of its state; false when none is wet.
+  bool begin(const RowRays<Lane>& rays, StateSet parts);
   void end() const;
 
   template <class Fn>
@@ -263,12 +263,12 @@ class FusedStrip {
   Pixel<Lane> pixels_[kStripVectors];
 };
 
-inline bool FusedStrip::begin(const RowRays<Lane>& rays) {
+inline bool FusedStrip::begin(const RowRays<Lane>& rays, StateSet parts) {
   const Context& c = job_.context;
   const Source surface = source_of(PlaneId::kSurfaceDepth), depth = source_of(PlaneId::kDepth);
   const Source color[3] = {source_of(PlaneId::kColorR), source_of(PlaneId::kColorG),
                            source_of(PlaneId::kColorB)};
-  const bool takes_color = job_.begins.has(StatePart::kTransmitted);
+  const bool takes_color = parts.has(StatePart::kTransmitted);
   for (int v = 0; v < vectors_; ++v) {
     const Lane x = Lane(hn::ConvertTo(kD, column(v))) + Lane(0.5 - c.corner.x);
     const Lane dry = own_at(depth, v);
@@ -286,7 +286,7 @@ inline bool FusedStrip::begin(const RowRays<Lane>& rays) {
     const Lane other = select(in_water, min(dry, Lane(1e4)), Lane(1));
     Pixel<Lane>& p = pixels_[v];
     begin_pixel(c, rays, x, side, select(meets, water, other), select(wet_[v], dry, Lane(2)), p);
-    begin_state(job_.begins, c, takes_color ? color_at(color, v) : Rgb<Lane>{}, p);
+    begin_state(parts, c, takes_color ? color_at(color, v) : Rgb<Lane>{}, p);
   }
   return wet_vectors_ > 0;
 }

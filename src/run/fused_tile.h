@@ -4,7 +4,7 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/op/context.h"
-#include "limpid/plan/plan.h"
+#include "limpid/plan/survey.h"
 #include "limpid/run/target.h"
 
 namespace limpid {
@@ -26,13 +26,17 @@ struct FusedJob {
   const Plan& plan;
   const Frame& frame;
   const Context& context;
+  const Context& open;  ///< the same for cells without foreground
   const Target& target;
-  std::array<bool, Chain::kCount> keeps;   ///< Plan::keeps
-  std::array<float, kPlaneCount> missing;  ///< Role::missing
-  std::array<float, kAovCount> dry_aov;    ///< AovInfo::dry
-  StateSet begins;                         ///< state that is read before an operator makes it
-  bool writes_aovs;                        ///< whether the target has any
-  StopClock* clock;                        ///< null unless the run is timed
+  const CellNeeds* cells = nullptr;  ///< Survey, rows of them from the corner of Frame::work()
+  int cells_across = 0;
+  std::array<bool, Chain::kCount> keeps{};      ///< Plan::keeps
+  std::array<StateSet, Chain::kCount> makes{};  ///< what each operator makes
+  std::array<float, kPlaneCount> missing{};     ///< Role::missing
+  std::array<float, kAovCount> dry_aov{};       ///< AovInfo::dry
+  StateSet begins{};           ///< state that is read before an operator of the plan makes it
+  bool writes_aovs = false;    ///< whether the target has any
+  StopClock* clock = nullptr;  ///< only for a run that is timed
 };
 
 /// The fused pass as compiled for one instruction set.

@@ -23,24 +23,65 @@ struct Laps {
   }
 };
 
+/// One run of pixels of a row that all need the same.
+struct Segment {
+  int end;  ///< column after the last
+  CellNeeds needs;
+};
+
+LIMPID_LANES_INLINE bool same(const CellNeeds& a, const CellNeeds& b) {
+  return a.skips == b.skips && a.dry == b.dry && a.open == b.open && a.opaque == b.opaque;
+}
+
+LIMPID_LANES_INLINE Segment segment_from(const FusedJob& job, const Rect& tile, int x, int y) {
+  const Rect work = job.frame.work();
+  const CellNeeds* row = job.cells + (y - work.y0) / Survey::kCell.height * job.cells_across;
+  const int most = x + kStripPixels < tile.x1 ? x + kStripPixels : tile.x1;
+  int cell = (x - work.x0) / Survey::kCell.width;
+  const CellNeeds& needs = row[cell];
+  int end;
+  do {
+    ++cell;
+    end = work.x0 + cell * Survey::kCell.width;
+  } while (end < most && same(row[cell], needs));
+  return {end < most ? end : most, needs};
+}
+
+void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
+                 const Segment& segment, Laps& laps) {
+  const CellNeeds& needs = segment.needs;
+  FusedStrip strip(job, y, x, segment.end);
+  StateSet begins = job.begins;
+  for (int i = 0; i < Chain::kCount; ++i) {
+    if (job.keeps[i] && !needs.needs(i)) begins = begins | job.makes[i];
+  }
+  const bool wet = !needs.dry && strip.begin(rays, begins);
+  laps.charge(StopClock::kRest);
+  if (wet) {
+    const Context& context = needs.open ? job.open : job.context;
+    Chain::for_each([&]<class Op, int I>() {
+      if (!job.keeps[I] || !needs.needs(I)) return;
+      if constexpr (std::is_same_v<Op, DepthFog>) {
+        if (needs.opaque) {
+          strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
+        }
+      }
+      Op::apply(std::get<typename Op::Params>(job.plan.look.operators), context, strip);
+      laps.charge(I);
+    });
+  }
+  strip.end();
+  laps.charge(StopClock::kRest);
+}
+
 void run_tile(const FusedJob& job, const Rect& tile) {
   Laps laps(job.clock);
   for (int y = tile.y0; y < tile.y1; ++y) {
     const RowRays<Lane> rays(job.context, y - job.context.corner.y + 0.5);
-    for (int x = tile.x0; x < tile.x1; x += kStripPixels) {
-      const int end = x + kStripPixels < tile.x1 ? x + kStripPixels : tile.x1;
-      FusedStrip strip(job, y, x, end);
-      const bool wet = strip.begin(rays);
-      laps.charge(StopClock::kRest);
-      if (wet) {
-        Chain::for_each([&]<class Op, int I>() {
-          if (!job.keeps[I]) return;
-          Op::apply(std::get<typename Op::Params>(job.plan.look.operators), job.context, strip);
-          laps.charge(I);
-        });
-      }
-      strip.end();
-      laps.charge(StopClock::kRest);
+    for (int x = tile.x0; x < tile.x1;) {
+      const Segment segment = segment_from(job, tile, x, y);
+      run_segment(job, rays, y, x, segment, laps);
+      x = segment.end;
     }
   }
   if (job.clock) job.clock->add(laps.taken);

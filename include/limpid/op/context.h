@@ -1,5 +1,5 @@
 #pragma once
-#include <vector>
+#include <span>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -40,8 +40,8 @@ struct Context {
   /// A picture is seen through a window at the near distance; where that lies lower than the water,
   /// the view begins in it. False when no pixel's does, as for orthographic cameras.
   bool submersible;
-  double near;                  ///< eye depth of that window
-  std::vector<SineWave> waves;  ///< of the scene: what raises and lowers the water there
+  double near;                      ///< eye depth of that window
+  std::span<const SineWave> waves;  ///< of the scene: what raises and lowers the water there
   /// The screen, for directions d from the eye: uv = (dot(to_u, d), dot(to_v, d)) / w, and eye
   /// depth = dot(forward, d). A point at eye depth Z has w = w_origin + w_depth Z.
   glm::dvec3 to_u, to_v, forward;
@@ -60,6 +60,9 @@ struct Context {
   double ior;
   Texture wave_map, environment;
   StateSet made;  ///< what the operators of the plan make: neutral or absent ones make nothing
+  /// False where it is known that nothing stands before the water in any place that refraction may
+  /// look up (plan/survey.h): an operator may leave out its test for that.
+  bool foreground = true;
 
   /// Depth after projection, 0 at the near plane, 1 at the far plane or at infinity.
   template <class F>

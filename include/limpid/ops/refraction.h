@@ -114,7 +114,7 @@ struct Refraction {
           [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
     }
     strip.each([&](Pixel<F>& p) { keep_in_frame(params, planes.bounds, p); });
-    if (params.rejection == Rejection::kSnap && !planes.below) {
+    if (params.rejection == Rejection::kSnap && !planes.below && c.foreground) {
       strip.each([](Pixel<F>& p) { snap(p); });
     }
     if (params.rejection == Rejection::kShorten) {

@@ -63,6 +63,7 @@ class Survey {
   /// Cells in rows from the upper left, and their pixels.
   int count() const { return cells_.width * cells_.height; }
   const CellNeeds& cell(int index) const { return needs_[static_cast<std::size_t>(index)]; }
+  int across() const { return cells_.width; }  ///< cells in a row
   Rect pixels(int index) const;
 
   /// Of all cells together. Dry ones are of no other kind, and run nothing.

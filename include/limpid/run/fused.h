@@ -8,12 +8,13 @@
 #include "limpid/core/scene.h"
 #include "limpid/core/simd.h"
 #include "limpid/plan/plan.h"
+#include "limpid/plan/survey.h"
 #include "limpid/run/target.h"
 
 namespace limpid {
 
-/// What a run spent its time on, in seconds, all threads together. Asking the clock takes time, too:
-/// a timed run is some percent slower.
+/// What a run spent its time on, in seconds, all threads together. Asking the clock takes time,
+/// too: a timed run is some percent slower.
 struct RunTimes {
   std::array<double, Chain::kCount> operators{};  ///< in chain order
   double rest = 0;                                ///< loading, starting and storing pixels
@@ -27,10 +28,26 @@ struct FusedOptions {
   RunTimes* times = nullptr;  ///< filled when it is there
 };
 
-/// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. The bits of
-/// the result depend on plan, frame, scene and instruction set, not on threads, tile size or order.
-/// Against run_reference: see the README. Throws Error as run_reference does, and for an
-/// instruction set that is not there. A plane may span at most 2^31 floats.
+/// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. First a look
+/// at each cell of the picture tells what of the plan it needs (plan/survey.h). The bits of the
+/// result depend on plan, frame, scene and instruction set, not on threads, tile size or order.
+/// Against run_reference: see the README; with Plan::max_error, as far from that besides. Keeps its
+/// memory from frame to frame: none is allocated after the first one of a size. One run at a time.
+class FusedRunner {
+ public:
+  /// Throws Error as run_reference does, and for an instruction set that is not there. A plane may
+  /// span at most 2^31 floats.
+  void run(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
+           Executor& executor, const FusedOptions& options = {});
+
+  /// Of the last frame.
+  const Survey& survey() const { return survey_; }
+
+ private:
+  Survey survey_;
+};
+
+/// The same for one frame alone.
 void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
                Executor& executor, const FusedOptions& options = {});
 
