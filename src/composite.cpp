@@ -59,8 +59,13 @@ Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
                     .sun = scene.sun.has_value(),
                     .environment = has_environment(job.scene)},
-                   state_shown_by(computed_aovs(job.output)));
+                   state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
+
+/// What a survey looks at: depths, colors and shadows; not where the water's normals point, nor
+/// what it mirrors.
+constexpr PlaneSet kUnsurveyed = kSurfaceNormalPlanes | kReflectionPlanes |
+                                 PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
 
 }  // namespace
 
@@ -68,6 +73,18 @@ Plan plan_composite(const CompositeJob& job) {
   const Plate plate = Plate::open(job.plate);
   depth_of(job);
   return plan_of(job, plate, scene_of(job, plate));
+}
+
+SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
+  const Plate plate = Plate::open(job.plate);
+  const Scene scene = scene_of(job, plate);
+  SurveyedPlan surveyed{plan_of(job, plate, scene), {}};
+  const Plan& plan = surveyed.plan;
+  const LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
+  loaded.frame.validate();
+  const Context context(scene, loaded.frame, plan.look.water.ior, plan.made);
+  surveyed.survey.make(plan, loaded.frame, context, executor, job.output.simd);
+  return surveyed;
 }
 
 CompositeReport composite(const CompositeJob& job, Executor& executor) {

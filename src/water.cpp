@@ -49,7 +49,7 @@ Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
                     .sun = scene.sun.has_value(),
                     .environment = has_environment(job.render.scene)},
-                   state_shown_by(computed_aovs(job.output)));
+                   state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
 
 struct NamedPlane {

@@ -10,6 +10,7 @@
 #include "limpid/ops/look.h"
 #include "limpid/output.h"
 #include "limpid/plan/plan.h"
+#include "limpid/plan/survey.h"
 
 namespace limpid {
 
@@ -34,6 +35,13 @@ struct CompositeReport {
 
 /// Plans without reading a pixel: what would run, and why.
 Plan plan_composite(const CompositeJob& job);
+
+/// Plans and looks at the pixels: what would run where. Nothing is computed.
+struct SurveyedPlan {
+  Plan plan;
+  Survey survey;
+};
+SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor);
 
 /// Loads, plans, runs, writes. Throws Error; nothing is left under the output's name then but what
 /// was there before.

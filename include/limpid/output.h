@@ -14,6 +14,9 @@ struct OutputChoice {
   std::vector<Aov> aovs;
   Runner runner = Runner::kFused;
   std::string simd;  ///< "" for the best
+  /// What the fused runner may leave out, together, changes no channel of a pixel by more (white =
+  /// 1): Plan::max_error.
+  double max_error = 0;
 
   std::filesystem::path picture;  ///< EXR
   std::filesystem::path preview;  ///< PNG, or empty for none

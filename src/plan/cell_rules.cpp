@@ -126,22 +126,25 @@ CellNeeds CellRules::dry() const {
   return needs;
 }
 
-CellNeeds CellRules::decide(const Ranges& planes, bool no_foreground) const {
+CellNeeds CellRules::decide(const Ranges& planes, bool no_foreground, Weighed& weighed) const {
   CellNeeds needs;
   needs.open = no_foreground;
   Ranges ranges = reckoned(planes, false);
   Mask skips = 0;
   double spent = 0;
   // Compared with a little less than the budget, for sums round.
-  const auto affords = [&](double bound) {
-    const bool yes = spent + bound <= plan_.max_error * (1 - 1e-6);
-    if (yes) spent += bound;
-    return yes;
+  const auto affords = [&](int index, double bound) {
+    if (!(spent + bound <= plan_.max_error * (1 - 1e-6))) return false;
+    float& most = weighed.bounds[static_cast<std::size_t>(index)];
+    most = std::max(most, static_cast<float>(bound));
+    weighed.operators = weighed.operators | bit(index);
+    spent += bound;
+    return true;
   };
   if (may_hide_) {
     const double bound =
         DepthFog::beyond(plan_.look.of<DepthFog>(), context_, ranges) + displaced(skips, ranges);
-    if (affords(bound)) {
+    if (affords(kRefraction, bound)) {
       needs.opaque = true;
       needs.open = false;
       skips = skips | bit(kRefraction);
@@ -151,7 +154,7 @@ CellNeeds CellRules::decide(const Ranges& planes, bool no_foreground) const {
   for (int i : order_) {
     if (!has(exact_ | loose_, i) || has(skips, i)) continue;
     const double bound = bound_of(i, skips, ranges);
-    if ((bound > 0 && !has(loose_, i)) || !affords(bound)) continue;
+    if ((bound > 0 && !has(loose_, i)) || !affords(i, bound)) continue;
     skips = skips | bit(i);
     if (i == kFog) ranges.through = 1;
   }

@@ -16,7 +16,8 @@ class CellRules {
 
   /// Of a cell with wet pixels. `planes`: all of Ranges that the planes tell. `no_foreground`: see
   /// CellNeeds::open.
-  CellNeeds decide(const Ranges& planes, bool no_foreground) const;
+  /// What is skipped for its bound is entered in `weighed`.
+  CellNeeds decide(const Ranges& planes, bool no_foreground, Weighed& weighed) const;
   /// Of a cell without one.
   CellNeeds dry() const;
 

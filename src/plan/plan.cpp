@@ -192,15 +192,23 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
   return plan;
 }
 
-std::string to_text(const Plan& plan) {
+std::string to_text(const PlannedOperator& op) {
   constexpr std::array<const char*, 5> kWords = {
       "kept", "dropped: neutral", "dropped: input absent", "dropped: unread", "dropped: invisible"};
+  const std::string word = kWords[static_cast<std::size_t>(op.verdict)];
+  return op.reason.empty() ? word : word + ", " + op.reason;
+}
+
+std::string to_text(const Plan& plan) {
   std::string text;
   for (const PlannedOperator& op : plan.operators) {
-    char line[256];
-    std::snprintf(line, sizeof line, "%-20s%s%s%s\n", std::string(op.name).c_str(),
-                  kWords[static_cast<std::size_t>(op.verdict)], op.reason.empty() ? "" : ", ",
-                  op.reason.c_str());
+    char name[32];
+    std::snprintf(name, sizeof name, "%-20s", std::string(op.name).c_str());
+    text += name + to_text(op) + "\n";
+  }
+  if (plan.max_error > 0) {
+    char line[64];
+    std::snprintf(line, sizeof line, "%-20s%g\n", "max_error", plan.max_error);
     text += line;
   }
   return text;

@@ -195,6 +195,7 @@ void Survey::Scan::lay_out() {
   const auto cells = static_cast<std::size_t>(s.count());
   const auto rows = static_cast<std::size_t>(s.blocks_.height);
   s.own_.assign(cells, Own{});
+  s.weighed_.assign(static_cast<std::size_t>(s.cells_.height), {});
   s.needs_.assign(cells, CellNeeds{});
   s.extremes_.resize(rows * static_cast<std::size_t>(s.blocks_.width));
   s.across_.resize(rows * static_cast<std::size_t>(s.cells_.width));
@@ -381,7 +382,8 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     ranges.color[static_cast<std::size_t>(c)] = range(kColorLow + c, kColorHigh + c);
   }
-  needs = rules.decide(ranges, no_foreground(own, reached));
+  Weighed& weighed = survey.weighed_[static_cast<std::size_t>(index / survey.cells_.width)];
+  needs = rules.decide(ranges, no_foreground(own, reached), weighed);
 }
 
 Rect Survey::pixels(int index) const {
@@ -421,12 +423,19 @@ void Survey::sum_up(const Plan& plan) {
     add(summary_.opaque, needs.opaque);
     add(summary_.open, needs.open);
     add(summary_.full, needs.skips == 0 && !needs.open);
-    for (int op = 0; op < Chain::kCount; ++op) {
-      add(summary_.runs[static_cast<std::size_t>(op)], plan.keeps(op) && needs.needs(op));
-    }
+    Chain::for_each([&]<class Op, int I>() {
+      add(summary_.runs[I], plan.keeps(I) && needs.needs(I));
+      if (std::is_same_v<Op, WaterShadow>) {
+        add(summary_.lit, plan.keeps(I) && !needs.dry && !needs.needs(I));
+      }
+    });
     summary_.bound = std::max(summary_.bound, double{needs.bound});
   }
   for (const Own& own : own_) summary_.wet += own.wet;
+  for (const Weighed& row : weighed_) {
+    summary_.weighed.operators = summary_.weighed.operators | row.operators;
+    raise(summary_.weighed.bounds, row.bounds);
+  }
 }
 
 }  // namespace limpid

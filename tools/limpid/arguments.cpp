@@ -42,6 +42,11 @@ void add_look(CLI::App& verb, WaterOptions& a) {
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+  verb.add_option(
+          "--max-error", a.max_error,
+          "Leave out what changes no channel of a pixel by more than this in all, white = 1 "
+          "(default: 0, exact)")
+      ->option_text("E");
   add_time(verb, a);
 }
 

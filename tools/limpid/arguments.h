@@ -17,6 +17,7 @@ struct WaterOptions {
   std::string look = "physical";
   std::vector<std::string> settings, aovs;
   std::optional<double> time;
+  double max_error = 0;
   std::string output, preview, deep, runner = "fused", simd, compression = "piz";
   bool store_float = false, dry_run = false;
 };

@@ -37,7 +37,7 @@ int run(const limpid::tool::Arguments& a) {
     case Verb::kComposite:
       return composite_verb(a.composite, a.common);
     case Verb::kPlan:
-      return plan_verb(a.composite);
+      return plan_verb(a.composite, a.common);
     case Verb::kRender:
       return render_verb(a.render, a.common);
     case Verb::kWater:

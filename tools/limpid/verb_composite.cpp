@@ -54,9 +54,13 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   return 0;
 }
 
-int plan_verb(const CompositeArguments& a) {
-  const Plan plan = plan_composite(job_of(a));
-  std::printf("%sreads %s\n", to_text(plan).c_str(), roles_text(plan.planes).c_str());
+int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
+  const CompositeJob job = job_of(a);
+  set_file_threads(common.threads);
+  const auto executor = make_executor(common.threads);
+  const SurveyedPlan surveyed = survey_composite(job, *executor);
+  std::printf("%sreads %s\n", to_text(surveyed.plan, surveyed.survey).c_str(),
+              roles_text(surveyed.plan.planes).c_str());
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "water_options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "limpid/core/error.h"
@@ -47,6 +48,21 @@ std::string simd_named(const std::string& name, Runner runner) {
               Fault::kUsage);
 }
 
+double max_error_of(const WaterOptions& a, Runner runner) {
+  const auto refuse = [&](const char* why) {
+    char text[64];
+    std::snprintf(text, sizeof text, "--max-error %g: ", a.max_error);
+    throw Error(text + std::string(why), Fault::kUsage);
+  };
+  if (!(a.max_error >= 0) || std::isinf(a.max_error)) {
+    refuse("expected a finite number from 0 up (white = 1)");
+  }
+  if (a.max_error > 0 && runner == Runner::kReference) {
+    refuse("the reference runner leaves nothing out");
+  }
+  return a.max_error;
+}
+
 std::string exr_named(const std::string& option, const std::string& path) {
   if (path.empty() || is_exr(path)) return path;
   throw Error(
@@ -72,6 +88,7 @@ OutputChoice output_of(const WaterOptions& a) {
   output.aovs = aov_list(a.aovs);
   output.runner = runner_named(a.runner);
   output.simd = simd_named(a.simd, output.runner);
+  output.max_error = max_error_of(a, output.runner);
   output.picture = exr_named("-o", a.output);
   output.preview = a.preview;
   output.deep = exr_named("--deep", a.deep);

@@ -69,7 +69,9 @@ struct Plan {
 /// a max_error that is negative or not finite.
 Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs = {}, double max_error = 0);
 
-/// A line an operator: name, kept or dropped, reason.
+/// A line an operator: name, kept or dropped, reason; and one of max_error, if there is any.
 std::string to_text(const Plan& plan);
+/// "kept, model plate: the frame has surface normals".
+std::string to_text(const PlannedOperator& op);
 
 }  // namespace limpid

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,13 @@ struct CellNeeds {
 
   bool needs(int chain_index) const { return ((skips >> chain_index) & 1u) == 0; }
   friend bool operator==(const CellNeeds&, const CellNeeds&) = default;
+};
+
+/// Operators that cells skip for their bounds, and the largest of each. (Others are skipped because
+/// nothing reads what they make.)
+struct Weighed {
+  std::uint16_t operators = 0;
+  std::array<float, Chain::kCount> bounds{};
 };
 
 /// Cells of a kind, and how many pixels they hold.
@@ -69,10 +77,12 @@ class Survey {
   /// Of all cells together. Dry ones are of no other kind, and run nothing.
   struct Summary {
     CellCount all, dry, opaque, open;
-    CellCount full;                             ///< skips nothing, and is not open
+    CellCount lit;   ///< the plan has a water shadow, and none falls here
+    CellCount full;  ///< skips nothing, and is not open
     std::array<CellCount, Chain::kCount> runs;  ///< where an operator of the plan runs
-    double bound = 0;                           ///< the largest
-    std::int64_t wet = 0;                       ///< pixels, at most
+    Weighed weighed;
+    double bound = 0;      ///< the largest of all that a cell skips
+    std::int64_t wet = 0;  ///< pixels, at most
   };
   const Summary& summary() const { return summary_; }
 
@@ -96,7 +106,17 @@ class Survey {
   std::vector<Extremes> extremes_;  ///< a block
   std::vector<Extremes> across_;    ///< of blocks beside a cell, for each row of blocks
   std::vector<CellNeeds> needs_;    ///< a cell
+  std::vector<Weighed> weighed_;    ///< a row of cells
   Summary summary_;
 };
+
+/// What a plan comes to on a frame: an operator of the plan that runs in no cell is kInvisible
+/// here. For telling; what is run is the plan.
+std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& survey);
+
+/// All of it as text: each operator with its rule, the kinds of cells, and the time of each
+/// operator as predicted for one thread (plan/predict.h) and, where they are given, as measured:
+/// `seconds` of each operator in chain order, and of all else last.
+std::string to_text(const Plan& plan, const Survey& survey, std::span<const double> seconds = {});
 
 }  // namespace limpid

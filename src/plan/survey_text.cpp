@@ -1,0 +1,118 @@
+#include <cstdarg>
+#include <cstdio>
+
+#include "limpid/plan/predict.h"
+#include "limpid/plan/survey.h"
+
+namespace limpid {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
+  char text[320];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string bound_text(double bound) {
+  return bound > 0 ? line("no channel of a pixel changes by more than %.2g", bound)
+                   : "not a bit of the picture is its doing";
+}
+
+std::string kind_text(const char* name, const CellCount& count, const CellCount& all,
+                      const char* about) {
+  const double share =
+      all.pixels > 0 ? 100.0 * static_cast<double>(count.pixels) / static_cast<double>(all.pixels)
+                     : 0;
+  return line("  %-18s%6d %6.1f %%  %s\n", name, count.cells, share, about);
+}
+
+std::string cells_text(const Plan& plan, const Survey::Summary& s) {
+  const double wet =
+      s.all.pixels > 0 ? 100.0 * static_cast<double>(s.wet) / static_cast<double>(s.all.pixels) : 0;
+  std::string text = line("cells of %dx%d pixels, %.1f %% of them wet\n", Survey::kCell.width,
+                          Survey::kCell.height, wet);
+  text += kind_text("all", s.all, s.all, "");
+  text += kind_text("dry", s.dry, s.all, "no water: copied");
+  text +=
+      kind_text("opaque", s.opaque, s.all, "the end of the way is hidden: nothing is refracted");
+  text += kind_text("foreground-free", s.open, s.all, "nothing in reach stands before the water");
+  text += kind_text("lit", s.lit, s.all, "no shadow falls on the water");
+  text += kind_text("full", s.full, s.all, "all of the plan runs");
+  if (plan.max_error > 0) {
+    text += line("max_error %g: no pixel is off by more than %.2g\n", plan.max_error, s.bound);
+  }
+  return text;
+}
+
+std::string time_text(const Plan& plan, const Survey::Summary& s, std::span<const double> seconds) {
+  std::string text =
+      line("%-20s%9s%14s%14s\n", "time", "runs in", "predicted", seconds.empty() ? "" : "measured");
+  double total = 0, measured = 0;
+  const auto add = [&](const char* name, const CellCount& runs, double ms, std::size_t index) {
+    const double share = s.all.pixels > 0 ? 100.0 * static_cast<double>(runs.pixels) /
+                                                static_cast<double>(s.all.pixels)
+                                          : 0;
+    text += line("  %-18s%7.1f %%%11.3f ms", name, share, ms);
+    if (index < seconds.size()) {
+      text += line("%11.3f ms", 1e3 * seconds[index]);
+      measured += seconds[index];
+    }
+    text += "\n";
+    total += ms;
+  };
+  Chain::for_each([&]<class Op, int I>() {
+    if (!plan.keeps(I)) return;
+    const CellCount& runs = s.runs[I];
+    add(std::string(Op::kName).c_str(), runs,
+        1e-6 * predicted_ns(plan, I) * static_cast<double>(runs.pixels), I);
+  });
+  const auto wet = static_cast<double>(s.all.pixels - s.dry.pixels);
+  add("all else", s.all,
+      1e-6 * (kPredictedWetNs * wet + kPredictedDryNs * static_cast<double>(s.dry.pixels)),
+      Chain::kCount);
+  text += line("  %-18s%9s%11.3f ms", "sum", "", total);
+  if (!seconds.empty()) text += line("%11.3f ms", 1e3 * measured);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& survey) {
+  std::vector<PlannedOperator> operators = plan.operators;
+  const Survey::Summary& s = survey.summary();
+  for (int i = 0; i < Chain::kCount; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    PlannedOperator& op = operators[index];
+    if (!plan.keeps(i) || s.runs[index].cells > 0) continue;
+    op.verdict = Verdict::kInvisible;
+    op.reason = bound_text(s.weighed.bounds[index]);
+    op.rule = "skip_invisible";
+    if (s.dry.cells == s.all.cells) {
+      op.reason = "no pixel is wet";
+      op.rule = "copy_dry";
+    } else if (op.name == Refraction::kName && s.opaque.cells > 0) {
+      op.reason = "fog hides all that it could show, " + op.reason;
+      op.rule = "skip_hidden";
+    } else if (((s.weighed.operators >> i) & 1u) == 0) {
+      op.verdict = Verdict::kUnread;
+      op.reason = "nothing that runs in a cell reads what it makes";
+      op.rule = "skip_unread";
+    }
+  }
+  return operators;
+}
+
+std::string to_text(const Plan& plan, const Survey& survey, std::span<const double> seconds) {
+  std::string text;
+  for (const PlannedOperator& op : operators_seen(plan, survey)) {
+    text += line("%-20s", std::string(op.name).c_str()) + to_text(op);
+    if (!op.rule.empty()) text += " [" + std::string(op.rule) + "]";
+    text += "\n";
+  }
+  return text + cells_text(plan, survey.summary()) + time_text(plan, survey.summary(), seconds);
+}
+
+}  // namespace limpid
