@@ -113,10 +113,30 @@ class FusedStrip {
     }
     LIMPID_LANES_INLINE auto quad(Vec2<Lane> shift) const { return Quad(strip, vector, shift); }
     template <class Taps>
-    LIMPID_LANES_INLINE Lane read(PlaneId plane, const Taps& q, int k) const {
+    LIMPID_LANES_INLINE Four<Lane> read(PlaneId plane, const Taps& q) const {
       const Source source = strip.source_of(plane);
-      if (!source.data) return Lane(source.missing);
-      return source.gather(inside(source, q.texel(k)));
+      if (!source.data) {
+        const Lane none(source.missing);
+        return {none, none, none, none};
+      }
+      if (!has_pairs(source)) {
+        return {
+            source.gather(inside(source, q.texel(0))), source.gather(inside(source, q.texel(1))),
+            source.gather(inside(source, q.texel(2))), source.gather(inside(source, q.texel(3)))};
+      }
+      // A pair lies side by side. At the window's edge both taps are the texel there.
+      const int first = source.window.x0, last = source.window.x1 - 2;
+      const VI x = hn::Sub(clamp(q.x, first, last), hn::Set(kDI, first));
+      const Mask before = {hn::RebindMask(kD, hn::Lt(q.x, hn::Set(kDI, first)))};
+      const Mask after = {hn::RebindMask(kD, hn::Gt(q.x, hn::Set(kDI, last)))};
+      const auto row = [&](VI y) LIMPID_LANES_LAMBDA {
+        const VI down = hn::Sub(clamp(y, source.window.y0, source.window.y1 - 1),
+                                hn::Set(kDI, source.window.y0));
+        const Pair pair = fetch_pairs(source.data, Places(source.index(x, down)));
+        return Pair{select(after, pair.right, pair.left), select(before, pair.left, pair.right)};
+      };
+      const Pair upper = row(q.y), lower = row(hn::Add(q.y, hn::Set(kDI, 1)));
+      return {upper.left, upper.right, lower.left, lower.right};
     }
     template <class Taps>
     LIMPID_LANES_INLINE Vec2<Lane> place(PlaneId plane, const Taps& q, int k) const {

@@ -92,8 +92,9 @@ class ReferenceStrip {
       return {clamped_floor(at.x), clamped_floor(at.y), at.x - std::floor(at.x),
               at.y - std::floor(at.y)};
     }
-    double read(PlaneId plane, const Quad& q, int k) const {
-      return strip.texel(plane, q.x + (k & 1), q.y + (k >> 1));
+    Four<double> read(PlaneId plane, const Quad& q) const {
+      return {strip.texel(plane, q.x, q.y), strip.texel(plane, q.x + 1, q.y),
+              strip.texel(plane, q.x, q.y + 1), strip.texel(plane, q.x + 1, q.y + 1)};
     }
     Vec2<double> place(PlaneId plane, const Quad& q, int k) const {
       const Rect& w = strip.frame_.plane(plane).window;

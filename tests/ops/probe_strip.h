@@ -73,15 +73,15 @@ class ProbeStrip {
     std::size_t i;
     double nearest(PlaneId plane, Vec2<double> shift) const {
       strip.note(shift);
-      return read(plane, {shift}, 0);
+      return read(plane, {shift})[0];
     }
     Quad quad(Vec2<double> shift) const {
       strip.note(shift);
       return {shift};
     }
-    double read(PlaneId plane, const Quad&, int k) const {
+    Four<double> read(PlaneId plane, const Quad&) const {
       strip.tapped = strip.tapped | PlaneSet{plane};
-      return texel(i + static_cast<std::size_t>(k), plane);
+      return {texel(i, plane), texel(i + 1, plane), texel(i + 2, plane), texel(i + 3, plane)};
     }
     Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
     Rgb<double> lat_long_rgb(const Texture&, Vec2<double> at) const {

@@ -32,6 +32,14 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
+/// One number for each of the four texels that bilinear filtering mixes: upper left, upper right,
+/// lower left, lower right.
+template <class F>
+struct Four {
+  F at[4];
+  LIMPID_INLINE F operator[](int k) const { return at[k]; }
+};
+
 template <class F>
 LIMPID_INLINE F dot(Vec3<F> a, Vec3<F> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -40,7 +40,7 @@
 /// A probe looks up as often as it likes, one pixel (or vector of pixels) at a time; the samplers
 /// above know all lookups of a strip beforehand and are faster. tap.nearest(plane, shift) is the
 /// texel there. tap.quad(shift) are the four texels that bilinear filtering mixes, k = 0 ... 3:
-/// quad.weight(k), tap.read(plane, quad, k), and tap.place(plane, quad, k), the shift of the centre
+/// quad.weight(k), tap.read(plane, quad)[k], and tap.place(plane, quad, k), the shift of the centre
 /// of the texel that was read (clamped to the plane's window like the read itself).
 /// tap.lat_long_rgb(texture, at) is bilinear in a map of all directions (optics/surroundings.h): it
 /// goes round in x and ends at the poles in y.

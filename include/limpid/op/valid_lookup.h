@@ -7,17 +7,17 @@
 /// Bilinear lookups in which only some texels count: those below the surface for refraction, those
 /// that the mirror really saw for reflection. What lies in front never bleeds in, in any channel.
 ///
-/// A `valid(quad, k)` says 1 or 0 of each tap. The share of valid weight is a continuous function
-/// of the place; where it is 1 the lookup is plain bilinear filtering. What is missing is made up
-/// from the last valid place on the way there (the offset is shortened), in proportion: so the
-/// picture has no step where a silhouette is crossed. The pixel's own texel must be valid.
+/// A `valid(quad)` says 1 or 0 of each of the four taps. The share of valid weight is a continuous
+/// function of the place; where it is 1 the lookup is plain bilinear filtering. What is missing is
+/// made up from the last valid place on the way there (the offset is shortened), in proportion: so
+/// the picture has no step where a silhouette is crossed. The pixel's own texel must be valid.
 
 namespace limpid {
 
 template <class F, class Quad>
 struct ValidTaps {
   Quad there, shortened;
-  F weight_there[4], weight_shortened[4];  ///< sum to 1, over both
+  Four<F> weight_there, weight_shortened;  ///< sum to 1, over both
   F share;                                 ///< of `there`: 1 real, 0 made up
   Vec2<F> place;                           ///< where most of the lookup comes from
   bool some_made_up;
@@ -31,25 +31,27 @@ struct ValidTaps {
 
   template <class Tap>
   F read(const Tap& tap, PlaneId plane) const {
-    F sum = F(0);
-    for (int k = 0; k < 4; ++k) sum = sum + weight_there[k] * tap.read(plane, there, k);
-    if (!some_made_up) return sum;
-    for (int k = 0; k < 4; ++k) sum = sum + weight_shortened[k] * tap.read(plane, shortened, k);
-    return sum;
+    const F sum = weighted(weight_there, tap.read(plane, there));
+    return some_made_up ? sum + weighted(weight_shortened, tap.read(plane, shortened)) : sum;
   }
 
   /// For depths: +inf where infinite ones prevail, and no 0 x inf.
   template <class Tap>
   F read_depth(const Tap& tap, PlaneId plane) const {
-    F sum = F(0);
-    const auto add = [&](const F* weight, const Quad& quad) {
-      for (int k = 0; k < 4; ++k) {
-        sum = sum + weight[k] * min(tap.read(plane, quad, k), F(1e30));
-      }
+    const auto finite = [](Four<F> depths) {
+      for (F& depth : depths.at) depth = min(depth, F(1e30));
+      return depths;
     };
-    add(weight_there, there);
-    if (some_made_up) add(weight_shortened, shortened);
+    F sum = weighted(weight_there, finite(tap.read(plane, there)));
+    if (some_made_up) sum = sum + weighted(weight_shortened, finite(tap.read(plane, shortened)));
     return select(sum < F(1e28), sum, F(HUGE_VAL));
+  }
+
+ private:
+  static LIMPID_INLINE F weighted(const Four<F>& weights, const Four<F>& values) {
+    F sum = F(0);
+    for (int k = 0; k < 4; ++k) sum = sum + weights[k] * values[k];
+    return sum;
   }
 };
 
@@ -57,8 +59,9 @@ struct ValidTaps {
 template <class F, class Tap, class Valid>
 F valid_share(const Tap& tap, Vec2<F> shift, Valid&& valid) {
   const auto quad = tap.quad(shift);
+  const Four<F> counts = valid(quad);
   F share = F(0);
-  for (int k = 0; k < 4; ++k) share = share + quad.weight(k) * valid(quad, k);
+  for (int k = 0; k < 4; ++k) share = share + quad.weight(k) * counts[k];
   return share;
 }
 
@@ -103,11 +106,13 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
 template <class F, class Tap, class Valid, class Bearable>
 auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable) {
   using Quad = decltype(tap.quad(shift));
-  ValidTaps<F, Quad> taps{tap.quad(shift), tap.quad(shift), {}, {}, F(0), shift, false};
+  const Quad there = tap.quad(shift);
+  ValidTaps<F, Quad> taps{there, there, {}, {}, F(0), shift, false};
+  const Four<F> valid_there = valid(there);
   for (int k = 0; k < 4; ++k) {
-    taps.weight_there[k] = taps.there.weight(k) * valid(taps.there, k);
+    taps.weight_there.at[k] = there.weight(k) * valid_there[k];
     taps.share = taps.share + taps.weight_there[k];
-    taps.weight_shortened[k] = F(0);
+    taps.weight_shortened.at[k] = F(0);
   }
   const auto whole = taps.share > F(1 - 1e-6);
   taps.some_made_up = any(!whole);
@@ -116,16 +121,18 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
   taps.place = select(taps.share >= F(0.5), shift, shortened);
   taps.shortened = tap.quad(shortened);
   // Half of the weight is valid there, unless nothing on the way is.
-  const auto found = valid_share(tap, shortened, valid) > F(0.25);
-  F valid_weight = F(0);
+  const Four<F> good = valid(taps.shortened), last_resort = bearable(taps.shortened);
+  F share = F(0), valid_weight = F(0);
+  for (int k = 0; k < 4; ++k) share = share + taps.shortened.weight(k) * good[k];
+  const auto found = share > F(0.25);
   for (int k = 0; k < 4; ++k) {
-    const F counts = select(found, valid(taps.shortened, k), bearable(taps.shortened, k));
-    taps.weight_shortened[k] = taps.shortened.weight(k) * counts;
+    const F counts = select(found, good[k], last_resort[k]);
+    taps.weight_shortened.at[k] = taps.shortened.weight(k) * counts;
     valid_weight = valid_weight + taps.weight_shortened[k];
   }
   const F scale = max(F(1) - taps.share, F(0)) / max(valid_weight, F(1e-6));
   for (int k = 0; k < 4; ++k) {
-    taps.weight_shortened[k] = select(whole, F(0), scale * taps.weight_shortened[k]);
+    taps.weight_shortened.at[k] = select(whole, F(0), scale * taps.weight_shortened[k]);
   }
   return taps;
 }

@@ -203,34 +203,33 @@ struct FresnelReflection {
   static F distance_to(const Context& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift,
                        F otherwise) {
     const auto quad = tap.quad(shift);
+    const Four<F> counts = valid<F>(c, tap, quad);
+    const Four<F> depths = tap.read(PlaneId::kReflectionDepth, quad);
     F inverse = F(0), weight = F(0);
     for (int k = 0; k < 4; ++k) {
-      const F share = quad.weight(k) * valid(c, tap, quad, k);
-      inverse = inverse + share / max(tap.read(PlaneId::kReflectionDepth, quad, k), F(1e-6));
+      const F share = quad.weight(k) * counts[k];
+      inverse = inverse + share / max(depths[k], F(1e-6));
       weight = weight + share;
     }
     const auto seen = weight > F(1e-3);
     return select(seen, length(way_to(c, p, shift, weight / max(inverse, F(1e-30)))), otherwise);
   }
 
-  template <class Tap, class Quad>
-  static LIMPID_INLINE auto valid(const Context& c, const Tap& tap, const Quad& quad, int k) {
-    using F = decltype(quad.weight(k));
-    if (!c.planes.has(PlaneId::kReflectionValid)) return F(1);
-    return select(tap.read(PlaneId::kReflectionValid, quad, k) >= F(0.5), F(1), F(0));
+  template <class F, class Tap, class Quad>
+  static LIMPID_INLINE Four<F> valid(const Context& c, const Tap& tap, const Quad& quad) {
+    if (!c.planes.has(PlaneId::kReflectionValid)) return {F(1), F(1), F(1), F(1)};
+    Four<F> seen = tap.read(PlaneId::kReflectionValid, quad);
+    for (F& share : seen.at) share = select(share >= F(0.5), F(1), F(0));
+    return seen;
   }
 
   template <class F, class Tap>
   static Rgb<F> seen_at(const Context& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift) {
     const auto taps =
-        valid_taps(tap, shift, [&](const auto& quad, int k) { return valid(c, tap, quad, k); });
+        valid_taps(tap, shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
     Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
                 taps.read(tap, PlaneId::kReflectionB)};
-    F lacks = F(0);
-    if (taps.some_made_up) {
-      lacks = F(1);
-      for (int k = 0; k < 4; ++k) lacks = lacks - taps.weight_there[k] - taps.weight_shortened[k];
-    }
+    F lacks = taps.some_made_up ? F(1) - taps.weight() : F(0);
     if (c.submersible) {
       const auto other_side = p.side * F(c.eye_above) < F(0);
       seen = select(other_side, p.transmitted, seen);

@@ -198,6 +198,7 @@ struct Refraction {
       p.confidence = select(goes, found.sure, F(1));
       if (!split) return place_channels(p.shift, p.shift, p.shift, p);
       const auto channel = [&](F index) {
+        if (!any(abs(index) > F(0))) return p.shift;
         const Bent<F> own = bend(c, p, ior + index);
         const ScreenRay<F> own_ray(c, p, own.direction);
         return select(goes, own_ray.shift_at(found.way * bent.fall / own.fall), none);
@@ -240,21 +241,28 @@ struct Refraction {
   template <class F>
   struct Sight {
     F drop;    ///< of what is seen, below the surface point; 0 when it stands before the water
-    F behind;  ///< 1 where the ray has passed behind it
-    F past;    ///< 1 where it lies far before the ray: it hides the bottom, it is not hit
+    F behind;  ///< how far the ray has passed behind it, -1 where it has not
+    Vec2<F> shift;
+    F own;  ///< depth of the ray
   };
 
   template <class F, class Tap>
-  static Sight<F> look(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
-                       const ScreenRay<F>& ray, F way, F texels) {
+  static LIMPID_INLINE Sight<F> look(const Context& c, const Planes& planes, const Pixel<F>& p,
+                                     const Tap& tap, const ScreenRay<F>& ray, F way) {
     const Vec2<F> shift = ray.shift_at(way);
     const F seen = tap.nearest(planes.depth, shift), own = ray.depth_at(way);
     const F drop = seen_drop(c, planes, p, shift, seen);
-    const auto behind = drop > F(0) && own >= seen;
-    // A slope is missed by as much as its depth changes from texel to texel.
-    const F calm = min(calm_depth_at(c, p, shift), own);
-    const F slack = F(0.25) * (own - calm) + texels * calm_depth_step(c, p, shift);
-    return {drop, select(behind, F(1), F(0)), select(behind && own - seen > slack, F(1), F(0))};
+    return {drop, select(drop > F(0) && own >= seen, own - seen, F(-1)), shift, own};
+  }
+
+  /// 1 where what is seen lies far before the ray: it hides the bottom, it is not hit. A slope is
+  /// missed by as much as its depth changes from texel to texel, so many of which are forgiven.
+  template <class F>
+  static LIMPID_INLINE F past(const Context& c, const Pixel<F>& p, const Sight<F>& at, F texels) {
+    if (!any(at.behind >= F(0))) return F(0);
+    const F calm = min(calm_depth_at(c, p, at.shift), at.own);
+    const F slack = F(0.25) * (at.own - calm) + texels * calm_depth_step(c, p, at.shift);
+    return select(at.behind > slack, F(1), F(0));
   }
 
   template <class F, class Tap>
@@ -264,32 +272,34 @@ struct Refraction {
     const F end = ray.s_at(reach_in(planes.bounds, p.uv, ray.across));
     const F most = min(end, F(1e30));
     const F pixels = max(length_on_screen(c, ray.shift_at(most)), F(1));
-    const F stride = F(1.0 / kSteps) * pixels;
+    // Equal steps, of half a pixel at least.
+    const F step = max(F(1.0 / kSteps), F(0.5) / pixels), stride = step * pixels;
     F before = F(0), after = F(1), last_drop = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth);
     F found = F(0), hidden = F(0);
     for (int i = 1; i <= kSteps; ++i) {
-      const F t(double(i) / kSteps);
-      const Sight<F> at = look(c, planes, p, tap, ray, ray.at_share(t, most), stride);
+      const F t = min(F(i) * step, F(1));
+      const Sight<F> at = look(c, planes, p, tap, ray, ray.at_share(t, most));
+      const F hides = past(c, p, at, stride);
       const auto open = found < F(0.5);
-      const auto hit = at.behind > F(0.5) && at.past < F(0.5);
-      const auto free = at.behind < F(0.5) && at.drop > F(0);
+      const auto hit = at.behind >= F(0) && hides < F(0.5);
+      const auto free = at.behind < F(0) && at.drop > F(0);
       after = select(open && hit, t, after);
       before = select(open && !hit, t, before);
       last_drop = select(open && free, at.drop, last_drop);
       hidden = select(open && !hit, select(free, F(0), F(1)), hidden);
       found = select(hit, F(1), found);
-      if (!any(found < F(0.5))) break;
+      if (!any(found < F(0.5) && t < F(1))) break;
     }
     for (int i = 0; i < kHalvings; ++i) {
       const F t = F(0.5) * (before + after);
-      const auto hit = look(c, planes, p, tap, ray, ray.at_share(t, most), F(1)).behind > F(0.5);
+      const auto hit = look(c, planes, p, tap, ray, ray.at_share(t, most)).behind >= F(0);
       after = select(hit, t, after);
       before = select(hit, before, t);
     }
     const F met = ray.at_share(after, most);
     // The bisection may have gone to the edge of what hides the bottom.
-    const auto seen =
-        found > F(0.5) && hidden < F(0.5) && look(c, planes, p, tap, ray, met, F(2)).past < F(0.5);
+    const F at_edge = past(c, p, look(c, planes, p, tap, ray, met), F(2));
+    const auto seen = found > F(0.5) && hidden < F(0.5) && at_edge < F(0.5);
     // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
     // or so away.
     const F smooth = to_level(c, planes, p, tap, ray, fall, met);
@@ -317,10 +327,10 @@ struct Refraction {
   static F to_level(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
                     const ScreenRay<F>& ray, F fall, F way) {
     const auto quad = tap.quad(ray.shift_at(way));
+    const Four<F> depths = tap.read(planes.depth, quad);
     F level = F(0), weight = F(0);
     for (int k = 0; k < 4; ++k) {
-      const F depth = tap.read(planes.depth, quad, k);
-      const F drop = seen_drop(c, planes, p, tap.place(planes.depth, quad, k), depth);
+      const F drop = seen_drop(c, planes, p, tap.place(planes.depth, quad, k), depths[k]);
       const F share = select(drop > F(0), quad.weight(k), F(0));
       level = level + share * drop;
       weight = weight + share;
@@ -396,24 +406,31 @@ struct Refraction {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
     const F share_of_way(params.model == Model::kSnell ? 0.4 : 0);
     const F ray_end = min(p.hit_depth, F(1e30));
-    const auto lies = [&](const auto& quad, int k, F share) {
-      const F depth = tap.read(planes.depth, quad, k);
-      F surface = surface_plane ? tap.read(PlaneId::kSurfaceDepth, quad, k)
-                                : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
-      if (c.submersible) {
-        // Where the view begins in the water, what lies there has no surface before it.
-        const F height = height_at(c, p, tap.place(planes.depth, quad, k), depth);
-        surface = select(depth <= surface && p.side * height <= F(0), F(0), surface);
+    const auto lies = [&](const auto& quad, F share) {
+      const Four<F> depths = tap.read(planes.depth, quad);
+      Four<F> surfaces, counts;
+      if (surface_plane) surfaces = tap.read(PlaneId::kSurfaceDepth, quad);
+      for (int k = 0; k < 4; ++k) {
+        const F depth = depths[k];
+        F surface =
+            surface_plane ? surfaces[k] : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
+        if (c.submersible) {
+          // Where the view begins in the water, what lies there has no surface before it.
+          const F height = height_at(c, p, tap.place(planes.depth, quad, k), depth);
+          surface = select(depth <= surface && p.side * height <= F(0), F(0), surface);
+        }
+        const F least = surface + share * max(ray_end - surface, F(0));
+        const auto there = planes.below ? depth < F(1e30) : depth > surface;
+        counts.at[k] = select(there && (depth > least || share <= F(0)), F(1), F(0));
       }
-      const F least = surface + share * max(ray_end - surface, F(0));
-      const auto there = planes.below ? depth < F(1e30) : depth > surface;
-      return select(there && (depth > least || share <= F(0)), F(1), F(0));
+      return counts;
     };
-    const auto valid = [&](const auto& quad, int k) { return lies(quad, k, share_of_way); };
-    const auto bearable = [&](const auto& quad, int k) { return lies(quad, k, F(0)); };
+    const auto valid = [&](const auto& quad) { return lies(quad, share_of_way); };
+    const auto bearable = [&](const auto& quad) { return lies(quad, F(0)); };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.
     const Rgb<F> own = p.transmitted;
+    const Vec2<F> green_shift = p.shift_g;
     const auto taps = valid_taps(tap, p.shift_g, valid, bearable);
     p.shift_g = taps.place;
     p.transmitted.g = select(taps.weight() > F(0.5), taps.read(tap, green), own.g);
@@ -421,7 +438,10 @@ struct Refraction {
     if (c.made.has(StatePart::kPrism)) {
       const auto taps_r = valid_taps(tap, p.shift_r, valid, bearable);
       const auto taps_b = valid_taps(tap, p.shift_b, valid, bearable);
-      const auto taps_common = valid_taps(tap, p.shift, valid, bearable);
+      // Mostly green is where the common path is, and nothing is to be looked up again.
+      const bool apart =
+          any(abs(p.shift.x - green_shift.x) > F(0)) || any(abs(p.shift.y - green_shift.y) > F(0));
+      const auto taps_common = apart ? valid_taps(tap, p.shift, valid, bearable) : taps;
       p.shift_r = taps_r.place;
       p.shift_b = taps_b.place;
       p.shift = taps_common.place;
