@@ -134,6 +134,8 @@ struct Survey::Scan {
     return context.rays.ray_at(x - context.corner.x, y - context.corner.y);
   }
 
+  bool sees_own_shadow() const { return frame.plane(own_shadow) && plan.planes.has(own_shadow); }
+
   void choose_planes();
   void lay_out();
   void scan_chunk(const Chunk& chunk);
@@ -214,7 +216,7 @@ void Survey::Scan::scan_row(void* self, int row) {
 void Survey::Scan::scan_chunk(const Chunk& chunk) {
   for (int i = chunk.first; i < chunk.end; ++i) none(extremes_of(i, chunk.row));
   scan_water(chunk);
-  if (frame.plane(own_shadow) && plan.planes.has(own_shadow)) {
+  if (sees_own_shadow()) {
     scan_plane(own_shadow, survey.work_, chunk, [&](int column, LowHigh lit) {
       Own& own = own_of(column, chunk.row);
       own.shadow_low = std::min(own.shadow_low, lit.low);
@@ -374,11 +376,8 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
     ranges.least_drop = -reached[kDrop];
   }
   if (wanted.has(PlaneId::kShadow)) ranges.shadow = range(kShadowLow, kShadowHigh);
-  if (frame.plane(own_shadow)) {
-    ranges.own_shadow = {own.shadow_low, own.shadow_high};
-  } else {
-    ranges.own_shadow = {1, 1};
-  }
+  if (!frame.plane(own_shadow)) ranges.own_shadow = {1, 1};
+  if (sees_own_shadow()) ranges.own_shadow = {own.shadow_low, own.shadow_high};
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     ranges.color[static_cast<std::size_t>(c)] = range(kColorLow + c, kColorHigh + c);
   }

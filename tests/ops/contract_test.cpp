@@ -234,6 +234,66 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
   });
 }
 
+// So the bounds of operators add up: none makes more of an error that was made before it.
+TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
+  const auto sum = [](const Pixel<double>& p) {
+    return p.transmitted + p.in_scatter + p.reflected + p.highlight;
+  };
+  Chain::for_each([&]<class Op, int>() {
+    for (int seed = 0; seed < 200; ++seed) {
+      const typename Op::Params params = random_params<Op>(seed);
+      ProbeStrip plain, brighter;
+      plain.greatest = brighter.greatest = 1;  // shadow is no more
+      for (int i = 0; i < 8; ++i) {
+        plain.pixels.push_back(test::random_pixel(100 * seed + i, everything()));
+        Pixel<double> p = plain.pixels.back();
+        p.side = 1;
+        // Of what the sun scatters there is no more than of all that is scattered.
+        p.sun_near = 0.3 * p.in_scatter, p.sun_far = 0.7 * p.in_scatter;
+        plain.pixels.back() = p;
+        p.transmitted = p.transmitted + Rgb<double>{0.1, 0.2, 0.3};
+        p.in_scatter = p.in_scatter + Rgb<double>{0.3, 0.1, 0.2};
+        p.reflected = p.reflected + Rgb<double>{0.2, 0.3, 0.1};
+        p.highlight = p.highlight + Rgb<double>{0.05, 0.15, 0.1};
+        brighter.pixels.push_back(p);
+      }
+      const Context context = probe_context(everything());
+      Op::apply(params, context, plain);
+      Op::apply(params, context, brighter);
+      for (int i = 0; i < 8; ++i) {
+        const Rgb<double> more = sum(brighter.pixels[i]) - sum(plain.pixels[i]);
+        EXPECT_LE(std::abs(more.r), 0.65 + 1e-9) << Op::kName << ", seed " << seed;
+        EXPECT_LE(std::abs(more.g), 0.75 + 1e-9) << Op::kName << ", seed " << seed;
+        EXPECT_LE(std::abs(more.b), 0.7 + 1e-9) << Op::kName << ", seed " << seed;
+      }
+    }
+  });
+}
+
+TEST(Contract, BoundsAreNoNumbersBelowZero) {
+  const Context context = probe_context(everything());
+  Chain::for_each([&]<class Op, int>() {
+    for_each_params<Op>([&](const auto& params, const std::string& what) {
+      Ranges nothing_known;
+      EXPECT_GE(Op::bound(params, context, nothing_known), 0) << what;
+      Ranges dark = nothing_known;
+      dark.color = {{{0, 0}, {0, 0}, {0, 0}}};
+      dark.light = dark.sun_light = 0;
+      EXPECT_GE(Op::bound(params, context, dark), 0) << what;
+      if constexpr (requires { Op::reckon(params, context, dark); }) {
+        Op::reckon(params, context, dark);
+        for (const Range& r : {dark.hit, dark.path, dark.way}) {
+          EXPECT_GE(r.min, 0) << what;
+          EXPECT_LE(r.min, r.max) << what;
+        }
+        for (double x : {dark.through, dark.light, dark.sun_light, dark.sun_far, dark.above}) {
+          EXPECT_GE(x, 0) << what;
+        }
+      }
+    });
+  });
+}
+
 // Reaches add up along the chain: shifts are made by one operator and used by later ones.
 TEST(Contract, TapsStayWithinTheDeclaredReach) {
   for (int seed = 0; seed < 200; ++seed) {

@@ -18,6 +18,7 @@ class ProbeStrip {
   using Number = double;
 
   std::vector<Pixel<double>> pixels;
+  double greatest = 6;  ///< value of a texel
   PlaneSet tapped;
   bool map_tapped = false, environment_tapped = false;
   double farthest = 0;  ///< tap, in uv along either axis
@@ -81,7 +82,8 @@ class ProbeStrip {
     }
     Four<double> read(PlaneId plane, const Quad&) const {
       strip.tapped = strip.tapped | PlaneSet{plane};
-      return {texel(i, plane), texel(i + 1, plane), texel(i + 2, plane), texel(i + 3, plane)};
+      const auto at = [&](std::size_t k) { return strip.texel(i + k, plane); };
+      return {at(0), at(1), at(2), at(3)};
     }
     Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
     Rgb<double> lat_long_rgb(const Texture&, Vec2<double> at) const {
@@ -99,8 +101,8 @@ class ProbeStrip {
   static PlaneSet three(PlaneId first) {
     return {first, plane_after(first, 1), plane_after(first, 2)};
   }
-  static double texel(std::size_t i, PlaneId plane) {
-    return 6 * noise(static_cast<int>(i), index_of(plane), 80);
+  double texel(std::size_t i, PlaneId plane) const {
+    return greatest * noise(static_cast<int>(i), index_of(plane), 80);
   }
   void note(Vec2<double> shift) {
     farthest = max(farthest, max(std::abs(shift.x), std::abs(shift.y)));

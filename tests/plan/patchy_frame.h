@@ -116,7 +116,7 @@ inline Look patchy_look(int seed) {
   fog.distance = static_cast<DepthFog::Distance>(one_of(3));
   fog.density = any() < 0.5 ? 0.3 * any() : 0.003 * any();
   fog.offset = any() < 0.5 ? 0 : any() - 0.5;
-  fog.alpha = any() < 0.6 ? 1 : any();
+  fog.alpha = any() < 0.5 ? 1 : any() < 0.5 ? 0 : any();
   fog.color = {0.5 * any(), 0.5 * any(), 0.5 * any()};
   fog.water_type = WaterType::kCustom;
   const double murk = any() < 0.3 ? 10 : any() < 0.5 ? 1 : 0.001;

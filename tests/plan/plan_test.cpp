@@ -1,5 +1,8 @@
 #include "limpid/plan/plan.h"
 
+#include <cmath>
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -184,6 +187,33 @@ TEST(Plan, KeepsANeutralFogWhosePathIsWritten) {
   const Inputs inputs{kAll, false, true};
   EXPECT_THAT(text(look, inputs), HasSubstr("depth_fog           dropped: neutral"));
   EXPECT_THAT(text(look, inputs, {StatePart::kPath}), HasSubstr("depth_fog           kept"));
+}
+
+TEST(Plan, SaysWhichRuleDecided) {
+  const Plan plan = make_plan(test::article_look(), {kAll - kReflectionPlanes, false, true});
+  EXPECT_EQ(plan.operators[0].rule, "take_plate_normals");
+  EXPECT_EQ(plan.operators[1].rule, "drop_neutral");
+  EXPECT_EQ(plan.operators[2].rule, "");
+  EXPECT_EQ(plan.operators[5].rule, "drop_absent_input");
+  std::set<std::string_view> names;
+  for (const RuleInfo& rule : rules()) {
+    EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
+    EXPECT_TRUE(rule.about.ends_with(".")) << rule.name;
+  }
+  EXPECT_THAT(names, testing::IsSupersetOf({"take_plate_normals", "drop_neutral", "copy_dry",
+                                            "skip_hidden", "skip_invisible"}));
+}
+
+TEST(Plan, HoldsTheErrorThatItMayMake) {
+  const Inputs inputs{kAll, false, true};
+  EXPECT_EQ(make_plan(busy_look(), inputs).max_error, 0);
+  const Plan plan = make_plan(busy_look(), inputs, {StatePart::kPath}, 0.002);
+  EXPECT_EQ(plan.max_error, 0.002);
+  EXPECT_EQ(plan.outputs, StateSet{StatePart::kPath});
+  EXPECT_THAT(to_text(plan), HasSubstr("\nmax_error           0.002\n"));
+  for (double bad : {-1e-9, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(make_plan(busy_look(), inputs, {}, bad), Error) << bad;
+  }
 }
 
 TEST(Plan, RefusesWhatNoWaterCanBePutInto) {

@@ -1,6 +1,9 @@
 #include "limpid/plan/survey.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "limpid/core/simd.h"
 
 #include "plan/surveyed.h"
 
@@ -9,6 +12,11 @@ namespace {
 
 using test::Buffers;
 using test::surveyed;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kWaves = 0, kPrism = 1, kRefraction = 2, kShadow = 4, kHighlight = 6;
 
 /// Water at depth 4 over a bottom at depth 6, lit, seen level from above: 3 x 5 cells, offsets by
 /// less than a cell.
@@ -28,7 +36,7 @@ void put(Buffers& b, PlaneId id, int x, int y, float value) {
 }
 
 /// Offsets of at most 0.01: 4 pixels across, 1 down.
-Look look() {
+Look short_look() {
   Look look = test::article_look();
   look.of<Refraction>().strength = 0.01;
   return look;
@@ -58,7 +66,7 @@ std::string map_of(const Survey& survey, int across) {
 
 TEST(Survey, WaterAloneHasNoForeground) {
   const Buffers b = tray(rect_of(kSize));
-  const Survey survey = survey_of(look(), b.frame);
+  const Survey survey = survey_of(short_look(), b.frame);
   EXPECT_EQ(map_of(survey, 3), "fff\nfff\nfff\nfff\nfff\n");
   EXPECT_EQ(survey.summary().open.cells, 15);
   EXPECT_EQ(survey.summary().open.pixels, 384 * 80);
@@ -69,10 +77,11 @@ TEST(Survey, WaterAloneHasNoForeground) {
 TEST(Survey, DryCellsAreToldApart) {
   Buffers b = tray(rect_of(kSize));
   b.set(PlaneId::kSurfaceDepth, [](int x, int y) { return x < 128 && y < 32 ? test::kInf : 4.0f; });
-  EXPECT_EQ(map_of(survey_of(look(), b.frame), 3), ".ff\n.ff\nfff\nfff\nfff\n")
+  EXPECT_EQ(map_of(survey_of(short_look(), b.frame), 3), ".ff\n.ff\nfff\nfff\nfff\n")
       << "the depth of a dry pixel may still lie behind the surface";
   put(b, PlaneId::kSurfaceDepth, 127, 31, 5.9f);
-  EXPECT_EQ(map_of(survey_of(look(), b.frame), 3), ".ff\nfff\nfff\nfff\nfff\n") << "one wet pixel";
+  EXPECT_EQ(map_of(survey_of(short_look(), b.frame), 3), ".ff\nfff\nfff\nfff\nfff\n")
+      << "one wet pixel";
 }
 
 // What stands before the water is in reach of the cells around it, if near enough to their edge:
@@ -83,12 +92,244 @@ TEST(Survey, ForegroundAtTheEdgeOfACellCountsForItsNeighbour) {
     put(b, PlaneId::kDepth, x, y, 3);
     return map_of(survey_of(look, b.frame), 3);
   };
-  EXPECT_EQ(map_with(192, 40, look()), "fff\nf#f\nf#f\nf#f\nfff\n");
-  EXPECT_EQ(map_with(160, 40, look()), "fff\nf#f\nf#f\nf#f\nfff\n");
-  EXPECT_EQ(map_with(159, 40, look()), "fff\n##f\n##f\n##f\nfff\n");
-  EXPECT_EQ(map_with(127, 40, look()), "fff\n##f\n##f\n##f\nfff\n");
-  EXPECT_EQ(map_with(255, 0, look()), "f##\nf##\nfff\nfff\nfff\n");
-  EXPECT_EQ(map_with(256, 79, look()), "fff\nfff\nfff\nf##\nf##\n");
+  EXPECT_EQ(map_with(192, 40, short_look()), "fff\nf#f\nf#f\nf#f\nfff\n");
+  EXPECT_EQ(map_with(160, 40, short_look()), "fff\nf#f\nf#f\nf#f\nfff\n");
+  EXPECT_EQ(map_with(159, 40, short_look()), "fff\n##f\n##f\n##f\nfff\n");
+  EXPECT_EQ(map_with(127, 40, short_look()), "fff\n##f\n##f\n##f\nfff\n");
+  EXPECT_EQ(map_with(255, 0, short_look()), "f##\nf##\nfff\nfff\nfff\n");
+  EXPECT_EQ(map_with(256, 79, short_look()), "fff\nfff\nfff\nf##\nf##\n");
+}
+
+TEST(Survey, OverscanIsInReach) {
+  const Rect data{-100, -20, 484, 100};
+  const auto map_with = [&](int x, int y) {
+    Buffers b = tray(rect_of(kSize));
+    for (PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB}) {
+      b.set(
+          id, [](int, int) { return 0.5f; }, data);
+    }
+    b.set(
+        PlaneId::kSurfaceDepth, [](int, int) { return 4.0f; }, data);
+    b.set(
+        PlaneId::kDepth, [&](int i, int j) { return i == x && j == y ? 3.0f : 6.0f; }, data);
+    return map_of(survey_of(short_look(), b.frame), 3);
+  };
+  EXPECT_EQ(map_with(-1, 8), "#ff\n#ff\nfff\nfff\nfff\n");
+  EXPECT_EQ(map_with(-40, 8), "fff\nfff\nfff\nfff\nfff\n") << "out of reach";
+  EXPECT_EQ(map_with(384, 81), "fff\nfff\nfff\nfff\nff#\n");
+}
+
+TEST(Survey, EveryPixelIsInACell) {
+  for (const Size size : {Size{1, 1}, {1, 37}, {37, 1}, {127, 16}, {128, 17}, {129, 15}}) {
+    const Rect display{5, -3, 5 + size.width, -3 + size.height};
+    const Buffers b = tray(display);
+    const Survey survey = survey_of(short_look(), b.frame);
+    std::int64_t pixels = 0;
+    for (int i = 0; i < survey.count(); ++i) {
+      const Rect cell = survey.pixels(i);
+      pixels += cell.area();
+      EXPECT_EQ(&survey.at(cell.x0, cell.y0), &survey.cell(i));
+      EXPECT_EQ(&survey.at(cell.x1 - 1, cell.y1 - 1), &survey.cell(i));
+      EXPECT_TRUE(survey.cell(i).open);
+    }
+    EXPECT_EQ(pixels, display.area());
+    EXPECT_EQ(survey.count(), (size.width + 127) / 128 * ((size.height + 15) / 16));
+  }
+}
+
+TEST(Survey, ShortenNeedsWaterAllAround) {
+  Look shorten = short_look();
+  shorten.of<Refraction>().rejection = Refraction::Rejection::kShorten;
+  Buffers b = tray(rect_of(kSize));
+  EXPECT_EQ(map_of(survey_of(shorten, b.frame), 3), "fff\nfff\nfff\nfff\nfff\n");
+  put(b, PlaneId::kSurfaceDepth, 159, 40, test::kInf);
+  EXPECT_EQ(map_of(survey_of(shorten, b.frame), 3), "fff\n##f\n##f\n##f\nfff\n")
+      << "a dry texel does not count, however deep";
+  EXPECT_EQ(map_of(survey_of(short_look(), b.frame), 3), "fff\nfff\nfff\nfff\nfff\n");
+  // Taps at the edge of a plane are those of other pixels than taps within another's window.
+  b = tray(rect_of(kSize));
+  b.set(PlaneId::kDepth, [](int, int) { return 6.0f; }, {-9, -9, 400, 90});
+  EXPECT_EQ(survey_of(shorten, b.frame).summary().open.cells, 0);
+}
+
+/// Fog that is full after 1 unit of the way.
+Look murky() {
+  Look look = short_look();
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.alpha = 1;
+  fog.density = 1;
+  return look;
+}
+
+TEST(Survey, FullFogHidesWhatIsBehindIt) {
+  Buffers b = tray(rect_of(kSize));
+  EXPECT_EQ(map_of(survey_of(murky(), b.frame), 3), "ooo\nooo\nooo\nooo\nooo\n");
+  put(b, PlaneId::kDepth, 159, 40, 4.9f);
+  EXPECT_EQ(map_of(survey_of(murky(), b.frame), 3), "ooo\nffo\nffo\nffo\nooo\n");
+  const Survey survey = survey_of(murky(), b.frame);
+  EXPECT_FALSE(survey.at(0, 0).needs(kRefraction));
+  EXPECT_FALSE(survey.at(0, 0).open) << "nothing is looked up";
+  EXPECT_TRUE(survey.at(0, 40).needs(kRefraction));
+  Look thin = murky();
+  thin.of<DepthFog>().alpha = 0.99;
+  EXPECT_EQ(survey_of(thin, b.frame).summary().opaque.cells, 0) << "1 % of the bottom is left";
+}
+
+// By the way's length 2: of the bottom 1 - 0.999 (2 0.4995) = 0.001999 is left, of a color 0.48 off
+// the fog's.
+TEST(Survey, AnErrorMakesThinnerFogOpaque) {
+  Look look = murky();
+  look.of<DepthFog>().density = 0.4995;
+  const Buffers b = tray(rect_of(kSize));
+  EXPECT_EQ(survey_of(look, b.frame, 0).summary().opaque.cells, 0);
+  EXPECT_EQ(survey_of(look, b.frame, 0.0009).summary().opaque.cells, 0);
+  const Survey survey = survey_of(look, b.frame, 0.001);
+  EXPECT_EQ(survey.summary().opaque.cells, 15);
+  EXPECT_NEAR(survey.summary().bound, 0.001999 * 0.48, 1e-6);
+}
+
+// Positions that are written must be found.
+TEST(Survey, WhatIsWrittenIsNotSkipped) {
+  const Buffers b = tray(rect_of(kSize));
+  EXPECT_EQ(survey_of(murky(), b.frame, 0, {StatePart::kPath}).summary().opaque.cells, 0);
+  EXPECT_EQ(survey_of(murky(), b.frame, 0, {StatePart::kPosition}).summary().opaque.cells, 0);
+  const Survey light = survey_of(murky(), b.frame, 0, kOutputTerms);
+  EXPECT_EQ(light.summary().opaque.cells, 15);
+  EXPECT_EQ(light.summary().lit.cells, 15);
+}
+
+TEST(Survey, WavesThatNothingReadsInACellAreNotMade) {
+  Buffers b = tray(rect_of(kSize));
+  put(b, PlaneId::kDepth, 0, 0, 4.9f);
+  Look look = murky();
+  look.of<PrismSplit>().strength = 0.002;
+  const Survey both = survey_of(look, b.frame);
+  EXPECT_TRUE(both.at(383, 79).needs(kWaves)) << "the highlight reads them";
+  EXPECT_FALSE(both.at(383, 79).needs(kPrism)) << "nothing is refracted";
+  look.of<SunHighlight>().strength = 0;
+  const Survey survey = survey_of(look, b.frame);
+  EXPECT_FALSE(survey.at(383, 79).needs(kWaves));
+  EXPECT_TRUE(survey.at(0, 0).needs(kWaves));
+  EXPECT_TRUE(survey.at(0, 0).needs(kPrism));
+}
+
+TEST(Survey, ShadowIsSkippedWhereAllIsLitAndTheGlintWhereNothingIs) {
+  Buffers b = tray(rect_of(kSize));
+  const Survey all = survey_of(short_look(), b.frame);
+  EXPECT_EQ(all.summary().lit.cells, 15);
+  EXPECT_EQ(all.summary().runs[kHighlight].cells, 15);
+  put(b, PlaneId::kShadow, 159, 40, 0.99f);
+  const Survey survey = survey_of(short_look(), b.frame);
+  EXPECT_EQ(survey.summary().lit.cells, 15 - 6) << "in reach of two columns and three rows";
+  EXPECT_TRUE(survey.at(0, 40).needs(kShadow));
+  EXPECT_FALSE(survey.at(0, 0).needs(kShadow));
+  b.set(PlaneId::kShadow, [](int x, int) { return x < 128 ? 0.0f : 1.0f; });
+  const Survey dark = survey_of(short_look(), b.frame);
+  EXPECT_FALSE(dark.at(127, 0).needs(kHighlight));
+  EXPECT_TRUE(dark.at(128, 0).needs(kHighlight));
+}
+
+TEST(Survey, SnellsRaysMayReachTheWholePicture) {
+  Look snell = murky();
+  snell.of<Refraction>() = {.rejection = Refraction::Rejection::kSnap, .steps = 0};
+  Buffers b = tray(rect_of(kSize));
+  EXPECT_EQ(survey_of(snell, b.frame).summary().opaque.cells, 15);
+  snell.of<DepthFog>().density = 0.1;
+  EXPECT_EQ(survey_of(snell, b.frame).summary().open.cells, 15);
+  put(b, PlaneId::kDepth, 383, 79, 3);
+  EXPECT_EQ(survey_of(snell, b.frame).summary().open.cells, 0);
+  snell.of<Refraction>().rejection = Refraction::Rejection::kShorten;
+  EXPECT_EQ(survey_of(snell, tray(rect_of(kSize)).frame).summary().open.cells, 0);
+}
+
+// Without a plane of the surface it is the scene's plane, which ends at the horizon.
+TEST(Survey, TheCalmPlaneIsMetBelowTheHorizon) {
+  const Size size{256, 256};
+  Buffers b(rect_of(size));
+  for (PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB}) b.fill(id, 0.5f);
+  b.fill(PlaneId::kDepth, 1e6f);
+  Scene scene = test::simple_scene(size);
+  scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), glm::dvec3(0, 1, 0));
+  const Plan plan = make_plan(short_look(), test::inputs_of(b.frame, scene));
+  const Survey survey = surveyed(plan, b.frame, scene);
+  EXPECT_EQ(map_of(survey, 2).substr(0, 8 * 3), "..\n..\n..\n..\n..\n..\n..\n..\n");
+  EXPECT_EQ(survey.summary().dry.cells, 16);
+  EXPECT_EQ(survey.summary().wet, 256 * 128);
+}
+
+TEST(Survey, ViewsThatBeginInTheWaterNeedEverything) {
+  const Buffers b = tray(rect_of(kSize));
+  Scene scene = scene_of(b.frame);
+  scene.water->height = 1.95;
+  const Plan plan = make_plan(short_look(), test::inputs_of(b.frame, scene));
+  const Survey survey = surveyed(plan, b.frame, scene);
+  EXPECT_EQ(survey.summary().full.cells, 15);
+}
+
+TEST(Survey, DependsOnNeitherThreadsNorInstructionSetNorWhatWasSeenBefore) {
+  const Buffers b = test::noisy_frame(rect_of({300, 50}));
+  const Scene scene = scene_of(b.frame);
+  const Plan plan = plan_of(short_look(), b.frame, 0.01);
+  const Context context(scene, b.frame, 1.333, plan.made);
+  const Survey judge = surveyed(plan, b.frame, scene);
+  Survey survey;
+  survey.make(plan_of(murky(), tray(rect_of(kSize)).frame), tray(rect_of(kSize)).frame,
+              Context(scene_of(tray(rect_of(kSize)).frame), tray(rect_of(kSize)).frame, 1.333, {}),
+              *make_executor(1));
+  for (const std::string& simd : simd_targets()) {
+    survey.make(plan, b.frame, context, *make_executor(2), simd);
+    ASSERT_EQ(survey.count(), judge.count());
+    for (int i = 0; i < judge.count(); ++i) EXPECT_EQ(survey.cell(i), judge.cell(i)) << simd;
+  }
+}
+
+TEST(Survey, InterleavedAndTurnedPlanesAreSeenAsTheyAre) {
+  const Rect display = rect_of(kSize);
+  Buffers b = tray(display);
+  put(b, PlaneId::kDepth, 159, 40, 3);
+  // The same depths, every third float of rows that go upwards.
+  std::vector<float> floats(3 * 384 * 80, -1);
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 384; ++x) {
+      floats[static_cast<std::size_t>(3 * ((79 - y) * 384 + x) + 1)] =
+          b.frame.plane(PlaneId::kDepth).at(x, y);
+    }
+  }
+  b.frame.planes[index_of(PlaneId::kDepth)] = {&floats[3 * 79 * 384 + 1], 3, -3 * 384, display};
+  EXPECT_EQ(map_of(survey_of(short_look(), b.frame), 3), "fff\n##f\n##f\n##f\nfff\n");
+}
+
+// --- told ---------------------------------------------------------------------------------------
+
+TEST(Survey, IsToldAsText) {
+  Buffers b = tray(rect_of(kSize));
+  b.set(PlaneId::kSurfaceDepth, [](int x, int y) { return x < 128 && y < 32 ? test::kInf : 4.0f; });
+  const Plan plan = plan_of(murky(), b.frame);
+  const std::string text = to_text(plan, surveyed(plan, b.frame, scene_of(b.frame)));
+  EXPECT_THAT(text, HasSubstr("refraction          dropped: invisible, fog hides all that it could "
+                              "show, not a bit of the picture is its doing [skip_hidden]\n"));
+  EXPECT_THAT(text, HasSubstr("water_shadow        dropped: invisible, not a bit of the picture is "
+                              "its doing [skip_invisible]\n"));
+  EXPECT_THAT(text, HasSubstr("sun_highlight       kept\n"));
+  EXPECT_THAT(text, HasSubstr("cells of 128x16 pixels, 86.7 % of them wet\n"));
+  EXPECT_THAT(text, ContainsRegex("  dry +2 +13\\.3 %"));
+  EXPECT_THAT(text, ContainsRegex("  opaque +13 +86\\.7 %"));
+  EXPECT_THAT(text, ContainsRegex("  sun_highlight +86\\.7 %"));
+  EXPECT_THAT(text, Not(HasSubstr("measured")));
+  const std::vector<double> seconds(Chain::kCount + 1, 0.0125);
+  const std::string measured = to_text(plan, surveyed(plan, b.frame, scene_of(b.frame)), seconds);
+  EXPECT_THAT(measured, HasSubstr("measured"));
+  EXPECT_THAT(measured, ContainsRegex("sun_highlight .* 12\\.500 ms"));
+}
+
+TEST(Survey, AnOperatorIsInvisibleOnlyWhereNoCellNeedsIt) {
+  const Buffers b = tray(rect_of(kSize));
+  const Plan plan = plan_of(short_look(), b.frame);
+  const std::vector<PlannedOperator> seen =
+      operators_seen(plan, surveyed(plan, b.frame, scene_of(b.frame)));
+  EXPECT_EQ(seen[kShadow].verdict, Verdict::kInvisible);
+  EXPECT_EQ(seen[kRefraction].verdict, Verdict::kKept);
+  EXPECT_EQ(plan.operators[kShadow].verdict, Verdict::kKept) << "the plan is what is run";
 }
 
 }  // namespace

@@ -166,6 +166,31 @@ TEST_F(CompositeTest, SettingsWinOverTheLook) {
   EXPECT_THAT(iinfo("red.exr"), HasSubstr("color = [1.0, 0.0, 0.0]"));
 }
 
+TEST_F(CompositeTest, AnErrorIsKeptWithinAndRecorded) {
+  composed("wet.exr", {"--float"});
+  composed("zero.exr", {"--float", "--max-error", "0"});
+  composed("near.exr", {"--float", "--max-error", "0.03"});
+  EXPECT_EQ(text_of("wet.exr"), text_of("zero.exr"));
+  EXPECT_TRUE(same("wet.exr", "near.exr", 0.03001));
+  EXPECT_THAT(iinfo("near.exr"), ContainsRegex("max_error +0.03"));
+}
+
+TEST_F(CompositeTest, PlanTellsTheKindsOfCells) {
+  const std::vector<std::string> before = files();
+  const Ran exact = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml"});
+  EXPECT_EQ(exact.code, 0) << exact.err;
+  EXPECT_THAT(exact.out, ContainsRegex("\n  all +3 +100.0 %"));
+  EXPECT_THAT(exact.out, ContainsRegex("\n  opaque +0 "));
+  EXPECT_THAT(exact.out, ContainsRegex("\n  refraction +100.0 % .* ms"));
+  EXPECT_THAT(exact.out, Not(HasSubstr("max_error")));
+  const Ran lost = limpid(
+      {"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml", "--max-error", "1e6"});
+  EXPECT_THAT(lost.out, ContainsRegex("depth_fog +dropped: invisible, no channel of a pixel "
+                                      "changes by more than .* \\[skip_invisible\\]"));
+  EXPECT_THAT(lost.out, HasSubstr("max_error 1e+06: no pixel is off by more than "));
+  EXPECT_EQ(files(), before) << "nothing is written";
+}
+
 TEST_F(CompositeTest, LooksComeByNameAndByFile) {
   const auto with_look = [&](const std::string& look, const std::string& output) {
     return limpid(

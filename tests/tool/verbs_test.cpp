@@ -97,6 +97,12 @@ TEST_F(VerbsTest, AWrongValueIsWrongUsage) {
   expect_wrong({"--threads", "-3"}, {"--threads: Value -3 not in range 0 to 1024"});
   expect_wrong({"--aov", "fresnell"}, {"'fresnell' is no AOV", "did you mean 'fresnel'?"});
   expect_wrong({"--runner", "fast"}, {"--runner fast: expected fused or reference"});
+  expect_wrong({"--max-error", "-0.001"}, {"--max-error -0.001: expected a finite number from 0"});
+  expect_wrong({"--max-error", "nan"}, {"--max-error nan: expected a finite number from 0 up"});
+  expect_wrong({"--max-error", "inf"}, {"--max-error inf: expected a finite number from 0 up"});
+  expect_wrong({"--max-error", "little"}, {"--max-error = little: expected a number"});
+  expect_wrong({"--max-error", "0.1", "--runner", "reference"},
+               {"--max-error 0.1: the reference runner leaves nothing out"});
   expect_wrong({"--layer", "depht=none"}, {"'depht' is no buffer", "did you mean 'depth'?"});
   expect_wrong({"--layer", "depth"}, {"--layer depth: expected ROLE=LAYER"});
   expect_wrong({"--compression", "pitz"}, {"compression 'pitz': ", "did you mean 'piz'?"});

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "limpid/op/ranges.h"
+
+#include "plan/patchy_frame.h"
+
+// What an operator declares as its bound, on whole frames whose ranges are found pixel by pixel,
+// with any of the other operators running.
+
+namespace limpid {
+namespace {
+
+using test::Picture;
+
+constexpr Range kNothing{HUGE_VAL, -HUGE_VAL};
+
+void widen(Range& range, double value) {
+  range = {std::min(range.min, value), std::max(range.max, value)};
+}
+
+void widen(Range& range, const View<const float>& view) {
+  for (int y = view.window.y0; y < view.window.y1; ++y) {
+    for (int x = view.window.x0; x < view.window.x1; ++x) widen(range, view.at(x, y));
+  }
+}
+
+/// Of the frame as the place, with all that its planes hold in reach. False where no pixel is wet.
+bool ranges_of(const Frame& frame, const Context& context, Ranges& ranges) {
+  ranges.surface = ranges.own = ranges.looked_up = ranges.sink = kNothing;
+  ranges.shadow = ranges.own_shadow = {1, 1};
+  ranges.ray_length = kNothing;
+  const Rect work = frame.work();
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  const PlaneId own_shadow =
+      frame.plane(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
+  if (frame.plane(own_shadow)) ranges.own_shadow = kNothing;
+  for (int y = work.y0; y < work.y1; ++y) {
+    const RowRays<double> rays(context, y - context.corner.y + 0.5);
+    for (int x = work.x0; x < work.x1; ++x) {
+      const double at = x - context.corner.x + 0.5;
+      const double water = surface ? surface.at(x, y) : rays.calm_depth(at);
+      const double dry = frame.plane(PlaneId::kDepth).at(x, y);
+      if (!(water < dry)) continue;
+      const glm::dvec3 ray = context.rays.ray_at(at, y - context.corner.y + 0.5);
+      widen(ranges.surface, water);
+      widen(ranges.own, dry - water);
+      widen(ranges.sink, -glm::dot(context.up, ray));
+      widen(ranges.ray_length, glm::length(ray));
+      if (frame.plane(own_shadow)) widen(ranges.own_shadow, frame.plane(own_shadow).at(x, y));
+    }
+  }
+  const Refraction::Planes planes = Refraction::planes_of(context);
+  widen(ranges.looked_up, frame.plane(planes.depth));
+  for (int c = 0; c < 3; ++c) {
+    Range& color = ranges.color[static_cast<std::size_t>(c)];
+    color = kNothing;
+    widen(color, frame.plane(plane_after(planes.color, c)));
+    widen(color, frame.plane(plane_after(PlaneId::kColorR, c)));
+  }
+  if (frame.plane(PlaneId::kShadow)) {
+    ranges.shadow = kNothing;
+    widen(ranges.shadow, frame.plane(PlaneId::kShadow));
+  }
+  return ranges.surface.min <= ranges.surface.max;
+}
+
+double farthest(const Picture& a, const Picture& b, const Rect& work) {
+  double most = 0;
+  for (int y = work.y0; y < work.y1; ++y) {
+    for (int x = work.x0; x < work.x1; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const double want = a.target.color[c].at(x, y), got = b.target.color[c].at(x, y);
+        // But for rounding to float.
+        most = std::max(most, std::abs(want - got) - 1e-6 * (1 + std::abs(want)));
+      }
+    }
+  }
+  return most;
+}
+
+struct Known {
+  int finite = 0;      ///< frames in which the bound says anything
+  double closest = 0;  ///< change over bound
+};
+
+TEST(Bound, NoOperatorMattersMoreThanItSays) {
+  std::array<Known, Chain::kCount> known;
+  Known hidden;
+  for (int seed = 0; seed < 400; ++seed) {
+    const Rect display = rect_of({40, 30});
+    const test::Buffers buffers = test::patchy_frame(display, seed);
+    const Scene scene = test::patchy_scene(display);
+    const Frame& frame = buffers.frame;
+    const Plan whole = make_plan(test::patchy_look(seed), test::inputs_of(frame, scene));
+    Plan plan = whole;
+    const auto drop = [](Plan& from, int op) { from.operators[op].verdict = Verdict::kInvisible; };
+    for (int op : {0, 1, 3, 4, 5, 6, 7}) {  // never what finds the way that others measure
+      if (plan.keeps(op) && test::noise(seed, op, 5) < 0.3f) drop(plan, op);
+    }
+    const Context context(scene, frame, plan.look.water.ior, plan.made);
+    Ranges ranges;
+    if (!ranges_of(frame, context, ranges)) continue;
+    ranges.hit = ranges.own;
+    ranges.path = {0, 0};
+    ranges.light = ranges.brightest();
+    Chain::for_each([&]<class Op, int I>() {
+      if constexpr (requires { Op::reckon(plan.look.of<Op>(), context, ranges); }) {
+        if (whole.keeps(I)) Op::reckon(plan.look.of<Op>(), context, ranges);
+      }
+    });
+    const bool fog = plan.keeps(3);
+    if (!fog) ranges.through = 1;
+    const Picture all = test::picture_of(plan, frame, scene, test::by_reference);
+    Chain::for_each([&]<class Op, int I>() {
+      if (!plan.keeps(I)) return;
+      double bound = Op::bound(plan.look.of<Op>(), context, ranges);
+      if (std::is_same_v<Op, Refraction> && plan.keeps(4)) {
+        bound += WaterShadow::displaced(plan.look.of<WaterShadow>(), ranges);
+      }
+      ASSERT_GE(bound, 0) << Op::kName;
+      if (!std::isfinite(bound)) return;
+      Plan without = plan;
+      drop(without, I);
+      const double change =
+          farthest(all, test::picture_of(without, frame, scene, test::by_reference), frame.work());
+      EXPECT_LE(change, bound * (1 + 1e-6)) << Op::kName << ", seed " << seed;
+      ++known[I].finite;
+      if (bound > 0) known[I].closest = std::max(known[I].closest, change / bound);
+    });
+    if (!fog || !plan.keeps(2)) continue;
+    double beyond = DepthFog::beyond(plan.look.of<DepthFog>(), context, ranges);
+    if (plan.keeps(4)) beyond += WaterShadow::displaced(plan.look.of<WaterShadow>(), ranges);
+    if (!std::isfinite(beyond)) continue;
+    CellNeeds opaque;
+    opaque.opaque = true;
+    opaque.skips = 1u << 2;
+    const double change =
+        farthest(all, test::run_as(opaque, plan, frame, scene, test::by_reference), frame.work());
+    EXPECT_LE(change, beyond * (1 + 1e-6)) << "seed " << seed;
+    ++hidden.finite;
+    if (beyond > 0) hidden.closest = std::max(hidden.closest, change / beyond);
+  }
+  EXPECT_EQ(known[0].finite, 0) << "all hangs on the normals";
+  // Bounds that are never nearly met are no use.
+  for (const int op : {1, 2, 3, 4, 5, 6, 7}) {
+    EXPECT_GT(known[op].finite, 10) << op;
+    EXPECT_GT(known[op].closest, 0.4) << op;
+  }
+  EXPECT_GT(hidden.finite, 100);
+  EXPECT_GT(hidden.closest, 0.99);
+}
+
+}  // namespace
+}  // namespace limpid
