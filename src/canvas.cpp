@@ -31,25 +31,6 @@ float block_mean(const View<float>& from, int x, int y, int n) {
 
 }  // namespace
 
-LoadedTexture wave_map_of(const Plan& plan, const Limits& limits) {
-  if (!plan.reads_wave_map) return {};
-  return load_texture(plan.look.of<WaveNormals>().map, limits);
-}
-
-bool has_environment(const SceneFile& scene) {
-  if (scene.environment.empty()) return false;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(scene.environment, ignored)) {
-    throw Error("plates.environment: " + scene.environment.string() + ": no such file");
-  }
-  return true;
-}
-
-LoadedTexture environment_of(const Plan& plan, const SceneFile& scene, const Limits& limits) {
-  if (!plan.reads_environment) return {};
-  return load_environment(scene.environment, scene.environment_rotation, limits);
-}
-
 std::vector<Aov> computed_aovs(const OutputChoice& choice) {
   std::vector<Aov> list = choice.aovs;
   if (!choice.deep.empty()) list.insert(list.end(), std::begin(kDeepAovs), std::end(kDeepAovs));
@@ -62,7 +43,8 @@ void expect_writable(const OutputChoice& choice) {
   if (!choice.preview.empty()) AtomicFile{choice.preview};
 }
 
-Canvas::Canvas(Rect window, const OutputChoice& choice) : window_(window) {
+Canvas::Canvas(Rect window, const OutputChoice& choice)
+    : window_(window), made_{choice.aovs, computed_aovs(choice), choice.store_float} {
   for (int i = 0; i < 3; ++i) {
     target_.color[i] = add(std::string(1, "RGB"[i]), !choice.store_float);
   }
@@ -80,6 +62,18 @@ Canvas::Canvas(Rect window, const OutputChoice& choice) : window_(window) {
       if (!target_.of(aov)[i]) target_.of(aov)[i] = add();
     }
   }
+}
+
+Canvas& canvas_for(std::optional<Canvas>& kept, Rect window, const OutputChoice& choice) {
+  if (!kept || !kept->fits(window, choice)) {
+    kept.reset();
+    kept.emplace(window, choice);
+  }
+  return *kept;
+}
+
+bool Canvas::fits(Rect window, const OutputChoice& choice) const {
+  return window == window_ && made_ == Made{choice.aovs, computed_aovs(choice), choice.store_float};
 }
 
 View<float> Canvas::add() {

@@ -1,9 +1,8 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "limpid/core/executor.h"
-#include "limpid/load/scene_file.h"
-#include "limpid/load/texture.h"
 #include "limpid/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/target.h"
@@ -13,15 +12,6 @@
 #include "deep_output.h"
 
 namespace limpid {
-
-/// The tiling normal map that a plan looks up; empty when it does not.
-LoadedTexture wave_map_of(const Plan& plan, const Limits& limits = {});
-
-/// Whether the scene file names surroundings. Throws Error when it does and they are not there.
-bool has_environment(const SceneFile& scene);
-
-/// The surroundings that a plan looks up; empty when it does not.
-LoadedTexture environment_of(const Plan& plan, const SceneFile& scene, const Limits& limits = {});
 
 /// The AOVs that are computed: those that are asked for and those that a deep file is made of.
 std::vector<Aov> computed_aovs(const OutputChoice& choice);
@@ -34,6 +24,9 @@ void expect_writable(const OutputChoice& choice);
 class Canvas {
  public:
   Canvas(Rect window, const OutputChoice& choice);
+
+  /// Whether it is as one made from these.
+  bool fits(Rect window, const OutputChoice& choice) const;
 
   /// Runs the plan on the frame, by the chosen runner. The plan must make what computed_aovs()
   /// show.
@@ -58,11 +51,21 @@ class Canvas {
   View<float> add(const std::string& name, bool half);
   DeepWater deep_water(const ExrHeading& heading, const OutputChoice& choice) const;
 
+  struct Made {
+    std::vector<Aov> written, computed;
+    bool store_float;
+    bool operator==(const Made&) const = default;
+  };
+
   Rect window_;
+  Made made_;
   std::vector<Plane> planes_;
   std::vector<ExrOutputChannel> channels_;
   Target target_;
   WaterExtent extent_;  ///< of what is painted, if a deep file is to be written
 };
+
+/// The canvas that is kept, if it fits, or a new one in its place.
+Canvas& canvas_for(std::optional<Canvas>& kept, Rect window, const OutputChoice& choice);
 
 }  // namespace limpid

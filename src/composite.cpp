@@ -5,7 +5,7 @@
 #include "limpid/core/error.h"
 #include "limpid/write/exr_camera.h"
 
-#include "canvas.h"
+#include "composite_frame.h"
 #include "stopwatch.h"
 
 namespace limpid {
@@ -30,7 +30,7 @@ Scene scene_of(const CompositeJob& job, const Plate& plate) {
   if (!scene.water) {
     throw Error("no water plane found: expected a scene with [water] up and height");
   }
-  scene.time = job.time.value_or(carried.scene.time);
+  scene.time = job.time.value_or(plate.has_scene() ? carried.scene.time : job.time_if_unsaid);
   return scene;
 }
 
@@ -88,36 +88,51 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
 }
 
 CompositeReport composite(const CompositeJob& job, Executor& executor) {
+  SharedTextures textures;
+  CompositeFrame frame(textures);
+  frame.read(job, executor);
+  frame.run(job, executor);
+  frame.write(job);
+  return frame.report();
+}
+
+void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/) {
   Stopwatch watch;
   const Plate plate = Plate::open(job.plate);
-  const Scene scene = scene_of(job, plate);
+  scene_ = scene_of(job, plate);
   const DepthMeaning depth = depth_of(job);
-  CompositeReport report;
-  report.plan = plan_of(job, plate, scene);
+  report_ = {};
+  report_.plan = plan_of(job, plate, scene_);
   expect_writable(job.output);
 
-  LoadedPlate loaded = plate.read(report.plan.planes, scene, depth);
-  const LoadedTexture map = wave_map_of(report.plan, job.plate.limits);
-  loaded.frame.wave_map = map.texture;
-  const LoadedTexture environment = environment_of(report.plan, job.scene, job.plate.limits);
-  loaded.frame.environment = environment.texture;
-  report.size = loaded.frame.work().size();
-  report.replaced = loaded.replaced;
-  report.read_seconds = watch.lap();
+  plate.read(report_.plan.planes, scene_, depth, loaded_);
+  wave_map_ = textures_->wave_map(report_.plan, job.plate.limits);
+  environment_ = textures_->environment(report_.plan, job.scene, job.plate.limits);
+  loaded_.frame.wave_map = texture_of(wave_map_);
+  loaded_.frame.environment = texture_of(environment_);
+  report_.size = loaded_.frame.work().size();
+  report_.replaced = loaded_.replaced;
 
-  Canvas canvas(loaded.frame.work(), job.output);
-  canvas.paint(report.plan, loaded.frame, scene, job.output, executor);
-  report.run_seconds = watch.lap();
+  file_ = {};
+  file_.display = plate.display();
+  file_.pixel_aspect = plate.pixel_aspect();
+  file_.inherited = plate.attributes();
+  file_.matrices = camera_attributes(*scene_.camera);
+  file_.text = {{"limpid/scene", to_toml(scene_)}};
+  report_.read_seconds = watch.lap();
+}
 
-  ExrOutput file;
-  file.display = plate.display();
-  file.pixel_aspect = plate.pixel_aspect();
-  file.inherited = plate.attributes();
-  file.matrices = camera_attributes(*scene.camera);
-  file.text = {{"limpid/scene", to_toml(scene)}};
-  canvas.write(file, report.plan, job.look, job.output);
-  report.write_seconds = watch.lap();
-  return report;
+void CompositeFrame::run(const CompositeJob& job, Executor& executor) {
+  Stopwatch watch;
+  canvas_for(canvas_, loaded_.frame.work(), job.output)
+      .paint(report_.plan, loaded_.frame, scene_, job.output, executor);
+  report_.run_seconds = watch.lap();
+}
+
+void CompositeFrame::write(const CompositeJob& job) {
+  Stopwatch watch;
+  canvas_->write(file_, report_.plan, job.look, job.output);
+  report_.write_seconds = watch.lap();
 }
 
 }  // namespace limpid

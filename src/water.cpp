@@ -8,8 +8,8 @@
 #include "limpid/version.h"
 #include "limpid/write/exr_camera.h"
 
-#include "canvas.h"
 #include "stopwatch.h"
+#include "water_frame.h"
 
 namespace limpid {
 namespace {
@@ -80,34 +80,7 @@ constexpr NamedPlane kPlaneChannels[] = {
 };
 static_assert(std::size(kPlaneChannels) == kPlaneCount);
 
-}  // namespace
-
-void render(const Model& model, const RenderJob& job, const PlateOutput& output,
-            Executor& executor) {
-  const Scene scene = scene_of(model, job);
-  const RenderedPlate plate =
-      render_plate(model, scene, job.render, renderable(model, scene), executor);
-  ExrOutput file;
-  file.data = plate.planes[0].view().window;
-  file.display = plate.frame.display;
-  file.compression = output.compression;
-  file.matrices = camera_attributes(*scene.camera);
-  file.text = {{"limpid/version", kVersion}, {"limpid/scene", to_toml(scene)}};
-  const auto add = [&](const std::string& name, const Plane& plane) {
-    if (plane)
-      file.channels.push_back({name, plane.view(), !output.store_float && !name.ends_with(".Z")});
-  };
-  for (const NamedPlane& named : kPlaneChannels) {
-    add(named.channel, plate.planes[static_cast<std::size_t>(index_of(named.plane))]);
-  }
-  write_exr(output.plate, file);
-}
-
-Plan plan_water(const Model& model, const WaterJob& job) {
-  return plan_of(model, scene_of(model, job.render), job);
-}
-
-CompositeReport water(const Model& model, const WaterJob& job, Executor& executor) {
+void check(const WaterJob& job) {
   if (job.samples < 1 || job.samples > 16) {
     throw Error("samples = " + std::to_string(job.samples) + ": expected 1 ... 16");
   }
@@ -124,38 +97,98 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
                 std::to_string(job.samples) + ": expected at most " + std::to_string(most) +
                 " pixels a side");
   }
-  expect_writable(job.output);
+}
+
+}  // namespace
+
+void render(const Model& model, const PlateJob& job, Executor& executor) {
+  RenderFrame frame(model);
+  frame.read(job, executor);
+  frame.write(job);
+}
+
+void RenderFrame::read(const PlateJob& job, Executor& executor) {
   Stopwatch watch;
-  const Scene scene = scene_of(model, job.render);
-  CompositeReport report;
-  report.plan = plan_of(model, scene, job);
+  scene_ = scene_of(*model_, job.render);
+  plate_ = {};  // before another is made
+  plate_ = render_plate(*model_, scene_, job.render.render, renderable(*model_, scene_), executor);
+  report_.size = job.render.render.size;
+  report_.read_seconds = watch.lap();
+}
+
+void RenderFrame::write(const PlateJob& job) {
+  Stopwatch watch;
+  ExrOutput file;
+  file.data = plate_.planes[0].view().window;
+  file.display = plate_.frame.display;
+  file.compression = job.output.compression;
+  file.matrices = camera_attributes(*scene_.camera);
+  file.text = {{"limpid/version", kVersion}, {"limpid/scene", to_toml(scene_)}};
+  const auto add = [&](const std::string& name, const Plane& plane) {
+    if (plane)
+      file.channels.push_back(
+          {name, plane.view(), !job.output.store_float && !name.ends_with(".Z")});
+  };
+  for (const NamedPlane& named : kPlaneChannels) {
+    add(named.channel, plate_.planes[static_cast<std::size_t>(index_of(named.plane))]);
+  }
+  write_exr(job.output.plate, file);
+  report_.write_seconds = watch.lap();
+}
+
+Plan plan_water(const Model& model, const WaterJob& job) {
+  return plan_of(model, scene_of(model, job.render), job);
+}
+
+CompositeReport water(const Model& model, const WaterJob& job, Executor& executor) {
+  SharedTextures textures;
+  WaterFrame frame(model, textures);
+  frame.read(job, executor);
+  frame.run(job, executor);
+  frame.write(job);
+  return frame.report();
+}
+
+void WaterFrame::read(const WaterJob& job, Executor& executor) {
+  Stopwatch watch;
+  check(job);
+  expect_writable(job.output);
+  scene_ = scene_of(*model_, job.render);
+  report_ = {};
+  report_.plan = plan_of(*model_, scene_, job);
   RenderOptions options = job.render.render;
   options.size = {options.size.width * job.samples, options.size.height * job.samples};
   options.overscan *= job.samples;
-  RenderedPlate plate = render_plate(model, scene, options, report.plan.planes, executor);
-  report.replaced = sanitise_planes(plate.planes, scene.water->up);
-  const LoadedTexture map = wave_map_of(report.plan);
-  plate.frame.wave_map = map.texture;
-  const LoadedTexture environment = environment_of(report.plan, job.render.scene);
-  plate.frame.environment = environment.texture;
-  report.size = job.render.render.size;
-  report.read_seconds = watch.lap();
+  plate_ = {};  // before another is made
+  plate_ = render_plate(*model_, scene_, options, report_.plan.planes, executor);
+  report_.replaced = sanitise_planes(plate_.planes, scene_.water->up);
+  wave_map_ = textures_->wave_map(report_.plan);
+  environment_ = textures_->environment(report_.plan, job.render.scene);
+  plate_.frame.wave_map = texture_of(wave_map_);
+  plate_.frame.environment = texture_of(environment_);
+  report_.size = job.render.render.size;
+  report_.read_seconds = watch.lap();
+}
 
-  Canvas canvas(plate.frame.work(), job.output);
-  canvas.paint(report.plan, plate.frame, scene, job.output, executor);
-  report.run_seconds = watch.lap();
+void WaterFrame::run(const WaterJob& job, Executor& executor) {
+  Stopwatch watch;
+  canvas_for(canvas_, plate_.frame.work(), job.output)
+      .paint(report_.plan, plate_.frame, scene_, job.output, executor);
+  report_.run_seconds = watch.lap();
+}
 
+void WaterFrame::write(const WaterJob& job) {
+  Stopwatch watch;
   ExrOutput file;
-  file.display = rect_of(report.size);
-  file.matrices = camera_attributes(*scene.camera);
-  file.text = {{"limpid/scene", to_toml(scene)}};
+  file.display = rect_of(report_.size);
+  file.matrices = camera_attributes(*scene_.camera);
+  file.text = {{"limpid/scene", to_toml(scene_)}};
   if (job.samples > 1) {
-    canvas.filtered(job.samples, job.output).write(file, report.plan, job.look, job.output);
+    canvas_->filtered(job.samples, job.output).write(file, report_.plan, job.look, job.output);
   } else {
-    canvas.write(file, report.plan, job.look, job.output);
+    canvas_->write(file, report_.plan, job.look, job.output);
   }
-  report.write_seconds = watch.lap();
-  return report;
+  report_.write_seconds = watch.lap();
 }
 
 }  // namespace limpid

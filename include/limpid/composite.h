@@ -20,6 +20,7 @@ struct CompositeJob {
   SceneFile scene;
   std::optional<DepthKind> depth_kind;  ///< instead of the scene's
   std::optional<double> time;           ///< seconds, for drifting waves, instead of the plate's own
+  double time_if_unsaid = 0;            ///< where neither `time` nor the plate says one
   Look look;
 
   OutputChoice output;

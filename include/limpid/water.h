@@ -20,8 +20,11 @@ struct PlateOutput {
   std::string compression = "piz";
   bool store_float = false;  ///< half otherwise; depths are float always
 };
-void render(const Model& model, const RenderJob& job, const PlateOutput& output,
-            Executor& executor);
+struct PlateJob {
+  RenderJob render;
+  PlateOutput output;
+};
+void render(const Model& model, const PlateJob& job, Executor& executor);
 
 /// `limpid water`: render and composite without a file between. With samples = N the picture is
 /// made N times as wide and high and the finished water filtered down last, so that no pixel mixes

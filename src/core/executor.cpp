@@ -5,6 +5,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include "limpid/core/error.h"
@@ -25,8 +26,35 @@ class TbbExecutor : public Executor {
     tbb::finalize(pool_, std::nothrow);  // false while somebody else still uses the pool
   }
 
+  /// Isolated: who waits for the last tiles must not begin with something else, such as another
+  /// frame's file.
   void run(int count, Task task, void* context) override {
-    arena_.execute([&] { tbb::parallel_for(0, count, [&](int index) { task(context, index); }); });
+    const auto all = [&] { tbb::parallel_for(0, count, [&](int index) { task(context, index); }); };
+    arena_.execute([&] { tbb::this_task_arena::isolate(all); });
+  }
+
+  void pipeline(int count, int in_flight, std::span<const Task> steps, void* context) override {
+    if (steps.size() < 2) return Executor::pipeline(count, in_flight, steps, context);
+    int next = 0;
+    auto line = tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order,
+                                            [&](tbb::flow_control& flow) {
+                                              if (next == count) {
+                                                flow.stop();
+                                                return next;
+                                              }
+                                              steps.front()(context, next);
+                                              return next++;
+                                            });
+    for (const Task step : steps.subspan(1, steps.size() - 2)) {
+      line = line & tbb::make_filter<int, int>(tbb::filter_mode::parallel, [=](int index) {
+               step(context, index);
+               return index;
+             });
+    }
+    const auto whole =
+        line & tbb::make_filter<int, void>(tbb::filter_mode::serial_in_order,
+                                           [&](int index) { steps.back()(context, index); });
+    arena_.execute([&] { tbb::parallel_pipeline(static_cast<std::size_t>(in_flight), whole); });
   }
 
  private:
@@ -42,6 +70,12 @@ class CallingThread : public Executor {
 };
 
 }  // namespace
+
+void Executor::pipeline(int count, int /*in_flight*/, std::span<const Task> steps, void* context) {
+  for (int index = 0; index < count; ++index) {
+    for (const Task step : steps) step(context, index);
+  }
+}
 
 std::unique_ptr<Executor> make_executor(int threads) {
   if (threads < 0) throw Error("threads = " + std::to_string(threads) + ": expected 0 or more");

@@ -1,5 +1,6 @@
 #include "limpid/load/frame_range.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +12,7 @@ namespace limpid {
 namespace {
 
 constexpr std::size_t kMostFrames = 1'000'000;
+constexpr int kDigitsOfOne = 4;
 
 [[noreturn]] void refuse(std::string_view range) {
   throw Error(
@@ -67,12 +69,9 @@ std::optional<Slot> find_slot(std::string_view pattern) {
     const int digits = std::atoi(std::string(pattern.substr(at + 1, end - at - 1)).c_str());
     return Slot{at, end + 1 - at, digits};
   }
-  int digits = 0;
-  std::size_t end = at;
-  for (; end < pattern.size() && (pattern[end] == '#' || pattern[end] == '@'); ++end) {
-    digits += pattern[end] == '#' ? 4 : 1;
-  }
-  return Slot{at, end - at, digits};
+  const std::size_t end = std::min(pattern.find_first_not_of("#@", at), pattern.size());
+  const bool alone = pattern.substr(at, end - at) == "#";
+  return Slot{at, end - at, alone ? kDigitsOfOne : static_cast<int>(end - at)};
 }
 
 }  // namespace

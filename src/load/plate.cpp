@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "limpid/core/error.h"
 #include "limpid/load/exr_camera.h"
@@ -206,6 +207,12 @@ SceneFile Plate::scene() const {
   return text ? scene_from_toml(*text, file.path.string() + ", limpid/scene") : SceneFile{};
 }
 
+bool Plate::has_scene() const {
+  const ChannelRef& ref = state_->color_ref();
+  const PlateFile& file = state_->files[static_cast<std::size_t>(ref.file)];
+  return file.exr && file.exr->text_attribute(ref.part, "limpid/scene");
+}
+
 std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
   const ChannelRef& ref = state_->color_ref();
   const PlateFile& file = state_->files[static_cast<std::size_t>(ref.file)];
@@ -222,8 +229,16 @@ void Plate::refuse_without(std::string_view role) const {
 
 LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const {
   LoadedPlate loaded;
+  read(wanted, scene, depth, loaded);
+  return loaded;
+}
+
+void Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
+                 LoadedPlate& loaded) const {
+  std::vector<Plane> old = std::exchange(loaded.planes, std::vector<Plane>(kPlaneCount));
+  old.resize(kPlaneCount);
+  loaded.frame = {};
   loaded.frame.display = display();
-  loaded.planes.resize(kPlaneCount);
   const Rect work = intersection(display(), state_->part_of(state_->color_ref()).data);
   if (work.empty()) throw Error("color: its data window lies outside the display window");
   // What lies below begins at the surface.
@@ -247,7 +262,8 @@ LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning&
         continue;
       }
       Plane& plane = loaded.planes[index_of(id)];
-      plane = Plane(window);
+      plane = std::move(old[index_of(id)]);
+      if (!plane || plane.view().window != window) plane = Plane(window);
       loaded.frame.planes[index_of(id)] = plane.view();
       requests[ref.file].push_back({ref.part, ref.name, plane.view(), role.missing});
     }
@@ -270,7 +286,6 @@ LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning&
     const ExrFile& file = *state_->files[static_cast<std::size_t>(place.first)].exr;
     read_deep_planes(file, place.second, request.planes, request.window, scene, depth, loaded);
   }
-  return loaded;
 }
 
 }  // namespace limpid

@@ -29,7 +29,11 @@ TEST(FrameRange, PutsTheNumberIntoNames) {
   EXPECT_EQ(name_of_frame("wet.%04d.exr", 12), "wet.0012.exr");
   EXPECT_EQ(name_of_frame("wet.%d.exr", 12), "wet.12.exr");
   EXPECT_EQ(name_of_frame("wet.#.exr", 12), "wet.0012.exr");
+  EXPECT_EQ(name_of_frame("wet.####.exr", 12), "wet.0012.exr");
+  EXPECT_EQ(name_of_frame("wet.######.exr", 12), "wet.000012.exr");
+  EXPECT_EQ(name_of_frame("wet.##.exr", 123), "wet.123.exr");
   EXPECT_EQ(name_of_frame("wet.@@.exr", 7), "wet.07.exr");
+  EXPECT_EQ(name_of_frame("wet#", 12), "wet0012");
   EXPECT_EQ(name_of_frame("wet.exr", 7), "wet.exr");
   EXPECT_EQ(name_of_frame("wet.%04d.exr", -3), "wet.-0003.exr");
   EXPECT_THROW(name_of_frame("wet.%s.exr", 1), Error);

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "canvas.h"
+#include "shared_textures.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
@@ -51,14 +51,39 @@ TEST_F(EnvironmentTest, IsLoadedAndTurnedForAPlanThatReadsIt) {
   scene.environment = folder_ / "sky.exr";
   scene.environment_rotation = 0.25 * 2 * std::numbers::pi;
   EXPECT_TRUE(has_environment(scene));
+  SharedTextures textures;
   Plan plan;
-  EXPECT_FALSE(environment_of(plan, scene).texture);
+  EXPECT_FALSE(textures.environment(plan, scene));
   plan.reads_environment = true;
-  const LoadedTexture sky = environment_of(plan, scene);
-  EXPECT_EQ(sky.texture.channels[0].window, (Rect{0, 0, 8, 4}));
-  EXPECT_EQ(sky.texture.channels[2].at(6, 1), 7);  // mirrored from 3 to 4, turned by two
-  EXPECT_EQ(sky.texture.channels[2].at(4, 1), 0);
-  EXPECT_THROW(environment_of(plan, scene, {.max_pixels = 31}), Error);
+  EXPECT_THROW(textures.environment(plan, scene, {.max_pixels = 31}), Error);
+  const auto held = textures.environment(plan, scene);
+  const Texture sky = texture_of(held);
+  EXPECT_EQ(sky.channels[0].window, (Rect{0, 0, 8, 4}));
+  EXPECT_EQ(sky.channels[2].at(6, 1), 7);  // mirrored from 3 to 4, turned by two
+  EXPECT_EQ(sky.channels[2].at(4, 1), 0);
+}
+
+TEST_F(EnvironmentTest, OfManyFramesIsLoadedOnce) {
+  ASSERT_EQ(oiiotool({"--create", "8x4", "3", "-o", "sky.exr"}).code, 0);
+  std::filesystem::copy(folder_ / "sky.exr", folder_ / "other.exr");
+  SceneFile scene;
+  scene.environment = folder_ / "sky.exr";
+  Plan plan;
+  plan.reads_environment = plan.reads_wave_map = true;
+  plan.look.of<WaveNormals>().map = folder_ / "waves.exr";
+  SharedTextures textures;
+  const auto sky = textures.environment(plan, scene);
+  const auto map = textures.wave_map(plan);
+  std::filesystem::remove(folder_ / "sky.exr");
+  std::filesystem::remove(folder_ / "waves.exr");
+  EXPECT_EQ(textures.environment(plan, scene), sky);
+  EXPECT_EQ(textures.wave_map(plan), map);
+  // Another file, or the same turned, is another texture.
+  scene.environment = folder_ / "other.exr";
+  EXPECT_NE(textures.environment(plan, scene), sky);
+  std::filesystem::remove(folder_ / "other.exr");
+  scene.environment_rotation = 1;
+  EXPECT_THROW(textures.environment(plan, scene), Error);
 }
 
 }  // namespace

@@ -30,6 +30,15 @@ void add_time(CLI::App& verb, WaterOptions& a) {
       ->option_text("S");
 }
 
+void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
+  verb.add_option("--frames", a.range, about)->option_text("RANGE");
+  verb.add_option("--fps", a.fps, "Frames a second (default: 24)")->option_text("N");
+  verb.add_option("--frames-in-flight", a.in_flight,
+                  "Frames that are read, run and written at once, each in its own memory "
+                  "(default: 3)")
+      ->option_text("N");
+}
+
 void add_look(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--look", a.look, "Look by name, or a look file (default: physical)")
       ->option_text("NAME|FILE");
@@ -80,6 +89,10 @@ void add_composite(CLI::App& verb, CompositeArguments& a) {
                   "What depth planes hold: eye, ray, inverse, normalised, device (default: the "
                   "scene's, or eye)")
       ->option_text("KIND");
+  add_frames(verb, a.frames,
+             "Frames, as in 1-100x2: their numbers go into the names of plates, layers, scene and "
+             "outputs with %04d or #. Without --time and --fps the plates' own times count, where "
+             "they have some");
   add_look(verb, a.water);
 }
 
@@ -91,11 +104,9 @@ void add_render(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--overscan", a.overscan, "Pixels beyond each side (default: 0)")
       ->option_text("N");
   verb.add_option("--shadow-map", a.shadow_map, "Texels a side (default: 2048)")->option_text("N");
-  verb.add_option("--frames", a.frames,
-                  "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes "
-                  "into names with %04d or #")
-      ->option_text("RANGE");
-  verb.add_option("--fps", a.fps, "Frames a second (default: 24)")->option_text("N");
+  add_frames(verb, a.frames,
+             "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes into "
+             "names with %04d or #");
 }
 
 std::vector<std::string> verbs_of(const CLI::App& app) {

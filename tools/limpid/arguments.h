@@ -22,17 +22,25 @@ struct WaterOptions {
   bool store_float = false, dry_run = false;
 };
 
+/// Which frames of a sequence; none given is a single frame without a number.
+struct FrameOptions {
+  std::string range;
+  std::optional<double> fps;
+  std::optional<int> in_flight;
+};
+
 struct CompositeArguments {
   std::vector<std::string> plates, layers;
   std::string scene, depth_kind;
+  FrameOptions frames;
   WaterOptions water;
 };
 
 /// `render` and `water`.
 struct RenderArguments {
-  std::string scene, size = "1920x1080", frames;
+  std::string scene, size = "1920x1080";
   int overscan = 0, samples = 1, shadow_map = 2048;
-  double fps = 24;
+  FrameOptions frames;
   WaterOptions water;
 };
 

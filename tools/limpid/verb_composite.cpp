@@ -3,7 +3,10 @@
 #include "limpid/composite.h"
 #include "limpid/core/error.h"
 #include "limpid/load/exr_file.h"
+#include "limpid/load/frame_range.h"
+#include "limpid/sequence.h"
 
+#include "frame_options.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -24,9 +27,13 @@ LayerOverrides layer_overrides(const std::vector<std::string>& texts) {
   return overrides;
 }
 
-CompositeJob job_of(const CompositeArguments& a) {
+/// What the jobs of all frames have in common.
+CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence) {
   CompositeJob job;
-  if (!a.scene.empty()) job.scene = load_scene(a.scene);
+  const bool alone = sequence.frames.empty();
+  if (!a.scene.empty()) {
+    job.scene = load_scene(alone ? a.scene : name_of_frame(a.scene, sequence.frames.front()));
+  }
   job.plate.files.assign(a.plates.begin(), a.plates.end());
   job.plate.named = job.scene.plates;
   job.plate.layers = layer_overrides(a.layers);
@@ -41,21 +48,50 @@ CompositeJob job_of(const CompositeArguments& a) {
   return job;
 }
 
+CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int frame) {
+  if (has_frame_number(a.scene)) {
+    job.scene = load_scene(name_of_frame(a.scene, frame));
+    job.plate.named = job.scene.plates;
+  }
+  for (auto& file : job.plate.files) file = name_of_frame(file.string(), frame);
+  for (auto& [role, name] : job.plate.named) name = name_of_frame(name, frame);
+  for (auto& [role, name] : job.plate.layers) name = name_of_frame(name, frame);
+  job.time_if_unsaid = time_of_frame(a.frames, a.water, frame);
+  if (a.water.time || a.frames.fps) job.time = job.time_if_unsaid;
+  job.output = output_of_frame(job.output, frame);
+  return job;
+}
+
+/// The only job, or the first frame's.
+CompositeJob first_job(const CompositeArguments& a, const Sequence& sequence) {
+  CompositeJob job = common_job(a, sequence);
+  if (sequence.frames.empty()) return job;
+  return job_of_frame(std::move(job), a, sequence.frames.front());
+}
+
 }  // namespace
 
 int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
-  const CompositeJob job = job_of(a);
+  const Sequence sequence = sequence_of(a.frames, a.water);
+  const CompositeJob job = common_job(a, sequence);
   set_file_threads(common.threads);
   const auto executor = make_executor(common.threads);
-  if (common.verbose) std::printf("%s", Plate::inspect(job.plate).c_str());
-  const CompositeReport report = composite(job, *executor);
-  print_report(report, job.look, job.output, common);
+  if (common.verbose) std::printf("%s", Plate::inspect(first_job(a, sequence).plate).c_str());
+  if (sequence.frames.empty()) {
+    const CompositeReport report = composite(job, *executor);
+    print_report(report, job.look, job.output, common);
+    return 0;
+  }
+  Progress progress(common);
+  composite_sequence(
+      sequence, [&](int frame) { return job_of_frame(job, a, frame); },
+      report_frames(progress, job.look, job.output, common), *executor);
   return 0;
 }
 
 int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
-  const CompositeJob job = job_of(a);
+  const CompositeJob job = first_job(a, sequence_of(a.frames, a.water));
   set_file_threads(common.threads);
   const auto executor = make_executor(common.threads);
   const SurveyedPlan surveyed = survey_composite(job, *executor);

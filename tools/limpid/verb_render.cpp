@@ -1,13 +1,13 @@
 #include <charconv>
-#include <cmath>
 #include <cstdio>
 
 #include "limpid/core/error.h"
 #include "limpid/load/exr_file.h"
-#include "limpid/load/frame_range.h"
 #include "limpid/load/gltf.h"
+#include "limpid/sequence.h"
 #include "limpid/water.h"
 
+#include "frame_options.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -37,36 +37,6 @@ RenderJob job_of(const RenderArguments& a) {
   return job;
 }
 
-/// A frame of a sequence and its place in time; one frame without a number where no range was
-/// given.
-struct Shot {
-  std::string output, preview, deep;
-  double time;
-};
-
-std::vector<Shot> shots_of(const RenderArguments& a) {
-  expect_output(a.water.output);
-  const WaterOptions& w = a.water;
-  if (a.frames.empty()) return {{w.output, w.preview, w.deep, w.time.value_or(0)}};
-  if (!(a.fps > 0) || std::isinf(a.fps)) {
-    throw Error("--fps " + std::to_string(a.fps) + ": expected a number above 0", Fault::kUsage);
-  }
-  const std::vector<int> frames = frames_of(a.frames);
-  for (const std::string& name : {w.output, w.preview, w.deep}) {
-    if (frames.size() > 1 && !name.empty() && !has_frame_number(name)) {
-      throw Error(name + ": expected %04d or # for the numbers of " +
-                      std::to_string(frames.size()) + " frames",
-                  Fault::kUsage);
-    }
-  }
-  std::vector<Shot> shots;
-  for (int frame : frames) {
-    shots.push_back({name_of_frame(w.output, frame), name_of_frame(w.preview, frame),
-                     name_of_frame(w.deep, frame), w.time.value_or(0) + frame / a.fps});
-  }
-  return shots;
-}
-
 Model model_of(const RenderJob& job, const CommonArguments& common) {
   Model model = load_gltf(job.scene.geometry);
   if (model.skipped_triangles > 0 && !common.quiet) {
@@ -79,39 +49,58 @@ Model model_of(const RenderJob& job, const CommonArguments& common) {
 }  // namespace
 
 int render_verb(const RenderArguments& a, const CommonArguments& common) {
-  const std::vector<Shot> shots = shots_of(a);
-  RenderJob job = job_of(a);
+  expect_output(a.water.output);
+  const Sequence sequence = sequence_of(a.frames, a.water);
   const OutputChoice choice = output_of(a.water);
+  const PlateJob job{job_of(a), {choice.picture, choice.compression, choice.store_float}};
   set_file_threads(common.threads);
   const auto executor = make_executor(common.threads);
-  const Model model = model_of(job, common);
-  for (const Shot& shot : shots) {
-    job.time = shot.time;
-    render(model, job, {shot.output, choice.compression, choice.store_float}, *executor);
-    if (!common.quiet) std::printf("%s\n", shot.output.c_str());
+  const Model model = model_of(job.render, common);
+  if (sequence.frames.empty()) {
+    render(model, job, *executor);
+    if (!common.quiet) std::printf("%s\n", a.water.output.c_str());
+    return 0;
   }
+  Progress progress(common);
+  const auto job_of_frame = [&](int frame) {
+    PlateJob one = job;
+    one.render.time = time_of_frame(a.frames, a.water, frame);
+    one.output.plate = output_of_frame(choice, frame).picture;
+    return one;
+  };
+  const auto tell = [&](const SequenceProgress& at, const CompositeReport&) {
+    progress.frame_done(at, output_of_frame(choice, at.frame).picture.string() + "\n");
+  };
+  render_sequence(model, sequence, job_of_frame, tell, *executor);
   return 0;
 }
 
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
-  if (a.water.dry_run && !a.frames.empty()) frames_of(a.frames);
-  const std::vector<Shot> shots = a.water.dry_run ? std::vector<Shot>{} : shots_of(a);
-  WaterJob job{job_of(a), look_of(a.water), a.samples, output_of(a.water)};
+  const Sequence sequence = sequence_of(a.frames, a.water);
+  if (!a.water.dry_run) expect_output(a.water.output);
+  const WaterJob job{job_of(a), look_of(a.water), a.samples, output_of(a.water)};
   set_file_threads(common.threads);
   const auto executor = make_executor(common.threads);
   const Model model = model_of(job.render, common);
+  const auto job_of_frame = [&](int frame) {
+    WaterJob one = job;
+    one.render.time = time_of_frame(a.frames, a.water, frame);
+    one.output = output_of_frame(job.output, frame);
+    return one;
+  };
   if (a.water.dry_run) {
-    const Plan plan = plan_water(model, job);
+    const Plan plan =
+        plan_water(model, sequence.frames.empty() ? job : job_of_frame(sequence.frames.front()));
     std::printf("%srenders %s\n", to_text(plan).c_str(), roles_text(plan.planes).c_str());
     return 0;
   }
-  for (const Shot& shot : shots) {
-    job.render.time = shot.time;
-    job.output.picture = shot.output;
-    job.output.preview = shot.preview;
-    job.output.deep = shot.deep;
+  if (sequence.frames.empty()) {
     print_report(water(model, job, *executor), job.look, job.output, common);
+    return 0;
   }
+  Progress progress(common);
+  water_sequence(model, sequence, job_of_frame,
+                 report_frames(progress, job.look, job.output, common), *executor);
   return 0;
 }
 

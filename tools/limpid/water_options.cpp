@@ -11,6 +11,7 @@
 #include "limpid/write/exr_writer.h"
 
 #include "data_folder.h"
+#include "frame_options.h"
 
 namespace limpid::tool {
 namespace {
@@ -101,24 +102,47 @@ OutputChoice output_of(const WaterOptions& a) {
   return output;
 }
 
+std::string report_text(const CompositeReport& report, const Look& look, const OutputChoice& output,
+                        const CommonArguments& common) {
+  char times[96];
+  std::snprintf(times, sizeof times, "read %.0f ms, run %.0f ms, write %.0f ms",
+                1e3 * report.read_seconds, 1e3 * report.run_seconds, 1e3 * report.write_seconds);
+  std::string text = common.verbose ? to_text(report.plan) : "";
+  text += output.picture.string() + ": " + std::to_string(report.size.width) + "x" +
+          std::to_string(report.size.height) + ", look " + look.name + ", " + times;
+  const std::string replaced = report.replaced.to_text();
+  if (!replaced.empty()) text += "; NaN or inf replaced: " + replaced;
+  text += "\n";
+  for (const auto& also : {output.preview, output.deep}) {
+    if (!also.empty()) text += also.string() + "\n";
+  }
+  return text;
+}
+
+std::string report_notes(const CompositeReport& report) {
+  std::string notes;
+  for (const PlannedOperator& op : report.plan.operators) {
+    if (op.verdict == Verdict::kAbsent) {
+      notes += std::string(op.name) + " does not run: " + op.reason + "\n";
+    }
+  }
+  return notes;
+}
+
 void print_report(const CompositeReport& report, const Look& look, const OutputChoice& output,
                   const CommonArguments& common) {
   if (common.quiet) return;
-  if (common.verbose) std::printf("%s", to_text(report.plan).c_str());
-  std::printf("%s: %dx%d, look %s, read %.0f ms, run %.0f ms, write %.0f ms",
-              output.picture.c_str(), report.size.width, report.size.height, look.name.c_str(),
-              1e3 * report.read_seconds, 1e3 * report.run_seconds, 1e3 * report.write_seconds);
-  const std::string replaced = report.replaced.to_text();
-  if (!replaced.empty()) std::printf("; NaN or inf replaced: %s", replaced.c_str());
-  std::printf("\n");
-  for (const auto& also : {output.preview, output.deep}) {
-    if (!also.empty()) std::printf("%s\n", also.c_str());
-  }
-  for (const PlannedOperator& op : report.plan.operators) {
-    if (op.verdict == Verdict::kAbsent) {
-      std::printf("%s does not run: %s\n", std::string(op.name).c_str(), op.reason.c_str());
-    }
-  }
+  std::printf("%s%s", report_text(report, look, output, common).c_str(),
+              report_notes(report).c_str());
+}
+
+OnFrame report_frames(Progress& progress, const Look& look, const OutputChoice& output,
+                      const CommonArguments& common) {
+  return [&](const SequenceProgress& at, const CompositeReport& report) {
+    const OutputChoice written = output_of_frame(output, at.frame);
+    progress.frame_done(at, report_text(report, look, written, common), report_notes(report),
+                        report.replaced.total() > 0);
+  };
 }
 
 }  // namespace limpid::tool

@@ -5,6 +5,7 @@
 #include "limpid/core/error.h"
 
 #include "arguments.h"
+#include "progress.h"
 
 /// What composite and water have in common: look, output, report line.
 
@@ -26,7 +27,16 @@ Look look_of(const WaterOptions& options);
 void expect_output(const std::string& path);
 OutputChoice output_of(const WaterOptions& options);
 
+/// What there is to say of a frame: with -v the plan, then the files written, sizes and times.
+std::string report_text(const CompositeReport& report, const Look& look, const OutputChoice& output,
+                        const CommonArguments& common);
+/// What of the chain does not run and would be missed, a line each.
+std::string report_notes(const CompositeReport& report);
+/// Prints both.
 void print_report(const CompositeReport& report, const Look& look, const OutputChoice& output,
                   const CommonArguments& common);
+/// Tells both of frame after frame. The arguments must outlive it.
+OnFrame report_frames(Progress& progress, const Look& look, const OutputChoice& output,
+                      const CommonArguments& common);
 
 }  // namespace limpid::tool

@@ -1,16 +1,24 @@
 #pragma once
 #include <memory>
+#include <span>
 
 namespace limpid {
 
-/// Who runs the tiles: the library's own pool, or a host's. `run` calls task(context, i) once for
-/// each i in 0 ... count - 1, on any threads, in any order, and returns when all are done. Tasks do
-/// not throw.
+/// Who runs the tiles: the library's own pool, or a host's. Tasks do not throw.
 class Executor {
  public:
   using Task = void (*)(void* context, int index);
   virtual ~Executor() = default;
+
+  /// Calls task(context, i) once for each i in 0 ... count - 1, on any threads, in any order, and
+  /// returns when all are done.
   virtual void run(int count, Task task, void* context) = 0;
+
+  /// Takes the items 0 ... count - 1 through all steps, and returns when all are through. The first
+  /// and the last step take them in order, one at a time; those between take several at once, in
+  /// any order, and may call run(). Item i begins when item i - in_flight has left the last step.
+  /// A host that does not override it has each item go through alone.
+  virtual void pipeline(int count, int in_flight, std::span<const Task> steps, void* context);
 };
 
 /// oneTBB with that many threads, but no more than the machine has; 0 means all of them. Throws

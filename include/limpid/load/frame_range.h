@@ -10,8 +10,9 @@ namespace limpid {
 /// else and for more than 1e6 frames.
 std::vector<int> frames_of(std::string_view range);
 
-/// The name with its frame number put in: %d or %04d, # (four digits), @ (one digit), runs of these
-/// added up. A name without any stays as it is. Throws Error (Fault::kUsage) for another % code.
+/// The name with its frame number put in: %d or %04d, a lone # (four digits, as oiiotool reads it),
+/// or a run like #### or @@ (as many digits as letters). A name without any stays as it is. Throws
+/// Error (Fault::kUsage) for another % code.
 std::string name_of_frame(std::string_view pattern, int frame);
 
 /// Whether name_of_frame() puts a number into it.

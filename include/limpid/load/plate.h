@@ -64,6 +64,7 @@ class Plate {
   /// From the attribute limpid/scene of that file, as `limpid render` writes it; empty where there
   /// is none.
   SceneFile scene() const;
+  bool has_scene() const;
   /// Attributes of the color's part, to be handed on.
   std::map<std::string, ExrFile::Attribute> attributes() const;
   /// Throws the Error for a role that nothing feeds, with the list of all layers that there are.
@@ -74,6 +75,9 @@ class Plate {
   /// the surface depth, or else at the scene's calm plane. Throws Error for damaged pixels, for a
   /// depth kind that needs what the scene lacks, and for deep samples of a kind but eye or ray.
   LoadedPlate read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const;
+  /// The same into a plate that was read before, in whose planes of the right windows it is read.
+  void read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
+            LoadedPlate& loaded) const;
 
  private:
   struct State;

@@ -1,0 +1,35 @@
+#pragma once
+#include <optional>
+
+#include "limpid/composite.h"
+#include "limpid/core/scene.h"
+#include "limpid/load/plate.h"
+#include "limpid/write/exr_writer.h"
+
+#include "canvas.h"
+#include "shared_textures.h"
+
+namespace limpid {
+
+/// composite() in three steps, each with the same job. Another frame may follow, in the buffers of
+/// the one before.
+class CompositeFrame {
+ public:
+  explicit CompositeFrame(SharedTextures& textures) : textures_(&textures) {}
+
+  void read(const CompositeJob& job, Executor& executor);
+  void run(const CompositeJob& job, Executor& executor);
+  void write(const CompositeJob& job);
+  const CompositeReport& report() const { return report_; }
+
+ private:
+  SharedTextures* textures_;
+  CompositeReport report_;
+  Scene scene_;
+  LoadedPlate loaded_;
+  SharedTextures::Held wave_map_, environment_;
+  ExrOutput file_;  ///< all but the channels
+  std::optional<Canvas> canvas_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,107 @@
+#include "limpid/core/executor.h"
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace limpid {
+namespace {
+
+/// A line of work that remembers what came to it: how often each step took each item, the order at
+/// both ends, and how many items were on their way at most.
+struct Line {
+  Line(int items, int allowed) : in_flight(allowed), taken(static_cast<std::size_t>(items)) {}
+
+  static Line& of(void* context) { return *static_cast<Line*>(context); }
+  static void begin(void* context, int index) {
+    Line& line = of(context);
+    line.begun.push_back(index);
+    line.most = std::max(line.most, line.begun.size() - line.left);
+    EXPECT_LT(index, static_cast<int>(line.left) + line.in_flight);
+    ++line.taken[static_cast<std::size_t>(index)][0];
+  }
+  template <int kStep>
+  static void work(void* context, int index) {
+    const std::lock_guard lock(of(context).mutex);
+    auto& steps = of(context).taken[static_cast<std::size_t>(index)];
+    EXPECT_EQ(steps[kStep - 1], 1) << "step " << kStep << " of item " << index;
+    ++steps[kStep];
+  }
+  static void end(void* context, int index) {
+    Line& line = of(context);
+    EXPECT_EQ(line.left, static_cast<std::size_t>(index));
+    EXPECT_EQ(line.taken[static_cast<std::size_t>(index)][2], 1);
+    ++line.left;
+  }
+
+  int in_flight;
+  std::vector<std::array<int, 3>> taken;
+  std::vector<int> begun;
+  std::atomic<std::size_t> left = 0;
+  std::size_t most = 0;
+  std::mutex mutex;
+};
+
+constexpr Executor::Task kSteps[] = {&Line::begin, &Line::work<1>, &Line::work<2>, &Line::end};
+
+class Pipeline : public testing::TestWithParam<int> {};
+
+TEST_P(Pipeline, TakesEachItemThroughEachStepInOrderAtBothEnds) {
+  const auto executor = make_executor(GetParam());
+  for (const int in_flight : {1, 2, 3, 7}) {
+    Line line(40, in_flight);
+    executor->pipeline(40, in_flight, kSteps, &line);
+    EXPECT_EQ(line.left, 40u);
+    EXPECT_LE(line.most, static_cast<std::size_t>(in_flight));
+    for (int i = 0; i < 40; ++i) EXPECT_EQ(line.begun[static_cast<std::size_t>(i)], i);
+  }
+}
+
+TEST_P(Pipeline, NothingIsDoneForNoItems) {
+  Line line(0, 3);
+  make_executor(GetParam())->pipeline(0, 3, kSteps, &line);
+  EXPECT_TRUE(line.begun.empty());
+}
+
+/// A step that has the executor run tiles, as compositing does.
+TEST_P(Pipeline, StepsMayRunTiles) {
+  struct Job {
+    std::unique_ptr<Executor> executor;
+    std::atomic<int> tiles = 0;
+  } job{make_executor(GetParam())};
+  constexpr auto kNothing = [](void*, int) {};
+  constexpr Executor::Task kTiles[] = {
+      kNothing,
+      [](void* context, int) {
+        const auto tile = [](void* inner, int) { ++static_cast<Job*>(inner)->tiles; };
+        static_cast<Job*>(context)->executor->run(50, tile, context);
+      },
+      kNothing};
+  job.executor->pipeline(20, 4, kTiles, &job);
+  EXPECT_EQ(job.tiles, 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Pipeline, testing::Values(0, 1, 2),
+                         [](const auto& with) { return std::to_string(with.param); });
+
+/// A host's own pool that knows tiles only.
+class Host : public Executor {
+ public:
+  void run(int count, Task task, void* context) override {
+    for (int i = count; i-- > 0;) task(context, i);
+  }
+};
+
+TEST(Pipeline, OfAHostThatKnowsTilesOnlyGoesItemByItem) {
+  Host host;
+  Line line(5, 3);
+  host.pipeline(5, 3, kSteps, &line);
+  EXPECT_EQ(line.left, 5u);
+  EXPECT_EQ(line.most, 1u);
+}
+
+}  // namespace
+}  // namespace limpid

@@ -1,0 +1,58 @@
+#include "progress.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace limpid::tool {
+namespace {
+
+/// "1:05", "2:00:03".
+std::string clock_text(double seconds) {
+  const auto whole = std::llround(seconds);
+  char text[48];
+  if (whole < 3600) {
+    std::snprintf(text, sizeof text, "%lld:%02lld", whole / 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60,
+                  whole % 60);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string progress_text(const SequenceProgress& progress) {
+  char rate[48];
+  std::snprintf(rate, sizeof rate, "%.3g", progress.frames_per_second());
+  std::string text = std::to_string(progress.done) + "/" + std::to_string(progress.of) +
+                     " frames, " + rate + " a second, ";
+  return text + (progress.done < progress.of ? clock_text(progress.seconds_left()) + " left"
+                                             : clock_text(progress.seconds) + " in all");
+}
+
+Progress::Progress(const CommonArguments& common)
+    : quiet_(common.quiet),
+      live_(!quiet_ && ::isatty(STDERR_FILENO) == 1),
+      lines_(!quiet_ && (common.verbose || !live_ || ::isatty(STDOUT_FILENO) == 0)) {}
+
+Progress::~Progress() {
+  if (drawn_) std::fputs("\n", stderr);
+}
+
+void Progress::frame_done(const SequenceProgress& progress, const std::string& line,
+                          const std::string& notes, bool news) {
+  if (quiet_) return;
+  if (drawn_) std::fputs("\r\033[K", stderr);
+  drawn_ = false;
+  if (lines_ || news) std::fputs(line.c_str(), stdout);
+  if (notes != notes_) std::fputs(notes.c_str(), stdout);
+  std::fflush(stdout);
+  notes_ = notes;
+  if (!live_) return;
+  std::fputs(progress_text(progress).c_str(), stderr);
+  drawn_ = true;
+}
+
+}  // namespace limpid::tool
