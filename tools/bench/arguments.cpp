@@ -25,8 +25,9 @@ void Arguments::expect_rows(bool any) const {
   if (!any) throw Error("--rows " + rows + ": no row has this in its name", Fault::kUsage);
 }
 
-Arguments arguments_of(int argc, char** argv, bool has_sizes) {
+Arguments arguments_of(int argc, char** argv, bool has_sizes, int rounds) {
   Arguments arguments;
+  arguments.rounds = rounds;
   for (int i = 1; i < argc; i += 2) {
     const std::string option = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
     if (option == "--rounds") {

@@ -22,9 +22,9 @@ struct Arguments {
   bool wants_size(std::string_view label) const { return size.empty() || size == label; }
 };
 
-/// `has_sizes`: whether the benchmark knows --size. Throws Error for anything else on the command
-/// line.
-Arguments arguments_of(int argc, char** argv, bool has_sizes = false);
+/// `has_sizes`: whether the benchmark knows --size; `rounds` unless it is told others. Throws Error
+/// for anything else on the command line.
+Arguments arguments_of(int argc, char** argv, bool has_sizes = false, int rounds = 7);
 
 /// The body of a program: an exception becomes one sentence on stderr and an exit code.
 template <class Body>

@@ -1,0 +1,224 @@
+// Times a sequence of 4K plates from files to files: reading, compositing and writing overlapped,
+// beside the same frames without the compositing, and beside frame by frame. All rows have the same
+// threads and the same files; rounds go over all rows in turn, the best counts.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include "limpid/load/exr_file.h"
+#include "limpid/load/frame_range.h"
+#include "limpid/load/look_file.h"
+#include "limpid/run/fused.h"
+#include "limpid/sequence.h"
+#include "limpid/write/exr_writer.h"
+
+#include "arguments.h"
+#include "canvas.h"
+#include "made_plate.h"
+#include "rows.h"
+
+namespace limpid::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Size kSize{3840, 2160};
+constexpr int kFrames = 8, kRounds = 3;
+
+/// Gone with all that is in it at the end.
+struct TemporaryFolder {
+  TemporaryFolder()
+      : path(fs::temp_directory_path() / ("limpid_sequence_bench-" + std::to_string(::getpid()))) {
+    fs::create_directory(path);
+  }
+  ~TemporaryFolder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+/// A factor within 1 % of 1 that is another one on each pixel of each frame, as a renderer's noise.
+float grain(int x, int y, int seed) {
+  auto h = static_cast<unsigned>(x) * 73856093u ^ static_cast<unsigned>(y) * 19349663u ^
+           static_cast<unsigned>(seed) * 83492791u;
+  h = (h ^ h >> 13) * 0x5bd1e995u;
+  return 1 + 0.02f * (static_cast<float>((h ^ h >> 15) & 0xffff) / 65536 - 0.5f);
+}
+
+/// Half color and shadow, float depth, PIZ: the plates as files.
+void write_plates(const MadePlate& plate, const std::string& name) {
+  const Rect window = plate.frame.display;
+  std::vector<Plane> color;
+  for (int c = 0; c < 3; ++c) color.emplace_back(window);
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    ExrOutput output;
+    output.data = output.display = window;
+    for (int c = 0; c < 3; ++c) {
+      const View<float> noisy = color[static_cast<std::size_t>(c)].view();
+      const View<const float>& clean = plate.frame.plane(plane_after(PlaneId::kColorR, c));
+      for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 0; x < kSize.width; ++x) {
+          noisy.at(x, y) = clean.at(x, y) * grain(x, y, 3 * frame + c);
+        }
+      }
+      output.channels.push_back({std::string(1, "RGB"[c]), noisy, true});
+    }
+    output.channels.push_back({"A", plate.frame.plane(PlaneId::kColorA), true});
+    output.channels.push_back({"depth.Z", plate.frame.plane(PlaneId::kDepth), false});
+    output.channels.push_back({"shadow.Y", plate.frame.plane(PlaneId::kShadow), true});
+    write_exr(name_of_frame(name, frame), output);
+  }
+}
+
+/// A tiling normal map of gentle waves.
+void write_waves(const fs::path& path) {
+  constexpr int kSide = 512;
+  std::vector<Plane> planes;
+  ExrOutput output;
+  output.data = output.display = {0, 0, kSide, kSide};
+  for (int c = 0; c < 3; ++c) {
+    const View<float> view = planes.emplace_back(output.data).view();
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const double u = 2 * M_PI * x / kSide, v = 2 * M_PI * y / kSide;
+        const double slope = std::sin(3 * u + 2 * v + c) + std::sin(7 * v - 5 * u + 2 * c);
+        view.at(x, y) = static_cast<float>(c == 2 ? 0.95 : 0.5 + 0.1 * slope);
+      }
+    }
+    output.channels.push_back({std::string(1, "RGB"[c]), view});
+  }
+  write_exr(path, output);
+}
+
+struct Bench {
+  Bench(const Arguments& arguments, const fs::path& folder)
+      : plate(kSize),
+        plates((folder / "plate.%04d.exr").string()),
+        wet((folder / "wet.%04d.exr").string()),
+        executor(make_executor(0)),
+        canvas(plate.frame.display) {
+    write_plates(plate, plates);
+    common.look = load_look(LIMPID_DATA "/looks/realistic.toml");
+    common.look.of<WaveNormals>().map = (folder / "waves.exr").string();
+    write_waves(common.look.of<WaveNormals>().map);
+    common.scene.scene = plate.scene;
+    common.scene.camera =
+        CameraSpec{.view = plate.scene.camera->view, .projection = plate.scene.camera->projection};
+    common.output.simd = arguments.simd;
+    for (int frame = 1; frame <= kFrames; ++frame) sequence.frames.push_back(frame);
+    composite(job_of(1), *executor);
+    const ExrFile finished = ExrFile::open(name_of_frame(wet, 1));
+    std::vector<ExrRequest> requests;
+    for (int c = 0; c < 3; ++c) {
+      requests.push_back({0, std::string(1, "RGB"[c]), canvas.target.color[c]});
+    }
+    requests.push_back({0, "A", canvas.target.alpha});
+    finished.read(requests);
+    planes = plan_composite(job_of(1)).planes;
+  }
+
+  CompositeJob job_of(int frame) const {
+    CompositeJob job = common;
+    job.plate.files = {name_of_frame(plates, frame)};
+    job.time_if_unsaid = frame / 24.0;
+    job.output.picture = name_of_frame(wet, frame);
+    return job;
+  }
+
+  /// What a frame's file has to do with the disk, a sequence's share of which is switched off.
+  class Files : public FrameSlot {
+   public:
+    Files(const Bench& bench, bool reads, bool writes)
+        : bench_(bench), reads_(reads), writes_(writes) {}
+    void begin(int frame) override { frame_ = frame; }
+    void read(Executor&) override {
+      if (!reads_) return;
+      const CompositeJob job = bench_.job_of(frame_);
+      Plate::open(job.plate).read(bench_.planes, bench_.plate.scene, {}, loaded_);
+    }
+    void run(Executor&) override {}
+    void write() override {
+      if (!writes_) return;
+      const Target& wet = bench_.canvas.target;
+      ExrOutput output;
+      output.data = output.display = bench_.plate.frame.display;
+      for (int c = 0; c < 3; ++c) {
+        output.channels.push_back({std::string(1, "RGB"[c]), wet.color[c]});
+      }
+      output.channels.push_back({"A", wet.alpha});
+      write_exr(name_of_frame(bench_.wet, frame_), output);
+    }
+    void done(const SequenceProgress&) override {}
+
+   private:
+    const Bench& bench_;
+    bool reads_, writes_;
+    int frame_ = 0;
+    LoadedPlate loaded_;
+  };
+
+  void files(bool reads, bool writes) const {
+    run_sequence(
+        sequence, [&] { return std::make_unique<Files>(*this, reads, writes); }, *executor);
+  }
+  void composited() const {
+    composite_sequence(
+        sequence, [&](int frame) { return job_of(frame); }, nullptr, *executor);
+  }
+  void frame_by_frame() const {
+    for (const int frame : sequence.frames) composite(job_of(frame), *executor);
+  }
+
+  MadePlate plate;
+  std::string plates, wet;
+  std::unique_ptr<Executor> executor;
+  Canvas canvas;  ///< a finished frame
+  PlaneSet planes;
+  CompositeJob common;
+  Sequence sequence;
+};
+
+void bench(const Arguments& arguments) {
+  const TemporaryFolder folder;
+  const Bench b(arguments, folder.path);
+  std::vector<Row> rows;
+  const auto add = [&](const char* name, auto&& work) {
+    if (arguments.wants_row(name)) rows.push_back({name, [=] { return seconds_of(work); }});
+  };
+  add("read alone, pipelined", [&] { b.files(true, false); });
+  add("write alone, pipelined", [&] { b.files(false, true); });
+  add("read + write, pipelined", [&] { b.files(true, true); });
+  add("read + composite + write, pipelined", [&] { b.composited(); });
+  add("read, composite, write, frame by frame", [&] { b.frame_by_frame(); });
+  arguments.expect_rows(!rows.empty());
+  time_rows(rows, arguments.rounds);
+  double files = 0;
+  for (const Row& row : rows) {
+    if (row.name == "read + write, pipelined") files = row.best_seconds;
+  }
+  std::printf(
+      "sequence of %d plates, %dx%d, half PIZ color and shadow, float depth; look realistic, waves "
+      "from the map; written half PIZ\n%u threads, %d frames in flight, best of %d rounds\n",
+      kFrames, kSize.width, kSize.height, std::thread::hardware_concurrency(), b.sequence.in_flight,
+      arguments.rounds);
+  std::printf("  %-40s %10s %10s %14s\n", "", "ms/frame", "frames/s", "x read + write");
+  for (const Row& row : rows) {
+    std::printf("  %-40s %10.0f %10.2f", row.name.c_str(), 1e3 * row.best_seconds / kFrames,
+                kFrames / row.best_seconds);
+    if (files > 0) std::printf(" %14.2f", row.best_seconds / files);
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+}  // namespace limpid::bench
+
+int main(int argc, char** argv) {
+  using namespace limpid::bench;
+  return run_program("limpid_sequence_bench",
+                     [&] { bench(arguments_of(argc, argv, false, kRounds)); });
+}
