@@ -13,6 +13,8 @@
 #include "load/exr_deep.h"
 #include "load/exr_header.h"
 #include "load/exr_pixels.h"
+#include "load/exr_scanlines.h"
+#include "load/exr_unpack.h"
 
 namespace limpid {
 namespace {
@@ -152,7 +154,7 @@ struct ExrFile::State {
     header_end = stream.tellg();
     check_exr_headers(headers, limits, header_end, file->size());
     stream.seekg(0);
-    image.emplace(stream, Imf::globalThreadCount(), /*reconstructChunkOffsetTable=*/false);
+    image.emplace(stream, threads, /*reconstructChunkOffsetTable=*/false);
     check_same(*image, headers);
     for (const ExrHeader& header : headers) parts.push_back(shown_part(header.part));
   }
@@ -173,7 +175,11 @@ struct ExrFile::State {
       throw Error("luminance-chroma channels in " + label(parts, requests[0].part) +
                   ": expected them in the first part");
     }
-    if (!stored.empty()) read_stored(*image, header, stored);
+    if (!stored.empty() && ExrUnpacker::knows(header)) {
+      read_scanlines(*image, header, stored, threads);
+    } else if (!stored.empty()) {
+      read_stored(*image, header, stored);
+    }
     for (const auto& [layer, wanted] : luma) {
       FileStream own(file);
       read_luminance_chroma(own, header, layer, wanted);
@@ -208,6 +214,7 @@ struct ExrFile::State {
   std::vector<ExrHeader> headers;
   std::uint64_t header_end = 0;
   std::vector<ExrPart> parts;
+  int threads = Imf::globalThreadCount();
   std::optional<Imf::MultiPartInputFile> image;
   std::mutex mutex;
 };

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfThreading.h>
 
 #include "load/exr_header.h"
+#include "load/exr_unpack.h"
 
 namespace limpid {
 namespace {
@@ -44,17 +45,19 @@ std::int64_t sample_bytes(const ExrPart& part, std::int64_t width, std::int64_t 
 }
 
 /// OpenEXR holds two chunks a thread as they are stored and, for tiles, a row of them as floats.
+/// ExrUnpacker holds three more, and whole ones however few lines there are.
 void check_memory(const ExrHeader& header, const Limits& limits) {
   const ExrPart& part = header.part;
   const std::int64_t width = part.data.width();
-  const std::int64_t lines =
-      std::min<std::int64_t>(kChunkLines[header.compression], part.data.height());
+  const bool ours = ExrUnpacker::knows(header);
+  const std::int64_t all = kChunkLines[header.compression];
+  const std::int64_t lines = ours ? all : std::min<std::int64_t>(all, part.data.height());
   const std::int64_t chunk = part.tiled ? sample_bytes(part, header.tile_width, header.tile_height)
                                         : sample_bytes(part, width, lines);
   const std::int64_t tile_row =
       part.tiled ? width * header.tile_height * 4 * static_cast<std::int64_t>(part.channels.size())
                  : 0;
-  const std::int64_t buffers = 2 * std::max(1, Imf::globalThreadCount());
+  const std::int64_t buffers = (ours ? 5 : 2) * std::max(1, Imf::globalThreadCount());
   if (chunk > std::numeric_limits<std::int32_t>::max() ||
       chunk > (limits.max_memory - tile_row) / buffers) {
     throw Error("chunks of " + std::to_string(chunk) +

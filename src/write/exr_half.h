@@ -1,15 +1,15 @@
 #pragma once
-#include <algorithm>
-#include <cmath>
-
 #include <Imath/half.h>
+
+#include "load/half_bits.h"
 
 namespace limpid {
 
 /// Finite values beyond the largest half become it, inf stays inf.
 inline half half_of(float value) {
-  constexpr float kHalfMax = 65504;
-  return half(std::isfinite(value) ? std::clamp(value, -kHalfMax, kHalfMax) : value);
+  half rounded;
+  rounded.setBits(half_bits_of(value));
+  return rounded;
 }
 
 }  // namespace limpid

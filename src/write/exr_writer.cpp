@@ -10,7 +10,7 @@
 
 #include "limpid/core/error.h"
 
-#include "write/exr_half.h"
+#include "load/half_bits.h"
 #include "write/exr_heading.h"
 #include "write/exr_whole.h"
 
@@ -39,21 +39,29 @@ void check(const ExrOutput& output) {
   compression_named(output.compression);
 }
 
+/// A row of a channel as it is to be stored; returns the place behind it.
+template <class Stored, class Convert>
+char* convert(const float* from, std::ptrdiff_t stride, int count, char* into, Convert as_stored) {
+  for (int i = 0; i < count; ++i) {
+    const Stored value = as_stored(from[i * stride]);
+    std::memcpy(into + sizeof value * static_cast<std::size_t>(i), &value, sizeof value);
+  }
+  return into + sizeof(Stored) * static_cast<std::size_t>(count);
+}
+
+char* convert_row(const float* from, std::ptrdiff_t stride, int count, bool to_half, char* into) {
+  if (!to_half) {
+    return convert<float>(from, stride, count, into, [](float value) { return value; });
+  }
+  if (stride != 1) return convert<std::uint16_t>(from, stride, count, into, half_bits_of);
+  return convert<std::uint16_t>(from, 1, count, into, half_bits_of);  // on vectors
+}
+
 /// Rows of one channel as they are to be stored.
 void convert(const ExrOutputChannel& channel, const Rect& block, char* into) {
   for (int y = block.y0; y < block.y1; ++y) {
-    const float* from = &channel.from.at(block.x0, y);
-    const std::ptrdiff_t stride = channel.from.x_stride;
-    for (int i = 0; i < block.width(); ++i, from += stride) {
-      if (channel.half) {
-        const half value = half_of(*from);
-        std::memcpy(into, &value, sizeof value);
-        into += sizeof value;
-      } else {
-        std::memcpy(into, from, sizeof *from);
-        into += sizeof *from;
-      }
-    }
+    into = convert_row(&channel.from.at(block.x0, y), channel.from.x_stride, block.width(),
+                       channel.half, into);
   }
 }
 

@@ -240,7 +240,7 @@ TEST(Environment, RefusesOtherShapesAndWhatContradictsItself) {
               EndsWith("an environment needs the channels R, G and B"));
   EXPECT_THAT(refusal({10, 60}, {}, {.max_pixels = 600}),
               EndsWith("becomes a lat-long map of 40x20 pixels, more than the limit"));
-  EXPECT_THAT(refusal({10, 60}, {}, {.max_memory = 12 * 700}), EndsWith("more than the limit"));
+  EXPECT_THAT(refusal({30, 180}, {}, {.max_memory = 12 * 6000}), EndsWith("more than the limit"));
   EXPECT_THAT(refusal({40, 20}, {}, {.max_pixels = 700}), EndsWith("expected at most 700"));
   EXPECT_THAT(error_of([] { load_environment(own_folder() / "absent.exr", 0); }),
               HasSubstr("absent.exr: cannot be opened"));

@@ -1,5 +1,8 @@
 #include "limpid/load/exr_file.h"
 
+#include <bit>
+#include <random>
+
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
@@ -126,6 +129,54 @@ TEST_P(ExrFileStorage, TellsWhatTheHeaderSays) {
   EXPECT_EQ(part.channels[1].type, SampleType::kHalf);
   EXPECT_EQ(part.channels[2].type, SampleType::kUint);
 }
+
+/// What hardly shrinks is stored as it is.
+class ExrFileNoise : public testing::TestWithParam<Imf::Compression> {};
+
+TEST_P(ExrFileNoise, KeepsEveryBit) {
+  constexpr int kWidth = 67, kHeight = 75, kCount = kWidth * kHeight;
+  std::mt19937 random(11);
+  for (const std::uint32_t mask : {0xffffffffu, 0x00030003u, 0x7f80ffffu}) {
+    std::vector<std::uint16_t> h(kCount);
+    std::vector<std::uint32_t> f(kCount);
+    for (std::uint16_t& bits : h) bits = static_cast<std::uint16_t>(random() & mask & 0xfbff);
+    for (std::uint32_t& bits : f) bits = static_cast<std::uint32_t>(random()) & mask & 0xff7fffff;
+    const std::string path = temporary("noise.exr");
+    Imf::Header header(kWidth, kHeight);
+    header.compression() = GetParam();
+    header.channels().insert("F", Imf::Channel(Imf::FLOAT));
+    header.channels().insert("H", Imf::Channel(Imf::HALF));
+    Imf::FrameBuffer pixels;
+    pixels.insert("F", {Imf::FLOAT, reinterpret_cast<char*>(f.data()), 4, 4 * kWidth});
+    pixels.insert("H", {Imf::HALF, reinterpret_cast<char*>(h.data()), 2, 2 * kWidth});
+    {
+      Imf::OutputFile file(path.c_str(), header);
+      file.setFrameBuffer(pixels);
+      file.writePixels(kHeight);
+    }
+    for (const int threads : {0, 3}) {
+      set_file_threads(threads);
+      const ExrFile file = ExrFile::open(path);
+      const Rect window{0, 0, kWidth, kHeight};
+      Target floats(window, 1, false), halves(window, 1, false);
+      const ExrRequest requests[] = {{0, "F", floats.view}, {0, "H", halves.view}};
+      file.read(requests);
+      for (int i = 0; i < kCount; ++i) {
+        const int x = i % kWidth, y = i / kWidth;
+        half expected_half;
+        expected_half.setBits(h[static_cast<std::size_t>(i)]);
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(floats.view.at(x, y)), f[std::size_t(i)]) << i;
+        ASSERT_EQ(halves.view.at(x, y), float(expected_half)) << i;
+      }
+    }
+    set_file_threads(0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ExrFileNoise,
+                         testing::Values(Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION,
+                                         Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
+                                         Imf::PIZ_COMPRESSION));
 
 INSTANTIATE_TEST_SUITE_P(
     All, ExrFileStorage,

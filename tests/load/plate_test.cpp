@@ -1,10 +1,15 @@
 #include "limpid/load/plate.h"
 
+#include <cmath>
+#include <cstring>
 #include <deque>
+#include <fstream>
+#include <iterator>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "limpid/core/error.h"
 #include "limpid/write/exr_writer.h"
 
 #include "load/written.h"
@@ -96,6 +101,65 @@ TEST(Plate, WhatIsSmallerThanThePictureIsFilledUp) {
     EXPECT_EQ(frame.plane(role.first).at(1, 2), role.missing) << role.name;
     EXPECT_NE(frame.plane(role.first).at(2, 2), role.missing) << role.name;
   }
+}
+
+/// A file without its only chunk: it opens, but no pixel of it can be read.
+void lose_pixels(const std::filesystem::path& path) {
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  for (std::uint64_t at = 8; at + 8 < bytes.size(); ++at) {
+    std::uint64_t place = 0;
+    std::memcpy(&place, bytes.data() + at, sizeof place);
+    if (place != at + 8) continue;  // the table of chunks has one, right behind it
+    file.seekp(static_cast<std::streamoff>(at));
+    file.write("\0\0\0\0\0\0\0\0", 8);
+    return;
+  }
+  FAIL() << path << " has no table of one chunk";
+}
+
+TEST(Plate, WhatIsNotWantedIsNotDecoded) {
+  PlateFiles files(kOverscan);
+  files.add(kDryChannels, 4, "dry.exr");
+  files.add(kColorChannels, 0.5f, "colors.exr");
+  files.add(kMaskChannels, 0.75f, "masks.exr");
+  files.add(kDepthChannels, NAN, "depths.exr");
+  lose_pixels(files.request.files[1]);
+  lose_pixels(files.request.files[2]);
+  const Plate plate = Plate::open(files.request);
+  const PlaneSet dry = kColorPlanes | PlaneSet{PlaneId::kDepth};
+  const PlaneSet wanted = dry | PlaneSet{PlaneId::kBelowDepth};
+  const LoadedPlate loaded = plate.read(wanted, {}, {});
+  for (int i = 0; i < kPlaneCount; ++i) {
+    const PlaneId id = static_cast<PlaneId>(i);
+    EXPECT_EQ(static_cast<bool>(loaded.frame.plane(id)), wanted.has(id)) << i;
+    EXPECT_EQ(static_cast<bool>(loaded.planes[static_cast<std::size_t>(i)]), wanted.has(id)) << i;
+  }
+  // Of three channels of NaN in one file one is looked at.
+  EXPECT_EQ(loaded.replaced.total(), kOverscan.area());
+  EXPECT_EQ(plate.read(dry, {}, {}).replaced.total(), 0);
+  EXPECT_THROW(plate.read(dry | PlaneSet{PlaneId::kReflectionValid}, {}, {}), Error);
+  EXPECT_THROW(plate.read(dry | kReflectionPlanes, {}, {}), Error);
+}
+
+TEST(Plate, IsReadIntoThePlanesOfTheOneBefore) {
+  const PlaneSet dry = kColorPlanes | PlaneSet{PlaneId::kDepth};
+  PlateFiles first(kOverscan), second(kOverscan), larger({-9, -9, 12, 12});
+  first.add(kDryChannels, 4, "first.exr");
+  first.add(kMaskChannels, 0.75f, "masks.exr");
+  second.add(kDryChannels, 7, "second.exr");
+  larger.add(kDryChannels, 9, "larger.exr");
+  LoadedPlate loaded;
+  Plate::open(first.request).read(dry | PlaneSet{PlaneId::kReflectionValid}, {}, {}, loaded);
+  const float* const memory = loaded.frame.plane(PlaneId::kColorG).data;
+  EXPECT_EQ(loaded.frame.plane(PlaneId::kReflectionValid).at(0, 0), 0.75f);
+  Plate::open(second.request).read(dry, {}, {}, loaded);
+  EXPECT_EQ(loaded.frame.plane(PlaneId::kColorG).data, memory);
+  EXPECT_EQ(loaded.frame.plane(PlaneId::kColorG).at(0, 0), 7);
+  EXPECT_FALSE(loaded.frame.plane(PlaneId::kReflectionValid)) << "that is the first's";
+  Plate::open(larger.request).read(dry, {}, {}, loaded);
+  EXPECT_EQ(loaded.frame.plane(PlaneId::kColorG).window, (Rect{-9, -9, 12, 12}));
+  EXPECT_EQ(loaded.frame.plane(PlaneId::kColorG).at(-9, 11), 9);
 }
 
 TEST(Plate, DepthKindsHoldForEveryDepth) {

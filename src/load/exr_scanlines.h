@@ -1,0 +1,15 @@
+#pragma once
+#include <span>
+
+#include <OpenEXR/ImfMultiPartInputFile.h>
+
+#include "load/exr_header.h"
+
+namespace limpid {
+
+/// Decodes channels of a part that ExrUnpacker knows, by up to `workers` of OpenEXR's threads (0:
+/// by the calling one). The requests are valid. Throws as ExrFile::read() does, without the path.
+void read_scanlines(Imf::MultiPartInputFile& file, const ExrHeader& header,
+                    std::span<const ExrRequest> requests, int workers);
+
+}  // namespace limpid
