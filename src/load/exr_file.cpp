@@ -154,6 +154,7 @@ struct ExrFile::State {
     header_end = stream.tellg();
     check_exr_headers(headers, limits, header_end, file->size());
     stream.seekg(0);
+    threads = threads_for(headers, limits);
     image.emplace(stream, threads, /*reconstructChunkOffsetTable=*/false);
     check_same(*image, headers);
     for (const ExrHeader& header : headers) parts.push_back(shown_part(header.part));
@@ -214,7 +215,7 @@ struct ExrFile::State {
   std::vector<ExrHeader> headers;
   std::uint64_t header_end = 0;
   std::vector<ExrPart> parts;
-  int threads = Imf::globalThreadCount();
+  int threads = 0;
   std::optional<Imf::MultiPartInputFile> image;
   std::mutex mutex;
 };

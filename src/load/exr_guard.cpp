@@ -44,9 +44,10 @@ std::int64_t sample_bytes(const ExrPart& part, std::int64_t width, std::int64_t 
   return bytes;
 }
 
-/// OpenEXR holds two chunks a thread as they are stored and, for tiles, a row of them as floats.
-/// ExrUnpacker holds three more, and whole ones however few lines there are.
-void check_memory(const ExrHeader& header, const Limits& limits) {
+/// How many threads the limit has memory for. OpenEXR holds two chunks a thread as they are stored
+/// and, for tiles, a row of them as floats. ExrUnpacker holds three more, and whole ones however
+/// few lines there are. Throws Error when it is not even one.
+std::int64_t most_threads(const ExrHeader& header, const Limits& limits) {
   const ExrPart& part = header.part;
   const std::int64_t width = part.data.width();
   const bool ours = ExrUnpacker::knows(header);
@@ -57,13 +58,13 @@ void check_memory(const ExrHeader& header, const Limits& limits) {
   const std::int64_t tile_row =
       part.tiled ? width * header.tile_height * 4 * static_cast<std::int64_t>(part.channels.size())
                  : 0;
-  const std::int64_t buffers = (ours ? 5 : 2) * std::max(1, Imf::globalThreadCount());
-  if (chunk > std::numeric_limits<std::int32_t>::max() ||
-      chunk > (limits.max_memory - tile_row) / buffers) {
+  const std::int64_t a_thread = (ours ? 5 : 2) * std::max<std::int64_t>(chunk, 1);
+  if (chunk > std::numeric_limits<std::int32_t>::max() || a_thread > limits.max_memory - tile_row) {
     throw Error("chunks of " + std::to_string(chunk) +
                 " bytes need more memory than the limit of " + std::to_string(limits.max_memory) +
                 " bytes");
   }
+  return (limits.max_memory - tile_row) / a_thread;
 }
 
 }  // namespace
@@ -82,6 +83,14 @@ std::int64_t most_unpacked(const ExrHeader& header, std::int64_t packed) {
   return packed * kMostShrink[header.compression];
 }
 
+int threads_for(const std::vector<ExrHeader>& headers, const Limits& limits) {
+  std::int64_t threads = Imf::globalThreadCount();
+  for (const ExrHeader& header : headers) {
+    threads = std::min(threads, most_threads(header, limits));
+  }
+  return static_cast<int>(threads);
+}
+
 void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
                        std::uint64_t header_end, std::uint64_t file_size) {
   const std::int64_t room = static_cast<std::int64_t>(file_size - header_end);
@@ -98,7 +107,7 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
                     " pixels: expected sides of 1 ... " + std::to_string(most));
       }
     }
-    check_memory(header, limits);
+    most_threads(header, limits);
 
     const std::int64_t chunks = std::max(chunks_of(header), header.chunk_count);
     const std::int64_t pixels = sample_bytes(part, part.data.width(), part.data.height());

@@ -40,6 +40,10 @@ std::vector<ExrHeader> read_exr_headers(FileStream& stream, const Limits& limits
 void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
                        std::uint64_t header_end, std::uint64_t file_size);
 
+/// How many threads to decode a file with that passed the check: as many as OpenEXR has (0: the
+/// calling one alone), or fewer where the limits have no memory for the chunks of all.
+int threads_for(const std::vector<ExrHeader>& headers, const Limits& limits);
+
 /// How many chunks the pixels of a part make (tiled: of level 0), which come first in its table.
 std::int64_t chunks_of(const ExrHeader& header);
 

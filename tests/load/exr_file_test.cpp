@@ -249,6 +249,22 @@ TEST(ExrFile, RefusesWhatIsOverALimit) {
               AllOf(StartsWith(path), HasSubstr("more memory than the limit")));
 }
 
+TEST(ExrFile, ALimitWithoutMemoryForManyThreadsIsReadByFewer) {
+  const std::string path = temporary("a.exr");
+  for (const Imf::Compression how : {Imf::PIZ_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+    write_file(path, {"lines", how});
+    for (const int threads : {0, 100}) {
+      set_file_threads(threads);
+      const ExrFile file = ExrFile::open(path, {.max_memory = 65 * 256 * 10 * 2});
+      Plane plane(kData);
+      file.read(std::array{ExrRequest{0, "F", plane.view()}});
+      EXPECT_NEAR(plane.view().at(59, 146), expected("F", 59, 146), 1e3);
+      EXPECT_THROW(ExrFile::open(path, {.max_memory = 65 * 32 * 10 * 4}), Error);
+    }
+    set_file_threads(0);
+  }
+}
+
 TEST(ExrFile, RefusesOtherFiles) {
   EXPECT_EQ(exr_test::failure_of("/no/such.exr"),
             "/no/such.exr: cannot be opened (no such file or directory)");

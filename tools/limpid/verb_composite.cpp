@@ -2,7 +2,6 @@
 
 #include "limpid/composite.h"
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
 #include "limpid/load/frame_range.h"
 #include "limpid/sequence.h"
 
@@ -75,8 +74,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   const Sequence sequence = sequence_of(a.frames, a.water);
   const CompositeJob job = common_job(a, sequence);
-  set_file_threads(common.threads);
-  const auto executor = make_executor(common.threads);
+  const auto executor = executor_of(common);
   if (common.verbose) std::printf("%s", Plate::inspect(first_job(a, sequence).plate).c_str());
   if (sequence.frames.empty()) {
     const CompositeReport report = composite(job, *executor);

@@ -2,7 +2,6 @@
 #include <cstdio>
 
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
 #include "limpid/load/gltf.h"
 #include "limpid/sequence.h"
 #include "limpid/water.h"
@@ -53,8 +52,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
   const Sequence sequence = sequence_of(a.frames, a.water);
   const OutputChoice choice = output_of(a.water);
   const PlateJob job{job_of(a), {choice.picture, choice.compression, choice.store_float}};
-  set_file_threads(common.threads);
-  const auto executor = make_executor(common.threads);
+  const auto executor = executor_of(common);
   const Model model = model_of(job.render, common);
   if (sequence.frames.empty()) {
     render(model, job, *executor);
@@ -79,8 +77,7 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
   const Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
   const WaterJob job{job_of(a), look_of(a.water), a.samples, output_of(a.water)};
-  set_file_threads(common.threads);
-  const auto executor = make_executor(common.threads);
+  const auto executor = executor_of(common);
   const Model model = model_of(job.render, common);
   const auto job_of_frame = [&](int frame) {
     WaterJob one = job;

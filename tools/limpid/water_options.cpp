@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 #include "limpid/core/error.h"
+#include "limpid/load/exr_file.h"
 #include "limpid/load/image_file.h"
 #include "limpid/load/look_file.h"
 #include "limpid/run/fused.h"
@@ -72,6 +74,12 @@ std::string exr_named(const std::string& option, const std::string& path) {
 }
 
 }  // namespace
+
+std::unique_ptr<Executor> executor_of(const CommonArguments& common) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  set_file_threads(common.threads == 0 ? cores : common.threads);
+  return make_executor(common.threads);
+}
 
 Look look_of(const WaterOptions& a) {
   Look look = look_for(a.look);

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 
 #include "limpid/composite.h"
@@ -20,6 +21,9 @@ auto as_usage(Work&& work) {
     throw Error(error.what(), Fault::kUsage);
   }
 }
+
+/// The threads that --threads asks for: for compositing, and as many for decoding and encoding.
+std::unique_ptr<Executor> executor_of(const CommonArguments& common);
 
 Look look_of(const WaterOptions& options);
 
