@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "limpid/report/lagoon.h"
+#include "limpid/report/picture.h"
+
 #include "arguments.h"
-#include "canvas.h"
-#include "error_lagoon.h"
 #include "rows.h"
 
 namespace limpid::bench {
@@ -17,29 +18,10 @@ struct WayRow : Row {
   TruthError error = {};
 };
 
-/// The normals are calm: normal_offset shifts nothing, whatever its strength.
-Look without_refraction() {
-  Look look = Lagoon::truth_look();
-  look.of<Refraction>().model = Refraction::Model::kNormalOffset;
-  look.of<Refraction>().strength = 0;
-  return look;
-}
-
 std::vector<WayRow> rows_of(const Lagoon& lagoon) {
-  using Rejection = Refraction::Rejection;
   std::vector<WayRow> rows;
-  rows.push_back({{"no refraction", {}}, lagoon.plan(without_refraction())});
-  for (const int steps : {0, 1, 2, 4, Refraction::kMarch}) {
-    const std::string way =
-        steps == Refraction::kMarch ? "snell march" : "snell steps " + std::to_string(steps);
-    const std::pair<const char*, Rejection> rejections[] = {
-        {"none", Rejection::kNone}, {"snap", Rejection::kSnap}, {"shorten", Rejection::kShorten}};
-    for (const auto& [name, rejection] : rejections) {
-      Look look = Lagoon::truth_look();
-      look.of<Refraction>().steps = steps;
-      look.of<Refraction>().rejection = rejection;
-      rows.push_back({{way + ", " + name, {}}, lagoon.plan(look)});
-    }
+  for (const Lagoon::Refracted& way : Lagoon::ways_to_refract()) {
+    rows.push_back({{way.name, {}}, lagoon.plan(way.look)});
   }
   return rows;
 }
@@ -48,17 +30,16 @@ void bench(const Arguments& arguments) {
   const Lagoon lagoon(LIMPID_DATA "/plates/lagoon");
   const std::string simd = arguments.best_simd();
   const auto executor = make_executor(1);
-  Canvas canvas(lagoon.window());
+  const Picture picture(lagoon.window());
   std::vector<WayRow> rows = rows_of(lagoon);
   std::erase_if(rows, [&](const WayRow& row) { return !arguments.wants_row(row.name); });
   arguments.expect_rows(!rows.empty());
   for (WayRow& row : rows) {
     row.run = [&] {
-      return seconds_of([&] { lagoon.run(row.plan, canvas.target, *executor, simd); });
+      return seconds_of([&] { lagoon.run(row.plan, picture.target, *executor, simd); });
     };
     row.run();
-    row.error =
-        lagoon.error_of({canvas.target.color[0], canvas.target.color[1], canvas.target.color[2]});
+    row.error = lagoon.error_of(picture.color());
   }
   time_rows(rows, arguments.rounds);
 

@@ -1,23 +1,20 @@
+#include "limpid/report/lagoon.h"
+
 #include <gtest/gtest.h>
 
-#include "../../tools/bench/canvas.h"
-#include "../../tools/bench/error_lagoon.h"
+#include "limpid/report/picture.h"
 
 /// Water on the plate lagoon, by the fused runner, beside a path-traced picture of the same water.
 
 namespace limpid::test {
 namespace {
 
-using bench::Lagoon;
-using bench::TruthError;
-
 class LagoonTest : public ::testing::Test {
  protected:
   TruthError error_of(const Look& look) const {
-    const bench::Canvas canvas(lagoon_.window());
-    lagoon_.run(lagoon_.plan(look), canvas.target, *make_executor(2));
-    return lagoon_.error_of(
-        {canvas.target.color[0], canvas.target.color[1], canvas.target.color[2]});
+    const Picture picture(lagoon_.window());
+    lagoon_.run(lagoon_.plan(look), picture.target, *make_executor(2));
+    return lagoon_.error_of(picture.color());
   }
   const Lagoon lagoon_{LIMPID_DATA "/plates/lagoon"};
 };

@@ -1,18 +1,17 @@
-#include "error_lagoon.h"
+#include "limpid/report/lagoon.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "limpid/load/exr_file.h"
 #include "limpid/load/scene_file.h"
+#include "limpid/report/picture.h"
 #include "limpid/run/fused.h"
 
-#include "canvas.h"
-
-namespace limpid::bench {
+namespace limpid {
 namespace {
 
-constexpr double kBrightest = 4;
 constexpr float kSure = 0.999f;
 
 std::array<Plane, 3> read_rgb(const std::filesystem::path& path, Rect window) {
@@ -38,9 +37,9 @@ Lagoon::Lagoon(const std::filesystem::path& folder) {
   truth_ = read_rgb(folder / "truth_flat.exr", window());
 
   sure_ = Plane(window());
-  Canvas canvas(window());
-  canvas.target.of(Aov::kConfidence)[0] = sure_.view();
-  run(plan(truth_look(), StateSet{StatePart::kConfidence}), canvas.target, *make_executor(1));
+  Picture picture(window());
+  picture.target.of(Aov::kConfidence)[0] = sure_.view();
+  run(plan(truth_look(), StateSet{StatePart::kConfidence}), picture.target, *make_executor(1));
 }
 
 Look Lagoon::truth_look() {
@@ -66,6 +65,28 @@ Look Lagoon::truth_look() {
   look.of<SunHighlight>().model = SunHighlight::Model::kGgx;
   look.of<SunHighlight>().roughness = 0;  // a calm sea mirrors the sun's disc
   return look;
+}
+
+std::vector<Lagoon::Refracted> Lagoon::ways_to_refract() {
+  using Rejection = Refraction::Rejection;
+  Look none = truth_look();
+  // The normals are calm: normal_offset shifts nothing, whatever its strength.
+  none.of<Refraction>().model = Refraction::Model::kNormalOffset;
+  none.of<Refraction>().strength = 0;
+  std::vector<Refracted> ways{{"no refraction", none}};
+  for (const int steps : {0, 1, 2, 4, Refraction::kMarch}) {
+    const std::string way =
+        steps == Refraction::kMarch ? "snell march" : "snell steps " + std::to_string(steps);
+    const std::pair<const char*, Rejection> rejections[] = {
+        {"none", Rejection::kNone}, {"snap", Rejection::kSnap}, {"shorten", Rejection::kShorten}};
+    for (const auto& [name, rejection] : rejections) {
+      Look look = truth_look();
+      look.of<Refraction>().steps = steps;
+      look.of<Refraction>().rejection = rejection;
+      ways.push_back({way + ", " + name, look});
+    }
+  }
+  return ways;
 }
 
 Plan Lagoon::plan(const Look& look, StateSet outputs) const {
@@ -108,6 +129,10 @@ std::array<View<const float>, 3> Lagoon::dry() const {
           frame.plane(PlaneId::kColorB)};
 }
 
+std::array<View<const float>, 3> Lagoon::truth() const {
+  return {truth_[0].view(), truth_[1].view(), truth_[2].view()};
+}
+
 double Lagoon::wet_share() const {
   double count = 0;
   const Rect w = window();
@@ -129,4 +154,4 @@ double Lagoon::in_frame_share() const {
   return count / wet_count;
 }
 
-}  // namespace limpid::bench
+}  // namespace limpid

@@ -11,10 +11,10 @@
 #include "limpid/plan/plan.h"
 #include "limpid/run/target.h"
 
-namespace limpid::bench {
+namespace limpid {
 
 /// How far a picture is from the truth: mean |picture - truth| over mean truth, of red, green and
-/// blue together, larger values counted as 4 (glints reach 3700).
+/// blue together, larger values counted as Lagoon::kBrightest (glints reach 3700).
 struct TruthError {
   double wet = 0;       ///< over all wet pixels
   double in_frame = 0;  ///< over those whose bottom the dry picture shows
@@ -25,11 +25,21 @@ struct TruthError {
 /// dry picture, and any error there is one of guessing.
 class Lagoon {
  public:
+  static constexpr double kBrightest = 4;
+
   /// `folder` is data/plates/lagoon. Throws Error as Plate does.
   explicit Lagoon(const std::filesystem::path& folder);
 
   /// The water as the truth has it (see the README of the plate), marched, rejection shorten.
   static Look truth_look();
+
+  /// A way to refract, everything else being as in truth_look().
+  struct Refracted {
+    std::string name;
+    Look look;
+  };
+  /// None at all, then each number of steps with each rejection.
+  static std::vector<Refracted> ways_to_refract();
 
   Rect window() const { return plate_.frame.work(); }
   Plan plan(const Look& look, StateSet outputs = {}) const;
@@ -40,6 +50,7 @@ class Lagoon {
   TruthError error_of(const std::array<View<const float>, 3>& color) const;
   /// The dry picture.
   std::array<View<const float>, 3> dry() const;
+  std::array<View<const float>, 3> truth() const;
   double wet_share() const;       ///< of all pixels
   double in_frame_share() const;  ///< of the wet ones
 
@@ -52,4 +63,4 @@ class Lagoon {
   Plane sure_;  ///< confidence of the look of truth_look()
 };
 
-}  // namespace limpid::bench
+}  // namespace limpid
