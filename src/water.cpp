@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "limpid/core/error.h"
-#include "limpid/raster/mirror.h"
 #include "limpid/version.h"
 #include "limpid/write/exr_camera.h"
 
@@ -20,27 +19,6 @@ Scene scene_of(const Model& model, const RenderJob& job) {
   if (job.scene.camera) scene.camera = camera_for(*job.scene.camera, size);
   scene.time = job.time;
   return scene_of_model(scene, model, size);
-}
-
-/// What can be rendered of this model in this scene.
-PlaneSet renderable(const Model& model, const Scene& scene) {
-  if (!scene.water)
-    throw Error("no water plane found: expected a scene with [water] up and height");
-  PlaneSet planes = kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth};
-  if (scene.sun) planes = planes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
-  if (scene.camera && sees_mirror(*scene.camera, *scene.water)) {
-    planes =
-        planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
-  }
-  const bool water = std::any_of(model.instances.begin(), model.instances.end(),
-                                 [](const Instance& i) { return i.water; });
-  if (water) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
-  if (!water && !scene.water->waves.empty()) {
-    throw Error("water.waves move a mesh, and the geometry has none whose node says water = true");
-  }
-  // A calm mesh has nothing to say that the plane does not; its normals would only keep others out.
-  if (water && !scene.water->waves.empty()) planes = planes | kSurfaceNormalPlanes;
-  return planes;
 }
 
 Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {

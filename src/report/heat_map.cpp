@@ -25,14 +25,12 @@ constexpr std::array<std::array<float, 3>, 9> kViridis = {{{68, 1, 84},
                                                            {173, 220, 48},
                                                            {253, 231, 37}}};
 
-void check_scale(const std::filesystem::path& path, const HeatScale& scale) {
+void check_scale(const HeatScale& scale) {
   if (!(scale.maximum > 0 && std::isfinite(scale.maximum))) {
-    throw Error(path.string() + ": maximum of " + std::to_string(scale.maximum) +
-                ": expected above 0");
+    throw Error("heat map: maximum of " + std::to_string(scale.maximum) + ": expected above 0");
   }
   if (!(scale.decades >= 0 && scale.decades <= 30)) {
-    throw Error(path.string() + ": " + std::to_string(scale.decades) +
-                " decades: expected 0 ... 30");
+    throw Error("heat map: " + std::to_string(scale.decades) + " decades: expected 0 ... 30");
   }
 }
 
@@ -55,10 +53,9 @@ std::array<float, 3> heat_color(double place) {
   return color;
 }
 
-void write_heat_map(const std::filesystem::path& path, std::span<const ComparedChannel> channels,
-                    const HeatScale& scale) {
+std::array<Plane, 3> heat_map(std::span<const ComparedChannel> channels, const HeatScale& scale) {
   check_compared(channels);
-  check_scale(path, scale);
+  check_scale(scale);
   const Rect window = channels[0].a.window;
   std::array<Plane, 3> rgb = {Plane(window), Plane(window), Plane(window)};
   for (int y = window.y0; y < window.y1; ++y) {
@@ -71,6 +68,12 @@ void write_heat_map(const std::filesystem::path& path, std::span<const ComparedC
       for (std::size_t c = 0; c < 3; ++c) rgb[c].view().at(x, y) = color[c];
     }
   }
+  return rgb;
+}
+
+void write_heat_map(const std::filesystem::path& path, std::span<const ComparedChannel> channels,
+                    const HeatScale& scale) {
+  const std::array<Plane, 3> rgb = heat_map(channels, scale);
   write_image8(path, {rgb[0].view(), rgb[1].view(), rgb[2].view()});
 }
 

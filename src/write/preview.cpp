@@ -8,9 +8,13 @@
 #include "limpid/load/image_file.h"
 
 namespace limpid {
-namespace {
+// IEC 61966-2-1:1999 "Colour management - Default RGB colour space - sRGB".
+float srgb_from_linear(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
 
-Plane displayed(View<const float> linear, float gain) {
+Plane displayed(View<const float> linear, double exposure_stops) {
+  const auto gain = static_cast<float>(std::exp2(exposure_stops));
   Plane plane(linear.window);
   const View<float> to = plane.view();
   for (int y = linear.window.y0; y < linear.window.y1; ++y) {
@@ -23,21 +27,14 @@ Plane displayed(View<const float> linear, float gain) {
   return plane;
 }
 
-}  // namespace
-
-// IEC 61966-2-1:1999 "Colour management - Default RGB colour space - sRGB".
-float srgb_from_linear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 void write_preview(const std::filesystem::path& path, View<const float> r, View<const float> g,
                    View<const float> b, double exposure_stops) {
   if (!(std::abs(exposure_stops) <= 100)) {
     throw Error(path.string() + ": exposure of " + std::to_string(exposure_stops) +
                 ": expected -100 ... 100 (stops)");
   }
-  const auto gain = static_cast<float>(std::exp2(exposure_stops));
-  const Plane planes[] = {displayed(r, gain), displayed(g, gain), displayed(b, gain)};
+  const Plane planes[] = {displayed(r, exposure_stops), displayed(g, exposure_stops),
+                          displayed(b, exposure_stops)};
   write_image8(path, {planes[0].view(), planes[1].view(), planes[2].view()});
 }
 

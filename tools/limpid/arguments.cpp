@@ -109,6 +109,18 @@ void add_render(CLI::App& verb, RenderArguments& a) {
              "names with %04d or #");
 }
 
+void add_report(CLI::App& app, ReportArguments& a) {
+  CLI::App& verb = *app.add_subcommand(
+      "report", "Measure time and error of looks, runners and models: -o FOLDER");
+  verb.add_option("-o", a.output, "Folder for index.html and report.json, made if need be")
+      ->option_text("FOLDER");
+  verb.add_option("--size", a.size, "Pixels of rendered scenes (default: 640x360; quick: 160x90)")
+      ->option_text("WxH");
+  verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 5; quick: 1)")
+      ->option_text("N");
+  verb.add_flag("--quick", a.quick, "Small pictures, one round: to see that it works");
+}
+
 std::vector<std::string> verbs_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
@@ -231,6 +243,8 @@ Parsed parse(int argc, char** argv) {
   compare.add_option("--diff", a.compare.diff, "Write a heat map of the differences")
       ->option_text("OUT.png");
 
+  add_report(app, a.report);
+
   std::string help_verb;
   CLI::App& help = *app.add_subcommand("help", "Help of a verb, or of an operator");
   help.add_option("verb", help_verb, "Verb or operator")->option_text("VERB");
@@ -271,7 +285,8 @@ Parsed parse(int argc, char** argv) {
            : render.parsed()    ? Verb::kRender
            : inspect.parsed()   ? Verb::kInspect
            : operators.parsed() ? Verb::kOperators
-                                : Verb::kCompare;
+           : compare.parsed()   ? Verb::kCompare
+                                : Verb::kReport;
   return parsed;
 }
 

@@ -63,7 +63,24 @@ struct CompareArguments {
   std::optional<double> hard_limit, clip;
 };
 
-enum class Verb { kNone, kComposite, kPlan, kRender, kWater, kInspect, kOperators, kCompare };
+struct ReportArguments {
+  std::string output;
+  std::optional<std::string> size;
+  std::optional<int> rounds;
+  bool quick = false;
+};
+
+enum class Verb {
+  kNone,
+  kComposite,
+  kPlan,
+  kRender,
+  kWater,
+  kInspect,
+  kOperators,
+  kCompare,
+  kReport,
+};
 
 struct Arguments {
   Verb verb = Verb::kNone;
@@ -73,6 +90,7 @@ struct Arguments {
   InspectArguments inspect;
   OperatorsArguments operators;
   CompareArguments compare;
+  ReportArguments report;
 };
 
 /// Parses argv. When there is nothing left to do (help, version, wrong usage) it has printed what

@@ -2,19 +2,43 @@
 
 #include <cstdlib>
 
+#include "limpid/core/error.h"
 #include "limpid/load/look_file.h"
 
 namespace limpid::tool {
 
-std::vector<std::filesystem::path> look_folders() {
+namespace {
+
+/// Best first.
+std::vector<std::filesystem::path> data_folders() {
   std::vector<std::filesystem::path> folders;
-  if (const char* data = std::getenv("LIMPID_DATA")) {
-    folders.push_back(std::filesystem::path(data) / "looks");
-  }
+  if (const char* data = std::getenv("LIMPID_DATA")) folders.emplace_back(data);
   std::error_code ignored;
   const std::filesystem::path tool = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  if (!tool.empty()) folders.push_back(tool.parent_path() / "../share/limpid/looks");
-  folders.push_back(std::filesystem::path(LIMPID_SOURCE_DATA) / "looks");
+  if (!tool.empty()) folders.push_back(tool.parent_path() / "../share/limpid");
+  folders.emplace_back(LIMPID_SOURCE_DATA);
+  return folders;
+}
+
+}  // namespace
+
+std::filesystem::path data_folder() {
+  std::vector<std::string> searched;
+  for (const std::filesystem::path& folder : data_folders()) {
+    searched.push_back(folder.string());
+    bool has_all = true;
+    for (const char* part : {"looks", "scenes", "plates", "maps"}) {
+      std::error_code ignored;
+      has_all &= std::filesystem::is_directory(folder / part, ignored);
+    }
+    if (has_all) return folder;
+  }
+  throw Error("no data: expected looks, scenes, plates and maps in one of " + join(searched));
+}
+
+std::vector<std::filesystem::path> look_folders() {
+  std::vector<std::filesystem::path> folders = data_folders();
+  for (std::filesystem::path& folder : folders) folder /= "looks";
   return folders;
 }
 

@@ -48,6 +48,8 @@ int run(const limpid::tool::Arguments& a) {
       return operators_verb(a.operators);
     case Verb::kCompare:
       return compare_verb(a.compare);
+    case Verb::kReport:
+      return report_verb(a.report, a.common);
     case Verb::kNone:
       break;
   }

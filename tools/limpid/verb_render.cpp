@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cstdio>
 
 #include "limpid/core/error.h"
@@ -12,18 +11,6 @@
 
 namespace limpid::tool {
 namespace {
-
-Size size_named(const std::string& text) {
-  Size size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  if (!cross || height.ec != std::errc() || height.ptr != end) {
-    throw Error("--size " + text + ": expected WxH, as in 1920x1080", Fault::kUsage);
-  }
-  return size;
-}
 
 RenderJob job_of(const RenderArguments& a) {
   RenderJob job;

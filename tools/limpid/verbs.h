@@ -13,5 +13,6 @@ int plan_verb(const CompositeArguments& arguments, const CommonArguments& common
 int inspect_verb(const InspectArguments& arguments);
 int operators_verb(const OperatorsArguments& arguments);
 int compare_verb(const CompareArguments& arguments);
+int report_verb(const ReportArguments& arguments, const CommonArguments& common);
 
 }  // namespace limpid::tool

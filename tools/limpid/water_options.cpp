@@ -1,6 +1,7 @@
 #include "water_options.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <thread>
@@ -79,6 +80,18 @@ std::unique_ptr<Executor> executor_of(const CommonArguments& common) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   set_file_threads(common.threads == 0 ? cores : common.threads);
   return make_executor(common.threads);
+}
+
+Size size_named(const std::string& text) {
+  Size size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
+  if (!cross || height.ec != std::errc() || height.ptr != end) {
+    throw Error("--size " + text + ": expected WxH, as in 1920x1080", Fault::kUsage);
+  }
+  return size;
 }
 
 Look look_of(const WaterOptions& a) {

@@ -25,6 +25,9 @@ auto as_usage(Work&& work) {
 /// The threads that --threads asks for: for compositing, and as many for decoding and encoding.
 std::unique_ptr<Executor> executor_of(const CommonArguments& common);
 
+/// WxH. Throws the usage Error of an option --size.
+Size size_named(const std::string& text);
+
 Look look_of(const WaterOptions& options);
 
 /// Throws the usage Error for no name, or one that is not an EXR's.

@@ -40,6 +40,10 @@ struct RenderedPlate {
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
                            PlaneSet wanted, Executor& executor);
 
+/// What render_plate() can make of this model in this scene: of the planes that say something.
+/// Throws Error when the scene lacks water, or waves shall move a mesh that is not there.
+PlaneSet renderable(const Model& model, const Scene& scene);
+
 /// The scene of a model: `scene`, with the model's camera (its aspect made that of `size`) and sun
 /// where it has none.
 Scene scene_of_model(const Scene& scene, const Model& model, Size size);

@@ -18,9 +18,13 @@ struct HeatScale {
 /// colors.
 std::array<float, 3> heat_color(double place);
 
-/// Writes where two pictures differ, as an 8-bit picture (.png): the largest difference of a
-/// pixel's channels as a color of the ramp, mismatches (NaN or inf in one picture only) in magenta.
-/// Throws Error as compare() does, and for a scale that means nothing.
+/// Where two pictures differ, as sRGB, 0 ... 1: the largest difference of a pixel's channels as a
+/// color of the ramp, mismatches (NaN or inf in one picture only) in magenta. Throws Error as
+/// compare() does, and for a scale that means nothing.
+std::array<Plane, 3> heat_map(std::span<const ComparedChannel> channels,
+                              const HeatScale& scale = {});
+
+/// Writes that as an 8-bit picture (.png).
 void write_heat_map(const std::filesystem::path& path, std::span<const ComparedChannel> channels,
                     const HeatScale& scale = {});
 

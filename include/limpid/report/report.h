@@ -1,0 +1,119 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "limpid/core/rect.h"
+
+namespace limpid {
+
+/// What `limpid report` is to measure: the looks, scenes and plates of a data folder.
+struct ReportOptions {
+  std::filesystem::path data;  ///< has looks, scenes, plates and maps
+  /// Of rendered scenes. Of plates every n-th pixel is taken, n the largest that leaves as many and
+  /// divides their size; the truth plate is taken whole.
+  Size size{640, 360};
+  int rounds = 5;   ///< timed runs go over all rows in turn; the best counts
+  int threads = 0;  ///< of the rows that are not run on one; 0: one a core
+  /// Told one line a measurement; may be empty.
+  std::function<void(const std::string&)> progress;
+};
+
+/// How far a picture is from the one that judges it: |picture - judge| over all values of red,
+/// green and blue, scene-linear, white = 1.
+struct PixelError {
+  double mean = 0, p99 = 0, p99_99 = 0, max = 0;
+};
+
+/// A plate or a scene that water is put into.
+struct ReportSubject {
+  std::string name, kind, file;  ///< kind: "plate" or "scene"
+  Size size;
+  double wet_share = 0;  ///< of all pixels, that the look physical changes
+};
+
+/// A look by a runner; judged by the same look in double.
+struct RunnerRow {
+  std::string subject, look, runner, simd;  ///< simd "" for the reference
+  int threads = 1, rounds = 1;
+  double ns_per_pixel = 0;
+  PixelError error;
+};
+
+/// A look; judged by the look `physical`, both fused. Values above 4 count as 4.
+struct LookRow {
+  std::string subject, look;
+  double ns_per_pixel = 0;
+  PixelError error;
+  std::vector<std::string> differs;  ///< what it leaves out or does by another model
+};
+
+/// A way to refract; judged by a path-traced picture (lagoon.h).
+struct TruthRow {
+  std::string choice;
+  double ns_per_pixel = 0;  ///< 0 for the dry picture, which is not computed
+  double wet = 0, in_frame = 0;
+};
+
+/// The look `physical` with one parameter changed; judged by itself. Values above 4 count as 4.
+struct ChoiceRow {
+  std::string parameter, value;  ///< both "" for the look as it is
+  double ns_per_pixel = 0;
+  PixelError error;
+};
+
+/// A picture in the page.
+struct Figure {
+  std::string name, caption;
+  Size size;
+  std::string jpeg;  ///< the file's bytes
+};
+
+/// Where the numbers come from; "unknown" for what the system does not tell.
+struct ReportMachine {
+  std::string processor, system, kernel;
+  int cores = 0;
+  std::vector<std::string> simd;  ///< instruction sets that there are, best first
+};
+
+struct ReportBuild {
+  std::string version, compiler, type, libraries;
+};
+
+/// All that was measured. A value: what is written of it needs no pixels.
+struct Report {
+  std::string made;  ///< UTC, ISO 8601
+  ReportMachine machine;
+  ReportBuild build;
+  Size size;  ///< these three as in ReportOptions; no 0 threads
+  int rounds = 0, threads = 0;
+  std::string simd;  ///< of the rows that do not say which
+  std::vector<ReportSubject> subjects;
+  std::vector<std::string> looks;
+  std::vector<RunnerRow> runners;
+  std::vector<LookRow> look_rows;
+  std::vector<TruthRow> truth;
+  double truth_in_frame_share = 0;
+  Size truth_size;
+  std::string choices_subject;  ///< what ChoiceRows were measured on
+  std::vector<ChoiceRow> choices;
+  /// The subjects with the look physical; every look on the first subject, and its difference from
+  /// physical; the truth plate dry, path-traced and by the best look, and differences from truth.
+  std::vector<Figure> subject_figures, look_figures, look_errors, truth_figures, truth_errors;
+};
+
+/// Measures. Throws Error for a folder that lacks what is to be measured, and for options that mean
+/// nothing.
+Report measure_report(const ReportOptions& options);
+
+/// Creates the folder if there is none, so that a report can be written before anything is measured
+/// in vain. Throws Error when it cannot be, cannot be written to, or is something else.
+void make_report_folder(const std::filesystem::path& folder);
+
+/// Writes report.json and index.html, one page that needs nothing else, into such a folder. Each
+/// appears whole or not at all.
+void write_report(const std::filesystem::path& folder, const Report& report);
+
+}  // namespace limpid

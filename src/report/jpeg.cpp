@@ -1,0 +1,64 @@
+#include "report/jpeg.h"
+
+#include <cstdint>
+#include <vector>
+
+#include "limpid/core/error.h"
+
+// In memory alone.
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
+
+namespace limpid {
+namespace {
+
+std::uint8_t byte_of(float value) {
+  // Written so that NaN, which is not above 0, becomes 0.
+  return value > 0 ? static_cast<std::uint8_t>(value < 1 ? 255 * value + 0.5f : 255) : 0;
+}
+
+}  // namespace
+
+std::string jpeg_of(const std::array<View<const float>, 3>& rgb, int quality) {
+  const Rect w = rgb[0].window;
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(3 * static_cast<std::size_t>(w.area()));
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      for (const View<const float>& channel : rgb) pixels.push_back(byte_of(channel.at(x, y)));
+    }
+  }
+  std::string bytes;
+  const auto append = [](void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data),
+                                          static_cast<std::size_t>(size));
+  };
+  if (stbi_write_jpg_to_func(append, &bytes, w.width(), w.height(), 3, pixels.data(), quality) ==
+      0) {
+    throw Error("a picture of " + std::to_string(w.width()) + "x" + std::to_string(w.height()) +
+                " pixels cannot be written as JPEG");
+  }
+  return bytes;
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      three = three << 8 | (i + j < bytes.size() ? static_cast<std::uint8_t>(bytes[i + j]) : 0u);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += i + j > bytes.size() ? '=' : kLetters[three >> (18 - 6 * j) & 63];
+    }
+  }
+  return text;
+}
+
+std::string data_uri(const std::string& jpeg) { return "data:image/jpeg;base64," + base64(jpeg); }
+
+}  // namespace limpid

@@ -1,0 +1,57 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/ops/look.h"
+#include "limpid/report/compare.h"
+#include "limpid/report/picture.h"
+#include "limpid/report/report.h"
+
+#include "report/subject.h"
+
+/// The parts of measure_report(), one function a section of the report.
+
+namespace limpid {
+
+/// What all parts share.
+struct Measuring {
+  const ReportOptions& options;
+  std::vector<Look> looks;
+  Look physical;   ///< the judge of the others
+  Executor& one;   ///< thread
+  Executor& many;  ///< threads
+  int threads;     ///< that `many` has
+  std::string simd;
+  Report& report;
+
+  void say(const std::string& line) const {
+    if (options.progress) options.progress(line);
+  }
+};
+
+/// With `clip` larger values, as of glints, count as Lagoon::kBrightest.
+PixelError error_of(const Picture& picture, const Picture& judge, bool clip);
+/// "296 ns/pixel, error mean 5.9·10⁻⁷, max 0.125": the end of a line of progress.
+std::string costs_text(double ns_per_pixel, const PixelError& error);
+
+Figure figure_of(std::string name, std::string caption,
+                 const std::array<View<const float>, 3>& linear);
+/// On the scale that the page shows: logarithmic, 10^-3 ... 1.
+Figure heat_figure_of(std::string name, std::string caption,
+                      const std::array<View<const float>, 3>& picture,
+                      const std::array<View<const float>, 3>& judge);
+
+/// Looks x runners, and looks against physical. Returns the pictures of the looks, fused, as
+/// Measuring::looks has them.
+void measure_looks(const Measuring& m, Subject& subject, bool figures);
+/// Ways to refract against the path-traced lagoon.
+void measure_truth(const Measuring& m);
+/// The look physical with one choice changed.
+void measure_choices(const Measuring& m, Subject& subject);
+
+/// Of this machine and this build.
+ReportMachine this_machine();
+ReportBuild this_build();
+
+}  // namespace limpid

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <limits>
+
+#include "limpid/run/fused.h"
+#include "limpid/run/reference.h"
+
+#include "report/markup.h"
+#include "report/measure.h"
+#include "report/rounds.h"
+#include "stopwatch.h"
+
+namespace limpid {
+namespace {
+
+/// A look on a subject, in all ways to run it.
+struct LookRun {
+  const Look& look;
+  Plan plan;
+  Frame frame;
+  Picture exact, fused;
+  double reference_seconds = 0;
+
+  LookRun(const Look& which, Subject& subject)
+      : look(which),
+        plan(subject.plan(which)),
+        frame(subject.frame_for(plan)),
+        exact(subject.window()),
+        fused(subject.window()) {}
+};
+
+/// The words that say which model an operator runs, beside those of another look.
+std::string other_words(const Plan& plan, const Plan& judge, std::string_view table) {
+  const std::vector<Parameter> ours = parameters(plan.look), theirs = parameters(judge.look);
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const Parameter& p = ours[i];
+    const bool names_model = p.kind == FieldKind::kChoice || p.kind == FieldKind::kCountOrWord;
+    if (p.table != table || !names_model || p.value == theirs[i].value) continue;
+    words.push_back(std::string(p.name) + " " + to_string(p.value));
+  }
+  return join(words);
+}
+
+/// A phrase an operator that one plan has and the other not, or by another model.
+std::vector<std::string> differences(const Plan& plan, const Plan& judge) {
+  std::vector<std::string> phrases;
+  for (int i = 0; i < Chain::kCount; ++i) {
+    const std::string name(plan.operators[i].name);
+    if (!plan.keeps(i) && judge.keeps(i)) phrases.push_back("no " + name);
+    if (plan.keeps(i) && !judge.keeps(i)) phrases.push_back("also " + name);
+    if (!plan.keeps(i) || !judge.keeps(i)) continue;
+    const std::string words = other_words(plan, judge, name);
+    if (!words.empty()) phrases.push_back(name + ": " + words);
+  }
+  return phrases;
+}
+
+class Looks {
+ public:
+  Looks(const Measuring& m, Subject& subject) : m_(m), subject_(subject) {
+    for (const Look& look : m.looks) runs_.emplace_back(look, subject);
+  }
+
+  void run(bool figures) {
+    for (LookRun& run : runs_) {
+      Stopwatch watch;
+      run_reference(run.plan, run.frame, subject_.scene(), run.exact.target);
+      run.reference_seconds = watch.lap();
+      add({subject_.facts().name,
+           run.look.name,
+           "reference",
+           "",
+           1,
+           1,
+           ns(run.reference_seconds),
+           {}});
+    }
+    time_fused();
+    judge();
+    describe_subject();
+    if (figures) draw();
+  }
+
+ private:
+  double ns(double seconds) const { return 1e9 * seconds / subject_.pixels(); }
+
+  LookRun& physical() {
+    return *std::find_if(runs_.begin(), runs_.end(),
+                         [&](const LookRun& r) { return r.look.name == m_.physical.name; });
+  }
+
+  void add(RunnerRow row) {
+    std::string way = row.runner + (row.simd.empty() ? "" : " " + row.simd);
+    way += row.threads == 1 ? ", 1 thread" : ", " + std::to_string(row.threads) + " threads";
+    m_.say(row.subject + ", " + row.look + ", " + way + ": " +
+           costs_text(row.ns_per_pixel, row.error));
+    m_.report.runners.push_back(std::move(row));
+  }
+
+  void time_fused() {
+    Picture scratch(subject_.window());
+    std::vector<RunnerRow> rows;
+    std::vector<Timed> timed;
+    for (LookRun& run : runs_) {
+      const auto add_way = [&](const std::string& simd, Executor& executor, int threads) {
+        Timed work{[&, simd] {
+          run_fused(run.plan, run.frame, subject_.scene(), scratch.target, executor,
+                    {.simd = simd});
+        }};
+        work.run();  // for its error, and to warm up
+        rows.push_back({subject_.facts().name, run.look.name, "fused", simd, threads,
+                        m_.options.rounds, 0, error_of(scratch, run.exact, false)});
+        timed.push_back(std::move(work));
+      };
+      for (const std::string& simd : simd_targets()) add_way(simd, m_.one, 1);
+      if (m_.threads > 1) add_way(m_.simd, m_.many, m_.threads);
+      run_fused(run.plan, run.frame, subject_.scene(), run.fused.target, m_.many,
+                {.simd = m_.simd});
+    }
+    time_rounds(timed, m_.options.rounds);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].ns_per_pixel = ns(timed[i].best_seconds);
+      add(rows[i]);
+    }
+  }
+
+  double fused_ns(const std::string& look) const {
+    for (const RunnerRow& row : m_.report.runners) {
+      if (row.subject == subject_.facts().name && row.look == look && row.simd == m_.simd &&
+          row.threads == 1) {
+        return row.ns_per_pixel;
+      }
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  void judge() {
+    for (LookRun& run : runs_) {
+      LookRow row{subject_.facts().name, run.look.name, fused_ns(run.look.name),
+                  error_of(run.fused, physical().fused, true),
+                  differences(run.plan, physical().plan)};
+      m_.say(row.subject + ", " + row.look + " beside " + m_.physical.name + ": " +
+             costs_text(row.ns_per_pixel, row.error));
+      m_.report.look_rows.push_back(std::move(row));
+    }
+  }
+
+  void describe_subject() {
+    ReportSubject facts = subject_.facts();
+    const Picture& wet = physical().fused;
+    const Rect w = subject_.window();
+    const Frame& frame = physical().frame;
+    double changed = 0;
+    for (int y = w.y0; y < w.y1; ++y) {
+      for (int x = w.x0; x < w.x1; ++x) {
+        bool same = true;
+        for (int c = 0; c < 3; ++c) {
+          same &= wet.planes[c].view().at(x, y) ==
+                  frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+        }
+        changed += same ? 0 : 1;
+      }
+    }
+    facts.wet_share = changed / subject_.pixels();
+    m_.report.subject_figures.push_back(figure_of(facts.name, facts.name, wet.color()));
+    m_.report.subjects.push_back(std::move(facts));
+  }
+
+  void draw() {
+    for (LookRun& run : runs_) {
+      const std::string& name = run.look.name;
+      m_.report.look_figures.push_back(figure_of(name, name, run.fused.color()));
+      if (&run == &physical()) continue;
+      m_.report.look_errors.push_back(heat_figure_of(name, name + " beside " + m_.physical.name,
+                                                     run.fused.color(), physical().fused.color()));
+    }
+  }
+
+  const Measuring& m_;
+  Subject& subject_;
+  std::vector<LookRun> runs_;
+};
+
+}  // namespace
+
+void measure_looks(const Measuring& m, Subject& subject, bool figures) {
+  Looks(m, subject).run(figures);
+}
+
+}  // namespace limpid

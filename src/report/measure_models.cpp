@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <array>
+
+#include "limpid/report/lagoon.h"
+#include "limpid/run/fused.h"
+
+#include "report/markup.h"
+#include "report/measure.h"
+#include "report/rounds.h"
+
+namespace limpid {
+namespace {
+
+// ---- refraction beside the truth
+
+/// The ways whose picture the page shows.
+constexpr std::array<std::string_view, 4> kShown = {
+    "no refraction", "snell steps 0, snap", "snell steps 2, shorten", "snell march, shorten"};
+
+void draw_truth(const Measuring& m, const Lagoon& lagoon, const std::string& way,
+                const Picture& picture) {
+  if (std::find(kShown.begin(), kShown.end(), way) == kShown.end()) return;
+  m.report.truth_errors.push_back(
+      heat_figure_of(way, way + " beside the truth", picture.color(), lagoon.truth()));
+  if (way == kShown.back()) {
+    m.report.truth_figures.push_back(figure_of(way, way, picture.color()));
+  }
+}
+
+}  // namespace
+
+void measure_truth(const Measuring& m) {
+  const Lagoon lagoon(m.options.data / "plates" / "lagoon");
+  Report& report = m.report;
+  report.truth_size = lagoon.window().size();
+  report.truth_in_frame_share = lagoon.in_frame_share();
+  report.truth_figures = {figure_of("dry", "the dry picture", lagoon.dry()),
+                          figure_of("truth", "path-traced with the water", lagoon.truth())};
+  const TruthError dry = lagoon.error_of(lagoon.dry());
+  report.truth.push_back({"the dry picture", 0, dry.wet, dry.in_frame});
+
+  const Picture picture(lagoon.window());
+  const std::vector<Lagoon::Refracted> ways = Lagoon::ways_to_refract();
+  std::vector<Plan> plans;
+  for (const Lagoon::Refracted& way : ways) plans.push_back(lagoon.plan(way.look));
+  std::vector<Timed> timed;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    timed.push_back({[&, i] { lagoon.run(plans[i], picture.target, m.one, m.simd); }});
+    timed[i].run();
+    const TruthError error = lagoon.error_of(picture.color());
+    report.truth.push_back({ways[i].name, 0, error.wet, error.in_frame});
+    draw_truth(m, lagoon, ways[i].name, picture);
+  }
+  time_rounds(timed, m.options.rounds);
+  const double pixels = static_cast<double>(lagoon.window().area());
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    TruthRow& row = report.truth[i + 1];
+    row.ns_per_pixel = 1e9 * timed[i].best_seconds / pixels;
+    m.say("truth, " + row.choice + ": " + short_number(row.ns_per_pixel) + " ns/pixel, error " +
+          short_number(row.wet) + ", in frame " + short_number(row.in_frame));
+  }
+}
+
+// ---- choices of the look physical
+
+namespace {
+
+/// Choices that are no models of one thing: which water it is, where normals come from, and an
+/// article's blend that stands for nothing physical.
+bool is_model(const Parameter& p) {
+  if (p.kind != FieldKind::kChoice && p.kind != FieldKind::kCountOrWord) return false;
+  return p.table != WaveNormals::kName && p.table != Penetration::kName && p.name != "water_type";
+}
+
+std::vector<Value> values_of(const Parameter& p) {
+  std::vector<Value> values;
+  if (p.kind == FieldKind::kCountOrWord) {
+    for (const double count : {0.0, 1.0, 2.0, 4.0}) values.emplace_back(count);
+  }
+  for (std::string_view word : p.choices) values.emplace_back(std::string(word));
+  return values;
+}
+
+struct Changed {
+  ChoiceRow row;
+  Look look;
+};
+
+std::vector<Changed> changed_choices(const Look& physical) {
+  std::vector<Changed> list{{{}, physical}};
+  const auto add = [&](std::string_view table, std::string_view key, const Value& value) {
+    Look look = physical;
+    look.set(table, key, value);
+    list.push_back({{std::string(table) + "." + std::string(key), to_string(value), 0, {}}, look});
+  };
+  for (const Parameter& p : parameters(physical)) {
+    if (!is_model(p)) continue;
+    for (const Value& value : values_of(p)) {
+      if (value != p.value) add(p.table, p.name, value);
+    }
+  }
+  // What is left out by a number.
+  add(PrismSplit::kName, "gain", 0.0);
+  add(WaterShadow::kName, "strength", 0.0);
+  add(SunHighlight::kName, "strength", 0.0);
+  return list;
+}
+
+}  // namespace
+
+void measure_choices(const Measuring& m, Subject& subject) {
+  std::vector<Changed> list = changed_choices(m.physical);
+  m.report.choices_subject = subject.facts().name;
+  std::vector<Plan> plans;
+  std::vector<Frame> frames;
+  for (const Changed& changed : list) {
+    plans.push_back(subject.plan(changed.look));
+    frames.push_back(subject.frame_for(plans.back()));
+  }
+  Picture judge(subject.window()), picture(subject.window());
+  std::vector<Timed> timed;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    timed.push_back({[&, i] {
+      run_fused(plans[i], frames[i], subject.scene(), picture.target, m.one, {.simd = m.simd});
+    }});
+    timed[i].run();
+    if (i == 0)
+      run_fused(plans[0], frames[0], subject.scene(), judge.target, m.many, {.simd = m.simd});
+    list[i].row.error = error_of(picture, judge, true);
+  }
+  time_rounds(timed, m.options.rounds);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    ChoiceRow& row = list[i].row;
+    row.ns_per_pixel = 1e9 * timed[i].best_seconds / subject.pixels();
+    m.say(subject.facts().name + ", " +
+          (i == 0 ? m.physical.name + " as it is" : row.parameter + " = " + row.value) + ": " +
+          costs_text(row.ns_per_pixel, row.error));
+    m.report.choices.push_back(row);
+  }
+}
+
+}  // namespace limpid

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <string>
+#include <thread>
+
+#include "limpid/core/error.h"
+#include "limpid/core/simd.h"
+#include "limpid/load/look_file.h"
+
+#include "report/measure.h"
+
+namespace limpid {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check(const ReportOptions& options) {
+  const auto expect = [](bool holds, const std::string& what) {
+    if (!holds) throw Error("report." + what, Fault::kUsage);
+  };
+  const Size size = options.size;
+  expect(size.width >= 16 && size.height >= 16 && size.width <= 8192 && size.height <= 8192,
+         "size = " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+             ": expected 16x16 ... 8192x8192");
+  expect(options.rounds >= 1 && options.rounds <= 1000,
+         "rounds = " + std::to_string(options.rounds) + ": expected 1 ... 1000");
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, bool below) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const fs::path inner = entry.path() / (entry.path().filename().string() + ".toml");
+    const fs::path path = below ? inner : entry.path();
+    if (path.extension() == ".toml" && fs::is_regular_file(path, error)) files.push_back(path);
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) {
+    throw Error(folder.string() + ": expected " +
+                (below ? "folders NAME with a file NAME.toml" : "files NAME.toml"));
+  }
+  return files;
+}
+
+/// The judge first, then by name.
+std::vector<Look> looks_of(const fs::path& data, const Look& judge) {
+  std::vector<Look> looks{judge};
+  for (const fs::path& file : files_in(data / "looks", false)) {
+    Look look = load_look(file);
+    if (look.name != judge.name) looks.push_back(std::move(look));
+  }
+  return looks;
+}
+
+std::string now() {
+  const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&time, &parts);
+  std::array<char, 32> text;
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
+
+void measure(const Measuring& m) {
+  const ReportOptions& options = m.options;
+  measure_truth(m);
+  bool first = true;
+  for (const fs::path& file : files_in(options.data / "plates", true)) {
+    Subject subject = Subject::of_plate(file, options.size);
+    measure_looks(m, subject, first);
+    if (first) measure_choices(m, subject);
+    first = false;
+  }
+  for (const fs::path& file : files_in(options.data / "scenes", false)) {
+    Subject subject =
+        Subject::of_scene(file, options.size, options.data / "maps" / "sky.hdr", m.many);
+    measure_looks(m, subject, false);
+  }
+}
+
+}  // namespace
+
+Report measure_report(const ReportOptions& options) {
+  check(options);
+  const auto one = make_executor(1), many = make_executor(options.threads);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = options.threads == 0 ? cores : std::min(options.threads, cores);
+  Report report;
+  const Look physical = load_look(options.data / "looks" / "physical.toml");
+  const Measuring m{options, looks_of(options.data, physical), physical, *one, *many,
+                    threads, simd_targets().front(),           report};
+  report.made = now();
+  report.simd = m.simd;
+  for (const Look& look : m.looks) report.looks.push_back(look.name);
+  report.machine = this_machine();
+  report.build = this_build();
+  report.size = options.size;
+  report.rounds = options.rounds;
+  report.threads = threads;
+  measure(m);
+  return report;
+}
+
+}  // namespace limpid

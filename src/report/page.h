@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include "limpid/report/report.h"
+
+namespace limpid {
+
+/// The report as one page of HTML that is XML as well and refers to nothing outside it.
+std::string to_html(const Report& report);
+
+}  // namespace limpid

@@ -1,0 +1,105 @@
+#include "report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace limpid {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+
+Json json_of(const PixelError& e) {
+  return {{"mean", e.mean}, {"p99", e.p99}, {"p99_99", e.p99_99}, {"max", e.max}};
+}
+
+Json json_of(const ReportMachine& m) {
+  return {{"processor", m.processor},
+          {"cores", m.cores},
+          {"simd", m.simd},
+          {"system", m.system},
+          {"kernel", m.kernel}};
+}
+
+Json json_of(const ReportBuild& b) {
+  return {{"limpid", b.version},
+          {"compiler", b.compiler},
+          {"type", b.type},
+          {"libraries", b.libraries}};
+}
+
+Json json_of(const ReportSubject& s) {
+  return {{"name", s.name},        {"kind", s.kind},          {"file", s.file},
+          {"width", s.size.width}, {"height", s.size.height}, {"wet_share", s.wet_share}};
+}
+
+Json json_of(const RunnerRow& row) {
+  return {{"subject", row.subject},
+          {"look", row.look},
+          {"runner", row.runner},
+          {"simd", row.simd.empty() ? Json() : Json(row.simd)},
+          {"threads", row.threads},
+          {"rounds", row.rounds},
+          {"ns_per_pixel", row.ns_per_pixel},
+          {"error", json_of(row.error)}};
+}
+
+Json json_of(const LookRow& row) {
+  return {{"subject", row.subject},
+          {"look", row.look},
+          {"ns_per_pixel", row.ns_per_pixel},
+          {"error", json_of(row.error)},
+          {"differs", row.differs}};
+}
+
+Json json_of(const TruthRow& row) {
+  return {{"choice", row.choice},
+          {"ns_per_pixel", row.ns_per_pixel > 0 ? Json(row.ns_per_pixel) : Json()},
+          {"relative_error_wet", row.wet},
+          {"relative_error_in_frame", row.in_frame}};
+}
+
+Json json_of(const ChoiceRow& row) {
+  return {{"parameter", row.parameter.empty() ? Json() : Json(row.parameter)},
+          {"value", row.parameter.empty() ? Json() : Json(row.value)},
+          {"ns_per_pixel", row.ns_per_pixel},
+          {"error", json_of(row.error)}};
+}
+
+template <class Row>
+Json rows(const std::vector<Row>& list) {
+  Json array = Json::array();
+  for (const Row& row : list) array.push_back(json_of(row));
+  return array;
+}
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  const Json json{{"schema", "limpid-report"},
+                  {"schema_version", kSchemaVersion},
+                  {"made", report.made},
+                  {"machine", json_of(report.machine)},
+                  {"build", json_of(report.build)},
+                  {"settings",
+                   {{"width", report.size.width},
+                    {"height", report.size.height},
+                    {"rounds", report.rounds},
+                    {"threads", report.threads}}},
+                  {"simd", report.simd},
+                  {"looks", report.looks},
+                  {"subjects", rows(report.subjects)},
+                  {"looks_by_runner", rows(report.runners)},
+                  {"looks_beside_physical", rows(report.look_rows)},
+                  {"refraction_beside_truth",
+                   {{"width", report.truth_size.width},
+                    {"height", report.truth_size.height},
+                    {"in_frame_share", report.truth_in_frame_share},
+                    {"rows", rows(report.truth)}}},
+                  {"choices_of_physical",
+                   {{"subject", report.choices_subject}, {"rows", rows(report.choices)}}}};
+  // Text from files may be no UTF-8.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace limpid

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "limpid/report/report.h"
+
+namespace limpid {
+
+/// All rows of a report as JSON: names of units are part of the keys, infinite and absent numbers
+/// are null. `schema_version` rises when a key changes its meaning or goes.
+std::string to_json(const Report& report);
+
+}  // namespace limpid

@@ -1,0 +1,18 @@
+#pragma once
+#include <functional>
+#include <limits>
+#include <span>
+
+namespace limpid {
+
+/// Work whose time is of interest.
+struct Timed {
+  std::function<void()> run;
+  double best_seconds = std::numeric_limits<double>::infinity();
+};
+
+/// Runs all in turn, round after round, so that what else the machine does hits all alike; the best
+/// time of each is kept.
+void time_rounds(std::span<Timed> work, int rounds);
+
+}  // namespace limpid

@@ -1,0 +1,119 @@
+#include "report/subject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "limpid/core/error.h"
+#include "limpid/load/gltf.h"
+#include "limpid/load/plate.h"
+#include "limpid/load/sanitise.h"
+#include "limpid/load/scene_file.h"
+#include "limpid/raster/render_plate.h"
+
+namespace limpid {
+namespace {
+
+constexpr double kSeconds = 2;  // the moment that all pictures of the project show
+
+Plane every_nth(const Plane& plane, int n) {
+  const View<const float> from = plane.view();
+  const Rect& w = from.window;
+  const auto up = [n](int at) { return at > 0 ? (at + n - 1) / n : at / n; };
+  Plane thin({up(w.x0), up(w.y0), w.x1 / n, w.y1 / n});
+  const View<float> to = thin.view();
+  for (int y = to.window.y0; y < to.window.y1; ++y) {
+    for (int x = to.window.x0; x < to.window.x1; ++x) {
+      to.at(x, y) = from.at(x * n + (n - 1) / 2, y * n + (n - 1) / 2);
+    }
+  }
+  return thin;
+}
+
+int thinning(Size size, Size least) {
+  int n = std::min(size.width / least.width, size.height / least.height);
+  while (n > 1 && (size.width % n != 0 || size.height % n != 0)) --n;
+  return std::max(n, 1);
+}
+
+/// `planes` by PlaneId.
+void thin(Frame& frame, std::vector<Plane>& planes, int n) {
+  frame.display = rect_of({frame.display.width() / n, frame.display.height() / n});
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    if (!planes[i]) continue;
+    planes[i] = every_nth(planes[i], n);
+    frame.planes[i] = planes[i].view();
+  }
+}
+
+}  // namespace
+
+Subject Subject::of_plate(const std::filesystem::path& scene_file, Size least) {
+  const SceneFile file = load_scene(scene_file);
+  if (!file.camera) throw Error(scene_file.string() + ": expected a [camera] with a view");
+  PlateRequest request;
+  request.named = file.plates;
+  const Plate plate = Plate::open(request);
+
+  Subject subject;
+  subject.scene_ = file.scene;
+  subject.scene_.camera = camera_for(*file.camera, plate.display().size(), plate.pixel_aspect());
+  subject.scene_.time = kSeconds;
+  const DepthMeaning depth{file.depth, file.near.value_or(0), file.far.value_or(0)};
+  LoadedPlate loaded = plate.read(plate.planes(), subject.scene_, depth);
+  subject.frame_ = loaded.frame;
+  subject.planes_ = std::move(loaded.planes);
+  thin(subject.frame_, subject.planes_, thinning(plate.display().size(), least));
+  if (!file.environment.empty()) {
+    subject.environment_ = load_environment(file.environment, file.environment_rotation);
+  }
+  subject.describe(scene_file, "plate");
+  return subject;
+}
+
+Subject Subject::of_scene(const std::filesystem::path& scene_file, Size size,
+                          const std::filesystem::path& sky, Executor& executor) {
+  const SceneFile file = load_scene(scene_file);
+  const Model model = load_gltf(file.geometry);
+  Subject subject;
+  subject.scene_ = file.scene;
+  if (file.camera) subject.scene_.camera = camera_for(*file.camera, size);
+  subject.scene_.time = kSeconds;
+  subject.scene_ = scene_of_model(subject.scene_, model, size);
+  RenderedPlate plate = render_plate(model, subject.scene_, {.size = size},
+                                     renderable(model, subject.scene_), executor);
+  sanitise_planes(plate.planes, subject.scene_.water->up);
+  subject.frame_ = plate.frame;
+  subject.planes_ = std::move(plate.planes);
+  subject.environment_ = file.environment.empty()
+                             ? load_environment(sky, 0)
+                             : load_environment(file.environment, file.environment_rotation);
+  subject.describe(scene_file, "scene");
+  return subject;
+}
+
+void Subject::describe(const std::filesystem::path& scene_file, std::string kind) {
+  frame_.environment = environment_.texture;
+  facts_ = {scene_file.stem().string(), std::move(kind), scene_file.filename().string(),
+            window().size(), 0};
+}
+
+Plan Subject::plan(const Look& look) const {
+  return make_plan(look, {.planes = frame_.present(),
+                          .wave_map = !look.of<WaveNormals>().map.empty(),
+                          .sun = scene_.sun.has_value(),
+                          .environment = static_cast<bool>(frame_.environment)});
+}
+
+Frame Subject::frame_for(const Plan& plan) {
+  Frame frame = frame_;
+  if (plan.reads_wave_map) {
+    const std::string& path = plan.look.of<WaveNormals>().map;
+    const auto [at, is_new] = wave_maps_.try_emplace(path);
+    if (is_new) at->second = load_texture(path);
+    frame.wave_map = at->second.texture;
+  }
+  return frame;
+}
+
+}  // namespace limpid

@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/load/texture.h"
+#include "limpid/plan/plan.h"
+#include "limpid/report/report.h"
+
+namespace limpid {
+
+/// A plate or a scene with all its planes in memory, ready for any look.
+class Subject {
+ public:
+  /// The plates that a scene file names, thinned as ReportOptions::size says.
+  static Subject of_plate(const std::filesystem::path& scene_file, Size least);
+  /// The geometry that a scene file names, rendered. `sky` is its surroundings where it names none.
+  static Subject of_scene(const std::filesystem::path& scene_file, Size size,
+                          const std::filesystem::path& sky, Executor& executor);
+
+  const ReportSubject& facts() const { return facts_; }
+  Rect window() const { return frame_.work(); }
+  double pixels() const { return static_cast<double>(window().area()); }
+  const Scene& scene() const { return scene_; }
+
+  Plan plan(const Look& look) const;
+  /// The frame with the maps that the plan looks up, which stay loaded.
+  Frame frame_for(const Plan& plan);
+
+ private:
+  void describe(const std::filesystem::path& scene_file, std::string kind);
+
+  ReportSubject facts_;
+  Scene scene_;
+  Frame frame_;
+  std::vector<Plane> planes_;
+  LoadedTexture environment_;
+  std::map<std::string, LoadedTexture> wave_maps_;
+};
+
+}  // namespace limpid
