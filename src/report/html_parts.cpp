@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "limpid/report/heat_map.h"
 
@@ -42,7 +43,8 @@ HtmlTable::HtmlTable(std::string caption, std::vector<Column> columns)
     : caption_(std::move(caption)), columns_(std::move(columns)) {}
 
 void HtmlTable::add(const std::vector<Cell>& cells, bool marked) {
-  rows_ += marked ? "<tr class=\"marked\">" : "<tr>";
+  const bool parted = std::exchange(starts_group_, false) && !rows_.empty();
+  rows_ += marked ? "<tr class=\"marked\">" : parted ? "<tr class=\"first\">" : "<tr>";
   for (std::size_t i = 0; i < cells.size(); ++i) {
     rows_ += columns_[i].is_number ? "<td class=\"n\"" : "<td";
     if (std::isfinite(cells[i].value)) rows_ += " data-v=\"" + exact_number(cells[i].value) + "\"";

@@ -34,12 +34,15 @@ class HtmlTable {
   HtmlTable(std::string caption, std::vector<Column> columns);
   /// As many cells as columns. A `marked` row is set off, as those of a Pareto front.
   void add(const std::vector<Cell>& cells, bool marked = false);
+  /// Sets the next row off from those above it, until the table is sorted.
+  void begin_group() { starts_group_ = true; }
   std::string html() const;
 
  private:
   std::string caption_;
   std::vector<Column> columns_;
   std::string rows_;
+  bool starts_group_ = false;
 };
 
 /// <section> with a numbered heading; `id` is what links name.

@@ -6,9 +6,9 @@
 
 namespace limpid {
 
-/// The bytes of a JPEG file, 8 bits, colors at full size, from values 0 ... 1 that are encoded for
+/// The bytes of a JPEG file, 8 bits, from values 0 ... 1 that are encoded for
 /// display already (clamped; NaN becomes 0). The planes must have one window.
-std::string jpeg_of(const std::array<View<const float>, 3>& rgb, int quality = 92);
+std::string jpeg_of(const std::array<View<const float>, 3>& rgb, int quality = 88);
 
 /// Those bytes as a data: URI.
 std::string data_uri(const std::string& jpeg);

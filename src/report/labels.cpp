@@ -11,11 +11,7 @@ namespace {
 constexpr double kMarker = 6;  // half the side of what a marker covers
 constexpr double kGap = 2;     // between texts
 
-struct Line {
-  double x0, y0, x1, y1;
-};
-
-bool crosses(const Line& line, const Box& box) {
+bool crosses(const Segment& line, const Box& box) {
   // Narrowed to the part of the line within the box (Liang & Barsky 1984).
   double from = 0, to = 1;
   const auto cut = [&](double start, double step, double low, double high) {
@@ -43,7 +39,8 @@ Box box_at(const LabelWish& wish, double distance, double angle) {
 
 class Placing {
  public:
-  Placing(std::span<const LabelWish> wishes, const Box& frame) : wishes_(wishes), frame_(frame) {}
+  Placing(std::span<const LabelWish> wishes, const Box& frame, std::span<const Segment> avoided)
+      : wishes_(wishes), frame_(frame), avoided_(avoided) {}
 
   std::vector<std::optional<LabelPlace>> run() {
     std::vector<std::optional<LabelPlace>> places;
@@ -57,22 +54,34 @@ class Placing {
   }
 
  private:
-  static Line line_of(const LabelWish& wish, const LabelPlace& place) {
+  static Segment line_of(const LabelWish& wish, const LabelPlace& place) {
     return {wish.x, wish.y, place.lead_x, place.lead_y};
   }
 
   std::optional<LabelPlace> place(const LabelWish& wish) const {
-    constexpr double kNear = 9;
+    const auto off_lines = [&](const LabelPlace& place) {
+      const Box wide = grown(place.box, kGap);
+      return std::none_of(avoided_.begin(), avoided_.end(),
+                          [&](const Segment& line) { return crosses(line, wide); });
+    };
+    const auto nearby = nearest(wish, 28, off_lines);
+    return nearby ? nearby : nearest(wish, 124, [](const LabelPlace&) { return true; });
+  }
+
+  template <class Accept>
+  std::optional<LabelPlace> nearest(const LabelWish& wish, double farthest,
+                                    const Accept& accept) const {
     // Right, left, above, below, then between them.
     constexpr double kEighth = std::numbers::pi / 4;
     constexpr std::array<double, 16> kAngles = {0,   4,   -2,  2,   -1,  1,    -3,  3,
                                                 0.5, -.5, 3.5, 4.5, 1.5, -1.5, 2.5, -2.5};
-    for (double distance : {kNear, 14.0, 20.0, 28.0, 38.0, 50.0, 64.0, 80.0, 100.0, 124.0}) {
+    for (double distance : {9.0, 14.0, 20.0, 28.0, 38.0, 50.0, 64.0, 80.0, 100.0, 124.0}) {
+      if (distance > farthest) break;
       for (double angle : kAngles) {
         LabelPlace place{box_at(wish, distance, angle * kEighth), distance > 14, 0, 0};
         place.lead_x = std::clamp(wish.x, place.box.x0, place.box.x1);
         place.lead_y = std::clamp(wish.y, place.box.y0, place.box.y1);
-        if (free(wish, place)) return place;
+        if (free(wish, place) && accept(place)) return place;
       }
     }
     return {};
@@ -81,7 +90,7 @@ class Placing {
   bool free(const LabelWish& wish, const LabelPlace& place) const {
     if (!frame_.contains(place.box)) return false;
     const Box wide = grown(place.box, kGap);
-    const Line lead = line_of(wish, place);
+    const Segment lead = line_of(wish, place);
     const auto meets = [&](const Box& b) { return wide.meets(b); };
     if (std::any_of(texts_.begin(), texts_.end(), meets)) return false;
     for (const LabelWish& other : wishes_) {
@@ -89,7 +98,7 @@ class Placing {
       const bool same = other.x == wish.x && other.y == wish.y;
       if (place.led && !same && crosses(lead, around(other.x, other.y, kMarker / 2))) return false;
     }
-    const auto crossed = [&](const Line& l) { return crosses(l, wide); };
+    const auto crossed = [&](const Segment& l) { return crosses(l, wide); };
     if (std::any_of(lines_.begin(), lines_.end(), crossed)) return false;
     const auto cut = [&](const Box& b) { return crosses(lead, b); };
     return !place.led || std::none_of(texts_.begin(), texts_.end(), cut);
@@ -97,8 +106,9 @@ class Placing {
 
   std::span<const LabelWish> wishes_;
   Box frame_;
+  std::span<const Segment> avoided_;
   std::vector<Box> texts_;
-  std::vector<Line> lines_;
+  std::vector<Segment> lines_;
 };
 
 }  // namespace
@@ -118,8 +128,9 @@ double text_width(std::string_view text, double font_size) {
 }
 
 std::vector<std::optional<LabelPlace>> place_labels(std::span<const LabelWish> wishes,
-                                                    const Box& frame) {
-  return Placing(wishes, frame).run();
+                                                    const Box& frame,
+                                                    std::span<const Segment> lines) {
+  return Placing(wishes, frame, lines).run();
 }
 
 }  // namespace limpid

@@ -13,6 +13,11 @@ struct Box {
   bool contains(const Box& b) const { return x0 <= b.x0 && y0 <= b.y0 && b.x1 <= x1 && b.y1 <= y1; }
 };
 
+/// A straight line on the drawing.
+struct Segment {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 /// How wide a text is at most, in the widest of the usual sans-serif faces.
 double text_width(std::string_view text, double font_size);
 
@@ -22,14 +27,15 @@ struct LabelWish {
 };
 
 /// Where the text of each marker goes: as near to it as can be, and neither over another text nor
-/// over a marker, a leading line or the frame's edge. The first wishes are served first. Nothing
-/// where no place is left.
+/// over a marker, a leading line or the frame's edge; over one of `lines` only where there is no
+/// place nearby without. The first wishes are served first. Nothing where no place is left.
 struct LabelPlace {
   Box box;
   bool led = false;               ///< so far off that a line must lead there
   double lead_x = 0, lead_y = 0;  ///< the line's end
 };
 std::vector<std::optional<LabelPlace>> place_labels(std::span<const LabelWish> wishes,
-                                                    const Box& frame);
+                                                    const Box& frame,
+                                                    std::span<const Segment> lines = {});
 
 }  // namespace limpid

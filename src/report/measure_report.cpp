@@ -15,18 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check(const ReportOptions& options) {
-  const auto expect = [](bool holds, const std::string& what) {
-    if (!holds) throw Error("report." + what, Fault::kUsage);
-  };
-  const Size size = options.size;
-  expect(size.width >= 16 && size.height >= 16 && size.width <= 8192 && size.height <= 8192,
-         "size = " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-             ": expected 16x16 ... 8192x8192");
-  expect(options.rounds >= 1 && options.rounds <= 1000,
-         "rounds = " + std::to_string(options.rounds) + ": expected 1 ... 1000");
-}
-
 std::vector<fs::path> files_in(const fs::path& folder, bool below) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -80,8 +68,19 @@ void measure(const Measuring& m) {
 
 }  // namespace
 
+void ReportOptions::validate() const {
+  const auto expect = [](bool holds, const std::string& what) {
+    if (!holds) throw Error("report." + what, Fault::kUsage);
+  };
+  expect(size.width >= 16 && size.height >= 16 && size.width <= 8192 && size.height <= 8192,
+         "size = " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+             ": expected 16x16 ... 8192x8192");
+  expect(rounds >= 1 && rounds <= 1000,
+         "rounds = " + std::to_string(rounds) + ": expected 1 ... 1000");
+}
+
 Report measure_report(const ReportOptions& options) {
-  check(options);
+  options.validate();
   const auto one = make_executor(1), many = make_executor(options.threads);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.threads == 0 ? cores : std::min(options.threads, cores);

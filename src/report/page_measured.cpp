@@ -113,6 +113,7 @@ std::string runner_table(const Report& report) {
       "reference.",
       columns);
   for (const ReportSubject& subject : report.subjects) {
+    table.begin_group();
     for (const std::string& look : report.looks) {
       table.add(RunnerLine{report, subject.name, look}.cells());
     }
@@ -130,8 +131,9 @@ Scatter look_plot(const Report& report) {
   plot.front = false;
   for (const LookRow& row : report.look_rows) {
     const std::size_t series = index_in(plot.series, row.look);
-    add_point(plot, {row.ns_per_pixel, row.error.mean, series, row.subject,
-                     about(row.look + " on " + row.subject, row.ns_per_pixel, row.error.mean)});
+    add_point(plot,
+              {row.ns_per_pixel, row.error.mean, series, row.look == "fast" ? row.subject : "",
+               about(row.look + " on " + row.subject, row.ns_per_pixel, row.error.mean)});
   }
   return plot;
 }
@@ -154,6 +156,7 @@ std::string look_tables(const Report& report) {
                                                  {"max", "difference"}});
   std::string what;
   for (const LookRow& row : report.look_rows) {
+    if (row.look == report.looks.front()) table.begin_group();
     const double share = row.ns_per_pixel / time_of_physical(report, row.subject);
     table.add({row.subject, row.look, Cell(row.ns_per_pixel), percent(share), Cell(row.error.mean),
                Cell(row.error.p99), Cell(row.error.p99_99), Cell(row.error.max)});
@@ -289,9 +292,10 @@ std::string looks_section(const Report& report) {
           " at a lower price: for it the difference is the error.") +
           gallery(report.look_figures) + "<h3>Where they differ from physical</h3>\n" +
           gallery(report.look_errors) + heat_legend(3) +
-          drawn(look_plot(report), "A marker a look and subject. Both axes are logarithmic; " +
-                                       code("physical") +
-                                       " itself, which differs by nothing, stands in the band 0.") +
+          drawn(look_plot(report),
+                "A marker a look and subject; the subjects are named beside " + code("fast") +
+                    ", and where one points. Both axes are logarithmic; " + code("physical") +
+                    " itself, which differs by nothing, stands in the band 0.") +
           look_tables(report));
 }
 

@@ -35,7 +35,7 @@ std::string physical_item(const Report& report, const LookRow& physical) {
   std::string html = "The look " + code("physical") + " takes <b>" +
                      short_number(physical.ns_per_pixel) + " ns a pixel</b> on the " +
                      subject.kind + " " + code(subject.name) + " (" + text_of(subject.size) + ", " +
-                     percent(subject.wet_share).text + " water, one thread, " + report.simd + ")";
+                     percent(subject.wet_share).text + " wet, one thread, " + report.simd + ")";
   for (const RunnerRow& row : report.runners) {
     if (row.subject != subject.name || row.look != physical.look || row.threads == 1) continue;
     html += ", " + short_number(row.ns_per_pixel) + " ns on " + std::to_string(row.threads) +
@@ -142,7 +142,7 @@ std::string method_section(const Report& report) {
           "ones too. Timed runs go over all rows of a subject in turn, " +
           std::to_string(report.rounds) +
           " rounds, after one that does not count; the best of a row is told. The reference "
-          "is run once.") +
+          "has two rounds at most.") +
           paragraph(
               "<b>Error</b> is |picture - judge| of red, green and blue, scene-linear, white = 1, "
               "over all pixels of the picture: mean, 99th and 99.99th percentile, maximum. Beside "

@@ -48,6 +48,7 @@ td.wrap { white-space: normal; }
 th { border-bottom: 1px solid var(--ink); font-weight: 600; vertical-align: bottom; padding-bottom: 5px; }
 td { border-bottom: 1px solid var(--faint); }
 .n { text-align: right; }
+tr.first td { padding-top: 12px; }
 tr.marked td { background: var(--mark); }
 tr.marked td:first-child { font-weight: 600; }
 th button { all: unset; cursor: pointer; }
@@ -115,7 +116,10 @@ document.querySelectorAll("th button").forEach(function (button) {
       var x = key(a), y = key(b);
       if (typeof x === "number" ? typeof y === "number" : false) return sign * (x - y);
       return sign * String(x).localeCompare(String(y));
-    }).forEach(function (row) { body.appendChild(row); });
+    }).forEach(function (row) {
+      row.classList.remove("first");
+      body.appendChild(row);
+    });
   });
 });
 )js";

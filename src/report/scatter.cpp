@@ -193,12 +193,16 @@ class Drawing {
   }
 
   void draw_front(const std::vector<std::size_t>& front) {
-    const ScatterPoint& first = scatter_.points[front.front()];
-    std::string way = "M" + at(x_of(first.time), frame_.y0);
+    double x = x_of(scatter_.points[front.front()].time), y = frame_.y0;
+    std::string way = "M" + at(x, y);
     for (std::size_t i : front) {
-      const ScatterPoint& p = scatter_.points[i];
-      way += "H" + coordinate(x_of(p.time)) + "V" + coordinate(y_of(p.error));
+      const double to_x = x_of(scatter_.points[i].time), to_y = y_of(scatter_.points[i].error);
+      way += "H" + coordinate(to_x) + "V" + coordinate(to_y);
+      lines_.insert(lines_.end(), {{x, y, to_x, y}, {to_x, y, to_x, to_y}});
+      x = to_x;
+      y = to_y;
     }
+    lines_.push_back({x, y, frame_.x1, y});
     svg_ += path("front", way + "H" + coordinate(frame_.x1));
   }
 
@@ -233,7 +237,8 @@ class Drawing {
       const ScatterPoint& p = scatter_.points[i];
       wishes.push_back({x_of(p.time), y_of(p.error), text_width(p.label, kLabelSize), 15});
     }
-    const auto places = place_labels(wishes, {frame_.x0 + 2, frame_.y0, frame_.x1, bottom_ - 1});
+    const auto places =
+        place_labels(wishes, {frame_.x0 + 2, frame_.y0, frame_.x1, bottom_ - 1}, lines_);
     for (std::size_t k = 0; k < order.size(); ++k) {
       if (!places[k]) continue;
       const LabelPlace& place = *places[k];
@@ -257,7 +262,8 @@ class Drawing {
   LogAxis time_, error_;
   bool has_zero_ = false;
   double legend_height_ = 0, bottom_ = 0;
-  Box frame_;  ///< of the axes, without the band for 0
+  Box frame_;                   ///< of the axes, without the band for 0
+  std::vector<Segment> lines_;  ///< that labels shall not cover
   std::string svg_;
 };
 

@@ -66,7 +66,7 @@ struct CompareArguments {
 struct ReportArguments {
   std::string output;
   std::optional<std::string> size;
-  std::optional<int> rounds;
+  int rounds = 3;
   bool quick = false;
 };
 

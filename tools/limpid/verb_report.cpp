@@ -12,12 +12,9 @@ namespace {
 
 ReportOptions options_of(const ReportArguments& a, const CommonArguments& common) {
   ReportOptions options;
-  if (a.quick) {
-    options.size = {160, 90};
-    options.rounds = 1;
-  }
+  if (a.quick) options.size = {160, 90};
   if (a.size) options.size = size_named(*a.size);
-  if (a.rounds) options.rounds = *a.rounds;
+  options.rounds = a.rounds;
   options.threads = common.threads;
   options.data = data_folder();
   if (!common.quiet) {
@@ -31,6 +28,7 @@ ReportOptions options_of(const ReportArguments& a, const CommonArguments& common
 int report_verb(const ReportArguments& a, const CommonArguments& common) {
   if (a.output.empty()) throw Error("no output: expected -o FOLDER", Fault::kUsage);
   const ReportOptions options = options_of(a, common);
+  options.validate();
   make_report_folder(a.output);
   write_report(a.output, measure_report(options));
   if (!common.quiet) {

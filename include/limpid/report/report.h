@@ -15,10 +15,14 @@ struct ReportOptions {
   /// Of rendered scenes. Of plates every n-th pixel is taken, n the largest that leaves as many and
   /// divides their size; the truth plate is taken whole.
   Size size{640, 360};
-  int rounds = 5;   ///< timed runs go over all rows in turn; the best counts
+  /// Timed runs go over all rows in turn; the best counts. The reference gets two at most.
+  int rounds = 3;
   int threads = 0;  ///< of the rows that are not run on one; 0: one a core
   /// Told one line a measurement; may be empty.
-  std::function<void(const std::string&)> progress;
+  std::function<void(const std::string&)> progress = {};
+
+  /// Throws Error of Fault::kUsage for a size or a number of rounds that means nothing.
+  void validate() const;
 };
 
 /// How far a picture is from the one that judges it: |picture - judge| over all values of red,

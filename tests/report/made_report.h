@@ -1,0 +1,40 @@
+#pragma once
+#include "limpid/report/report.h"
+
+namespace limpid::test {
+
+/// A small report of numbers that nobody measured; `name` is a subject's.
+inline Report made_report(const std::string& name = "pond") {
+  Report report;
+  report.made = "2001-02-03T04:05:06Z";
+  report.machine = {"an <abacus>", "Debian", "6.1", 2, {"avx2", "scalar"}};
+  report.build = {"1.2.3", "GNU 12", "Release", "none"};
+  report.size = {64, 36};
+  report.rounds = 3;
+  report.threads = 2;
+  report.simd = "avx2";
+  report.subjects = {{name, "plate", name + ".toml", {64, 36}, 0.5}};
+  report.looks = {"physical", "fast"};
+  double ns = 100;
+  for (const std::string& look : report.looks) {
+    report.runners.push_back({name, look, "reference", "", 1, 2, 10 * ns, {}});
+    report.runners.push_back({name, look, "fused", "avx2", 1, 3, ns, {1e-7, 1e-6, 1e-5, 1e-4}});
+    report.runners.push_back(
+        {name, look, "fused", "scalar", 1, 3, 4 * ns, {2e-7, 1e-6, 1e-5, 1e-4}});
+    report.runners.push_back({name, look, "fused", "avx2", 2, 3, ns / 2, {1e-7, 1e-6, 1e-5, 1e-4}});
+    ns /= 2;
+  }
+  report.look_rows = {{name, "physical", 100, {}, {}},
+                      {name, "fast", 50, {0.01, 0.1, 0.2, 0.3}, {"no prism_split"}}};
+  report.truth = {{"the dry picture", 0, 0.66, 0.6},
+                  {"no refraction", 20, 0.13, 0.18},
+                  {"snell march, shorten", 160, 0.031, 0.023}};
+  report.truth_in_frame_share = 0.75;
+  report.truth_size = {96, 54};
+  report.choices_subject = name;
+  report.choices = {{"", "", 100, {}}, {"refraction.steps", "0", 60, {0.006, 0.1, 0.2, 0.3}}};
+  report.subject_figures = {{name, "a caption", {64, 36}, std::string("\xff\xd8\xff\0", 4)}};
+  return report;
+}
+
+}  // namespace limpid::test
