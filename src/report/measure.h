@@ -42,13 +42,15 @@ Figure heat_figure_of(std::string name, std::string caption,
                       const std::array<View<const float>, 3>& picture,
                       const std::array<View<const float>, 3>& judge);
 
-/// Looks x runners, and looks against physical. Returns the pictures of the looks, fused, as
-/// Measuring::looks has them.
+/// Looks x runners, and looks beside physical; with `figures` the pictures of the looks, too.
 void measure_looks(const Measuring& m, Subject& subject, bool figures);
 /// Ways to refract against the path-traced lagoon.
 void measure_truth(const Measuring& m);
 /// The look physical with one choice changed.
 void measure_choices(const Measuring& m, Subject& subject);
+
+/// Errors that are allowed, in clear water and in murky.
+void measure_budgets(const Measuring& m, Subject& subject);
 
 /// Of this machine and this build.
 ReportMachine this_machine();

@@ -56,6 +56,7 @@ void measure(const Measuring& m) {
   for (const fs::path& file : files_in(options.data / "plates", true)) {
     Subject subject = Subject::of_plate(file, options.size);
     measure_looks(m, subject, first);
+    measure_budgets(m, subject);
     if (first) measure_choices(m, subject);
     first = false;
   }
@@ -63,6 +64,7 @@ void measure(const Measuring& m) {
     Subject subject =
         Subject::of_scene(file, options.size, options.data / "maps" / "sky.hdr", m.many);
     measure_looks(m, subject, false);
+    measure_budgets(m, subject);
   }
 }
 

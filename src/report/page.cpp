@@ -11,13 +11,16 @@ namespace {
 struct Link {
   const char *id, *name;
 };
-constexpr Link kLinks[] = {{"subjects", "Plates and scenes"},
-                           {"runners", "Runners"},
-                           {"looks", "Looks"},
-                           {"truth", "Truth"},
-                           {"choices", "Choices"},
-                           {"method", "Method"},
-                           {"machine", "Machine"}};
+constexpr Link kLinks[] = {
+    {"subjects", "Plates and scenes"},
+    {"runners", "Runners"},
+    {"looks", "Looks"},
+    {"truth", "Truth"},
+    {"choices", "Choices"},
+    {"budgets", "Error budgets"},
+    {"method", "Method"},
+    {"machine", "Machine"},
+};
 
 std::string navigation(const std::string& body) {
   std::string html = "<nav aria-label=\"sections\">";
@@ -33,7 +36,7 @@ std::string navigation(const std::string& body) {
 std::string to_html(const Report& report) {
   const std::string body = subjects_section(report) + runners_section(report) +
                            looks_section(report) + truth_section(report) + choices_section(report) +
-                           method_section(report) + facts_section(report);
+                           budgets_section(report) + method_section(report) + facts_section(report);
   return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n") +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
          "<title>limpid report</title>\n<style>" + kPageStyle + "</style>\n</head>\n<body>\n" +

@@ -267,6 +267,66 @@ std::string choice_table(const Report& report) {
   return table.html();
 }
 
+// ---- error budgets
+
+/// Two of the water that BudgetRow names, one plot each.
+std::vector<std::string> waters_of(const Report& report) {
+  std::vector<std::string> waters;
+  for (const BudgetRow& row : report.budgets) index_in(waters, row.water);
+  return waters;
+}
+
+Scatter budget_plot(const Report& report, const std::string& water) {
+  Scatter plot;
+  plot.title = "Allowed errors, " + water;
+  plot.time_axis = kTimeAxis;
+  plot.error_axis = "largest error measured";
+  plot.front = false;
+  plot.connected = true;
+  for (const BudgetRow& row : report.budgets) {
+    if (row.water != water) continue;
+    const std::size_t series = index_in(plot.series, row.subject);
+    const std::string allowed = short_number(row.max_error);
+    add_point(plot, {row.ns_per_pixel, row.error.max, series, allowed,
+                     about(row.subject + ", allowed " + allowed, row.ns_per_pixel, row.error.max)});
+  }
+  return plot;
+}
+
+double time_without_budget(const Report& report, const BudgetRow& row) {
+  for (const BudgetRow& exact : report.budgets) {
+    if (exact.subject == row.subject && exact.water == row.water && exact.max_error == 0) {
+      return exact.ns_per_pixel;
+    }
+  }
+  return std::nan("");
+}
+
+std::string budget_table(const Report& report) {
+  HtmlTable table(
+      "Pixels: in cells of the picture that have no water; whose bottom cannot be seen; that leave "
+      "out nothing.",
+      {{"subject", "", false},
+       {"water", "", false},
+       {"allowed", "error"},
+       {"time", "ns/pixel"},
+       {"of exact", "time"},
+       {"mean", "error"},
+       {"max", "error"},
+       {"bound", "error"},
+       {"dry", "of pixels"},
+       {"opaque", "of pixels"},
+       {"full", "of pixels"}});
+  for (const BudgetRow& row : report.budgets) {
+    if (row.max_error == 0) table.begin_group();
+    table.add({row.subject, row.water, Cell(row.max_error), Cell(row.ns_per_pixel),
+               percent(row.ns_per_pixel / time_without_budget(report, row)), Cell(row.error.mean),
+               Cell(row.error.max), Cell(row.bound), percent(row.dry_share),
+               percent(row.opaque_share), percent(row.full_share)});
+  }
+  return table.html();
+}
+
 }  // namespace
 
 std::string runners_section(const Report& report) {
@@ -325,6 +385,24 @@ std::string choices_section(const Report& report) {
                            "defaults; judged by the look as it is. What stands to the left of it "
                            "is cheaper.") +
                      drawn(choice_plot(report), kFrontCaption) + choice_table(report));
+}
+
+std::string budgets_section(const Report& report) {
+  if (report.budgets.empty()) return "";
+  std::string plots;
+  for (const std::string& water : waters_of(report)) {
+    plots += drawn(budget_plot(report, water),
+                   escaped(water) + ": each line is a subject, each marker an allowed error.");
+  }
+  return section(
+      "budgets", "Error budgets",
+      paragraph("The planner may leave out, cell by cell of the picture, what changes no "
+                "channel of any pixel by more than an allowed error (" +
+                code("max_error") +
+                ", white = 1). The bound is what it promises, the error what is "
+                "measured beside the same picture with none allowed. Murky water hides "
+                "its bottom, so that more can be left out.") +
+          plots + budget_table(report));
 }
 
 }  // namespace limpid

@@ -145,8 +145,9 @@ std::string method_section(const Report& report) {
           "has two rounds at most.") +
           paragraph(
               "<b>Error</b> is |picture - judge| of red, green and blue, scene-linear, white = 1, "
-              "over all pixels of the picture: mean, 99th and 99.99th percentile, maximum. Beside "
-              "another look, values above 4 count as 4, for glints of the sun reach thousands. "
+              "over all pixels of the picture: mean, 99th and 99.99th percentile, maximum. But for "
+              "runners beside the reference, values above 4 count as 4, for glints of the sun "
+              "reach thousands. "
               "Beside the truth it is mean |picture - truth| over mean truth, of wet pixels "
               "only.") +
           paragraph("<b>Pareto front</b>: the choices that no other one beats, being as good in "

@@ -66,6 +66,14 @@ Json json_of(const ChoiceRow& row) {
           {"error", json_of(row.error)}};
 }
 
+Json json_of(const BudgetRow& row) {
+  return {{"subject", row.subject},      {"water", row.water},
+          {"max_error", row.max_error},  {"ns_per_pixel", row.ns_per_pixel},
+          {"error", json_of(row.error)}, {"bound", row.bound},
+          {"dry_share", row.dry_share},  {"opaque_share", row.opaque_share},
+          {"full_share", row.full_share}};
+}
+
 template <class Row>
 Json rows(const std::vector<Row>& list) {
   Json array = Json::array();
@@ -97,7 +105,8 @@ std::string to_json(const Report& report) {
                     {"in_frame_share", report.truth_in_frame_share},
                     {"rows", rows(report.truth)}}},
                   {"choices_of_physical",
-                   {{"subject", report.choices_subject}, {"rows", rows(report.choices)}}}};
+                   {{"subject", report.choices_subject}, {"rows", rows(report.choices)}}},
+                  {"error_budgets", rows(report.budgets)}};
   // Text from files may be no UTF-8.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -17,14 +17,10 @@ namespace {
 constexpr double kWidth = 760, kPlotHeight = 360, kBand = 30;
 constexpr double kLeft = 78, kRight = 20, kBottom = 54, kLegendLine = 22;
 constexpr double kLabelSize = 12, kTickSize = 12, kAxisSize = 13;
-constexpr std::size_t kSeries = 7;
+constexpr std::size_t kStyles = 7;
 
 void check(const Scatter& scatter) {
   if (scatter.points.empty()) throw Error("a plot of no points: expected at least one");
-  if (scatter.series.empty() || scatter.series.size() > kSeries) {
-    throw Error("a plot of " + std::to_string(scatter.series.size()) + " series: expected 1 ... " +
-                std::to_string(kSeries));
-  }
   for (const ScatterPoint& p : scatter.points) {
     if (p.time > 0 && std::isfinite(p.time) && p.error >= 0 && std::isfinite(p.error) &&
         p.series < scatter.series.size()) {
@@ -77,16 +73,18 @@ std::string path(std::string_view type, const std::string& d) {
 
 std::string at(double x, double y) { return coordinate(x) + " " + coordinate(y); }
 
+std::string style_of(std::size_t series) { return "s" + std::to_string(series % kStyles); }
+
 /// The marker of a series: shapes tell series apart where colors do not.
 std::string marker(std::size_t series, bool filled, double x, double y) {
   const double r = filled ? 5.5 : 4.5, d = 1.25 * r;
-  const std::string type = "m s" + std::to_string(series) + (filled ? " on" : "");
+  const std::string type = "m " + style_of(series) + (filled ? " on" : "");
   const auto closed = [&](std::initializer_list<std::pair<double, double>> corners) {
     std::string way;
     for (const auto& [dx, dy] : corners) way += (way.empty() ? "M" : "L") + at(x + dx, y + dy);
     return path(type, way + "Z");
   };
-  switch (series) {
+  switch (series % kStyles) {
     case 0:
       return "<circle class=\"" + type + "\"" + attribute("cx", x) + attribute("cy", y) +
              attribute("r", r) + "/>\n";
@@ -212,7 +210,7 @@ class Drawing {
       for (const ScatterPoint& p : scatter_.points) {
         if (p.series == s) way += (way.empty() ? "M" : "L") + at(x_of(p.time), y_of(p.error));
       }
-      if (!way.empty()) svg_ += path("link s" + std::to_string(s), way);
+      if (!way.empty()) svg_ += path("link " + style_of(s), way);
     }
   }
 

@@ -17,8 +17,8 @@ struct ScatterPoint {
 struct Scatter {
   std::string title;  ///< for those who cannot see it
   std::string time_axis, error_axis;
-  std::vector<std::string> series;  ///< a color and a marker each, at most 7; told in a legend
-                                    ///< where there are several
+  /// A color and a marker each, the eighth as the first; told in a legend where there are several.
+  std::vector<std::string> series;
   std::vector<ScatterPoint> points;
   bool front = true;       ///< the Pareto front as a stepped line, its points filled
   bool connected = false;  ///< a line through the points of each series, in their order

@@ -98,11 +98,12 @@ void Subject::describe(const std::filesystem::path& scene_file, std::string kind
             window().size(), 0};
 }
 
-Plan Subject::plan(const Look& look) const {
-  return make_plan(look, {.planes = frame_.present(),
-                          .wave_map = !look.of<WaveNormals>().map.empty(),
-                          .sun = scene_.sun.has_value(),
-                          .environment = static_cast<bool>(frame_.environment)});
+Plan Subject::plan(const Look& look, double max_error) const {
+  const Inputs inputs{.planes = frame_.present(),
+                      .wave_map = !look.of<WaveNormals>().map.empty(),
+                      .sun = scene_.sun.has_value(),
+                      .environment = static_cast<bool>(frame_.environment)};
+  return make_plan(look, inputs, {}, max_error);
 }
 
 Frame Subject::frame_for(const Plan& plan) {

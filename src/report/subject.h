@@ -27,7 +27,7 @@ class Subject {
   double pixels() const { return static_cast<double>(window().area()); }
   const Scene& scene() const { return scene_; }
 
-  Plan plan(const Look& look) const;
+  Plan plan(const Look& look, double max_error = 0) const;
   /// The frame with the maps that the plan looks up, which stay loaded.
   Frame frame_for(const Plan& plan);
 

@@ -33,6 +33,8 @@ inline Report made_report(const std::string& name = "pond") {
   report.truth_size = {96, 54};
   report.choices_subject = name;
   report.choices = {{"", "", 100, {}}, {"refraction.steps", "0", 60, {0.006, 0.1, 0.2, 0.3}}};
+  report.budgets = {{name, "physical", 0, 100, {}, 0, 0.4, 0, 0.5},
+                    {name, "physical", 0.01, 80, {1e-3, 4e-3, 8e-3, 9e-3}, 0.0099, 0.4, 0.2, 0.3}};
   report.subject_figures = {{name, "a caption", {64, 36}, std::string("\xff\xd8\xff\0", 4)}};
   return report;
 }

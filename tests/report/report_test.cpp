@@ -75,6 +75,9 @@ TEST(ReportJson, HoldsEveryRow) {
   ASSERT_EQ(choices.size(), 2);
   EXPECT_TRUE(choices[0]["parameter"].is_null());
   EXPECT_EQ(choices[1]["value"], "0");
+  ASSERT_EQ(j["error_budgets"].size(), 2);
+  EXPECT_EQ(j["error_budgets"][1]["max_error"], 0.01);
+  EXPECT_EQ(j["error_budgets"][1]["bound"], 0.0099);
 }
 
 TEST(ReportJson, InfinityIsNullAndNamesAreEscaped) {
@@ -95,11 +98,12 @@ TEST(ReportPage, NamesNothingOutsideItself) {
   EXPECT_EQ(count(html, "src="), count(html, "src=\"data:image/jpeg;base64,"));
   EXPECT_EQ(count(html, "href="), count(html, "href=\"#"));
   EXPECT_EQ(count(html, "url("), count(html, "url(#"));
-  for (const char* id : {"subjects", "runners", "looks", "truth", "choices", "method", "machine"}) {
+  for (const char* id :
+       {"subjects", "runners", "looks", "truth", "choices", "budgets", "method", "machine"}) {
     EXPECT_THAT(html, HasSubstr("<section id=\"" + std::string(id) + "\">"));
     EXPECT_THAT(html, HasSubstr("href=\"#" + std::string(id) + "\""));
   }
-  EXPECT_EQ(count(html, "<svg class=\"plot\""), 5);
+  EXPECT_EQ(count(html, "<svg class=\"plot\""), 6);
 }
 
 TEST(ReportPage, NamesAreTextAndNotMarkup) {

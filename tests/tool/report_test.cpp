@@ -38,6 +38,16 @@ std::vector<std::string> names_in(const fs::path& folder, bool folders) {
   return names;
 }
 
+/// The planner keeps its promise: no pixel is off by more than was allowed, but for rounding.
+void expect_budgets_kept(const json& rows, std::size_t subjects) {
+  EXPECT_EQ(rows.size(), subjects * 2 * 5);
+  for (const json& row : rows) {
+    EXPECT_GT(row["ns_per_pixel"], 0);
+    EXPECT_LE(row["error"]["max"], double(row["max_error"]) + 1e-5) << row;
+    EXPECT_LE(row["bound"], row["max_error"]) << row;
+  }
+}
+
 void ReportTest::expect_rows(const json& report) const {
   std::vector<std::string> subjects = names_in(LIMPID_DATA "/plates", true);
   for (const std::string& scene : names_in(LIMPID_DATA "/scenes", false)) subjects.push_back(scene);
@@ -79,6 +89,7 @@ void ReportTest::expect_rows(const json& report) const {
                            "fresnel_reflection.reflectance", "sun_highlight.model"}) {
     EXPECT_TRUE(parameters.contains(name)) << name;
   }
+  expect_budgets_kept(report["error_budgets"], subjects.size());
 }
 
 void ReportTest::expect_good_page(int width) const {
@@ -114,7 +125,7 @@ void ReportTest::expect_good_page(int width) const {
   EXPECT_THAT(seen["wide"], IsEmpty());
   EXPECT_GT(seen["images"], 15);
   EXPECT_EQ(seen["broken_images"], 0);
-  EXPECT_GE(seen["plots"].size(), 5);
+  EXPECT_EQ(seen["plots"].size(), 7);
   for (const json& plot : seen["plots"]) {
     EXPECT_GT(plot["width"], 400) << plot["title"];
     EXPECT_GT(plot["height"], 200) << plot["title"];

@@ -114,9 +114,9 @@ void add_report(CLI::App& app, ReportArguments& a) {
       "report", "Measure time and error of looks, runners and models: -o FOLDER");
   verb.add_option("-o", a.output, "Folder for index.html and report.json, made if need be")
       ->option_text("FOLDER");
-  verb.add_option("--size", a.size, "Pixels of rendered scenes (default: 640x360; quick: 160x90)")
+  verb.add_option("--size", a.size, "Pixels of rendered scenes (default: 480x270; quick: 160x90)")
       ->option_text("WxH");
-  verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 3)")
+  verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 5)")
       ->option_text("N");
   verb.add_flag("--quick", a.quick, "Small pictures: to see that it works");
 }

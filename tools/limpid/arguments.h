@@ -66,7 +66,7 @@ struct CompareArguments {
 struct ReportArguments {
   std::string output;
   std::optional<std::string> size;
-  int rounds = 3;
+  int rounds = 5;
   bool quick = false;
 };
 

@@ -14,9 +14,9 @@ struct ReportOptions {
   std::filesystem::path data;  ///< has looks, scenes, plates and maps
   /// Of rendered scenes. Of plates every n-th pixel is taken, n the largest that leaves as many and
   /// divides their size; the truth plate is taken whole.
-  Size size{640, 360};
+  Size size{480, 270};
   /// Timed runs go over all rows in turn; the best counts. The reference gets two at most.
-  int rounds = 3;
+  int rounds = 5;
   int threads = 0;  ///< of the rows that are not run on one; 0: one a core
   /// Told one line a measurement; may be empty.
   std::function<void(const std::string&)> progress = {};
@@ -68,6 +68,19 @@ struct ChoiceRow {
   PixelError error;
 };
 
+/// A look with an error that is allowed (white = 1); judged by the same with none. Values above 4
+/// count as 4. What lies in cells (plan/survey.h) is told as a share of all pixels.
+struct BudgetRow {
+  std::string subject, water;  ///< water: the look, and what was changed of it
+  double max_error = 0;        ///< that is allowed, of any channel of any pixel
+  double ns_per_pixel = 0;
+  PixelError error;
+  double bound = 0;         ///< of what is left out
+  double dry_share = 0;     ///< in cells without water
+  double opaque_share = 0;  ///< in cells whose bottom cannot be seen
+  double full_share = 0;    ///< in cells that leave out nothing
+};
+
 /// A picture in the page.
 struct Figure {
   std::string name, caption;
@@ -103,6 +116,7 @@ struct Report {
   Size truth_size;
   std::string choices_subject;  ///< what ChoiceRows were measured on
   std::vector<ChoiceRow> choices;
+  std::vector<BudgetRow> budgets;
   /// The subjects with the look physical; every look on the first subject, and its difference from
   /// physical; the truth plate dry, path-traced and by the best look, and differences from truth.
   std::vector<Figure> subject_figures, look_figures, look_errors, truth_figures, truth_errors;
