@@ -72,6 +72,13 @@ std::string short_number(double value) {
   return std::string(scientific.substr(0, e)) + "·" + power_of_ten(power);
 }
 
+std::string plain_number(double value) {
+  std::array<char, 400> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  return {text.data(), end.ptr};
+}
+
 std::string tick_number(int digit, int power) {
   if (power >= 0 && power <= 4) return std::to_string(digit) + std::string(power, '0');
   if (power < 0 && power >= -3) return "0." + std::string(-power - 1, '0') + std::to_string(digit);

@@ -15,6 +15,9 @@ std::string coordinate(double value);
 /// for what is none.
 std::string short_number(double value);
 
+/// A number as it was written by hand: as many digits as it takes, no power of ten.
+std::string plain_number(double value);
+
 /// A power of ten times 1 ... 9, as on a logarithmic axis: 200, 0.05, 10⁻⁵, 2·10⁻⁵.
 std::string tick_number(int digit, int power);
 

@@ -86,7 +86,7 @@ void measure_budgets(const Measuring& m, Subject& subject) {
   for (std::size_t i = 0; i < budgets.size(); ++i) {
     BudgetRow& row = budgets[i].row;
     row.ns_per_pixel = 1e9 * timed[i].best_seconds / subject.pixels();
-    m.say(row.subject + ", " + row.water + ", allowed " + short_number(row.max_error) + ": " +
+    m.say(row.subject + ", " + row.water + ", allowed " + plain_number(row.max_error) + ": " +
           costs_text(row.ns_per_pixel, row.error));
     m.report.budgets.push_back(row);
   }

@@ -114,6 +114,7 @@ class Looks {
           run_fused(run.plan, run.frame, subject_.scene(), scratch.target, executor,
                     {.simd = simd});
         }};
+        if (threads > 1) work.clock = Clock::kWall;
         work.run();  // for its error, and to warm up
         rows.push_back({subject_.facts().name, run.look.name, "fused", simd, threads,
                         m_.options.rounds, 0, error_of(scratch, run.exact, false)});

@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kTimeAxis = "time, ns/pixel, one thread";
 constexpr const char* kFrontCaption =
-    "Filled, on the stepped line: the Pareto front. Hollow: beaten in both. Both axes are "
-    "logarithmic; what has no error at all stands in the band 0.";
+    "Filled, on the stepped line: the Pareto front. Hollow: beaten. Both axes are logarithmic.";
+constexpr const char* kBandCaption = " What has no error at all stands in the band 0.";
 
 template <class Row>
 std::vector<bool> on_front(const std::vector<Row>& rows, double (*error)(const Row&)) {
@@ -240,8 +240,8 @@ Scatter choice_plot(const Report& report) {
         row.parameter.empty() ? "physical as it is" : row.parameter.substr(0, dot);
     const std::string label =
         row.parameter.empty() ? series : row.parameter.substr(dot + 1) + " " + row.value;
-    // What saves nothing is told by the table.
-    const bool named = front[i] || i == 0 || row.ns_per_pixel < 0.97 * own;
+    // What saves next to nothing is told by the table.
+    const bool named = front[i] || i == 0 || row.ns_per_pixel < 0.9 * own;
     add_point(plot, {row.ns_per_pixel, row.error.mean, index_in(plot.series, series),
                      named ? label : "", about(name_of(row), row.ns_per_pixel, row.error.mean)});
   }
@@ -286,7 +286,7 @@ Scatter budget_plot(const Report& report, const std::string& water) {
   for (const BudgetRow& row : report.budgets) {
     if (row.water != water) continue;
     const std::size_t series = index_in(plot.series, row.subject);
-    const std::string allowed = short_number(row.max_error);
+    const std::string allowed = plain_number(row.max_error);
     add_point(plot, {row.ns_per_pixel, row.error.max, series, allowed,
                      about(row.subject + ", allowed " + allowed, row.ns_per_pixel, row.error.max)});
   }
@@ -319,9 +319,9 @@ std::string budget_table(const Report& report) {
        {"full", "of pixels"}});
   for (const BudgetRow& row : report.budgets) {
     if (row.max_error == 0) table.begin_group();
-    table.add({row.subject, row.water, Cell(row.max_error), Cell(row.ns_per_pixel),
-               percent(row.ns_per_pixel / time_without_budget(report, row)), Cell(row.error.mean),
-               Cell(row.error.max), Cell(row.bound), percent(row.dry_share),
+    table.add({row.subject, row.water, Cell(row.max_error, plain_number(row.max_error)),
+               Cell(row.ns_per_pixel), percent(row.ns_per_pixel / time_without_budget(report, row)),
+               Cell(row.error.mean), Cell(row.error.max), Cell(row.bound), percent(row.dry_share),
                percent(row.opaque_share), percent(row.full_share)});
   }
   return table.html();
@@ -384,15 +384,17 @@ std::string choices_section(const Report& report) {
                            " with one parameter changed, the others being its own or their "
                            "defaults; judged by the look as it is. What stands to the left of it "
                            "is cheaper.") +
-                     drawn(choice_plot(report), kFrontCaption) + choice_table(report));
+                     drawn(choice_plot(report), std::string(kFrontCaption) + kBandCaption) +
+                     choice_table(report));
 }
 
 std::string budgets_section(const Report& report) {
   if (report.budgets.empty()) return "";
   std::string plots;
   for (const std::string& water : waters_of(report)) {
-    plots += drawn(budget_plot(report, water),
-                   escaped(water) + ": each line is a subject, each marker an allowed error.");
+    plots += drawn(
+        budget_plot(report, water),
+        escaped(water) + ": each line is a subject, each marker an allowed error." + kBandCaption);
   }
   return section(
       "budgets", "Error budgets",

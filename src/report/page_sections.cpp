@@ -139,7 +139,9 @@ std::string method_section(const Report& report) {
       paragraph(
           "<b>Time</b> is that of the water alone, all planes being in memory: neither "
           "reading nor rendering nor writing. It is divided by all pixels of the picture, dry "
-          "ones too. Timed runs go over all rows of a subject in turn, " +
+          "ones too. On one thread it is the time of that thread on its processor, which other "
+          "programs disturb little; on several the wall's. Timed runs go over all rows of a "
+          "subject in turn, " +
           std::to_string(report.rounds) +
           " rounds, after one that does not count; the best of a row is told. The reference "
           "has two rounds at most.") +

@@ -96,7 +96,7 @@ footer { color: var(--soft); font-size: 14px; padding-top: 32px; padding-bottom:
   figure, tr { break-inside: avoid; }
   h2 { break-after: avoid; }
   .scroll { overflow-x: visible; }
-  table { font-size: 8pt; }
+  table { font-size: 7pt; }
 }
 )css";
 

@@ -30,9 +30,9 @@ Plane every_nth(const Plane& plane, int n) {
   return thin;
 }
 
-int thinning(Size size, Size least) {
-  int n = std::min(size.width / least.width, size.height / least.height);
-  while (n > 1 && (size.width % n != 0 || size.height % n != 0)) --n;
+int thinning(Size plate, Size scenes) {
+  int n = std::min(plate.width / (2 * scenes.width), plate.height / (2 * scenes.height));
+  while (n > 1 && (plate.width % n != 0 || plate.height % n != 0)) --n;
   return std::max(n, 1);
 }
 
@@ -48,7 +48,7 @@ void thin(Frame& frame, std::vector<Plane>& planes, int n) {
 
 }  // namespace
 
-Subject Subject::of_plate(const std::filesystem::path& scene_file, Size least) {
+Subject Subject::of_plate(const std::filesystem::path& scene_file, Size size) {
   const SceneFile file = load_scene(scene_file);
   if (!file.camera) throw Error(scene_file.string() + ": expected a [camera] with a view");
   PlateRequest request;
@@ -63,7 +63,7 @@ Subject Subject::of_plate(const std::filesystem::path& scene_file, Size least) {
   LoadedPlate loaded = plate.read(plate.planes(), subject.scene_, depth);
   subject.frame_ = loaded.frame;
   subject.planes_ = std::move(loaded.planes);
-  thin(subject.frame_, subject.planes_, thinning(plate.display().size(), least));
+  thin(subject.frame_, subject.planes_, thinning(plate.display().size(), size));
   if (!file.environment.empty()) {
     subject.environment_ = load_environment(file.environment, file.environment_rotation);
   }

@@ -17,7 +17,7 @@ namespace limpid {
 class Subject {
  public:
   /// The plates that a scene file names, thinned as ReportOptions::size says.
-  static Subject of_plate(const std::filesystem::path& scene_file, Size least);
+  static Subject of_plate(const std::filesystem::path& scene_file, Size size);
   /// The geometry that a scene file names, rendered. `sky` is its surroundings where it names none.
   static Subject of_scene(const std::filesystem::path& scene_file, Size size,
                           const std::filesystem::path& sky, Executor& executor);

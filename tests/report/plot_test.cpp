@@ -50,6 +50,12 @@ TEST(Markup, NumbersHaveThreeDigits) {
   EXPECT_EQ(short_number(std::nan("")), "-");
 }
 
+TEST(Markup, PlainNumbersHaveTheDigitsTheyTake) {
+  EXPECT_EQ(plain_number(0), "0");
+  EXPECT_EQ(plain_number(0.0005), "0.0005");
+  EXPECT_EQ(plain_number(2), "2");
+}
+
 // ---- axes
 
 std::vector<std::string> labels(const LogAxis& axis) {

@@ -192,6 +192,19 @@ TEST(Rounds, GoOverAllWorkInTurn) {
   EXPECT_LT(work[1].best_seconds, 10);
 }
 
+TEST(Rounds, TheThreadsClockCountsWhatTheThreadDoes) {
+  volatile double sum = 0;
+  std::vector<Timed> work{{[&] {
+                             for (int i = 0; i < 200000; ++i) sum = sum + i;
+                           },
+                           Clock::kThread},
+                          {[] {}, Clock::kThread},
+                          {[] {}, Clock::kWall}};
+  time_rounds(work, 3);
+  EXPECT_GT(work[0].best_seconds, work[1].best_seconds);
+  EXPECT_GE(work[2].best_seconds, 0);
+}
+
 TEST(MeasureReport, RefusesOptionsThatMeanNothing) {
   const ReportOptions good{.data = LIMPID_DATA};
   for (const Size size : {Size{0, 90}, Size{160, -1}, Size{15, 90}, Size{160, 9000}}) {

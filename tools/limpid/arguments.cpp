@@ -116,9 +116,9 @@ void add_report(CLI::App& app, ReportArguments& a) {
       ->option_text("FOLDER");
   verb.add_option("--size", a.size, "Pixels of rendered scenes (default: 480x270; quick: 160x90)")
       ->option_text("WxH");
-  verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 5)")
+  verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 5; quick: 2)")
       ->option_text("N");
-  verb.add_flag("--quick", a.quick, "Small pictures: to see that it works");
+  verb.add_flag("--quick", a.quick, "Small pictures, few rounds: to see that it works");
 }
 
 std::vector<std::string> verbs_of(const CLI::App& app) {

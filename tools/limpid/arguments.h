@@ -66,7 +66,7 @@ struct CompareArguments {
 struct ReportArguments {
   std::string output;
   std::optional<std::string> size;
-  int rounds = 5;
+  std::optional<int> rounds;
   bool quick = false;
 };
 

@@ -12,9 +12,12 @@ namespace {
 
 ReportOptions options_of(const ReportArguments& a, const CommonArguments& common) {
   ReportOptions options;
-  if (a.quick) options.size = {160, 90};
+  if (a.quick) {
+    options.size = {160, 90};
+    options.rounds = 2;
+  }
   if (a.size) options.size = size_named(*a.size);
-  options.rounds = a.rounds;
+  if (a.rounds) options.rounds = *a.rounds;
   options.threads = common.threads;
   options.data = data_folder();
   if (!common.quiet) {

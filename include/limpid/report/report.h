@@ -12,8 +12,8 @@ namespace limpid {
 /// What `limpid report` is to measure: the looks, scenes and plates of a data folder.
 struct ReportOptions {
   std::filesystem::path data;  ///< has looks, scenes, plates and maps
-  /// Of rendered scenes. Of plates every n-th pixel is taken, n the largest that leaves as many and
-  /// divides their size; the truth plate is taken whole.
+  /// Of rendered scenes. Of plates every n-th pixel is taken, n the largest that divides their size
+  /// and leaves twice as many across and down; the truth plate is taken whole.
   Size size{480, 270};
   /// Timed runs go over all rows in turn; the best counts. The reference gets two at most.
   int rounds = 5;
