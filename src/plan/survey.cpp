@@ -266,7 +266,8 @@ void Survey::Scan::scan_water(const Chunk& chunk) {
   if (there.empty()) return;
   const Blocks blocks{pixels_of(chunk).x0, kBlockWidth};
   std::array<WetSeen, Blocks::kMost> seen;
-  target.wet(context, error, depth, surface, there, blocks, seen.data());
+  const bool farthest = plan.max_error > 0;
+  target.wet(context, error, depth, surface, there, blocks, farthest, seen.data());
   for_each_block(there, blocks, [&](int i) {
     const int column = chunk.first + i;
     const Rect block = intersection(pixels_of({chunk.row, column, column + 1}), there);
@@ -280,7 +281,8 @@ void Survey::Scan::scan_water(const Chunk& chunk) {
     if (inside.empty()) return;
     WetSeen water = seen[i];
     if (!(inside == block)) {
-      target.wet(context, error, depth, surface, inside, {inside.x0, kBlockWidth}, &water);
+      target.wet(context, error, depth, surface, inside, {inside.x0, kBlockWidth}, farthest,
+                 &water);
     }
     if (water.wet == 0) return;
     Own& own = own_of(column, chunk.row);

@@ -32,11 +32,13 @@ struct Blocks {
 };
 
 /// The look at the planes, as compiled for one instruction set. `pixels` lie within the windows;
-/// out[i] is of those in block i, and left alone where there are none.
+/// out[i] is of those in block i, and left alone where there are none. Unless `farthest`, all of
+/// WetSeen is found but surface_near and own_far, which are 0 and infinite then.
 struct ScanTarget {
   void (*range)(const View<const float>& view, const Rect& pixels, Blocks blocks, LowHigh* out);
   void (*wet)(const Context& context, const CalmError& error, const View<const float>& depth,
-              const View<const float>& surface, const Rect& pixels, Blocks blocks, WetSeen* out);
+              const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
+              WetSeen* out);
 };
 
 }  // namespace limpid

@@ -13,12 +13,6 @@ LIMPID_LANES_INLINE Lane load(const float* from, std::ptrdiff_t x_stride, int co
   return Lane(hn::Load(kD, buffer));
 }
 
-/// Where a row of a view begins, at column x0.
-LIMPID_LANES_INLINE const float* row_of(const View<const float>& view, int x0, int y) {
-  return view.data + std::ptrdiff_t{y - view.window.y0} * view.y_stride +
-         std::ptrdiff_t{x0 - view.window.x0} * view.x_stride;
-}
-
 LIMPID_LANES_INLINE float least(Lane v) {
   alignas(64) float lanes[kLanes];
   hn::Store(v.v, kD, lanes);
@@ -36,12 +30,27 @@ LIMPID_LANES_INLINE float sum(Lane v) {
   return result;
 }
 
-/// Asks for the 32 floats from here on. Rows of a chunk lie pages apart, where the machine does not
-/// look ahead by itself: each asks for the next.
-LIMPID_LANES_INLINE void prefetch(const float* from) {
-  __builtin_prefetch(from);
-  __builtin_prefetch(from + 16);
-}
+/// A row of a view, by columns.
+struct Row {
+  const float* data;
+  std::ptrdiff_t x_stride, y_stride;
+  bool more;  ///< is there a row below to be read next
+
+  LIMPID_LANES_INLINE Row(const View<const float>& view, const Rect& pixels, int y)
+      : data(view.data + std::ptrdiff_t{y - view.window.y0} * view.y_stride -
+             std::ptrdiff_t{view.window.x0} * view.x_stride),
+        x_stride(view.x_stride),
+        y_stride(view.y_stride),
+        more(y + 1 < pixels.y1) {}
+
+  LIMPID_LANES_INLINE Lane at(int x, int count) const {
+    return load(data + x * x_stride, x_stride, count);
+  }
+  /// Rows lie pages apart, where the machine does not look ahead by itself: each asks for the next.
+  LIMPID_LANES_INLINE void ask_for_next(int x) const {
+    if (more) __builtin_prefetch(data + x * x_stride + y_stride);
+  }
+};
 
 /// Calls visit(block, x0, x1) for the blocks that `pixels` meet, with the columns of each.
 template <class Visit>
@@ -55,6 +64,14 @@ LIMPID_LANES_INLINE void for_each_block(const Rect& pixels, Blocks blocks, Visit
   }
 }
 
+/// Calls visit(x, count) for the vectors of a block; count is a constant for whole ones.
+template <class Visit>
+LIMPID_LANES_INLINE void for_each_vector(int x0, int x1, Visit&& visit) {
+  int x = x0;
+  for (; x + kLanes <= x1; x += kLanes) visit(x, kLanes);
+  if (x < x1) visit(x, x1 - x);
+}
+
 struct RangeLanes {
   Lane low{HUGE_VAL}, high{-HUGE_VAL};
 };
@@ -62,16 +79,16 @@ struct RangeLanes {
 void range(const View<const float>& view, const Rect& pixels, Blocks blocks, LowHigh* out) {
   RangeLanes lanes[Blocks::kMost];
   for (int y = pixels.y0; y < pixels.y1; ++y) {
-    const float* row = row_of(view, 0, y);
+    const Row row(view, pixels, y);
     for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
-      RangeLanes r = lanes[block];
-      if (y + 1 < pixels.y1) prefetch(row + x0 * view.x_stride + view.y_stride);
-      for (int x = x0; x < x1; x += kLanes) {
-        const Lane value = load(row + x * view.x_stride, view.x_stride, x1 - x);
-        r.low = min(r.low, value);
-        r.high = max(r.high, value);
-      }
-      lanes[block] = r;
+      Lane low = lanes[block].low, high = lanes[block].high;
+      for_each_vector(x0, x1, [&](int x, int count) {
+        row.ask_for_next(x);
+        const Lane value = row.at(x, count);
+        low = min(low, value);
+        high = max(high, value);
+      });
+      lanes[block].low = low, lanes[block].high = high;
     });
   }
   for_each_block(pixels, blocks, [&](int block, int, int) {
@@ -79,86 +96,119 @@ void range(const View<const float>& view, const Rect& pixels, Blocks blocks, Low
   });
 }
 
-/// Between which depths the surface lies.
+/// Where the surface lies, and whether it does so before what is seen there.
 struct Surface {
   Lane near, far;
+  Mask may, must;
 };
 
 /// Of the calm plane: |over| / under with `under` counted towards it, both off by their error.
-LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const CalmError& error, Lane x) {
-  const Lane infinite(HUGE_VAL);
+LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const CalmError& error, Lane x,
+                                 Lane dry, bool farthest) {
+  const Lane infinite(HUGE_VAL), off(error.over);
   const Lane over = rays.calm_over + x * rays.calm_over_dx;
   const Lane along = rays.calm_under + x * rays.calm_under_dx;
-  const Lane height = abs(over), off(error.over);
+  const Lane height = abs(over);
   const Lane under = select(over < Lane(0), Lane(0) - along, along);
   const Lane most = under + Lane(error.under), surely = under - Lane(error.under);
   // An eye in the plane itself, by all that is known, may see water anywhere.
   const Mask beside = height <= off;
   const Mask meets = most > Lane(0), sure = surely > Lane(0) && !beside;
-  const Lane near = select(meets, (height - off) / select(meets, most, Lane(1)), infinite);
   const Lane far = select(sure, (height + off) / select(sure, surely, Lane(1)), infinite);
-  return {select(beside, Lane(0), near), far};
+  Lane near(0);
+  if (farthest) near = select(beside, near, (height - off) / select(meets, most, Lane(1)));
+  return {near, far, beside || (meets && height - off < most * dry), far < dry};
 }
 
 struct WetLanes {
   Lane wet{0}, sure{0}, surface_near{HUGE_VAL}, surface_far{0}, own_near{HUGE_VAL}, own_far{0};
 
-  LIMPID_LANES_INLINE void add(Lane dry, Surface water, Mask inside) {
+  // By members: compilers copy the whole in pieces that are no vectors.
+  LIMPID_LANES_INLINE WetLanes copy() const {
+    return {wet, sure, surface_near, surface_far, own_near, own_far};
+  }
+  LIMPID_LANES_INLINE void take(const WetLanes& w) {
+    wet = w.wet, sure = w.sure;
+    surface_near = w.surface_near, surface_far = w.surface_far;
+    own_near = w.own_near, own_far = w.own_far;
+  }
+
+  LIMPID_LANES_INLINE void add(Lane dry, Surface water, bool farthest) {
     const Lane infinite(HUGE_VAL), zero(0), one(1);
-    const Mask may = inside && water.near < dry, must = inside && water.far < dry;
-    wet = wet + select(may, one, zero);
-    sure = sure + select(must, one, zero);
-    surface_near = min(surface_near, select(may, water.near, infinite));
-    surface_far = max(surface_far, select(may, water.far, zero));
-    own_near = min(own_near, select(may, select(must, dry - water.far, zero), infinite));
-    own_far = max(own_far, select(may, dry - water.near, zero));
+    wet = wet + select(water.may, one, zero);
+    sure = sure + select(water.must, one, zero);
+    surface_far = max(surface_far, select(water.may, water.far, zero));
+    const Lane between = select(water.must, dry - water.far, zero);
+    own_near = min(own_near, select(water.may, between, infinite));
+    if (!farthest) return;
+    surface_near = min(surface_near, select(water.may, water.near, infinite));
+    own_far = max(own_far, select(water.may, dry - water.near, zero));
   }
 };
 
-/// With water_at(x, count): the surface of `count` pixels from the column x on.
+/// With water_at(x, count, dry): the surface of `count` pixels from the column x on.
 template <class WaterAt>
-LIMPID_LANES_INLINE void add_row(const View<const float>& depth, int y, const Rect& pixels,
-                                 Blocks blocks, WetLanes* lanes, WaterAt&& water_at) {
-  const float* depths = row_of(depth, 0, y);
+LIMPID_LANES_INLINE void add_row(const Row& depths, const Rect& pixels, Blocks blocks,
+                                 bool farthest, WetLanes* lanes, WaterAt&& water_at) {
   for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
-    WetLanes w = lanes[block];
-    if (y + 1 < pixels.y1) prefetch(depths + x0 * depth.x_stride + depth.y_stride);
-    for (int x = x0; x < x1; x += kLanes) {
-      const int count = x1 - x;
-      const Mask inside = Lane(hn::Iota(kD, 0.0f)) < Lane(count);
-      w.add(load(depths + x * depth.x_stride, depth.x_stride, count), water_at(x, count), inside);
-    }
-    lanes[block] = w;
+    WetLanes w = lanes[block].copy();
+    for_each_vector(x0, x1, [&](int x, int count) {
+      depths.ask_for_next(x);
+      const Lane dry = depths.at(x, count);
+      Surface water = water_at(x, count, dry);
+      if (count < kLanes) {
+        const Mask inside = Lane(hn::Iota(kD, 0.0f)) < Lane(count);
+        water.may = water.may && inside, water.must = water.must && inside;
+      }
+      w.add(dry, water, farthest);
+    });
+    lanes[block].take(w);
   });
 }
 
-void wet(const Context& context, const CalmError& error, const View<const float>& depth,
-         const View<const float>& surface, const Rect& pixels, Blocks blocks, WetSeen* out) {
-  WetLanes lanes[Blocks::kMost];
+template <bool kFarthest>
+LIMPID_LANES_INLINE void add_rows(const Context& context, const CalmError& error,
+                                  const View<const float>& depth, const View<const float>& surface,
+                                  const Rect& pixels, Blocks blocks, WetLanes* lanes) {
+  const Lane steps(hn::Iota(kD, 0.0f));  // made of scalars: not in the loop
   for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const Row depths(depth, pixels, y);
     if (surface.data) {
-      const float* surfaces = row_of(surface, 0, y);
-      add_row(depth, y, pixels, blocks, lanes, [&](int x, int count) {
-        if (y + 1 < pixels.y1) prefetch(surfaces + x * surface.x_stride + surface.y_stride);
-        const Lane water = load(surfaces + x * surface.x_stride, surface.x_stride, count);
-        return Surface{water, water};
+      const Row surfaces(surface, pixels, y);
+      add_row(depths, pixels, blocks, kFarthest, lanes, [&](int x, int count, Lane dry) {
+        surfaces.ask_for_next(x);
+        const Lane water = surfaces.at(x, count);
+        const Mask wet = water < dry;
+        return Surface{water, water, wet, wet};
       });
     } else {
       const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
-      add_row(depth, y, pixels, blocks, lanes, [&](int x, int) {
-        const Lane column(hn::ConvertTo(kD, hn::Iota(kDI, x)));
-        return calm(rays, error, column + Lane(0.5 - context.corner.x));
+      add_row(depths, pixels, blocks, kFarthest, lanes, [&](int x, int, Lane dry) {
+        const Lane column = steps + Lane(x - context.corner.x + 0.5);
+        return calm(rays, error, column, dry, kFarthest);
       });
     }
   }
+}
+
+void wet(const Context& context, const CalmError& error, const View<const float>& depth,
+         const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
+         WetSeen* out) {
+  WetLanes lanes[Blocks::kMost];
+  if (farthest) {
+    add_rows<true>(context, error, depth, surface, pixels, blocks, lanes);
+  } else {
+    add_rows<false>(context, error, depth, surface, pixels, blocks, lanes);
+  }
   for_each_block(pixels, blocks, [&](int block, int, int) {
     const WetLanes& w = lanes[block];
+    const float infinite = static_cast<float>(HUGE_VAL);
     out[block] = {static_cast<int>(sum(w.wet)),
                   static_cast<int>(sum(w.sure)),
-                  least(w.surface_near),
+                  farthest ? least(w.surface_near) : 0,
                   greatest(w.surface_far),
                   least(w.own_near),
-                  greatest(w.own_far)};
+                  farthest ? greatest(w.own_far) : infinite};
   });
 }
 
