@@ -88,11 +88,11 @@ View<float> Canvas::add(const std::string& name, bool half) {
 }
 
 void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
-                   const OutputChoice& choice, Executor& executor) {
+                   const OutputChoice& choice, Executor& executor, RunTimes* times) {
   if (choice.runner == Runner::kReference) {
     run_reference(plan, frame, scene, target_);
   } else {
-    run_fused(plan, frame, scene, target_, executor, {.simd = choice.simd});
+    runner_.run(plan, frame, scene, target_, executor, {.simd = choice.simd, .times = times});
   }
   if (!choice.deep.empty()) extent_ = water_extent(plan, frame, scene, target_);
 }

@@ -5,6 +5,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/output.h"
 #include "limpid/plan/plan.h"
+#include "limpid/run/fused.h"
 #include "limpid/run/target.h"
 #include "limpid/write/deep_writer.h"
 #include "limpid/write/exr_writer.h"
@@ -30,8 +31,12 @@ class Canvas {
 
   /// Runs the plan on the frame, by the chosen runner. The plan must make what computed_aovs()
   /// show.
+  /// `times` is filled by the fused runner, if it is there.
   void paint(const Plan& plan, const Frame& frame, const Scene& scene, const OutputChoice& choice,
-             Executor& executor);
+             Executor& executor, RunTimes* times = nullptr);
+
+  /// Of the last frame that the fused runner has painted.
+  const Survey& survey() const { return runner_.survey(); }
 
   /// The same picture with each n x n block of pixels made one: lights and shares by their mean,
   /// depths and normals by the sample nearest to the middle (the upper left of the four, for an
@@ -62,6 +67,7 @@ class Canvas {
   std::vector<Plane> planes_;
   std::vector<ExrOutputChannel> channels_;
   Target target_;
+  FusedRunner runner_;
   WaterExtent extent_;  ///< of what is painted, if a deep file is to be written
 };
 

@@ -87,6 +87,19 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   return surveyed;
 }
 
+MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor) {
+  if (job.output.runner != Runner::kFused) {
+    throw Error("runner reference: expected fused, for operators are timed in that one alone",
+                Fault::kUsage);
+  }
+  SharedTextures textures;
+  CompositeFrame frame(textures);
+  frame.read(job, executor, false);
+  RunTimes times;
+  for (int i = 0; i < 2; ++i) frame.run(job, executor, &times);
+  return {{frame.report().plan, frame.survey()}, times};
+}
+
 CompositeReport composite(const CompositeJob& job, Executor& executor) {
   SharedTextures textures;
   CompositeFrame frame(textures);
@@ -96,14 +109,14 @@ CompositeReport composite(const CompositeJob& job, Executor& executor) {
   return frame.report();
 }
 
-void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/) {
+void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool writes) {
   Stopwatch watch;
   const Plate plate = Plate::open(job.plate);
   scene_ = scene_of(job, plate);
   const DepthMeaning depth = depth_of(job);
   report_ = {};
   report_.plan = plan_of(job, plate, scene_);
-  expect_writable(job.output);
+  if (writes) expect_writable(job.output);
 
   plate.read(report_.plan.planes, scene_, depth, loaded_);
   wave_map_ = textures_->wave_map(report_.plan, job.plate.limits);
@@ -122,10 +135,10 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/) {
   report_.read_seconds = watch.lap();
 }
 
-void CompositeFrame::run(const CompositeJob& job, Executor& executor) {
+void CompositeFrame::run(const CompositeJob& job, Executor& executor, RunTimes* times) {
   Stopwatch watch;
   canvas_for(canvas_, loaded_.frame.work(), job.output)
-      .paint(report_.plan, loaded_.frame, scene_, job.output, executor);
+      .paint(report_.plan, loaded_.frame, scene_, job.output, executor, times);
   report_.run_seconds = watch.lap();
 }
 

@@ -17,10 +17,12 @@ class CompositeFrame {
  public:
   explicit CompositeFrame(SharedTextures& textures) : textures_(&textures) {}
 
-  void read(const CompositeJob& job, Executor& executor);
-  void run(const CompositeJob& job, Executor& executor);
+  /// `writes`: whether write() will follow, and can.
+  void read(const CompositeJob& job, Executor& executor, bool writes = true);
+  void run(const CompositeJob& job, Executor& executor, RunTimes* times = nullptr);
   void write(const CompositeJob& job);
   const CompositeReport& report() const { return report_; }
+  const Survey& survey() const { return canvas_->survey(); }
 
  private:
   SharedTextures* textures_;

@@ -11,6 +11,7 @@
 #include "limpid/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/plan/survey.h"
+#include "limpid/run/fused.h"
 
 namespace limpid {
 
@@ -43,6 +44,13 @@ struct SurveyedPlan {
   Survey survey;
 };
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor);
+
+/// The same, and then runs it twice, by the fused runner. Nothing is written.
+struct MeasuredPlan {
+  SurveyedPlan surveyed;
+  RunTimes times;  ///< of the second run, whose buffers are warm
+};
+MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor);
 
 /// Loads, plans, runs, writes. Throws Error; nothing is left under the output's name then but what
 /// was there before.

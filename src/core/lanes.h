@@ -58,6 +58,11 @@ LIMPID_LANES_INLINE Lane abs(Lane a) { return Lane(hn::Abs(a.v)); }
 LIMPID_LANES_INLINE Lane sqrt(Lane a) { return Lane(hn::Sqrt(a.v)); }
 LIMPID_LANES_INLINE Lane floor(Lane a) { return Lane(hn::Floor(a.v)); }
 
+/// first, first + 1, ... (Highway's Iota of a number known only at run time goes through memory.)
+LIMPID_LANES_INLINE VI count_from(int first) {
+  return hn::Add(hn::Iota(kDI, 0), hn::Set(kDI, first));
+}
+
 /// The integer towards zero, of a number that an int can hold. (Highway's own conversion takes time
 /// for those that it cannot.)
 LIMPID_LANES_INLINE VI whole_of(Lane a) {

@@ -115,6 +115,12 @@ void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
   });
   for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));
   for (int i = 0; i < kAovCount; ++i) job.dry_aov[i] = aovs()[i].dry;
+  const View<const float>& depth = frame.plane(PlaneId::kDepth);
+  for (int i = 0; i < kPlaneCount; ++i) {
+    const View<const float>& plane = frame.planes[i];
+    job.like_depth[i] = plane && plane.window == depth.window && plane.y_stride == depth.y_stride &&
+                        plane.x_stride == 1 && depth.x_stride == 1 && depth.window.width() > 1;
+  }
   for (const auto& views : target.aovs) job.writes_aovs |= bool(views[0]);
   SteadyClock clock;
   if (options.times) job.clock = &clock;

@@ -119,24 +119,10 @@ class FusedStrip {
         const Lane none(source.missing);
         return {none, none, none, none};
       }
-      if (!has_pairs(source)) {
-        return {
-            source.gather(inside(source, q.texel(0))), source.gather(inside(source, q.texel(1))),
-            source.gather(inside(source, q.texel(2))), source.gather(inside(source, q.texel(3)))};
-      }
-      // A pair lies side by side. At the window's edge both taps are the texel there.
-      const int first = source.window.x0, last = source.window.x1 - 2;
-      const VI x = hn::Sub(clamp(q.x, first, last), hn::Set(kDI, first));
-      const Mask before = {hn::RebindMask(kD, hn::Lt(q.x, hn::Set(kDI, first)))};
-      const Mask after = {hn::RebindMask(kD, hn::Gt(q.x, hn::Set(kDI, last)))};
-      const auto row = [&](VI y) LIMPID_LANES_LAMBDA {
-        const VI down = hn::Sub(clamp(y, source.window.y0, source.window.y1 - 1),
-                                hn::Set(kDI, source.window.y0));
-        const Pair pair = fetch_pairs(source.data, Places(source.index(x, down)));
-        return Pair{select(after, pair.right, pair.left), select(before, pair.left, pair.right)};
-      };
-      const Pair upper = row(q.y), lower = row(hn::Add(q.y, hn::Set(kDI, 1)));
-      return {upper.left, upper.right, lower.left, lower.right};
+      if (strip.job_.like_depth[index_of(plane)]) return q.pairs.read(source.data);
+      if (has_pairs(source)) return QuadPairs(source, q.x, q.y).read(source.data);
+      return {source.gather(inside(source, q.texel(0))), source.gather(inside(source, q.texel(1))),
+              source.gather(inside(source, q.texel(2))), source.gather(inside(source, q.texel(3)))};
     }
     template <class Taps>
     LIMPID_LANES_INLINE Vec2<Lane> place(PlaneId plane, const Taps& q, int k) const {
@@ -168,6 +154,7 @@ class FusedStrip {
   struct Quad {
     VI x, y;
     Lane u, v;
+    QuadPairs pairs;  ///< in planes like the depth, as most are
 
     LIMPID_LANES_INLINE Quad(const FusedStrip& strip, int vector, Vec2<Lane> shift) {
       const Vec2<Lane> at = tame(strip.in_texels(shift));
@@ -175,6 +162,8 @@ class FusedStrip {
       v = at.y - floor(at.y);
       x = whole(strip.column(vector), at.x);
       y = whole(strip.row(), at.y);
+      const Source depth = strip.source_of(PlaneId::kDepth);
+      if (has_pairs(depth)) pairs = QuadPairs(depth, x, y);
     }
     LIMPID_LANES_INLINE Lane weight(int k) const {
       return (k & 1 ? u : Lane(1) - u) * (k & 2 ? v : Lane(1) - v);
@@ -236,7 +225,7 @@ class FusedStrip {
   LIMPID_LANES_INLINE Source source_of(PlaneId plane) const {
     return {job_.frame.planes[index_of(plane)], job_.missing[index_of(plane)]};
   }
-  LIMPID_LANES_INLINE VI column(int vector) const { return hn::Iota(kDI, x0_ + vector * kLanes); }
+  LIMPID_LANES_INLINE VI column(int vector) const { return count_from(x0_ + vector * kLanes); }
   LIMPID_LANES_INLINE VI row() const { return hn::Set(kDI, y_); }
   LIMPID_LANES_INLINE int remaining(int vector) const { return count_ - vector * kLanes; }
 

@@ -34,6 +34,9 @@ struct FusedJob {
   std::array<StateSet, Chain::kCount> makes{};  ///< what each operator makes
   std::array<float, kPlaneCount> missing{};     ///< Role::missing
   std::array<float, kAovCount> dry_aov{};       ///< AovInfo::dry
+  /// Planes in which the same index finds the same pixel as in the depth, and the two texels of a
+  /// row lie side by side.
+  std::array<bool, kPlaneCount> like_depth{};
   StateSet begins{};           ///< state that is read before an operator of the plan makes it
   bool writes_aovs = false;    ///< whether the target has any
   StopClock* clock = nullptr;  ///< only for a run that is timed

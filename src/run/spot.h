@@ -18,7 +18,7 @@ struct Spot {
     const Lane first(s.window.x0 - x), iota(hn::Iota(kD, 0.0f));
     const VI column = along(first - iota, s.width(), shift.x, u);
     const VI row = along(Lane(s.window.y0 - y), s.height(), shift.y, v);
-    const VI own = hn::Iota(kDI, x - s.window.x0);
+    const VI own = count_from(x - s.window.x0);
     upper_left = Places(s.index(hn::Add(own, column), hn::Add(hn::Set(kDI, y - s.window.y0), row)));
   }
 
@@ -45,6 +45,34 @@ LIMPID_LANES_INLINE VI nearest_place(const Source& s, int x, int y, Vec2<Lane> s
 
 /// Whether the two taps of a row lie side by side in memory.
 LIMPID_LANES_INLINE bool has_pairs(const Source& s) { return s.x_stride == 1 && s.width() > 1; }
+
+/// The four texels at (x, y) ... (x + 1, y + 1) of a window, for any channel that has it. Beyond its
+/// edge the texels there stand for all: then both taps of a pair are the same one.
+struct QuadPairs {
+  Places upper, lower;
+  Mask before, after;  ///< where a pair lies before the window, or after it
+
+  QuadPairs() = default;
+  /// `s` has_pairs().
+  LIMPID_LANES_INLINE QuadPairs(const Source& s, VI x, VI y) {
+    const int first = s.window.x0, last = s.window.x1 - 2;
+    before = {hn::RebindMask(kD, hn::Lt(x, hn::Set(kDI, first)))};
+    after = {hn::RebindMask(kD, hn::Gt(x, hn::Set(kDI, last)))};
+    const VI across = hn::Sub(clamp(x, first, last), hn::Set(kDI, first));
+    const auto row = [&](VI at) LIMPID_LANES_LAMBDA {
+      const VI down = clamp(at, s.window.y0, s.window.y1 - 1);
+      return Places(s.index(across, hn::Sub(down, hn::Set(kDI, s.window.y0))));
+    };
+    upper = row(y);
+    lower = row(hn::Add(y, hn::Set(kDI, 1)));
+  }
+
+  LIMPID_LANES_INLINE Four<Lane> read(const float* data) const {
+    const Pair top = fetch_pairs(data, upper), bottom = fetch_pairs(data, lower);
+    return {select(after, top.right, top.left), select(before, top.left, top.right),
+            select(after, bottom.right, bottom.left), select(before, bottom.left, bottom.right)};
+  }
+};
 
 /// Of N channels that are alike. A window of one column or one row has the same texel twice.
 template <int N, bool kPairs>

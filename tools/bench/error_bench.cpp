@@ -21,7 +21,9 @@ struct WayRow : Row {
 std::vector<WayRow> rows_of(const Lagoon& lagoon) {
   std::vector<WayRow> rows;
   for (const Lagoon::Refracted& way : Lagoon::ways_to_refract()) {
-    rows.push_back({{way.name, {}}, lagoon.plan(way.look)});
+    WayRow& row = rows.emplace_back();
+    row.name = way.name;
+    row.plan = lagoon.plan(way.look);
   }
   return rows;
 }

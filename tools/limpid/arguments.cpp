@@ -206,6 +206,8 @@ Parsed parse(int argc, char** argv) {
   CLI::App& plan =
       *app.add_subcommand("plan", "Say what would run for a plate and a look, and why");
   add_composite(plan, a.composite);
+  plan.add_flag("--measure", a.composite.measure,
+                "Also run it, and say how long each operator took; nothing is written");
 
   CLI::App& inspect =
       *app.add_subcommand("inspect", "Say what is in plates and what would be used");

@@ -31,6 +31,7 @@ struct FrameOptions {
 
 struct CompositeArguments {
   std::vector<std::string> plates, layers;
+  bool measure = false;  ///< `plan` runs it, too
   std::string scene, depth_kind;
   FrameOptions frames;
   WaterOptions water;

@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <span>
+#include <vector>
 
 #include "limpid/composite.h"
 #include "limpid/core/error.h"
@@ -68,6 +70,11 @@ CompositeJob first_job(const CompositeArguments& a, const Sequence& sequence) {
   return job_of_frame(std::move(job), a, sequence.frames.front());
 }
 
+void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds) {
+  std::printf("%sreads %s\n", to_text(surveyed.plan, surveyed.survey, seconds).c_str(),
+              roles_text(surveyed.plan.planes).c_str());
+}
+
 }  // namespace
 
 int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
@@ -92,9 +99,14 @@ int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
   const CompositeJob job = first_job(a, sequence_of(a.frames, a.water));
   set_file_threads(common.threads);
   const auto executor = make_executor(common.threads);
-  const SurveyedPlan surveyed = survey_composite(job, *executor);
-  std::printf("%sreads %s\n", to_text(surveyed.plan, surveyed.survey).c_str(),
-              roles_text(surveyed.plan.planes).c_str());
+  if (!a.measure) {
+    print_plan(survey_composite(job, *executor), {});
+    return 0;
+  }
+  const MeasuredPlan measured = measure_composite(job, *executor);
+  std::vector<double> seconds(measured.times.operators.begin(), measured.times.operators.end());
+  seconds.push_back(measured.times.rest);
+  print_plan(measured.surveyed, seconds);
   return 0;
 }
 

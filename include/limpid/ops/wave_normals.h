@@ -171,8 +171,8 @@ struct WaveNormals {
   static void slopes(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
     drifting_four(params, c, strip, [](Pixel<F>& p, Rgb<F> map) {
-      const F z = max(F(2) * map.b - F(1), F(0.05));
-      const Vec3<F> leans{(F(2) * map.r - F(1)) / z, (F(2) * map.g - F(1)) / z, F(0)};
+      const F per_z = F(1) / max(F(2) * map.b - F(1), F(0.05));
+      const Vec3<F> leans{(F(2) * map.r - F(1)) * per_z, (F(2) * map.g - F(1)) * per_z, F(0)};
       p.normal = p.normal + leans;
     });
     lean(0.25 * params.strength, c, strip);

@@ -30,8 +30,9 @@ LIMPID_INLINE SunColumn<F> sun_column(const Way<F>& way, F rate, F down) {
   const auto brightens = total < F(0);
   const F first = select(brightens, rate * way.length + down * way.end, down * way.begin);
   const F share = far_share(abs(total), way.length);
-  return {exp(F(0) - first) * column_light(abs(total), way.length),
-          select(brightens, F(1) - share, share)};
+  F light = column_light(abs(total), way.length);
+  if (any(first > F(0))) light = exp(F(0) - first) * light;  // none from the air: it begins at 0
+  return {light, select(brightens, F(1) - share, share)};
 }
 
 }  // namespace limpid

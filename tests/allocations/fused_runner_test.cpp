@@ -1,0 +1,100 @@
+// A program of its own: it replaces the operators new of all of it, to count.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "limpid/run/fused.h"
+
+#include "support.h"
+
+namespace {
+std::atomic<int> allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  if (void* p = std::aligned_alloc(alignment, whole == 0 ? alignment : whole)) return p;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t a) {
+  return counted(size, static_cast<std::size_t>(a));
+}
+void* operator new[](std::size_t size, std::align_val_t a) {
+  return counted(size, static_cast<std::size_t>(a));
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace limpid {
+namespace {
+
+using test::Buffers;
+
+TEST(Allocations, AreCounted) {
+  const int before = allocations;
+  const Plane plane({0, 0, 8, 8});
+  EXPECT_GT(allocations, before);
+}
+
+/// Made when the first of a size is run; whatever the look, the budget and the threads.
+TEST(Allocations, NoneAfterTheFirstFrame) {
+  const Size size{301, 77};
+  Buffers b = test::noisy_frame(rect_of(size));
+  const test::NoiseMap map(16, 8);
+  b.frame.wave_map = map.texture;
+  Scene scene = test::simple_scene(size);
+  scene.water->waves = {{0.05, 1, 0.5, 0, 2}, {0.03, 0.2, 2, 1, 3}};
+  const test::Picture picture(b.frame.work());
+  for (const Look& look : {Look{}, test::article_look()}) {
+    for (const double max_error : {0.0, 0.01}) {
+      const Plan plan = make_plan(look, test::inputs_of(b.frame, scene), kWholeState, max_error);
+      for (const int threads : {1, 2}) {
+        const auto executor = make_executor(threads);
+        FusedRunner runner;
+        RunTimes times;
+        runner.run(plan, b.frame, scene, picture.target, *executor, {.times = &times});
+        const int before = allocations;
+        for (int frame = 0; frame < 3; ++frame) {
+          scene.time += 0.04;
+          runner.run(plan, b.frame, scene, picture.target, *executor, {.times = &times});
+        }
+        EXPECT_EQ(allocations, before) << look.name << ", max_error " << max_error << ", "
+                                       << threads << " threads";
+      }
+    }
+  }
+}
+
+/// A smaller frame fits into what a larger one has needed.
+TEST(Allocations, NoneForASmallerFrame) {
+  FusedRunner runner;
+  const auto executor = make_executor(1);
+  int before = 0;
+  for (const Size size : {Size{301, 77}, Size{40, 20}, Size{300, 33}}) {
+    const Buffers b = test::noisy_frame(rect_of(size));
+    const Scene scene = test::simple_scene(size);
+    const test::Picture picture(b.frame.work());
+    const Plan plan = make_plan(test::article_look(), test::inputs_of(b.frame, scene));
+    if (before > 0) before = allocations;
+    runner.run(plan, b.frame, scene, picture.target, *executor);
+    if (before > 0) {
+      EXPECT_EQ(allocations, before) << size.width << "x" << size.height;
+    }
+    before = allocations;
+  }
+}
+
+}  // namespace
+}  // namespace limpid
