@@ -24,10 +24,10 @@ double seconds_of(Body&& body) {
 }
 
 /// Rounds go over all rows in turn, so that a noisy neighbour hits them alike; the best one counts.
-template <class AnyRow>
-void time_rows(std::vector<AnyRow>& rows, int rounds) {
+template <class Rows>
+void time_rows(Rows& rows, int rounds) {
   for (int round = 0; round < rounds; ++round) {
-    for (AnyRow& row : rows) {
+    for (auto& row : rows) {
       if (round < row.most_rounds) row.best_seconds = std::min(row.best_seconds, row.run());
     }
   }

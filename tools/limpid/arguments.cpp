@@ -91,8 +91,8 @@ void add_composite(CLI::App& verb, CompositeArguments& a) {
       ->option_text("KIND");
   add_frames(verb, a.frames,
              "Frames, as in 1-100x2: their numbers go into the names of plates, layers, scene and "
-             "outputs with %04d or #. Without --time and --fps the plates' own times count, where "
-             "they have some");
+             "outputs with %04d or ####. Frame F is at --time + F / --fps, or at its plate's own "
+             "time where neither is given and the plate has one");
   add_look(verb, a.water);
 }
 
@@ -106,7 +106,7 @@ void add_render(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--shadow-map", a.shadow_map, "Texels a side (default: 2048)")->option_text("N");
   add_frames(verb, a.frames,
              "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes into "
-             "names with %04d or #");
+             "names with %04d or ####");
 }
 
 void add_report(CLI::App& app, ReportArguments& a) {
