@@ -1,4 +1,5 @@
 // Models: ways to refract beside the truth, choices of physical, error budgets.
+#include <algorithm>
 #include <cmath>
 
 #include "limpid/core/error.h"
@@ -151,6 +152,11 @@ Scatter budget_plot(const Report& report, const std::string& water) {
   return plot;
 }
 
+bool any_error(const Report& report, const std::string& water) {
+  return std::any_of(report.budgets.begin(), report.budgets.end(),
+                     [&](const BudgetRow& row) { return row.water == water && row.error.max > 0; });
+}
+
 double time_without_budget(const Report& report, const BudgetRow& row) {
   for (const BudgetRow& exact : report.budgets) {
     if (exact.subject == row.subject && exact.water == row.water && exact.max_error == 0) {
@@ -220,6 +226,10 @@ std::string budgets_section(const Report& report) {
   if (report.budgets.empty()) return "";
   std::string plots;
   for (const std::string& water : waters_of(report)) {
+    if (!any_error(report, water)) {
+      plots += paragraph(escaped(water) + ": no error that was allowed changed a pixel.");
+      continue;
+    }
     plots += drawn(
         budget_plot(report, water),
         escaped(water) + ": each line is a subject, each marker an allowed error." + kBandCaption);
@@ -230,8 +240,9 @@ std::string budgets_section(const Report& report) {
                 "channel of any pixel by more than an allowed error (" +
                 code("max_error") +
                 ", white = 1). The bound is what it promises, the error what is "
-                "measured beside the same picture with none allowed. Murky water hides "
-                "its bottom, so that more can be left out.") +
+                "measured beside the same picture with none allowed. What "
+                "changes not a bit (dry cells, a bottom that cannot be seen) is left out in any "
+                "case.") +
           plots + budget_table(report));
 }
 

@@ -123,6 +123,14 @@ TEST(ReportPage, WhatWasNotMeasuredHasNoSection) {
   EXPECT_THAT(html, Not(HasSubstr("id=\"choices\"")));
 }
 
+TEST(ReportPage, BudgetsThatChangeNothingAreSaidAndNotDrawn) {
+  Report report = made_report();
+  report.budgets[1].error = {};
+  const std::string html = to_html(report);
+  EXPECT_EQ(count(html, "<svg class=\"plot\""), 5);
+  EXPECT_THAT(html, HasSubstr("physical: no error that was allowed changed a pixel."));
+}
+
 TEST(ReportPage, AnInfiniteErrorStandsInTheTableAlone) {
   Report report = made_report();
   report.choices[1].error.mean = std::numeric_limits<double>::infinity();

@@ -125,7 +125,7 @@ void ReportTest::expect_good_page(int width) const {
   EXPECT_THAT(seen["wide"], IsEmpty());
   EXPECT_GT(seen["images"], 15);
   EXPECT_EQ(seen["broken_images"], 0);
-  EXPECT_EQ(seen["plots"].size(), 7);
+  EXPECT_GE(seen["plots"].size(), 6);  // of error budgets one at least
   for (const json& plot : seen["plots"]) {
     EXPECT_GT(plot["width"], 400) << plot["title"];
     EXPECT_GT(plot["height"], 200) << plot["title"];
