@@ -71,8 +71,9 @@ CellRules::CellRules(const Plan& plan, const Context& context) : plan_(plan), co
   if (!known) loose_ = loose_ & static_cast<Mask>(~bit(kRefraction));
   may_hide_ = has(kept_, kFog) && has(loose_, kRefraction);
   std::iota(order_.begin(), order_.end(), 0);
-  std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
-    return cost[static_cast<std::size_t>(a)] > cost[static_cast<std::size_t>(b)];
+  std::sort(order_.begin(), order_.end(), [&](int a, int b) {
+    const double of_a = cost[static_cast<std::size_t>(a)], of_b = cost[static_cast<std::size_t>(b)];
+    return of_a > of_b || (of_a == of_b && a < b);
   });
 }
 

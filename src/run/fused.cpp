@@ -86,6 +86,23 @@ struct Tiles {
 
 }  // namespace
 
+/// Long runs of pixels are faster than short ones: of two cells side by side both run what either
+/// needs, unless one is dry. Which two does not depend on tiles.
+void FusedRunner::pair_cells() {
+  cells_.clear();
+  for (int i = 0; i < survey_.count(); ++i) cells_.push_back(survey_.cell(i));
+  const int across = survey_.across();
+  for (int left = 0; left + 1 < survey_.count(); ++left) {
+    CellNeeds &a = cells_[static_cast<std::size_t>(left)],
+              &b = cells_[static_cast<std::size_t>(left) + 1];
+    const int column = left % across;
+    if (column % 2 == 1 || column + 1 == across || a.dry || b.dry) continue;
+    a.skips = b.skips = a.skips & b.skips;
+    a.open = b.open = a.open && b.open;
+    a.opaque = b.opaque = a.opaque && b.opaque;
+  }
+}
+
 void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
                       const Target& target, Executor& executor, const FusedOptions& options) {
   const FusedTarget& simd = *kTargets[simd_index(options.simd)];
@@ -106,7 +123,8 @@ void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
   Context open = context;
   open.foreground = false;
   FusedJob job{plan, frame, context, open, target};
-  job.cells = &survey_.cell(0);
+  pair_cells();
+  job.cells = cells_.data();
   job.cells_across = survey_.across();
   job.begins = begins_of(plan, target);
   Chain::for_each([&]<class Op, int I>() {

@@ -46,8 +46,8 @@ LIMPID_LANES_INLINE VI nearest_place(const Source& s, int x, int y, Vec2<Lane> s
 /// Whether the two taps of a row lie side by side in memory.
 LIMPID_LANES_INLINE bool has_pairs(const Source& s) { return s.x_stride == 1 && s.width() > 1; }
 
-/// The four texels at (x, y) ... (x + 1, y + 1) of a window, for any channel that has it. Beyond its
-/// edge the texels there stand for all: then both taps of a pair are the same one.
+/// The four texels at (x, y) ... (x + 1, y + 1) of a window, for any channel that has it. Beyond
+/// its edge the texels there stand for all: then both taps of a pair are the same one.
 struct QuadPairs {
   Places upper, lower;
   Mask before, after;  ///< where a pair lies before the window, or after it

@@ -224,12 +224,10 @@ void bench(const Arguments& arguments) {
   std::printf("  %-40s %10s %10s %14s %14s\n", "", "ms/frame", "frames/s", "CPU ms/frame",
               files > 0 ? "x read + write" : "");
   for (const CpuRow& row : rows) {
-    std::printf("  %-40s %10.0f %10.2f %14.0f", row.name.c_str(),
-                1e3 * row.best_seconds / kFrames, kFrames / row.best_seconds,
-                1e3 * row.least_cpu_seconds / kFrames);
+    std::printf("  %-40s %10.0f %10.2f %14.0f", row.name.c_str(), 1e3 * row.best_seconds / kFrames,
+                kFrames / row.best_seconds, 1e3 * row.least_cpu_seconds / kFrames);
     if (files > 0) std::printf(" %14.2f", row.best_seconds / files);
-    std::printf("
-");
+    std::printf("\n");
   }
 }
 

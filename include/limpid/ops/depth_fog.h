@@ -164,8 +164,10 @@ struct DepthFog {
 
       p.in_scatter = p.sun_near = p.sun_far = {F(0), F(0), F(0)};
       if (medium.glows) {
-        p.in_scatter = ambient * Rgb<F>{column_light(rate.r, length), column_light(rate.g, length),
-                                        column_light(rate.b, length)};
+        const Rgb<F>& left = p.transmittance;
+        p.in_scatter = ambient * Rgb<F>{column_light(rate.r, length, left.r),
+                                        column_light(rate.g, length, left.g),
+                                        column_light(rate.b, length, left.b)};
       }
       if (medium.sunlit) {
         const F turned = henyey_greenstein(dot(to_sun, view), anisotropy);

@@ -272,12 +272,11 @@ struct Refraction {
     const F end = ray.s_at(reach_in(planes.bounds, p.uv, ray.across));
     const F most = min(end, F(1e30));
     const F pixels = max(length_on_screen(c, ray.shift_at(most)), F(1));
-    // Equal steps, of half a pixel at least.
-    const F step = max(F(1.0 / kSteps), F(0.5) / pixels), stride = step * pixels;
+    const F stride = F(1.0 / kSteps) * pixels;
     F before = F(0), after = F(1), last_drop = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth);
     F found = F(0), hidden = F(0);
     for (int i = 1; i <= kSteps; ++i) {
-      const F t = min(F(i) * step, F(1));
+      const F t(double(i) / kSteps);
       const Sight<F> at = look(c, planes, p, tap, ray, ray.at_share(t, most));
       const F hides = past(c, p, at, stride);
       const auto open = found < F(0.5);
@@ -288,7 +287,7 @@ struct Refraction {
       last_drop = select(open && free, at.drop, last_drop);
       hidden = select(open && !hit, select(free, F(0), F(1)), hidden);
       found = select(hit, F(1), found);
-      if (!any(found < F(0.5) && t < F(1))) break;
+      if (!any(found < F(0.5))) break;
     }
     for (int i = 0; i < kHalvings; ++i) {
       const F t = F(0.5) * (before + after);

@@ -22,8 +22,9 @@ LIMPID_INLINE Rgb<F> transmittance(F path, Rgb<F> attenuation) {
 /// exp(-rate s): (1 - exp(-rate path)) / rate. `path` itself at rate 0 (3e38 at most), 1 / rate
 /// for a long way. A series below rate path = 0.5, where the difference cancels: relative error
 /// below 1e-6 in float, 1e-9 in double.
+/// `left` is exp(-rate path), for those who have it already.
 template <class F>
-LIMPID_INLINE F column_light(F rate, F path) {
+LIMPID_INLINE F column_light(F rate, F path, F left) {
   const F finite = min(path, F(3e38));
   const F tau = rate * finite;
   const auto thin = tau < F(0.5);
@@ -34,16 +35,21 @@ LIMPID_INLINE F column_light(F rate, F path) {
     series = F(next) - tau * series;
   }
   // Rate 1 where it is not read, against 0 / 0.
-  const F dense = (F(1) - exp(F(0) - tau)) / select(thin, F(1), rate);
+  const F dense = (F(1) - left) / select(thin, F(1), rate);
   return select(thin, finite * series, dense);
+}
+template <class F>
+LIMPID_INLINE F column_light(F rate, F path) {
+  return column_light(rate, path, exp(F(0) - rate * min(path, F(3e38))));
 }
 
 /// Where along the way the collected light was scattered on average, as a share of `path`:
 /// 1/tau - 1/(exp(tau) - 1) with tau = rate path. 1/2 in clear water, falls to 1/tau in dense. A
 /// series below tau = 1, where the difference cancels: relative error below 1e-6 in float, 1e-8 in
 /// double.
+/// `left` is exp(-rate path).
 template <class F>
-LIMPID_INLINE F far_share(F rate, F path) {
+LIMPID_INLINE F far_share(F rate, F path, F left) {
   const F tau = rate * min(path, F(3e38));
   const auto thin = tau < F(1);
   const F square = tau * tau;
@@ -52,8 +58,12 @@ LIMPID_INLINE F far_share(F rate, F path) {
     series = F(next) + square * series;
   }
   const F dense_tau = select(thin, F(1), tau);
-  const F left = exp(F(0) - dense_tau);
-  return select(thin, F(0.5) + tau * series, F(1) / dense_tau - left / (F(1) - left));
+  const F gone = select(thin, F(1), F(1) - left);
+  return select(thin, F(0.5) + tau * series, F(1) / dense_tau - left / gone);
+}
+template <class F>
+LIMPID_INLINE F far_share(F rate, F path) {
+  return far_share(rate, path, exp(F(0) - rate * min(path, F(3e38))));
 }
 
 /// Share of scattered light that goes on in a direction, in 1/sr; its integral over the sphere

@@ -29,8 +29,9 @@ LIMPID_INLINE SunColumn<F> sun_column(const Way<F>& way, F rate, F down) {
   const F total = rate + down * way.sink;
   const auto brightens = total < F(0);
   const F first = select(brightens, rate * way.length + down * way.end, down * way.begin);
-  const F share = far_share(abs(total), way.length);
-  F light = column_light(abs(total), way.length);
+  const F left = exp(F(0) - abs(total) * way.length);
+  const F share = far_share(abs(total), way.length, left);
+  F light = column_light(abs(total), way.length, left);
   if (any(first > F(0))) light = exp(F(0) - first) * light;  // none from the air: it begins at 0
   return {light, select(brightens, F(1) - share, share)};
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
@@ -44,7 +45,10 @@ class FusedRunner {
   const Survey& survey() const { return survey_; }
 
  private:
+  void pair_cells();
+
   Survey survey_;
+  std::vector<CellNeeds> cells_;  ///< of the survey, as they are run
 };
 
 /// The same for one frame alone.
