@@ -1,4 +1,7 @@
 #pragma once
+#include <type_traits>
+
+#include "limpid/op/bottom_search.h"
 #include "limpid/op/operator.h"
 #include "limpid/op/screen_ray.h"
 #include "limpid/op/valid_lookup.h"
@@ -81,12 +84,8 @@ struct Refraction {
   static double bound(const Params& params, const Context& c, const Ranges& ranges);
   static void reckon(const Params& params, const Context& c, Ranges& ranges);
 
-  /// What is looked up: the dry scene, or that below the water alone, where the frame has it.
-  struct Planes {
-    PlaneId color, depth;
-    Bounds bounds;
-    bool below;
-  };
+  /// The dry scene, or that below the water alone, where the frame has it.
+  using Planes = SeenPlanes;
   static Planes planes_of(const Context& c) {
     if (c.planes.covers(kBelowPlanes) && !c.submersible)
       return {PlaneId::kBelowR, PlaneId::kBelowDepth, c.below, true};
@@ -187,9 +186,8 @@ struct Refraction {
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       const Bent<F> bent = bend(c, p, ior);
       const ScreenRay<F> ray(c, p, bent.direction);
-      const Found<F> found = params.steps == kMarch
-                                 ? march(c, planes, p, tap, ray, bent.fall)
-                                 : iterate(params.steps, c, planes, p, tap, ray, bent.fall);
+      const BottomSearch<F, std::decay_t<decltype(tap)>> search{c, planes, p, tap, ray, bent.fall};
+      const auto found = params.steps == kMarch ? search.march() : search.iterate(params.steps);
       const auto goes = bent.goes > F(0.5);
       const Vec2<F> none{F(0), F(0)};
       p.path = select(goes, found.way, F(0));
@@ -205,137 +203,6 @@ struct Refraction {
       };
       place_channels(channel(p.dispersion.r), channel(p.dispersion.g), channel(p.dispersion.b), p);
     });
-  }
-
-  template <class F>
-  struct Found {
-    F way;   ///< along the ray, +inf where it meets nothing
-    F sure;  ///< 1 where the bottom was seen, 0 where it is a guess
-  };
-
-  /// How far below the surface point (above it, from below) a point seen on the screen lies.
-  template <class F>
-  static LIMPID_INLINE F drop_to(const Context& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
-    const F surface = F(c.eye_above) + dot(vec3_of<F>(c.up), p.surface_point);
-    return max(p.side * (surface - height_at(c, p, shift, depth)), F(0));
-  }
-
-  /// The same of what a texel shows: 0 where that tells nothing, for it stands above the surface or
-  /// the layer below is empty there (cut away, where the bottom rises out of the water).
-  template <class F>
-  static LIMPID_INLINE F seen_drop(const Context& c, const Planes& planes, const Pixel<F>& p,
-                                   Vec2<F> shift, F depth) {
-    const F drop = drop_to(c, p, shift, depth);
-    return planes.below ? select(depth < F(1e30), drop, F(0)) : drop;
-  }
-
-  template <class F, class Tap>
-  static Found<F> iterate(int steps, const Context& c, const Planes& planes, const Pixel<F>& p,
-                          const Tap& tap, const ScreenRay<F>& ray, F fall) {
-    F way = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth) / fall;
-    for (int i = 0; i < steps; ++i) way = to_level(c, planes, p, tap, ray, fall, way);
-    return {select(way < F(1e20), way, F(HUGE_VAL)), F(1)};
-  }
-
-  /// Where a ray stands against what the depth plane shows there.
-  template <class F>
-  struct Sight {
-    F drop;    ///< of what is seen, below the surface point; 0 when it stands before the water
-    F behind;  ///< how far the ray has passed behind it, -1 where it has not
-    Vec2<F> shift;
-    F own;  ///< depth of the ray
-  };
-
-  template <class F, class Tap>
-  static LIMPID_INLINE Sight<F> look(const Context& c, const Planes& planes, const Pixel<F>& p,
-                                     const Tap& tap, const ScreenRay<F>& ray, F way) {
-    const Vec2<F> shift = ray.shift_at(way);
-    const F seen = tap.nearest(planes.depth, shift), own = ray.depth_at(way);
-    const F drop = seen_drop(c, planes, p, shift, seen);
-    return {drop, select(drop > F(0) && own >= seen, own - seen, F(-1)), shift, own};
-  }
-
-  /// 1 where what is seen lies far before the ray: it hides the bottom, it is not hit. A slope is
-  /// missed by as much as its depth changes from texel to texel, so many of which are forgiven.
-  template <class F>
-  static LIMPID_INLINE F past(const Context& c, const Pixel<F>& p, const Sight<F>& at, F texels) {
-    if (!any(at.behind >= F(0))) return F(0);
-    const F calm = min(calm_depth_at(c, p, at.shift), at.own);
-    const F slack = F(0.25) * (at.own - calm) + texels * calm_depth_step(c, p, at.shift);
-    return select(at.behind > slack, F(1), F(0));
-  }
-
-  template <class F, class Tap>
-  static Found<F> march(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
-                        const ScreenRay<F>& ray, F fall) {
-    constexpr int kSteps = 48, kHalvings = 6, kGuesses = 4;
-    const F end = ray.s_at(reach_in(planes.bounds, p.uv, ray.across));
-    const F most = min(end, F(1e30));
-    const F pixels = max(length_on_screen(c, ray.shift_at(most)), F(1));
-    const F stride = F(1.0 / kSteps) * pixels;
-    F before = F(0), after = F(1), last_drop = drop_to(c, p, Vec2<F>{F(0), F(0)}, p.dry_depth);
-    F found = F(0), hidden = F(0);
-    for (int i = 1; i <= kSteps; ++i) {
-      const F t(double(i) / kSteps);
-      const Sight<F> at = look(c, planes, p, tap, ray, ray.at_share(t, most));
-      const F hides = past(c, p, at, stride);
-      const auto open = found < F(0.5);
-      const auto hit = at.behind >= F(0) && hides < F(0.5);
-      const auto free = at.behind < F(0) && at.drop > F(0);
-      after = select(open && hit, t, after);
-      before = select(open && !hit, t, before);
-      last_drop = select(open && free, at.drop, last_drop);
-      hidden = select(open && !hit, select(free, F(0), F(1)), hidden);
-      found = select(hit, F(1), found);
-      if (!any(found < F(0.5))) break;
-    }
-    for (int i = 0; i < kHalvings; ++i) {
-      const F t = F(0.5) * (before + after);
-      const auto hit = look(c, planes, p, tap, ray, ray.at_share(t, most)).behind >= F(0);
-      after = select(hit, t, after);
-      before = select(hit, before, t);
-    }
-    const F met = ray.at_share(after, most);
-    // The bisection may have gone to the edge of what hides the bottom.
-    const F at_edge = past(c, p, look(c, planes, p, tap, ray, met), F(2));
-    const auto seen = found > F(0.5) && hidden < F(0.5) && at_edge < F(0.5);
-    // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
-    // or so away.
-    const F smooth = to_level(c, planes, p, tap, ray, fall, met);
-    const F texel = F(1.5) / pixels;
-    F way = min(max(smooth, ray.at_share(max(after - texel, F(0)), most)),
-                ray.at_share(min(after + texel, F(1)), most));
-    if (any(!seen)) {
-      const F guess = select(found > F(0.5), last_drop / fall,
-                             iterate(kGuesses, c, planes, p, tap, ray, fall).way);
-      way = select(seen, way, guess);
-    }
-    return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
-  }
-
-  /// In pixels.
-  template <class F>
-  static LIMPID_INLINE F length_on_screen(const Context& c, Vec2<F> shift) {
-    const F x = F(c.size.x) * shift.x, y = F(c.size.y) * shift.y;
-    return sqrt(x * x + y * y);
-  }
-
-  /// Where the ray meets the level of the bottom that is seen at `way`, mixed from four texels;
-  /// `way` itself where nothing below the surface is seen.
-  template <class F, class Tap>
-  static F to_level(const Context& c, const Planes& planes, const Pixel<F>& p, const Tap& tap,
-                    const ScreenRay<F>& ray, F fall, F way) {
-    const auto quad = tap.quad(ray.shift_at(way));
-    const Four<F> depths = tap.read(planes.depth, quad);
-    F level = F(0), weight = F(0);
-    for (int k = 0; k < 4; ++k) {
-      const F drop = seen_drop(c, planes, p, tap.place(planes.depth, quad, k), depths[k]);
-      const F share = select(drop > F(0), quad.weight(k), F(0));
-      level = level + share * drop;
-      weight = weight + share;
-    }
-    const auto seen = weight > F(1e-3);
-    return select(seen, level / (max(weight, F(1e-3)) * fall), way);
   }
 
   // --- off the frame ----------------------------------------------------------------------------

@@ -1,0 +1,152 @@
+#pragma once
+#include "limpid/op/context.h"
+#include "limpid/op/screen_ray.h"
+
+/// Where a ray under the water meets what the depth plane shows.
+
+namespace limpid {
+
+/// What is looked up.
+struct SeenPlanes {
+  PlaneId color, depth;
+  Bounds bounds;
+  bool below;  ///< holds what lies below the water alone, +inf where there is nothing
+};
+
+/// The search along the ray of one pixel, or of one vector of pixels.
+template <class F, class Tap>
+class BottomSearch {
+ public:
+  struct Found {
+    F way;   ///< along the ray, +inf where it meets nothing
+    F sure;  ///< 1 where the bottom was seen, 0 where it is a guess
+  };
+
+  /// `fall` is the distance from the calm surface that the ray gains per unit of its way.
+  LIMPID_INLINE BottomSearch(const Context& context, const SeenPlanes& seen, const Pixel<F>& pixel,
+                             const Tap& taps, const ScreenRay<F>& way, F falls)
+      : c_(context), planes_(seen), p_(pixel), tap_(taps), ray_(way), fall_(falls) {}
+
+  /// k times as deep as the bottom that the last guess has found, from that at the pixel itself on.
+  Found iterate(int steps) const {
+    F way = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
+    for (int i = 0; i < steps; ++i) way = to_level(way);
+    return {select(way < F(1e20), way, F(HUGE_VAL)), F(1)};
+  }
+
+  /// To where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU
+  /// Screen-Space Ray Tracing"), with equal steps on screen, then bisection.
+  Found march() const {
+    constexpr int kSteps = 48, kHalvings = 6, kGuesses = 4;
+    const F end = ray_.s_at(reach_in(planes_.bounds, p_.uv, ray_.across));
+    const F most = min(end, F(1e30));
+    const F pixels = max(length_on_screen(ray_.shift_at(most)), F(1));
+    const F stride = F(1.0 / kSteps) * pixels;
+    F before = F(0), after = F(1), last_drop = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth);
+    F found = F(0), hidden = F(0);
+    for (int i = 1; i <= kSteps; ++i) {
+      const F t(double(i) / kSteps);
+      const Sight at = look(ray_.at_share(t, most));
+      const F hides = past(at, stride);
+      const auto open = found < F(0.5);
+      const auto hit = at.behind >= F(0) && hides < F(0.5);
+      const auto free = at.behind < F(0) && at.drop > F(0);
+      after = select(open && hit, t, after);
+      before = select(open && !hit, t, before);
+      last_drop = select(open && free, at.drop, last_drop);
+      hidden = select(open && !hit, select(free, F(0), F(1)), hidden);
+      found = select(hit, F(1), found);
+      if (!any(found < F(0.5))) break;
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+      const F t = F(0.5) * (before + after);
+      const auto hit = look(ray_.at_share(t, most)).behind >= F(0);
+      after = select(hit, t, after);
+      before = select(hit, before, t);
+    }
+    const F met = ray_.at_share(after, most);
+    // The bisection may have gone to the edge of what hides the bottom.
+    const F at_edge = past(look(met), F(2));
+    const auto seen = found > F(0.5) && hidden < F(0.5) && at_edge < F(0.5);
+    // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
+    // or so away.
+    const F smooth = to_level(met);
+    const F texel = F(1.5) / pixels;
+    F way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
+                ray_.at_share(min(after + texel, F(1)), most));
+    if (any(!seen)) {
+      const F guess = select(found > F(0.5), last_drop / fall_, iterate(kGuesses).way);
+      way = select(seen, way, guess);
+    }
+    return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
+  }
+
+ private:
+  /// How far below the surface point (above it, from below) a point seen on the screen lies.
+  LIMPID_INLINE F drop_to(Vec2<F> shift, F depth) const {
+    const F surface = F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
+    return max(p_.side * (surface - height_at(c_, p_, shift, depth)), F(0));
+  }
+
+  /// The same of what a texel shows: 0 where that tells nothing, for it stands above the surface or
+  /// the layer below is empty there (cut away, where the bottom rises out of the water).
+  LIMPID_INLINE F seen_drop(Vec2<F> shift, F depth) const {
+    const F drop = drop_to(shift, depth);
+    return planes_.below ? select(depth < F(1e30), drop, F(0)) : drop;
+  }
+
+  /// Where a ray stands against what the depth plane shows there.
+  struct Sight {
+    F drop;    ///< of what is seen, below the surface point; 0 when it stands before the water
+    F behind;  ///< how far the ray has passed behind it, -1 where it has not
+    Vec2<F> shift;
+    F own;  ///< depth of the ray
+  };
+
+  LIMPID_INLINE Sight look(F way) const {
+    const Vec2<F> shift = ray_.shift_at(way);
+    const F seen = tap_.nearest(planes_.depth, shift), own = ray_.depth_at(way);
+    const F drop = seen_drop(shift, seen);
+    return {drop, select(drop > F(0) && own >= seen, own - seen, F(-1)), shift, own};
+  }
+
+  /// 1 where what is seen lies far before the ray: it hides the bottom, it is not hit. A slope is
+  /// missed by as much as its depth changes from texel to texel, so many of which are forgiven.
+  LIMPID_INLINE F past(const Sight& at, F texels) const {
+    if (!any(at.behind >= F(0))) return F(0);
+    const F calm = min(calm_depth_at(c_, p_, at.shift), at.own);
+    const F slack = F(0.25) * (at.own - calm) + texels * calm_depth_step(c_, p_, at.shift);
+    return select(at.behind > slack, F(1), F(0));
+  }
+
+  /// In pixels.
+  LIMPID_INLINE F length_on_screen(Vec2<F> shift) const {
+    const F x = F(c_.size.x) * shift.x, y = F(c_.size.y) * shift.y;
+    return sqrt(x * x + y * y);
+  }
+
+  /// Where the ray meets the level of the bottom that is seen at `way`, mixed from four texels;
+  /// `way` itself where nothing below the surface is seen.
+  F to_level(F way) const {
+    const auto quad = tap_.quad(ray_.shift_at(way));
+    const Four<F> depths = tap_.read(planes_.depth, quad);
+    F level = F(0), weight = F(0);
+    for (int k = 0; k < 4; ++k) {
+      const F drop = seen_drop(tap_.place(planes_.depth, quad, k), depths[k]);
+      const F share = select(drop > F(0), quad.weight(k), F(0));
+      level = level + share * drop;
+      weight = weight + share;
+    }
+    const auto seen = weight > F(1e-3);
+    return select(seen, level / (max(weight, F(1e-3)) * fall_), way);
+  }
+
+  const Context& c_;
+  const SeenPlanes& planes_;
+  const Pixel<F>& p_;
+  const Tap& tap_;
+  const ScreenRay<F>& ray_;
+  F fall_;
+};
+
+}  // namespace limpid
