@@ -43,11 +43,15 @@ class BottomSearch {
     const F pixels = max(length_on_screen(ray_.shift_at(most)), F(1));
     const F stride = F(1.0 / kSteps) * pixels;
     F before = F(0), after = F(1), last_drop = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth);
+    // In shallow water the bottom may be met, and the shore crossed, before the first step ends: a
+    // look goes before it, to a little under the bottom at the pixel itself.
+    const F shallow = min(F(1.25) * last_drop / fall_, most);
+    const F first = min(ray_.share_at(shallow, most), F(1.0 / kSteps));
     F found = F(0), hidden = F(0);
-    for (int i = 1; i <= kSteps; ++i) {
-      const F t(double(i) / kSteps);
+    for (int i = 0; i <= kSteps; ++i) {
+      const F t = i == 0 ? first : F(double(i) / kSteps);
       const Sight at = look(ray_.at_share(t, most));
-      const F hides = past(at, stride);
+      const F hides = past(at, i == 0 ? F(2) : stride);
       const auto open = found < F(0.5);
       const auto hit = at.behind >= F(0) && hides < F(0.5);
       const auto free = at.behind < F(0) && at.drop > F(0);

@@ -37,6 +37,11 @@ struct ScreenRay {
     return t * end * w / max(w + (F(1) - t) * end * w_step, F(1e-6) * w);
   }
 
+  /// The other way round: at_share(share_at(s, end), end) = s, for s in 0 ... end.
+  LIMPID_INLINE F share_at(F s, F end) const {
+    return s * max(w / end + w_step, F(0)) / max(w + s * w_step, F(1e-6) * w);
+  }
+
   /// The s at which the shift has grown to `reach` times `across`, as in shift_at; +inf when it
   /// never does.
   LIMPID_INLINE F s_at(F reach) const {
