@@ -20,22 +20,32 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t a) {
+// None of them inlined: where only one of a pair is, GCC takes free() for a mistake.
+#define LIMPID_COUNTED __attribute__((noinline))
+LIMPID_COUNTED void* operator new(std::size_t size) {
+  return counted(size, alignof(std::max_align_t));
+}
+LIMPID_COUNTED void* operator new[](std::size_t size) {
+  return counted(size, alignof(std::max_align_t));
+}
+LIMPID_COUNTED void* operator new(std::size_t size, std::align_val_t a) {
   return counted(size, static_cast<std::size_t>(a));
 }
-void* operator new[](std::size_t size, std::align_val_t a) {
+LIMPID_COUNTED void* operator new[](std::size_t size, std::align_val_t a) {
   return counted(size, static_cast<std::size_t>(a));
 }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete[](void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+LIMPID_COUNTED void operator delete(void* p) noexcept { std::free(p); }
+LIMPID_COUNTED void operator delete[](void* p) noexcept { std::free(p); }
+LIMPID_COUNTED void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+LIMPID_COUNTED void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+LIMPID_COUNTED void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+LIMPID_COUNTED void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
+LIMPID_COUNTED void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+LIMPID_COUNTED void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
 
 namespace limpid {
 namespace {
