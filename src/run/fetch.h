@@ -29,8 +29,9 @@ LIMPID_LANES_INLINE __m128 load_four(const float* data, const std::int32_t* at) 
 }
 
 LIMPID_LANES_INLINE __m128 load_two_pairs(const float* data, const std::int32_t* at) {
-  const __m128d first = _mm_load_sd(reinterpret_cast<const double*>(data + at[0]));
-  return _mm_castpd_ps(_mm_loadh_pd(first, reinterpret_cast<const double*>(data + at[1])));
+  // Loads that ask for no alignment, as those of a double would.
+  const __m128i first = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(data + at[0]));
+  return _mm_loadh_pi(_mm_castsi128_ps(first), reinterpret_cast<const __m64*>(data + at[1]));
 }
 
 /// One 128-bit part from each four lanes.
