@@ -64,8 +64,9 @@ std::size_t read_values(Taker& taker, std::vector<std::uint16_t>& values) {
 
 bool ExrUnpacker::knows(const ExrHeader& header) {
   const ExrPart& part = header.part;
-  const bool plain = std::all_of(part.channels.begin(), part.channels.end(),
-                                 [](const auto& c) { return c.x_sampling * c.y_sampling == 1; });
+  const bool plain = std::all_of(part.channels.begin(), part.channels.end(), [](const auto& c) {
+    return c.x_sampling == 1 && c.y_sampling == 1;
+  });
   const int how = header.compression;
   return std::endian::native == std::endian::little && plain && !part.tiled && !part.deep &&
          (how == kNone || how == kZips || how == kZip || how == kPiz);
