@@ -142,10 +142,6 @@ void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
   for (const auto& views : target.aovs) job.writes_aovs |= bool(views[0]);
   SteadyClock clock;
   if (options.times) job.clock = &clock;
-  for (int i = 0; i < Chain::kCount; ++i) job.keeps[i] = plan.keeps(i);
-  for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));
-  for (int i = 0; i < kAovCount; ++i) job.dry_aov[i] = aovs()[i].dry;
-  for (const auto& views : target.aovs) job.writes_aovs |= bool(views[0]);
   const int across = (work.width() + tile.width - 1) / tile.width;
   const int down = (work.height() + tile.height - 1) / tile.height;
   Tiles tiles{job, simd, work, tile, across};
