@@ -7,12 +7,12 @@ namespace limpid::HWY_NAMESPACE {
 namespace {
 
 /// Charges the time since it was asked last to somebody, when the run is timed.
-struct Laps {
+struct LapTimer {
   StopClock* clock;
   StopClock::Laps taken{};
   std::int64_t last = 0;
 
-  LIMPID_LANES_INLINE explicit Laps(StopClock* c) : clock(c) {
+  LIMPID_LANES_INLINE explicit LapTimer(StopClock* c) : clock(c) {
     if (clock) last = clock->now();
   }
   LIMPID_LANES_INLINE void charge(int whom) {
@@ -48,7 +48,7 @@ LIMPID_LANES_INLINE Segment segment_from(const FusedJob& job, const Rect& tile, 
 }
 
 void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
-                 const Segment& segment, Laps& laps) {
+                 const Segment& segment, LapTimer& laps) {
   const CellNeeds& needs = segment.needs;
   FusedStrip strip(job, y, x, segment.end);
   StateSet begins = job.begins;
@@ -57,15 +57,12 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
   }
   const bool wet = !needs.dry && strip.begin(rays, begins);
   laps.charge(StopClock::kRest);
+  // Refraction is skipped, so this is what it leaves to the others.
+  if (needs.opaque) strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
   if (wet) {
     const Context& context = needs.open ? job.open : job.context;
     Chain::for_each([&]<class Op, int I>() {
       if (!job.keeps[I] || !needs.needs(I)) return;
-      if constexpr (std::is_same_v<Op, DepthFog>) {
-        if (needs.opaque) {
-          strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
-        }
-      }
       Op::apply(std::get<typename Op::Params>(job.plan.look.operators), context, strip);
       laps.charge(I);
     });
@@ -75,7 +72,7 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
 }
 
 void run_tile(const FusedJob& job, const Rect& tile) {
-  Laps laps(job.clock);
+  LapTimer laps(job.clock);
   for (int y = tile.y0; y < tile.y1; ++y) {
     const RowRays<Lane> rays(job.context, y - job.context.corner.y + 0.5);
     for (int x = tile.x0; x < tile.x1;) {
