@@ -272,7 +272,8 @@ struct Refraction {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
     const F share_of_way(params.model == Model::kSnell ? 0.4 : 0);
     const F ray_end = min(p.hit_depth, F(1e30));
-    const auto lies = [&](const auto& quad, F share) {
+    const auto lies = [&](const auto& quad, F share) -> Four<F> {
+      if (!c.foreground) return {F(1), F(1), F(1), F(1)};
       const Four<F> depths = tap.read(planes.depth, quad);
       Four<F> surfaces, counts;
       if (surface_plane) surfaces = tap.read(PlaneId::kSurfaceDepth, quad);
