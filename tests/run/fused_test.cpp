@@ -30,6 +30,28 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 constexpr Size kAwkwardSizes[] = {{1, 1},   {1, 9},   {9, 1},   {7, 5},
                                   {127, 3}, {128, 3}, {129, 3}, {131, 37}};
 
+void expect_same_from_any_strides(const Look& look, Size size, const std::string& simd) {
+  const Buffers planar = test::noisy_frame(rect_of(size));
+  // The same color as interleaved RGBA, stored bottom row first, four pixels of slack a row.
+  const std::ptrdiff_t row = 4 * (size.width + 4);
+  std::vector<float> pixels(static_cast<std::size_t>(row) * size.height);
+  Frame interleaved = planar.frame;
+  for (int c = 0; c < 4; ++c) {
+    const View<float> view{pixels.data() + row * (size.height - 1) + c, 4, -row, rect_of(size)};
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        view.at(x, y) = planar.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+      }
+    }
+    interleaved.planes[c] = view;
+  }
+  const Scene scene = test::simple_scene(size);
+  const FusedOptions options{.simd = simd};
+  EXPECT_TRUE(same_bits(test::fused(look, planar.frame, scene, options).values(),
+                        test::fused(look, interleaved, scene, options).values()))
+      << size.width << "x" << size.height;
+}
+
 class FusedOnTarget : public testing::TestWithParam<std::string> {};
 
 TEST_P(FusedOnTarget, AgreesWithTheReferenceAtAwkwardSizes) {
@@ -154,30 +176,85 @@ TEST_P(FusedOnTarget, DryPixelsPassThroughBitForBit) {
   EXPECT_GT(dry, 50);
 }
 
+/// Planes side by side are read in pairs, others texel by texel: the same bits, by samplers (the
+/// article's look) and by probes, at windows of one column or one row, too.
 TEST_P(FusedOnTarget, ReadsAndWritesAnyStrides) {
-  const Size size{37, 11};
-  const Buffers planar = test::noisy_frame(rect_of(size));
-  // The same color as interleaved RGBA, stored bottom row first, four pixels of slack a row.
-  const std::ptrdiff_t row = 4 * (size.width + 4);
-  std::vector<float> pixels(static_cast<std::size_t>(row) * size.height);
-  Frame interleaved = planar.frame;
-  for (int c = 0; c < 4; ++c) {
-    const View<float> view{pixels.data() + row * (size.height - 1) + c, 4, -row, rect_of(size)};
-    for (int y = 0; y < size.height; ++y) {
-      for (int x = 0; x < size.width; ++x) {
-        view.at(x, y) = planar.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
-      }
-    }
-    interleaved.planes[c] = view;
+  for (const Size size : {Size{37, 11}, Size{1, 9}, Size{9, 1}, Size{2, 2}}) {
+    expect_same_from_any_strides(busy_look(), size, GetParam());
+    expect_same_from_any_strides(Look{}, size, GetParam());
   }
-  const Scene scene = test::simple_scene(size);
-  const FusedOptions options{.simd = GetParam()};
-  EXPECT_TRUE(same_bits(test::fused(busy_look(), planar.frame, scene, options).values(),
-                        test::fused(busy_look(), interleaved, scene, options).values()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Simd, FusedOnTarget, testing::ValuesIn(simd_targets()),
                          [](const auto& p) { return p.param; });
+
+TEST(Fused, TimesAreOfTheOperatorsThatRun) {
+  const Size size{300, 40};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  const Picture picture(b.frame.work());
+  Look look = busy_look();
+  look.of<SunHighlight>().strength = 0;
+  const Plan plan = make_plan(look, test::inputs_of(b.frame, test::simple_scene(size)), StateSet{});
+  RunTimes times;
+  run_fused(plan, b.frame, test::simple_scene(size), picture.target, *make_executor(2),
+            {.times = &times});
+  int kept = 0;
+  for (int i = 0; i < Chain::kCount; ++i) {
+    EXPECT_EQ(times.operators[static_cast<std::size_t>(i)] > 0, plan.keeps(i)) << i;
+    kept += plan.keeps(i);
+  }
+  EXPECT_GT(kept, 3);
+  EXPECT_LT(kept, Chain::kCount);
+  EXPECT_GT(times.rest, 0);
+}
+
+/// Where the survey finds no foreground the test for it is left out. One dry pixel takes that away
+/// from its cells; what is far from it does not change by a bit.
+TEST(Fused, CellsWithoutForegroundHaveTheBitsOfThoseWithout) {
+  const Size size{512, 64};
+  Buffers b = test::noisy_frame(rect_of(size));
+  for (int i = 0; i < kPlaneCount; ++i) {  // no foreground is in a layer of what lies below
+    if (kBelowPlanes.has(static_cast<PlaneId>(i))) b.frame.planes[i] = {};
+  }
+  b.fill(PlaneId::kSurfaceDepth, 4);
+  b.set(PlaneId::kDepth, [](int x, int y) { return 5 + test::noise(x, y, 7); });
+  const Scene scene = test::simple_scene(size);
+  for (const auto rejection : {Refraction::Rejection::kSnap, Refraction::Rejection::kShorten}) {
+    Look look = busy_look();
+    look.of<Refraction>().strength = 0.01;
+    look.of<Refraction>().rejection = rejection;
+    const Plan plan = make_plan(look, test::inputs_of(b.frame, scene));
+    FusedRunner runner;
+    const auto run = [&](const Picture& picture) {
+      runner.run(plan, b.frame, scene, picture.target, *make_executor(1));
+    };
+    const Picture open(b.frame.work()), closed(b.frame.work());
+    b.set(PlaneId::kDepth, [](int x, int y) { return 5 + test::noise(x, y, 7); });
+    run(open);
+    const auto all = runner.survey().count();
+    EXPECT_EQ(runner.survey().summary().open.cells, all);
+    b.set(PlaneId::kDepth,
+          [](int x, int y) { return x == 250 && y == 30 ? 1 : 5 + test::noise(x, y, 7); });
+    run(closed);
+    EXPECT_LT(runner.survey().summary().open.cells, all);
+    int same = 0, other = 0;
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        bool alike = true;
+        for (int c = 0; c < 3; ++c) {
+          const float p = open.target.color[c].at(x, y), q = closed.target.color[c].at(x, y);
+          alike = alike && std::memcmp(&p, &q, sizeof p) == 0;
+        }
+        (alike ? same : other) += 1;
+        if (std::abs(x - 250) > 20) {
+          EXPECT_TRUE(alike) << x << ", " << y;
+        }
+      }
+    }
+    EXPECT_GT(same, 20000);
+    EXPECT_GT(other, 0);
+  }
+}
 
 TEST(Fused, OverscanIsReadAndNotWritten) {
   const Rect display{0, 0, 40, 20}, data{-8, -4, 48, 24};
