@@ -191,6 +191,23 @@ TEST_F(CompositeTest, PlanTellsTheKindsOfCells) {
   EXPECT_EQ(files(), before) << "nothing is written";
 }
 
+TEST_F(CompositeTest, PlanMeasuresWhatItPredicts) {
+  const std::vector<std::string> before = files();
+  const auto plan = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"plan",       "plate.exr", "--scene",
+                                   "scene.toml", "--look",    "look.toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    return limpid(words);
+  };
+  EXPECT_THAT(plan({}).out, Not(HasSubstr("measured")));
+  const Ran ran = plan({"--measure"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, ContainsRegex("\ntime .* predicted +measured\n"));
+  EXPECT_THAT(ran.out, ContainsRegex("\n  refraction +100.0 % +[0-9.]+ ms +[0-9.]+ ms\n"));
+  EXPECT_THAT(ran.out, ContainsRegex("\n  sum +[0-9.]+ ms +[0-9.]+ ms\n"));
+  EXPECT_EQ(files(), before) << "nothing is written";
+}
+
 TEST_F(CompositeTest, LooksComeByNameAndByFile) {
   const auto with_look = [&](const std::string& look, const std::string& output) {
     return limpid(

@@ -97,8 +97,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
 
 int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
   const CompositeJob job = first_job(a, sequence_of(a.frames, a.water));
-  set_file_threads(common.threads);
-  const auto executor = make_executor(common.threads);
+  const auto executor = executor_of(common);
   if (!a.measure) {
     print_plan(survey_composite(job, *executor), {});
     return 0;
