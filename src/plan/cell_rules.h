@@ -15,8 +15,7 @@ class CellRules {
   CellRules(const Plan& plan, const Context& context);
 
   /// Of a cell with wet pixels. `planes`: all of Ranges that the planes tell. `no_foreground`: see
-  /// CellNeeds::open.
-  /// What is skipped for its bound is entered in `weighed`.
+  /// CellNeeds::open. What is skipped for its bound is entered in `weighed`.
   CellNeeds decide(const Ranges& planes, bool no_foreground, Weighed& weighed) const;
   /// Of a cell without one.
   CellNeeds dry() const;

@@ -7,9 +7,9 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/plan/plan.h"
+#include "limpid/report/picture.h"
 
 #include "arguments.h"
-#include "canvas.h"
 #include "gl_process.h"
 #include "made_plate.h"
 #include "picture_error.h"
@@ -25,7 +25,7 @@ struct JudgedLook {
 
   Look look;
   Plan plan;
-  Canvas judge;
+  Picture judge;
   double reference_seconds = 0;  ///< 0 until it is judged
 };
 
@@ -70,7 +70,7 @@ class ChainBench {
   ScalarJob scalar_;
   std::array<std::unique_ptr<Executor>, 2> executors_;  ///< 1 thread, 2 threads
   std::vector<std::unique_ptr<GlProcess>> processes_;
-  Canvas canvas_;
+  Picture canvas_;
   std::vector<ChainRow> rows_;
 };
 

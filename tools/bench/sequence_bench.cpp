@@ -16,12 +16,12 @@
 #include "limpid/load/exr_file.h"
 #include "limpid/load/frame_range.h"
 #include "limpid/load/look_file.h"
+#include "limpid/report/picture.h"
 #include "limpid/run/fused.h"
 #include "limpid/sequence.h"
 #include "limpid/write/exr_writer.h"
 
 #include "arguments.h"
-#include "canvas.h"
 #include "made_plate.h"
 #include "rows.h"
 
@@ -178,7 +178,7 @@ struct Bench {
   MadePlate plate;
   std::string plates, wet;
   std::unique_ptr<Executor> executor;
-  Canvas canvas;  ///< a finished frame
+  Picture canvas;  ///< a finished frame
   PlaneSet planes;
   CompositeJob common;
   Sequence sequence;
