@@ -163,7 +163,9 @@ void Survey::Scan::choose_planes() {
     for (int c = 0; c < 3; ++c) wanted = wanted | PlaneSet{plane_after(looked_up.color, c)};
   }
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
-  same_windows = !surface || surface.window == frame.plane(PlaneId::kDepth).window;
+  const Rect looked = frame.plane(looked_up.depth).window;
+  same_windows =
+      looked == frame.plane(PlaneId::kDepth).window && (!surface || looked == surface.window);
 }
 
 void Survey::Scan::lay_out() {
@@ -268,12 +270,17 @@ void Survey::Scan::scan_water(const Chunk& chunk) {
   std::array<WetSeen, Blocks::kMost> seen;
   const bool farthest = plan.max_error > 0;
   target.wet(context, error, depth, surface, there, blocks, farthest, seen.data());
+  std::array<WetSeen, Blocks::kMost> under = seen;
+  if (looked_up.below && same_windows) {
+    const View<const float>& below = frame.plane(looked_up.depth);
+    target.wet(context, error, below, surface, there, blocks, false, under.data());
+  }
   for_each_block(there, blocks, [&](int i) {
     const int column = chunk.first + i;
     const Rect block = intersection(pixels_of({chunk.row, column, column + 1}), there);
     const Rect inside = intersection(block, survey.work_);
     Extremes& extremes = extremes_of(column, chunk.row);
-    extremes[kGap] = !same_windows || seen[i].sure < block.area() ? 1 : 0;
+    extremes[kGap] = !same_windows || under[i].sure < block.area() ? 1 : 0;
     if (everywhere && seen[i].wet > 0) {
       const double sink = std::max(sink_of(block).min, 0.0);
       extremes[kDrop] = static_cast<float>(-bound_product(seen[i].own_near, sink));
@@ -345,10 +352,10 @@ bool Survey::Scan::no_foreground(const Own& own, const Extremes& reached) const 
     case Refraction::Rejection::kNone:
       return false;
     case Refraction::Rejection::kSnap:
-      return looked_up.below || -reached[kNear] >= own.surface_far;
+      return -reached[kNear] >= own.surface_far;
     case Refraction::Rejection::kShorten:
       if (params.model == Refraction::Model::kSnell) return false;
-      return looked_up.below ? reached[kFar] < 1e30f : reached[kGap] == 0;
+      return reached[kGap] == 0 && (!looked_up.below || reached[kFar] < 1e30f);
   }
   return false;
 }

@@ -155,6 +155,21 @@ TEST(Shorten, TheOffsetEndsAtTheEdgeOfThePost) {
   EXPECT_NEAR(got.aov(Aov::kStmapR, 17, 1, 0), (19.5 + 0.5) / 40, 1e-3);  // half of it valid
 }
 
+/// A layer below that is cut at the crests of waves holds what stands out of the water in a trough.
+TEST(Shorten, WhatALayerBelowHasAboveTheSurfaceDoesNotCount) {
+  Tray tray = checker_tray(1, 11);
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kBelowR, c),
+                     [](int x, int) { return x < 30 ? 1.0f : 100.0f; });
+  }
+  tray.buffers.set(PlaneId::kBelowDepth, [](int x, int) { return x < 30 ? 12.0f : 9.99f; });
+  tray.buffers.set(PlaneId::kDepth, [](int x, int) { return x < 30 ? 12.0f : 9.99f; });
+  const test::Picture got = tray.wet();
+  each_wet(got, kSize, [&](int x, int y) {
+    EXPECT_NEAR(got.aov(Aov::kTransmitted, x, y, 0), 1, 1e-5) << x << ", " << y;
+  });
+}
+
 TEST(Shorten, ALayerBelowNeedsNoRejection) {
   Tray tray = checker_tray(1, 11);
   for (int c = 0; c < 3; ++c) {

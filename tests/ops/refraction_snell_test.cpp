@@ -108,6 +108,28 @@ TEST(Snell, SlopingBottomTakesStepsOrAMarch) {
   EXPECT_LT(errors[3], 0.2);
 }
 
+/// The beach that the shore becomes towards the viewer stands before the water further down, and
+/// must not be taken for something that hides the bottom.
+TEST(Snell, AShoreIsMetBeforeItRisesOutOfTheWater) {
+  for (const double slope : {0.1, 0.2, 0.3}) {
+    const double depth = -2 * slope;  // the waterline is at z = -2
+    Basin basin(depth, slope);
+    basin.look.of<Refraction>().steps = Refraction::kMarch;
+    const test::Picture got = basin.wet();
+    int seen = 0, shallow = 0;
+    each_wet(got, kSize, [&](int x, int y) {
+      const Basin::Hit expected = basin.hit(x, y, depth, slope);
+      if (inside(expected.uv) < 0.02 || !(expected.path > 0 && expected.path < 0.3)) return;
+      ++seen;
+      shallow += expected.path < 0.05;
+      EXPECT_NEAR(got.aov(Aov::kPath, x, y), expected.path, 0.1)
+          << "a texel is as long" << slope << ": " << x << ", " << y;
+    });
+    EXPECT_GT(seen, 100) << slope;
+    EXPECT_GT(shallow, 10) << slope;
+  }
+}
+
 TEST(Snell, StraightDownNothingShifts) {
   test::Tray tray({9, 9});
   Refraction::Params& p = tray.look.of<Refraction>();

@@ -37,7 +37,7 @@ class BottomSearch {
   /// To where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU
   /// Screen-Space Ray Tracing"), with equal steps on screen, then bisection.
   Found march() const {
-    constexpr int kSteps = 48, kHalvings = 6, kGuesses = 4;
+    constexpr int kSteps = 48, kGuesses = 4;
     const F end = ray_.s_at(reach_in(planes_.bounds, p_.uv, ray_.across));
     const F most = min(end, F(1e30));
     const F pixels = max(length_on_screen(ray_.shift_at(most)), F(1));
@@ -50,10 +50,18 @@ class BottomSearch {
     F found = F(0), hidden = F(0);
     for (int i = 0; i <= kSteps; ++i) {
       const F t = i == 0 ? first : F(double(i) / kSteps);
-      const Sight at = look(ray_.at_share(t, most));
+      const F way = ray_.at_share(t, most);
+      const Sight at = look(way);
       const F hides = past(at, i == 0 ? F(2) : stride);
       const auto open = found < F(0.5);
-      const auto hit = at.behind >= F(0) && hides < F(0.5);
+      auto hit = at.behind >= F(0) && hides < F(0.5);
+      if (i == 0) hit = hit || passes_level_near(way);
+      // A bottom that rises steeply looks like something that hides it, until its edge is found.
+      const auto doubtful = open && hidden < F(0.5) && at.behind >= F(0) && !hit;
+      if (any(doubtful)) {
+        const F edge = ray_.at_share(edge_between(before, t, most), most);
+        hit = hit || (doubtful && past(look(edge), F(2)) < F(0.5));
+      }
       const auto free = at.behind < F(0) && at.drop > F(0);
       after = select(open && hit, t, after);
       before = select(open && !hit, t, before);
@@ -62,12 +70,7 @@ class BottomSearch {
       found = select(hit, F(1), found);
       if (!any(found < F(0.5))) break;
     }
-    for (int i = 0; i < kHalvings; ++i) {
-      const F t = F(0.5) * (before + after);
-      const auto hit = look(ray_.at_share(t, most)).behind >= F(0);
-      after = select(hit, t, after);
-      before = select(hit, before, t);
-    }
+    after = edge_between(before, after, most);
     const F met = ray_.at_share(after, most);
     // The bisection may have gone to the edge of what hides the bottom.
     const F at_edge = past(look(met), F(2));
@@ -114,6 +117,18 @@ class BottomSearch {
     return {drop, select(drop > F(0) && own >= seen, own - seen, F(-1)), shift, own};
   }
 
+  /// Where the ray passes behind what is seen, between two shares of its way on screen, the later
+  /// of which is behind.
+  LIMPID_INLINE F edge_between(F before, F after, F most) const {
+    for (int i = 0; i < 6; ++i) {
+      const F t = F(0.5) * (before + after);
+      const auto hit = look(ray_.at_share(t, most)).behind >= F(0);
+      after = select(hit, t, after);
+      before = select(hit, before, t);
+    }
+    return after;
+  }
+
   /// 1 where what is seen lies far before the ray: it hides the bottom, it is not hit. A slope is
   /// missed by as much as its depth changes from texel to texel, so many of which are forgiven.
   LIMPID_INLINE F past(const Sight& at, F texels) const {
@@ -143,6 +158,15 @@ class BottomSearch {
     }
     const auto seen = weight > F(1e-3);
     return select(seen, level / (max(weight, F(1e-3)) * fall_), way);
+  }
+
+  /// Whether the ray has passed the level of a bottom that is so near on screen that the staircase
+  /// of depths need not show it. A beach that rises out of the water there would show nothing
+  /// later.
+  LIMPID_INLINE auto passes_level_near(F way) const {
+    const auto near = length_on_screen(ray_.shift_at(way)) < F(2);
+    if (!any(near)) return near;
+    return near && to_level(way) < way;
   }
 
   const Context& c_;

@@ -113,7 +113,7 @@ struct Refraction {
           [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
     }
     strip.each([&](Pixel<F>& p) { keep_in_frame(params, planes.bounds, p); });
-    if (params.rejection == Rejection::kSnap && !planes.below && c.foreground) {
+    if (params.rejection == Rejection::kSnap && c.foreground) {
       strip.each([](Pixel<F>& p) { snap(p); });
     }
     if (params.rejection == Rejection::kShorten) {
@@ -265,7 +265,7 @@ struct Refraction {
   }
 
   /// A texel counts where it lies under the surface, and not so far before the end of a ray that it
-  /// must hide it. A layer below lies under the surface wherever there is anything.
+  /// must hide it. Where a layer below is empty nothing does.
   template <class F, class Tap>
   static void look_up_valid(const Params& params, const Context& c, const Planes& planes,
                             Pixel<F>& p, const Tap& tap) {
@@ -287,8 +287,9 @@ struct Refraction {
           surface = select(depth <= surface && p.side * height <= F(0), F(0), surface);
         }
         const F least = surface + share * max(ray_end - surface, F(0));
-        const auto there = planes.below ? depth < F(1e30) : depth > surface;
-        counts.at[k] = select(there && (depth > least || share <= F(0)), F(1), F(0));
+        const F seen = planes.below ? select(depth < F(1e30), depth, F(0)) : depth;
+        const auto there = seen > surface && (seen > least || share <= F(0));
+        counts.at[k] = select(there, F(1), F(0));
       }
       return counts;
     };
