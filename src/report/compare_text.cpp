@@ -1,27 +1,21 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "limpid/report/compare.h"
+
+#include "report/number_text.h"
 
 namespace limpid {
 namespace {
 
-// Six digits, whatever the locale.
-std::string number(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.begin(), text.end(), value, std::chars_format::general, 6);
-  return {text.data(), end.ptr};
-}
-
 std::string place(const Comparison& comparison, const Offender& at) {
   return "(" + std::to_string(at.x) + ", " + std::to_string(at.y) + ", " +
-         comparison.names[static_cast<std::size_t>(at.channel)] + ")  values are " + number(at.a) +
-         " vs " + number(at.b);
+         comparison.names[static_cast<std::size_t>(at.channel)] + ")  values are " +
+         number_text(at.a) + " vs " + number_text(at.b);
 }
 
 std::string over(const Metrics& metrics) {
-  return std::to_string(metrics.over) + " pixels (" + number(metrics.over_percent) + "%)";
+  return std::to_string(metrics.over) + " pixels (" + number_text(metrics.over_percent) + "%)";
 }
 
 std::string line_of_table(const std::array<std::string, 9>& cells, std::size_t first_width) {
@@ -39,10 +33,10 @@ std::string table(const Comparison& comparison) {
       {"channel", "mean", "RMS", "rel. MSE", "PSNR", "max", "50%", "99%", "99.99%"}, width);
   for (std::size_t c = 0; c < comparison.names.size(); ++c) {
     const Metrics& m = comparison.channels[c];
-    text += line_of_table(
-        {comparison.names[c], number(m.mean), number(m.rmse), number(m.rel_mse), number(m.psnr),
-         number(m.max), number(m.p50), number(m.p99), number(m.p99_99)},
-        width);
+    text += line_of_table({comparison.names[c], number_text(m.mean), number_text(m.rmse),
+                           number_text(m.rel_mse), number_text(m.psnr), number_text(m.max),
+                           number_text(m.p50), number_text(m.p99), number_text(m.p99_99)},
+                          width);
   }
   return text;
 }
@@ -53,21 +47,23 @@ std::string to_text(const Comparison& comparison) {
   const Metrics& all = comparison.overall;
   const CompareOptions& options = comparison.options;
   const Tolerance& tolerance = options.tolerance;
-  std::string text = "  Mean error = " + number(all.mean) + "\n  RMS error = " + number(all.rmse) +
-                     "\n  Relative MSE = " + number(all.rel_mse) + " (epsilon " +
-                     number(options.epsilon) + ")\n  Peak SNR = " + number(all.psnr) +
-                     "\n  Max error = " + number(all.max);
+  std::string text = "  Mean error = " + number_text(all.mean) +
+                     "\n  RMS error = " + number_text(all.rmse) +
+                     "\n  Relative MSE = " + number_text(all.rel_mse) + " (epsilon " +
+                     number_text(options.epsilon) + ")\n  Peak SNR = " + number_text(all.psnr) +
+                     "\n  Max error = " + number_text(all.max);
   if (all.max > 0) text += " @ " + place(comparison, all.max_at);
-  text += "\n  Percentiles = " + number(all.p50) + " (50%), " + number(all.p99) + " (99%), " +
-          number(all.p99_99) + " (99.99%)\n";
-  if (options.clip) text += "  Values above " + number(*options.clip) + " count as that\n";
+  text += "\n  Percentiles = " + number_text(all.p50) + " (50%), " + number_text(all.p99) +
+          " (99%), " + number_text(all.p99_99) + " (99.99%)\n";
+  if (options.clip) text += "  Values above " + number_text(*options.clip) + " count as that\n";
   if (all.both_nan > 0) text += "  " + std::to_string(all.both_nan) + " values are NaN in both\n";
   if (all.mismatches > 0) {
     text += "  " + std::to_string(all.mismatches) + " values are NaN or inf in one picture only\n";
   }
   text += table(comparison);
-  text += "  " + over(all) + " over " + number(tolerance.per_pixel) + "; allowed " +
-          number(tolerance.allowed_percent) + "%, none over " + number(tolerance.hard_limit) + "\n";
+  text += "  " + over(all) + " over " + number_text(tolerance.per_pixel) + "; allowed " +
+          number_text(tolerance.allowed_percent) + "%, none over " +
+          number_text(tolerance.hard_limit) + "\n";
   for (const Offender& offender : comparison.offenders) {
     text += "    " + place(comparison, offender) + "\n";
   }
