@@ -2,8 +2,7 @@
 #include <array>
 
 #include "limpid/report/compare.h"
-
-#include "report/number_text.h"
+#include "limpid/report/number_text.h"
 
 namespace limpid {
 namespace {
@@ -43,7 +42,7 @@ std::string table(const Comparison& comparison) {
 
 }  // namespace
 
-std::string to_text(const Comparison& comparison) {
+std::string numbers_text(const Comparison& comparison) {
   const Metrics& all = comparison.overall;
   const CompareOptions& options = comparison.options;
   const Tolerance& tolerance = options.tolerance;
@@ -67,7 +66,11 @@ std::string to_text(const Comparison& comparison) {
   for (const Offender& offender : comparison.offenders) {
     text += "    " + place(comparison, offender) + "\n";
   }
-  return text + (within(comparison) ? "PASS\n" : "FAILURE\n");
+  return text;
+}
+
+std::string to_text(const Comparison& comparison) {
+  return numbers_text(comparison) + (within(comparison) ? "PASS\n" : "FAILURE\n");
 }
 
 }  // namespace limpid

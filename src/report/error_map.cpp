@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "limpid/report/number_text.h"
+
 #include "report/error_map_of.h"
-#include "report/number_text.h"
 
 namespace limpid {
 

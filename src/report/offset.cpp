@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "limpid/core/error.h"
+#include "limpid/report/number_text.h"
 
 #include "report/compared_channels.h"
-#include "report/number_text.h"
 
 namespace limpid {
 namespace {

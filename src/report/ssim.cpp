@@ -6,6 +6,8 @@
 #include <string>
 
 #include "limpid/core/error.h"
+#include "limpid/report/number_text.h"
+#include "limpid/write/preview.h"
 
 #include "report/color_grids.h"
 
@@ -16,15 +18,11 @@ constexpr int kRadius = 5;
 constexpr double kSigma = 1.5;
 constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
 
-double srgb_of(double linear) {
-  const double v = std::clamp(linear, 0.0, 1.0);
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
-
 Grid<double> shown_luminance(const ColorGrid& color) {
   Grid<double> result(color[0].size());
   for (std::size_t i = 0; i < result.count(); ++i) {
-    result[i] = srgb_of(luminance(color[0][i], color[1][i], color[2][i]));
+    const double linear = luminance(color[0][i], color[1][i], color[2][i]);
+    result[i] = srgb_from_linear(static_cast<float>(std::clamp(linear, 0.0, 1.0)));
   }
   return result;
 }
@@ -96,6 +94,10 @@ Ssim ssim(const ColorPair& pictures) {
   const CleanPair pair = clean(pictures);
   check_size(pair.window.size());
   return compared(shown_luminance(pair.a), shown_luminance(pair.b), pair);
+}
+
+std::string to_text(const Ssim& ssim) {
+  return number_text(ssim.mean) + ", min " + number_text(ssim.min);
 }
 
 }  // namespace limpid

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "limpid/core/error.h"
+#include "limpid/report/number_text.h"
 
 #include "report/compared_channels.h"
-#include "report/number_text.h"
 
 namespace limpid {
 namespace {
@@ -40,8 +40,17 @@ void check_same(std::span<const ComparedChannel> now, std::span<const ComparedCh
 
 }  // namespace
 
-Flicker flicker(std::span<const ComparedChannel> now, std::span<const ComparedChannel> next) {
+Flicker flicker(std::span<const ComparedChannel> now, std::span<const ComparedChannel> next,
+                const std::optional<double>& clip) {
   check_same(now, next);
+  if (clip && !std::isfinite(*clip)) {
+    throw Error("flicker: clip at " + number_text(*clip) + ": expected a finite number");
+  }
+  const float most = clip ? static_cast<float>(*clip) : HUGE_VALF;
+  const auto error = [most](const ComparedChannel& channel, int x, int y) {
+    const float a = channel.a.at(x, y), b = channel.b.at(x, y);
+    return signed_difference(a > most ? most : a, b > most ? most : b);  // NaN stays
+  };
   const Rect window = now[0].a.window;
   std::vector<double> values;
   values.reserve(now.size() * static_cast<std::size_t>(window.area()));
@@ -50,8 +59,7 @@ Flicker flicker(std::span<const ComparedChannel> now, std::span<const ComparedCh
   for (std::size_t c = 0; c < now.size(); ++c) {
     for (int y = window.y0; y < window.y1; ++y) {
       for (int x = window.x0; x < window.x1; ++x) {
-        const double d = change(signed_difference(now[c].a.at(x, y), now[c].b.at(x, y)),
-                                signed_difference(next[c].a.at(x, y), next[c].b.at(x, y)));
+        const double d = change(error(now[c], x, y), error(next[c], x, y));
         values.push_back(d);
         result.mean += d;
         squares += d * d;

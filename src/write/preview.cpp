@@ -13,6 +13,10 @@ float srgb_from_linear(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
+float linear_from_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
 Plane displayed(View<const float> linear, double exposure_stops) {
   const auto gain = static_cast<float>(std::exp2(exposure_stops));
   Plane plane(linear.window);

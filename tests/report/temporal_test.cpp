@@ -62,6 +62,15 @@ TEST(Flicker, NoMismatchLooksGood) {
   EXPECT_EQ(flicker_of({kNan, kInf}, {kNan, kInf}, {2, kInf}, {2, kInf}).max, 0);
 }
 
+TEST(Flicker, ClipsBothPicturesFromAbove) {
+  const Values zero = {0, 0, 0}, a = {7, kInf, 0.5f}, b = {9, 2, 0.25f};
+  const ComparedChannel now = channel(zero, zero), next = channel(a, b);
+  const Flicker f = flicker({&now, 1}, {&next, 1}, 1);
+  EXPECT_EQ(f.max, 0.25);
+  EXPECT_EQ(f.mismatches, 0);
+  EXPECT_THROW(flicker({&now, 1}, {&next, 1}, std::nan("")), Error);
+}
+
 TEST(Flicker, PercentilesAreExact) {
   Values a(1000, 0.0f), zero(1000, 0.0f);
   for (std::size_t i = 0; i < a.size(); ++i) a[i] = static_cast<float>((i * 387) % 1000 + 1);

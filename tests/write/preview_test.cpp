@@ -45,6 +45,9 @@ TEST(Preview, EncodesAsTheStandardSays) {
   EXPECT_NEAR(srgb_from_linear(0.0031308f), 0.04045f, 1e-5);
   EXPECT_NEAR(srgb_from_linear(0.18f), 0.461356f, 1e-5);
   EXPECT_NEAR(srgb_from_linear(0.5f), 0.735357f, 1e-5);
+  for (int i = 0; i <= 64; ++i) {
+    EXPECT_NEAR(linear_from_srgb(srgb_from_linear(static_cast<float>(i) / 64)), i / 64.0, 1e-6);
+  }
 }
 
 TEST(Preview, ClampsAndRounds) {

@@ -109,6 +109,47 @@ void add_render(CLI::App& verb, RenderArguments& a) {
              "names with %04d or ####");
 }
 
+void add_compare(CLI::App& app, CompareArguments& a) {
+  CLI::App& verb =
+      *app.add_subcommand("compare", "Compare two pictures: A B, B is the one to trust");
+  verb.add_option("a", a.a, "Picture")->required()->option_text("A");
+  verb.add_option("b", a.b, "Picture to compare with")->required()->option_text("B");
+  verb.add_option("--channels", a.channels, "Only these channels (default: all)")
+      ->option_text("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb.add_option("--tolerance", a.tolerance, "Largest difference of a pixel (default: 1e-6)")
+      ->option_text("D");
+  verb.add_option("--allowed-percent", a.allowed_percent,
+                  "Share of pixels that may exceed it (default: 0)")
+      ->option_text("P");
+  verb.add_option("--hard-limit", a.hard_limit, "Difference that no pixel may exceed")
+      ->option_text("D");
+  verb.add_option("--epsilon", a.epsilon,
+                  "Of relMSE = mean((a-b)^2 / (b^2 + epsilon)) (default: 0.01)")
+      ->option_text("E");
+  verb.add_option("--clip", a.clip, "Count larger values as this one")->option_text("MAX");
+  verb.add_option(
+          "--metrics", a.metrics,
+          "Tell these, too: all, or a list of ssim, flip, hdrflip (of R, G, B, scene-linear "
+          "in EXR, HDR and PFM, else encoded as sRGB) and offset (of the AOVs of A and of a "
+          "ray-traced B)")
+      ->option_text("all|NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb.add_option("--ppd", a.ppd, "Pixels a degree, of flip and hdrflip (default: 67.02)")
+      ->option_text("N");
+  verb.add_option("--diff", a.diff, "Write a heat map of the differences")->option_text("OUT.png");
+  verb.add_option("--flip-map", a.flip_map,
+                  "Write a heat map of flip, or of hdrflip where only that is among the metrics")
+      ->option_text("OUT.png");
+  verb.add_option(
+          "--frames", a.frames,
+          "Frames, as in 1-100x2: their numbers go into all names with %04d or ####. A line "
+          "a frame, with the change from the one before beyond the change in B (flicker)")
+      ->option_text("RANGE");
+}
+
 void add_report(CLI::App& app, ReportArguments& a) {
   CLI::App& verb = *app.add_subcommand(
       "report", "Measure time and error of looks, runners and models: -o FOLDER");
@@ -218,33 +259,7 @@ Parsed parse(int argc, char** argv) {
   operators.add_option("--look", a.operators.look, "Show the values of a look")
       ->option_text("NAME|FILE");
 
-  CLI::App& compare =
-      *app.add_subcommand("compare", "Compare two pictures: A B, B is the one to trust");
-  compare.add_option("a", a.compare.a, "Picture")->required()->option_text("A");
-  compare.add_option("b", a.compare.b, "Picture to compare with")->required()->option_text("B");
-  compare.add_option("--channels", a.compare.channels, "Only these channels (default: all)")
-      ->option_text("NAME,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  compare
-      .add_option("--tolerance", a.compare.tolerance,
-                  "Largest difference of a pixel (default: 1e-6)")
-      ->option_text("D");
-  compare
-      .add_option("--allowed-percent", a.compare.allowed_percent,
-                  "Share of pixels that may exceed it (default: 0)")
-      ->option_text("P");
-  compare.add_option("--hard-limit", a.compare.hard_limit, "Difference that no pixel may exceed")
-      ->option_text("D");
-  compare
-      .add_option("--epsilon", a.compare.epsilon,
-                  "Of relMSE = mean((a-b)^2 / (b^2 + epsilon)) (default: 0.01)")
-      ->option_text("E");
-  compare.add_option("--clip", a.compare.clip, "Count larger values as this one")
-      ->option_text("MAX");
-  compare.add_option("--diff", a.compare.diff, "Write a heat map of the differences")
-      ->option_text("OUT.png");
-
+  add_compare(app, a.compare);
   add_report(app, a.report);
 
   std::string help_verb;
@@ -287,8 +302,8 @@ Parsed parse(int argc, char** argv) {
            : render.parsed()    ? Verb::kRender
            : inspect.parsed()   ? Verb::kInspect
            : operators.parsed() ? Verb::kOperators
-           : compare.parsed()   ? Verb::kCompare
-                                : Verb::kReport;
+           : app.got_subcommand("compare") ? Verb::kCompare
+                                           : Verb::kReport;
   return parsed;
 }
 

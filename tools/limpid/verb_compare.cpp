@@ -1,90 +1,165 @@
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
-#include "limpid/load/image_file.h"
+#include "limpid/load/frame_range.h"
 #include "limpid/report/compare.h"
 #include "limpid/report/heat_map.h"
+#include "limpid/report/number_text.h"
+#include "limpid/report/temporal.h"
 
+#include "compared_picture.h"
+#include "picture_metrics.h"
 #include "verbs.h"
 
 namespace limpid::tool {
 namespace {
 
-struct Picture {
-  std::vector<std::string> names;
-  std::vector<Plane> planes;
-};
-
-/// All channels of the first part of an EXR, or of another format, that `wanted` names; all when it
-/// is empty.
-Picture read_picture(const std::string& path, const std::vector<std::string>& wanted) {
-  const auto is_wanted = [&](const std::string& name) {
-    return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-  };
-  Picture picture;
-  std::vector<std::string> known;
-  if (is_exr(path)) {
-    const ExrFile file = ExrFile::open(path);
-    const ExrPart& part = file.parts().front();
-    std::vector<ExrRequest> requests;
-    for (const ExrChannel& channel : part.channels) {
-      known.push_back(channel.name);
-      if (!is_wanted(channel.name)) continue;
-      picture.names.push_back(channel.name);
-      picture.planes.emplace_back(part.data);
-      requests.push_back({0, channel.name, picture.planes.back().view(), 0});
-    }
-    file.read(requests);
-  } else {
-    ImageFile image = read_image(path);
-    known = image.channels;
-    for (std::size_t i = 0; i < image.channels.size(); ++i) {
-      if (!is_wanted(image.channels[i])) continue;
-      picture.names.push_back(image.channels[i]);
-      picture.planes.push_back(std::move(image.planes[i]));
-    }
-  }
-  for (const std::string& name : wanted) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw Error(path + " has no channel '" + name + "': there is " + join(known) +
-                  did_you_mean(name, known));
-    }
-  }
-  return picture;
+void print(const std::string& text) {
+  std::printf("%s", text.c_str());
+  std::fflush(stdout);
 }
 
-}  // namespace
-
-int compare_verb(const CompareArguments& a) {
-  const Picture left = read_picture(a.a, a.channels), right = read_picture(a.b, a.channels);
-  std::vector<std::string> left_names = left.names, right_names = right.names;
-  std::sort(left_names.begin(), left_names.end());
-  std::sort(right_names.begin(), right_names.end());
-  if (left_names != right_names) {
-    throw Error(a.a + " has the channels " + join(left.names) + " and " + a.b + " has " +
-                join(right.names) + ": name those to compare with --channels");
-  }
-  std::vector<ComparedChannel> channels;
-  for (std::size_t i = 0; i < left.names.size(); ++i) {
-    const auto at = std::find(right.names.begin(), right.names.end(), left.names[i]);
-    const auto j = static_cast<std::size_t>(at - right.names.begin());
-    channels.push_back({left.names[i], left.planes[i].view(), right.planes[j].view()});
-  }
+CompareOptions options_of(const CompareArguments& a) {
   CompareOptions options;
   options.tolerance = {a.tolerance, a.allowed_percent,
                        a.hard_limit.value_or(options.tolerance.hard_limit)};
   options.epsilon = a.epsilon;
   options.clip = a.clip;
-  const Comparison result = compare(channels, options);
-  std::printf("%s", to_text(result).c_str());
+  return options;
+}
+
+/// Two pictures and all that is known of their difference.
+struct Pair {
+  ComparedPicture a, b;
+  std::vector<ComparedChannel> channels;  ///< of these pictures
+  Comparison result;
+  PictureMetrics metrics;
+
+  bool passes() const { return within(result) && metrics.sane(); }
+};
+
+/// Reads, compares, and writes the maps.
+Pair compare_pair(const CompareArguments& a, const WantedMetrics& wanted) {
+  Pair pair;
+  pair.a = read_picture(a.a, a.channels);
+  pair.b = read_picture(a.b, a.channels);
+  pair.channels = channels_of(pair.a, pair.b);
+  pair.result = compare(pair.channels, options_of(a));
+  pair.metrics = measure(wanted, pair.a, pair.b);
   if (!a.diff.empty()) {
-    const double brightest = result.overall.max > 0 ? result.overall.max : 1;
-    write_heat_map(a.diff, channels, {.maximum = brightest, .decades = 6});
-    std::printf("%s\n", a.diff.c_str());
+    const double brightest = pair.result.overall.max > 0 ? pair.result.overall.max : 1;
+    write_heat_map(a.diff, pair.channels, {.maximum = brightest, .decades = 6});
   }
-  return within(result) ? 0 : 1;
+  if (!a.flip_map.empty()) write_flip_map(a.flip_map, pair.metrics);
+  return pair;
+}
+
+std::string verdict(bool passes) { return passes ? "PASS\n" : "FAILURE\n"; }
+
+// --- a sequence ---------------------------------------------------------------------------------
+
+CompareArguments arguments_of_frame(const CompareArguments& a, int frame) {
+  CompareArguments one = a;
+  for (std::string* name : {&one.a, &one.b, &one.diff, &one.flip_map}) {
+    *name = name_of_frame(*name, frame);
+  }
+  return one;
+}
+
+std::vector<int> frames_to_compare(const CompareArguments& a) {
+  for (const std::string& name : {a.a, a.b, a.diff, a.flip_map}) {
+    if (name.empty() || has_frame_number(name)) continue;
+    throw Error(name + ": expected %04d or # for the numbers of --frames", Fault::kUsage);
+  }
+  return frames_of(a.frames);
+}
+
+/// The numbers of one frame, a word each; "-" where there is none.
+std::vector<std::string> row_of(const Pair& pair, const std::optional<Flicker>& change) {
+  const Metrics& all = pair.result.overall;
+  const PictureMetrics& m = pair.metrics;
+  std::vector<std::string> row = {number_text(all.mean), number_text(all.rmse),
+                                  number_text(all.rel_mse), number_text(all.max)};
+  row.push_back(change ? number_text(change->mean) : "-");
+  row.push_back(change ? number_text(change->p99) : "-");
+  if (m.ssim) row.push_back(number_text(m.ssim->mean));
+  if (m.flip) row.push_back(number_text(m.flip->mean));
+  if (m.hdr_flip) row.push_back(number_text(m.hdr_flip->mean));
+  if (m.offset) {
+    row.push_back(number_text(m.offset->overall.median));
+    row.push_back(number_text(m.offset->overall.p95));
+  }
+  return row;
+}
+
+std::vector<std::string> heading_of(const PictureMetrics& m) {
+  std::vector<std::string> row = {"mean", "RMS", "rel. MSE", "max", "flicker", "99%"};
+  if (m.ssim) row.push_back("SSIM");
+  if (m.flip) row.push_back("FLIP");
+  if (m.hdr_flip) row.push_back("HDR-FLIP");
+  if (m.offset) row.insert(row.end(), {"offset 50%", "95%"});
+  return row;
+}
+
+std::string line_of(const std::string& first, const std::vector<std::string>& cells) {
+  const auto padded = [](const std::string& cell, std::size_t width) {
+    return std::string(cell.size() < width ? width - cell.size() : 1, ' ') + cell;
+  };
+  std::string line = padded(first, 9);
+  for (const std::string& cell : cells) line += padded(cell, 13);
+  return line;
+}
+
+int compare_frames(const CompareArguments& a, WantedMetrics wanted) {
+  const std::vector<int> frames = frames_to_compare(a);
+  std::optional<Pair> before;
+  double flicker_sum = 0, flicker_max = 0;
+  std::vector<std::string> failed;
+  for (const int frame : frames) {
+    Pair pair = compare_pair(arguments_of_frame(a, frame), wanted);
+    std::optional<Flicker> change;
+    if (before) {
+      change = flicker(before->channels, pair.channels, a.clip);
+      flicker_sum += change->mean;
+      flicker_max = std::max(flicker_max, change->max);
+    } else {
+      print(line_of("frame", heading_of(pair.metrics)) + "\n");
+      // What the first frame has all must have, so that each has its place in the table.
+      if (wanted.all) wanted.offset = pair.metrics.offset.has_value();
+      wanted.all = false;
+    }
+    if (!pair.passes()) failed.push_back(std::to_string(frame));
+    print(line_of(std::to_string(frame), row_of(pair, change)) + "  " + verdict(pair.passes()));
+    if (!pair.metrics.no_offset.empty() && !before) {
+      print("  Offset not measured: " + pair.metrics.no_offset + "\n");
+    }
+    before = std::move(pair);
+  }
+  if (frames.size() > 1) {
+    print("  Flicker = " + number_text(flicker_sum / static_cast<double>(frames.size() - 1)) +
+          ", max " + number_text(flicker_max) + "\n");
+  }
+  if (!failed.empty()) {
+    print("  " + std::to_string(failed.size()) + " of " + std::to_string(frames.size()) +
+          " frames: " + join(failed) + "\n");
+  }
+  print(verdict(failed.empty()));
+  return failed.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+int compare_verb(const CompareArguments& a) {
+  const WantedMetrics wanted = wanted_metrics(a);
+  if (!a.frames.empty()) return compare_frames(a, wanted);
+  const Pair pair = compare_pair(a, wanted);
+  print(numbers_text(pair.result) + to_text(pair.metrics, wanted) + verdict(pair.passes()));
+  for (const std::string& map : {a.diff, a.flip_map}) {
+    if (!map.empty()) print(map + "\n");
+  }
+  return pair.passes() ? 0 : 1;
 }
 
 }  // namespace limpid::tool

@@ -77,5 +77,7 @@ bool within(const Comparison& comparison);
 
 /// What a person wants to read, in the words of `idiff`; the last line is PASS or FAILURE.
 std::string to_text(const Comparison& comparison);
+/// The same without that line, which depends on more where there are other metrics.
+std::string numbers_text(const Comparison& comparison);
 
 }  // namespace limpid

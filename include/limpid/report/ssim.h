@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "limpid/report/color_pair.h"
 
@@ -24,5 +25,8 @@ Ssim ssim(View<const float> a, View<const float> b);
 /// The same of the luminance (.2126 .7152 .0722), clamped to 0 ... 1 and encoded as sRGB: what a
 /// display shows.
 Ssim ssim(const ColorPair& pictures);
+
+/// "0.981, min 0.32".
+std::string to_text(const Ssim& ssim);
 
 }  // namespace limpid

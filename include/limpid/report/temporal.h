@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -21,8 +22,10 @@ struct Flicker {
 };
 
 /// `now` and `next` are the same channels of two frames; in each, `b` is the truth. Sums in double,
-/// in one fixed order. Throws Error as compare() does, and for channels that are not the same.
-Flicker flicker(std::span<const ComparedChannel> now, std::span<const ComparedChannel> next);
+/// in one fixed order. `clip` is that of CompareOptions. Throws Error as compare() does, and for
+/// channels that are not the same.
+Flicker flicker(std::span<const ComparedChannel> now, std::span<const ComparedChannel> next,
+                const std::optional<double>& clip = {});
 
 /// "0.0012, RMS 0.004, 99% 0.02, max 0.3".
 std::string to_text(const Flicker& flicker);

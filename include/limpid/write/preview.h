@@ -7,6 +7,8 @@ namespace limpid {
 
 /// The sRGB encoding of a linear value in 0 ... 1 (IEC 61966-2-1:1999).
 float srgb_from_linear(float linear);
+/// And the way back.
+float linear_from_srgb(float encoded);
 
 /// What a display shall show, 0 ... 1: scene-linear Rec.709 is multiplied by 2^exposure_stops,
 /// clamped to 0 ... 1 and encoded as sRGB. +inf is white; NaN is black.

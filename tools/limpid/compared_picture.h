@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpid/report/color_pair.h"
+#include "limpid/report/compare.h"
+
+/// Pictures as `compare` reads them.
+
+namespace limpid::tool {
+
+struct ComparedPicture {
+  std::string path;
+  Size display;  ///< of the display window
+  std::vector<std::string> names;
+  std::vector<Plane> planes;  ///< one a name, all of the data window
+
+  /// Null where there is none.
+  const Plane* find(const std::string& name) const;
+};
+
+/// All channels of the first part of an EXR, or of another format, that `wanted` names; all when it
+/// is empty. Throws Error for those that are not there.
+ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted);
+
+/// Whether the file is an EXR with such a channel in its first part.
+bool has_channel(const std::string& path, const std::string& name);
+
+/// The channels of both, in the order of `a`. Throws Error where one has others.
+std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b);
+
+/// The colors of a picture as the metrics of color want them: scene-linear, larger values than
+/// `clip` counted as that. EXR, HDR and PFM are taken to be linear, other formats to be encoded as
+/// sRGB.
+class LinearColor {
+ public:
+  /// Throws Error where there are no channels R, G and B.
+  LinearColor(const ComparedPicture& picture, const std::optional<double>& clip);
+
+  ColorViews views() const { return {planes_[0].view(), planes_[1].view(), planes_[2].view()}; }
+
+ private:
+  std::array<Plane, 3> planes_;
+};
+
+}  // namespace limpid::tool

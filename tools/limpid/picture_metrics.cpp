@@ -1,0 +1,140 @@
+#include "picture_metrics.h"
+
+#include <algorithm>
+
+#include "limpid/core/error.h"
+#include "limpid/report/heat_map.h"
+#include "limpid/report/number_text.h"
+
+namespace limpid::tool {
+namespace {
+
+const std::vector<std::string> kNames = {"ssim", "flip", "hdrflip", "offset", "all"};
+const std::vector<std::string> kMaps = {"stmap.r.U", "stmap.r.V", "stmap.g.U",
+                                        "stmap.g.V", "stmap.b.U", "stmap.b.V"};
+
+std::vector<std::string> with(std::vector<std::string> names,
+                              const std::vector<std::string>& more) {
+  names.insert(names.end(), more.begin(), more.end());
+  return names;
+}
+const std::vector<std::string> kOfChain = with({"surface_depth.Z", "confidence.Y"}, kMaps);
+const std::vector<std::string> kOfTruth = with({"visible.R", "visible.G", "visible.B"}, kMaps);
+
+// The first channel that the offset cannot be measured without, as a sentence; "" where all is
+// there.
+std::string lack(const std::string& path, const std::vector<std::string>& names,
+                 const std::string& source) {
+  for (const std::string& name : names) {
+    if (!has_channel(path, name)) {
+      return path + " has no channel '" + name + "': expected " + source;
+    }
+  }
+  return "";
+}
+
+std::string lack(const std::string& a, const std::string& b) {
+  const std::string of_a = lack(a, kOfChain, "a picture of composite or water with --aov all");
+  return of_a != "" ? of_a : lack(b, kOfTruth, "a ray-traced truth with its lookups");
+}
+
+OffsetComparison measure_offset(const std::string& a, const std::string& b) {
+  const ComparedPicture chain = read_picture(a, kOfChain), truth = read_picture(b, kOfTruth);
+  if (chain.display != truth.display) {
+    throw Error(a + " and " + b +
+                " are not of the same display window: their lookups cannot be "
+                "compared");
+  }
+  const auto of = [](const ComparedPicture& picture, const std::string& name) {
+    return picture.find(name)->view();
+  };
+  OffsetPictures pictures{
+      chain.display, of(chain, "surface_depth.Z"), of(chain, "confidence.Y"), {}};
+  const char* letters[] = {"r", "g", "b"};
+  const char* colors[] = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::string map = std::string("stmap.") + letters[c];
+    pictures.channels[c] = {of(chain, map + ".U"), of(chain, map + ".V"), of(truth, map + ".U"),
+                            of(truth, map + ".V"), of(truth, std::string("visible.") + colors[c])};
+  }
+  return offset_errors(pictures);
+}
+
+}  // namespace
+
+WantedMetrics wanted_metrics(const CompareArguments& arguments) {
+  WantedMetrics wanted;
+  for (const std::string& name : arguments.metrics) {
+    if (std::find(kNames.begin(), kNames.end(), name) == kNames.end()) {
+      throw Error(
+          "--metrics " + name + ": expected some of " + join(kNames) + did_you_mean(name, kNames),
+          Fault::kUsage);
+    }
+    wanted.all |= name == "all";
+    wanted.ssim |= name == "ssim" || name == "all";
+    wanted.flip |= name == "flip" || name == "all";
+    wanted.hdr_flip |= name == "hdrflip" || name == "all";
+    wanted.offset |= name == "offset" || name == "all";
+  }
+  if (!arguments.flip_map.empty() && !wanted.hdr_flip) wanted.flip = true;
+  if (arguments.ppd) {
+    const double ppd = *arguments.ppd;
+    if (!wanted.flip && !wanted.hdr_flip) {
+      throw Error("--ppd: expected --metrics flip or hdrflip beside it", Fault::kUsage);
+    }
+    if (!(ppd >= 1 && ppd <= 1000)) {
+      throw Error("--ppd " + number_text(ppd) + ": expected 1 ... 1000", Fault::kUsage);
+    }
+    wanted.observer.pixels_per_degree = ppd;
+  }
+  wanted.clip = arguments.clip;
+  return wanted;
+}
+
+PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
+                       const ComparedPicture& b) {
+  PictureMetrics metrics;
+  if (wanted.offset) {
+    metrics.no_offset = lack(a.path, b.path);
+    if (metrics.no_offset.empty()) {
+      metrics.offset = measure_offset(a.path, b.path);
+    } else if (!wanted.all) {
+      throw Error(metrics.no_offset);
+    }
+  }
+  if (!wanted.of_color()) return metrics;
+  const LinearColor color_a(a, wanted.clip), color_b(b, wanted.clip);
+  const ColorPair pair{color_a.views(), color_b.views()};
+  if (wanted.ssim) metrics.ssim = ssim(pair);
+  if (wanted.flip) metrics.flip = flip(pair, wanted.observer);
+  if (wanted.hdr_flip) {
+    metrics.exposures = exposures_of(pair.b);
+    metrics.hdr_flip = hdr_flip(pair, metrics.exposures, wanted.observer);
+  }
+  return metrics;
+}
+
+std::string to_text(const PictureMetrics& metrics, const WantedMetrics& wanted) {
+  std::string text;
+  const std::string ppd = number_text(wanted.observer.pixels_per_degree) + " pixels a degree";
+  if (metrics.ssim) text += "  SSIM = " + to_text(*metrics.ssim) + "\n";
+  if (metrics.flip) text += "  FLIP = " + to_text(*metrics.flip) + " (" + ppd + ")\n";
+  if (metrics.hdr_flip) {
+    const Exposures& e = metrics.exposures;
+    text += "  HDR-FLIP = " + to_text(*metrics.hdr_flip) + " (" + ppd + ", " +
+            std::to_string(e.count) + " exposures " + number_text(e.start) + " ... " +
+            number_text(e.stop) + ")\n";
+  }
+  if (metrics.offset) text += to_text(*metrics.offset);
+  if (!metrics.no_offset.empty()) text += "  Offset not measured: " + metrics.no_offset + "\n";
+  return text;
+}
+
+void write_flip_map(const std::string& path, const PictureMetrics& metrics) {
+  const View<const float> map = (metrics.flip ? *metrics.flip : *metrics.hdr_flip).map.view();
+  const float zero = 0;
+  const ComparedChannel channel{"FLIP", map, {&zero, 0, 0, map.window}};
+  write_heat_map(path, {&channel, 1}, {.maximum = 1});
+}
+
+}  // namespace limpid::tool
