@@ -58,7 +58,6 @@ def ssim_map(a, b):
     window = np.exp(-(x * x + y * y) / (2 * 1.5**2))
     window /= window.sum()
     mean_a, mean_b = convolved(a, window), convolved(b, window)
-    # About the means, not as a difference of large numbers.
     var_a = convolved(a * a, window) - mean_a**2
     var_b = convolved(b * b, window) - mean_b**2
     cov = convolved(a * b, window) - mean_a * mean_b
