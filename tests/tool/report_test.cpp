@@ -164,7 +164,22 @@ TEST_F(ReportTest, AQuickOneHasAllRowsAndAPageThatABrowserShows) {
   expect_good_page(500);
 }
 
+TEST_F(ReportTest, HardCasesAreATableAPageAndRows) {
+  const Ran ran = limpid({"report", "--hard", "-o", "hard"});
+  ASSERT_EQ(ran.code, 0) << ran.out << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("depth: 24 bit reversed, eye depth "));
+  EXPECT_THAT(ran.out, HasSubstr("hard/hard.json\nhard/hard.html\n"));
+  const json hard = json::parse(text_of("hard/hard.json"));
+  EXPECT_GT(hard["rows"].size(), 20);
+  for (const json& row : hard["rows"]) EXPECT_TRUE(row["passed"]) << row;
+  EXPECT_THAT(text_of("hard/hard.html"), Not(HasSubstr("http")));
+  const Ran parsed =
+      run(folder_, {PYTHON3, "-c", "import xml.dom.minidom as d; d.parse('hard/hard.html')"});
+  EXPECT_EQ(parsed.code, 0) << parsed.err;
+}
+
 TEST_F(ReportTest, WrongUsage) {
+  expect_refused(limpid({"report", "-o", "r", "--hard", "--quick"}), {"--hard", "no --size"}, 2);
   expect_refused(limpid({"report"}), {"-o FOLDER"}, 2);
   expect_refused(limpid({"report", "-o", "r", "--size", "12"}), {"--size 12", "WxH"}, 2);
   expect_refused(limpid({"report", "-o", "r", "--size", "8x8"}), {"8x8", "16x16"}, 2);

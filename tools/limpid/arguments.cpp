@@ -160,6 +160,8 @@ void add_report(CLI::App& app, ReportArguments& a) {
   verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 5; quick: 2)")
       ->option_text("N");
   verb.add_flag("--quick", a.quick, "Small pictures, few rounds: to see that it works");
+  verb.add_flag("--hard", a.hard,
+                "The hard cases with their bounds instead, also printed: hard.html and hard.json");
 }
 
 std::vector<std::string> verbs_of(const CLI::App& app) {

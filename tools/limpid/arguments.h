@@ -69,6 +69,7 @@ struct ReportArguments {
   std::optional<std::string> size;
   std::optional<int> rounds;
   bool quick = false;
+  bool hard = false;
 };
 
 enum class Verb {

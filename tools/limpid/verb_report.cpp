@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "limpid/core/error.h"
+#include "limpid/report/hard.h"
 #include "limpid/report/report.h"
 
 #include "data_folder.h"
@@ -26,19 +27,42 @@ ReportOptions options_of(const ReportArguments& a, const CommonArguments& common
   return options;
 }
 
+void print_files(const std::string& folder, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    std::printf("%s\n", (std::filesystem::path(folder) / name).c_str());
+}
+
+/// Exit 1 where a case is beyond its bound.
+int hard_cases(const ReportArguments& a, const CommonArguments& common) {
+  if (a.quick || a.size || a.rounds) {
+    throw Error("report --hard: has cases of its own, expected no --size, --rounds or --quick",
+                Fault::kUsage);
+  }
+  make_hard_folder(a.output);
+  const std::vector<HardRow> rows = HardSuite(data_folder(), common.threads).measure_all();
+  write_hard(a.output, rows);
+  if (!common.quiet) {
+    std::printf("%s", to_text(rows).c_str());
+    print_files(a.output, {"hard.json", "hard.html"});
+  }
+  std::vector<std::string> beyond;
+  for (const HardRow& row : rows) {
+    if (!row.passed()) beyond.push_back(row.group + ": " + row.name);
+  }
+  if (!beyond.empty()) throw Error("hard cases are beyond their bounds: " + join(beyond));
+  return 0;
+}
+
 }  // namespace
 
 int report_verb(const ReportArguments& a, const CommonArguments& common) {
   if (a.output.empty()) throw Error("no output: expected -o FOLDER", Fault::kUsage);
+  if (a.hard) return hard_cases(a, common);
   const ReportOptions options = options_of(a, common);
   options.validate();
   make_report_folder(a.output);
   write_report(a.output, measure_report(options));
-  if (!common.quiet) {
-    for (const char* name : {"report.json", "index.html"}) {
-      std::printf("%s\n", (std::filesystem::path(a.output) / name).c_str());
-    }
-  }
+  if (!common.quiet) print_files(a.output, {"report.json", "index.html"});
   return 0;
 }
 

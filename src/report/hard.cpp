@@ -1,0 +1,58 @@
+#include "limpid/report/hard.h"
+
+#include <utility>
+
+#include "limpid/core/error.h"
+
+#include "report/hard_case.h"
+
+namespace limpid {
+namespace {
+
+std::string name_of(const HardCase& hard) { return hard.group + ": " + hard.name; }
+
+HardRow measured(const HardCase& hard, const HardWorld& world) {
+  const Worst worst = hard.measure(world);
+  return {hard.group, hard.name,     hard.quantity, hard.reason,
+          hard.bound, worst.value(), worst.count(), worst.where()};
+}
+
+}  // namespace
+
+struct HardSuite::State {
+  HardWorld world;
+  HardCases cases = hard_cases();
+};
+
+HardSuite::HardSuite(const std::filesystem::path& data, int threads)
+    : state_(std::make_unique<State>(HardWorld(data, threads))) {}
+HardSuite::HardSuite(HardSuite&&) noexcept = default;
+HardSuite& HardSuite::operator=(HardSuite&&) noexcept = default;
+HardSuite::~HardSuite() = default;
+
+std::vector<std::string> HardSuite::names() {
+  std::vector<std::string> names;
+  for (const HardCase& hard : hard_cases()) names.push_back(name_of(hard));
+  return names;
+}
+
+HardRow HardSuite::measure(const std::string& name) const {
+  for (const HardCase& hard : state_->cases) {
+    if (name_of(hard) == name) return measured(hard, state_->world);
+  }
+  throw Error("hard case '" + name + "' is unknown" + did_you_mean(name, names()));
+}
+
+std::vector<HardRow> HardSuite::measure_all() const {
+  std::vector<HardRow> rows;
+  for (const HardCase& hard : state_->cases) rows.push_back(measured(hard, state_->world));
+  return rows;
+}
+
+HardCases hard_cases() {
+  HardCases cases;
+  add_depth_cases(cases);
+  return cases;
+}
+
+}  // namespace limpid

@@ -1,0 +1,109 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/ops/look.h"
+#include "limpid/run/target.h"
+
+namespace limpid {
+
+/// A number in 0 ... 1 from a place, the same on every machine.
+float hard_noise(int x, int y, int channel);
+
+/// A frame that owns its planes.
+class HardFrame {
+ public:
+  HardFrame() = default;
+  explicit HardFrame(Rect display) { frame_.display = display; }
+
+  /// Makes a plane of the display window from a function of the pixel.
+  template <class Fn>
+  void set(PlaneId id, Fn&& value) {
+    Plane& plane = add(id);
+    const Rect& w = frame_.display;
+    for (int y = w.y0; y < w.y1; ++y) {
+      for (int x = w.x0; x < w.x1; ++x) plane.view().at(x, y) = static_cast<float>(value(x, y));
+    }
+  }
+  void fill(PlaneId id, double value) {
+    set(id, [value](int, int) { return value; });
+  }
+  void normal(const glm::dvec3& n) {
+    fill(PlaneId::kSurfaceNormalX, n.x);
+    fill(PlaneId::kSurfaceNormalY, n.y);
+    fill(PlaneId::kSurfaceNormalZ, n.z);
+  }
+  void drop(PlaneId id) {
+    planes_[index_of(id)] = {};
+    frame_.planes[index_of(id)] = {};
+  }
+  /// Enters all planes as loaders do.
+  void sanitise(const glm::dvec3& up);
+
+  View<float> plane(PlaneId id) { return planes_[index_of(id)].view(); }
+  const Frame& frame() const { return frame_; }
+  Frame& frame() { return frame_; }
+
+ private:
+  Plane& add(PlaneId id);
+
+  Frame frame_;
+  std::array<Plane, kPlaneCount> planes_;
+};
+
+/// A picture with all AOVs.
+class HardPicture {
+ public:
+  explicit HardPicture(Rect window);
+
+  Rect window() const { return window_; }
+  double color(int channel, int x, int y) const { return target.color[channel].at(x, y); }
+  double aov(Aov which, int x, int y, int channel = 0) const {
+    return target.of(which)[channel].at(x, y);
+  }
+  bool wet(int x, int y) const { return !std::isinf(aov(Aov::kSurfaceDepth, x, y)); }
+  const std::vector<Plane>& planes() const { return planes_; }
+
+  Target target;
+
+ private:
+  View<float> added();
+
+  Rect window_;
+  std::vector<Plane> planes_;
+};
+
+/// What the cases share: the looks of a data folder, made-up maps, and all ways to run a chain.
+class HardWorld {
+ public:
+  HardWorld(const std::filesystem::path& data, int threads);
+
+  const std::vector<Look>& looks() const { return looks_; }
+  /// Throws Error for a name that is not there.
+  const Look& look(const std::string& name) const;
+  /// "reference", then the instruction sets of the fused runner.
+  const std::vector<std::string>& runners() const { return runners_; }
+  /// Maps of the frame that it lacks are the made-up ones.
+  HardPicture run(const std::string& runner, const Look& look, const HardFrame& frame,
+                  const Scene& scene) const;
+
+ private:
+  std::vector<Look> looks_;
+  std::vector<std::string> runners_;
+  std::array<Plane, 3> waves_, sky_;
+  std::unique_ptr<Executor> executor_;
+};
+
+/// "fused avx2, look fast, pixel 3, 4": where a value was.
+std::string place_text(const std::string& runner, const std::string& look, int x, int y);
+
+/// The look physical on calm water that mirrors nothing, in one color: what closed forms are of.
+Look calm_look(const HardWorld& world);
+
+}  // namespace limpid

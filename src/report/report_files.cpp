@@ -1,0 +1,30 @@
+#include "report/report_files.h"
+
+#include <fstream>
+
+#include "limpid/core/error.h"
+
+#include "write/atomic_file.h"
+
+namespace limpid {
+
+void make_folder_for(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error) && std::filesystem::exists(folder, error)) {
+    throw Error(folder.string() + ": is there and not a folder, so no report is written into it");
+  }
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(folder.string() + ": cannot be made (" + error.message() + ")");
+  for (const std::string& name : names) AtomicFile{folder / name};
+}
+
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  if (!stream) throw Error(path.string() + ": cannot be written (disk full?)", Fault::kRetry);
+  file.commit();
+}
+
+}  // namespace limpid
