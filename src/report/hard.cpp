@@ -49,9 +49,26 @@ std::vector<HardRow> HardSuite::measure_all() const {
   return rows;
 }
 
+Worst unsound_values(const HardWorld& world, const HardFrame& frame, const Scene& scene) {
+  Worst worst;
+  for (const Look& look : world.looks()) {
+    for (const std::string& runner : world.runners()) {
+      const HardPicture picture = world.run(runner, look, frame, scene);
+      picture.for_each_value([&](float value, int x, int y, bool aov) {
+        const bool sound = aov ? !std::isnan(value) : std::isfinite(value);
+        worst.expect(sound, [&] { return place_text(runner, look.name, x, y); });
+      });
+    }
+  }
+  return worst;
+}
+
 HardCases hard_cases() {
   HardCases cases;
   add_depth_cases(cases);
+  add_camera_cases(cases);
+  add_angle_cases(cases);
+  add_projection_cases(cases);
   return cases;
 }
 

@@ -26,7 +26,12 @@ class Worst {
     value_ = value;
     where_ = where();
   }
-  /// A thing that must not be: counted.
+  void add_counts(const Worst& other) {
+    count_ += other.count_;
+    if (value_ == 0) where_ = other.where_;
+    value_ += other.value_;
+  }
+  /// Things that must not be are counted. Not together with add().
   template <class Where>
   void expect(bool holds, Where&& where) {
     ++count_;
@@ -52,6 +57,10 @@ struct HardCase {
 };
 
 using HardCases = std::vector<HardCase>;
+
+/// Every value of every picture that a look and a runner make of a frame, counted where it is no
+/// number (in AOVs) or not finite (in the picture).
+Worst unsound_values(const HardWorld& world, const HardFrame& frame, const Scene& scene);
 
 /// One a file, in the order of the table.
 void add_depth_cases(HardCases& cases);

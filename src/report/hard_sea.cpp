@@ -9,6 +9,34 @@ namespace {
 
 constexpr long double kDegree = std::numbers::pi_v<long double> / 180;
 
+/// Where there is no plane of it, the surface is over / under: three roundings each and one of the
+/// quotient.
+constexpr double kSurfaceRoundings = 7;
+/// A height over the water is a sum of three numbers, each the product of a few rounded ones; the
+/// bottom's and the surface's take 24 and 6 roundings.
+constexpr double kHeightRoundings = 30;
+/// And what becomes of it: the two cosines, the quotient.
+constexpr double kPathRoundings = 10;
+/// The slope of the reflectance over the cosine is at most 6.3, at grazing angles; the cosine has 6
+/// roundings (to_viewer, its dot product), the formula 8.
+constexpr double kReflectanceRoundings = 6.3 * 6 + 8;
+
+long double sea_bound(const Sea& sea, const Sea::Pixel& p, SeaError what, long double ior) {
+  switch (what) {
+    case SeaError::kSurface:
+      return kSurfaceRoundings * kRounding * p.surface;
+    case SeaError::kReflectance:
+      return kReflectanceRoundings * kRounding;
+    case SeaError::kPath:
+      break;
+  }
+  const long double refracted = refracted_cosine_of(p.cosine, ior);
+  // Of a turned world, heights are sums of coordinates as large as the way from the eye.
+  const long double summed =
+      sea.height + sea.depth + sea.orthographic + (sea.turned ? p.bottom * p.length : 0);
+  return kRounding * (kHeightRoundings * summed + kPathRoundings * sea.depth) / refracted;
+}
+
 }  // namespace
 
 Sea::Pixel Sea::at(int x, int y) const {
@@ -91,6 +119,37 @@ HardFrame Sea::frame(bool with_surface) const {
     });
   }
   return frame;
+}
+
+Worst sea_error(const HardWorld& world, const Sea& sea, SeaError what) {
+  Worst worst;
+  const Look look = calm_look(world);
+  const long double ior = look.water.ior;
+  const HardFrame frame = sea.frame(what == SeaError::kPath);
+  for (const std::string& runner : world.runners()) {
+    const HardPicture picture = world.run(runner, look, frame, sea.scene());
+    for (int y = 0; y < sea.size.height; ++y) {
+      for (int x = 0; x < sea.size.width; ++x) {
+        const auto where = [&] { return place_text(runner, look.name, x, y); };
+        const Sea::Pixel p = sea.at(x, y);
+        if (picture.wet(x, y) != p.water) worst.add(HUGE_VAL, where);
+        if (!p.water) continue;
+        const auto error = [&]() -> long double {
+          switch (what) {
+            case SeaError::kSurface:
+              return picture.aov(Aov::kSurfaceDepth, x, y) - p.surface;
+            case SeaError::kPath:
+              return picture.aov(Aov::kPath, x, y) - sea.depth / refracted_cosine_of(p.cosine, ior);
+            case SeaError::kReflectance:
+              return picture.aov(Aov::kFresnel, x, y) - reflectance_of(p.cosine, ior);
+          }
+          return HUGE_VAL;
+        };
+        worst.add(double(std::abs(error()) / sea_bound(sea, p, what, ior)), where);
+      }
+    }
+  }
+  return worst;
 }
 
 long double refracted_cosine_of(long double cosine, long double ior) {

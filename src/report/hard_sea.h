@@ -3,6 +3,7 @@
 
 #include "limpid/core/scene.h"
 
+#include "report/hard_case.h"
 #include "report/hard_world.h"
 
 namespace limpid {
@@ -37,6 +38,16 @@ struct Sea {
   /// for. What meets no water is sky.
   HardFrame frame(bool with_surface = true) const;
 };
+
+/// What of a sea is judged, each by its own bound: roundings counted along the formulas.
+enum class SeaError { kSurface, kPath, kReflectance };
+/// The largest error over its bound, of calm_look() by every runner. Counts as infinite where a
+/// pixel is wet that should not be, or the other way round.
+Worst sea_error(const HardWorld& world, const Sea& sea, SeaError what);
+
+/// Cases of all three.
+void add_sea_cases(HardCases& cases, const std::string& group, const std::string& name,
+                   const Sea& sea);
 
 /// cos of the refracted ray for that of the view, by Snell's law.
 long double refracted_cosine_of(long double cosine, long double ior);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "limpid/core/error.h"
@@ -11,6 +12,8 @@
 #include "limpid/plan/plan.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
+
+#include "report/hard_sea.h"
 
 namespace limpid {
 namespace {
@@ -104,6 +107,34 @@ HardPicture HardWorld::run(const std::string& runner, const Look& look, const Ha
   }
   return picture;
 }
+
+HardFrame noisy_frame(Size size) {
+  constexpr float kSky = std::numeric_limits<float>::infinity();
+  HardFrame frame(rect_of(size));
+  for (int i = 0; i < kPlaneCount; ++i) {
+    frame.set(static_cast<PlaneId>(i), [i](int x, int y) { return 2 * hard_noise(x, y, i); });
+  }
+  frame.set(PlaneId::kShadow, [](int x, int y) { return hard_noise(x, y, 40) > 0.3f ? 1 : 0; });
+  frame.set(PlaneId::kSurfaceShadow, [](int x, int y) { return hard_noise(x, y, 47); });
+  frame.set(PlaneId::kSurfaceDepth, [](int x, int y) {
+    return hard_noise(x / 7, y / 5, 41) > 0.25f ? 3 + hard_noise(x, y, 42) : kSky;
+  });
+  frame.set(PlaneId::kDepth, [](int x, int y) {
+    const float kind = hard_noise(x / 4, y / 3, 43);
+    return kind < 0.2f ? 2.0f : kind < 0.3f ? kSky : 3.5f + 6 * hard_noise(x / 2, y / 2, 44);
+  });
+  for (int c = 0; c < 3; ++c) {
+    frame.set(plane_after(PlaneId::kSurfaceNormalX, c), [c](int x, int y) {
+      const double across = 0.5 * hard_noise(x, y, 45) - 0.25;
+      const double along = 0.5 * hard_noise(x, y, 46) - 0.25;
+      const double normal[] = {across, 1, along};
+      return normal[c] / std::sqrt(across * across + 1 + along * along);
+    });
+  }
+  return frame;
+}
+
+Scene noisy_scene(Size size) { return Sea{.size = size}.scene(); }
 
 std::string place_text(const std::string& runner, const std::string& look, int x, int y) {
   return runner + ", " + look + ", pixel " + std::to_string(x) + " " + std::to_string(y);

@@ -68,7 +68,18 @@ class HardPicture {
     return target.of(which)[channel].at(x, y);
   }
   bool wet(int x, int y) const { return !std::isinf(aov(Aov::kSurfaceDepth, x, y)); }
-  const std::vector<Plane>& planes() const { return planes_; }
+  /// fn(value, x, y, whether it is of an AOV)
+  template <class Fn>
+  void for_each_value(Fn&& fn) const {
+    constexpr std::size_t kPicture = 4;
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      for (int y = window_.y0; y < window_.y1; ++y) {
+        for (int x = window_.x0; x < window_.x1; ++x) {
+          fn(planes_[i].view().at(x, y), x, y, i >= kPicture);
+        }
+      }
+    }
+  }
 
   Target target;
 
@@ -100,7 +111,13 @@ class HardWorld {
   std::unique_ptr<Executor> executor_;
 };
 
-/// "fused avx2, look fast, pixel 3, 4": where a value was.
+/// Every plane of a frame, made of noise: wavy normals, a bottom that rises through the surface in
+/// places, things before it, some sky.
+HardFrame noisy_frame(Size size);
+/// A camera 2 above the water that looks down by 30 degrees, and a low sun.
+Scene noisy_scene(Size size);
+
+/// "avx2, fast, pixel 3 4": where a value was.
 std::string place_text(const std::string& runner, const std::string& look, int x, int y);
 
 /// The look physical on calm water that mirrors nothing, in one color: what closed forms are of.

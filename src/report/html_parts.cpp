@@ -46,7 +46,8 @@ void HtmlTable::add(const std::vector<Cell>& cells, bool marked) {
   const bool parted = std::exchange(starts_group_, false) && !rows_.empty();
   rows_ += marked ? "<tr class=\"marked\">" : parted ? "<tr class=\"first\">" : "<tr>";
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    rows_ += columns_[i].is_number ? "<td class=\"n\"" : "<td";
+    const Column& column = columns_[i];
+    rows_ += column.is_number ? "<td class=\"n\"" : column.wraps ? "<td class=\"wrap\"" : "<td";
     if (std::isfinite(cells[i].value)) rows_ += " data-v=\"" + exact_number(cells[i].value) + "\"";
     rows_ += ">" + escaped(cells[i].text) + "</td>";
   }

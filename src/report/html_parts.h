@@ -26,6 +26,7 @@ Cell percent(double share, int digits = 0);
 struct Column {
   std::string name, unit;
   bool is_number = true;
+  bool wraps = false;  ///< texts may be long
 };
 
 /// A table whose rows can be sorted by a click on a column's head.

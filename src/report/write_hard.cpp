@@ -55,8 +55,8 @@ std::string table(std::span<const HardRow> rows) {
        {"measured", ""},
        {"margin", ""},
        {"values", ""},
-       {"where the bound comes from", "", false},
-       {"largest at", "", false}});
+       {"where the bound comes from", "", false, true},
+       {"largest at", "", false, true}});
   std::string group;
   for (const HardRow& row : rows) {
     if (row.group != group) table.begin_group();
