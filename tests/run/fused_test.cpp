@@ -101,6 +101,19 @@ TEST_P(FusedOnTarget, NormalMapAgreesWithTheReference) {
   EXPECT_GT(wet, 500);
 }
 
+/// Water at the eye itself, and next to it: a ray that starts there may come from behind.
+TEST_P(FusedOnTarget, WaterAtTheEyeMakesNoNan) {
+  const Size size{33, 9};
+  Buffers b = test::noisy_frame(rect_of(size));
+  const Scene scene = test::simple_scene(size);
+  for (const float depth : {0.0f, 1e-45f, 1e-40f, 1e-30f, 1e-20f, 1e-3f}) {
+    b.fill(PlaneId::kSurfaceDepth, depth);
+    const Picture got = test::fused({}, b.frame, scene, {.simd = GetParam()});
+    for (const float value : got.values()) ASSERT_FALSE(std::isnan(value)) << depth;
+    for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::isfinite(got.target.color[c].at(9, 5))) << depth;
+  }
+}
+
 /// Eight bits of a value are one fetch for three channels, by a way of its own.
 TEST_P(FusedOnTarget, PackedNormalMapAgreesWithTheReference) {
   const Size size{133, 21};

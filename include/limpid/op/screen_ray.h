@@ -9,16 +9,18 @@ namespace limpid {
 /// A ray from a pixel's surface point, as it crosses the screen. At s scene units from the surface
 /// it is seen shift_at(s) away from the pixel's own centre, at eye depth depth_at(s). Computed from
 /// differences, never from two positions: exact in float at any size of picture, and 0 at s = 0.
+/// Surfaces at the eye itself count as a little before it, against 0 / 0.
 template <class F>
 struct ScreenRay {
-  Vec2<F> across;  ///< shift = s across / (w + s w_step)
-  F w, w_step;     ///< w_step < 0 where the ray comes towards the viewer
+  static constexpr double kLeastW = 1e-30;  ///< a millionth of it is no denormal float
+  Vec2<F> across;                           ///< shift = s across / (w + s w_step)
+  F w, w_step;                              ///< w_step < 0 where the ray comes towards the viewer
   F depth, depth_step;
 
   LIMPID_INLINE ScreenRay(const Context& c, const Pixel<F>& p, Vec3<F> direction) {
     depth = p.surface_depth;
     depth_step = dot(vec3_of<F>(c.forward), direction);
-    w = F(c.w_origin) + F(c.w_depth) * depth;
+    w = max(F(c.w_origin) + F(c.w_depth) * depth, F(kLeastW));
     w_step = F(c.w_depth) * depth_step;
     across = {dot(vec3_of<F>(c.to_u), direction) - p.uv.x * w_step,
               dot(vec3_of<F>(c.to_v), direction) - p.uv.y * w_step};
@@ -28,13 +30,13 @@ struct ScreenRay {
   /// the shift is huge and finite.
   LIMPID_INLINE Vec2<F> shift_at(F s) const {
     const F far = min(s, F(1e30));
-    return (far / max(w + far * w_step, F(1e-6) * w)) * across;
+    return min(far / max(w + far * w_step, F(1e-6) * w), F(1e30)) * across;
   }
   LIMPID_INLINE F depth_at(F s) const { return depth + min(s, F(1e30)) * depth_step; }
 
   /// The s at a share t in 0 ... 1 of the way, on screen, to where it is at s = `end`.
   LIMPID_INLINE F at_share(F t, F end) const {
-    return t * end * w / max(w + (F(1) - t) * end * w_step, F(1e-6) * w);
+    return t * end * (w / max(w + (F(1) - t) * end * w_step, F(1e-6) * w));
   }
 
   /// The other way round: at_share(share_at(s, end), end) = s, for s in 0 ... end.
