@@ -1,6 +1,7 @@
 // Compiled once for each instruction set, with that set's flags and LIMPID_LANES_TARGET naming it.
 // All that is instantiated here depends on the Lane type of the set, so that no function compiled
 // for one machine can be linked into the path of another.
+#include "run/flush_denormals.h"
 #include "run/fused_strip.h"
 
 namespace limpid::HWY_NAMESPACE {
@@ -71,7 +72,7 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
   laps.charge(StopClock::kRest);
 }
 
-void run_tile(const FusedJob& job, const Rect& tile) {
+__attribute__((noinline)) void run_rows(const FusedJob& job, const Rect& tile) {
   LapTimer laps(job.clock);
   for (int y = tile.y0; y < tile.y1; ++y) {
     const RowRays<Lane> rays(job.context, y - job.context.corner.y + 0.5);
@@ -82,6 +83,11 @@ void run_tile(const FusedJob& job, const Rect& tile) {
     }
   }
   if (job.clock) job.clock->add(laps.taken);
+}
+
+void run_tile(const FusedJob& job, const Rect& tile) {
+  const FlushDenormals flush;
+  run_rows(job, tile);
 }
 
 }  // namespace

@@ -114,6 +114,31 @@ TEST_P(FusedOnTarget, WaterAtTheEyeMakesNoNan) {
   }
 }
 
+/// 0.6^200 is 4e-45: high powers of what is not small would make denormals in floods.
+TEST_P(FusedOnTarget, MakesNoDenormals) {
+  const Size size{67, 41};
+  Buffers b = test::noisy_frame(rect_of(size));
+  b.fill(PlaneId::kSurfaceShadow, 1);
+  Look look = busy_look();
+  look.of<SunHighlight>().model = SunHighlight::Model::kPhong;
+  int flushed = 0;
+  for (const double power : {150.0, 200.0, 200.5}) {
+    look.of<SunHighlight>().power = power;
+    const Picture judge = test::reference(look, b.frame, test::simple_scene(size));
+    const Picture got = test::fused(look, b.frame, test::simple_scene(size), {.simd = GetParam()});
+    for (const float value : got.values()) EXPECT_NE(std::fpclassify(value), FP_SUBNORMAL);
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const double expected = judge.aov(Aov::kHighlight, x, y);
+        flushed += expected > 0 && expected < 1e-38;
+        // The lobe is 0 below 1.2e-38, and the sun three times as bright.
+        EXPECT_NEAR(got.aov(Aov::kHighlight, x, y), expected, 1e-3 * expected + 4e-38);
+      }
+    }
+  }
+  EXPECT_GT(flushed, 0);
+}
+
 /// Eight bits of a value are one fetch for three channels, by a way of its own.
 TEST_P(FusedOnTarget, PackedNormalMapAgreesWithTheReference) {
   const Size size{133, 21};

@@ -1,0 +1,43 @@
+#pragma once
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+#include "core/lanes.h"
+
+/// For inclusion by lanes_target.cpp alone.
+
+namespace limpid::HWY_NAMESPACE {
+
+/// While it lives this thread makes no denormal floats and takes those it meets for 0: high powers
+/// of small numbers make them in floods, and each may take longer than a hundred other operations.
+/// Copies keep their bits. On machines that cannot it does nothing.
+class FlushDenormals {
+ public:
+#if defined(__x86_64__)
+  FlushDenormals() { _mm_setcsr(before_ | kFlushAndZero); }
+  ~FlushDenormals() { _mm_setcsr(before_); }
+
+ private:
+  static constexpr unsigned kFlushAndZero = 0x8040;  // FTZ of results, DAZ of operands
+  const unsigned before_ = _mm_getcsr();
+#elif defined(__aarch64__)
+  FlushDenormals() {
+    asm volatile("mrs %0, fpcr" : "=r"(before_));
+    asm volatile("msr fpcr, %0" : : "r"(before_ | kFlush));
+  }
+  ~FlushDenormals() { asm volatile("msr fpcr, %0" : : "r"(before_)); }
+
+ private:
+  static constexpr std::uint64_t kFlush = 1u << 24;  // FZ
+  std::uint64_t before_;
+#else
+  FlushDenormals() {}
+#endif
+
+ public:
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+};
+
+}  // namespace limpid::HWY_NAMESPACE
