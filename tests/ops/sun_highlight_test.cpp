@@ -76,6 +76,23 @@ constexpr SunHighlight::Model kModels[] = {
     SunHighlight::Model::kPhong, SunHighlight::Model::kBlinnPhong, SunHighlight::Model::kGgx};
 
 // The shadow that fell on the surface is better than the one on the bottom seen through it.
+/// The half vector of a sun under the horizon may still lean upwards.
+TEST(SunHighlight, FacetsThatFaceAwayDoNotGlint) {
+  Tray tray = sunny_tray();
+  for (auto model :
+       {SunHighlight::Model::kPhong, SunHighlight::Model::kBlinnPhong, SunHighlight::Model::kGgx}) {
+    tray.look.of<SunHighlight>() = {.model = model, .power = 2, .roughness = 0.5};
+    tray.scene.sun->direction = {0.995, std::sqrt(1 - 0.995 * 0.995), 0};
+    EXPECT_GT(tray.wet().aov(Aov::kHighlight, 2, 2), 0);
+    tray.scene.sun->direction.y *= -1;
+    EXPECT_EQ(tray.wet().aov(Aov::kHighlight, 2, 2), 0);
+    // But a facet that leans towards it does.
+    tray.buffers.normal({std::sqrt(0.5), std::sqrt(0.5), 0});
+    EXPECT_GT(tray.wet().aov(Aov::kHighlight, 2, 2), 0);
+    tray.buffers.normal({0, 1, 0});
+  }
+}
+
 TEST(SunHighlight, ShadowOfTheSurfacePointWhereThereIsOne) {
   for (auto model : kModels) {
     Tray tray = sunny_tray();

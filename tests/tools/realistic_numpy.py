@@ -143,9 +143,10 @@ def realistic(plate, p=REALISTIC):
     reflected = bilinear(plate["reflection"], u + p["reflection"] * mx, v + p["reflection"] * my)
     water = lerp(under, reflected, F[..., None])
 
-    # The sun's highlight, not where the pixel lies in shadow.
+    # The sun's highlight, not where the pixel lies in shadow or the wave faces away from the sun.
     H = normalized(V + sun)
     spec = sat(np.sum(H * normal, axis=-1)) ** p["highlight_power"] * p["highlight_strength"]
+    spec = np.where(np.sum(sun * normal, axis=-1) > 0, spec, 0)
     water = water + (spec * plate["shadow"])[..., None] * plate["sun_color"]
 
     return np.where(wet[..., None], water, color)

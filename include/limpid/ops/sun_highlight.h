@@ -9,7 +9,7 @@ namespace limpid {
 /// The glint of the sun on the surface, times strength and the sun's visibility, added to the
 /// picture and not bounded by 1; none where the view does not come from the air. The visibility is
 /// that of the surface point: its own shadow plane, or else the shadow at this pixel; lit where the
-/// frame has neither.
+/// frame has neither. Facets that face away from the sun do not glint.
 ///
 /// lobe^power * sun color: `phong` measures the lobe from the mirrored light, `blinn_phong`
 /// ("Realistic Water", power 200) from the half vector. Not physical: wide lobes shine as bright as
@@ -61,11 +61,12 @@ struct SunHighlight {
   template <class F>
   static LIMPID_INLINE F lobe(const Params& params, const Context& c, const Pixel<F>& p) {
     const Vec3<F> n = p.normal, v = p.to_viewer, l = vec3_of<F>(c.sun.direction);
+    const auto faces_sun = dot(n, l) > F(0);
     switch (params.model) {
       case Model::kPhong:
-        return phong_lobe(n, v, l, params.power);
+        return select(faces_sun, phong_lobe(n, v, l, params.power), F(0));
       case Model::kBlinnPhong:
-        return blinn_phong_lobe(n, v, l, params.power);
+        return select(faces_sun, blinn_phong_lobe(n, v, l, params.power), F(0));
       case Model::kGgx:
         if (params.roughness == 0) return sun_disc_lobe(n, v, l, F(c.ior));
         return sun_glint_lobe(n, v, l, F(params.roughness), F(c.ior));
