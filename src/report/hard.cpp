@@ -51,6 +51,7 @@ std::vector<HardRow> HardSuite::measure_all() const {
 
 Worst unsound_values(const HardWorld& world, const HardFrame& frame, const Scene& scene) {
   Worst worst;
+  bool has_water = false;
   for (const Look& look : world.looks()) {
     for (const std::string& runner : world.runners()) {
       const HardPicture picture = world.run(runner, look, frame, scene);
@@ -58,8 +59,10 @@ Worst unsound_values(const HardWorld& world, const HardFrame& frame, const Scene
         const bool sound = aov ? !std::isnan(value) : std::isfinite(value);
         worst.expect(sound, [&] { return place_text(runner, look.name, x, y); });
       });
+      has_water = has_water || picture.has_water();
     }
   }
+  worst.expect(has_water, [] { return std::string("nowhere is any water"); });
   return worst;
 }
 
@@ -69,6 +72,15 @@ HardCases hard_cases() {
   add_camera_cases(cases);
   add_angle_cases(cases);
   add_projection_cases(cases);
+  add_scale_cases(cases);
+  add_shore_cases(cases);
+  add_sky_cases(cases);
+  add_pixel_cases(cases);
+  add_normal_cases(cases);
+  add_power_cases(cases);
+  add_time_cases(cases);
+  add_lookup_cases(cases);
+  add_size_cases(cases);
   return cases;
 }
 

@@ -178,6 +178,32 @@ Worst chain_path(const HardWorld& world) {
   return worst;
 }
 
+/// The shift of dudv_offset, 0.001 over the device depth of the surface, with near 1e-3 and far
+/// 1e9.
+Worst device_in_the_chain(const HardWorld& world) {
+  Worst worst;
+  Look look = calm_look(world);
+  look.of<Refraction>() = {.model = Refraction::Model::kDudvOffset,
+                           .strength = 0,
+                           .rejection = Refraction::Rejection::kNone,
+                           .off_frame = Refraction::OffFrame::kClamp};
+  for (const ClipSpace clip : {ClipSpace::kGl, ClipSpace::kD3d, ClipSpace::kReversed}) {
+    const Sea sea{.near = 1e-3, .far = 1e9, .clip = clip};
+    const DepthBuffer buffer{ClipSpace::kD3d, 32, sea.near, sea.far};
+    const HardFrame frame = sea.frame();
+    for (const std::string& runner : world.runners()) {
+      const HardPicture picture = world.run(runner, look, frame, sea.scene());
+      for (int y = 0; y < sea.size.height; ++y) {
+        const Real shift = Real(-0.001) / buffer.exact(sea.at(9, y).surface);
+        const Real expected = (9 + Real(0.5)) / sea.size.width + shift;
+        worst.add(double(std::abs(picture.aov(Aov::kStmapG, 9, y) - expected)),
+                  [&] { return place_text(runner, look.name, 9, y); });
+      }
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 void add_depth_cases(HardCases& cases) {
@@ -206,6 +232,9 @@ void add_depth_cases(HardCases& cases) {
                    other_kinds});
   cases.push_back({"depth", "24 bit through the chain", "error of the path over its bound",
                    "that of surface and bottom, and one rounding", 1, chain_path});
+  cases.push_back({"depth", "device depth in the chain, near 1e-3, far 1e9",
+                   "error of a place (picture = 1)", "four roundings of a place below 1/4",
+                   kRounding, device_in_the_chain});
 }
 
 }  // namespace limpid

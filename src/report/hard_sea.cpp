@@ -59,6 +59,8 @@ Sea::Pixel Sea::at(int x, int y) const {
   p.surface = over / -ray;
   p.bottom = (over + depth) / -ray;
   p.cosine = -ray / p.length;
+  p.fall = -ray;
+  p.forward = cosine + (orthographic > 0 ? 0 : upwards * sine);
   return p;
 }
 

@@ -28,6 +28,7 @@ struct Sea {
     long double surface, bottom;  ///< eye depths, where there is water
     long double length;           ///< of the ray for a unit of eye depth
     long double cosine;           ///< of the view to the calm normal
+    long double fall, forward;    ///< of the ray, for a unit of eye depth; the latter level
   };
   Pixel at(int x, int y) const;
   glm::dmat3 turn() const;

@@ -60,6 +60,15 @@ HardPicture::HardPicture(Rect window) : window_(window) {
   }
 }
 
+bool HardPicture::has_water() const {
+  for (int y = window_.y0; y < window_.y1; ++y) {
+    for (int x = window_.x0; x < window_.x1; ++x) {
+      if (wet(x, y) || aov(Aov::kPath, x, y) > 0) return true;
+    }
+  }
+  return false;
+}
+
 View<float> HardPicture::added() { return planes_.emplace_back(window_).view(); }
 
 HardWorld::HardWorld(const std::filesystem::path& data, int threads)

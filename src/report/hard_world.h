@@ -68,6 +68,8 @@ class HardPicture {
     return target.of(which)[channel].at(x, y);
   }
   bool wet(int x, int y) const { return !std::isinf(aov(Aov::kSurfaceDepth, x, y)); }
+  /// Surface or not: the way through it is longer than 0 somewhere.
+  bool has_water() const;
   /// fn(value, x, y, whether it is of an AOV)
   template <class Fn>
   void for_each_value(Fn&& fn) const {
