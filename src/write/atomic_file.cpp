@@ -1,12 +1,16 @@
 #include "write/atomic_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <mutex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "limpid/write/unfinished.h"
@@ -20,6 +24,7 @@ namespace {
 struct Unfinished {
   std::mutex mutex;
   std::set<std::filesystem::path> files;
+  std::set<std::filesystem::path> tidied;  ///< folders
 
   /// Never destroyed: a signal may come while the process ends.
   static Unfinished& all() {
@@ -32,13 +37,56 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-/// 0, or the number of the error. `flags` as for open(2).
-int flush_to_disk(const std::filesystem::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (descriptor < 0) return errno;
-  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+constexpr std::string_view kBegin = ".limpid-";
+
+/// The name of a temporary file: kBegin, the process, a dash, a number, the extension.
+std::string temporary_name(int number, const std::string& extension) {
+  return std::string(kBegin) + std::to_string(::getpid()) + "-" + std::to_string(number) +
+         extension;
+}
+
+bool is_temporary_name(std::string_view name) {
+  if (!name.starts_with(kBegin)) return false;
+  name.remove_prefix(kBegin.size());
+  const auto skip_number = [&] {
+    const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    name.remove_prefix(digits);
+    return digits > 0;
+  };
+  if (!skip_number() || !name.starts_with('-')) return false;
+  name.remove_prefix(1);
+  return skip_number() && (name.empty() || name.front() == '.');
+}
+
+/// Locks a file that was just made. False when somebody tidied it away in between: he had locked
+/// it, or it has no name any more. Without locks in the file system nobody tidies.
+bool locked(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
+/// Removes the file unless somebody has locked it. Whoever gets the lock while the file still has
+/// this name knows that its maker is gone, or will find it gone in locked().
+void remove_if_abandoned(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat open_file {
+  }, named{};
+  const bool abandoned = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&
+                         ::fstat(descriptor, &open_file) == 0 && S_ISREG(open_file.st_mode) &&
+                         ::lstat(path.c_str(), &named) == 0 && open_file.st_dev == named.st_dev &&
+                         open_file.st_ino == named.st_ino;
+  if (abandoned) ::unlink(path.c_str());
   ::close(descriptor);
-  return error;
+}
+
+/// A file system that cannot flush folders is no reason to fail.
+void flush_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
 }
 
 }  // namespace
@@ -50,18 +98,21 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     throw Error(path_.string() + ": is there and not a file, so it is not replaced");
   }
   const std::filesystem::path folder = folder_of(path_);
-  const std::lock_guard lock(Unfinished::all().mutex);
+  Unfinished& unfinished = Unfinished::all();
+  const std::lock_guard lock(unfinished.mutex);
+  if (unfinished.tidied.insert(std::filesystem::absolute(folder, ignored)).second) {
+    remove_abandoned_files(folder);
+  }
   for (int attempt = 0;; ++attempt) {
-    temporary_ = folder / (".limpid-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) +
-                           path_.extension().string());
-    const int descriptor =
-        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) {
-      ::close(descriptor);
-      Unfinished::all().files.insert(temporary_);
+    temporary_ = folder / temporary_name(attempt, path_.extension().string());
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0 && locked(descriptor_)) {
+      unfinished.files.insert(temporary_);
       return;
     }
-    if (errno != EEXIST) {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    } else if (errno != EEXIST) {
       throw Error(path_.string() + ": the folder '" + folder.string() + "' cannot be written to (" +
                       describe(errno) + ")",
                   fault_of(errno));
@@ -70,14 +121,15 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
 }
 
 AtomicFile::~AtomicFile() {
-  if (committed_) return;
+  if (descriptor_ < 0) return;
   const std::lock_guard lock(Unfinished::all().mutex);
   ::unlink(temporary_.c_str());
   Unfinished::all().files.erase(temporary_);
+  ::close(descriptor_);
 }
 
 void AtomicFile::commit() {
-  int error = flush_to_disk(temporary_, O_RDONLY);
+  int error = ::fsync(descriptor_) == 0 ? 0 : errno;
   if (error == 0) {
     const std::lock_guard lock(Unfinished::all().mutex);
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) error = errno;
@@ -86,15 +138,23 @@ void AtomicFile::commit() {
   if (error != 0) {
     throw Error(path_.string() + ": cannot be written (" + describe(error) + ")", fault_of(error));
   }
-  committed_ = true;
-  // The new name is in force; a file system that cannot flush folders is no reason to fail.
-  flush_to_disk(folder_of(path_), O_RDONLY | O_DIRECTORY);
+  ::close(std::exchange(descriptor_, -1));
+  flush_folder(folder_of(path_));
 }
 
 std::unique_lock<std::mutex> remove_unfinished_files() {
   std::unique_lock lock(Unfinished::all().mutex);
   for (const std::filesystem::path& file : Unfinished::all().files) ::unlink(file.c_str());
   return lock;
+}
+
+void remove_abandoned_files(const std::filesystem::path& folder) {
+  std::error_code none;
+  std::filesystem::directory_iterator entry(folder, none);
+  while (!none && entry != std::filesystem::directory_iterator()) {
+    if (is_temporary_name(entry->path().filename().native())) remove_if_abandoned(entry->path());
+    entry.increment(none);
+  }
 }
 
 }  // namespace limpid

@@ -7,7 +7,9 @@ namespace limpid {
 
 /// A file that appears whole or not at all. It is written under a temporary name in the same folder
 /// and with the same extension; commit() flushes it to disk and renames it. Without commit() the
-/// temporary file is removed and what was under `path` before stays.
+/// temporary file is removed and what was under `path` before stays. While it exists it is locked,
+/// so that others can tell it from what a killed process has left (write/unfinished.h); the first
+/// of a process in a folder removes what lies there of those.
 class AtomicFile {
  public:
   /// Creates the empty temporary file. Throws Error that names the folder when that fails, and when
@@ -23,7 +25,7 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_, temporary_;
-  bool committed_ = false;
+  int descriptor_ = -1;  ///< open while the file is temporary: it holds the lock
 };
 
 }  // namespace limpid

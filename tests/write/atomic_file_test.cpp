@@ -3,7 +3,11 @@
 #include <cerrno>
 #include <fstream>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "limpid/write/unfinished.h"
@@ -115,6 +119,87 @@ TEST(RemoveUnfinishedFiles, LeavesNothingButWholeFiles) {
   remove_unfinished_files().unlock();
   EXPECT_EQ(files_in(here), 1);
   EXPECT_THROW(first.commit(), Error);
+  EXPECT_EQ(files_in(here), 1);
+}
+
+/// A process that has begun to write a file; it writes on until it is killed.
+class Writer {
+ public:
+  explicit Writer(const fs::path& path) {
+    int ends[2];
+    EXPECT_EQ(::pipe(ends), 0);
+    process_ = ::fork();
+    if (process_ == 0) {
+      const AtomicFile file(path);
+      write_text(file.temporary(), "half a file");
+      const char begun = 1;
+      if (::write(ends[1], &begun, 1) != 1) ::_exit(1);
+      for (;;) ::pause();
+    }
+    char begun = 0;
+    EXPECT_EQ(::read(ends[0], &begun, 1), 1);
+    ::close(ends[0]);
+    ::close(ends[1]);
+  }
+  void kill() {
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+  }
+
+ private:
+  pid_t process_;
+};
+
+TEST(RemoveAbandonedFiles, OnlyWhatNobodyWritesAnyMore) {
+  const fs::path here = folder();
+  AtomicFile own(here / "own.exr");
+  Writer living(here / "living.exr"), dead(here / "dead.exr");
+  dead.kill();
+  ASSERT_EQ(files_in(here), 3);
+  remove_abandoned_files(here);
+  EXPECT_EQ(files_in(here), 2);
+  living.kill();
+  remove_abandoned_files(here);
+  EXPECT_EQ(files_in(here), 1);
+  own.commit();
+  EXPECT_TRUE(fs::exists(here / "own.exr"));
+}
+
+TEST(RemoveAbandonedFiles, OnlyWhatHasSuchAName) {
+  const fs::path here = folder();
+  for (const char* name : {".limpid-7-0.exr", ".limpid-12-34"}) write_text(here / name, "half");
+  const std::vector<std::string> strange{"a.exr",          ".limpid-7.exr",    ".limpid-7-x.exr",
+                                         ".limpid--0.exr", "x.limpid-7-0.exr", ".limpid-7-0exr"};
+  for (const std::string& name : strange) write_text(here / name, "ours");
+  fs::create_directory(here / ".limpid-7-1.exr");
+  write_text(here / "elsewhere", "ours");
+  fs::create_symlink(here / "elsewhere", here / ".limpid-7-2.exr");
+  const int others = static_cast<int>(strange.size()) + 3;
+  ASSERT_EQ(files_in(here), others + 2);
+  remove_abandoned_files(here);
+  EXPECT_EQ(files_in(here), others);
+  EXPECT_EQ(text_of(here / "elsewhere"), "ours");
+  remove_abandoned_files(here / "no");  // nothing to do
+}
+
+/// The lock is taken on what is open: a file that somebody else has locked, though nobody writes.
+TEST(RemoveAbandonedFiles, LeavesWhatIsLocked) {
+  const fs::path here = folder();
+  write_text(here / ".limpid-7-0.exr", "half");
+  const int other = ::open((here / ".limpid-7-0.exr").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
+  remove_abandoned_files(here);
+  EXPECT_EQ(files_in(here), 1);
+  ::close(other);
+  remove_abandoned_files(here);
+  EXPECT_EQ(files_in(here), 0);
+}
+
+TEST(RemoveAbandonedFiles, TheFirstFileOfAFolderDoesIt) {
+  const fs::path here = folder();
+  Writer dead(here / "dead.exr");
+  dead.kill();
+  AtomicFile(here / "a.exr").commit();
   EXPECT_EQ(files_in(here), 1);
 }
 
