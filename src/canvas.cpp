@@ -5,7 +5,6 @@
 #include "limpid/core/error.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
-#include "limpid/version.h"
 #include "limpid/write/preview.h"
 
 #include "write/atomic_file.h"
@@ -38,10 +37,12 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice) {
 }
 
 void expect_writable(const OutputChoice& choice) {
-  AtomicFile{choice.picture};
-  if (!choice.deep.empty()) AtomicFile{choice.deep};
-  if (!choice.preview.empty()) AtomicFile{choice.preview};
+  expect_writable(choice.picture);
+  if (!choice.deep.empty()) expect_writable(choice.deep);
+  if (!choice.preview.empty()) expect_writable(choice.preview);
 }
+
+void expect_writable(const std::filesystem::path& file) { AtomicFile{file}; }
 
 Canvas::Canvas(Rect window, const OutputChoice& choice)
     : window_(window), made_{choice.aovs, computed_aovs(choice), choice.store_float} {
@@ -132,21 +133,13 @@ DeepWater Canvas::deep_water(const ExrHeading& heading, const OutputChoice& choi
   return water;
 }
 
-void Canvas::write(ExrOutput described, const Plan& plan, const Look& look,
-                   const OutputChoice& choice) const {
+void Canvas::write(ExrOutput described, const OutputChoice& choice) const {
   described.data = window_;
   described.compression = choice.compression;
   described.channels = channels_;
-  described.text["limpid/version"] = kVersion;
-  // The map by its name, not where it lay: the same job gives the same bytes anywhere.
-  Look recorded = look;
-  std::string& map = recorded.of<WaveNormals>().map;
-  map = std::filesystem::path(map).filename().string();
-  described.text["limpid/look"] = to_toml(recorded);
-  described.text["limpid/plan"] = to_text(plan);
   if (!choice.preview.empty()) {
     const auto& c = target_.color;
-    write_preview(choice.preview, c[0], c[1], c[2]);
+    write_preview(choice.preview, c[0], c[1], c[2], 0, described.text);
   }
   if (!choice.deep.empty()) write_deep_water(choice.deep, deep_water(described, choice));
   write_exr(choice.picture, described);

@@ -20,6 +20,7 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice);
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not
 /// there or cannot be written to.
 void expect_writable(const OutputChoice& choice);
+void expect_writable(const std::filesystem::path& file);
 
 /// The picture and the wanted AOVs in memory, with their names in the file.
 class Canvas {
@@ -44,10 +45,9 @@ class Canvas {
   Canvas filtered(int n, const OutputChoice& choice) const;
 
   /// Writes preview, deep file and picture; `described` has windows and attributes, the channels
-  /// come from here. The picture comes last: when anything fails, what was under its name before is
-  /// still there.
-  void write(ExrOutput described, const Plan& plan, const Look& look,
-             const OutputChoice& choice) const;
+  /// come from here, and the preview gets its texts. The picture comes last: when anything fails,
+  /// what was under its name before is still there.
+  void write(ExrOutput described, const OutputChoice& choice) const;
 
   const Target& target() const { return target_; }
 

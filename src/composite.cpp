@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "limpid/core/error.h"
+#include "limpid/core/toml_text.h"
 #include "limpid/write/exr_camera.h"
 
 #include "composite_frame.h"
@@ -62,12 +63,32 @@ Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
                    state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
 
+/// What an output says of the job.
+Record record_of(const CompositeJob& job, const Plate& plate, const Scene& scene, const Plan& plan,
+                 SharedTextures& textures) {
+  const DepthMeaning depth = depth_of(job);
+  std::string inputs = "depth_kind = \"" + std::string(depth_kind_name(depth.kind)) + "\"\n";
+  if (depth.kind == DepthKind::kNormalised) {
+    inputs += "near = " + toml_text(depth.near) + "\nfar = " + toml_text(depth.far) + "\n";
+  }
+  inputs += plate.inputs_text(plan.planes) + texture_inputs(plan, job.scene, textures);
+  Record record = record_of(scene, inputs, picture_options(job.output));
+  add_look(record, job.look, plan);
+  return record;
+}
+
 /// What a survey looks at: depths, colors and shadows; not where the water's normals point, nor
 /// what it mirrors.
 constexpr PlaneSet kUnsurveyed = kSurfaceNormalPlanes | kReflectionPlanes |
                                  PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
 
 }  // namespace
+
+Record record_of(const CompositeJob& job, SharedTextures& textures) {
+  const Plate plate = Plate::open(job.plate);
+  const Scene scene = scene_of(job, plate);
+  return record_of(job, plate, scene, plan_of(job, plate, scene), textures);
+}
 
 Plan plan_composite(const CompositeJob& job) {
   const Plate plate = Plate::open(job.plate);
@@ -116,7 +137,11 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool 
   const DepthMeaning depth = depth_of(job);
   report_ = {};
   report_.plan = plan_of(job, plate, scene_);
-  if (writes) expect_writable(job.output);
+  file_ = {};
+  if (writes) {
+    expect_writable(job.output);
+    file_.text = record_of(job, plate, scene_, report_.plan, *textures_);
+  }
 
   plate.read(report_.plan.planes, scene_, depth, loaded_);
   wave_map_ = textures_->wave_map(report_.plan, job.plate.limits);
@@ -126,12 +151,10 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool 
   report_.size = loaded_.frame.work().size();
   report_.replaced = loaded_.replaced;
 
-  file_ = {};
   file_.display = plate.display();
   file_.pixel_aspect = plate.pixel_aspect();
   file_.inherited = plate.attributes();
   file_.matrices = camera_attributes(*scene_.camera);
-  file_.text = {{"limpid/scene", to_toml(scene_)}};
   report_.read_seconds = watch.lap();
 }
 
@@ -144,7 +167,7 @@ void CompositeFrame::run(const CompositeJob& job, Executor& executor, RunTimes* 
 
 void CompositeFrame::write(const CompositeJob& job) {
   Stopwatch watch;
-  canvas_->write(file_, report_.plan, job.look, job.output);
+  canvas_->write(file_, job.output);
   report_.write_seconds = watch.lap();
 }
 

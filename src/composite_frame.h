@@ -7,9 +7,14 @@
 #include "limpid/write/exr_writer.h"
 
 #include "canvas.h"
+#include "provenance.h"
 #include "shared_textures.h"
 
 namespace limpid {
+
+/// What composite() of this job writes into its files, found without decoding a pixel. Throws as
+/// composite() does.
+Record record_of(const CompositeJob& job, SharedTextures& textures);
 
 /// composite() in three steps, each with the same job. Another frame may follow, in the buffers of
 /// the one before.

@@ -140,8 +140,9 @@ void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>
 void render_sequence(const Model& model, const Sequence& sequence,
                      const JobOfFrame<PlateJob>& job_of, const OnFrame& on_frame,
                      Executor& executor) {
+  const HashedModel hashed(model);
   const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
-    return std::make_unique<JobSlot<PlateJob, RenderFrame>>(job_of, on_frame, RenderFrame(model));
+    return std::make_unique<JobSlot<PlateJob, RenderFrame>>(job_of, on_frame, RenderFrame(hashed));
   };
   run_sequence(sequence, make_slot, executor);
 }
@@ -150,9 +151,10 @@ void water_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<WaterJob>& job_of, const OnFrame& on_frame,
                     Executor& executor) {
   SharedTextures textures;
+  const HashedModel hashed(model);
   const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
     return std::make_unique<JobSlot<WaterJob, WaterFrame>>(job_of, on_frame,
-                                                           WaterFrame(model, textures));
+                                                           WaterFrame(hashed, textures));
   };
   run_sequence(sequence, make_slot, executor);
 }

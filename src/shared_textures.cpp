@@ -2,6 +2,8 @@
 
 #include "limpid/core/error.h"
 
+#include "load/content_hash.h"
+
 namespace limpid {
 
 bool has_environment(const SceneFile& scene) {
@@ -35,6 +37,13 @@ SharedTextures::Held SharedTextures::environment(const Plan& plan, const SceneFi
   const double rotation = scene.environment_rotation;
   return kept(environment_, scene.environment, rotation,
               [&] { return load_environment(scene.environment, rotation, limits); });
+}
+
+std::string SharedTextures::hash_of(const std::filesystem::path& path) {
+  const std::lock_guard lock(mutex_);
+  std::string& hash = hashes_[path];
+  if (hash.empty()) hash = hash_of_file(path);
+  return hash;
 }
 
 }  // namespace limpid

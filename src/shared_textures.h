@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include "limpid/load/scene_file.h"
 #include "limpid/load/texture.h"
@@ -24,6 +26,9 @@ class SharedTextures {
   /// The surroundings.
   Held environment(const Plan& plan, const SceneFile& scene, const Limits& limits = {});
 
+  /// The hash of the bytes of such a file, as ExrFile::content_hash(): taken once. Throws Error.
+  std::string hash_of(const std::filesystem::path& path);
+
  private:
   struct Kept {
     std::filesystem::path path;
@@ -35,6 +40,7 @@ class SharedTextures {
 
   std::mutex mutex_;
   Kept wave_map_, environment_;
+  std::map<std::filesystem::path, std::string> hashes_;
 };
 
 /// The view of what is held, if anything is.

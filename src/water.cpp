@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "limpid/core/error.h"
-#include "limpid/version.h"
 #include "limpid/write/exr_camera.h"
 
 #include "stopwatch.h"
@@ -77,19 +76,50 @@ void check(const WaterJob& job) {
   }
 }
 
+Record record_of(const HashedModel& model, const PlateJob& job, const Scene& scene) {
+  return record_of(scene, model_inputs(model, job.render.render),
+                   raster_options(job.render.render.simd) +
+                       file_options(job.output.compression, job.output.store_float));
+}
+
+Record record_of(const HashedModel& model, const WaterJob& job, const Scene& scene,
+                 const Plan& plan, SharedTextures& textures) {
+  const std::string inputs = model_inputs(model, job.render.render) +
+                             "samples = " + std::to_string(job.samples) + "\n" +
+                             texture_inputs(plan, job.render.scene, textures);
+  Record record = record_of(scene, inputs,
+                            raster_options(job.render.render.simd) + picture_options(job.output));
+  add_look(record, job.look, plan);
+  return record;
+}
+
 }  // namespace
 
+Record record_of(const HashedModel& model, const PlateJob& job) {
+  return record_of(model, job, scene_of(*model.model, job.render));
+}
+
+Record record_of(const HashedModel& model, const WaterJob& job, SharedTextures& textures) {
+  check(job);
+  const Scene scene = scene_of(*model.model, job.render);
+  return record_of(model, job, scene, plan_of(*model.model, scene, job), textures);
+}
+
 void render(const Model& model, const PlateJob& job, Executor& executor) {
-  RenderFrame frame(model);
+  const HashedModel hashed(model);
+  RenderFrame frame(hashed);
   frame.read(job, executor);
   frame.write(job);
 }
 
 void RenderFrame::read(const PlateJob& job, Executor& executor) {
   Stopwatch watch;
-  scene_ = scene_of(*model_, job.render);
+  const Model& model = *model_->model;
+  scene_ = scene_of(model, job.render);
+  expect_writable(job.output.plate);
+  record_ = record_of(*model_, job, scene_);
   plate_ = {};  // before another is made
-  plate_ = render_plate(*model_, scene_, job.render.render, renderable(*model_, scene_), executor);
+  plate_ = render_plate(model, scene_, job.render.render, renderable(model, scene_), executor);
   report_.size = job.render.render.size;
   report_.read_seconds = watch.lap();
 }
@@ -101,7 +131,7 @@ void RenderFrame::write(const PlateJob& job) {
   file.display = plate_.frame.display;
   file.compression = job.output.compression;
   file.matrices = camera_attributes(*scene_.camera);
-  file.text = {{"limpid/version", kVersion}, {"limpid/scene", to_toml(scene_)}};
+  file.text = record_;
   const auto add = [&](const std::string& name, const Plane& plane) {
     if (plane)
       file.channels.push_back(
@@ -120,7 +150,8 @@ Plan plan_water(const Model& model, const WaterJob& job) {
 
 CompositeReport water(const Model& model, const WaterJob& job, Executor& executor) {
   SharedTextures textures;
-  WaterFrame frame(model, textures);
+  const HashedModel hashed(model);
+  WaterFrame frame(hashed, textures);
   frame.read(job, executor);
   frame.run(job, executor);
   frame.write(job);
@@ -131,14 +162,16 @@ void WaterFrame::read(const WaterJob& job, Executor& executor) {
   Stopwatch watch;
   check(job);
   expect_writable(job.output);
-  scene_ = scene_of(*model_, job.render);
+  const Model& model = *model_->model;
+  scene_ = scene_of(model, job.render);
   report_ = {};
-  report_.plan = plan_of(*model_, scene_, job);
+  report_.plan = plan_of(model, scene_, job);
+  record_ = record_of(*model_, job, scene_, report_.plan, *textures_);
   RenderOptions options = job.render.render;
   options.size = {options.size.width * job.samples, options.size.height * job.samples};
   options.overscan *= job.samples;
   plate_ = {};  // before another is made
-  plate_ = render_plate(*model_, scene_, options, report_.plan.planes, executor);
+  plate_ = render_plate(model, scene_, options, report_.plan.planes, executor);
   report_.replaced = sanitise_planes(plate_.planes, scene_.water->up);
   wave_map_ = textures_->wave_map(report_.plan);
   environment_ = textures_->environment(report_.plan, job.render.scene);
@@ -160,11 +193,11 @@ void WaterFrame::write(const WaterJob& job) {
   ExrOutput file;
   file.display = rect_of(report_.size);
   file.matrices = camera_attributes(*scene_.camera);
-  file.text = {{"limpid/scene", to_toml(scene_)}};
+  file.text = record_;
   if (job.samples > 1) {
-    canvas_->filtered(job.samples, job.output).write(file, report_.plan, job.look, job.output);
+    canvas_->filtered(job.samples, job.output).write(file, job.output);
   } else {
-    canvas_->write(file, report_.plan, job.look, job.output);
+    canvas_->write(file, job.output);
   }
   report_.write_seconds = watch.lap();
 }

@@ -6,14 +6,19 @@
 #include "limpid/water.h"
 
 #include "canvas.h"
+#include "provenance.h"
 #include "shared_textures.h"
 
 namespace limpid {
 
+/// What render() and water() of a job write into their files, found without drawing a pixel.
+Record record_of(const HashedModel& model, const PlateJob& job);
+Record record_of(const HashedModel& model, const WaterJob& job, SharedTextures& textures);
+
 /// render() in two steps, of three.
 class RenderFrame {
  public:
-  explicit RenderFrame(const Model& model) : model_(&model) {}
+  explicit RenderFrame(const HashedModel& model) : model_(&model) {}
 
   void read(const PlateJob& job, Executor& executor);
   void run(const PlateJob&, Executor&) {}
@@ -21,16 +26,18 @@ class RenderFrame {
   const CompositeReport& report() const { return report_; }
 
  private:
-  const Model* model_;
+  const HashedModel* model_;
   CompositeReport report_;  ///< sizes and times
   Scene scene_;
+  Record record_;
   RenderedPlate plate_;
 };
 
 /// water() in three steps, the first of which renders. Another frame may follow.
 class WaterFrame {
  public:
-  WaterFrame(const Model& model, SharedTextures& textures) : model_(&model), textures_(&textures) {}
+  WaterFrame(const HashedModel& model, SharedTextures& textures)
+      : model_(&model), textures_(&textures) {}
 
   void read(const WaterJob& job, Executor& executor);
   void run(const WaterJob& job, Executor& executor);
@@ -38,10 +45,11 @@ class WaterFrame {
   const CompositeReport& report() const { return report_; }
 
  private:
-  const Model* model_;
+  const HashedModel* model_;
   SharedTextures* textures_;
   CompositeReport report_;
   Scene scene_;
+  Record record_;
   RenderedPlate plate_;
   SharedTextures::Held wave_map_, environment_;
   std::optional<Canvas> canvas_;

@@ -10,6 +10,24 @@ namespace limpid {
 enum class Runner { kFused, kReference };
 
 /// How a picture is computed and what is written of it.
+///
+/// All files of a frame, EXR, deep EXR, and a preview that is a PNG, say how they were made, in
+/// text attributes (iTXt chunks of a PNG). The same inputs give the same bytes: nothing in them
+/// depends on names and places of files, nor on date, host or threads.
+///
+///   limpid/version     of the library
+///   limpid/look        all parameters, a look file; the wave map by its name alone
+///   limpid/plan        the operators that ran, and why the others did not
+///   limpid/scene       camera, water, sun and time, a scene file
+///   limpid/inputs      all else that decides what is to be seen: the kind of depths, which
+///   channels
+///                      of which file feed what, size and samples of what was rendered; files and
+///                      models by a hash of their contents (ExrFile::content_hash)
+///   limpid/scene_hash  such a hash of the two texts before it, one after the other: the same for
+///                      the same picture before look and options
+///   limpid/options     how it was computed and stored: runner, instruction set, AOVs, compression
+///
+/// A rendered plate has no look and no plan.
 struct OutputChoice {
   std::vector<Aov> aovs;
   Runner runner = Runner::kFused;

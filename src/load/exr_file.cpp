@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfThreading.h>
 
+#include "load/content_hash.h"
 #include "load/exr_deep.h"
 #include "load/exr_header.h"
 #include "load/exr_pixels.h"
@@ -257,6 +258,20 @@ void ExrFile::read_deep(int part, std::span<const std::string> channels,
     state_->read_deep(part, channels, sink);
   });
 }
+
+bool ExrFile::is_whole() const {
+  const ExrHeader& header = state_->headers[0];
+  if (state_->headers.size() != 1 || header.part.tiled) return false;
+  FileStream own(state_->file);
+  own.seekg(state_->header_end);
+  try {
+    return has_all_chunks(own, header);
+  } catch (const Iex::InputExc&) {
+    return false;  // it ends too early
+  }
+}
+
+std::string ExrFile::content_hash() const { return hash_of(*state_->file); }
 
 std::optional<std::array<float, 16>> ExrFile::matrix_attribute(int part,
                                                                const std::string& name) const {

@@ -67,6 +67,14 @@ std::int64_t most_threads(const ExrHeader& header, const Limits& limits) {
   return (limits.max_memory - tile_row) / a_thread;
 }
 
+std::uint64_t read_number(FileStream& stream, int bytes) {
+  char memory[8];
+  stream.read(memory, bytes);
+  std::uint64_t number = 0;
+  for (int i = bytes; i-- > 0;) number = number << 8 | static_cast<unsigned char>(memory[i]);
+  return number;
+}
+
 }  // namespace
 
 std::int64_t chunks_of(const ExrHeader& header) {
@@ -122,11 +130,23 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
 }
 
 bool has_all_chunks(FileStream& stream, const ExrHeader& header) {
-  constexpr char kNowhere[8] = {};
-  for (std::int64_t left = chunks_of(header); left > 0; --left) {
-    char place[8];
-    stream.read(place, 8);
-    if (std::equal(place, place + 8, kNowhere)) return false;
+  const std::int64_t chunks = chunks_of(header);
+  std::vector<std::uint64_t> places;
+  for (std::int64_t i = 0; i < chunks; ++i) places.push_back(read_number(stream, 8));
+  std::int64_t line = header.part.data.y0;
+  for (const std::uint64_t place : places) {
+    stream.seekg(place);
+    const auto y = static_cast<std::int32_t>(read_number(stream, 4));
+    std::uint64_t bytes = 0;
+    if (header.part.deep) {
+      const std::uint64_t counts = read_number(stream, 8), samples = read_number(stream, 8);
+      read_number(stream, 8);  // their unpacked size
+      bytes = std::min(counts, stream.remaining() + 1) + std::min(samples, stream.remaining() + 1);
+    } else {
+      bytes = read_number(stream, 4);
+    }
+    if (y != line || bytes > stream.remaining()) return false;
+    line += kChunkLines[header.compression];
   }
   return true;
 }

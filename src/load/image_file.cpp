@@ -13,6 +13,7 @@
 
 #include "load/file_stream.h"
 #include "load/formats.h"
+#include "load/png_text.h"
 #include "load/whole_file.h"
 #include "write/atomic_file.h"
 
@@ -126,7 +127,8 @@ ImageFile read_image(const fs::path& path, const Limits& limits) {
   return std::move(reading.image);
 }
 
-void write_image8(const fs::path& path, const std::vector<View<const float>>& planes) {
+void write_image8(const fs::path& path, const std::vector<View<const float>>& planes,
+                  const std::map<std::string, std::string>& texts) {
   const char* format = format_of(path);
   if (planes.size() != 3 && planes.size() != 4) {
     throw Error(path.string() + ": " + std::to_string(planes.size()) + " planes: expected 3 or 4");
@@ -145,8 +147,17 @@ void write_image8(const fs::path& path, const std::vector<View<const float>>& pl
                   pixels.data(), take, &bytes, error.data()) != 0) {
     throw Error(path.string() + ": " + error.data());
   }
+  if (is_png(path)) add_png_texts(bytes, texts);
   write_whole(path, bytes);
 }
+
+std::map<std::string, std::string> read_image_texts(const fs::path& path) {
+  std::map<std::string, std::string> texts = png_texts(path);
+  check_whole(path);
+  return texts;
+}
+
+bool is_png(const fs::path& path) { return extension_of(path) == ".png"; }
 
 bool is_exr(const fs::path& path) { return extension_of(path) == ".exr"; }
 

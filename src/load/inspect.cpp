@@ -121,6 +121,27 @@ std::string channels_text(const LayerChoice& choice) {
   return text;
 }
 
+/// A line a text, or the name and then its lines.
+std::string made_text(const std::map<std::string, std::string>& texts) {
+  std::string text;
+  for (const auto& [name, value] : texts) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < value.size();) {
+      const std::size_t end = std::min(value.find('\n', at), value.size());
+      lines.push_back(visible(value.substr(at, end - at)));
+      at = end + 1;
+    }
+    text += "  " + visible(name);
+    if (lines.size() == 1) {
+      text += "  " + lines[0] + "\n";
+      continue;
+    }
+    text += "\n";
+    for (const std::string& line : lines) text += (line.empty() ? "" : "    " + line) + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string inspect_text(std::span<const InspectedFile> files, const LayerChoices& choices,
@@ -157,6 +178,12 @@ std::string inspect_text(std::span<const InspectedFile> files, const LayerChoice
     if (!used.contains(static_cast<int>(i))) unused.push_back({files[i].name});
   }
   if (!unused.empty()) text += "not used\n" + aligned(unused, "  ");
+
+  for (const InspectedFile& file : files) {
+    if (!file.made.empty()) {
+      text += "how " + visible(file.name) + " was made\n" + made_text(file.made);
+    }
+  }
   return text;
 }
 

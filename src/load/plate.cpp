@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "limpid/core/error.h"
+#include "limpid/core/toml_text.h"
 #include "limpid/load/exr_camera.h"
 #include "limpid/load/image_file.h"
 #include "limpid/load/inspect.h"
@@ -104,6 +105,11 @@ struct Plate::State {
     return false;
   }
 
+  /// What is read where these planes are wanted: what lies below begins at the surface.
+  PlaneSet read_for(PlaneSet wanted) const {
+    return gives_deep_below(wanted) ? wanted | PlaneSet{PlaneId::kSurfaceDepth} : wanted;
+  }
+
   /// A deep part that gives the color shows what lies below the water, too.
   void add_deep_below(const PlateRequest& request) {
     if (!choice("color") || !is_deep(color_ref(), PlaneId::kColorR)) return;
@@ -172,7 +178,9 @@ std::string Plate::inspect(const PlateRequest& request) {
   State state;
   state.resolve_all(request, true);
   std::vector<InspectedFile> files;
-  for (const PlateFile& file : state.files) files.push_back({file.path.string(), file.parts});
+  for (const PlateFile& file : state.files) {
+    files.push_back({file.path.string(), file.parts, file.made()});
+  }
   return inspect_text(files, state.choices, state.problems);
 }
 
@@ -227,6 +235,29 @@ void Plate::refuse_without(std::string_view role) const {
               std::string(role) + "=LAYER");
 }
 
+std::string Plate::inputs_text(PlaneSet wanted) const {
+  wanted = state_->read_for(wanted);
+  std::map<int, std::string> hashes;
+  std::string text;
+  for (const Role& role : roles()) {
+    const LayerChoice* choice = state_->choice(role.name);
+    if (!choice) continue;
+    std::vector<std::string> channels;
+    for (std::size_t i = 0; i < choice->channels.size(); ++i) {
+      if (wanted.has(plane_after(role.first, static_cast<int>(i)))) {
+        channels.push_back(toml_text(choice->channels[i].name));
+      }
+    }
+    if (channels.empty()) continue;
+    const ChannelRef& ref = choice->channels.front();
+    std::string& hash = hashes[ref.file];
+    if (hash.empty()) hash = state_->files[static_cast<std::size_t>(ref.file)].content_hash();
+    text += std::string(role.name) + " = {file = \"" + hash +
+            "\", part = " + std::to_string(ref.part) + ", channels = [" + join(channels) + "]}\n";
+  }
+  return text;
+}
+
 LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const {
   LoadedPlate loaded;
   read(wanted, scene, depth, loaded);
@@ -241,8 +272,7 @@ void Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
   loaded.frame.display = display();
   const Rect work = intersection(display(), state_->part_of(state_->color_ref()).data);
   if (work.empty()) throw Error("color: its data window lies outside the display window");
-  // What lies below begins at the surface.
-  if (state_->gives_deep_below(wanted)) wanted = wanted | PlaneSet{PlaneId::kSurfaceDepth};
+  wanted = state_->read_for(wanted);
 
   std::map<int, std::vector<ExrRequest>> requests;  // by file; each file decodes in one go
   std::map<std::pair<int, int>, DeepRequest> deep;  // by file and part, read after all the others

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "load/content_hash.h"
+
 namespace limpid {
 namespace {
 
@@ -41,6 +43,25 @@ PlateFile PlateFile::open(const std::filesystem::path& path, const Limits& limit
   }
   file.parts = {part};
   return file;
+}
+
+std::string PlateFile::content_hash() const {
+  return exr ? exr->content_hash() : hash_of_file(path);
+}
+
+std::map<std::string, std::string> PlateFile::made() const {
+  std::map<std::string, std::string> texts;
+  if (exr) {
+    for (const auto& [name, attribute] : exr->attributes(0)) {
+      if (attribute.type == "string") {
+        texts[name] = {attribute.bytes.begin(), attribute.bytes.end()};
+      }
+    }
+  } else {
+    texts = read_image_texts(path);
+  }
+  std::erase_if(texts, [](const auto& text) { return !text.first.starts_with("limpid/"); });
+  return texts;
 }
 
 void PlateFile::read(std::span<const ExrRequest> requests) const {

@@ -1,7 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "limpid/load/exr_file.h"
@@ -20,6 +22,11 @@ struct PlateFile {
 
   static PlateFile open(const std::filesystem::path& path, const Limits& limits);
   void read(std::span<const ExrRequest> requests) const;
+  /// What limpid wrote into it of how it was made: texts whose names begin with "limpid/". Throws
+  /// Error.
+  std::map<std::string, std::string> made() const;
+  /// As ExrFile::content_hash().
+  std::string content_hash() const;
 };
 
 }  // namespace limpid

@@ -288,6 +288,8 @@ PlateName split_plate(std::string_view text) {
   return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
 }
 
+std::string_view depth_kind_name(DepthKind kind) { return kDepths[static_cast<std::size_t>(kind)]; }
+
 DepthKind depth_kind_named(std::string_view word) {
   const auto found = std::find(std::begin(kDepths), std::end(kDepths), word);
   if (found != std::end(kDepths)) return static_cast<DepthKind>(found - std::begin(kDepths));

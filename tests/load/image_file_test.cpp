@@ -143,6 +143,48 @@ TEST(ImageFile, BytesDependOnTheArgumentsAlone) {
   EXPECT_THAT(bytes_of(folder / "one.tif"), HasSubstr("1970:01:01 00:00:00"));
 }
 
+TEST(ImageFile, APngCarriesTexts) {
+  const fs::path folder = scratch();
+  const std::vector<Plane> planes = noise({0, 0, 9, 7}, 3);
+  const std::map<std::string, std::string> texts{
+      {"a/key", "one line"}, {"many", "lines\nand \xC3\xBC\n"}, {"none", ""}};
+  write_image8(folder / "a.PNG", views(planes), texts);
+  EXPECT_EQ(read_image_texts(folder / "a.PNG"), texts);
+  write_image8(folder / "plain.png", views(planes));
+  EXPECT_TRUE(read_image_texts(folder / "plain.png").empty());
+  EXPECT_GT(bytes_of(folder / "a.PNG").size(), bytes_of(folder / "plain.png").size());
+  const ImageFile with = read_image(folder / "a.PNG"), without = read_image(folder / "plain.png");
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(with.planes[c].view().at(8, 6), without.planes[c].view().at(8, 6));
+  }
+  for (const char* name : {"a.jpg", "a.tif"}) {  // have no place for them
+    write_image8(folder / name, views(planes), texts);
+    EXPECT_TRUE(read_image_texts(folder / name).empty());
+  }
+  for (const std::string& key : {std::string(), std::string(80, 'k'), std::string("two words")}) {
+    EXPECT_THAT(refusal([&] {
+                  write_image8(folder / "b.png", views(planes), {{key, ""}});
+                }),
+                HasSubstr("expected a name of 1 ... 79 letters of ASCII"));
+  }
+  EXPECT_FALSE(fs::exists(folder / "b.png"));
+}
+
+TEST(ImageFile, TextsOfADamagedPngAreRefused) {
+  const fs::path folder = scratch();
+  write_image8(folder / "a.png", views(noise({0, 0, 9, 7}, 3)), {{"key", "text"}});
+  const std::string whole = bytes_of(folder / "a.png");
+  for (std::size_t size = 8; size < whole.size(); ++size) {
+    write_bytes(folder / "cut.png", whole.substr(0, size));
+    EXPECT_THROW(read_image_texts(folder / "cut.png"), Error) << size;
+  }
+  std::string damaged = whole;
+  damaged[whole.find("text")] = 'T';
+  write_bytes(folder / "bad.png", damaged);
+  EXPECT_THAT(refusal([&] { read_image_texts(folder / "bad.png"); }), HasSubstr("checksum"));
+  EXPECT_THROW(read_image_texts(folder / "none.png"), Error);
+}
+
 TEST(ImageFile, LeavesTheOldFileAndNothingElseWhenWritingFails) {
   const fs::path folder = scratch();
   write_bytes(folder / "a.jpg", "old");

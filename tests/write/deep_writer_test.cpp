@@ -340,6 +340,14 @@ TEST(DeepWriter, BytesDependOnTheArgumentsAlone) {
   EXPECT_EQ(bytes_of(here / "one.exr"), bytes_of(here / "many.exr"));
 }
 
+TEST(DeepWriter, AWholeFileIsToldFromAPartOfIt) {
+  const fs::path path = folder() / "a.exr";
+  write_deep_water(path, Pool().water());
+  EXPECT_TRUE(ExrFile::open(path).is_whole());
+  fs::resize_file(path, fs::file_size(path) - 1);
+  EXPECT_FALSE(ExrFile::open(path).is_whole());
+}
+
 TEST(DeepWriter, RefusesWhatItCannotWrite) {
   const fs::path here = folder(), path = here / "a.exr";
   const auto error = [&](auto change) -> std::string {

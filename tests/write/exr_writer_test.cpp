@@ -258,6 +258,28 @@ TEST(ExrWriter, BytesDependOnTheArgumentsAlone) {
   set_file_threads(0);
 }
 
+TEST(ExrWriter, AWholeFileIsToldFromAPartOfIt) {
+  const fs::path path = folder() / "a.exr", cut = path.parent_path() / "cut.exr";
+  const Plane plane = picture();
+  for (const std::string compression : {"none", "piz", "zips", "dwab"}) {
+    ExrOutput output = output_of(plane);
+    output.compression = compression;
+    write_exr(path, output);
+    EXPECT_TRUE(ExrFile::open(path).is_whole()) << compression;
+    const std::vector<char> bytes = bytes_of(path);
+    int opened = 0;
+    for (std::size_t size = bytes.size() - 1; size > bytes.size() / 2; size -= bytes.size() / 16) {
+      std::ofstream(cut, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
+      try {
+        EXPECT_FALSE(ExrFile::open(cut).is_whole()) << compression << " " << size;
+        ++opened;
+      } catch (const Error&) {
+      }
+    }
+    EXPECT_GT(opened, 0) << compression;
+  }
+}
+
 TEST(ExrWriter, RefusesWhatItCannotWrite) {
   const fs::path here = folder(), path = here / "a.exr";
   const Plane plane = picture();

@@ -79,6 +79,15 @@ class ExrFile {
   void read_deep(int part, std::span<const std::string> channels,
                  const std::function<void(const DeepBlock&)>& sink) const;
 
+  /// Whether the pixels of a file as this library writes them, one part of scan lines, are all
+  /// there: the chunks that the header promises, in their places, before the end of the file. Says
+  /// no for files of another kind. Nothing is decoded. Throws Error when the system cannot read.
+  bool is_whole() const;
+
+  /// A hash of all bytes of the file as it was opened, whatever has its name by now: XXH3, 128
+  /// bits, 32 hexadecimal digits, what `xxhsum -H2` prints. It tells files apart; it is no seal.
+  std::string content_hash() const;
+
   /// A 4x4 matrix attribute by name, 16 floats in memory order, as in `worldToCamera`. These three
   /// are empty where the attribute is absent or of another type.
   std::optional<std::array<float, 16>> matrix_attribute(int part, const std::string& name) const;

@@ -12,12 +12,13 @@ namespace limpid {
 struct InspectedFile {
   std::string name;
   std::span<const ExrPart> parts;
+  std::map<std::string, std::string> made = {};  ///< what it says of how limpid made it, by name
 };
 
 /// What `limpid inspect` prints: each part of each file with its windows, storage and layers (a
 /// line for each layer and sample type), then where each role comes from and why. `problems` has
-/// the sentence of the Error for roles that could not be decided. Control characters in names of
-/// the files appear as '?'.
+/// the sentence of the Error for roles that could not be decided. Last what files say of how they
+/// were made. Control characters in names and texts of the files appear as '?'.
 std::string inspect_text(std::span<const InspectedFile> files, const LayerChoices& choices,
                          const std::map<std::string_view, std::string>& problems = {});
 

@@ -70,6 +70,12 @@ class Plate {
   /// Throws the Error for a role that nothing feeds, with the list of all layers that there are.
   [[noreturn]] void refuse_without(std::string_view role) const;
 
+  /// What read() of these planes goes by besides scene and depth, as TOML: for each role that has
+  /// one of them, the hash of the file's bytes (ExrFile::content_hash), the part and the channels.
+  /// No names of files, nor where they lie: the same text stands for the same planes. Reads the
+  /// files whole. Throws Error when that fails.
+  std::string inputs_text(PlaneSet wanted) const;
+
   /// Decodes the wanted planes and enters them (sanitise.h). Planes smaller than the picture are
   /// filled up with their role's `missing` value. What is below the water in deep samples begins at
   /// the surface depth, or else at the scene's calm plane. Throws Error for damaged pixels, for a

@@ -83,5 +83,6 @@ PlateName split_plate(std::string_view text);
 /// The kind called eye, ray, inverse, normalised or device on the command line. Throws Error of
 /// Fault::kUsage with the nearest name.
 DepthKind depth_kind_named(std::string_view word);
+std::string_view depth_kind_name(DepthKind kind);
 
 }  // namespace limpid

@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "limpid/core/plane.h"
 
@@ -15,8 +17,9 @@ float linear_from_srgb(float encoded);
 Plane displayed(View<const float> linear, double exposure_stops = 0);
 
 /// Writes that with 8 bits as a picture to look at, in the format of the extension (.png, .jpg,
-/// .tif). The planes must have one window.
+/// .tif). The planes must have one window. A PNG carries the texts, as write_image8() has it.
 void write_preview(const std::filesystem::path& path, View<const float> r, View<const float> g,
-                   View<const float> b, double exposure_stops = 0);
+                   View<const float> b, double exposure_stops = 0,
+                   const std::map<std::string, std::string>& texts = {});
 
 }  // namespace limpid

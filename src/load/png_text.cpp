@@ -1,0 +1,83 @@
+#include "load/png_text.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+#include <zlib.h>
+
+#include "limpid/core/error.h"
+
+#include "load/file_stream.h"
+
+namespace limpid {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n"sv;
+constexpr std::size_t kHeaderEnd = 8 + 4 + 4 + 13 + 4;  ///< signature and the chunk IHDR
+constexpr std::size_t kMaxKey = 79;
+constexpr std::uint32_t kMaxText = 1 << 20;
+/// Behind the keyword: its end, not compressed, no method, no language, no translation.
+constexpr std::string_view kBetween = "\0\0\0\0\0"sv;
+
+std::string big_endian(std::uint32_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 255);
+  return bytes;
+}
+
+std::uint32_t number_of(std::string_view bytes) {
+  std::uint32_t number = 0;
+  for (const char byte : bytes) number = number << 8 | static_cast<unsigned char>(byte);
+  return number;
+}
+
+std::string chunk_of(const std::string& key, const std::string& text) {
+  const bool ascii =
+      std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+  if (key.empty() || key.size() > kMaxKey || !ascii) {
+    throw Error("text '" + key + "': expected a name of 1 ... 79 letters of ASCII");
+  }
+  const std::string checked = "iTXt" + key + std::string(kBetween) + text;
+  const auto* bytes = reinterpret_cast<const Bytef*>(checked.data());
+  const auto crc = static_cast<std::uint32_t>(crc32_z(0, bytes, checked.size()));
+  return big_endian(static_cast<std::uint32_t>(checked.size() - 4)) + checked + big_endian(crc);
+}
+
+}  // namespace
+
+void add_png_texts(std::vector<char>& png, const std::map<std::string, std::string>& texts) {
+  const std::string_view bytes(png.data(), png.size());
+  if (!bytes.starts_with(kSignature) || bytes.size() < kHeaderEnd) {
+    throw Error("is no PNG: expected one to put texts into");
+  }
+  std::string chunks;
+  for (const auto& [key, text] : texts) chunks += chunk_of(key, text);
+  png.insert(png.begin() + kHeaderEnd, chunks.begin(), chunks.end());
+}
+
+std::map<std::string, std::string> png_texts(const std::filesystem::path& path) {
+  const FileHandle file(path);
+  std::map<std::string, std::string> texts;
+  std::string head(8, '\0');
+  if (file.read(head.data(), 8, 0) < 8 || head != kSignature) return texts;
+  std::uint64_t place = 8;
+  while (file.read(head.data(), 8, place) == 8) {
+    const std::uint32_t size = number_of(std::string_view(head).substr(0, 4));
+    const std::string_view kind = std::string_view(head).substr(4);
+    if (kind == "iTXt" && size <= kMaxText) {
+      std::string data(size, '\0');
+      if (file.read(data.data(), size, place + 8) < size) break;
+      const std::size_t end = data.find(kBetween);
+      if (end != std::string::npos) {
+        texts[data.substr(0, end)] = data.substr(end + kBetween.size());
+      }
+    }
+    place += std::uint64_t{8} + size + 4;
+  }
+  return texts;
+}
+
+}  // namespace limpid

@@ -1,0 +1,142 @@
+#include "provenance.h"
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "limpid/core/error.h"
+#include "limpid/core/simd.h"
+#include "limpid/core/toml_text.h"
+#include "limpid/load/scene_file.h"
+#include "limpid/version.h"
+
+#include "load/content_hash.h"
+
+namespace limpid {
+namespace {
+
+/// Adds the numbers of which a model is made, each list behind its length.
+class ModelHash {
+ public:
+  template <class... Numbers>
+  void add(const Numbers&... numbers) {
+    (hash_.add(&numbers, sizeof numbers), ...);
+  }
+  template <class T>
+  void add_list(const std::vector<T>& list) {
+    add(std::uint64_t{list.size()});
+    hash_.add(list.data(), list.size() * sizeof(T));
+  }
+  void add_count(std::size_t count) { add(std::uint64_t{count}); }
+  void add(const Rgb<double>& color) { add(color.r, color.g, color.b); }
+  std::string text() const { return hash_.text(); }
+
+ private:
+  ContentHash hash_;
+};
+
+static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8 && sizeof(glm::dmat4) == 128,
+              "lists of vectors are hashed as their numbers, without gaps");
+
+/// Names do not count, nor what was left out: nothing of them is seen.
+std::string hash_of_model(const Model& model) {
+  ModelHash hash;
+  hash.add_count(model.meshes.size());
+  for (const Mesh& mesh : model.meshes) {
+    hash.add_list(mesh.positions);
+    hash.add_list(mesh.normals);
+    hash.add_list(mesh.uvs);
+    hash.add_list(mesh.indices);
+    hash.add(mesh.material);
+  }
+  hash.add_count(model.materials.size());
+  for (const Material& m : model.materials) {
+    hash.add(m.shading, m.base_texture, m.specular_texture, m.power, m.double_sided);
+    hash.add(m.base_color);
+    hash.add(m.ambient);
+    hash.add(m.specular);
+  }
+  hash.add_count(model.textures.size());
+  for (const ModelTexture& texture : model.textures) {
+    hash.add(texture.width, texture.height);
+    hash.add_list(texture.rgba);
+  }
+  hash.add_count(model.instances.size());
+  for (const Instance& instance : model.instances) {
+    hash.add(instance.mesh, instance.world_from_mesh, instance.water);
+  }
+  hash.add(model.background);
+  return hash.text();
+}
+
+std::string line(std::string_view key, const std::string& value) {
+  return std::string(key) + " = " + value + "\n";
+}
+
+std::string simd_line(std::string_view key, const std::string& simd) {
+  return line(key, toml_text(simd.empty() ? simd_targets().front() : simd));
+}
+
+}  // namespace
+
+HashedModel::HashedModel(const Model& named) : model(&named), hash(hash_of_model(named)) {}
+
+Record record_of(const Scene& scene, const std::string& inputs, const std::string& options) {
+  const std::string scene_text = to_toml(scene);
+  return {{"limpid/version", kVersion},
+          {"limpid/scene", scene_text},
+          {"limpid/inputs", inputs},
+          {"limpid/scene_hash", hash_of(scene_text + inputs)},
+          {"limpid/options", options}};
+}
+
+void add_look(Record& record, const Look& look, const Plan& plan) {
+  // The map by its name, not where it lay; what is in it is among the inputs.
+  Look recorded = look;
+  std::string& map = recorded.of<WaveNormals>().map;
+  map = std::filesystem::path(map).filename().string();
+  record["limpid/look"] = to_toml(recorded);
+  record["limpid/plan"] = to_text(plan);
+}
+
+std::string model_inputs(const HashedModel& model, const RenderOptions& options) {
+  return line("model", toml_text(model.hash)) +
+         line("size", "[" + std::to_string(options.size.width) + ", " +
+                          std::to_string(options.size.height) + "]") +
+         line("overscan", std::to_string(options.overscan)) +
+         line("shadow_map", std::to_string(options.shadow_map_size));
+}
+
+std::string texture_inputs(const Plan& plan, const SceneFile& scene, SharedTextures& textures) {
+  std::string text;
+  if (plan.reads_wave_map) {
+    const std::string hash = textures.hash_of(plan.look.of<WaveNormals>().map);
+    text += line("wave_map", toml_text(hash));
+  }
+  if (plan.reads_environment) {
+    text += line("environment", "{file = " + toml_text(textures.hash_of(scene.environment)) +
+                                    ", rotation = " + toml_text(scene.environment_rotation) + "}");
+  }
+  return text;
+}
+
+std::string picture_options(const OutputChoice& choice) {
+  const bool fused = choice.runner == Runner::kFused;
+  std::vector<std::string> names;
+  for (const Aov aov : choice.aovs) {
+    names.push_back(toml_text(std::string(aovs()[static_cast<std::size_t>(aov)].name)));
+  }
+  return line("runner", toml_text(std::string(fused ? "fused" : "reference"))) +
+         (fused ? simd_line("simd", choice.simd) : "") +
+         line("max_error", toml_text(choice.max_error)) + line("aovs", "[" + join(names) + "]") +
+         file_options(choice.compression, choice.store_float);
+}
+
+std::string raster_options(const std::string& simd) { return simd_line("raster_simd", simd); }
+
+std::string file_options(const std::string& compression, bool store_float) {
+  return line("compression", toml_text(compression)) +
+         line("pixels", toml_text(std::string(store_float ? "float" : "half")));
+}
+
+}  // namespace limpid

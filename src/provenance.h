@@ -1,0 +1,42 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "limpid/core/scene.h"
+#include "limpid/ops/look.h"
+#include "limpid/output.h"
+#include "limpid/plan/plan.h"
+#include "limpid/raster/model.h"
+#include "limpid/raster/render_plate.h"
+
+#include "shared_textures.h"
+
+/// What an output says of how it was made, in attributes "limpid/..." (output.h lists them).
+/// Nothing in it depends on where files lie, nor on date, host or threads.
+
+namespace limpid {
+
+using Record = std::map<std::string, std::string>;
+
+/// Version, scene, inputs, options, and the hash of scene and inputs.
+Record record_of(const Scene& scene, const std::string& inputs, const std::string& options);
+/// The look as it was asked for, and what the plan made of it.
+void add_look(Record& record, const Look& look, const Plan& plan);
+
+/// A model and what stands for it in a record: the hash of all that is drawn of it.
+struct HashedModel {
+  explicit HashedModel(const Model& named);
+  const Model* model;
+  std::string hash;
+};
+
+/// Parts of `inputs`: TOML, some lines each.
+std::string model_inputs(const HashedModel& model, const RenderOptions& options);
+std::string texture_inputs(const Plan& plan, const SceneFile& scene, SharedTextures& textures);
+
+/// Parts of `options`.
+std::string picture_options(const OutputChoice& choice);
+std::string raster_options(const std::string& simd);
+std::string file_options(const std::string& compression, bool store_float);
+
+}  // namespace limpid
