@@ -31,7 +31,9 @@ Scene scene_of(const CompositeJob& job, const Plate& plate) {
   if (!scene.water) {
     throw Error("no water plane found: expected a scene with [water] up and height");
   }
-  scene.time = job.time.value_or(plate.has_scene() ? carried.scene.time : job.time_if_unsaid);
+  const double unsaid =
+      plate.has_scene() ? carried.scene.time + job.time_after_plate : job.time_if_unsaid;
+  scene.time = job.time.value_or(unsaid);
   return scene;
 }
 

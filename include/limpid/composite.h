@@ -22,6 +22,7 @@ struct CompositeJob {
   std::optional<DepthKind> depth_kind;  ///< instead of the scene's
   std::optional<double> time;           ///< seconds, for drifting waves, instead of the plate's own
   double time_if_unsaid = 0;            ///< where neither `time` nor the plate says one
+  double time_after_plate = 0;  ///< seconds, added to the plate's own time where that counts
   Look look;
 
   OutputChoice output;

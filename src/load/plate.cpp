@@ -40,6 +40,17 @@ struct DeepRequest {
 
 }  // namespace
 
+std::vector<std::filesystem::path> files_of(const PlateRequest& request) {
+  std::set<std::filesystem::path> files(request.files.begin(), request.files.end());
+  for (const auto& [role, name] : request.named) {
+    if (!request.layers.contains(role)) files.insert(split_plate(name).file);
+  }
+  for (const auto& [role, text] : request.layers) {
+    if (const PlateName name = split_layer(text); !name.file.empty()) files.insert(name.file);
+  }
+  return {files.begin(), files.end()};
+}
+
 struct Plate::State {
   std::vector<PlateFile> files;
   LayerChoices choices;

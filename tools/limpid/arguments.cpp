@@ -39,6 +39,12 @@ void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
       ->option_text("N");
 }
 
+void add_resume(CLI::App& verb, FrameOptions& a) {
+  verb.add_flag("--resume", a.resume,
+                "Leave frames alone that are there, whole, and made from the same inputs in the "
+                "same way");
+}
+
 void add_look(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--look", a.look, "Look by name, or a look file (default: physical)")
       ->option_text("NAME|FILE");
@@ -227,6 +233,12 @@ Parsed parse(int argc, char** argv) {
   CLI::App& composite =
       *app.add_subcommand("composite", "Put water into a plate: PLATE... -o OUT.exr");
   add_composite(composite, a.composite);
+  add_resume(composite, a.composite.frames);
+  composite
+      .add_option("--missing", a.composite.frames.missing,
+                  "What becomes of frames whose plate is not there: error (default), skip (no "
+                  "output), or hold (the nearest before stands in)")
+      ->option_text("error|skip|hold");
   add_picture(composite, a.composite.water);
 
   CLI::App& water =
@@ -236,12 +248,14 @@ Parsed parse(int argc, char** argv) {
       .add_option("--samples", a.render.samples,
                   "N x N samples a pixel, filtered after the water is in (default: 1)")
       ->option_text("N");
+  add_resume(water, a.render.frames);
   add_look(water, a.render.water);
   add_picture(water, a.render.water);
 
   CLI::App& render =
       *app.add_subcommand("render", "Render a scene's buffers: SCENE.toml -o PLATE.exr");
   add_render(render, a.render);
+  add_resume(render, a.render.frames);
   add_time(render, a.render.water);
   add_file(render, a.render.water);
   add_simd(render, a.render.water);

@@ -27,6 +27,8 @@ struct FrameOptions {
   std::string range;
   std::optional<double> fps;
   std::optional<int> in_flight;
+  std::string missing = "error";
+  bool resume = false;
 };
 
 struct CompositeArguments {

@@ -4,6 +4,7 @@
 
 #include "limpid/core/error.h"
 #include "limpid/load/frame_range.h"
+#include "limpid/load/image_file.h"
 
 namespace limpid::tool {
 namespace {
@@ -24,13 +25,25 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
     throw Error("--fps " + std::to_string(*options.fps) + ": expected a number above 0",
                 Fault::kUsage);
   }
+  const bool fills = missing_named(options.missing) != Missing::kError;
   if (options.range.empty()) {
-    if (options.fps || options.in_flight) {
-      throw Error(std::string(options.fps ? "--fps" : "--frames-in-flight") +
-                      ": expected --frames beside it",
-                  Fault::kUsage);
-    }
+    const char* alone = options.fps         ? "--fps"
+                        : options.in_flight ? "--frames-in-flight"
+                        : options.resume    ? "--resume"
+                        : fills             ? "--missing"
+                                            : nullptr;
+    if (alone) throw Error(std::string(alone) + ": expected --frames beside it", Fault::kUsage);
     return sequence;
+  }
+  if (outputs.dry_run && (options.resume || fills)) {
+    throw Error(std::string(options.resume ? "--resume" : "--missing") +
+                    " and -n: expected one of them, for a dry run makes no frame",
+                Fault::kUsage);
+  }
+  if (options.resume && !outputs.preview.empty() && !is_png(outputs.preview)) {
+    throw Error("--resume and --preview " + outputs.preview +
+                    ": expected a .png, for other formats do not say how they were made",
+                Fault::kUsage);
   }
   sequence.frames = frames_of(options.range);
   for (const std::string& name : {outputs.output, outputs.preview, outputs.deep}) {
@@ -41,6 +54,13 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
     }
   }
   return sequence;
+}
+
+Missing missing_named(const std::string& name) {
+  if (name == "error") return Missing::kError;
+  if (name == "skip") return Missing::kSkip;
+  if (name == "hold") return Missing::kHold;
+  throw Error("--missing " + name + ": expected error, skip or hold", Fault::kUsage);
 }
 
 double time_of_frame(const FrameOptions& options, const WaterOptions& water, int frame) {

@@ -1,19 +1,23 @@
 #pragma once
 #include <string>
 
+#include "limpid/missing.h"
 #include "limpid/output.h"
 #include "limpid/sequence.h"
 
 #include "arguments.h"
 
-/// What the verbs make of --frames, --fps and --frames-in-flight.
+/// What the verbs make of --frames and the options that go with it.
 
 namespace limpid::tool {
 
 /// The frames that the options name; none where --frames is not given. Throws the usage Error for
-/// bad numbers, for options that mean nothing without --frames, and for outputs that several frames
-/// would overwrite.
+/// bad numbers, for options that mean nothing without --frames or on a dry run, for outputs that
+/// several frames would overwrite, and for a preview that a sequence cannot be resumed by.
 Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs);
+
+/// That --missing names.
+Missing missing_named(const std::string& name);
 
 /// --time + frame / --fps.
 double time_of_frame(const FrameOptions& options, const WaterOptions& water, int frame);

@@ -5,6 +5,7 @@
 
 #include "limpid/core/error.h"
 
+#include "notes.h"
 #include "signals.h"
 #include "verbs.h"
 
@@ -22,13 +23,8 @@ int exit_code_of(limpid::Fault fault) {
   return 1;
 }
 
-/// Names come from files: they shall not steer a terminal, nor make two lines of a sentence.
-void print_error(std::string sentence) {
-  for (char& c : sentence) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = '?';
-  }
-  std::fprintf(stderr, "limpid ERROR: %s\n", sentence.c_str());
+void print_error(const std::string& sentence) {
+  std::fprintf(stderr, "limpid ERROR: %s\n", limpid::tool::one_line(sentence).c_str());
 }
 
 int run(const limpid::tool::Arguments& a) {

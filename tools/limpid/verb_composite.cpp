@@ -8,6 +8,7 @@
 #include "limpid/sequence.h"
 
 #include "frame_options.h"
+#include "notes.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -79,19 +80,32 @@ void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds) {
 
 int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
-  const Sequence sequence = sequence_of(a.frames, a.water);
+  Sequence sequence = sequence_of(a.frames, a.water);
   const CompositeJob job = common_job(a, sequence);
   const auto executor = executor_of(common);
-  if (common.verbose) std::printf("%s", Plate::inspect(first_job(a, sequence).plate).c_str());
   if (sequence.frames.empty()) {
+    if (common.verbose) std::printf("%s", Plate::inspect(job.plate).c_str());
     const CompositeReport report = composite(job, *executor);
     print_report(report, job.look, job.output, common);
     return 0;
   }
+  const FilledSequence filled = fill_missing(
+      sequence.frames, [&](int frame) { return job_of_frame(job, a, frame); },
+      missing_named(a.frames.missing));
+  tell_missing(filled, sequence.frames.size(), common);
+  sequence.frames = filled.frames;
+  if (a.frames.resume) {
+    const Rest rest = rest_of_composite(sequence, filled.job_of, *executor);
+    tell_rest(rest, common);
+    sequence.frames = rest.frames;
+  }
+  if (sequence.frames.empty()) return 0;
+  if (common.verbose) {
+    std::printf("%s", Plate::inspect(filled.job_of(sequence.frames.front()).plate).c_str());
+  }
   Progress progress(common);
-  composite_sequence(
-      sequence, [&](int frame) { return job_of_frame(job, a, frame); },
-      report_frames(progress, job.look, job.output, common), *executor);
+  composite_sequence(sequence, filled.job_of, report_frames(progress, job.look, job.output, common),
+                     *executor);
   return 0;
 }
 

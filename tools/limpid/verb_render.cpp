@@ -6,6 +6,7 @@
 #include "limpid/water.h"
 
 #include "frame_options.h"
+#include "notes.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -36,7 +37,7 @@ Model model_of(const RenderJob& job, const CommonArguments& common) {
 
 int render_verb(const RenderArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
-  const Sequence sequence = sequence_of(a.frames, a.water);
+  Sequence sequence = sequence_of(a.frames, a.water);
   const OutputChoice choice = output_of(a.water);
   const PlateJob job{job_of(a), {choice.picture, choice.compression, choice.store_float}};
   const auto executor = executor_of(common);
@@ -46,13 +47,18 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
     if (!common.quiet) std::printf("%s\n", a.water.output.c_str());
     return 0;
   }
-  Progress progress(common);
   const auto job_of_frame = [&](int frame) {
     PlateJob one = job;
     one.render.time = time_of_frame(a.frames, a.water, frame);
     one.output.plate = output_of_frame(choice, frame).picture;
     return one;
   };
+  if (a.frames.resume) {
+    const Rest rest = rest_of_render(model, sequence, job_of_frame, *executor);
+    tell_rest(rest, common);
+    sequence.frames = rest.frames;
+  }
+  Progress progress(common);
   const auto tell = [&](const SequenceProgress& at, const CompositeReport&) {
     progress.frame_done(at, output_of_frame(choice, at.frame).picture.string() + "\n");
   };
@@ -61,7 +67,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 }
 
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
-  const Sequence sequence = sequence_of(a.frames, a.water);
+  Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
   const WaterJob job{job_of(a), look_of(a.water), a.samples, output_of(a.water)};
   const auto executor = executor_of(common);
@@ -81,6 +87,11 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
   if (sequence.frames.empty()) {
     print_report(water(model, job, *executor), job.look, job.output, common);
     return 0;
+  }
+  if (a.frames.resume) {
+    const Rest rest = rest_of_water(model, sequence, job_of_frame, *executor);
+    tell_rest(rest, common);
+    sequence.frames = rest.frames;
   }
   Progress progress(common);
   water_sequence(model, sequence, job_of_frame,

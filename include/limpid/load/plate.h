@@ -28,6 +28,10 @@ struct PlateRequest {
   Limits limits;
 };
 
+/// The files that Plate::open() of this request opens, each once, in no particular order. A layer
+/// that is named without an extension of EXR counts as a file if it is there.
+std::vector<std::filesystem::path> files_of(const PlateRequest& request);
+
 /// What the depth planes of a plate hold, the dry scene's and the water's alike.
 struct DepthMeaning {
   DepthKind kind = DepthKind::kEye;

@@ -1,0 +1,179 @@
+#include "limpid/resume.h"
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "limpid/core/error.h"
+#include "limpid/load/exr_file.h"
+#include "limpid/load/image_file.h"
+#include "limpid/write/unfinished.h"
+
+#include "composite_frame.h"
+#include "water_frame.h"
+
+namespace limpid {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Files = std::vector<fs::path>;
+
+/// The picture comes first.
+Files files_of(const OutputChoice& output) {
+  Files files{output.picture};
+  for (const fs::path& also : {output.deep, output.preview}) {
+    if (!also.empty()) files.push_back(also);
+  }
+  return files;
+}
+
+Files files_of(const CompositeJob& job) { return files_of(job.output); }
+Files files_of(const WaterJob& job) { return files_of(job.output); }
+Files files_of(const PlateJob& job) { return {job.output.plate}; }
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+/// What the file says under the names of the record. Throws Error for one that cannot be read or is
+/// not whole.
+Record said_by(const fs::path& file, const Record& record) {
+  if (!is_exr(file)) return read_image_texts(file);
+  const ExrFile exr = ExrFile::open(file);
+  if (!exr.is_whole()) throw Error(file.string() + ": is not whole");
+  Record said;
+  for (const auto& [name, text] : record) {
+    if (const auto found = exr.text_attribute(0, name)) said[name] = *found;
+  }
+  return said;
+}
+
+/// Why the file is not as it would be made now, or "".
+std::string why_not(const fs::path& file, const Record& record) {
+  try {
+    const Record said = said_by(file, record);
+    std::vector<std::string> others;
+    for (const auto& [name, text] : record) {
+      const auto found = said.find(name);
+      if (found == said.end()) return file.string() + " does not say how it was made";
+      if (found->second != text) others.push_back(name.substr(name.find('/') + 1));
+    }
+    return others.empty() ? "" : file.string() + " was made otherwise (" + join(others) + ")";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// What there is of a frame.
+struct Found {
+  bool kept = false;
+  std::string why;  ///< it is not, though its picture is there
+};
+
+template <class RecordOfJob>
+Found find(const Files& files, const RecordOfJob& record_of_job) {
+  if (!is_there(files.front())) return {};
+  for (const fs::path& file : files) {
+    if (!is_there(file)) return {false, file.string() + " is not there"};
+  }
+  Record record;
+  try {
+    record = record_of_job();
+  } catch (const Error&) {
+    return {};  // it will be told when the frame is made
+  }
+  for (const fs::path& file : files) {
+    const std::string why = why_not(file, record);
+    if (!why.empty()) return {false, why};
+  }
+  return {true, ""};
+}
+
+struct Findings {
+  Rest rest;
+  std::set<fs::path> folders;
+};
+
+/// A slot that looks at frames instead of making them.
+template <class Job, class RecordOfJob>
+class LookingSlot : public FrameSlot {
+ public:
+  LookingSlot(const JobOfFrame<Job>& job_of, const RecordOfJob& record_of_job, Findings& findings)
+      : job_of_(job_of), record_of_job_(record_of_job), findings_(findings) {}
+
+  void begin(int frame) override {
+    job_.reset();
+    found_ = {};
+    try {
+      job_ = job_of_(frame);
+    } catch (const Error&) {
+      return;  // it will be told when the frame is made
+    }
+    for (const fs::path& file : files_of(*job_))
+      findings_.folders.insert(fs::absolute(file).parent_path());
+  }
+  void read(Executor&) override {
+    if (job_) found_ = find(files_of(*job_), [&] { return record_of_job_(*job_); });
+  }
+  void run(Executor&) override {}
+  void write() override {}
+  void done(const SequenceProgress& progress) override {
+    Rest& rest = findings_.rest;
+    if (found_.kept) {
+      ++rest.kept;
+      return;
+    }
+    rest.frames.push_back(progress.frame);
+    if (!found_.why.empty()) rest.others.push_back({progress.frame, found_.why});
+  }
+
+ private:
+  const JobOfFrame<Job>& job_of_;
+  const RecordOfJob& record_of_job_;
+  Findings& findings_;
+  std::optional<Job> job_;
+  Found found_;
+};
+
+template <class Job, class RecordOfJob>
+Rest rest_of(const Sequence& sequence, const JobOfFrame<Job>& job_of,
+             const RecordOfJob& record_of_job, Executor& executor) {
+  Findings findings;
+  const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
+    return std::make_unique<LookingSlot<Job, RecordOfJob>>(job_of, record_of_job, findings);
+  };
+  run_sequence(sequence, make_slot, executor);
+  for (const fs::path& folder : findings.folders) remove_abandoned_files(folder);
+  return std::move(findings.rest);
+}
+
+}  // namespace
+
+Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
+                       Executor& executor) {
+  SharedTextures textures;
+  return rest_of(
+      sequence, job_of, [&](const CompositeJob& job) { return record_of(job, textures); },
+      executor);
+}
+
+Rest rest_of_render(const Model& model, const Sequence& sequence,
+                    const JobOfFrame<PlateJob>& job_of, Executor& executor) {
+  const HashedModel hashed(model);
+  return rest_of(
+      sequence, job_of, [&](const PlateJob& job) { return record_of(hashed, job); }, executor);
+}
+
+Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
+                   Executor& executor) {
+  SharedTextures textures;
+  const HashedModel hashed(model);
+  return rest_of(
+      sequence, job_of, [&](const WaterJob& job) { return record_of(hashed, job, textures); },
+      executor);
+}
+
+}  // namespace limpid

@@ -1,0 +1,62 @@
+#include "notes.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace limpid::tool {
+namespace {
+
+void note(const std::string& sentence) {
+  std::fprintf(stderr, "limpid: %s\n", one_line(sentence).c_str());
+}
+
+}  // namespace
+
+std::string one_line(std::string sentence) {
+  for (char& c : sentence) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = '?';
+  }
+  return sentence;
+}
+
+std::string ranges_text(const std::vector<int>& numbers) {
+  std::string text;
+  for (std::size_t first = 0, last = 0; first < numbers.size(); first = ++last) {
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    text += (text.empty() ? "" : ", ") + std::to_string(numbers[first]);
+    if (last > first) text += "-" + std::to_string(numbers[last]);
+  }
+  return text;
+}
+
+void tell_rest(const Rest& rest, const CommonArguments& common) {
+  if (common.quiet) return;
+  const std::size_t of = rest.frames.size() + static_cast<std::size_t>(rest.kept);
+  note(std::to_string(rest.kept) + " of " + std::to_string(of) + " frames are there already");
+  if (rest.others.empty()) return;
+  const Rest::Other& first = rest.others.front();
+  note(std::to_string(rest.others.size()) + " that are there are made again; frame " +
+       std::to_string(first.frame) + ": " + first.why);
+  if (!common.verbose) return;
+  for (std::size_t i = 1; i < rest.others.size(); ++i) {
+    note("frame " + std::to_string(rest.others[i].frame) + ": " + rest.others[i].why);
+  }
+}
+
+void tell_missing(const FilledSequence& filled, std::size_t of, const CommonArguments& common) {
+  if (common.quiet || filled.missing.empty()) return;
+  std::vector<int> numbers;
+  for (const MissingPlate& plate : filled.missing) numbers.push_back(plate.frame);
+  std::sort(numbers.begin(), numbers.end());
+  const bool held = filled.missing.front().stand_in.has_value();
+  note(std::to_string(numbers.size()) + " of " + std::to_string(of) + " frames have no plate and " +
+       (held ? "are made from others" : "are left out") + ": " + ranges_text(numbers));
+  if (!common.verbose) return;
+  for (const MissingPlate& plate : filled.missing) {
+    note("frame " + std::to_string(plate.frame) + ": " + plate.file.string() + " is not there" +
+         (plate.stand_in ? ": frame " + std::to_string(*plate.stand_in) + " stands in" : ""));
+  }
+}
+
+}  // namespace limpid::tool

@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+
+#include "limpid/missing.h"
+#include "limpid/resume.h"
+
+#include "arguments.h"
+
+/// What there is to say on stderr that is no error.
+
+namespace limpid::tool {
+
+/// Names come from files: they shall not steer a terminal, nor make two lines of a sentence.
+std::string one_line(std::string sentence);
+
+/// "3, 5-9, 12" for numbers in rising order.
+std::string ranges_text(const std::vector<int>& numbers);
+
+/// "12 of 240 frames are there already", and which are made again and why: the first, or with -v
+/// each.
+void tell_rest(const Rest& rest, const CommonArguments& common);
+/// Which frames lack a plate and what becomes of them; with -v each file.
+void tell_missing(const FilledSequence& filled, std::size_t of, const CommonArguments& common);
+
+}  // namespace limpid::tool
