@@ -51,6 +51,27 @@ std::string error_of(const fs::path& path) {
   return "";
 }
 
+/// The same of a process that may not write everywhere, as root may.
+std::string error_as_nobody(const fs::path& path) {
+  constexpr id_t kNobody = 65534;
+  int ends[2];
+  EXPECT_EQ(::pipe(ends), 0);
+  const pid_t nobody = ::fork();
+  if (nobody == 0) {
+    const bool root = ::geteuid() == 0;
+    const bool dropped = !root || (::setgid(kNobody) == 0 && ::setuid(kNobody) == 0);
+    const std::string error = dropped ? error_of(path) : "still root";
+    const bool told = ::write(ends[1], error.data(), error.size()) >= 0;
+    ::_exit(told ? 0 : 1);
+  }
+  ::close(ends[1]);
+  std::string error;
+  for (char letter = 0; ::read(ends[0], &letter, 1) == 1;) error += letter;
+  ::close(ends[0]);
+  ::waitpid(nobody, nullptr, 0);
+  return error;
+}
+
 TEST(AtomicFile, AppearsAtCommit) {
   const fs::path path = folder() / "a.exr";
   write_text(path, "old");
@@ -97,11 +118,9 @@ TEST(AtomicFile, NamesTheFolderThatCannotBeWritten) {
                 "' cannot be written to (no such file or directory)");
   write_text(here / "file", "");
   EXPECT_THAT(error_of(here / "file" / "a.exr"), HasSubstr("not a directory"));
-  if (::geteuid() != 0) {  // root may write everywhere
-    fs::permissions(here, fs::perms::owner_read | fs::perms::owner_exec);
-    EXPECT_THAT(error_of(here / "a.exr"), HasSubstr("permission denied"));
-    fs::permissions(here, fs::perms::owner_all);
-  }
+  fs::permissions(here, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_exec);
+  EXPECT_THAT(error_as_nobody(here / "a.exr"), HasSubstr("permission denied"));
+  fs::permissions(here, fs::perms::owner_all);
 }
 
 TEST(AtomicFile, ReplacesFilesOnly) {

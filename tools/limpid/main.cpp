@@ -7,6 +7,7 @@
 
 #include "notes.h"
 #include "signals.h"
+#include "streams.h"
 #include "verbs.h"
 
 namespace {
@@ -55,11 +56,16 @@ int run(const limpid::tool::Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  limpid::tool::keep_streams_apart();
   const limpid::tool::Parsed parsed = limpid::tool::parse(argc, argv);
-  if (parsed.exit_code) return *parsed.exit_code;
   try {
-    limpid::tool::end_cleanly_on_signals();
-    return run(parsed.arguments);
+    int code = parsed.exit_code.value_or(0);
+    if (!parsed.exit_code) {
+      limpid::tool::end_cleanly_on_signals();
+      code = run(parsed.arguments);
+    }
+    limpid::tool::finish_stdout();
+    return code;
   } catch (const limpid::Error& error) {
     print_error(error.what());
     return exit_code_of(error.fault());

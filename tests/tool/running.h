@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include <sys/types.h>
+
+#include "tool/tool.h"
+
+namespace limpid::test {
+
+/// A program that runs while the test goes on, and whose stdout is read line by line. It cannot get
+/// far ahead of its reader: the pipe between them holds 4096 bytes.
+class Running {
+ public:
+  /// Without a shell between, as run().
+  Running(const std::filesystem::path& folder, const Words& command);
+  /// Kills it if it still runs.
+  ~Running();
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  /// The next line without its end; "" when there is none any more.
+  std::string line();
+  /// Nobody reads any more.
+  void close_stdout();
+  void send(int signal) const;
+  /// Reads no more, waits for the end, and gives the exit code, or minus the signal that ended it.
+  int wait();
+
+ private:
+  pid_t process_ = 0;
+  int pipe_ = -1;
+};
+
+}  // namespace limpid::test

@@ -1,0 +1,236 @@
+#include <csignal>
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "limpid/core/error.h"
+#include "limpid/load/frame_range.h"
+#include "limpid/load/look_file.h"
+#include "limpid/load/scene_file.h"
+#include "limpid/sequence.h"
+
+#include "tool/made_plate.h"
+#include "tool/running.h"
+#include "tool/tool.h"
+
+/// What happens to a sequence when something goes wrong around it: what is done is whole, what was
+/// there stays, one sentence says what it was.
+
+namespace limpid::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+constexpr int kFrames = 6;
+
+class TroubleTest : public ToolTest {
+ protected:
+  TroubleTest() {
+    for (int frame = 1; frame <= kFrames; ++frame) {
+      PlateOptions options;
+      options.depth_code = [=](double z, double) { return z * (1 + 0.02 * frame); };
+      // The third is the first that is large.
+      if (frame < 3) options.data = {8, 0, 60, 12};
+      write_plate(folder_ / name_of_frame("plate.%d.exr", frame), options);
+    }
+    fs::create_directory(folder_ / "out");
+  }
+
+  Words words(const std::string& folder, const Words& more = {}) const {
+    Words all{LIMPID_TOOL,
+              "composite",
+              "plate.%d.exr",
+              "--scene",
+              "scene.toml",
+              "--look",
+              "look.toml",
+              "-o",
+              folder + "/wet.%d.exr",
+              "--deep",
+              folder + "/deep.%d.exr",
+              "--float",
+              "--compression",
+              "none",
+              "--frames",
+              "1-6"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  std::map<std::string, std::string> in(const std::string& folder) const {
+    std::map<std::string, std::string> all;
+    for (const std::string& name : files()) {
+      if (name.starts_with(folder + "/")) all[name.substr(folder.size() + 1)] = text_of(name);
+    }
+    return all;
+  }
+  /// The files of a run that nothing goes wrong with.
+  std::map<std::string, std::string> undisturbed() const {
+    fs::create_directory(folder_ / "good");
+    EXPECT_EQ(run(folder_, words("good", {"-q"})).code, 0);
+    const auto all = in("good");
+    EXPECT_EQ(all.size(), std::size_t{2 * kFrames});
+    return all;
+  }
+  /// Every file is one of the good ones, or "old" as before, and the first frames are there.
+  void expect_whole(const std::string& folder, int first_frames) const {
+    const auto good = undisturbed();
+    const auto found = in(folder);
+    for (const auto& [name, bytes] : found) {
+      const bool whole = good.contains(name) && bytes == good.at(name);
+      EXPECT_TRUE(whole || bytes == "old") << name;
+    }
+    for (int frame = 1; frame <= first_frames; ++frame) {
+      for (const char* pattern : {"wet.%d.exr", "deep.%d.exr"}) {
+        const std::string name = name_of_frame(pattern, frame);
+        EXPECT_TRUE(found.contains(name) && found.at(name) != "old") << name;
+      }
+    }
+  }
+
+  /// The same by the library, one frame after the other.
+  CompositeJob job(int frame) const {
+    CompositeJob job;
+    job.scene = load_scene(folder_ / "scene.toml");
+    job.plate.files = {folder_ / name_of_frame("plate.%d.exr", frame)};
+    job.look = load_look(folder_ / "look.toml");
+    job.time_if_unsaid = frame / 24.0;
+    job.output.picture = folder_ / name_of_frame("out/wet.%d.exr", frame);
+    job.output.deep = folder_ / name_of_frame("out/deep.%d.exr", frame);
+    job.output.compression = "none";
+    job.output.store_float = true;
+    return job;
+  }
+  /// The Error of the sequence in which `event` happens when frame 3 is done.
+  template <class Event>
+  Error error_after_third(const Event& event) const {
+    const auto executor = make_executor(1);
+    const auto on_frame = [&](const SequenceProgress& at, const CompositeReport&) {
+      if (at.frame == 3) event();
+    };
+    try {
+      composite_sequence(
+          {{1, 2, 3, 4, 5, 6}, 1}, [&](int frame) { return job(frame); }, on_frame, *executor);
+    } catch (const Error& error) {
+      return error;
+    }
+    ADD_FAILURE() << "no error";
+    return Error("");
+  }
+};
+
+TEST_F(TroubleTest, AFileSizeLimitInTheMiddle) {
+  write_text("out/wet.3.exr", "old");
+  Words limited{"/bin/sh", "-c", "ulimit -f 72; exec \"$@\"", "sh"};
+  for (const std::string& word : words("out", {"--frames-in-flight", "1"})) limited.push_back(word);
+  const Ran ran = run(folder_, limited);
+  expect_refused(ran, {"frame 3: out/", ".3.exr: cannot be written (file too large)"}, 75);
+  expect_whole("out", 2);
+  EXPECT_EQ(text_of("out/wet.3.exr"), "old");
+}
+
+/// On a disk of a few hundred kilobytes, where the system lets one be made.
+TEST_F(TroubleTest, AFullDisk) {
+  const std::string script =
+      "mount -t tmpfs -o size=240k limpid out || exit 99; echo -n old > out/wet.4.exr; \"$@\"; "
+      "code=$?; cp -a out copy; exit $code";
+  Words full{"/usr/bin/unshare", "-Urm", "/bin/sh", "-c", script, "sh"};
+  for (const std::string& word : words("out")) full.push_back(word);
+  const Ran ran = run(folder_, full);
+  if (ran.code == 99 || ran.err.starts_with("unshare: ")) {
+    GTEST_SKIP() << "no disk of our own can be made here (" << ran.err
+                 << "): only AFileSizeLimitInTheMiddle checks it";
+  }
+  expect_refused(ran, {"cannot be written (no space left on device)"}, 75);
+  expect_whole("copy", 2);
+  EXPECT_THAT(text_of("copy/wet.4.exr"), AnyOf("old", undisturbed().at("wet.4.exr")));
+}
+
+TEST_F(TroubleTest, AReadOnlyFolder) {
+  write_text("out/wet.1.exr", "old");
+  const std::string script =
+      "mount --bind out out && mount -o remount,ro,bind out || exit 99; exec \"$@\"";
+  Words locked{"/usr/bin/unshare", "-Urm", "/bin/sh", "-c", script, "sh"};
+  for (const std::string& word : words("out")) locked.push_back(word);
+  const Ran ran = run(folder_, locked);
+  if (ran.code == 99 || ran.err.starts_with("unshare: ")) {
+    GTEST_SKIP() << "no folder can be made read-only here (" << ran.err
+                 << "): only AtomicFile.NamesTheFolderThatCannotBeWritten checks it";
+  }
+  expect_refused(ran, {"frame 1: out/wet.1.exr: the folder 'out' cannot be written to (read-only"});
+  EXPECT_EQ(in("out").size(), 1u);
+  EXPECT_EQ(text_of("out/wet.1.exr"), "old");
+}
+
+TEST_F(TroubleTest, AFolderThatGoes) {
+  const Error error = error_after_third([&] { fs::rename(folder_ / "out", folder_ / "kept"); });
+  EXPECT_THAT(error.what(), HasSubstr("frame 4: "));
+  EXPECT_THAT(error.what(), HasSubstr("out' cannot be written to (no such file or directory)"));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  expect_whole("kept", 3);
+  EXPECT_EQ(in("kept").size(), 6u);
+}
+
+TEST_F(TroubleTest, AFolderUnderThePicturesName) {
+  const Error error = error_after_third([&] { fs::create_directory(folder_ / "out/wet.5.exr"); });
+  EXPECT_THAT(error.what(), HasSubstr("wet.5.exr: is there and not a file, so it is not replaced"));
+  fs::remove(folder_ / "out/wet.5.exr");
+  expect_whole("out", 4);
+  EXPECT_EQ(in("out").size(), 8u);
+}
+
+TEST_F(TroubleTest, APlateThatGoes) {
+  const Error error = error_after_third([&] { fs::remove(folder_ / "plate.5.exr"); });
+  EXPECT_THAT(error.what(), HasSubstr("plate.5.exr: cannot be opened (no such file or directory)"));
+  fs::copy_file(folder_ / "plate.6.exr", folder_ / "plate.5.exr");
+  expect_whole("out", 4);
+  EXPECT_EQ(in("out").size(), 8u);
+}
+
+class TroubleSignal : public TroubleTest, public ::testing::WithParamInterface<int> {};
+
+/// Nobody reads beyond the second frame, so that the sequence cannot end by itself.
+TEST_P(TroubleSignal, EndsASequenceCleanly) {
+  write_text("out/wet.6.exr", "old");
+  Running running(folder_, words("out", {"-v"}));
+  for (int frames = 0; frames < 2;) frames += running.line().starts_with("out/wet.") ? 1 : 0;
+  running.send(GetParam());
+  EXPECT_EQ(running.wait(), -GetParam());
+  expect_whole("out", 2);
+  EXPECT_EQ(text_of("out/wet.6.exr"), "old");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TroubleSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+TEST_F(TroubleTest, AReaderThatGoesStopsNothing) {
+  Running running(folder_, words("out", {"-v"}));
+  EXPECT_NE(running.line(), "");
+  running.close_stdout();
+  EXPECT_EQ(running.wait(), -SIGPIPE);
+  expect_whole("out", kFrames);
+}
+
+/// What is printed must not go into the files that took the numbers of the streams.
+TEST_F(TroubleTest, ClosedStreams) {
+  Words closed{"/bin/sh", "-c", "exec \"$@\" <&- >&- 2>&-", "sh"};
+  for (const std::string& word : words("out", {"-v"})) closed.push_back(word);
+  EXPECT_EQ(run(folder_, closed).code, 0);
+  expect_whole("out", kFrames);
+  fs::rename(folder_ / "plate.4.exr", folder_ / "elsewhere.exr");
+  EXPECT_EQ(run(folder_, closed).code, 1);
+  fs::rename(folder_ / "elsewhere.exr", folder_ / "plate.4.exr");
+  expect_whole("out", kFrames);
+}
+
+TEST_F(TroubleTest, AFullDiskUnderStdout) {
+  Words full{"/bin/sh", "-c", "exec \"$@\" > /dev/full", "sh"};
+  for (const std::string& word : words("out")) full.push_back(word);
+  expect_refused(run(folder_, full), {"standard output: cannot be written to"}, 75);
+  expect_whole("out", kFrames);
+  expect_refused(run(folder_, {"/bin/sh", "-c", "exec \"$0\" operators > /dev/full", LIMPID_TOOL}),
+                 {"standard output: cannot be written to"}, 75);
+}
+
+}  // namespace
+}  // namespace limpid::test
