@@ -7,9 +7,11 @@
 namespace limpid {
 namespace {
 
+std::size_t difference(std::size_t a, std::size_t b) { return a > b ? a - b : b - a; }
+
 /// Letters left out, put in, replaced, and neighbours swapped count one each.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before, row(b.size() + 1), next(b.size() + 1);
+  std::vector<std::size_t> before(b.size() + 1), row(before), next(before);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
     next[0] = i + 1;
@@ -18,7 +20,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
       const bool swapped = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
       if (swapped) next[j + 1] = std::min(next[j + 1], before[j - 1] + 1);
     }
-    before = std::exchange(row, next);
+    std::swap(before, row);
+    std::swap(row, next);
   }
   return row.back();
 }
@@ -29,8 +32,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   std::string best;
   std::size_t best_distance = word.size();
   for (const std::string& name : known) {
-    const std::size_t distance = edit_distance(word, name);
     const std::size_t tolerated = std::max<std::size_t>(1, std::max(word.size(), name.size()) / 3);
+    if (difference(word.size(), name.size()) > tolerated) continue;
+    const std::size_t distance = edit_distance(word, name);
     if (distance <= tolerated && distance < best_distance) {
       best = name;
       best_distance = distance;

@@ -161,12 +161,9 @@ std::vector<std::string> looks_in(std::span<const fs::path> folders) {
   return {names.begin(), names.end()};
 }
 
-}  // namespace
-
-Look load_look(const fs::path& path) {
-  const TomlNode root = parse_toml(path);
+Look look_of(const TomlNode& root, std::string name) {
   Look look;
-  look.name = path.stem().string();
+  look.name = std::move(name);
   const std::vector<Parameter> all = parameters(look);
   std::vector<std::string> tables;
   for (const Parameter& p : all) {
@@ -186,8 +183,19 @@ Look load_look(const fs::path& path) {
       at_place(node->place, [&] { look.set(p.table, p.name, value); });
     }
   }
+  return look;
+}
+
+}  // namespace
+
+Look load_look(const fs::path& path) {
+  Look look = look_of(parse_toml(path), path.stem().string());
   resolve_files(look, fs::absolute(path).parent_path());
   return look;
+}
+
+Look look_from_toml(const std::string& text, const std::string& name) {
+  return look_of(parse_toml_text(text, name), name);
 }
 
 Look look_named(std::string_view name, std::span<const fs::path> folders) {

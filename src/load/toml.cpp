@@ -9,10 +9,14 @@
 
 #include <toml++/toml.h>
 
+#include "load/toml_nesting.h"
+
 namespace limpid {
 namespace {
 
-constexpr std::streamsize kMaxBytes = std::streamsize{1} << 20;
+// A node of two bytes of text takes some 400 bytes of memory.
+constexpr std::streamsize kMaxBytes = std::streamsize{256} << 10;
+constexpr std::size_t kLongestKey = 64, kLongestText = 80;  // of texts: in sentences
 
 std::string text_of_file(const std::filesystem::path& path) {
   std::error_code absent;
@@ -25,9 +29,6 @@ std::string text_of_file(const std::filesystem::path& path) {
   std::string text(static_cast<std::size_t>(kMaxBytes) + 1, '\0');
   file.read(text.data(), kMaxBytes + 1);
   if (file.bad()) throw Error(path.string() + ": cannot be read", Fault::kRetry);
-  if (file.gcount() > kMaxBytes) {
-    throw Error(path.string() + ": is larger than 1 MiB, expected a TOML file");
-  }
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;
 }
@@ -66,6 +67,10 @@ TomlNode converted(const toml::node& value, const std::string& file, const std::
       std::vector<std::pair<toml::source_position, TomlNode>> entries;
       for (const auto& [key, item] : *value.as_table()) {
         const std::string name(key.str());
+        if (name.size() > kLongestKey) {
+          throw Error(place_of(file, key.source()) + "a key of " + std::to_string(name.size()) +
+                      " letters: expected at most " + std::to_string(kLongestKey));
+        }
         TomlNode entry = converted(item, file, path.empty() ? name : path + "." + name);
         entry.key = name;
         entry.key_place = place_of(file, key.source());
@@ -88,6 +93,10 @@ TomlNode converted(const toml::node& value, const std::string& file, const std::
   return node;
 }
 
+std::string shortened(const std::string& text) {
+  return text.size() > kLongestText ? text.substr(0, kLongestText) + "..." : text;
+}
+
 std::string shown(const TomlNode& node) {
   switch (node.kind) {
     case TomlNode::Kind::kNumber: {
@@ -96,7 +105,7 @@ std::string shown(const TomlNode& node) {
       return text;
     }
     case TomlNode::Kind::kText:
-      return "\"" + node.text + "\"";
+      return "\"" + shortened(node.text) + "\"";
     case TomlNode::Kind::kList: {
       const bool short_and_flat =
           node.items.size() <= 4 &&
@@ -171,6 +180,10 @@ TomlNode parse_toml(const std::filesystem::path& path) {
 }
 
 TomlNode parse_toml_text(const std::string& text, const std::string& name) {
+  if (std::ssize(text) > kMaxBytes) {
+    throw Error(name + ": is larger than 256 KiB, expected a TOML file");
+  }
+  check_toml_nesting(text, name);
   try {
     return converted(toml::parse(text, name), name, "");
   } catch (const toml::parse_error& error) {

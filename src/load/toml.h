@@ -51,11 +51,11 @@ auto at_place(const std::string& place, Work&& work) {
   }
 }
 
-/// Throws Error for a file that cannot be read, is larger than 1 MiB, or is not TOML; it begins
-/// with the path, and with line and column where there are any.
+/// Throws Error for a file that cannot be read, is larger than 256 KiB, nested more than 16
+/// deep, or is not TOML; it begins with the path, and with line and column where there are any.
 TomlNode parse_toml(const std::filesystem::path& path);
 
-/// The same of a text that did not come from a file of its own; `name` stands for the file.
+/// The same, size and all, of a text that did not come from a file of its own; `name` stands for the file.
 TomlNode parse_toml_text(const std::string& text, const std::string& name);
 
 }  // namespace limpid

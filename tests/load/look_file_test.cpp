@@ -184,7 +184,7 @@ TEST(LookFile, RefusesWhatIsNoTomlFile) {
               HasSubstr("absent.toml: cannot be opened (No such file or directory)"));
   EXPECT_THAT(error_of([] { load_look(own_folder()); }), HasSubstr("is a folder"));
   const fs::path large = written("large.toml", std::string((1 << 20) + 1, '#'));
-  EXPECT_THAT(error_of([&] { load_look(large); }), HasSubstr("larger than 1 MiB"));
+  EXPECT_THAT(error_of([&] { load_look(large); }), HasSubstr("larger than 256 KiB"));
   const fs::path binary = written("plate.toml", std::string("v/1\x01\x02\0\0\0channels\0\xff", 18));
   EXPECT_THAT(error_of([&] { load_look(binary); }), StartsWith(binary.string() + ":1:"));
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "limpid/ops/look.h"
@@ -13,6 +14,10 @@ namespace limpid {
 /// Error, with "file:line:column: " in front, for what is not TOML, an unknown table or key (with
 /// the nearest known name), and a value that its declaration refuses, NaN included.
 Look load_look(const std::filesystem::path& path);
+
+/// The same from a text; `name` stands for the file in errors, and the look has it. A relative
+/// `wave_normals.map` stays as it is.
+Look look_from_toml(const std::string& text, const std::string& name);
 
 /// The look NAME.toml in the first of `folders` that has one; a name that ends in ".toml" or has a
 /// folder in it is a path and loaded as such. Folders that do not exist are passed over. Throws
