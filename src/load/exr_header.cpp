@@ -4,6 +4,8 @@
 #include <cstring>
 #include <span>
 
+#include "load/exr_attribute_size.h"
+
 namespace limpid {
 namespace {
 
@@ -50,7 +52,10 @@ std::map<std::string, ExrFile::Attribute> read_attributes(FileStream& stream) {
     }
     attribute.bytes.resize(size);
     if (size > 0) stream.read(attribute.bytes.data(), static_cast<int>(size));
-    attributes[name] = std::move(attribute);
+    check_attribute_size(name, attribute);
+    if (!attributes.emplace(name, std::move(attribute)).second) {
+      throw Error("damaged header (two attributes '" + name + "')");
+    }
   }
   return attributes;
 }

@@ -14,6 +14,7 @@ using exr_test::temporary;
 using exr_test::write_file;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using namespace std::string_literals;
 
 TEST(ExrDamaged, PublicDamagedFilesAreRefusedInOneSentence) {
   int files = 0;
@@ -128,6 +129,52 @@ TEST(ExrDamaged, AHeaderThatPromisesTooMuchIsRefusedUnread) {
               bytes.begin() + static_cast<long>(box));
   exr_test::write_bytes(path, bytes);
   EXPECT_THAT(failure_of(path), HasSubstr("16384x16384 pixels of 3 channels cannot be in"));
+}
+
+/// A good file with one more attribute in front of the others.
+std::vector<char> with_attribute(const std::string& name_and_type, const std::string& value) {
+  const std::string path = temporary("plain.exr");
+  write_file(path, {"zip"});
+  std::vector<char> bytes = exr_test::bytes_of(path);
+  std::string attribute = name_and_type;
+  for (std::size_t i = 0; i < 4; ++i) attribute += static_cast<char>(value.size() >> (8 * i) & 255);
+  attribute += value;
+  bytes.insert(bytes.begin() + 8, attribute.begin(), attribute.end());
+  return bytes;
+}
+
+/// OpenEXR takes as many bytes as the type has, whatever the file says.
+TEST(ExrDamaged, AttributesHaveTheSizeOfTheirType) {
+  const std::string path = temporary("sizes.exr");
+  const auto failure_with = [&](const std::string& type, const std::string& value) {
+    exr_test::write_bytes(path, with_attribute("a\0"s + type + "\0"s, value));
+    return failure_of(path);  // of the moved chunks, where the header is good
+  };
+  struct Sized {
+    const char* type;
+    std::size_t bytes;
+  };
+  for (const auto& [type, bytes] :
+       {Sized{"int", 4}, Sized{"box2i", 16}, Sized{"m44f", 64}, Sized{"floatvector", 8},
+        Sized{"v3d", 24}, Sized{"chlist", 1}}) {
+    EXPECT_THAT(failure_with(type, std::string(bytes, '\0')), testing::Not(HasSubstr("of type")));
+    for (const std::size_t wrong : {bytes - 1, bytes + 1}) {
+      EXPECT_THAT(failure_with(type, std::string(wrong, '\0')),
+                  HasSubstr(" has " + std::to_string(wrong) + " bytes"));
+    }
+  }
+  const std::string channel = "R\0"s + std::string(16, '\0');
+  for (const std::string& list : {channel, "R"s, channel + channel, channel + "\0\0"s}) {
+    EXPECT_THAT(failure_with("chlist", list), HasSubstr("has " + std::to_string(list.size())));
+  }
+  EXPECT_THAT(failure_with("idmanifest", std::string(12, '\0')), HasSubstr("is not supported"));
+  EXPECT_THAT(failure_with("ours", std::string(13, '\0')), testing::Not(HasSubstr("of type")));
+}
+
+TEST(ExrDamaged, AnAttributeIsThereOnce) {
+  const std::string path = temporary("twice.exr");
+  exr_test::write_bytes(path, with_attribute("pixelAspectRatio\0float\0"s, "\0\0\x80\x3f"s));
+  EXPECT_THAT(failure_of(path), HasSubstr("two attributes 'pixelAspectRatio'"));
 }
 
 }  // namespace
