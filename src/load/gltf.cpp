@@ -8,6 +8,7 @@
 #include "load/gltf_files.h"
 #include "load/gltf_material.h"
 #include "load/gltf_mesh.h"
+#include "load/gltf_model.h"
 #include "load/gltf_parse.h"
 #include "load/gltf_scene.h"
 #include "load/gltf_texture.h"
@@ -40,15 +41,15 @@ ModelTexture read_texture(const JsonPlace& place, const tinygltf::Image& image,
   return texture;
 }
 
-Model read(const fs::path& path, const Limits& limits) {
-  const GltfFile file = read_gltf_file(path, limits);
+}  // namespace
+
+Model gltf_model(const GltfFile& file, const fs::path& folder, const Limits& limits) {
   const JsonPlace root(file.json);
   std::optional<std::int64_t> binary_bytes;
   if (file.binary) binary_bytes = static_cast<std::int64_t>(file.binary->size());
   check_gltf(root, binary_bytes, limits);
   const GltfMaterials looks = read_gltf_materials(root);
 
-  const fs::path folder = fs::absolute(path).parent_path();
   const tinygltf::Model gltf = parse_gltf(file, folder, limits);
   MemoryBudget budget{limits.max_memory};
   Model model;
@@ -65,11 +66,9 @@ Model read(const fs::path& path, const Limits& limits) {
   return model;
 }
 
-}  // namespace
-
 Model load_gltf(const fs::path& path, const Limits& limits) {
   try {
-    return read(path, limits);
+    return gltf_model(read_gltf_file(path, limits), fs::absolute(path).parent_path(), limits);
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what(), error.fault());
   }

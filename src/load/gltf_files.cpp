@@ -102,7 +102,10 @@ bool has_scheme(std::string_view name) {
 }  // namespace
 
 GltfFile read_gltf_file(const fs::path& path, const Limits& limits) {
-  const std::string bytes = whole_file(path, std::min<std::int64_t>(limits.max_memory, INT32_MAX));
+  return split_gltf(whole_file(path, std::min<std::int64_t>(limits.max_memory, INT32_MAX)));
+}
+
+GltfFile split_gltf(std::string_view bytes) {
   if (bytes.starts_with("glTF")) return split_glb(bytes);
   return {parse_json(bytes), std::nullopt};
 }

@@ -23,6 +23,9 @@ struct GltfFile {
 /// .glb of version 2.
 GltfFile read_gltf_file(const std::filesystem::path& path, const Limits& limits);
 
+/// The same of a file's bytes.
+GltfFile split_gltf(std::string_view bytes);
+
 /// Whether a uri holds its bytes itself.
 bool is_data_uri(std::string_view uri);
 

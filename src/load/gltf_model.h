@@ -1,0 +1,15 @@
+#pragma once
+#include <filesystem>
+
+#include "limpid/load/limits.h"
+#include "limpid/raster/model.h"
+
+#include "load/gltf_files.h"
+
+namespace limpid {
+
+/// What load_gltf() makes of a file; `folder` is where it lies. Throws Error without the name of
+/// the file.
+Model gltf_model(const GltfFile& file, const std::filesystem::path& folder, const Limits& limits);
+
+}  // namespace limpid

@@ -1,0 +1,93 @@
+#include "limpid/core/executor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "limpid/core/error.h"
+
+/// The executor of the build with ThreadSanitizer: threads of the standard library, made for each
+/// call. It keeps the promises of executor.h and no others, so that who relies on more is seen.
+
+namespace limpid {
+namespace {
+
+constexpr int kUsualThreads = 4;
+
+template <class Work>
+void on_threads(int threads, Work&& work) {
+  std::vector<std::thread> pool;
+  for (int i = 0; i < threads; ++i) pool.emplace_back(work);
+  for (std::thread& thread : pool) thread.join();
+}
+
+class ThreadExecutor : public Executor {
+ public:
+  explicit ThreadExecutor(int threads) : threads_(threads == 0 ? kUsualThreads : threads) {}
+
+  void run(int count, Task task, void* context) override {
+    std::atomic<int> next = 0;
+    on_threads(std::min(threads_, count), [&] {
+      // Relaxed: the order of two tasks is nobody's business.
+      for (int i = next.fetch_add(1, std::memory_order_relaxed); i < count;
+           i = next.fetch_add(1, std::memory_order_relaxed)) {
+        task(context, i);
+      }
+    });
+  }
+
+  void pipeline(int count, int in_flight, std::span<const Task> steps, void* context) override {
+    if (steps.size() < 2) return Executor::pipeline(count, in_flight, steps, context);
+    std::mutex first, last;
+    std::condition_variable left;
+    int next = 0, leaving = 0;
+    // Each thread has one item on its way.
+    on_threads(std::min(in_flight, count), [&] {
+      for (;;) {
+        int item = 0;
+        {
+          const std::lock_guard lock(first);
+          if (next == count) return;
+          item = next++;
+          steps.front()(context, item);
+        }
+        for (const Task step : steps.subspan(1, steps.size() - 2)) step(context, item);
+        std::unique_lock lock(last);
+        left.wait(lock, [&] { return leaving == item; });
+        steps.back()(context, item);
+        ++leaving;
+        left.notify_all();
+      }
+    });
+  }
+
+ private:
+  int threads_;
+};
+
+class CallingThread : public Executor {
+ public:
+  void run(int count, Task task, void* context) override {
+    for (int i = 0; i < count; ++i) task(context, i);
+  }
+};
+
+}  // namespace
+
+void Executor::pipeline(int count, int /*in_flight*/, std::span<const Task> steps, void* context) {
+  for (int index = 0; index < count; ++index) {
+    for (const Task step : steps) step(context, index);
+  }
+}
+
+std::unique_ptr<Executor> make_executor(int threads) {
+  if (threads < 0) throw Error("threads = " + std::to_string(threads) + ": expected 0 or more");
+  if (threads == 1) return std::make_unique<CallingThread>();
+  return std::make_unique<ThreadExecutor>(threads);
+}
+
+}  // namespace limpid
