@@ -5,6 +5,7 @@
 
 #include "limpid/op/context.h"
 
+#include "op/plain_texture.h"
 #include "run/checks.h"
 
 namespace limpid {
@@ -65,9 +66,7 @@ class ReferenceStrip {
   template <class Where, class Into>
   void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
     for (Pixel<double>& p : pixels_) {
-      const Vec2<double> at = where(p);
-      into(p, Rgb<double>{tiled_at(texture.channels[0], at), tiled_at(texture.channels[1], at),
-                          tiled_at(texture.channels[2], at)});
+      into(p, tiled_rgb_at(texture, where(p)));
     }
   }
 
@@ -104,8 +103,7 @@ class ReferenceStrip {
               double(row - strip.y_) / strip.display_.height()};
     }
     Rgb<double> lat_long_rgb(const Texture& map, Vec2<double> at) const {
-      return {lat_long_at(map.channels[0], at), lat_long_at(map.channels[1], at),
-              lat_long_at(map.channels[2], at)};
+      return lat_long_rgb_at(map, at);
     }
   };
 
@@ -142,33 +140,6 @@ class ReferenceStrip {
     const double upper = lerp(texel(plane, x, y), texel(plane, x + 1, y), u);
     const double lower = lerp(texel(plane, x, y + 1), texel(plane, x + 1, y + 1), u);
     return lerp(upper, lower, v);
-  }
-
-  static double tiled_at(const View<const float>& view, Vec2<double> periods) {
-    const int width = view.window.width(), height = view.window.height();
-    // 0 for an infinite position, so that every tap lies in the texture.
-    const auto fraction = [](double p) { return max(p - std::floor(p), 0.0); };
-    const double x = fraction(periods.x) * width - 0.5, y = fraction(periods.y) * height - 0.5;
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const auto at = [&](int i, int j) -> double {
-      return view.at(view.window.x0 + (i + width) % width, view.window.y0 + (j + height) % height);
-    };
-    const double u = x - x0, v = y - y0;
-    return lerp(lerp(at(x0, y0), at(x0 + 1, y0), u), lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), u),
-                v);
-  }
-
-  static double lat_long_at(const View<const float>& view, Vec2<double> place) {
-    const int width = view.window.width(), height = view.window.height();
-    const double x = (place.x - std::floor(place.x)) * width - 0.5, y = place.y * height - 0.5;
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const auto at = [&](int i, int j) -> double {
-      return view.at(view.window.x0 + (i + width) % width,
-                     view.window.y0 + std::clamp(j, 0, height - 1));
-    };
-    const double u = x - x0, v = y - y0;
-    return lerp(lerp(at(x0, y0), at(x0 + 1, y0), u), lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), u),
-                v);
   }
 
   const Frame& frame_;
