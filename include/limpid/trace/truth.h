@@ -1,0 +1,82 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/ops/look.h"
+#include "limpid/raster/model.h"
+#include "limpid/run/target.h"
+
+namespace limpid {
+
+/// The light that would really arrive, by tracing rays through a model: what the chain, which only
+/// looks things up in pictures, is judged by.
+///
+/// A view ray meets the model's dry triangles or the water: its raised mesh, as render_plate()
+/// draws it, or the calm plane where the model has none. At the water it parts. The mirrored ray
+/// goes on through the real scene, above the water or onto it once more. The refracted ray, one for
+/// each index of refraction, goes on to the real bottom, or up through a crest. Both are followed
+/// through kTruthEvents meetings with the surface; after these only what is dry is seen.
+///
+/// What the surface and the water are like, the look says, by the parameters and in the conventions
+/// of the chain, so that on calm water over a flat, sunlit floor the two agree:
+/// - Normals: those of the raised mesh, or else what wave_normals makes of its map or waves, on a
+///   surface that stays flat.
+/// - Index: water.ior for green, with prism_split.gain times the dispersion of water for the
+///   others, in all that an index enters, whatever prism_split.model is. Reflectance is exact.
+/// - Medium: absorption, scattering, water_type, anisotropy, ambient, sunlight and crossing of
+///   depth_fog, whatever its model is.
+/// - Way down of the sun: as `sunlight` and `crossing` have it, under calm water; depths are those
+///   below the calm plane. With `refracted` the sunlight on the bottom comes from where it comes
+///   from in the water, and so do shadows. Ambient light loses as much as the sun's.
+/// - Highlight: the lobe that sun_highlight has at the normal, times the sun's visibility: the sun
+///   is a point to all else.
+/// - What mirrored rays see where they leave the scene is by fresnel_reflection.source: the model's
+///   background, the environment (if there is one), or the constant color. Others see the
+///   background.
+/// - Penetration, and the ways of the other operators to look things up, have no meaning here.
+/// Dry surfaces answer light as in the raster pass (Shading), with hard shadows of the sun.
+///
+/// Left out: light that waves focus on the bottom (caustics), light that is scattered or reflected
+/// more than once on its way from the sun to where it is seen, the sky's light being shadowed.
+struct TruthOptions {
+  Size size{1920, 1080};
+  /// N x N samples a pixel, stratified and filtered by their mean, 1 ... 16. One is the pixel's
+  /// centre, as in the chain.
+  int samples = 1;
+  std::uint64_t seed = 0;  ///< of where in its stratum each sample lies
+  std::vector<Aov> aovs;   ///< all but confidence, for nothing is guessed
+  bool visible = false;    ///< TruthPicture::visible
+  Texture wave_map;        ///< for a look that reads one
+  Texture environment;     ///< for a look whose mirror shows it
+};
+
+inline constexpr int kTruthEvents = 4;
+
+/// AOVs mean what they mean in a run of the chain (run/target.h). Terms, fresnel and transmittance
+/// are means of the samples; path, normal, surface_depth, the stmaps and `visible` are those of the
+/// pixel's centre.
+///
+/// stmap: where the end of the channel's refracted ray lies in the picture, seen or not, inside or
+/// not; rays that leave the scene end at infinity. Where nothing is refracted (dry pixels, total
+/// reflection, views in the water alone), and for what lies behind the camera, the pixel's own
+/// place.
+struct TruthPicture {
+  Rect window;
+  std::vector<Plane> planes;
+  Target target;  ///< color, alpha and the AOVs that were asked for
+  /// For each channel, 1 where the dry camera sees the very point that the refracted ray ends at,
+  /// so that the dry picture has its color; 0 where something hides it, or it is out of frame or
+  /// behind the camera. 1 where nothing is refracted.
+  std::array<View<float>, 3> visible;
+};
+
+/// The same bits for any number of threads. Throws Error for what render_plate() refuses, samples
+/// out of range, the AOV confidence, and where Embree finds no memory.
+TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& look,
+                         const TruthOptions& options, Executor& executor);
+
+}  // namespace limpid

@@ -1,0 +1,23 @@
+#pragma once
+#include <array>
+
+#include "trace/eye.h"
+#include "trace/tracer.h"
+
+namespace limpid::trace {
+
+/// Where the light at a pixel's centre comes from: what is no mean of samples.
+struct Geometry {
+  bool wet = false;  ///< meets the surface, or goes through water from the eye on
+  double path = 0;   ///< +inf without end
+  double surface_depth = HUGE_VAL;
+  glm::dvec3 normal{0};
+  std::array<glm::dvec2, 3> uv{};  ///< of each channel's end; (0, 0) at the upper left
+  std::array<bool, 3> visible{};
+};
+
+/// `x`, `y`: the place in the picture, in pixels.
+Geometry geometry_at(const Tracer& tracer, const Eye& eye, Size size, double x, double y,
+                     bool in_water);
+
+}  // namespace limpid::trace

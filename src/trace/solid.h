@@ -1,0 +1,73 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "limpid/raster/model.h"
+
+#include "raster/prepared.h"
+#include "trace/triangles.h"
+
+namespace limpid::trace {
+
+/// Sunlight as it arrives somewhere.
+struct Sunlight {
+  glm::dvec3 to_sun{0};  ///< unit
+  double spread = 1;     ///< share of the sun's own irradiance on what faces it
+  Rgb<double> color{0, 0, 0};
+};
+
+/// A point of a dry surface, from the side that it is seen from.
+struct SolidPoint {
+  Triangles::Hit hit;
+  glm::dvec3 face{0};    ///< unit normal of the triangle
+  glm::dvec3 normal{0};  ///< unit, for shading
+  int material = 0;
+  glm::dvec2 uv{0}, uv_dx{0}, uv_dy{0};
+
+  /// Where a ray from here to that direction may begin without meeting its own triangle.
+  glm::dvec3 off_towards(const glm::dvec3& direction) const;
+};
+
+/// All of a model but its water, relative to an eye.
+class Solid {
+ public:
+  /// Throws Error for a model that the rasteriser refuses.
+  Solid(const Model& model, const glm::dvec3& eye);
+
+  std::optional<SolidPoint> nearest(const Beam& beam) const;
+  std::optional<Triangles::Hit> nearest(const Ray& ray) const {
+    return triangles_.nearest(ray, Sides::kShown);
+  }
+  bool blocks(const Ray& ray) const { return triangles_.block(ray); }
+
+  /// The light that goes back along the beam, by the material. `visible` is asked for the sun's
+  /// visibility, 0 ... 1, where that matters.
+  template <class Visible>
+  Rgb<double> color(const SolidPoint& point, const Beam& beam, const Sunlight& sun,
+                    Visible&& visible) const {
+    const double cosine = glm::dot(point.normal, sun.to_sun);
+    const bool lit = is_lit(point) && sun.color != Rgb<double>{0, 0, 0} && cosine > 0;
+    return shaded(point, -beam.ray.direction, sun, lit ? visible() : 0.0);
+  }
+
+ private:
+  struct Source {  ///< a part of the triangles: the mesh that it came from
+    const raster::PreparedMesh* mesh;
+    std::vector<glm::dvec3> normals;
+    int material;
+  };
+
+  bool is_lit(const SolidPoint& point) const;
+  Rgb<double> shaded(const SolidPoint& point, const glm::dvec3& to_viewer, const Sunlight& sun,
+                     double visible) const;
+  void add(const Instance& instance, const glm::dvec3& eye, std::vector<Triangles::Part>& parts);
+  Triangles made(const glm::dvec3& eye);
+
+  raster::PreparedModel model_;
+  std::vector<Source> sources_;
+  Triangles triangles_;
+};
+
+}  // namespace limpid::trace

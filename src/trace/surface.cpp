@@ -1,0 +1,91 @@
+#include "trace/surface.h"
+
+#include <algorithm>
+
+#include "raster/water_surface.h"
+#include "trace/one_pixel.h"
+
+namespace limpid::trace {
+namespace {
+
+std::vector<Triangles::Part> parts_of(const Model& water, const glm::dvec3& eye) {
+  std::vector<Triangles::Part> parts;
+  for (const Mesh& mesh : water.meshes) {
+    Triangles::Part part;
+    for (const glm::vec3& p : mesh.positions) part.positions.push_back(glm::dvec3(p) - eye);
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+      const Triangles::Corners at{part.positions[mesh.indices[t]],
+                                  part.positions[mesh.indices[t + 1]],
+                                  part.positions[mesh.indices[t + 2]]};
+      const glm::dvec3 cross = at.cross();
+      if (!(glm::dot(cross, cross) > 0)) continue;  // no area
+      for (std::size_t k = t; k < t + 3; ++k) part.indices.push_back(mesh.indices[k]);
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+bool makes_waves(const WaveNormals::Params& waves, const Texture& wave_map) {
+  return waves.strength != 0 && (wave_map || !WaveNormals::needs(waves).wave_map);
+}
+
+}  // namespace
+
+Surface::Surface(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map,
+                 const Context& context)
+    : context_(context),
+      waves_(look.of<WaveNormals>()),
+      wavy_(makes_waves(waves_, wave_map)),
+      has_mesh_(std::any_of(model.instances.begin(), model.instances.end(),
+                            [](const Instance& i) { return i.water; })),
+      raised_(has_mesh_ && !scene.water->waves.empty()),
+      height_(-context.eye_above),
+      mesh_([&] {
+        const Model water = raised_water(model, *scene.water, scene.time);
+        for (const Mesh& mesh : water.meshes) {
+          normals_.emplace_back(mesh.normals.begin(), mesh.normals.end());
+        }
+        return Triangles(parts_of(water, context.eye));
+      }()) {}
+
+std::optional<SurfacePoint> Surface::nearest(const Ray& ray, bool from_air) const {
+  SurfacePoint found;
+  if (has_mesh_) {
+    const auto hit = mesh_.nearest(ray, from_air ? Sides::kFront : Sides::kBack);
+    if (!hit) return std::nullopt;
+    found = {hit->distance, hit->point, hit->front, {}};
+    found.normal = raised_ ? mesh_normal_at(*hit) : normal_at(hit->point);
+  } else {
+    const double sinks = -glm::dot(ray.direction, context_.up);
+    if (!(from_air ? sinks > 0 : sinks < 0)) return std::nullopt;
+    found.distance = (glm::dot(ray.origin, context_.up) - height_) / sinks;
+    if (!(found.distance >= ray.from)) return std::nullopt;
+    found.point = ray.at(found.distance);
+    found.face = context_.up;
+    found.normal = normal_at(found.point);
+  }
+  if (!(found.distance < ray.to)) return std::nullopt;
+  return found;
+}
+
+glm::dvec3 Surface::normal_at(const glm::dvec3& point) const {
+  if (!wavy_) return context_.up;
+  Pixel<double> pixel{};
+  pixel.surface_point = formula_of(point);
+  pixel.normal = formula_of(context_.up);
+  OnePixel strip{pixel};
+  WaveNormals::apply(waves_, context_, strip);
+  return glm_of(pixel.normal);
+}
+
+glm::dvec3 Surface::mesh_normal_at(const Triangles::Hit& hit) const {
+  const glm::dvec3 shares = corner_shares(mesh_.corners(hit.part, hit.triangle), hit.point);
+  const std::uint32_t* corner =
+      mesh_.parts()[hit.part].indices.data() + 3 * std::size_t{hit.triangle};
+  glm::dvec3 sum(0);
+  for (int k = 0; k < 3; ++k) sum += shares[k] * normals_[hit.part][corner[k]];
+  return glm_of(normalize_or(formula_of(sum), formula_of(hit.front)));
+}
+
+}  // namespace limpid::trace

@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "limpid/core/frame.h"
+#include "limpid/op/context.h"
+#include "limpid/ops/look.h"
+#include "limpid/raster/model.h"
+
+#include "trace/triangles.h"
+
+namespace limpid::trace {
+
+/// Where a ray meets the water.
+struct SurfacePoint {
+  double distance = 0;
+  glm::dvec3 point{0};
+  glm::dvec3 face{0};    ///< unit normal of the geometry, out of the water
+  glm::dvec3 normal{0};  ///< unit normal that light obeys
+};
+
+/// The water's surface: the raised mesh, or the calm plane of a model without one.
+class Surface {
+ public:
+  Surface(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map,
+          const Context& context);
+
+  /// Rays in the air meet it from above, rays in the water from below: none meets it from the side
+  /// that it does not come from.
+  std::optional<SurfacePoint> nearest(const Ray& ray, bool from_air) const;
+
+ private:
+  glm::dvec3 normal_at(const glm::dvec3& point) const;
+  glm::dvec3 mesh_normal_at(const Triangles::Hit& hit) const;
+
+  const Context& context_;
+  const WaveNormals::Params& waves_;
+  bool wavy_;  ///< by the operator
+  bool has_mesh_, raised_;
+  double height_;                                 ///< of the calm plane over the eye
+  std::vector<std::vector<glm::dvec3>> normals_;  ///< of the mesh, a vertex
+  Triangles mesh_;
+};
+
+}  // namespace limpid::trace

@@ -1,0 +1,225 @@
+#include "trace/tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "limpid/optics/fresnel.h"
+#include "limpid/optics/scattering.h"
+#include "limpid/optics/surroundings.h"
+
+#include "op/plain_texture.h"
+#include "trace/one_pixel.h"
+
+namespace limpid::trace {
+namespace {
+
+constexpr double kEndless = 3e38;  ///< length of a way that meets nothing
+constexpr Rgb<double> kBlack{0, 0, 0};
+
+Sunlight in_the_air(const Scene& scene) {
+  if (!scene.sun) return {};
+  return {scene.sun->direction, 1, scene.sun->color};
+}
+
+}  // namespace
+
+Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
+               const TruthOptions& options, const Context& context)
+    : context_(context),
+      look_(look),
+      environment_(options.environment),
+      background_(model.background),
+      sun_(in_the_air(scene)),
+      medium_(scene, look),
+      solid_(model, context.eye),
+      surface_(model, scene, look, options.wave_map, context) {}
+
+Light Tracer::seen(const Beam& beam, bool in_water, int steps, Samples& samples) const {
+  View view{.steps = steps, .samples = samples};
+  view.from_air = !in_water;
+  return in_water ? from_water(beam, view) : in_air(beam, view);
+}
+
+Light Tracer::in_air(const Beam& beam, View view) const {
+  Light light;
+  const std::optional<SolidPoint> dry = solid_.nearest(beam);
+  std::optional<SurfacePoint> wet;
+  if (view.events < kTruthEvents) {
+    Ray ray = beam.ray;
+    if (dry) ray.to = std::min(ray.to, dry->hit.distance);
+    wet = surface_.nearest(ray, true);
+  }
+  if (!wet) {
+    light.transmitted = dry ? dry_light(*dry, beam) : background(beam.ray.direction, view);
+    return light;
+  }
+  ++view.events;
+  const glm::dvec3 to_viewer = -beam.ray.direction;
+  light.highlight = highlight(*wet, to_viewer);
+
+  View mirrored = view;
+  mirrored.mirrored = true;
+  const Rgb<double> above = in_air(mirrored_up(beam, *wet), mirrored).sum();
+  const double cosine = glm::dot(to_viewer, wet->normal);
+  light.transmittance = kBlack;
+  for (const Band& band : medium_.bands) {
+    const double share = fresnel_exact(cosine, band.ior);
+    const Leg leg = through_water(refracted_in(beam, *wet, band.ior), band, view);
+    light.reflected = light.reflected + share * (band.mask * above);
+    light.transmitted =
+        light.transmitted + (1 - share) * (band.mask * (leg.through + leg.mirrored));
+    light.in_scatter = light.in_scatter + (1 - share) * (band.mask * leg.in_scatter);
+    light.transmittance = light.transmittance + band.mask * leg.transmittance;
+  }
+  light.fresnel = fresnel_exact(cosine, medium_.bands[medium_.common].ior);
+  return light;
+}
+
+Light Tracer::from_water(const Beam& beam, View view) const {
+  Light light;
+  light.transmittance = kBlack;
+  for (std::size_t i = 0; i < medium_.bands.size(); ++i) {
+    const Band& band = medium_.bands[i];
+    const Leg leg = through_water(beam, band, view);
+    light.transmitted = light.transmitted + band.mask * leg.through;
+    light.reflected = light.reflected + band.mask * leg.mirrored;
+    light.in_scatter = light.in_scatter + band.mask * leg.in_scatter;
+    light.transmittance = light.transmittance + band.mask * leg.transmittance;
+    if (i == medium_.common) light.fresnel = leg.fresnel;
+  }
+  return light;
+}
+
+Tracer::Leg Tracer::through_water(const Beam& beam, const Band& band, View view) const {
+  const std::optional<SolidPoint> dry = solid_.nearest(beam);
+  std::optional<SurfacePoint> wet;
+  if (view.events < kTruthEvents) {
+    Ray ray = beam.ray;
+    if (dry) ray.to = std::min(ray.to, dry->hit.distance);
+    wet = surface_.nearest(ray, false);
+  }
+  const double length = wet ? wet->distance : dry ? dry->hit.distance : kEndless;
+  Leg leg;
+  leg.transmittance = transmittance(length, medium_.rate);
+  leg.in_scatter = scattered(beam.ray, length, band, view);
+  if (!wet) {
+    const Rgb<double> end =
+        dry ? bottom_light(*dry, beam, band) : background(beam.ray.direction, view);
+    const double depth =
+        dry ? depth_of(dry->hit.point) : std::max(0.0, depth_of(beam.ray.at(length)));
+    const double leaves = view.from_air ? band.bottom : 1;
+    leg.through = leaves * (transmittance(depth, band.down) * (leg.transmittance * end));
+    return leg;
+  }
+  ++view.events;
+  View mirrored = view;
+  mirrored.mirrored = true;
+  leg.fresnel = fresnel_exact(glm::dot(beam.ray.direction, wet->normal), 1 / band.ior);
+  const Leg below = through_water(mirrored_down(beam, *wet), band, mirrored);
+  leg.mirrored =
+      leg.fresnel * (leg.transmittance * (below.through + below.mirrored + below.in_scatter));
+  if (leg.fresnel < 1) {
+    const Rgb<double> above = in_air(refracted_out(beam, *wet, band.ior), view).sum();
+    leg.through = (1 - leg.fresnel) * (leg.transmittance * above);
+  }
+  return leg;
+}
+
+Rgb<double> Tracer::scattered(const Ray& ray, double length, const Band& band,
+                              const View& view) const {
+  const Rgb<double>& rate = medium_.rate;
+  const Rgb<double> everywhere =
+      medium_.ambient * Rgb<double>{column_light(rate.r, length), column_light(rate.g, length),
+                                    column_light(rate.b, length)};
+  if (!medium_.sunlit) return everywhere;
+  const double sinks = -glm::dot(ray.direction, context_.up);
+  const double begin = depth_of(ray.origin);
+  const Way<double> way{length, sinks, begin, std::max(begin + sinks * length, 0.0)};
+  const auto sunlit = [&](double own_rate, double down, double own) {
+    if (own == 0) return 0.0;
+    const double light = sun_column(way, own_rate, down).light;
+    return light > 0 ? light * sunlit_share(ray, length, own_rate + down * sinks, band, view) : 0.0;
+  };
+  // What other bands see of this way is not computed.
+  const Rgb<double> column{sunlit(rate.r, band.down.r, band.mask.r),
+                           sunlit(rate.g, band.down.g, band.mask.g),
+                           sunlit(rate.b, band.down.b, band.mask.b)};
+  const double turned = henyey_greenstein(glm::dot(band.to_sun, ray.direction), medium_.anisotropy);
+  const double leaves = view.from_air ? band.water : 1;
+  return everywhere + (leaves * turned) * (band.sun * column);
+}
+
+/// Mean of the sun's visibility along the way, each place weighed by the light that it would send:
+/// exp(-loss s). Places are drawn by that weight, one in each of `steps` parts of equal light.
+double Tracer::sunlit_share(const Ray& ray, double length, double loss, const Band& band,
+                            const View& view) const {
+  const double size = std::abs(loss), whole = size * std::min(length, kEndless);
+  int reached = 0;
+  for (int i = 0; i < view.steps; ++i) {
+    const double part = (i + view.samples.next()) / view.steps;
+    double s = part * length;
+    if (whole > 1e-6) s = -std::log1p(part * std::expm1(-whole)) / size;
+    if (loss < 0) s = length - s;
+    reached += sun_reaches(ray.at(s), band);
+  }
+  return static_cast<double>(reached) / view.steps;
+}
+
+bool Tracer::sun_reaches(const glm::dvec3& point, const Band& band) const {
+  const double depth = depth_of(point);
+  Ray up{point, band.to_sun};
+  if (!medium_.bends_sun || depth <= 0) {
+    up.direction = sun_.to_sun;
+    return !solid_.blocks(up);
+  }
+  up.to = depth / glm::dot(band.to_sun, context_.up);
+  return !solid_.blocks(up) && !solid_.blocks({up.at(up.to), sun_.to_sun});
+}
+
+double Tracer::depth_of(const glm::dvec3& point) const {
+  return std::max(0.0, -context_.eye_above - glm::dot(context_.up, point));
+}
+
+Rgb<double> Tracer::dry_light(const SolidPoint& point, const Beam& beam) const {
+  return solid_.color(point, beam, sun_, [&] {
+    return solid_.blocks({point.off_towards(sun_.to_sun), sun_.to_sun}) ? 0.0 : 1.0;
+  });
+}
+
+Rgb<double> Tracer::bottom_light(const SolidPoint& point, const Beam& beam,
+                                 const Band& band) const {
+  if (!medium_.bends_sun || depth_of(point.hit.point) <= 0) return dry_light(point, beam);
+  const Sunlight sun{band.to_sun, band.spread, sun_.color};
+  return solid_.color(point, beam, sun, [&] {
+    return sun_reaches(point.off_towards(band.to_sun), band) ? 1.0 : 0.0;
+  });
+}
+
+Rgb<double> Tracer::background(const glm::dvec3& direction, const View& view) const {
+  using Source = FresnelReflection::Source;
+  const FresnelReflection::Params& mirror = look_.of<FresnelReflection>();
+  if (view.mirrored && mirror.source == Source::kConstant) return mirror.color;
+  if (view.mirrored && mirror.source == Source::kEnvironment && environment_) {
+    return lat_long_rgb_at(environment_, lat_long(glm::dot(context_.map_x, direction),
+                                                  glm::dot(context_.map_y, direction),
+                                                  glm::dot(context_.up, direction)));
+  }
+  return background_;
+}
+
+Rgb<double> Tracer::highlight(const SurfacePoint& at, const glm::dvec3& to_viewer) const {
+  const SunHighlight::Params& params = look_.of<SunHighlight>();
+  if (!context_.has_sun || SunHighlight::neutral(params, {})) return kBlack;
+  Pixel<double> pixel{};
+  pixel.side = 1;
+  pixel.to_viewer = formula_of(to_viewer);
+  pixel.normal = formula_of(at.normal);
+  OnePixel strip{pixel};
+  SunHighlight::apply(params, context_, strip);
+  const bool faces = glm::dot(at.normal, sun_.to_sun) > 0;
+  if (pixel.highlight == kBlack || !faces) return kBlack;
+  return solid_.blocks({at.point, sun_.to_sun}) ? kBlack : pixel.highlight;
+}
+
+}  // namespace limpid::trace

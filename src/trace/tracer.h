@@ -1,0 +1,86 @@
+#pragma once
+#include "limpid/op/context.h"
+#include "limpid/trace/truth.h"
+
+#include "trace/medium.h"
+#include "trace/samples.h"
+#include "trace/solid.h"
+#include "trace/surface.h"
+
+namespace limpid::trace {
+
+/// The light that comes along a view ray, by how it came: the terms of the chain.
+struct Light {
+  Rgb<double> transmitted{0, 0, 0}, in_scatter{0, 0, 0}, reflected{0, 0, 0}, highlight{0, 0, 0};
+  double fresnel = 0;
+  Rgb<double> transmittance{1, 1, 1};
+
+  Rgb<double> sum() const { return transmitted + in_scatter + reflected + highlight; }
+};
+
+/// Everything that rays meet in one picture, and the light that they bring back.
+class Tracer {
+ public:
+  Tracer(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options,
+         const Context& context);
+
+  /// `steps`: samples along a way where the sun's shadow on scattering water is looked up.
+  Light seen(const Beam& beam, bool in_water, int steps, Samples& samples) const;
+
+  const Solid& solid() const { return solid_; }
+  const Surface& surface() const { return surface_; }
+  const Medium& medium() const { return medium_; }
+
+ private:
+  /// A view on its way: what it has behind it.
+  struct View {
+    int events = 0;         ///< meetings with the surface
+    bool mirrored = false;  ///< for what it sees where it leaves the scene
+    bool from_air = true;   ///< where the eye is
+    int steps;
+    Samples& samples;
+  };
+  /// What a way through the water, in one band, gives to the view.
+  struct Leg {
+    Rgb<double> through{0, 0,
+                        0};  ///< from its end: the bottom, or what is seen through the surface
+    Rgb<double> mirrored{0, 0, 0};  ///< by the surface, from below
+    Rgb<double> in_scatter{0, 0, 0};
+    Rgb<double> transmittance{0, 0, 0};
+    double fresnel = 0;  ///< of the surface at its end
+  };
+
+  Light in_air(const Beam& beam, View view) const;
+  Light from_water(const Beam& beam, View view) const;
+  Leg through_water(const Beam& beam, const Band& band, View view) const;
+  Rgb<double> scattered(const Ray& ray, double length, const Band& band, const View& view) const;
+  double sunlit_share(const Ray& ray, double length, double loss, const Band& band,
+                      const View& view) const;
+
+  Rgb<double> dry_light(const SolidPoint& point, const Beam& beam) const;
+  Rgb<double> bottom_light(const SolidPoint& point, const Beam& beam, const Band& band) const;
+  Rgb<double> background(const glm::dvec3& direction, const View& view) const;
+  Rgb<double> highlight(const SurfacePoint& at, const glm::dvec3& to_viewer) const;
+  /// Whether the sun reaches a point in the water, or of the bottom, that this band sees.
+  bool sun_reaches(const glm::dvec3& point, const Band& band) const;
+  double depth_of(const glm::dvec3& point) const;
+
+  const Context& context_;
+  const Look& look_;
+  const Texture environment_;
+  Rgb<double> background_;
+  Sunlight sun_;  ///< in the air
+  Medium medium_;
+  Solid solid_;
+  Surface surface_;
+};
+
+/// The beam goes on into the water, and out of it: at the plane of the surface there, by its
+/// normal. Rays that the normal would bend or mirror to the wrong side of the geometry are laid
+/// along it.
+Beam refracted_in(const Beam& beam, const SurfacePoint& at, double ior);
+Beam refracted_out(const Beam& beam, const SurfacePoint& at, double ior);
+Beam mirrored_up(const Beam& beam, const SurfacePoint& at);
+Beam mirrored_down(const Beam& beam, const SurfacePoint& at);
+
+}  // namespace limpid::trace

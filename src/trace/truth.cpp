@@ -1,0 +1,202 @@
+#include "limpid/trace/truth.h"
+
+#include <algorithm>
+#include <string>
+
+#include "limpid/core/error.h"
+#include "limpid/raster/render_plate.h"
+
+#include "trace/geometry.h"
+
+namespace limpid {
+namespace {
+
+using trace::Geometry;
+using trace::Light;
+
+void check(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options) {
+  look.validate();
+  scene.validate();
+  if (!scene.camera) {
+    throw Error("the scene has no camera: expected one in the scene file or in the geometry");
+  }
+  renderable(model, scene);
+  const Size size = options.size;
+  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > 32000) {
+    throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                ": expected 1 ... 32000 pixels a side");
+  }
+  if (options.samples < 1 || options.samples > 16) {
+    throw Error("samples = " + std::to_string(options.samples) + ": expected 1 ... 16");
+  }
+  for (Aov aov : options.aovs) {
+    if (aov == Aov::kConfidence) {
+      throw Error("'confidence' is no AOV of the truth, which guesses nothing: expected visible",
+                  Fault::kUsage);
+    }
+  }
+  if (scene.sun && glm::dot(scene.sun->direction, scene.water->up) <= 0) {
+    throw Error("the sun is below the horizon: expected a direction that points above the water");
+  }
+  const double above = glm::dot(scene.camera->eye(), scene.water->up) - scene.water->height;
+  if (scene.camera->orthographic() && above < 0) {
+    throw Error("an orthographic camera below the water: expected one above it");
+  }
+}
+
+/// What the chain's formulas want to know of the frame: its size, and whether the surface has
+/// planes of its own.
+Frame frame_of(const Model& model, const Scene& scene, const TruthOptions& options,
+               const float& anything) {
+  Frame frame;
+  frame.display = rect_of(options.size);
+  frame.wave_map = options.wave_map;
+  for (PlaneId id : {PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow}) {
+    const bool there = renderable(model, scene).has(id);
+    if (there) frame.planes[index_of(id)] = {&anything, 0, 0, frame.display};
+  }
+  return frame;
+}
+
+TruthPicture picture_for(const TruthOptions& options) {
+  TruthPicture picture;
+  picture.window = rect_of(options.size);
+  const auto add = [&] {
+    picture.planes.emplace_back(picture.window);
+    return picture.planes.back().view();
+  };
+  for (View<float>& view : picture.target.color) view = add();
+  picture.target.alpha = add();
+  for (Aov aov : options.aovs) {
+    const std::size_t channels = aovs()[static_cast<std::size_t>(aov)].suffixes.size();
+    for (std::size_t i = 0; i < channels; ++i) picture.target.of(aov)[i] = add();
+  }
+  if (options.visible) {
+    for (View<float>& view : picture.visible) view = add();
+  }
+  return picture;
+}
+
+/// The mean of many.
+class Mean {
+ public:
+  void add(const Light& light) {
+    sum_.transmitted = sum_.transmitted + light.transmitted;
+    sum_.in_scatter = sum_.in_scatter + light.in_scatter;
+    sum_.reflected = sum_.reflected + light.reflected;
+    sum_.highlight = sum_.highlight + light.highlight;
+    sum_.transmittance = sum_.transmittance + light.transmittance;
+    sum_.fresnel += light.fresnel;
+    count_ += 1;
+  }
+  Light light() const {
+    const double share = 1 / count_;
+    return {share * sum_.transmitted, share * sum_.in_scatter, share * sum_.reflected,
+            share * sum_.highlight,   share * sum_.fresnel,    share * sum_.transmittance};
+  }
+
+ private:
+  Light sum_{.transmittance = {0, 0, 0}};
+  double count_ = 0;
+};
+
+class Painter {
+ public:
+  Painter(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options,
+          TruthPicture& picture)
+      : options_(options),
+        picture_(picture),
+        context_(scene, frame_of(model, scene, options, anything_), look.water.ior, {}),
+        eye_(*scene.camera, options.size),
+        tracer_(model, scene, look, options, context_),
+        steps_(std::max(4, 32 / (options.samples * options.samples))) {}
+
+  void paint_row(int y) const {
+    for (int x = 0; x < options_.size.width; ++x) {
+      put(x, y, light_at(x, y));
+      if (wants_geometry()) {
+        const bool in_water = begins_in_water(x + 0.5, y + 0.5);
+        put(x, y, geometry_at(tracer_, eye_, options_.size, x + 0.5, y + 0.5, in_water));
+      }
+    }
+  }
+
+ private:
+  Light light_at(int x, int y) const {
+    const int n = options_.samples;
+    Mean mean;
+    for (int i = 0; i < n * n; ++i) {
+      trace::Samples samples = n > 1 ? trace::Samples(options_.seed, x, y, i) : trace::Samples();
+      const double at_x = x + (i % n + samples.next()) / n;
+      const double at_y = y + (i / n + samples.next()) / n;
+      mean.add(tracer_.seen(eye_.beam_at(at_x, at_y, 1.0 / n), begins_in_water(at_x, at_y), steps_,
+                            samples));
+    }
+    return mean.light();
+  }
+
+  bool begins_in_water(double x, double y) const {
+    return limpid::begins_in_water(context_, RowRays<double>(context_, y), x) > 0;
+  }
+
+  bool wants_geometry() const {
+    constexpr Aov kGeometric[] = {Aov::kPath,   Aov::kNormal, Aov::kSurfaceDepth,
+                                  Aov::kStmapR, Aov::kStmapG, Aov::kStmapB};
+    return picture_.visible[0] || std::any_of(std::begin(kGeometric), std::end(kGeometric),
+                                              [&](Aov aov) { return view_of(aov)[0].data; });
+  }
+
+  const std::array<View<float>, 3>& view_of(Aov aov) const { return picture_.target.of(aov); }
+  void put(const std::array<View<float>, 3>& to, int x, int y, const Rgb<double>& value) const {
+    const double values[] = {value.r, value.g, value.b};
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (to[c]) to[c].at(x, y) = static_cast<float>(values[c]);
+    }
+  }
+
+  void put(int x, int y, const Light& light) const {
+    put(picture_.target.color, x, y, light.sum());
+    picture_.target.alpha.at(x, y) = 1;
+    put(view_of(Aov::kTransmitted), x, y, light.transmitted);
+    put(view_of(Aov::kInScatter), x, y, light.in_scatter);
+    put(view_of(Aov::kReflected), x, y, light.reflected);
+    put(view_of(Aov::kHighlight), x, y, light.highlight);
+    put(view_of(Aov::kFresnel), x, y, {light.fresnel, 0, 0});
+    put(view_of(Aov::kTransmittance), x, y, light.transmittance);
+  }
+
+  void put(int x, int y, const Geometry& g) const {
+    put(view_of(Aov::kPath), x, y, {g.path, 0, 0});
+    put(view_of(Aov::kSurfaceDepth), x, y, {g.surface_depth, 0, 0});
+    put(view_of(Aov::kNormal), x, y, {g.normal.x, g.normal.y, g.normal.z});
+    for (int c = 0; c < 3; ++c) {
+      const glm::dvec2& uv = g.uv[static_cast<std::size_t>(c)];
+      put(view_of(static_cast<Aov>(static_cast<int>(Aov::kStmapR) + c)), x, y, {uv.x, 1 - uv.y, 0});
+    }
+    put(picture_.visible, x, y, {double(g.visible[0]), double(g.visible[1]), double(g.visible[2])});
+  }
+
+  const TruthOptions& options_;
+  TruthPicture& picture_;
+  float anything_ = 0;
+  Context context_;
+  trace::Eye eye_;
+  trace::Tracer tracer_;
+  int steps_;
+};
+
+}  // namespace
+
+TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& look,
+                         const TruthOptions& options, Executor& executor) {
+  check(model, scene, look, options);
+  TruthPicture picture = picture_for(options);
+  const Painter painter(model, scene, look, options, picture);
+  executor.run(
+      options.size.height,
+      [](void* context, int y) { static_cast<const Painter*>(context)->paint_row(y); },
+      const_cast<Painter*>(&painter));
+  return picture;
+}
+
+}  // namespace limpid

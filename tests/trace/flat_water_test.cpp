@@ -1,0 +1,242 @@
+#include <gtest/gtest.h>
+
+#include "limpid/optics/water_index.h"
+
+#include "trace/trace_scenes.h"
+
+/// Calm water over a level floor, where everything has a closed form, worked out here by hand.
+
+namespace limpid::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Fresnel's own two formulas.
+double reflectance(double cosine, double n) {
+  const double inside = std::sqrt(1 - (1 - cosine * cosine) / (n * n));
+  const double s = (cosine - n * inside) / (cosine + n * inside);
+  const double p = (n * cosine - inside) / (n * cosine + inside);
+  return 0.5 * (s * s + p * p);
+}
+
+/// Where the ray of a pixel ends on the floor.
+glm::dvec3 bottom_point(const Scene& scene, int x, int y, double depth, double n) {
+  const glm::dvec3 eye = scene.camera->eye(), d = view_through(scene, x, y);
+  const glm::dvec3 surface = eye - (eye.y / d.y) * d;
+  const double sine = std::sqrt(1 - d.y * d.y) / n, cosine = std::sqrt(1 - sine * sine);
+  const glm::dvec3 flat(d.x, 0, d.z);
+  const double level = glm::length(flat);
+  return surface + glm::dvec3(0, -depth, 0) +
+         (level > 0 ? depth * sine / cosine / level : 0) * flat;
+}
+
+TEST(FlatWater, LooksThreeQuartersAsDeepFromStraightAbove) {
+  const Model model = model_of({level(-1)});
+  const Scene scene = over_water(90);
+  const TruthPicture p = traced(model, scene, calm_look());
+  // Beside the middle pixel: the floor is seen under a smaller angle than without water.
+  const double u = value(p, Aov::kStmapG, 17, 12),
+               tangent = view_through(scene, 17, 12).x / -view_through(scene, 17, 12).y;
+  const double half_width = 1 / scene.camera->projection[0][0];
+  const double to_floor = (2 * u - 1) * half_width * 3;  // from the middle, 2 + 1 below the eye
+  EXPECT_NEAR(to_floor / tangent - 2, 1 / kTraceIor, 5e-4);
+  EXPECT_NEAR(1 / kTraceIor, 0.750, 5e-4);
+  EXPECT_NEAR(value(p, Aov::kPath, 16, 12), 1, 1e-6);
+  EXPECT_NEAR(value(p, Aov::kFresnel, 16, 12), 0.0204, 5e-5);
+}
+
+TEST(FlatWater, RaysEndWhereSnellSaysAtEveryPixel) {
+  const Model model = model_of({level(-1.5)});
+  for (double degrees : {90.0, 50.0, 25.0}) {
+    const Scene scene = over_water(degrees);
+    const TruthPicture p = traced(model, scene, calm_look());
+    int inside = 0;
+    for_each_pixel(kTraceSize, [&](int x, int y) {
+      if (view_through(scene, x, y).y > -0.05) return;
+      const glm::dvec3 end = bottom_point(scene, x, y, 1.5, kTraceIor);
+      const glm::dvec2 at = place_of(scene, end);
+      EXPECT_NEAR(value(p, Aov::kStmapG, x, y, 0), at.x, 2e-6);
+      EXPECT_NEAR(value(p, Aov::kStmapG, x, y, 1), at.y, 2e-6);
+      const bool in_frame = at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1;
+      EXPECT_EQ(p.visible[1].at(x, y), in_frame);
+      inside += in_frame;
+      const glm::dvec3 eye = scene.camera->eye(), d = view_through(scene, x, y);
+      const glm::dvec3 surface = eye - (eye.y / d.y) * d;
+      EXPECT_NEAR(value(p, Aov::kPath, x, y), glm::length(end - surface), 2e-5);
+    });
+    EXPECT_GT(inside, 100) << degrees;
+  }
+}
+
+/// The check numbers of the optics: per metre of depth, at these angles of view.
+TEST(FlatWater, ObliqueShiftsAndPathsAreTheKnownOnes) {
+  const struct {
+    double degrees, straight_error, path_ratio, red_to_blue_mm;
+  } rows[] = {
+      {30, .173, 1.07, 2.8}, {45, .375, 1.20, 5.2}, {60, .879, 1.52, 8.7}, {75, 2.68, 2.66, 13.1}};
+  const Model model = model_of({level(-1)});
+  Look look = calm_look();
+  look.of<PrismSplit>().gain = 1;
+  look.water.ior = water_index_rgb().g;
+  for (const auto& row : rows) {
+    const Scene scene = over_water(90 - row.degrees);
+    const TruthPicture p = traced(model, scene, look);
+    const glm::dvec3 d = view_through(scene, 16, 12);
+    ASSERT_NEAR(std::acos(-d.y) * 180 / kPi, row.degrees, 1e-6);
+    // From a place in the picture back to the floor.
+    const auto floor_at = [&](Aov map) {
+      const double v = value(p, map, 16, 12, 1), u = value(p, map, 16, 12, 0);
+      const Rays rays = rays_of(*scene.camera, {kTraceSize.width, kTraceSize.height});
+      const glm::dvec3 ray = rays.ray_at(u * kTraceSize.width, (1 - v) * kTraceSize.height);
+      return scene.camera->eye() - (3 / ray.y) * ray;
+    };
+    const double tangent = std::tan(row.degrees * kPi / 180);
+    const double straight_end = scene.camera->eye().z - 3 * tangent;
+    const double bent_end = floor_at(Aov::kStmapG).z;
+    EXPECT_NEAR(bent_end - straight_end, row.straight_error, 0.005 * row.straight_error);
+    EXPECT_NEAR(std::sqrt(1 + tangent * tangent) / value(p, Aov::kPath, 16, 12), row.path_ratio,
+                0.008);  // known for the index 1.333
+    const double apart = floor_at(Aov::kStmapB).z - floor_at(Aov::kStmapR).z;
+    EXPECT_NEAR(1e3 * apart, row.red_to_blue_mm, 0.06);
+  }
+}
+
+struct Water {
+  DepthFog::Sunlight sunlight;
+  DepthFog::Crossing crossing;
+};
+
+class FlatWaterLight : public testing::TestWithParam<Water> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Switches, FlatWaterLight,
+    testing::Values(Water{DepthFog::Sunlight::kNone, DepthFog::Crossing::kNone},
+                    Water{DepthFog::Sunlight::kStraight, DepthFog::Crossing::kNone},
+                    Water{DepthFog::Sunlight::kRefracted, DepthFog::Crossing::kNone},
+                    Water{DepthFog::Sunlight::kRefracted, DepthFog::Crossing::kRadiance}));
+
+TEST_P(FlatWaterLight, IsTheClosedForm) {
+  const Rgb<double> base{0.8, 0.6, 0.4}, a{0.42, 0.085, 0.055}, b{0.1, 0.12, 0.14},
+      sky{0.3, 0.4, 0.5}, around{0.1, 0.2, 0.3};
+  constexpr double kDepth = 1.5, g = 0.6, n = kTraceIor;
+  Look look = calm_look();
+  look.of<FresnelReflection>().color = sky;
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.water_type = WaterType::kCustom;
+  fog.absorption = a;
+  fog.scattering = b;
+  fog.ambient = around;
+  fog.anisotropy = g;
+  fog.sunlight = GetParam().sunlight;
+  fog.crossing = GetParam().crossing;
+  const bool refracts = fog.sunlight == DepthFog::Sunlight::kRefracted;
+  const bool crosses = fog.crossing == DepthFog::Crossing::kRadiance;
+
+  const Scene scene = over_water(40);
+  const TruthPicture p = traced(model_of({level(-kDepth)}, lambert(base)), scene, look);
+  const glm::dvec3 sun = scene.sun->direction;
+  const double sun_cosine = sun.y, sun_inside = std::sqrt(1 - (1 - sun.y * sun.y) / (n * n));
+  const double sun_lost = reflectance(sun_cosine, n);
+  const glm::dvec3 in_water = refracts ? glm::dvec3(sun.x / n, sun_inside, sun.z / n) : sun;
+  for_each_pixel(kTraceSize, [&](int x, int y) {
+    const glm::dvec3 d = view_through(scene, x, y);
+    if (d.y > -0.1) return;
+    const double cosine = -d.y, inside = std::sqrt(1 - (1 - cosine * cosine) / (n * n));
+    const double path = kDepth / inside, f = reflectance(cosine, n);
+    const glm::dvec3 bent(d.x / n, -inside, d.z / n);
+    const double turned = glm::dot(bent, in_water);
+    const double phase = (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * turned, 1.5));
+    for (int c = 0; c < 3; ++c) {
+      const double rate = channel(a, c) + channel(b, c);
+      const double falling = channel(a, c) + (1 - g) * channel(b, c);
+      const double down = fog.sunlight == DepthFog::Sunlight::kNone ? 0
+                          : refracts                                ? falling / sun_inside
+                                                                    : falling / sun_cosine;
+      const double color = channel(scene.sun->color, c);
+      const double dry = channel(base, c) * (0.2 + sun_cosine * color);
+      const double bottom = crosses ? (1 - sun_lost) / (n * n) : 1;
+      const double through = (1 - f) * bottom * std::exp(-rate * path - down * kDepth) * dry;
+      const double total = rate + down * inside;
+      double sunlight = kPi * color * channel(b, c) * phase;
+      if (refracts) sunlight *= (1 - sun_lost) * sun_cosine / sun_inside;
+      if (crosses) sunlight /= n * n;
+      const double glow =
+          (1 - f) * (sunlight * (1 - std::exp(-total * path)) / total +
+                     channel(b, c) * channel(around, c) * (1 - std::exp(-rate * path)) / rate);
+      EXPECT_NEAR(value(p, Aov::kTransmitted, x, y, c), through, 1e-6);
+      EXPECT_NEAR(value(p, Aov::kInScatter, x, y, c), glow, 1e-6);
+      EXPECT_NEAR(value(p, Aov::kReflected, x, y, c), f * channel(sky, c), 1e-6);
+      EXPECT_NEAR(value(p, Aov::kTransmittance, x, y, c), std::exp(-rate * path), 1e-6);
+      EXPECT_NEAR(p.target.color[static_cast<std::size_t>(c)].at(x, y),
+                  through + glow + f * channel(sky, c), 2e-6);
+    }
+  });
+}
+
+/// White everywhere, and nothing takes light away: white is what is seen.
+TEST(FlatWater, KeepsAllLightOfAWhiteFurnace) {
+  Model model = model_of({level(-1)}, white(Shading::kFlat));
+  model.background = {1, 1, 1};
+  Look look = calm_look();
+  look.of<PrismSplit>().gain = 1;
+  look.of<FresnelReflection>().source = FresnelReflection::Source::kPlanar;
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.water_type = WaterType::kCustom;
+  fog.absorption = fog.scattering = {0, 0, 0};
+  fog.crossing = DepthFog::Crossing::kNone;
+  for (double height : {2.0, -0.5}) {  // from the air and from the water
+    Scene scene = over_water(20);
+    scene.water->height = 2 - height;
+    model.meshes[0] = level(1 - height);
+    const TruthPicture p = traced(model, scene, look);
+    for_each_pixel(kTraceSize, [&](int x, int y) {
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(p.target.color[c].at(x, y), 1, 1e-6);
+    });
+  }
+}
+
+/// From below: what is within the critical angle comes from the air, bent outwards; beyond it the
+/// surface mirrors all light of the floor.
+TEST(FlatWater, MirrorsTotallyBeyondTheCriticalAngle) {
+  Model model = model_of({level(-3)}, white(Shading::kFlat));
+  model.background = {0, 0, 1};
+  Look look = calm_look();
+  look.of<FresnelReflection>().source = FresnelReflection::Source::kPlanar;
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.water_type = WaterType::kCustom;
+  fog.absorption = {0.1, 0.2, 0};
+  fog.scattering = {0, 0, 0};
+  fog.sunlight = DepthFog::Sunlight::kNone;
+  Scene scene = over_water(-45);
+  scene.camera->view = glm::translate(scene.camera->view, glm::dvec3(0, 3, 0));  // 1 below
+  const TruthPicture p = traced(model, scene, look);
+  int total = 0, through = 0;
+  for_each_pixel(kTraceSize, [&](int x, int y) {
+    const glm::dvec3 d = view_through(scene, x, y);
+    if (d.y < 0.1) return;
+    const double degrees = std::acos(d.y) * 180 / kPi;
+    if (std::abs(degrees - 48.61) < 0.05) return;
+    if (degrees > 48.61) {
+      ++total;
+      EXPECT_EQ(value(p, Aov::kFresnel, x, y), 1);
+      EXPECT_EQ(value(p, Aov::kTransmitted, x, y, 2), 0);
+      // 1 up to the surface, 3 down to the floor.
+      EXPECT_NEAR(value(p, Aov::kReflected, x, y, 0), std::exp(-0.1 * 4 / d.y), 1e-6);
+      EXPECT_NEAR(value(p, Aov::kReflected, x, y, 2), 1, 1e-6);
+      EXPECT_NEAR(value(p, Aov::kStmapG, x, y, 0), (x + 0.5) / kTraceSize.width, 1e-6);
+    } else {
+      ++through;
+      const double out = std::sqrt(1 - (1 - d.y * d.y) * kTraceIor * kTraceIor);
+      const double f = reflectance(out, kTraceIor);
+      EXPECT_NEAR(value(p, Aov::kFresnel, x, y), f, 1e-6);
+      EXPECT_NEAR(value(p, Aov::kTransmitted, x, y, 2), 1 - f, 1e-6);
+      EXPECT_NEAR(value(p, Aov::kReflected, x, y, 1), f * std::exp(-0.2 * 4 / d.y), 1e-6);
+    }
+    EXPECT_NEAR(value(p, Aov::kPath, x, y), 1 / d.y, 1e-5);
+  });
+  EXPECT_GT(total, 100);
+  EXPECT_GT(through, 100);
+}
+
+}  // namespace
+}  // namespace limpid::test
