@@ -1,5 +1,8 @@
 #include "trace/solid.h"
 
+#include <algorithm>
+#include <array>
+
 #include <glm/mat3x3.hpp>
 
 #include "limpid/optics/shading.h"
@@ -25,10 +28,24 @@ glm::dvec2 uv_at(const float* uvs, const std::uint32_t* corner, const glm::dvec3
   return uv;
 }
 
+/// Where a surface that has these normals at its corners would lie: on the planes across them,
+/// mixed as the corners are, but never under the triangle. Hanika 2021, "Hacking the Shadow
+/// Terminator".
+glm::dvec3 rounded(const glm::dvec3& point, const glm::dvec3& shares,
+                   const std::array<glm::dvec3, 3>& corners,
+                   const std::array<glm::dvec3, 3>& normals) {
+  glm::dvec3 lifted = point;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double under = std::min(glm::dot(point - corners[k], normals[k]), 0.0);
+    lifted -= shares[static_cast<int>(k)] * under * normals[k];
+  }
+  return lifted;
+}
+
 }  // namespace
 
 glm::dvec3 SolidPoint::off_towards(const glm::dvec3& direction) const {
-  return hit.point + (glm::dot(face, direction) < 0 ? -hit.slack : hit.slack) * face;
+  return smooth + (glm::dot(face, direction) < 0 ? -hit.slack : hit.slack) * face;
 }
 
 Solid::Solid(const Model& model, const glm::dvec3& eye) : model_(model), triangles_(made(eye)) {}
@@ -87,7 +104,13 @@ std::optional<SolidPoint> Solid::nearest(const Beam& beam) const {
   const bool back = glm::dot(hit->front, beam.ray.direction) > 0;
   point.face = back ? -hit->front : hit->front;
   glm::dvec3 normal(0);
-  for (int k = 0; k < 3; ++k) normal += shares[k] * source.normals[corner[k]];
+  std::array<glm::dvec3, 3> normals;
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3& own = source.normals[corner[k]];
+    normal += shares[k] * own;
+    normals[static_cast<std::size_t>(k)] = back ? -own : own;
+  }
+  point.smooth = rounded(hit->point, shares, {corners.a, corners.b, corners.c}, normals);
   const Vec3<double> unit = normalize_or(formula_of(normal), formula_of(-beam.ray.direction));
   point.normal = back ? -glm_of(unit) : glm_of(unit);
   const float* uvs = source.mesh->view.uvs;

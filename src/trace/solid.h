@@ -23,10 +23,12 @@ struct SolidPoint {
   Triangles::Hit hit;
   glm::dvec3 face{0};    ///< unit normal of the triangle
   glm::dvec3 normal{0};  ///< unit, for shading
+  glm::dvec3 smooth{0};  ///< the point on the round surface that the normals tell of
   int material = 0;
   glm::dvec2 uv{0}, uv_dx{0}, uv_dy{0};
 
-  /// Where a ray from here to that direction may begin without meeting its own triangle.
+  /// Where a ray from here to that direction may begin without meeting its own triangle, nor the
+  /// corners of what shall look round.
   glm::dvec3 off_towards(const glm::dvec3& direction) const;
 };
 

@@ -30,9 +30,13 @@ void add_time(CLI::App& verb, WaterOptions& a) {
       ->option_text("S");
 }
 
-void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
+void add_frame_numbers(CLI::App& verb, FrameOptions& a, const std::string& about) {
   verb.add_option("--frames", a.range, about)->option_text("RANGE");
   verb.add_option("--fps", a.fps, "Frames a second (default: 24)")->option_text("N");
+}
+
+void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
+  add_frame_numbers(verb, a, about);
   verb.add_option("--frames-in-flight", a.in_flight,
                   "Frames that are read, run and written at once, each in its own memory "
                   "(default: 3)")
@@ -45,12 +49,17 @@ void add_resume(CLI::App& verb, FrameOptions& a) {
                 "same way");
 }
 
-void add_look(CLI::App& verb, WaterOptions& a) {
+void add_settings(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--look", a.look, "Look by name, or a look file (default: physical)")
       ->option_text("NAME|FILE");
   verb.add_option("--set", a.settings, "One parameter: operator.parameter=value (repeatable)")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
+  add_time(verb, a);
+}
+
+void add_look(CLI::App& verb, WaterOptions& a) {
+  add_settings(verb, a);
   verb.add_option("--aov", a.aovs,
                   "Also write these terms: all, or a list of transmitted, in_scatter, reflected, "
                   "highlight, fresnel, path, confidence, normal, surface_depth")
@@ -62,7 +71,6 @@ void add_look(CLI::App& verb, WaterOptions& a) {
           "Leave out what changes no channel of a pixel by more than this in all, white = 1 "
           "(default: 0, exact)")
       ->option_text("E");
-  add_time(verb, a);
 }
 
 void add_file(CLI::App& verb, WaterOptions& a) {
@@ -77,11 +85,15 @@ void add_simd(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--simd", a.simd, "Instruction set (default: the best)")->option_text("NAME");
 }
 
+void add_preview(CLI::App& verb, WaterOptions& a) {
+  verb.add_option("--preview", a.preview, "Also write a picture to look at")
+      ->option_text("OUT.png");
+}
+
 void add_picture(CLI::App& verb, WaterOptions& a) {
   add_file(verb, a);
   add_simd(verb, a);
-  verb.add_option("--preview", a.preview, "Also write a picture to look at")
-      ->option_text("OUT.png");
+  add_preview(verb, a);
   verb.add_option("--deep", a.deep,
                   "Also write the water as deep samples, always compressed by zips")
       ->option_text("OUT.exr");
@@ -102,17 +114,44 @@ void add_composite(CLI::App& verb, CompositeArguments& a) {
   add_look(verb, a.water);
 }
 
-void add_render(CLI::App& verb, RenderArguments& a) {
-  verb.add_option("scene", a.scene, "Scene file with [geometry]")
+constexpr const char* kRenderedFrames =
+    "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes into names with "
+    "%04d or ####";
+
+void add_scene(CLI::App& verb, std::string& scene, std::string& size) {
+  verb.add_option("scene", scene, "Scene file with [geometry]")
       ->required()
       ->option_text("SCENE.toml");
-  verb.add_option("--size", a.size, "Pixels (default: 1920x1080)")->option_text("WxH");
+  verb.add_option("--size", size, "Pixels (default: 1920x1080)")->option_text("WxH");
+}
+
+void add_render(CLI::App& verb, RenderArguments& a) {
+  add_scene(verb, a.scene, a.size);
   verb.add_option("--overscan", a.overscan, "Pixels beyond each side (default: 0)")
       ->option_text("N");
   verb.add_option("--shadow-map", a.shadow_map, "Texels a side (default: 2048)")->option_text("N");
-  add_frames(verb, a.frames,
-             "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes into "
-             "names with %04d or ####");
+  add_frames(verb, a.frames, kRenderedFrames);
+}
+
+CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
+  CLI::App& verb =
+      *app.add_subcommand("truth", "Trace a scene's rays, to judge by: SCENE.toml -o OUT.exr");
+  add_scene(verb, a.scene, a.size);
+  verb.add_option("--samples", a.samples, "N x N samples a pixel; 1 is its centre (default: 1)")
+      ->option_text("N");
+  verb.add_option("--seed", a.seed, "Of where in the pixel samples lie (default: 0)")
+      ->option_text("N");
+  add_frame_numbers(verb, a.frames, kRenderedFrames);
+  add_settings(verb, a.water);
+  verb.add_option("--aov", a.water.aovs,
+                  "Also write these: all, or a list of the AOVs of water but confidence, and "
+                  "visible, where the dry camera sees what the refracted ray meets")
+      ->option_text("all|NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  add_file(verb, a.water);
+  add_preview(verb, a.water);
+  return verb;
 }
 
 void add_compare(CLI::App& app, CompareArguments& a) {
@@ -260,6 +299,8 @@ Parsed parse(int argc, char** argv) {
   add_file(render, a.render.water);
   add_simd(render, a.render.water);
 
+  CLI::App& truth = add_truth(app, a.truth);
+
   CLI::App& plan =
       *app.add_subcommand("plan", "Say what would run for a plate and a look, and why");
   add_composite(plan, a.composite);
@@ -316,6 +357,7 @@ Parsed parse(int argc, char** argv) {
            : plan.parsed()      ? Verb::kPlan
            : water.parsed()     ? Verb::kWater
            : render.parsed()    ? Verb::kRender
+           : truth.parsed()     ? Verb::kTruth
            : inspect.parsed()   ? Verb::kInspect
            : operators.parsed() ? Verb::kOperators
            : app.got_subcommand("compare") ? Verb::kCompare

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,14 @@ struct RenderArguments {
   WaterOptions water;
 };
 
+struct TruthArguments {
+  std::string scene, size = "1920x1080";
+  int samples = 1;
+  std::uint64_t seed = 0;
+  FrameOptions frames;
+  WaterOptions water;
+};
+
 struct InspectArguments {
   std::vector<std::string> plates;
   std::string scene;
@@ -80,6 +89,7 @@ enum class Verb {
   kPlan,
   kRender,
   kWater,
+  kTruth,
   kInspect,
   kOperators,
   kCompare,
@@ -91,6 +101,7 @@ struct Arguments {
   CommonArguments common;
   CompositeArguments composite;
   RenderArguments render;
+  TruthArguments truth;
   InspectArguments inspect;
   OperatorsArguments operators;
   CompareArguments compare;

@@ -39,6 +39,8 @@ int run(const limpid::tool::Arguments& a) {
       return render_verb(a.render, a.common);
     case Verb::kWater:
       return water_verb(a.render, a.common);
+    case Verb::kTruth:
+      return truth_verb(a.truth, a.common);
     case Verb::kInspect:
       return inspect_verb(a.inspect);
     case Verb::kOperators:

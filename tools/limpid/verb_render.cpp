@@ -1,7 +1,5 @@
 #include <cstdio>
 
-#include "limpid/core/error.h"
-#include "limpid/load/gltf.h"
 #include "limpid/sequence.h"
 #include "limpid/water.h"
 
@@ -15,22 +13,10 @@ namespace {
 
 RenderJob job_of(const RenderArguments& a) {
   RenderJob job;
-  job.scene = load_scene(a.scene);
-  if (job.scene.geometry.empty()) {
-    throw Error(a.scene + ": expected a [geometry] with a glTF file to render");
-  }
+  job.scene = scene_to_render(a.scene);
   job.render = {size_named(a.size), a.overscan, a.shadow_map, a.water.simd};
   job.time = a.water.time.value_or(0);
   return job;
-}
-
-Model model_of(const RenderJob& job, const CommonArguments& common) {
-  Model model = load_gltf(job.scene.geometry);
-  if (model.skipped_triangles > 0 && !common.quiet) {
-    std::printf("%s: %lld triangles of no area left out\n", job.scene.geometry.c_str(),
-                static_cast<long long>(model.skipped_triangles));
-  }
-  return model;
 }
 
 }  // namespace
@@ -41,7 +27,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
   const OutputChoice choice = output_of(a.water);
   const PlateJob job{job_of(a), {choice.picture, choice.compression, choice.store_float}};
   const auto executor = executor_of(common);
-  const Model model = model_of(job.render, common);
+  const Model model = model_to_render(job.render.scene, common);
   if (sequence.frames.empty()) {
     render(model, job, *executor);
     if (!common.quiet) std::printf("%s\n", a.water.output.c_str());
@@ -71,7 +57,7 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
   if (!a.water.dry_run) expect_output(a.water.output);
   const WaterJob job{job_of(a), look_of(a.water), a.samples, output_of(a.water)};
   const auto executor = executor_of(common);
-  const Model model = model_of(job.render, common);
+  const Model model = model_to_render(job.render.scene, common);
   const auto job_of_frame = [&](int frame) {
     WaterJob one = job;
     one.render.time = time_of_frame(a.frames, a.water, frame);

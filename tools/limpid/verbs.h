@@ -9,6 +9,7 @@ namespace limpid::tool {
 int composite_verb(const CompositeArguments& arguments, const CommonArguments& common);
 int render_verb(const RenderArguments& arguments, const CommonArguments& common);
 int water_verb(const RenderArguments& arguments, const CommonArguments& common);
+int truth_verb(const TruthArguments& arguments, const CommonArguments& common);
 int plan_verb(const CompositeArguments& arguments, const CommonArguments& common);
 int inspect_verb(const InspectArguments& arguments);
 int operators_verb(const OperatorsArguments& arguments);

@@ -8,6 +8,7 @@
 
 #include "limpid/core/error.h"
 #include "limpid/load/exr_file.h"
+#include "limpid/load/gltf.h"
 #include "limpid/load/image_file.h"
 #include "limpid/load/look_file.h"
 #include "limpid/run/fused.h"
@@ -98,6 +99,23 @@ Look look_of(const WaterOptions& a) {
   Look look = look_for(a.look);
   for (const std::string& setting : a.settings) apply_setting(look, setting);
   return look;
+}
+
+SceneFile scene_to_render(const std::string& path) {
+  SceneFile scene = load_scene(path);
+  if (scene.geometry.empty()) {
+    throw Error(path + ": expected a [geometry] with a glTF file to render");
+  }
+  return scene;
+}
+
+Model model_to_render(const SceneFile& scene, const CommonArguments& common) {
+  Model model = load_gltf(scene.geometry);
+  if (model.skipped_triangles > 0 && !common.quiet) {
+    std::printf("%s: %lld triangles of no area left out\n", scene.geometry.c_str(),
+                static_cast<long long>(model.skipped_triangles));
+  }
+  return model;
 }
 
 void expect_output(const std::string& path) {

@@ -4,6 +4,7 @@
 
 #include "limpid/composite.h"
 #include "limpid/core/error.h"
+#include "limpid/raster/model.h"
 
 #include "arguments.h"
 #include "progress.h"
@@ -29,6 +30,11 @@ std::unique_ptr<Executor> executor_of(const CommonArguments& common);
 Size size_named(const std::string& text);
 
 Look look_of(const WaterOptions& options);
+
+/// Throws the Error for a scene file without geometry.
+SceneFile scene_to_render(const std::string& path);
+/// Its geometry. Says so where it had triangles of no area.
+Model model_to_render(const SceneFile& scene, const CommonArguments& common);
 
 /// Throws the usage Error for no name, or one that is not an EXR's.
 void expect_output(const std::string& path);

@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "limpid/load/scene_file.h"
+#include "limpid/trace/truth.h"
+
+namespace limpid {
+
+/// `limpid truth`: a ray-traced picture of a model with its water, to judge the chain by.
+struct TruthOutput {
+  std::vector<Aov> aovs;          ///< as TruthOptions has it
+  bool visible = false;           ///< as visible.R, visible.G, visible.B
+  std::filesystem::path picture;  ///< EXR
+  std::filesystem::path preview;  ///< PNG, or empty for none
+  std::string compression = "piz";
+  bool store_float = false;  ///< half otherwise; depths, paths and maps are float always
+};
+
+struct TruthJob {
+  SceneFile scene;  ///< camera and sun come from the model where it has none
+  Size size{1920, 1080};
+  double time = 0;  ///< seconds, for the waves
+  Look look;
+  int samples = 1;
+  std::uint64_t seed = 0;
+  TruthOutput output;
+};
+
+/// What was done, for the report line.
+struct TruthReport {
+  Size size;
+  double trace_seconds = 0, write_seconds = 0;
+};
+
+/// Traces and writes. Throws Error as trace_truth() does, and for textures that cannot be read;
+/// nothing is left under the output's name then but what was there before.
+TruthReport truth(const Model& model, const TruthJob& job, Executor& executor);
+
+}  // namespace limpid

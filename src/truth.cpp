@@ -1,0 +1,114 @@
+#include "limpid/truth.h"
+
+#include <utility>
+
+#include "limpid/load/texture.h"
+#include "limpid/raster/render_plate.h"
+#include "limpid/version.h"
+#include "limpid/write/exr_camera.h"
+#include "limpid/write/exr_writer.h"
+#include "limpid/write/preview.h"
+
+#include "shared_textures.h"
+#include "stopwatch.h"
+#include "write/atomic_file.h"
+
+namespace limpid {
+namespace {
+
+Scene scene_of(const Model& model, const TruthJob& job) {
+  Scene scene = job.scene.scene;
+  if (job.scene.camera) scene.camera = camera_for(*job.scene.camera, job.size);
+  scene.time = job.time;
+  return scene_of_model(scene, model, job.size);
+}
+
+/// What the look reads beside the model: raised meshes have normals of their own.
+struct Textures {
+  LoadedTexture wave_map, environment;
+};
+Textures textures_of(const Model& model, const Scene& scene, const TruthJob& job) {
+  Textures textures;
+  const WaveNormals::Params& waves = job.look.of<WaveNormals>();
+  const bool raised = renderable(model, scene).covers(kSurfaceNormalPlanes);
+  if (!raised && WaveNormals::needs(waves).wave_map && !waves.map.empty()) {
+    textures.wave_map = load_texture(waves.map);
+  }
+  const bool surroundings =
+      job.look.of<FresnelReflection>().source == FresnelReflection::Source::kEnvironment;
+  if (surroundings && has_environment(job.scene)) {
+    textures.environment = load_environment(job.scene.environment, job.scene.environment_rotation);
+  }
+  return textures;
+}
+
+std::vector<ExrOutputChannel> channels_of(const TruthPicture& picture, const TruthOutput& output) {
+  std::vector<ExrOutputChannel> channels;
+  const auto add = [&](const std::string& name, const View<float>& from, bool exact) {
+    channels.push_back({name, from, !output.store_float && !exact});
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    add(std::string(1, "RGB"[c]), picture.target.color[c], false);
+  }
+  add("A", picture.target.alpha, false);
+  for (Aov aov : output.aovs) {
+    const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
+    const bool exact = info.suffixes == "Z" || info.suffixes == "UV";
+    for (std::size_t c = 0; c < info.suffixes.size(); ++c) {
+      add(std::string(info.name) + "." + info.suffixes[c], picture.target.of(aov)[c], exact);
+    }
+  }
+  for (std::size_t c = 0; c < 3 && output.visible; ++c) {
+    add(std::string("visible.") + "RGB"[c], picture.visible[c], false);
+  }
+  return channels;
+}
+
+ExrOutput file_of(const TruthPicture& picture, const Scene& scene, const TruthJob& job) {
+  ExrOutput file;
+  file.data = file.display = picture.window;
+  file.compression = job.output.compression;
+  file.channels = channels_of(picture, job.output);
+  file.matrices = camera_attributes(*scene.camera);
+  // The map by its name, not where it lay: the same job gives the same bytes anywhere.
+  Look recorded = job.look;
+  std::string& map = recorded.of<WaveNormals>().map;
+  map = std::filesystem::path(map).filename().string();
+  file.text = {{"limpid/version", kVersion},
+               {"limpid/scene", to_toml(scene)},
+               {"limpid/look", to_toml(recorded)},
+               {"limpid/truth", "samples = " + std::to_string(job.samples) +
+                                    "\nseed = " + std::to_string(job.seed) + "\n"}};
+  return file;
+}
+
+}  // namespace
+
+TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
+  Stopwatch watch;
+  TruthReport report;
+  report.size = job.size;
+  // The Error that writing would end with, before the work is done.
+  AtomicFile{job.output.picture};
+  if (!job.output.preview.empty()) AtomicFile{job.output.preview};
+  const Scene scene = scene_of(model, job);
+  const Textures textures = textures_of(model, scene, job);
+  const TruthOptions options{job.size,
+                             job.samples,
+                             job.seed,
+                             job.output.aovs,
+                             job.output.visible,
+                             textures.wave_map.texture,
+                             textures.environment.texture};
+  const TruthPicture picture = trace_truth(model, scene, job.look, options, executor);
+  report.trace_seconds = watch.lap();
+  if (!job.output.preview.empty()) {
+    const auto& c = picture.target.color;
+    write_preview(job.output.preview, c[0], c[1], c[2]);
+  }
+  write_exr(job.output.picture, file_of(picture, scene, job));
+  report.write_seconds = watch.lap();
+  return report;
+}
+
+}  // namespace limpid

@@ -1,0 +1,121 @@
+#include <cstdio>
+
+#include "limpid/core/error.h"
+#include "limpid/truth.h"
+
+#include "frame_options.h"
+#include "verbs.h"
+#include "water_options.h"
+
+namespace limpid::tool {
+namespace {
+
+void choose_aovs(const std::vector<std::string>& names, TruthOutput& output) {
+  for (const std::string& name : names) {
+    if (name == "all") {
+      output.aovs.clear();
+      for (int i = 0; i < kAovCount; ++i) {
+        if (static_cast<Aov>(i) != Aov::kConfidence) output.aovs.push_back(static_cast<Aov>(i));
+      }
+      output.visible = true;
+      return;
+    }
+    if (name == "visible") {
+      output.visible = true;
+    } else {
+      output.aovs.push_back(as_usage([&] { return aov_named(name); }));
+    }
+  }
+}
+
+TruthJob job_of(const TruthArguments& a) {
+  // Checked as those of water are.
+  WaterOptions files = a.water;
+  files.aovs.clear();
+  const OutputChoice choice = output_of(files);
+  TruthJob job;
+  job.scene = scene_to_render(a.scene);
+  job.size = size_named(a.size);
+  job.time = a.water.time.value_or(0);
+  job.look = look_of(a.water);
+  job.samples = a.samples;
+  job.seed = a.seed;
+  job.output.picture = choice.picture;
+  job.output.preview = choice.preview;
+  job.output.compression = choice.compression;
+  job.output.store_float = choice.store_float;
+  choose_aovs(a.water.aovs, job.output);
+  return job;
+}
+
+std::string text_of(const TruthReport& report, const TruthJob& job) {
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, "%dx%d, %d samples a pixel", report.size.width,
+                report.size.height, job.samples * job.samples);
+  char times[64];
+  std::snprintf(times, sizeof times, "trace %.1f s, write %.0f ms", report.trace_seconds,
+                1e3 * report.write_seconds);
+  std::string text = job.output.picture.string() + ": " + numbers + ", look " + job.look.name +
+                     ", " + times + "\n";
+  if (!job.output.preview.empty()) text += job.output.preview.string() + "\n";
+  return text;
+}
+
+/// A frame at a time: tracing keeps all threads busy.
+class TruthSlot : public FrameSlot {
+ public:
+  TruthSlot(const Model& model, const JobOfFrame<TruthJob>& job_of, Progress& progress)
+      : model_(model), job_of_(job_of), progress_(progress) {}
+
+  void begin(int frame) override { job_ = job_of_(frame); }
+  void read(Executor&) override {}
+  void run(Executor& executor) override { report_ = truth(model_, job_, executor); }
+  void write() override {}
+  void done(const SequenceProgress& at) override {
+    progress_.frame_done(at, text_of(report_, job_));
+  }
+
+ private:
+  const Model& model_;
+  const JobOfFrame<TruthJob>& job_of_;
+  Progress& progress_;
+  TruthJob job_;
+  TruthReport report_;
+};
+
+}  // namespace
+
+int truth_verb(const TruthArguments& a, const CommonArguments& common) {
+  expect_output(a.water.output);
+  Sequence sequence = sequence_of(a.frames, a.water);
+  const TruthJob job = job_of(a);
+  const auto executor = executor_of(common);
+  const Model model = model_to_render(job.scene, common);
+  if (sequence.frames.empty()) {
+    const TruthReport report = truth(model, job, *executor);
+    if (!common.quiet) std::printf("%s", text_of(report, job).c_str());
+    return 0;
+  }
+  const JobOfFrame<TruthJob> job_of_frame = [&](int frame) {
+    TruthJob one = job;
+    OutputChoice names;
+    names.picture = job.output.picture;
+    names.preview = job.output.preview;
+    names = output_of_frame(names, frame);
+    one.output.picture = names.picture;
+    one.output.preview = names.preview;
+    one.time = time_of_frame(a.frames, a.water, frame);
+    return one;
+  };
+  sequence.in_flight = 1;
+  Progress progress(common);
+  run_sequence(
+      sequence,
+      [&]() -> std::unique_ptr<FrameSlot> {
+        return std::make_unique<TruthSlot>(model, job_of_frame, progress);
+      },
+      *executor);
+  return 0;
+}
+
+}  // namespace limpid::tool
