@@ -31,7 +31,9 @@ Eye::Eye(const Camera& camera, Size size)
 Ray Eye::ray_at(double x, double y) const {
   const glm::dvec3 along = rays_.ray_at(x, y);
   const double length = glm::length(along);
-  return {rays_.origin_at(x, y), along / length, near_ * length, far_ * length};
+  const Ray ray{rays_.origin_at(x, y), along / length, near_ * length, far_ * length};
+  // Orthographic views may begin behind the eye, rays never do behind their origin.
+  return ray.from >= 0 ? ray : Ray{ray.at(ray.from), ray.direction, 0, ray.to - ray.from};
 }
 
 Beam Eye::beam_at(double x, double y, double step) const {
@@ -42,11 +44,10 @@ double Eye::depth_of(const Ray& ray, double distance) const {
   return -(to_view_ * ray.at(distance)).z;
 }
 
-std::optional<Place> Eye::place(const glm::dvec3& p, double w) const {
-  const glm::dvec3 in_view = to_view_ * p;
-  const glm::dvec4 clip = projection_ * glm::dvec4(in_view, w);
-  if (!(clip.w > 0) || !(in_view.z < 0)) return std::nullopt;
-  return Place{{0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w}, -in_view.z};
+std::optional<glm::dvec2> Eye::place(const glm::dvec3& p, double w) const {
+  const glm::dvec4 clip = projection_ * glm::dvec4(to_view_ * p, w);
+  if (!(clip.w > 0)) return std::nullopt;
+  return glm::dvec2(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w);
 }
 
 }  // namespace limpid::trace

@@ -10,12 +10,6 @@
 
 namespace limpid::trace {
 
-/// Where a point is seen in the picture.
-struct Place {
-  glm::dvec2 uv{0};  ///< (0, 0) at the upper left
-  double depth = 0;  ///< along the view axis
-};
-
 /// The camera, from its own eye.
 class Eye {
  public:
@@ -25,16 +19,16 @@ class Eye {
   Beam beam_at(double x, double y, double step) const;
   /// Eye depth of a point that far along a ray.
   double depth_of(const Ray& ray, double distance) const;
-  double near() const { return near_; }
 
-  /// Nothing for what is not in front of the camera.
-  std::optional<Place> place_of(const glm::dvec3& point) const { return place(point, 1); }
+  /// Where a point is seen in the picture, (0, 0) the upper left; nothing for what is not in front
+  /// of the camera.
+  std::optional<glm::dvec2> place_of(const glm::dvec3& point) const { return place(point, 1); }
   /// Of what lies in that direction, infinitely far away.
-  std::optional<Place> place_of_direction(const glm::dvec3& to) const { return place(to, 0); }
+  std::optional<glm::dvec2> place_of_direction(const glm::dvec3& to) const { return place(to, 0); }
 
  private:
   Ray ray_at(double x, double y) const;
-  std::optional<Place> place(const glm::dvec3& p, double w) const;
+  std::optional<glm::dvec2> place(const glm::dvec3& p, double w) const;
 
   Rays rays_;
   glm::dmat3 to_view_;

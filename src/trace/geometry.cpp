@@ -24,8 +24,7 @@ End end_of(const Tracer& tracer, const Ray& ray, bool in_air) {
 }
 
 /// Whether the dry camera sees just this.
-bool sees(const Tracer& tracer, const Eye& eye, Size size, const Place& place, const End& end) {
-  const glm::dvec2 uv = place.uv;
+bool sees(const Tracer& tracer, const Eye& eye, Size size, const glm::dvec2& uv, const End& end) {
   if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return false;
   if (end.wet) return false;
   const auto seen =
@@ -67,7 +66,7 @@ Geometry geometry_at(const Tracer& tracer, const Eye& eye, Size size, double x, 
     const double mask[] = {band.mask.r, band.mask.g, band.mask.b};
     for (std::size_t c = 0; c < 3; ++c) {
       if (mask[c] == 0) continue;
-      if (place) g.uv[c] = place->uv;
+      if (place) g.uv[c] = *place;
       g.visible[c] = visible;
     }
   }
