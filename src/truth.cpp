@@ -60,6 +60,7 @@ std::vector<ExrOutputChannel> channels_of(const TruthPicture& picture, const Tru
   }
   for (std::size_t c = 0; c < 3 && output.visible; ++c) {
     add(std::string("visible.") + "RGB"[c], picture.visible[c], false);
+    add(std::string("visible_below.") + "RGB"[c], picture.visible_below[c], false);
   }
   return channels;
 }

@@ -12,7 +12,7 @@ namespace limpid {
 /// `limpid truth`: a ray-traced picture of a model with its water, to judge the chain by.
 struct TruthOutput {
   std::vector<Aov> aovs;          ///< as TruthOptions has it
-  bool visible = false;           ///< as visible.R, visible.G, visible.B
+  bool visible = false;           ///< as visible.R ... visible_below.B
   std::filesystem::path picture;  ///< EXR
   std::filesystem::path preview;  ///< PNG, or empty for none
   std::string compression = "piz";

@@ -1,5 +1,6 @@
 #include "trace/geometry.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "limpid/optics/fresnel.h"
@@ -23,26 +24,35 @@ End end_of(const Tracer& tracer, const Ray& ray, bool in_air) {
   return end;
 }
 
-/// Whether the dry camera sees just this.
-bool sees(const Tracer& tracer, const Eye& eye, Size size, const glm::dvec2& uv, const End& end) {
-  if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return false;
-  if (end.wet) return false;
-  const auto seen =
-      tracer.solid().nearest(eye.beam_at(uv.x * size.width, uv.y * size.height, 1).ray);
-  if (!end.dry || !seen) return !end.dry && !seen;
-  if (seen->part == end.dry->part && seen->triangle == end.dry->triangle) return true;
-  const double off = glm::length(seen->point - end.dry->point);
-  return off <= 1e-4 * seen->distance + 16 * seen->slack;
+/// The view through a place of the picture, of what lies under the calm water alone: it begins
+/// where it goes under. Nothing where it does not.
+std::optional<Ray> view_below(const Ray& view, const Context& context) {
+  const double sinks = -glm::dot(view.direction, context.up);
+  const double over = context.eye_above + glm::dot(view.origin, context.up);
+  Ray below = view;
+  if (sinks > 0) below.from = std::max(view.from, over / sinks);
+  if (sinks <= 0 && over > 0) return std::nullopt;
+  return below;
+}
+
+/// Whether what the ray sees first is just this point.
+bool sees(const Solid& solid, const Ray& view, const Triangles::Hit& point) {
+  const auto seen = solid.nearest(view);
+  if (!seen) return false;
+  if (seen->part == point.part && seen->triangle == point.triangle) return true;
+  return glm::length(seen->point - point.point) <= 1e-4 * seen->distance + 16 * seen->slack;
 }
 
 }  // namespace
 
-Geometry geometry_at(const Tracer& tracer, const Eye& eye, Size size, double x, double y,
-                     bool in_water) {
+Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& context, double x,
+                     double y, bool in_water) {
   const Beam beam = eye.beam_at(x, y, 1);
   Geometry g;
-  g.uv.fill({x / size.width, y / size.height});
+  const double width = context.size.x, height = context.size.y;
+  g.uv.fill({x / width, y / height});
   g.visible.fill(true);
+  g.visible_below.fill(true);
   const End own = end_of(tracer, beam.ray, !in_water);
   g.wet = in_water || own.wet;
   if (in_water) g.path = own.distance();
@@ -62,12 +72,22 @@ Geometry geometry_at(const Tracer& tracer, const Eye& eye, Size size, double x, 
     if (!in_water && i == medium.common) g.path = end.distance();
     const auto place = std::isinf(end.distance()) ? eye.place_of_direction(ray.direction)
                                                   : eye.place_of(ray.at(end.distance()));
-    const bool visible = place && sees(tracer, eye, size, *place, end);
+    const bool framed = place && place->x >= 0 && place->x <= 1 && place->y >= 0 && place->y <= 1;
+    bool visible = false, visible_below = false;
+    if (framed && end.dry && !end.wet) {
+      const Ray view = eye.beam_at(place->x * width, place->y * height, 1).ray;
+      visible = visible_below = sees(tracer.solid(), view, *end.dry);
+      if (!context.submersible) {
+        const std::optional<Ray> below = view_below(view, context);
+        visible_below = below && sees(tracer.solid(), *below, *end.dry);
+      }
+    }
     const double mask[] = {band.mask.r, band.mask.g, band.mask.b};
     for (std::size_t c = 0; c < 3; ++c) {
       if (mask[c] == 0) continue;
       if (place) g.uv[c] = *place;
       g.visible[c] = visible;
+      g.visible_below[c] = visible_below;
     }
   }
   return g;

@@ -13,11 +13,11 @@ struct Geometry {
   double surface_depth = HUGE_VAL;
   glm::dvec3 normal{0};
   std::array<glm::dvec2, 3> uv{};  ///< of each channel's end; (0, 0) at the upper left
-  std::array<bool, 3> visible{};
+  std::array<bool, 3> visible{}, visible_below{};
 };
 
 /// `x`, `y`: the place in the picture, in pixels.
-Geometry geometry_at(const Tracer& tracer, const Eye& eye, Size size, double x, double y,
-                     bool in_water);
+Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& context, double x,
+                     double y, bool in_water);
 
 }  // namespace limpid::trace

@@ -73,6 +73,7 @@ TruthPicture picture_for(const TruthOptions& options) {
   }
   if (options.visible) {
     for (View<float>& view : picture.visible) view = add();
+    for (View<float>& view : picture.visible_below) view = add();
   }
   return picture;
 }
@@ -116,7 +117,7 @@ class Painter {
       put(x, y, light_at(x, y));
       if (wants_geometry()) {
         const bool in_water = begins_in_water(x + 0.5, y + 0.5);
-        put(x, y, geometry_at(tracer_, eye_, options_.size, x + 0.5, y + 0.5, in_water));
+        put(x, y, geometry_at(tracer_, eye_, context_, x + 0.5, y + 0.5, in_water));
       }
     }
   }
@@ -173,7 +174,11 @@ class Painter {
       const glm::dvec2& uv = g.uv[static_cast<std::size_t>(c)];
       put(view_of(static_cast<Aov>(static_cast<int>(Aov::kStmapR) + c)), x, y, {uv.x, 1 - uv.y, 0});
     }
-    put(picture_.visible, x, y, {double(g.visible[0]), double(g.visible[1]), double(g.visible[2])});
+    const auto shares = [](const std::array<bool, 3>& seen) {
+      return Rgb<double>{double(seen[0]), double(seen[1]), double(seen[2])};
+    };
+    put(picture_.visible, x, y, shares(g.visible));
+    put(picture_.visible_below, x, y, shares(g.visible_below));
   }
 
   const TruthOptions& options_;

@@ -188,6 +188,7 @@ TEST(TracedPicture, WhatABarHidesIsNotVisible) {
     if (std::abs(passes - kLow) < 1e-3 || std::abs(passes - kHigh) < 1e-3) return;
     const bool hides = s < 1 && passes > kLow && passes < kHigh;
     EXPECT_EQ(p.visible[1].at(x, y), !hides) << x << ", " << y;
+    EXPECT_EQ(p.visible_below[1].at(x, y), 1) << "the bar is cut away with all that is in the air";
     (hides ? hidden : seen) += 1;
   });
   EXPECT_GT(hidden, 30);

@@ -49,7 +49,7 @@ struct TruthOptions {
   int samples = 1;
   std::uint64_t seed = 0;  ///< of where in its stratum each sample lies
   std::vector<Aov> aovs;   ///< all but confidence, for nothing is guessed
-  bool visible = false;    ///< TruthPicture::visible
+  bool visible = false;    ///< TruthPicture::visible and visible_below
   Texture wave_map;        ///< for a look that reads one
   Texture environment;     ///< for a look whose mirror shows it
 };
@@ -69,9 +69,13 @@ struct TruthPicture {
   std::vector<Plane> planes;
   Target target;  ///< color, alpha and the AOVs that were asked for
   /// For each channel, 1 where the dry camera sees the very point that the refracted ray ends at,
-  /// so that the dry picture has its color; 0 where something hides it, or it is out of frame or
-  /// behind the camera. 1 where nothing is refracted.
+  /// so that the dry picture has its color; 0 where something hides it, where it is out of frame or
+  /// behind the camera, and where the ray does not end. 1 where nothing is refracted.
   std::array<View<float>, 3> visible;
+  /// The same of a picture of what lies under the calm water alone (PlaneId::kBelowR), which the
+  /// chain looks things up in where a frame has one. Where the view can begin in the water, for
+  /// which the chain keeps to the dry picture: as `visible`.
+  std::array<View<float>, 3> visible_below;
 };
 
 /// The same bits for any number of threads. Throws Error for what render_plate() refuses, samples
