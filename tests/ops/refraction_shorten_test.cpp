@@ -190,5 +190,39 @@ TEST(Shorten, ALayerBelowNeedsNoRejection) {
   }
 }
 
+/// A shore on which no water is drawn: the layer below goes on under it, and so do rays.
+TEST(Shorten, ALayerBelowIsSeenUnderTheShoreToo) {
+  Tray tray(kSize);
+  constexpr int kShore = 30;
+  constexpr float kBottom = 40;
+  const auto shore = [](int x) { return x >= kShore; };
+  tray.buffers.set(PlaneId::kDepth, [=](int x, int) { return shore(x) ? 9.f : kBottom; });
+  tray.buffers.set(PlaneId::kSurfaceDepth,
+                   [=](int x, int) { return shore(x) ? test::kInf : 10.f; });
+  tray.buffers.fill(PlaneId::kBelowDepth, kBottom);
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kBelowR, c), [](int x, int) { return 0.01f * float(x); });
+  }
+  const double lean = 0.5, upright = std::sqrt(1 - lean * lean);
+  tray.buffers.normal({-lean, upright, 0});
+  tray.look.of<PrismSplit>().strength = 0;
+  Refraction::Params& p = tray.look.of<Refraction>();
+  p.model = Refraction::Model::kSnell;
+  p.steps = Refraction::kMarch;
+  p.rejection = Refraction::Rejection::kShorten;
+  p.off_frame = Refraction::OffFrame::kShorten;
+
+  const double turned = std::asin(lean) - std::asin(lean / tray.look.water.ior);
+  const double shift = (kBottom - 10) * std::tan(turned);
+  const int x = kShore - 1, y = 20;
+  ASSERT_GT(x + shift, kShore + 2);
+  for (const test::Picture& got :
+       {tray.wet(), test::fused(tray.look, tray.buffers.frame, tray.scene)}) {
+    EXPECT_EQ(got.aov(Aov::kConfidence, x, y), 1);
+    EXPECT_NEAR(got.aov(Aov::kStmapG, x, y, 0) * kSize.width, x + 0.5 + shift, 0.05);
+    EXPECT_NEAR(got.aov(Aov::kTransmitted, x, y), 0.01 * (x + shift), 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace limpid

@@ -281,6 +281,11 @@ struct Refraction {
         const F depth = depths[k];
         F surface =
             surface_plane ? surfaces[k] : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
+        if (surface_plane && planes.below && any(surface > F(1e30))) {
+          // The layer goes on under the shore, the water that is drawn does not.
+          const F calm = calm_depth_at(c, p, tap.place(planes.depth, quad, k));
+          surface = select(surface > F(1e30), calm, surface);
+        }
         if (c.submersible) {
           // Where the view begins in the water, what lies there has no surface before it.
           const F height = height_at(c, p, tap.place(planes.depth, quad, k), depth);
