@@ -44,7 +44,7 @@ dl.facts dd { margin: 0; overflow-wrap: anywhere; }
 table { border-collapse: collapse; font-size: 14px; line-height: 1.35; margin: 0 0 8px; font-variant-numeric: tabular-nums; }
 caption { text-align: left; color: var(--soft); padding: 0 0 6px; max-width: 90ch; }
 th, td { padding: 4px 14px 4px 0; text-align: left; vertical-align: baseline; white-space: nowrap; }
-td.wrap { white-space: normal; min-width: 36ch; }
+td.wrap { white-space: normal; min-width: 20ch; }
 th { border-bottom: 1px solid var(--ink); font-weight: 600; vertical-align: bottom; padding-bottom: 5px; }
 td { border-bottom: 1px solid var(--faint); }
 .n { text-align: right; }

@@ -49,13 +49,13 @@ std::string json_text(std::span<const HardRow> rows, const ReportMachine& machin
 std::string table(std::span<const HardRow> rows) {
   HtmlTable table(
       "Margin: the share of the bound that is left. A case beyond its bound is set off.",
-      {{"case", "", false},
-       {"measured is", "", false},
+      {{"case", "", false, true},
+       {"measured is", "", false, true},
        {"bound", ""},
        {"measured", ""},
        {"margin", ""},
        {"values", ""},
-       {"where the bound comes from", "", false, true},
+       {"bound from", "", false, true},
        {"largest at", "", false, true}});
   std::string group;
   for (const HardRow& row : rows) {
