@@ -12,6 +12,7 @@
 #include "limpid/load/scene_file.h"
 
 #include "load/layer_candidates.h"
+#include "load/plane_budget.h"
 #include "load/plate_deep.h"
 #include "load/plate_file.h"
 
@@ -52,6 +53,7 @@ std::vector<std::filesystem::path> files_of(const PlateRequest& request) {
 }
 
 struct Plate::State {
+  Limits limits;
   std::vector<PlateFile> files;
   LayerChoices choices;
   std::map<std::string_view, std::string> problems;  ///< filled instead of throwing, for inspect
@@ -65,7 +67,7 @@ struct Plate::State {
   }
   const ChannelRef& color_ref() const { return choices.at("color").channels.front(); }
 
-  int index_of_file(const std::string& path, const Limits& limits) {
+  int index_of_file(const std::string& path) {
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (files[i].path == path) return static_cast<int>(i);
     }
@@ -88,7 +90,7 @@ struct Plate::State {
     const int searched = static_cast<int>(request.files.size());
     const auto decided = [&](const PlateName& name) {
       if (name.file.empty()) return choose_layer(role, name.channels, sources_of(0, searched));
-      const int index = index_of_file(name.file, request.limits);
+      const int index = index_of_file(name.file);
       return choose_layer(role, name.channels, sources_of(index, index + 1));
     };
     const std::string name(role.name);
@@ -139,9 +141,10 @@ struct Plate::State {
   }
 
   void resolve_all(const PlateRequest& request, bool collect_problems) {
+    limits = request.limits;
     for (const auto& [name, text] : request.layers) role_named(name);
     for (const std::filesystem::path& path : request.files) {
-      files.push_back(PlateFile::open(path, request.limits));
+      files.push_back(PlateFile::open(path, limits));
     }
     for (const Role& role : roles()) {
       try {
@@ -285,6 +288,7 @@ void Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
   if (work.empty()) throw Error("color: its data window lies outside the display window");
   wanted = state_->read_for(wanted);
 
+  PlaneBudget budget(state_->limits);
   std::map<int, std::vector<ExrRequest>> requests;  // by file; each file decodes in one go
   std::map<std::pair<int, int>, DeepRequest> deep;  // by file and part, read after all the others
   for (const Role& role : roles()) {
@@ -294,9 +298,7 @@ void Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
       const PlaneId id = plane_after(role.first, static_cast<int>(i));
       if (!wanted.has(id)) continue;
       const ChannelRef& ref = choice->channels[i];
-      const Rect data = state_->part_of(ref).data;
-      const Rect window{std::min(data.x0, work.x0), std::min(data.y0, work.y0),
-                        std::max(data.x1, work.x1), std::max(data.y1, work.y1)};
+      const Rect window = budget.take(std::string(role.name), state_->part_of(ref).data, work);
       if (state_->is_deep(ref, id)) {
         DeepRequest& request = deep[{ref.file, ref.part}];
         request = {window, request.planes | PlaneSet{id}};

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include <glm/geometric.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
@@ -178,6 +179,33 @@ TEST(Plate, DepthKindsHoldForEveryDepth) {
     EXPECT_EQ(inverse.frame.plane(id).at(-2, 0), 0.25f) << index_of(id);
     EXPECT_NEAR(ray.frame.plane(id).at(-2, 0), 4 / length, 1e-6) << index_of(id);
   }
+}
+
+/// Each file is small: together they would not be.
+TEST(Plate, PlanesOfAFrameStayWithinTheLimitsTogether) {
+  PlateFiles files({0, 0, 64, 512});
+  files.add(kDryChannels, 4, "dry.exr");
+  files.add(kMaskChannels, 1, "masks.exr");
+  files.add(kColorChannels, 1, "colors.exr");
+  files.add(kDepthChannels, 4, "depths.exr");
+  const auto error = [](const PlateRequest& request) {
+    const Plate plate = Plate::open(request);
+    return test::error_of([&] { plate.read(plate.planes(), {}, {}); });
+  };
+  files.request.limits.max_memory = 15 * 64 * 512 * 4;
+  EXPECT_EQ(error(files.request), "");
+  files.request.limits.max_memory -= 1;
+  EXPECT_THAT(error(files.request), testing::EndsWith(": the planes of the frame need more memory "
+                                                      "than the limit of 1966079 bytes"));
+
+  PlateFiles afar({1 << 29, 0, (1 << 29) + 2, 2});
+  afar.add({"surface.Z"}, 4, "afar.exr");
+  files.request.limits = {};
+  files.request.files.back() = afar.request.files[0];
+  EXPECT_EQ(
+      error(files.request),
+      "surface_depth: its data window and the picture span 536870914x5 pixels: expected sides "
+      "of at most 65536 and 268435456 pixels");
 }
 
 }  // namespace
