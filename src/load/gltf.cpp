@@ -1,5 +1,6 @@
 #include "limpid/load/gltf.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "limpid/core/error.h"
@@ -32,9 +33,9 @@ ModelTexture read_texture(const JsonPlace& place, const tinygltf::Image& image,
                           const fs::path& folder, Limits limits, MemoryBudget& budget) {
   limits.max_memory = budget.left;
   const bool embedded = !image.image.empty();
-  const std::string bytes =
-      embedded ? std::string(image.image.begin(), image.image.end())
-               : read_file_in(folder, relative_path_of(place.at("uri")), INT32_MAX);
+  const std::string bytes = embedded ? std::string(image.image.begin(), image.image.end())
+                                     : read_file_in(folder, relative_path_of(place.at("uri")),
+                                                    std::min<std::int64_t>(budget.left, INT32_MAX));
   const std::string name = embedded ? place.path() : place.path() + " " + place.at("uri").text();
   ModelTexture texture = decode_texture(bytes, name, limits);
   budget.take(static_cast<std::int64_t>(texture.rgba.size() * sizeof(float)), name);
@@ -50,8 +51,13 @@ Model gltf_model(const GltfFile& file, const fs::path& folder, const Limits& lim
   check_gltf(root, binary_bytes, limits);
   const GltfMaterials looks = read_gltf_materials(root);
 
-  const tinygltf::Model gltf = parse_gltf(file, folder, limits);
   MemoryBudget budget{limits.max_memory};
+  budget.take(file.memory, "its JSON");
+  for (const JsonPlace& buffer : root.list("buffers")) {
+    // There are two of each while they are handed over.
+    budget.take(2 * buffer.at("byteLength").integer(1, INT32_MAX), buffer.path());
+  }
+  const tinygltf::Model gltf = parse_gltf(file, folder, limits);
   Model model;
   for (const GltfMaterial& material : looks.materials) {
     model.materials.push_back(material.material);

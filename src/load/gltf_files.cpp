@@ -56,7 +56,16 @@ std::string_view next_chunk(std::string_view& rest, std::uint32_t kind, const ch
   return chunk;
 }
 
-GltfFile split_glb(std::string_view bytes) {
+GltfFile parsed(std::string_view text, const Limits& limits) {
+  const std::int64_t memory = json_memory(text);
+  if (memory > limits.max_memory) {
+    throw Error("its JSON may need " + std::to_string(memory) +
+                " bytes of memory: expected at most " + std::to_string(limits.max_memory));
+  }
+  return {parse_json(text), std::nullopt, memory};
+}
+
+GltfFile split_glb(std::string_view bytes, const Limits& limits) {
   if (bytes.size() < 12) throw Error("ends within the header of a .glb");
   if (const std::uint32_t version = little_endian(bytes.substr(4)); version != 2) {
     throw Error("is a .glb of version " + std::to_string(version) + ": expected 2");
@@ -66,8 +75,7 @@ GltfFile split_glb(std::string_view bytes) {
                 std::to_string(length));
   }
   std::string_view rest = bytes.substr(12);
-  GltfFile file;
-  file.json = parse_json(next_chunk(rest, kJsonChunk, "JSON"));
+  GltfFile file = parsed(next_chunk(rest, kJsonChunk, "JSON"), limits);
   if (!rest.empty()) file.binary = next_chunk(rest, kBinaryChunk, "BIN");
   return file;
 }
@@ -102,12 +110,12 @@ bool has_scheme(std::string_view name) {
 }  // namespace
 
 GltfFile read_gltf_file(const fs::path& path, const Limits& limits) {
-  return split_gltf(whole_file(path, std::min<std::int64_t>(limits.max_memory, INT32_MAX)));
+  return split_gltf(whole_file(path, std::min<std::int64_t>(limits.max_memory, INT32_MAX)), limits);
 }
 
-GltfFile split_gltf(std::string_view bytes) {
-  if (bytes.starts_with("glTF")) return split_glb(bytes);
-  return {parse_json(bytes), std::nullopt};
+GltfFile split_gltf(std::string_view bytes, const Limits& limits) {
+  if (bytes.starts_with("glTF")) return split_glb(bytes, limits);
+  return parsed(bytes, limits);
 }
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }

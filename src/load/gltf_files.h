@@ -17,6 +17,7 @@ namespace limpid {
 struct GltfFile {
   nlohmann::json json;
   std::optional<std::string> binary;  ///< the binary chunk of a .glb
+  std::int64_t memory = 0;            ///< bytes that it takes, read, at most
 };
 
 /// Throws Error for a file that cannot be read, is over the limits, or is neither JSON nor a whole
@@ -24,7 +25,7 @@ struct GltfFile {
 GltfFile read_gltf_file(const std::filesystem::path& path, const Limits& limits);
 
 /// The same of a file's bytes.
-GltfFile split_gltf(std::string_view bytes);
+GltfFile split_gltf(std::string_view bytes, const Limits& limits);
 
 /// Whether a uri holds its bytes itself.
 bool is_data_uri(std::string_view uri);

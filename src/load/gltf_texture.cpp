@@ -40,6 +40,9 @@ std::vector<float> linear_texels(const T* pixels, std::size_t count, int largest
   return texels;
 }
 
+// While it is decoded: four floats, as many integers of 16 bits, and what stb_image works with.
+constexpr std::int64_t kBytesATexel = 32;
+
 void check_size(int width, int height, const std::string& name, const Limits& limits) {
   const std::int64_t pixels = std::int64_t{width} * height;
   const std::string size = name + ": " + std::to_string(width) + "x" + std::to_string(height);
@@ -49,9 +52,9 @@ void check_size(int width, int height, const std::string& name, const Limits& li
   if (pixels > limits.max_pixels) {
     throw Error(size + " pixels: expected at most " + std::to_string(limits.max_pixels));
   }
-  if (pixels > limits.max_memory / std::int64_t{4 * sizeof(float)}) {
+  if (pixels > limits.max_memory / kBytesATexel) {
     throw Error(size + " pixels: expected at most " + std::to_string(limits.max_memory) +
-                " bytes of texels in all");
+                " bytes for it and all before");
   }
 }
 

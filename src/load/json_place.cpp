@@ -14,6 +14,9 @@ using nlohmann::json;
 constexpr int kDeepest = 64;
 constexpr std::size_t kLongest = 40;  // characters of a value in a sentence
 
+// What a text takes at most, with the copies that are made of it, by measurement.
+constexpr std::int64_t kBytesAByte = 7, kBytesAValue = 512;
+
 std::string shown(const json& value) {
   if (value.is_object()) return "{...}";
   if (value.is_array()) return "[...] of " + std::to_string(value.size());
@@ -138,15 +141,28 @@ std::size_t JsonPlace::choice(std::span<const std::string_view> words) const {
   refuse("one of " + join(known) + did_you_mean(text(), known));
 }
 
-json parse_json(std::string_view text) {
-  const auto check_depth = [](int depth, json::parse_event_t, json&) {
-    if (depth > kDeepest) {
+std::int64_t json_memory(std::string_view text) {
+  std::int64_t values = 1;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char letter = text[i];
+    if (letter == '"') in_string = !in_string;
+    if (in_string && letter == '\\') ++i;
+    if (in_string) continue;
+    const bool opens = letter == '[' || letter == '{';
+    if (opens && ++depth > kDeepest) {
       throw Error("its JSON is nested more than " + std::to_string(kDeepest) + " deep");
     }
-    return true;
-  };
+    if (letter == ']' || letter == '}') --depth;
+    if (opens || letter == ',') ++values;
+  }
+  return kBytesAByte * std::ssize(text) + kBytesAValue * values;
+}
+
+json parse_json(std::string_view text) {
   try {
-    return json::parse(text.begin(), text.end(), check_depth);
+    return json::parse(text.begin(), text.end());
   } catch (const json::exception& exception) {
     // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
     const std::string_view message = exception.what();

@@ -55,7 +55,12 @@ class JsonPlace {
   std::string path_;
 };
 
-/// Throws Error for text that is not JSON, or nested deeper than any glTF needs.
+/// Bytes of memory that reading a text takes at most, whatever is in it. Throws Error for one that
+/// is nested deeper than any glTF needs. To be called before parse_json(): who parses goes down by
+/// recursion, and one who asks meanwhile how deep it is takes the square of the time.
+std::int64_t json_memory(std::string_view text);
+
+/// Throws Error for text that is not JSON.
 nlohmann::json parse_json(std::string_view text);
 
 }  // namespace limpid

@@ -55,7 +55,8 @@ auto at_place(const std::string& place, Work&& work) {
 /// deep, or is not TOML; it begins with the path, and with line and column where there are any.
 TomlNode parse_toml(const std::filesystem::path& path);
 
-/// The same, size and all, of a text that did not come from a file of its own; `name` stands for the file.
+/// The same, size and all, of a text that did not come from a file of its own; `name` stands for
+/// the file.
 TomlNode parse_toml_text(const std::string& text, const std::string& name);
 
 }  // namespace limpid

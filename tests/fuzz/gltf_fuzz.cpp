@@ -12,7 +12,7 @@ void gltf(Bytes bytes) {
   limits.max_memory = 64 << 20;
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   accepts([&] {
-    const Model model = gltf_model(split_gltf(text), "/nowhere", limits);
+    const Model model = gltf_model(split_gltf(text, limits), "/nowhere", limits);
     for (const ModelTexture& texture : model.textures) {
       expect(texture.rgba.size() == 4ul * texture.width * texture.height,
              "a texture has four floats a texel");

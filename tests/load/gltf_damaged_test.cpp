@@ -13,6 +13,7 @@ namespace limpid {
 namespace {
 
 using nlohmann::json;
+using test::bytes_of;
 using test::error_of;
 using test::glb;
 using test::own_folder;
@@ -72,6 +73,18 @@ const Damage kDamages[] = {
     {"uri_absolute_encoded", [](json& g) { g["buffers"][0]["uri"] = "%2Fetc/passwd"; },
      "not an absolute"},
     {"uri_scheme", [](json& g) { g["buffers"][0]["uri"] = "file:///etc/passwd"; }, "not a scheme"},
+    {"uri_http", [](json& g) { g["buffers"][0]["uri"] = "http://localhost/x.bin"; },
+     "uri = \"http://localhost/x.bin\": expected a data uri or a file beside the glTF file, not a "
+     "scheme"},
+    {"uri_scheme_encoded", [](json& g) { g["buffers"][0]["uri"] = "file%3A///etc/passwd"; },
+     "not a scheme"},
+    {"uri_empty", [](json& g) { g["buffers"][0]["uri"] = ""; }, "expected the name of a file"},
+    {"uri_number", [](json& g) { g["buffers"][0]["uri"] = 7; }, "uri = 7: expected a text"},
+    {"data_not_base64",
+     [](json& g) { g["buffers"][0]["uri"] = "data:application/octet-stream;base64,~~~~"; },
+     "not glTF: "},
+    {"data_of_html", [](json& g) { g["buffers"][0]["uri"] = "data:text/html;base64,AAAA"; },
+     "expected a data uri of base64 and of type"},
     {"uri_backslash", [](json& g) { g["buffers"][0]["uri"] = "..\\x.bin"; },
      "expected the name of a file"},
     {"uri_nul", [](json& g) { g["buffers"][0]["uri"] = "x%00.bin"; },
@@ -102,6 +115,20 @@ const Damage kDamages[] = {
      "expected one of SCALAR, VEC2, VEC3"},
     {"accessor_sparse", [](json& g) { g["accessors"][0]["sparse"] = json::object(); },
      "accessors[0]: sparse accessors are not supported"},
+    {"view_offset_negative", [](json& g) { g["bufferViews"][1]["byteOffset"] = -4; },
+     "bufferViews[1].byteOffset = -4: expected an integer from 0"},
+    {"view_empty", [](json& g) { g["bufferViews"][1]["byteLength"] = 0; },
+     "bufferViews[1].byteLength = 0: expected an integer from 1"},
+    {"view_stride_large", [](json& g) { g["bufferViews"][0]["byteStride"] = 256; },
+     "byteStride = 256: expected an integer from 4 to 252"},
+    {"accessor_offset_negative", [](json& g) { g["accessors"][1]["byteOffset"] = -48; },
+     "accessors[1].byteOffset = -48: expected an integer from 0"},
+    {"accessor_offset_large", [](json& g) { g["accessors"][1]["byteOffset"] = 1099511627776; },
+     "accessors[1]: needs 1099511627824 bytes of a buffer view of 96"},
+    {"accessor_empty", [](json& g) { g["accessors"][0]["count"] = 0; },
+     "accessors[0].count = 0: expected an integer from 1"},
+    {"accessor_of_nothing", [](json& g) { g["accessors"][0].erase("bufferView"); },
+     "accessors[0]: expected a bufferView"},
     // meshes
     {"attribute_index",
      [](json& g) { g["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 9; },
@@ -260,6 +287,30 @@ const Damage kDamages[] = {
        g["nodes"][0]["rotation"] = {0, 0, 0, 0};
      },
      "expected a unit quaternion"},
+    {"null_in_matrix",
+     [](json& g) {
+       g["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, nullptr, 0, 0, 1};
+     },
+     "nodes[0].matrix[12] = null: expected a number"},
+    {"matrix_of_texts",
+     [](json& g) {
+       g["nodes"][0]["translation"] = {"NaN", 0, 0};
+     },
+     "nodes[0].translation[0] = \"NaN\": expected a number"},
+    {"matrix_projective",
+     [](json& g) { g["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
+     "expected 0, 0, 0, 1 in its last row"},
+    {"matrix_and_scale",
+     [](json& g) {
+       g["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+       g["nodes"][0]["scale"] = {1, 1, 1};
+     },
+     "nodes[0].scale: expected either a matrix or its parts"},
+    {"root_twice",
+     [](json& g) {
+       g["scenes"][0]["nodes"] = {0, 0};
+     },
+     "scenes[0].nodes[1] = 0: expected each root once"},
     {"flat_scale",
      [](json& g) {
        g["nodes"][0]["scale"] = {1, 0, 1};
@@ -384,17 +435,100 @@ TEST(GltfFile, MustBeAWholeBinary) {
               HasSubstr("byteLength = 145: expected at most the 140 bytes of the chunk BIN"));
 }
 
+/// One triangle in a file of its own, drawn as often as `triangles` says.
+json heavy_gltf(int triangles) {
+  json gltf = square_gltf();
+  written("heavy.bin", std::string(36, '\0') + bytes_of(std::vector<std::uint32_t>(3 * triangles)));
+  gltf["buffers"][0] = {{"byteLength", 36 + 12 * triangles}, {"uri", "heavy.bin"}};
+  gltf["bufferViews"] = {{{"buffer", 0}, {"byteLength", 36}},
+                         {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 12 * triangles}}};
+  gltf["accessors"] = json::parse(
+      R"([{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3},
+          {"bufferView": 1, "componentType": 5125, "type": "SCALAR"}])");
+  gltf["accessors"][1]["count"] = 3 * triangles;
+  gltf["meshes"] =
+      json::parse(R"([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}])");
+  return gltf;
+}
+
 TEST(GltfFile, StaysWithinLimits) {
   Limits limits;
   limits.max_memory = 100;
   EXPECT_THAT(error_of_text(square_gltf().dump(), limits), HasSubstr("expected at most 100"));
+  limits.max_memory = 10000;
+  EXPECT_THAT(error_of_text(square_gltf().dump(), limits), HasSubstr("its JSON may need"));
   // One buffer, drawn over and over.
-  json gltf = square_gltf();
+  json gltf = heavy_gltf(20000);
   json& primitives = gltf["meshes"][0]["primitives"];
-  for (int i = 0; i < 99; ++i) primitives.push_back(primitives[0]);
-  limits.max_memory = 14000;
+  for (int i = 0; i < 9; ++i) primitives.push_back(primitives[0]);
+  limits.max_memory = 240000 + 100000;
+  EXPECT_THAT(error_of_text(gltf.dump(), limits), HasSubstr("buffers[0]: needs 480072 bytes"));
+  limits.max_memory = 1500000;
   EXPECT_THAT(error_of_text(gltf.dump(), limits),
-              HasSubstr("meshes[0] 'square': needs 152 bytes of memory, expected at most"));
+              HasSubstr("meshes[0]: needs 240096 bytes of memory, expected at most"));
+}
+
+/// Millions of values in few bytes, in places that nobody reads; also the time is bounded.
+TEST(GltfFile, MayNotBeMostlyValues) {
+  Limits limits;
+  limits.max_memory = 16 << 20;
+  for (const std::string value : {"{}", "[]", "1", "\"\"", "{\"a\":[]}"}) {
+    std::string extras = "[" + value;
+    for (int i = 0; i < 40000; ++i) extras += "," + value;
+    const std::string text = "{\"asset\": {\"version\": \"2.0\"}, \"extras\": " + extras + "]}";
+    EXPECT_THAT(error_of_text(text, limits), HasSubstr("its JSON may need ")) << value;
+    EXPECT_EQ(error_of_text(text), "") << value;
+  }
+}
+
+/// A chain of nodes may be as long as it likes: nobody goes along it by recursion.
+TEST(GltfFile, MayHaveLongFamilies) {
+  constexpr int kNodes = 20000;
+  json gltf = square_gltf();
+  gltf["nodes"] = json::array();
+  for (int i = 1; i < kNodes; ++i) gltf["nodes"].push_back({{"children", {i}}});
+  gltf["nodes"].push_back({{"mesh", 0}});
+  EXPECT_EQ(error_of_text(gltf.dump()), "");
+  gltf["nodes"].back()["children"] = {0};
+  EXPECT_THAT(error_of_text(gltf.dump()), HasSubstr("nodes[0]: is its own ancestor"));
+}
+
+/// A picture is refused by its header, before there is memory for its texels.
+TEST(GltfFile, MayNotHaveHugePictures) {
+  const auto png = [](std::uint32_t width, std::uint32_t height) {
+    std::string header = "IHDR";
+    for (const std::uint32_t side : {width, height}) {
+      for (int shift = 24; shift >= 0; shift -= 8) header += static_cast<char>(side >> shift & 255);
+    }
+    header += std::string("\x08\x06\0\0\0", 5);
+    const auto chunk = [](const std::string& named) {
+      std::uint32_t crc = ~0u;
+      for (const char letter : named) {
+        crc ^= static_cast<unsigned char>(letter);
+        for (int bit = 0; bit < 8; ++bit) crc = (crc & 1) != 0 ? crc >> 1 ^ 0xEDB88320u : crc >> 1;
+      }
+      std::string bytes(4, '\0');
+      bytes[3] = static_cast<char>(named.size() - 4);
+      bytes += named;
+      for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(~crc >> shift & 255);
+      return bytes;
+    };
+    return "\x89PNG\r\n\x1a\n" + chunk(header) + chunk("IDATxx") + chunk("IEND");
+  };
+  const auto error_of_picture = [&](std::uint32_t width, std::uint32_t height) {
+    json gltf = square_gltf();
+    gltf["images"][0]["uri"] = "data:image/png;base64," + test::base64(png(width, height));
+    gltf["textures"] = json::parse(R"([{"source": 0}])");
+    gltf["materials"] =
+        json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+    gltf["meshes"][0]["primitives"][0]["material"] = 0;
+    return error_of_text(gltf.dump());
+  };
+  EXPECT_THAT(error_of_picture(70000, 1), HasSubstr("images[0]: 70000x1 pixels: expected sides"));
+  EXPECT_THAT(error_of_picture(16384, 16385), HasSubstr("images[0]: "));
+  EXPECT_THAT(error_of_picture(20000000, 20000000), HasSubstr("images[0]"));
+  EXPECT_THAT(error_of_picture(0, 5), HasSubstr("images[0]"));
+  EXPECT_THAT(error_of_picture(5, 5), HasSubstr("images[0]: is damaged: "));
 }
 
 }  // namespace
