@@ -10,6 +10,7 @@
 #include "limpid/sequence.h"
 
 #include "tool/made_plate.h"
+#include "tool/new_files.h"
 #include "tool/running.h"
 #include "tool/tool.h"
 
@@ -24,6 +25,9 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 constexpr int kFrames = 6;
+
+/// With -v four frames print more than the pipe of Running holds: their outputs have long names.
+const std::string kLong = "out/" + std::string(240, 'x') + "/" + std::string(240, 'y');
 
 class TroubleTest : public ToolTest {
  protected:
@@ -188,20 +192,67 @@ TEST_F(TroubleTest, APlateThatGoes) {
   EXPECT_EQ(in("out").size(), 8u);
 }
 
+/// Reads until that many frames are told of; some that follow are under way then.
+void read_frames(Running& running, int count) {
+  while (count > 0) {
+    if (running.line().starts_with(kLong + "/wet.")) --count;
+  }
+}
+
 class TroubleSignal : public TroubleTest, public ::testing::WithParamInterface<int> {};
 
 /// Nobody reads beyond the second frame, so that the sequence cannot end by itself.
 TEST_P(TroubleSignal, EndsASequenceCleanly) {
-  write_text("out/wet.6.exr", "old");
-  Running running(folder_, words("out", {"-v"}));
-  for (int frames = 0; frames < 2;) frames += running.line().starts_with("out/wet.") ? 1 : 0;
+  fs::create_directories(folder_ / kLong);
+  write_text(kLong + "/wet.6.exr", "old");
+  Running running(folder_, words(kLong, {"-v"}));
+  read_frames(running, 2);
   running.send(GetParam());
   EXPECT_EQ(running.wait(), -GetParam());
-  expect_whole("out", 2);
-  EXPECT_EQ(text_of("out/wet.6.exr"), "old");
+  expect_whole(kLong, 2);
+  EXPECT_EQ(text_of(kLong + "/wet.6.exr"), "old");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TroubleSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+/// How far a sequence has come when it is killed: frames told of, or temporary files begun.
+struct Moment {
+  int frames, files;
+};
+void PrintTo(const Moment& moment, std::ostream* out) {
+  *out << moment.frames << " frames, " << moment.files << " files";
+}
+
+class TroubleKill : public TroubleTest, public ::testing::WithParamInterface<Moment> {};
+
+/// tools/check_kill does it at random moments.
+TEST_P(TroubleKill, LeavesWholeFramesAndResumes) {
+  fs::create_directories(folder_ / kLong);
+  NewFiles begun(folder_ / kLong);
+  Running running(folder_, words(kLong, {"-v"}));
+  read_frames(running, GetParam().frames);
+  for (int files = 0; files < GetParam().files;) files += begun.next().starts_with(".limpid-");
+  running.send(SIGKILL);
+  EXPECT_EQ(running.wait(), -SIGKILL);
+
+  // What has a final name is whole, the rest goes with the next run, which makes what is missing.
+  const auto good = undisturbed();
+  int whole = 0;
+  for (const auto& [name, bytes] : in(kLong)) {
+    if (name.starts_with(".limpid-")) continue;
+    ++whole;
+    EXPECT_TRUE(good.contains(name) && bytes == good.at(name)) << name;
+  }
+  EXPECT_GE(whole, 2 * GetParam().frames);
+  EXPECT_LT(whole, 2 * kFrames);
+  const Ran ran = run(folder_, words(kLong, {"--resume"}));
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, ::testing::MatchesRegex("limpid: [0-5] of 6 frames are there already\n"));
+  EXPECT_TRUE(in(kLong) == good);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TroubleKill,
+                         ::testing::Values(Moment{1, 0}, Moment{2, 0}, Moment{0, 1}, Moment{0, 5}));
 
 TEST_F(TroubleTest, AReaderThatGoesStopsNothing) {
   Running running(folder_, words("out", {"-v"}));
