@@ -20,12 +20,14 @@ HardRow measured(const HardCase& hard, const HardWorld& world) {
 }  // namespace
 
 struct HardSuite::State {
+  State(const std::filesystem::path& data, int threads) : world(data, threads) {}
+
   HardWorld world;
   HardCases cases = hard_cases();
 };
 
 HardSuite::HardSuite(const std::filesystem::path& data, int threads)
-    : state_(std::make_unique<State>(HardWorld(data, threads))) {}
+    : state_(std::make_unique<State>(data, threads)) {}
 HardSuite::HardSuite(HardSuite&&) noexcept = default;
 HardSuite& HardSuite::operator=(HardSuite&&) noexcept = default;
 HardSuite::~HardSuite() = default;

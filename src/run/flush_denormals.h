@@ -1,8 +1,4 @@
 #pragma once
-#if defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
-
 #include "core/lanes.h"
 
 /// For inclusion by lanes_target.cpp alone.
@@ -15,12 +11,12 @@ namespace limpid::HWY_NAMESPACE {
 class FlushDenormals {
  public:
 #if defined(__x86_64__)
-  FlushDenormals() { _mm_setcsr(before_ | kFlushAndZero); }
-  ~FlushDenormals() { _mm_setcsr(before_); }
+  FlushDenormals() { __builtin_ia32_ldmxcsr(before_ | kFlushAndZero); }
+  ~FlushDenormals() { __builtin_ia32_ldmxcsr(before_); }
 
  private:
   static constexpr unsigned kFlushAndZero = 0x8040;  // FTZ of results, DAZ of operands
-  const unsigned before_ = _mm_getcsr();
+  const unsigned before_ = __builtin_ia32_stmxcsr();
 #elif defined(__aarch64__)
   FlushDenormals() {
     asm volatile("mrs %0, fpcr" : "=r"(before_));
