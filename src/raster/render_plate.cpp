@@ -93,24 +93,12 @@ class PlateRenderer {
   /// is for who looks something up to see whether it lies under the surface there.
   void draw_below(PlaneSet wanted) {
     const WaterPlane& water = *scene_.water;
-    double crest = water.height;
-    for (const SineWave& wave : water.waves) crest += std::abs(wave.amplitude);
     const RasterWanted planes{.color = wanted.meets(kBelowColorPlanes),
                               .depth = wanted.has(PlaneId::kBelowDepth)};
-    const glm::dvec4 above(water.up, -crest);
-    RasterImage image = draw(*scene_.camera, planes, -above);
+    const glm::dvec4 under(-water.up, water.height + highest_crest(water));
+    RasterImage image = draw(*scene_.camera, planes, under);
     keep_color(PlaneId::kBelowR, image);
-    if (!planes.depth) return;
-    // Where the view goes into a solid above the cut, and not out of it, the cut lays bare what no
-    // water shows.
-    const RasterImage into = draw(*scene_.camera, {.depth = true}, above);
-    const RasterImage out = draw(*scene_.camera, {.depth = true}, above, true);
-    for_each_pixel([&](int x, int y) {
-      const bool inside =
-          std::isfinite(into.depth.view().at(x, y)) && !std::isfinite(out.depth.view().at(x, y));
-      if (inside) image.depth.view().at(x, y) = HUGE_VALF;
-    });
-    keep(PlaneId::kBelowDepth, std::move(image.depth));
+    if (planes.depth) keep(PlaneId::kBelowDepth, std::move(image.depth));
   }
 
   void draw_surface(PlaneSet wanted) {

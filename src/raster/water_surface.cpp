@@ -44,6 +44,12 @@ Model raised_water(const Model& model, const WaterPlane& water, double time) {
   return raised;
 }
 
+double highest_crest(const WaterPlane& water) {
+  double sum = 0;
+  for (const SineWave& wave : water.waves) sum += std::abs(wave.amplitude);
+  return sum;
+}
+
 void point_out_of_water(const glm::dvec3& up, std::array<Plane, 3>& normal) {
   const Rect window = normal[0].view().window;
   for (int y = window.y0; y < window.y1; ++y) {

@@ -20,6 +20,9 @@ struct SeenSurface {
   std::array<Plane, 3> normal;  ///< unit, world, out of the water; empty for the calm plane
 };
 
+/// How far the waves can raise the water over the calm plane.
+double highest_crest(const WaterPlane& water);
+
 /// Turns normals around that point into the water, to a viewer below.
 void point_out_of_water(const glm::dvec3& up, std::array<Plane, 3>& normal);
 

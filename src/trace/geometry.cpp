@@ -24,11 +24,11 @@ End end_of(const Tracer& tracer, const Ray& ray, bool in_air) {
   return end;
 }
 
-/// The view through a place of the picture, of what lies under the calm water alone: it begins
-/// where it goes under. Nothing where it does not.
-std::optional<Ray> view_below(const Ray& view, const Context& context) {
-  const double sinks = -glm::dot(view.direction, context.up);
-  const double over = context.eye_above + glm::dot(view.origin, context.up);
+/// The view through a place of the picture, of what lies under the crests of the water alone: it
+/// begins where it goes under. Nothing where it does not.
+std::optional<Ray> view_below(const Ray& view, const glm::dvec3& up, double crest) {
+  const double sinks = -glm::dot(view.direction, up);
+  const double over = glm::dot(view.origin, up) - crest;
   Ray below = view;
   if (sinks > 0) below.from = std::max(view.from, over / sinks);
   if (sinks <= 0 && over > 0) return std::nullopt;
@@ -78,7 +78,7 @@ Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& contex
       const Ray view = eye.beam_at(place->x * width, place->y * height, 1).ray;
       visible = visible_below = sees(tracer.solid(), view, *end.dry);
       if (!context.submersible) {
-        const std::optional<Ray> below = view_below(view, context);
+        const std::optional<Ray> below = view_below(view, context.up, tracer.surface().crest());
         visible_below = below && sees(tracer.solid(), *below, *end.dry);
       }
     }

@@ -41,6 +41,7 @@ Surface::Surface(const Model& model, const Scene& scene, const Look& look, const
                             [](const Instance& i) { return i.water; })),
       raised_(has_mesh_ && !scene.water->waves.empty()),
       height_(-context.eye_above),
+      crest_(raised_ ? highest_crest(*scene.water) : 0),
       mesh_([&] {
         const Model water = raised_water(model, *scene.water, scene.time);
         for (const Mesh& mesh : water.meshes) {

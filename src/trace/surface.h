@@ -29,6 +29,9 @@ class Surface {
   /// that it does not come from.
   std::optional<SurfacePoint> nearest(const Ray& ray, bool from_air) const;
 
+  /// The height over the eye that no water reaches beyond.
+  double crest() const { return height_ + crest_; }
+
  private:
   glm::dvec3 normal_at(const glm::dvec3& point) const;
   glm::dvec3 mesh_normal_at(const Triangles::Hit& hit) const;
@@ -38,6 +41,7 @@ class Surface {
   bool wavy_;  ///< by the operator
   bool has_mesh_, raised_;
   double height_;                                 ///< of the calm plane over the eye
+  double crest_;                                  ///< of the highest wave, over the calm plane
   std::vector<std::vector<glm::dvec3>> normals_;  ///< of the mesh, a vertex
   Triangles mesh_;
 };

@@ -10,7 +10,7 @@ namespace limpid {
 struct SeenPlanes {
   PlaneId color, depth;
   Bounds bounds;
-  bool below;  ///< holds what lies below the water alone, +inf where there is nothing
+  bool below;  ///< holds what lies under the crests of the water alone, +inf where there is nothing
 };
 
 /// The search along the ray of one pixel, or of one vector of pixels.

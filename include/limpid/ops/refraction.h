@@ -37,8 +37,8 @@ namespace limpid {
 /// is hard (a halo). `shorten`: each texel of each channel is tested against the surface in front
 /// of it (op/valid_lookup.h); along snell's rays what stands under water far before their end hides
 /// that, too, and does not count. Where the frame has a layer below, that is looked up instead of
-/// the dry scene, and nothing above the water is there to be rejected; not so where the view may
-/// begin in the water, from where one looks up into the air as well.
+/// the dry scene; it reaches the highest crest, and what of it stands above the surface is rejected
+/// alike. Not so where the view may begin in the water, from where one looks up into the air, too.
 ///
 /// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without

@@ -30,9 +30,8 @@ struct RenderedPlate {
 /// front face or the sky, 0 where it looks into what the water cut open. An eye below the calm
 /// plane sees the mirror's underside; one in the plane sees none, and these planes stay empty.
 /// Below: what lies under the calm plane, or under the highest crest of waves, alone, by a clip
-/// plane there, and not what that lays bare inside of solids: empty, +inf. Depth and normals of the
-/// water's own meshes, raised and lowered by scene.water.waves, seen from either side, and the
-/// sun's visibility there; without a water mesh depth and normals stay empty, as the chain derives
+/// plane there. Depth and normals of the water's own meshes, raised and lowered by
+/// scene.water.waves, seen from either side, and the sun's visibility there; without a water mesh depth and normals stay empty, as the chain derives
 /// them from the calm plane, and the shadow is that on the calm plane. Without a sun there is
 /// ambient light alone, and no surface shadow.
 ///

@@ -72,9 +72,9 @@ struct TruthPicture {
   /// so that the dry picture has its color; 0 where something hides it, where it is out of frame or
   /// behind the camera, and where the ray does not end. 1 where nothing is refracted.
   std::array<View<float>, 3> visible;
-  /// The same of a picture of what lies under the calm water alone (PlaneId::kBelowR), which the
-  /// chain looks things up in where a frame has one. Where the view can begin in the water, for
-  /// which the chain keeps to the dry picture: as `visible`.
+  /// The same of a picture of what lies under the crests of the water alone (PlaneId::kBelowR),
+  /// which the chain looks things up in where a frame has one. Where the view can begin in the
+  /// water, for which the chain keeps to the dry picture: as `visible`.
   std::array<View<float>, 3> visible_below;
 };
 
