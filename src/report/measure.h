@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ void measure_looks(const Measuring& m, Subject& subject, bool figures);
 void measure_truth(const Measuring& m);
 /// The look physical with one choice changed.
 void measure_choices(const Measuring& m, Subject& subject);
+
+/// All looks on a scene beside its ray-traced truth, and with `choices` physical with one changed.
+void measure_models(const Measuring& m, const std::filesystem::path& scene_file, bool choices);
 
 /// Errors that are allowed, in clear water and in murky.
 void measure_budgets(const Measuring& m, Subject& subject);

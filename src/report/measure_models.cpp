@@ -4,6 +4,7 @@
 #include "limpid/report/lagoon.h"
 #include "limpid/run/fused.h"
 
+#include "report/choices.h"
 #include "report/markup.h"
 #include "report/measure.h"
 #include "report/rounds.h"
@@ -63,62 +64,19 @@ void measure_truth(const Measuring& m) {
 
 // ---- choices of the look physical
 
-namespace {
-
-/// Choices that are no models of one thing: which water it is, where normals come from, and an
-/// article's blend that stands for nothing physical.
-bool is_model(const Parameter& p) {
-  if (p.kind != FieldKind::kChoice && p.kind != FieldKind::kCountOrWord) return false;
-  return p.table != WaveNormals::kName && p.table != Penetration::kName && p.name != "water_type";
-}
-
-std::vector<Value> values_of(const Parameter& p) {
-  std::vector<Value> values;
-  if (p.kind == FieldKind::kCountOrWord) {
-    for (const double count : {0.0, 1.0, 2.0, 4.0}) values.emplace_back(count);
-  }
-  for (std::string_view word : p.choices) values.emplace_back(std::string(word));
-  return values;
-}
-
-struct Changed {
-  ChoiceRow row;
-  Look look;
-};
-
-std::vector<Changed> changed_choices(const Look& physical) {
-  std::vector<Changed> list{{{}, physical}};
-  const auto add = [&](std::string_view table, std::string_view key, const Value& value) {
-    Look look = physical;
-    look.set(table, key, value);
-    list.push_back({{std::string(table) + "." + std::string(key), to_string(value), 0, {}}, look});
-  };
-  for (const Parameter& p : parameters(physical)) {
-    if (!is_model(p)) continue;
-    for (const Value& value : values_of(p)) {
-      if (value != p.value) add(p.table, p.name, value);
-    }
-  }
-  // What is left out by a number.
-  add(PrismSplit::kName, "gain", 0.0);
-  add(WaterShadow::kName, "strength", 0.0);
-  add(SunHighlight::kName, "strength", 0.0);
-  return list;
-}
-
-}  // namespace
-
 void measure_choices(const Measuring& m, Subject& subject) {
-  std::vector<Changed> list = changed_choices(m.physical);
+  std::vector<Choice> list = choices_of(m.physical);
+  list.insert(list.begin(), {"", "", m.physical});
   m.report.choices_subject = subject.facts().name;
   std::vector<Plan> plans;
   std::vector<Frame> frames;
-  for (const Changed& changed : list) {
-    plans.push_back(subject.plan(changed.look));
+  for (const Choice& choice : list) {
+    plans.push_back(subject.plan(choice.look));
     frames.push_back(subject.frame_for(plans.back()));
   }
   Picture judge(subject.window()), picture(subject.window());
   std::vector<Timed> timed;
+  std::vector<ChoiceRow> rows;
   for (std::size_t i = 0; i < list.size(); ++i) {
     timed.push_back({[&, i] {
       run_fused(plans[i], frames[i], subject.scene(), picture.target, m.one, {.simd = m.simd});
@@ -126,11 +84,11 @@ void measure_choices(const Measuring& m, Subject& subject) {
     timed[i].run();
     if (i == 0)
       run_fused(plans[0], frames[0], subject.scene(), judge.target, m.many, {.simd = m.simd});
-    list[i].row.error = error_of(picture, judge, true);
+    rows.push_back({list[i].parameter, list[i].value, 0, error_of(picture, judge, true)});
   }
   time_rounds(timed, m.options.rounds);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    ChoiceRow& row = list[i].row;
+    ChoiceRow& row = rows[i];
     row.ns_per_pixel = 1e9 * timed[i].best_seconds / subject.pixels();
     m.say(subject.facts().name + ", " +
           (i == 0 ? m.physical.name + " as it is" : row.parameter + " = " + row.value) + ": " +

@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Has waves, a shore, and things that stand in the water.
+constexpr const char* kChoicesScene = "lagoon_shore";
+
 std::vector<fs::path> files_in(const fs::path& folder, bool below) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -65,6 +68,9 @@ void measure(const Measuring& m) {
         Subject::of_scene(file, options.size, options.data / "maps" / "sky.hdr", m.many);
     measure_looks(m, subject, false);
     measure_budgets(m, subject);
+  }
+  for (const fs::path& file : files_in(options.data / "scenes", false)) {
+    measure_models(m, file, file.stem() == kChoicesScene);
   }
 }
 

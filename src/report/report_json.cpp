@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 
 Json json_of(const PixelError& e) {
   return {{"mean", e.mean}, {"p99", e.p99}, {"p99_99", e.p99_99}, {"max", e.max}};
@@ -59,6 +59,24 @@ Json json_of(const TruthRow& row) {
           {"relative_error_in_frame", row.in_frame}};
 }
 
+Json json_of(const ModelRow& row) {
+  return {{"subject", row.subject},
+          {"look", row.look},
+          {"parameter", row.parameter.empty() ? Json() : Json(row.parameter)},
+          {"value", row.parameter.empty() ? Json() : Json(row.value)},
+          {"ns_per_pixel", row.ns_per_pixel},
+          {"error", json_of(row.error)},
+          {"rmse", row.rmse},
+          {"rel_mse", row.rel_mse},
+          {"ssim", row.ssim},
+          {"flip", row.flip},
+          {"hdr_flip", row.hdr_flip},
+          {"flicker", row.flicker},
+          {"offset_pixels", {{"median", row.offset_median}, {"p95", row.offset_p95}}},
+          {"wrongly_rejected", row.wrongly_rejected},
+          {"wrongly_accepted", row.wrongly_accepted}};
+}
+
 Json json_of(const ChoiceRow& row) {
   return {{"parameter", row.parameter.empty() ? Json() : Json(row.parameter)},
           {"value", row.parameter.empty() ? Json() : Json(row.value)},
@@ -104,6 +122,7 @@ std::string to_json(const Report& report) {
                     {"height", report.truth_size.height},
                     {"in_frame_share", report.truth_in_frame_share},
                     {"rows", rows(report.truth)}}},
+                  {"models_beside_traced_light", rows(report.models)},
                   {"choices_of_physical",
                    {{"subject", report.choices_subject}, {"rows", rows(report.choices)}}},
                   {"error_budgets", rows(report.budgets)}};

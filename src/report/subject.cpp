@@ -14,8 +14,6 @@
 namespace limpid {
 namespace {
 
-constexpr double kSeconds = 2;  // the moment that all pictures of the project show
-
 Plane every_nth(const Plane& plane, int n) {
   const View<const float> from = plane.view();
   const Rect& w = from.window;
@@ -58,7 +56,7 @@ Subject Subject::of_plate(const std::filesystem::path& scene_file, Size size) {
   Subject subject;
   subject.scene_ = file.scene;
   subject.scene_.camera = camera_for(*file.camera, plate.display().size(), plate.pixel_aspect());
-  subject.scene_.time = kSeconds;
+  subject.scene_.time = kMoment;
   const DepthMeaning depth{file.depth, file.near.value_or(0), file.far.value_or(0)};
   LoadedPlate loaded = plate.read(plate.planes(), subject.scene_, depth);
   subject.frame_ = loaded.frame;
@@ -72,13 +70,13 @@ Subject Subject::of_plate(const std::filesystem::path& scene_file, Size size) {
 }
 
 Subject Subject::of_scene(const std::filesystem::path& scene_file, Size size,
-                          const std::filesystem::path& sky, Executor& executor) {
+                          const std::filesystem::path& sky, Executor& executor, double time) {
   const SceneFile file = load_scene(scene_file);
   const Model model = load_gltf(file.geometry);
   Subject subject;
   subject.scene_ = file.scene;
   if (file.camera) subject.scene_.camera = camera_for(*file.camera, size);
-  subject.scene_.time = kSeconds;
+  subject.scene_.time = time;
   subject.scene_ = scene_of_model(subject.scene_, model, size);
   RenderedPlate plate = render_plate(model, subject.scene_, {.size = size},
                                      renderable(model, subject.scene_), executor);
@@ -98,12 +96,12 @@ void Subject::describe(const std::filesystem::path& scene_file, std::string kind
             window().size(), 0};
 }
 
-Plan Subject::plan(const Look& look, double max_error) const {
+Plan Subject::plan(const Look& look, double max_error, StateSet outputs) const {
   const Inputs inputs{.planes = frame_.present(),
                       .wave_map = !look.of<WaveNormals>().map.empty(),
                       .sun = scene_.sun.has_value(),
                       .environment = static_cast<bool>(frame_.environment)};
-  return make_plan(look, inputs, {}, max_error);
+  return make_plan(look, inputs, outputs, max_error);
 }
 
 Frame Subject::frame_for(const Plan& plan) {

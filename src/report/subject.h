@@ -18,16 +18,19 @@ class Subject {
  public:
   /// The plates that a scene file names, thinned as ReportOptions::size says.
   static Subject of_plate(const std::filesystem::path& scene_file, Size size);
+  /// The moment that all pictures of the project show, in seconds.
+  static constexpr double kMoment = 2;
   /// The geometry that a scene file names, rendered. `sky` is its surroundings where it names none.
   static Subject of_scene(const std::filesystem::path& scene_file, Size size,
-                          const std::filesystem::path& sky, Executor& executor);
+                          const std::filesystem::path& sky, Executor& executor,
+                          double time = kMoment);
 
   const ReportSubject& facts() const { return facts_; }
   Rect window() const { return frame_.work(); }
   double pixels() const { return static_cast<double>(window().area()); }
   const Scene& scene() const { return scene_; }
 
-  Plan plan(const Look& look, double max_error = 0) const;
+  Plan plan(const Look& look, double max_error = 0, StateSet outputs = {}) const;
   /// The frame with the maps that the plan looks up, which stay loaded.
   Frame frame_for(const Plan& plan);
 

@@ -31,6 +31,40 @@ inline Report made_report(const std::string& name = "pond") {
                   {"snell march, shorten", 160, 0.031, 0.023}};
   report.truth_in_frame_share = 0.75;
   report.truth_size = {96, 54};
+  for (const std::string& look : report.looks) {
+    report.models.push_back({name,
+                             look,
+                             "",
+                             "",
+                             90,
+                             {0.02, 0.1, 0.2, 0.3},
+                             0.03,
+                             0.01,
+                             0.9,
+                             0.1,
+                             0.2,
+                             0.001,
+                             0.4,
+                             2.5,
+                             0.03,
+                             0.01});
+  }
+  report.models.push_back({name,
+                           "physical",
+                           "refraction.rejection",
+                           "snap",
+                           80,
+                           {0.03, 0.1, 0.2, 0.3},
+                           0.04,
+                           0.02,
+                           0.8,
+                           0.2,
+                           0.3,
+                           0.002,
+                           0.5,
+                           3.5,
+                           0.04,
+                           0.02});
   report.choices_subject = name;
   report.choices = {{"", "", 100, {}}, {"refraction.steps", "0", 60, {0.006, 0.1, 0.2, 0.3}}};
   report.budgets = {{name, "physical", 0, 100, {}, 0, 0.4, 0, 0.5},

@@ -55,7 +55,7 @@ TEST(ReportJson, HoldsEveryRow) {
   const Report report = made_report();
   const json j = json::parse(to_json(report));
   EXPECT_EQ(j["schema"], "limpid-report");
-  EXPECT_EQ(j["schema_version"], 1);
+  EXPECT_EQ(j["schema_version"], 2);
   EXPECT_EQ(j["machine"]["cores"], 2);
   EXPECT_EQ(j["machine"]["simd"], json({"avx2", "scalar"}));
   EXPECT_EQ(j["build"]["limpid"], "1.2.3");
@@ -71,6 +71,12 @@ TEST(ReportJson, HoldsEveryRow) {
   ASSERT_EQ(truth.size(), 3);
   EXPECT_TRUE(truth[0]["ns_per_pixel"].is_null());  // the dry picture costs nothing to make
   EXPECT_EQ(truth[2]["relative_error_in_frame"], 0.023);
+  const json traced = j["models_beside_traced_light"];
+  ASSERT_EQ(traced.size(), 3);
+  EXPECT_EQ(traced[1]["look"], "fast");
+  EXPECT_TRUE(traced[1]["parameter"].is_null());
+  EXPECT_EQ(traced[2]["parameter"], "refraction.rejection");
+  EXPECT_EQ(traced[2]["offset_pixels"]["p95"], 3.5);
   const json choices = j["choices_of_physical"]["rows"];
   ASSERT_EQ(choices.size(), 2);
   EXPECT_TRUE(choices[0]["parameter"].is_null());

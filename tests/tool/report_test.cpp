@@ -81,6 +81,24 @@ void ReportTest::expect_rows(const json& report) const {
     EXPECT_EQ(row["error"]["max"] == 0, row["look"] == "physical") << row;
   }
   EXPECT_EQ(report["refraction_beside_truth"]["rows"].size(), 17);
+  std::set<std::string> traced, choices;
+  for (const json& row : report["models_beside_traced_light"]) {
+    EXPECT_GT(row["ns_per_pixel"], 0);
+    EXPECT_GT(row["flip"], 0) << row;
+    EXPECT_LT(row["flip"], 0.5) << row;
+    EXPECT_LT(row["ssim"], 1) << row;
+    EXPECT_LE(row["offset_pixels"]["median"], row["offset_pixels"]["p95"]) << row;
+    EXPECT_LT(row["wrongly_accepted"], 1) << row;
+    if (row["parameter"].is_null()) {
+      traced.insert(std::string(row["subject"]) + "/" + std::string(row["look"]));
+    } else {
+      choices.insert(row["parameter"]);
+    }
+  }
+  const auto scenes = std::count_if(report["subjects"].begin(), report["subjects"].end(),
+                                    [](const json& s) { return s["kind"] == "scene"; });
+  EXPECT_EQ(traced.size(), static_cast<std::size_t>(scenes) * looks.size());
+  EXPECT_TRUE(choices.contains("refraction.rejection"));
   std::set<std::string> parameters;
   for (const json& row : report["choices_of_physical"]["rows"]) {
     if (!row["parameter"].is_null()) parameters.insert(row["parameter"]);

@@ -61,6 +61,21 @@ struct TruthRow {
   double wet = 0, in_frame = 0;
 };
 
+/// A look on a scene, or the look `physical` there with one parameter changed; judged by the light
+/// that would really arrive, traced (trace/truth.h) through the scene with the water of `physical`,
+/// one sample a pixel as in the chain. Values above 4 count as 4, but for HDR-FLIP.
+struct ModelRow {
+  std::string subject, look;
+  std::string parameter, value;  ///< both "" for a look as it is
+  double ns_per_pixel = 0;
+  PixelError error;
+  double rmse = 0, rel_mse = 0, ssim = 0, flip = 0, hdr_flip = 0;
+  double flicker = 0;  ///< mean change to the next of 24 frames a second beyond the truth's own
+  /// Of lookups of wet pixels (report/offset.h).
+  double offset_median = 0, offset_p95 = 0;  ///< pixels
+  double wrongly_rejected = 0, wrongly_accepted = 0;
+};
+
 /// The look `physical` with one parameter changed; judged by itself. Values above 4 count as 4.
 struct ChoiceRow {
   std::string parameter, value;  ///< both "" for the look as it is
@@ -114,12 +129,15 @@ struct Report {
   std::vector<TruthRow> truth;
   double truth_in_frame_share = 0;
   Size truth_size;
+  std::vector<ModelRow> models;
   std::string choices_subject;  ///< what ChoiceRows were measured on
   std::vector<ChoiceRow> choices;
   std::vector<BudgetRow> budgets;
   /// The subjects with the look physical; every look on the first subject, and its difference from
-  /// physical; the truth plate dry, path-traced and by the best look, and differences from truth.
-  std::vector<Figure> subject_figures, look_figures, look_errors, truth_figures, truth_errors;
+  /// physical; the truth plate dry, path-traced and by the best look, and differences from truth;
+  /// the scenes traced, and the difference of physical from that.
+  std::vector<Figure> subject_figures, look_figures, look_errors, truth_figures, truth_errors,
+      model_figures, model_errors;
 };
 
 /// Measures. Throws Error for a folder that lacks what is to be measured, and for options that mean
