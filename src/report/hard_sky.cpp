@@ -47,6 +47,8 @@ std::vector<Fog> fogs() {
     add({.model = DepthFog::Model::kLinear, .density = 0, .alpha = 0.9}, 1);
     add({.model = DepthFog::Model::kLinear, .density = 1e-6, .alpha = 0.75}, 0.25);
     add({.model = DepthFog::Model::kLinear, .density = 0, .offset = 1e6, .alpha = 1}, 1);
+    // 0 x inf, were it a NaN, would be clamped to none of the fog that the offset makes.
+    add({.model = DepthFog::Model::kLinear, .density = 0, .offset = -1, .alpha = 0.75}, 0.25);
     add({.absorption = none, .scattering = none}, 1);
     add({.absorption = {1e-6, 1e-6, 1e-6}, .scattering = none}, 0);
     add({.absorption = none, .scattering = {1e-6, 1e-6, 1e-6}}, 0);
