@@ -173,8 +173,8 @@ void WaterFrame::read(const WaterJob& job, Executor& executor) {
   plate_ = {};  // before another is made
   plate_ = render_plate(model, scene_, options, report_.plan.planes, executor);
   report_.replaced = sanitise_planes(plate_.planes, scene_.water->up);
-  wave_map_ = textures_->wave_map(report_.plan);
-  environment_ = textures_->environment(report_.plan, job.render.scene);
+  wave_map_ = textures_->wave_map(report_.plan, job.render.limits);
+  environment_ = textures_->environment(report_.plan, job.render.scene, job.render.limits);
   plate_.frame.wave_map = texture_of(wave_map_);
   plate_.frame.environment = texture_of(environment_);
   report_.size = job.render.render.size;

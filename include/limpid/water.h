@@ -1,5 +1,6 @@
 #pragma once
 #include "limpid/composite.h"
+#include "limpid/load/limits.h"
 #include "limpid/raster/model.h"
 #include "limpid/raster/render_plate.h"
 
@@ -10,6 +11,7 @@ struct RenderJob {
   SceneFile scene;  ///< camera and sun come from the model where it has none
   RenderOptions render;
   double time = 0;  ///< seconds, for the waves
+  Limits limits;    ///< of the files of wave map and environment
 };
 
 /// `limpid render`: all buffers of the model as one plate with our own layer names (color, depth,

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -41,6 +42,8 @@ int guarded(char* error, Work work) {
   try {
     work();
     return 0;
+  } catch (const std::bad_alloc&) {
+    std::strncpy(error, "needs more memory than there is", kErrorSize - 1);
   } catch (const std::exception& e) {
     std::strncpy(error, e.what(), kErrorSize - 1);
   } catch (...) {

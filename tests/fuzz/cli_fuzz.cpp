@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "harness.h"
+#include "memory_limit.h"
 
 namespace limpid::fuzz {
 namespace {
@@ -62,6 +63,10 @@ void cli(Bytes bytes) {
   }
   const tool::Arguments& a = parsed.arguments;
   expect(a.verb != tool::Verb::kNone, "there is a verb to run, or an exit code");
+  accepts([&] {
+    expect(tool::memory_named(a.common.max_memory.value_or("")) >= 64 << 20,
+           "memory is 64M at least");
+  });
   number_frames(a.composite.frames, a.composite.water);
   number_frames(a.render.frames, a.render.water);
 }

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -54,12 +55,13 @@ Ran run(const fs::path& folder, const Words& command) {
   const int failed = ::posix_spawn(&child, words[0], &actions, nullptr, words.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   int status = 0;
-  if (failed != 0 || ::waitpid(child, &status, 0) != child) {
+  rusage usage{};
+  if (failed != 0 || ::wait4(child, &status, 0, &usage) != child) {
     ADD_FAILURE() << command[0] << " does not start";
     return {};
   }
   Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_whole(logs / "out"),
-          read_whole(logs / "err")};
+          read_whole(logs / "err"), 1024LL * usage.ru_maxrss};
   fs::remove_all(logs);
   return ran;
 }

@@ -15,6 +15,7 @@ using Words = std::vector<std::string>;
 struct Ran {
   int code = 0;  ///< exit code, or minus the signal that ended it
   std::string out, err;
+  long long memory = 0;  ///< bytes resident at once, at most
 };
 
 /// What a command printed says it all when a test fails.

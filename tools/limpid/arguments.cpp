@@ -265,6 +265,10 @@ Parsed parse(int argc, char** argv) {
   app.add_option("--threads", a.common.threads, "Threads; 0, the default, is one a core")
       ->option_text("N")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--max-memory", a.common.max_memory,
+                 "Most memory to take, from 64M up; a job or file that needs more is refused "
+                 "(default: 8G a file)")
+      ->option_text("SIZE");
   app.add_flag("-q", a.common.quiet, "Print nothing but errors");
   app.add_flag("-v", a.common.verbose, "Print the plan and where buffers came from");
   app.footer("Exit codes: 0 done, 1 failed, 2 wrong usage, 75 failed in a way worth trying again.");

@@ -10,6 +10,7 @@ namespace limpid::tool {
 
 struct CommonArguments {
   int threads = 0;
+  std::optional<std::string> max_memory;
   bool quiet = false, verbose = false;
 };
 

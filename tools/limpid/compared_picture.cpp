@@ -29,7 +29,8 @@ const Plane* ComparedPicture::find(const std::string& name) const {
   return at == names.end() ? nullptr : &planes[static_cast<std::size_t>(at - names.begin())];
 }
 
-ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted) {
+ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted,
+                             const Limits& limits) {
   const auto is_wanted = [&](const std::string& name) {
     return wanted.empty() || among(name, wanted);
   };
@@ -37,7 +38,7 @@ ComparedPicture read_picture(const std::string& path, const std::vector<std::str
   picture.path = path;
   std::vector<std::string> known;
   if (is_exr(path)) {
-    const ExrFile file = ExrFile::open(path);
+    const ExrFile file = ExrFile::open(path, limits);
     const ExrPart& part = file.parts().front();
     picture.display = part.display.size();
     std::vector<ExrRequest> requests;
@@ -50,7 +51,7 @@ ComparedPicture read_picture(const std::string& path, const std::vector<std::str
     }
     file.read(requests);
   } else {
-    ImageFile image = read_image(path);
+    ImageFile image = read_image(path, limits);
     picture.display = image.window.size();
     known = image.channels;
     for (std::size_t i = 0; i < image.channels.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "limpid/load/limits.h"
 #include "limpid/report/color_pair.h"
 #include "limpid/report/compare.h"
 
@@ -23,7 +24,8 @@ struct ComparedPicture {
 
 /// All channels of the first part of an EXR, or of another format, that `wanted` names; all when it
 /// is empty. Throws Error for those that are not there.
-ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted);
+ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted,
+                             const Limits& limits);
 
 /// Whether the file is an EXR with such a channel in its first part.
 bool has_channel(const std::string& path, const std::string& name);

@@ -1,10 +1,12 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "limpid/core/error.h"
 
+#include "memory_limit.h"
 #include "notes.h"
 #include "signals.h"
 #include "streams.h"
@@ -30,6 +32,7 @@ void print_error(const std::string& sentence) {
 
 int run(const limpid::tool::Arguments& a) {
   using limpid::tool::Verb;
+  limit_process(a.common);
   switch (a.verb) {
     case Verb::kComposite:
       return composite_verb(a.composite, a.common);
@@ -42,11 +45,11 @@ int run(const limpid::tool::Arguments& a) {
     case Verb::kTruth:
       return truth_verb(a.truth, a.common);
     case Verb::kInspect:
-      return inspect_verb(a.inspect);
+      return inspect_verb(a.inspect, a.common);
     case Verb::kOperators:
       return operators_verb(a.operators);
     case Verb::kCompare:
-      return compare_verb(a.compare);
+      return compare_verb(a.compare, a.common);
     case Verb::kReport:
       return report_verb(a.report, a.common);
     case Verb::kNone:
@@ -72,8 +75,9 @@ int main(int argc, char** argv) {
     print_error(error.what());
     return exit_code_of(error.fault());
   } catch (const std::bad_alloc&) {
-    print_error("out of memory");
-    return 75;
+    const std::optional<std::string>& most = parsed.arguments.common.max_memory;
+    print_error(most ? "needs more memory than --max-memory " + *most : "out of memory");
+    return most ? 1 : 75;
   } catch (const std::exception& error) {
     print_error(error.what());
     return 1;

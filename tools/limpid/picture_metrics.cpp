@@ -38,8 +38,9 @@ std::string lack(const std::string& a, const std::string& b) {
   return of_a != "" ? of_a : lack(b, kOfTruth, "a ray-traced truth with its lookups");
 }
 
-OffsetComparison measure_offset(const std::string& a, const std::string& b) {
-  const ComparedPicture chain = read_picture(a, kOfChain), truth = read_picture(b, kOfTruth);
+OffsetComparison measure_offset(const std::string& a, const std::string& b, const Limits& limits) {
+  const ComparedPicture chain = read_picture(a, kOfChain, limits),
+                        truth = read_picture(b, kOfTruth, limits);
   if (chain.display != truth.display) {
     throw Error(a + " and " + b +
                 " are not of the same display window: their lookups cannot be "
@@ -92,12 +93,12 @@ WantedMetrics wanted_metrics(const CompareArguments& arguments) {
 }
 
 PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
-                       const ComparedPicture& b) {
+                       const ComparedPicture& b, const Limits& limits) {
   PictureMetrics metrics;
   if (wanted.offset) {
     metrics.no_offset = lack(a.path, b.path);
     if (metrics.no_offset.empty()) {
-      metrics.offset = measure_offset(a.path, b.path);
+      metrics.offset = measure_offset(a.path, b.path, limits);
     } else if (!wanted.all) {
       throw Error(metrics.no_offset);
     }

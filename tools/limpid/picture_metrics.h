@@ -39,7 +39,7 @@ struct PictureMetrics {
 
 /// Throws Error for pictures that lack what a metric needs.
 PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
-                       const ComparedPicture& b);
+                       const ComparedPicture& b, const Limits& limits);
 
 /// A line or more a metric, "" for none.
 std::string to_text(const PictureMetrics& metrics, const WantedMetrics& wanted);

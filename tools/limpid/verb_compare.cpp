@@ -10,6 +10,7 @@
 #include "limpid/report/temporal.h"
 
 #include "compared_picture.h"
+#include "memory_limit.h"
 #include "picture_metrics.h"
 #include "verbs.h"
 
@@ -41,13 +42,13 @@ struct Pair {
 };
 
 /// Reads, compares, and writes the maps.
-Pair compare_pair(const CompareArguments& a, const WantedMetrics& wanted) {
+Pair compare_pair(const CompareArguments& a, const WantedMetrics& wanted, const Limits& limits) {
   Pair pair;
-  pair.a = read_picture(a.a, a.channels);
-  pair.b = read_picture(a.b, a.channels);
+  pair.a = read_picture(a.a, a.channels, limits);
+  pair.b = read_picture(a.b, a.channels, limits);
   pair.channels = channels_of(pair.a, pair.b);
   pair.result = compare(pair.channels, options_of(a));
-  pair.metrics = measure(wanted, pair.a, pair.b);
+  pair.metrics = measure(wanted, pair.a, pair.b, limits);
   if (!a.diff.empty()) {
     const double brightest = pair.result.overall.max > 0 ? pair.result.overall.max : 1;
     write_heat_map(a.diff, pair.channels, {.maximum = brightest, .decades = 6});
@@ -112,13 +113,13 @@ std::string line_of(const std::string& first, const std::vector<std::string>& ce
   return line;
 }
 
-int compare_frames(const CompareArguments& a, WantedMetrics wanted) {
+int compare_frames(const CompareArguments& a, WantedMetrics wanted, const Limits& limits) {
   const std::vector<int> frames = frames_to_compare(a);
   std::optional<Pair> before;
   double flicker_sum = 0, flicker_max = 0;
   std::vector<std::string> failed;
   for (const int frame : frames) {
-    Pair pair = compare_pair(arguments_of_frame(a, frame), wanted);
+    Pair pair = compare_pair(arguments_of_frame(a, frame), wanted, limits);
     std::optional<Flicker> change;
     if (before) {
       change = flicker(before->channels, pair.channels, a.clip);
@@ -151,10 +152,11 @@ int compare_frames(const CompareArguments& a, WantedMetrics wanted) {
 
 }  // namespace
 
-int compare_verb(const CompareArguments& a) {
+int compare_verb(const CompareArguments& a, const CommonArguments& common) {
+  const Limits limits = limits_of(common);
   const WantedMetrics wanted = wanted_metrics(a);
-  if (!a.frames.empty()) return compare_frames(a, wanted);
-  const Pair pair = compare_pair(a, wanted);
+  if (!a.frames.empty()) return compare_frames(a, wanted, limits);
+  const Pair pair = compare_pair(a, wanted, limits);
   print(numbers_text(pair.result) + to_text(pair.metrics, wanted) + verdict(pair.passes()));
   for (const std::string& map : {a.diff, a.flip_map}) {
     if (!map.empty()) print(map + "\n");

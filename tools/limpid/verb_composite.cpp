@@ -8,6 +8,7 @@
 #include "limpid/sequence.h"
 
 #include "frame_options.h"
+#include "memory_limit.h"
 #include "notes.h"
 #include "verbs.h"
 #include "water_options.h"
@@ -30,8 +31,10 @@ LayerOverrides layer_overrides(const std::vector<std::string>& texts) {
 }
 
 /// What the jobs of all frames have in common.
-CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence) {
+CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
+                        const CommonArguments& common) {
   CompositeJob job;
+  job.plate.limits = limits_of(common);
   const bool alone = sequence.frames.empty();
   if (!a.scene.empty()) {
     job.scene = load_scene(alone ? a.scene : name_of_frame(a.scene, sequence.frames.front()));
@@ -65,8 +68,9 @@ CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int fra
 }
 
 /// The only job, or the first frame's.
-CompositeJob first_job(const CompositeArguments& a, const Sequence& sequence) {
-  CompositeJob job = common_job(a, sequence);
+CompositeJob first_job(const CompositeArguments& a, const Sequence& sequence,
+                       const CommonArguments& common) {
+  CompositeJob job = common_job(a, sequence, common);
   if (sequence.frames.empty()) return job;
   return job_of_frame(std::move(job), a, sequence.frames.front());
 }
@@ -81,7 +85,7 @@ void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds) {
 int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   Sequence sequence = sequence_of(a.frames, a.water);
-  const CompositeJob job = common_job(a, sequence);
+  const CompositeJob job = common_job(a, sequence, common);
   const auto executor = executor_of(common);
   if (sequence.frames.empty()) {
     if (common.verbose) std::printf("%s", Plate::inspect(job.plate).c_str());
@@ -110,7 +114,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
 }
 
 int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
-  const CompositeJob job = first_job(a, sequence_of(a.frames, a.water));
+  const CompositeJob job = first_job(a, sequence_of(a.frames, a.water), common);
   const auto executor = executor_of(common);
   if (!a.measure) {
     print_plan(survey_composite(job, *executor), {});
@@ -123,8 +127,9 @@ int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
   return 0;
 }
 
-int inspect_verb(const InspectArguments& a) {
+int inspect_verb(const InspectArguments& a, const CommonArguments& common) {
   PlateRequest request;
+  request.limits = limits_of(common);
   request.files.assign(a.plates.begin(), a.plates.end());
   request.layers = layer_overrides(a.layers);
   if (!a.scene.empty()) request.named = load_scene(a.scene).plates;

@@ -4,6 +4,7 @@
 #include "limpid/water.h"
 
 #include "frame_options.h"
+#include "memory_limit.h"
 #include "notes.h"
 #include "verbs.h"
 #include "water_options.h"
@@ -11,11 +12,12 @@
 namespace limpid::tool {
 namespace {
 
-RenderJob job_of(const RenderArguments& a) {
+RenderJob job_of(const RenderArguments& a, const CommonArguments& common) {
   RenderJob job;
   job.scene = scene_to_render(a.scene);
   job.render = {size_named(a.size), a.overscan, a.shadow_map, a.water.simd};
   job.time = a.water.time.value_or(0);
+  job.limits = limits_of(common);
   return job;
 }
 
@@ -25,7 +27,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   Sequence sequence = sequence_of(a.frames, a.water);
   const OutputChoice choice = output_of(a.water);
-  const PlateJob job{job_of(a), {choice.picture, choice.compression, choice.store_float}};
+  const PlateJob job{job_of(a, common), {choice.picture, choice.compression, choice.store_float}};
   const auto executor = executor_of(common);
   const Model model = model_to_render(job.render.scene, common);
   if (sequence.frames.empty()) {
@@ -55,7 +57,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
-  const WaterJob job{job_of(a), look_of(a.water), a.samples, output_of(a.water)};
+  const WaterJob job{job_of(a, common), look_of(a.water), a.samples, output_of(a.water)};
   const auto executor = executor_of(common);
   const Model model = model_to_render(job.render.scene, common);
   const auto job_of_frame = [&](int frame) {

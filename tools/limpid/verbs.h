@@ -11,9 +11,9 @@ int render_verb(const RenderArguments& arguments, const CommonArguments& common)
 int water_verb(const RenderArguments& arguments, const CommonArguments& common);
 int truth_verb(const TruthArguments& arguments, const CommonArguments& common);
 int plan_verb(const CompositeArguments& arguments, const CommonArguments& common);
-int inspect_verb(const InspectArguments& arguments);
+int inspect_verb(const InspectArguments& arguments, const CommonArguments& common);
 int operators_verb(const OperatorsArguments& arguments);
-int compare_verb(const CompareArguments& arguments);
+int compare_verb(const CompareArguments& arguments, const CommonArguments& common);
 int report_verb(const ReportArguments& arguments, const CommonArguments& common);
 
 }  // namespace limpid::tool

@@ -16,6 +16,7 @@
 
 #include "data_folder.h"
 #include "frame_options.h"
+#include "memory_limit.h"
 
 namespace limpid::tool {
 namespace {
@@ -110,7 +111,7 @@ SceneFile scene_to_render(const std::string& path) {
 }
 
 Model model_to_render(const SceneFile& scene, const CommonArguments& common) {
-  Model model = load_gltf(scene.geometry);
+  Model model = load_gltf(scene.geometry, limits_of(common));
   if (model.skipped_triangles > 0 && !common.quiet) {
     std::printf("%s: %lld triangles of no area left out\n", scene.geometry.c_str(),
                 static_cast<long long>(model.skipped_triangles));
