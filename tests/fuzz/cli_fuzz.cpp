@@ -5,9 +5,9 @@
 
 #include "limpid/load/frame_range.h"
 
-#include "arguments.h"
-#include "harness.h"
-#include "memory_limit.h"
+#include "../../tools/limpid/arguments.h"
+#include "../../tools/limpid/memory_limit.h"
+#include "fuzz/harness.h"
 
 namespace limpid::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness.h"
+#include "fuzz/harness.h"
 
 /// Every file that a harness was started with or stumbled over, once more.
 

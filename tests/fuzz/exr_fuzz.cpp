@@ -1,6 +1,6 @@
-#include "harness.h"
-#include "memory_file.h"
-#include "read_exr.h"
+#include "fuzz/harness.h"
+#include "fuzz/memory_file.h"
+#include "fuzz/read_exr.h"
 
 namespace limpid::fuzz {
 namespace {

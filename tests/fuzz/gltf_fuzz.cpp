@@ -1,6 +1,6 @@
 #include <string_view>
 
-#include "harness.h"
+#include "fuzz/harness.h"
 #include "load/gltf_model.h"
 
 namespace limpid::fuzz {

@@ -2,7 +2,7 @@
 
 #include "limpid/load/look_file.h"
 
-#include "harness.h"
+#include "fuzz/harness.h"
 
 namespace limpid::fuzz {
 

@@ -1,4 +1,4 @@
-#include "memory_file.h"
+#include "fuzz/memory_file.h"
 
 #include <cerrno>
 #include <system_error>

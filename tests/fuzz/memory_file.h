@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "harness.h"
+#include "fuzz/harness.h"
 
 namespace limpid::fuzz {
 

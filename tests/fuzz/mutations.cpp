@@ -1,4 +1,4 @@
-#include "mutations.h"
+#include "fuzz/mutations.h"
 
 #include <algorithm>
 #include <iterator>

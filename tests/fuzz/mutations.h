@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "harness.h"
+#include "fuzz/harness.h"
 
 namespace limpid::fuzz {
 

@@ -1,4 +1,4 @@
-#include "mutations.h"
+#include "fuzz/mutations.h"
 
 #include <algorithm>
 #include <csignal>
@@ -10,9 +10,9 @@
 
 #include <gmock/gmock.h>
 
-#include "memory_file.h"
-#include "probe.h"
-#include "read_exr.h"
+#include "fuzz/memory_file.h"
+#include "fuzz/probe.h"
+#include "fuzz/read_exr.h"
 
 namespace limpid::fuzz {
 namespace {

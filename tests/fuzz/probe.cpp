@@ -1,4 +1,4 @@
-#include "probe.h"
+#include "fuzz/probe.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "read_exr.h"
+#include "fuzz/read_exr.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,7 +9,7 @@
 #include "limpid/load/exr_camera.h"
 #include "limpid/load/inspect.h"
 
-#include "harness.h"
+#include "fuzz/harness.h"
 
 namespace limpid::fuzz {
 namespace {

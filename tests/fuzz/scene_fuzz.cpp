@@ -1,6 +1,6 @@
 #include "limpid/load/scene_file.h"
 
-#include "harness.h"
+#include "fuzz/harness.h"
 
 namespace limpid::fuzz {
 

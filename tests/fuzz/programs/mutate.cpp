@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "memory_file.h"
-#include "mutations.h"
-#include "probe.h"
-#include "read_exr.h"
+#include "fuzz/memory_file.h"
+#include "fuzz/mutations.h"
+#include "fuzz/probe.h"
+#include "fuzz/read_exr.h"
 
 namespace {
 
