@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
-#include "limpid/optics/crossing.h"
-#include "limpid/optics/fresnel.h"
+#include "ops/water_light.h"
 
 namespace limpid {
 namespace {
@@ -181,35 +179,15 @@ double DepthFog::brightest_phase(const P& params, const Context& c, const Medium
 }
 
 DepthFog::Medium DepthFog::medium_of(const Params& params, const Context& c) {
-  // A sun on the horizon gives the water no light, and would divide by 0.
-  const double cosine = glm::dot(c.sun.direction, c.up);
-  const bool day = c.has_sun && cosine > 1e-6;
-  const double f_sun = day ? fresnel_exact(cosine, c.ior) : kDiffuseAirToWater;
-
-  const bool custom = params.water_type == WaterType::kCustom;
-  const Rgb<double> falling =
-      custom || params.water_type == WaterType::kPure
-          ? absorption_of(params) + (1 - params.anisotropy) * params.scattering
-          : water_optics(params.water_type).down_attenuation;
-
+  const WaterLight light = water_light(params, c, c.ior);
   Medium m{};
   m.rate = extinction(params);
+  m.down = light.down;
   m.ambient = params.scattering * params.ambient;
-  m.to_sun = c.sun.direction;
-  if (day) {
-    const Rgb<double> facing = std::numbers::pi * params.scattering * c.sun.color;
-    m.sun = facing;
-    if (params.sunlight == Sunlight::kStraight) m.down = (1 / cosine) * falling;
-    if (params.sunlight == Sunlight::kRefracted) {
-      const double inside = refracted_cosine(cosine, 1 / c.ior);
-      m.to_sun = (c.sun.direction - cosine * c.up) / c.ior + inside * c.up;
-      m.down = (1 / inside) * falling;
-      m.sun = ((1 - f_sun) * cosine / inside) * facing;
-    }
-  }
-  const bool crosses = params.crossing == Crossing::kRadiance;
-  m.bottom = crosses ? radiance_crossing(c.ior, f_sun) : 1;
-  m.water = crosses ? radiance_crossing(c.ior, 0.0) : 1;
+  m.sun = light.sun;
+  m.to_sun = light.to_sun;
+  m.bottom = light.bottom;
+  m.water = light.water;
   m.glows = m.ambient != kBlack;
   m.sunlit = m.sun != kBlack;
   return m;

@@ -31,7 +31,7 @@ Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
       environment_(options.environment),
       background_(model.background),
       sun_(in_the_air(scene)),
-      medium_(scene, look),
+      medium_(context, look),
       solid_(model, context.eye),
       surface_(model, scene, look, options.wave_map, context) {}
 
@@ -108,8 +108,8 @@ Tracer::Leg Tracer::through_water(const Beam& beam, const Band& band, View view)
         dry ? bottom_light(*dry, beam, band) : background(beam.ray.direction, view);
     const double depth =
         dry ? depth_of(dry->hit.point) : std::max(0.0, depth_of(beam.ray.at(length)));
-    const double leaves = view.from_air ? band.bottom : 1;
-    leg.through = leaves * (transmittance(depth, band.down) * (leg.transmittance * end));
+    const double leaves = view.from_air ? band.light.bottom : 1;
+    leg.through = leaves * (transmittance(depth, band.light.down) * (leg.transmittance * end));
     return leg;
   }
   ++view.events;
@@ -132,54 +132,84 @@ Rgb<double> Tracer::scattered(const Ray& ray, double length, const Band& band,
   const Rgb<double> everywhere =
       medium_.ambient * Rgb<double>{column_light(rate.r, length), column_light(rate.g, length),
                                     column_light(rate.b, length)};
-  if (!medium_.sunlit) return everywhere;
-  const double sinks = -glm::dot(ray.direction, context_.up);
-  const double begin = depth_of(ray.origin);
-  const Way<double> way{length, sinks, begin, std::max(begin + sinks * length, 0.0)};
-  const auto sunlit = [&](double own_rate, double down, double own) {
-    if (own == 0) return 0.0;
-    const double light = sun_column(way, own_rate, down).light;
-    return light > 0 ? light * sunlit_share(ray, length, own_rate + down * sinks, band, view) : 0.0;
-  };
+  if (band.light.sun == kBlack) return everywhere;
   // What other bands see of this way is not computed.
-  const Rgb<double> column{sunlit(rate.r, band.down.r, band.mask.r),
-                           sunlit(rate.g, band.down.g, band.mask.g),
-                           sunlit(rate.b, band.down.b, band.mask.b)};
-  const double turned = henyey_greenstein(glm::dot(band.to_sun, ray.direction), medium_.anisotropy);
-  const double leaves = view.from_air ? band.water : 1;
-  return everywhere + (leaves * turned) * (band.sun * column);
+  const auto sunlit = [&](double own_rate, double down, double own) {
+    return own == 0 ? 0.0 : sunlit_column(ray, length, own_rate, down, band, view);
+  };
+  const Rgb<double>& down = band.light.down;
+  const Rgb<double> column{sunlit(rate.r, down.r, band.mask.r), sunlit(rate.g, down.g, band.mask.g),
+                           sunlit(rate.b, down.b, band.mask.b)};
+  const double turned =
+      henyey_greenstein(glm::dot(band.light.to_sun, ray.direction), medium_.anisotropy);
+  const double leaves = view.from_air ? band.light.water : 1;
+  return everywhere + (leaves * turned) * (band.light.sun * column);
+}
+
+/// sun_column() of a way of which a part may lie under a crest, above the calm plane, where the sun
+/// has lost nothing, times the share of it that the sun reaches.
+double Tracer::sunlit_column(const Ray& ray, double length, double rate, double down,
+                             const Band& band, const View& view) const {
+  const double sinks = -glm::dot(ray.direction, context_.up);
+  const double begin = under_calm(ray.origin), end = begin + sinks * length;
+  const double crossing = begin * end < 0 ? -begin / sinks : length;
+  struct Part {
+    double from, length, begin, end, light;
+  };
+  Part parts[] = {{0, crossing, begin, begin + sinks * crossing, 0},
+                  {crossing, length - crossing, 0, end, 0}};
+  double whole = 0;
+  for (Part& p : parts) {
+    if (!(p.length > 0)) continue;
+    const bool above = p.begin + p.end < 0;
+    const Way<double> way{p.length, sinks, std::max(p.begin, 0.0), std::max(p.end, 0.0)};
+    p.light = std::exp(-rate * p.from) * sun_column(way, rate, above ? 0 : down).light;
+    whole += p.light;
+  }
+  double reached = 0;
+  for (const Part& p : parts) {
+    if (!(p.light > 0)) continue;
+    const bool above = p.begin + p.end < 0;
+    const int steps = std::max(1, static_cast<int>(std::lround(view.steps * p.light / whole)));
+    const Ray part{ray.at(p.from), ray.direction};
+    reached += p.light *
+               sunlit_share(part, p.length, above ? rate : rate + down * sinks, steps, band, view);
+  }
+  return reached;
 }
 
 /// Mean of the sun's visibility along the way, each place weighed by the light that it would send:
 /// exp(-loss s). Places are drawn by that weight, one in each of `steps` parts of equal light.
-double Tracer::sunlit_share(const Ray& ray, double length, double loss, const Band& band,
+double Tracer::sunlit_share(const Ray& ray, double length, double loss, int steps, const Band& band,
                             const View& view) const {
   const double size = std::abs(loss), whole = size * std::min(length, kEndless);
   int reached = 0;
-  for (int i = 0; i < view.steps; ++i) {
-    const double part = (i + view.samples.next()) / view.steps;
+  for (int i = 0; i < steps; ++i) {
+    const double part = (i + view.samples.next()) / steps;
     double s = part * length;
     if (whole > 1e-6) s = -std::log1p(part * std::expm1(-whole)) / size;
     if (loss < 0) s = length - s;
     reached += sun_reaches(ray.at(s), band);
   }
-  return static_cast<double>(reached) / view.steps;
+  return static_cast<double>(reached) / steps;
 }
 
 bool Tracer::sun_reaches(const glm::dvec3& point, const Band& band) const {
   const double depth = depth_of(point);
-  Ray up{point, band.to_sun};
+  Ray up{point, band.light.to_sun};
   if (!medium_.bends_sun || depth <= 0) {
     up.direction = sun_.to_sun;
     return !solid_.blocks(up);
   }
-  up.to = depth / glm::dot(band.to_sun, context_.up);
+  up.to = depth / glm::dot(band.light.to_sun, context_.up);
   return !solid_.blocks(up) && !solid_.blocks({up.at(up.to), sun_.to_sun});
 }
 
-double Tracer::depth_of(const glm::dvec3& point) const {
-  return std::max(0.0, -context_.eye_above - glm::dot(context_.up, point));
+double Tracer::under_calm(const glm::dvec3& point) const {
+  return -context_.eye_above - glm::dot(context_.up, point);
 }
+
+double Tracer::depth_of(const glm::dvec3& point) const { return std::max(0.0, under_calm(point)); }
 
 Rgb<double> Tracer::dry_light(const SolidPoint& point, const Beam& beam) const {
   return solid_.color(point, beam, sun_, [&] {
@@ -190,9 +220,11 @@ Rgb<double> Tracer::dry_light(const SolidPoint& point, const Beam& beam) const {
 Rgb<double> Tracer::bottom_light(const SolidPoint& point, const Beam& beam,
                                  const Band& band) const {
   if (!medium_.bends_sun || depth_of(point.hit.point) <= 0) return dry_light(point, beam);
-  const Sunlight sun{band.to_sun, band.spread, sun_.color};
+  // Of a sun that is reflected whole there is nothing.
+  const Sunlight sun{band.light.to_sun, band.light.spread,
+                     band.light.spread > 0 ? sun_.color : kBlack};
   return solid_.color(point, beam, sun, [&] {
-    return sun_reaches(point.off_towards(band.to_sun), band) ? 1.0 : 0.0;
+    return sun_reaches(point.off_towards(band.light.to_sun), band) ? 1.0 : 0.0;
   });
 }
 

@@ -54,7 +54,9 @@ class Tracer {
   Light from_water(const Beam& beam, View view) const;
   Leg through_water(const Beam& beam, const Band& band, View view) const;
   Rgb<double> scattered(const Ray& ray, double length, const Band& band, const View& view) const;
-  double sunlit_share(const Ray& ray, double length, double loss, const Band& band,
+  double sunlit_column(const Ray& ray, double length, double rate, double down, const Band& band,
+                       const View& view) const;
+  double sunlit_share(const Ray& ray, double length, double loss, int steps, const Band& band,
                       const View& view) const;
 
   Rgb<double> dry_light(const SolidPoint& point, const Beam& beam) const;
@@ -63,6 +65,8 @@ class Tracer {
   Rgb<double> highlight(const SurfacePoint& at, const glm::dvec3& to_viewer) const;
   /// Whether the sun reaches a point in the water, or of the bottom, that this band sees.
   bool sun_reaches(const glm::dvec3& point, const Band& band) const;
+  /// How far below the calm plane, and the same but never less than 0.
+  double under_calm(const glm::dvec3& point) const;
   double depth_of(const glm::dvec3& point) const;
 
   const Context& context_;

@@ -41,8 +41,7 @@ TEST(FlatWater, LooksThreeQuartersAsDeepFromStraightAbove) {
                tangent = view_through(scene, 17, 12).x / -view_through(scene, 17, 12).y;
   const double half_width = 1 / scene.camera->projection[0][0];
   const double to_floor = (2 * u - 1) * half_width * 3;  // from the middle, 2 + 1 below the eye
-  EXPECT_NEAR(to_floor / tangent - 2, 1 / kTraceIor, 5e-4);
-  EXPECT_NEAR(1 / kTraceIor, 0.750, 5e-4);
+  EXPECT_NEAR(to_floor / tangent - 2, 0.750, 5e-4);
   EXPECT_NEAR(value(p, Aov::kPath, 16, 12), 1, 1e-6);
   EXPECT_NEAR(value(p, Aov::kFresnel, 16, 12), 0.0204, 5e-5);
 }
@@ -215,6 +214,103 @@ TEST(FlatWater, MirrorsTheEnvironmentThatTheLookAsksFor) {
     const double turns = std::acos(-d.y) / kPi, f = value(p, Aov::kFresnel, x, y);
     EXPECT_NEAR(value(p, Aov::kReflected, x, y, 0), f * (1 - turns), 1e-6);
     EXPECT_NEAR(value(p, Aov::kReflected, x, y, 2), f * (3 - turns), 1e-6);
+  });
+}
+
+/// Murky water, no glow but the sun's, that goes straight down from wherever it is under the calm
+/// plane.
+Look murky_look(const Rgb<double>& rate) {
+  Look look = calm_look();
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.water_type = WaterType::kCustom;
+  fog.absorption = 0.5 * rate;
+  fog.scattering = 0.5 * rate;
+  fog.ambient = {0, 0, 0};
+  fog.anisotropy = 0;
+  fog.sunlight = DepthFog::Sunlight::kStraight;
+  fog.crossing = DepthFog::Crossing::kNone;
+  return look;
+}
+
+/// Under a crest the sun has lost nothing before it comes as deep as the calm plane. Seen from
+/// above, and from the water, on ways that go down, and on ways that rise into the crest.
+TEST(FlatWater, LosesNoSunlightAboveTheCalmPlane) {
+  constexpr double kCrest = 0.5, kDepth = 1.5;
+  const Rgb<double> rate{0.8, 0.4, 0.2};
+  Model model = model_of({level(-kDepth), level(kCrest)});
+  model.instances[1].water = true;
+  for (const double degrees : {60.0, -40.0}) {
+    Scene scene = over_water(degrees);
+    scene.sun->direction = {0, 1, 0};
+    const double eye = degrees < 0 ? -1 : 2;
+    scene.camera->view = glm::translate(scene.camera->view, glm::dvec3(0, 2 - eye, 0));
+    const TruthPicture p = traced(model, scene, murky_look(rate));
+    int seen = 0;
+    for_each_pixel(kTraceSize, [&](int x, int y) {
+      const glm::dvec3 d = view_through(scene, x, y);
+      if (d.y * degrees > -0.2 * std::abs(degrees)) return;
+      ++seen;
+      const double n = kTraceIor, f = eye > 0 ? reflectance(-d.y, n) : 0;
+      const double slope = eye > 0 ? std::sqrt(1 - (1 - d.y * d.y) / (n * n)) : d.y;
+      for (int c = 0; c < 3; ++c) {
+        const double r = channel(rate, c);
+        double way = 0;  // without loss, of as much light
+        if (eye > 0) {
+          const double above = kCrest / slope, below = kDepth / slope, total = r + r * slope;
+          way = (1 - std::exp(-r * above)) / r +
+                std::exp(-r * above) * (1 - std::exp(-total * below)) / total;
+        } else {
+          // Sunlight at depth 1 - slope s: e^-r of it is left at the eye.
+          const double below = 1 / slope, above = kCrest / slope, total = r - r * slope;
+          way = std::exp(-r) * (1 - std::exp(-total * below)) / total +
+                std::exp(-r * below) * (1 - std::exp(-r * above)) / r;
+        }
+        const double sun = kPi * channel(scene.sun->color, c) * 0.5 * r / (4 * kPi);
+        EXPECT_NEAR(value(p, Aov::kInScatter, x, y, c), (1 - f) * sun * way, 1e-6);
+      }
+    });
+    EXPECT_GT(seen, 300) << degrees;
+  }
+}
+
+/// Index 1 and a gain that makes red's 0.6: of a low sun no red gets in, and of a low view none
+/// comes out.
+TEST(FlatWater, LetsNoLightInBeyondTheCriticalAngleOfABand) {
+  Look look = murky_look({0.5, 0.5, 0.5});
+  look.water.ior = 1;
+  look.of<PrismSplit>().gain = 100;
+  look.of<DepthFog>().sunlight = DepthFog::Sunlight::kRefracted;
+  for (const auto crossing : {DepthFog::Crossing::kNone, DepthFog::Crossing::kRadiance}) {
+    look.of<DepthFog>().crossing = crossing;
+    for (const double degrees : {80.0, 15.0}) {
+      Scene scene = over_water(degrees);
+      scene.sun->direction = glm::normalize(glm::dvec3(0.3, 0.1, -0.9));
+      const TruthPicture p = traced(model_of({level(-1)}, lambert({0.5, 0.5, 0.5})), scene, look);
+      int green = 0;
+      for_each_pixel(kTraceSize, [&](int x, int y) {
+        for (const Plane& plane : p.planes) EXPECT_FALSE(std::isnan(plane.view().at(x, y)));
+        if (view_through(scene, x, y).y > -0.05) return;
+        EXPECT_EQ(value(p, Aov::kInScatter, x, y, 0), 0);
+        EXPECT_LT(value(p, Aov::kTransmitted, x, y, 0), 1e-6);
+        green += value(p, Aov::kInScatter, x, y, 1) > 0 && value(p, Aov::kTransmitted, x, y, 1) > 0;
+      });
+      EXPECT_GT(green, 300) << degrees;
+    }
+  }
+}
+
+/// As to the chain: what a sun gives that only just stands over the horizon is none, not all there
+/// is over nothing.
+TEST(FlatWater, ASunOnTheHorizonCountsAsNone) {
+  Scene scene = over_water(40);
+  scene.sun->direction = glm::normalize(glm::dvec3(0, 5e-7, -1));
+  const Look look = murky_look({0.5, 0.5, 0.5});
+  const TruthPicture p = traced(model_of({level(-1)}, lambert({0.5, 0.5, 0.5})), scene, look);
+  scene.sun.reset();
+  const TruthPicture night = traced(model_of({level(-1)}, lambert({0.5, 0.5, 0.5})), scene, look);
+  for_each_pixel(kTraceSize, [&](int x, int y) {
+    EXPECT_EQ(value(p, Aov::kInScatter, x, y), 0);
+    EXPECT_NEAR(value(p, Aov::kTransmitted, x, y), value(night, Aov::kTransmitted, x, y), 1e-6);
   });
 }
 

@@ -1,0 +1,57 @@
+#include "ops/water_light.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "limpid/optics/crossing.h"
+#include "limpid/optics/fresnel.h"
+
+namespace limpid {
+namespace {
+
+/// K: what light from above loses for each length of its way down.
+Rgb<double> falling_loss(const DepthFog::Params& params) {
+  const bool typed =
+      params.water_type != WaterType::kCustom && params.water_type != WaterType::kPure;
+  if (typed) return water_optics(params.water_type).down_attenuation;
+  const Rgb<double> absorption = params.water_type == WaterType::kCustom
+                                     ? params.absorption
+                                     : water_optics(params.water_type).absorption;
+  // What is scattered goes on forwards, mostly.
+  return absorption + (1 - params.anisotropy) * params.scattering;
+}
+
+}  // namespace
+
+WaterLight water_light(const DepthFog::Params& params, const Context& c, double ior) {
+  using Sunlight = DepthFog::Sunlight;
+  WaterLight light;
+  // A sun on the horizon gives the water no light, and would divide by 0.
+  const double cosine = glm::dot(c.sun.direction, c.up);
+  light.day = c.has_sun && cosine > 1e-6;
+  light.to_sun = c.sun.direction;
+  const double lost = light.day ? fresnel_exact(cosine, ior) : kDiffuseAirToWater;
+  if (params.crossing == DepthFog::Crossing::kRadiance) {
+    light.bottom = radiance_crossing(ior, lost);
+    light.water = radiance_crossing(ior, 0.0);
+  }
+  if (!light.day) return light;
+
+  const Rgb<double> facing = std::numbers::pi * params.scattering * c.sun.color;
+  light.sun = facing;
+  if (params.sunlight == Sunlight::kStraight) light.down = (1 / cosine) * falling_loss(params);
+  if (params.sunlight == Sunlight::kRefracted) {
+    const double inside = refracted_cosine(cosine, 1 / ior);
+    const bool enters = inside > 0;
+    // Along the surface the way down has no end.
+    light.down = (1 / std::max(inside, 1e-30)) * falling_loss(params);
+    light.spread = enters ? cosine / inside : 0;
+    light.sun = (enters ? (1 - lost) * cosine / inside : 0) * facing;
+    light.to_sun = enters ? (c.sun.direction - cosine * c.up) / ior + inside * c.up : c.up;
+  }
+  return light;
+}
+
+}  // namespace limpid
