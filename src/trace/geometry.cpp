@@ -55,7 +55,10 @@ Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& contex
   g.visible_below.fill(true);
   const End own = end_of(tracer, beam.ray, !in_water);
   g.wet = in_water || own.wet;
-  if (in_water) g.path = own.distance();
+  if (in_water) {
+    g.path = own.distance();
+    g.normal = context.up;
+  }
   if (!own.wet) return g;
   const SurfacePoint& at = *own.wet;
   g.normal = at.normal;

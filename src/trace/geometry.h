@@ -11,7 +11,7 @@ struct Geometry {
   bool wet = false;  ///< meets the surface, or goes through water from the eye on
   double path = 0;   ///< +inf without end
   double surface_depth = HUGE_VAL;
-  glm::dvec3 normal{0};
+  glm::dvec3 normal{0};            ///< calm for views in the water that meet no surface
   std::array<glm::dvec2, 3> uv{};  ///< of each channel's end; (0, 0) at the upper left
   std::array<bool, 3> visible{}, visible_below{};
 };

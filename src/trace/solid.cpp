@@ -76,14 +76,7 @@ void Solid::add(const Instance& instance, const glm::dvec3& eye,
     const double size = glm::length(normal);
     source.normals.push_back(size > 0 ? normal / size : normal);
   }
-  for (std::size_t t = 0; t < mesh.triangles; ++t) {
-    const std::uint32_t* corner = mesh.view.indices + 3 * t;
-    const Triangles::Corners at{part.positions[corner[0]], part.positions[corner[1]],
-                                part.positions[corner[2]]};
-    const glm::dvec3 cross = at.cross();
-    if (!(glm::dot(cross, cross) > 0)) continue;  // no area
-    part.indices.insert(part.indices.end(), corner, corner + 3);
-  }
+  part.indices = with_area(part.positions, {mesh.view.indices, 3 * std::size_t{mesh.triangles}});
   if (part.indices.empty()) return;
   parts.push_back(std::move(part));
   sources_.push_back(std::move(source));

@@ -8,24 +8,6 @@
 namespace limpid::trace {
 namespace {
 
-std::vector<Triangles::Part> parts_of(const Model& water, const glm::dvec3& eye) {
-  std::vector<Triangles::Part> parts;
-  for (const Mesh& mesh : water.meshes) {
-    Triangles::Part part;
-    for (const glm::vec3& p : mesh.positions) part.positions.push_back(glm::dvec3(p) - eye);
-    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-      const Triangles::Corners at{part.positions[mesh.indices[t]],
-                                  part.positions[mesh.indices[t + 1]],
-                                  part.positions[mesh.indices[t + 2]]};
-      const glm::dvec3 cross = at.cross();
-      if (!(glm::dot(cross, cross) > 0)) continue;  // no area
-      for (std::size_t k = t; k < t + 3; ++k) part.indices.push_back(mesh.indices[k]);
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
 bool makes_waves(const WaveNormals::Params& waves, const Texture& wave_map) {
   return waves.strength != 0 && (wave_map || !WaveNormals::needs(waves).wave_map);
 }
@@ -42,13 +24,22 @@ Surface::Surface(const Model& model, const Scene& scene, const Look& look, const
       raised_(has_mesh_ && !scene.water->waves.empty()),
       height_(-context.eye_above),
       crest_(raised_ ? highest_crest(*scene.water) : 0),
-      mesh_([&] {
-        const Model water = raised_water(model, *scene.water, scene.time);
-        for (const Mesh& mesh : water.meshes) {
-          normals_.emplace_back(mesh.normals.begin(), mesh.normals.end());
-        }
-        return Triangles(parts_of(water, context.eye));
-      }()) {}
+      mesh_(made(raised_water(model, *scene.water, scene.time))) {}
+
+Triangles Surface::made(const Model& water) {
+  std::vector<Triangles::Part> parts;
+  for (const Mesh& mesh : water.meshes) {
+    Triangles::Part part;
+    for (const glm::vec3& p : mesh.positions) {
+      part.positions.push_back(glm::dvec3(p) - context_.eye);
+    }
+    part.indices = with_area(part.positions, mesh.indices);
+    if (part.indices.empty()) continue;
+    parts.push_back(std::move(part));
+    normals_.emplace_back(mesh.normals.begin(), mesh.normals.end());
+  }
+  return Triangles(std::move(parts));
+}
 
 std::optional<SurfacePoint> Surface::nearest(const Ray& ray, bool from_air) const {
   SurfacePoint found;

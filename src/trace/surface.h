@@ -33,6 +33,7 @@ class Surface {
   double crest() const { return height_ + crest_; }
 
  private:
+  Triangles made(const Model& water);
   glm::dvec3 normal_at(const glm::dvec3& point) const;
   glm::dvec3 mesh_normal_at(const Triangles::Hit& hit) const;
 
@@ -42,7 +43,7 @@ class Surface {
   bool has_mesh_, raised_;
   double height_;                                 ///< of the calm plane over the eye
   double crest_;                                  ///< of the highest wave, over the calm plane
-  std::vector<std::vector<glm::dvec3>> normals_;  ///< of the mesh, a vertex
+  std::vector<std::vector<glm::dvec3>> normals_;  ///< of the mesh's parts, a vertex
   Triangles mesh_;
 };
 

@@ -138,6 +138,20 @@ bool Triangles::block(const Ray& ray) const {
   return r.tfar < 0;
 }
 
+std::vector<std::uint32_t> with_area(const std::vector<glm::dvec3>& positions,
+                                     std::span<const std::uint32_t> indices) {
+  std::vector<std::uint32_t> kept;
+  kept.reserve(indices.size());
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const auto triangle = indices.subspan(i, 3);
+    const glm::dvec3 cross =
+        Triangles::Corners{positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]}
+            .cross();
+    if (glm::dot(cross, cross) > 0) kept.insert(kept.end(), triangle.begin(), triangle.end());
+  }
+  return kept;
+}
+
 glm::dvec3 corner_shares(const Triangles::Corners& corners, const glm::dvec3& point) {
   const glm::dvec3 whole = corners.cross();
   const double square = glm::dot(whole, whole);

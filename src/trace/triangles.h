@@ -40,7 +40,7 @@ class Triangles {
     friend bool operator==(const Hit&, const Hit&) = default;
   };
 
-  /// Throws Error where memory ends.
+  /// Each part must have triangles. Throws Error where memory ends.
   explicit Triangles(std::vector<Part> parts);
   ~Triangles();
 
@@ -57,6 +57,10 @@ class Triangles {
   std::vector<Part> parts_;
   std::unique_ptr<State> state_;
 };
+
+/// Those triangles, of three indices each, that have an area.
+std::vector<std::uint32_t> with_area(const std::vector<glm::dvec3>& positions,
+                                     std::span<const std::uint32_t> indices);
 
 /// Shares of the corners in a point of the triangle's plane; outside of it some are below 0.
 glm::dvec3 corner_shares(const Triangles::Corners& corners, const glm::dvec3& point);

@@ -195,6 +195,40 @@ TEST(TracedPicture, WhatABarHidesIsNotVisible) {
   EXPECT_GT(seen, 200);
 }
 
+/// Meshes without triangles, or with some that have no area, are as if they were not there, also
+/// before others.
+TEST(TracedPicture, TakesNoNoticeOfEmptyWater) {
+  const Model model = wavy_pool();
+  const TruthPicture right = traced(model, wavy_scene(), Look{});
+  Mesh flat = hills(2, 1, 0), none = hills(2, 1, 0);
+  std::fill(flat.indices.begin(), flat.indices.end(), 0u);
+  none.indices.clear();
+  Model more = model;
+  for (const Mesh& mesh : {flat, none}) {
+    more.meshes.push_back(mesh);
+    Instance empty = more.instances[2];
+    empty.mesh = static_cast<int>(more.meshes.size()) - 1;
+    more.instances.insert(more.instances.begin(), empty);
+  }
+  EXPECT_TRUE(same_bits(right, traced(more, wavy_scene(), Look{})));
+}
+
+/// The calm normal, as the chain has it.
+TEST(TracedPicture, ViewsInTheWaterThatMeetNoSurfaceHaveItsNormal) {
+  Scene scene = over_water(20);
+  scene.water->height = 3;
+  const TruthPicture p = traced(model_of({level(-1)}), scene, calm_look());
+  int down = 0;
+  for_each_pixel(kTraceSize, [&](int x, int y) {
+    if (!std::isinf(value(p, Aov::kSurfaceDepth, x, y))) return;
+    ++down;
+    EXPECT_EQ(value(p, Aov::kNormal, x, y, 0), 0);
+    EXPECT_EQ(value(p, Aov::kNormal, x, y, 1), 1);
+    EXPECT_EQ(value(p, Aov::kNormal, x, y, 2), 0);
+  });
+  EXPECT_GT(down, 300);
+}
+
 /// What the Error says that comes when a scene that could be traced is changed.
 template <class Change>
 std::string refusal(Change&& change) {
