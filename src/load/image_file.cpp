@@ -152,9 +152,8 @@ void write_image8(const fs::path& path, const std::vector<View<const float>>& pl
 }
 
 std::map<std::string, std::string> read_image_texts(const fs::path& path) {
-  std::map<std::string, std::string> texts = png_texts(path);
   check_whole(path);
-  return texts;
+  return png_texts(path);
 }
 
 bool is_png(const fs::path& path) { return extension_of(path) == ".png"; }

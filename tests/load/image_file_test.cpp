@@ -147,8 +147,10 @@ TEST(ImageFile, APngCarriesTexts) {
   const fs::path folder = scratch();
   const std::vector<Plane> planes = noise({0, 0, 9, 7}, 3);
   const std::map<std::string, std::string> texts{
-      {"a/key", "one line"}, {"many", "lines\nand \xC3\xBC\n"}, {"none", ""}};
-  write_image8(folder / "a.PNG", views(planes), texts);
+      {"limpid/key", "one line"}, {"limpid/many", "lines\nand \xC3\xBC\n"}, {"limpid/none", ""}};
+  std::map<std::string, std::string> all = texts;
+  all.insert({{"limpid", "not ours"}, {"Title", "nor this"}});
+  write_image8(folder / "a.PNG", views(planes), all);
   EXPECT_EQ(read_image_texts(folder / "a.PNG"), texts);
   write_image8(folder / "plain.png", views(planes));
   EXPECT_TRUE(read_image_texts(folder / "plain.png").empty());
@@ -172,7 +174,7 @@ TEST(ImageFile, APngCarriesTexts) {
 
 TEST(ImageFile, TextsOfADamagedPngAreRefused) {
   const fs::path folder = scratch();
-  write_image8(folder / "a.png", views(noise({0, 0, 9, 7}, 3)), {{"key", "text"}});
+  write_image8(folder / "a.png", views(noise({0, 0, 9, 7}, 3)), {{"limpid/key", "text"}});
   const std::string whole = bytes_of(folder / "a.png");
   for (std::size_t size = 8; size < whole.size(); ++size) {
     write_bytes(folder / "cut.png", whole.substr(0, size));
@@ -183,6 +185,58 @@ TEST(ImageFile, TextsOfADamagedPngAreRefused) {
   write_bytes(folder / "bad.png", damaged);
   EXPECT_THAT(refusal([&] { read_image_texts(folder / "bad.png"); }), HasSubstr("checksum"));
   EXPECT_THROW(read_image_texts(folder / "none.png"), Error);
+}
+
+// Chunks that a picture may have without end: a key that is not ours, empty ones, and what follows
+// the end of the picture.
+TEST(ImageFile, TextsBetweenWhateverElseThereIs) {
+  const fs::path folder = scratch();
+  const std::map<std::string, std::string> texts{{"limpid/a", "1"}, {"limpid/b", "2"}};
+  const std::vector<Plane> planes = noise({0, 0, 9, 7}, 3);
+  write_image8(folder / "a.png", views(planes), {{"limpid/a", "1"}});
+  write_image8(folder / "b.png", views(planes), {{"limpid/b", "2"}});
+  write_image8(folder / "x.png", views(planes), {{"limpix", std::string(1000000, 'x')}});
+  constexpr std::size_t kHeader = 33;
+  const std::string plain = [&] {
+    write_image8(folder / "plain.png", views(planes));
+    return bytes_of(folder / "plain.png");
+  }();
+  const auto chunks = [&](const char* name) {
+    const std::string bytes = bytes_of(folder / name);
+    return bytes.substr(kHeader, bytes.size() - plain.size());
+  };
+  const std::string foreign = chunks("x.png") + chunks("x.png");
+  std::string empty;
+  for (int i = 0; i < 100000; ++i)
+    empty += std::string(
+        "\0\0\0\0tEXt"
+        "\x96\x42\xC5\x85",
+        12);
+  write_bytes(folder / "all.png", plain.substr(0, kHeader) + chunks("a.png") + foreign + empty +
+                                      chunks("b.png") + plain.substr(kHeader) +
+                                      std::string(1 << 20, '\0') + chunks("b.png"));
+  EXPECT_EQ(read_image_texts(folder / "all.png"), texts);
+  write_bytes(folder / "late.png", plain + chunks("a.png"));
+  EXPECT_TRUE(read_image_texts(folder / "late.png").empty());
+}
+
+TEST(ImageFile, TextsOfMoreThanAMegabyteAreRefused) {
+  const fs::path folder = scratch();
+  const std::vector<Plane> planes = noise({0, 0, 9, 7}, 3);
+  std::map<std::string, std::string> texts{{"limpid/a", std::string(500000, 'a')},
+                                           {"limpid/b", std::string(500000, 'b')}};
+  write_image8(folder / "a.png", views(planes), texts);
+  EXPECT_EQ(read_image_texts(folder / "a.png"), texts);
+  const std::string whole = bytes_of(folder / "a.png");
+  const std::size_t first = 33, size = 12 + 8 + 5 + 500000;
+  write_bytes(folder / "b.png", whole.substr(0, first + size) + whole.substr(first));
+  EXPECT_EQ(
+      refusal([&] { read_image_texts(folder / "b.png"); }),
+      (folder / "b.png").string() + ": texts of how it was made: expected at most 1 MiB of them");
+  texts["limpid/c"] = texts["limpid/b"];
+  EXPECT_THAT(refusal([&] { write_image8(folder / "c.png", views(planes), texts); }),
+              HasSubstr("expected at most 1 MiB"));
+  EXPECT_FALSE(fs::exists(folder / "c.png"));
 }
 
 TEST(ImageFile, LeavesTheOldFileAndNothingElseWhenWritingFails) {

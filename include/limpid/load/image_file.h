@@ -28,15 +28,17 @@ ImageFile read_image(const std::filesystem::path& path, const Limits& limits = {
 /// display, alpha straight; clamped and rounded, NaN becomes 0) in the format of the path's
 /// extension: .png, .jpg (no alpha), .tif. The file is written under a temporary name that is
 /// renamed at the end; its bytes depend on the arguments alone. A PNG also carries the texts, by
-/// their names, as iTXt chunks; the other formats have no place for them and go without.
+/// their names, as iTXt chunks, 1 MiB at most; the other formats have no place for them and go
+/// without.
 void write_image8(const std::filesystem::path& path, const std::vector<View<const float>>& planes,
                   const std::map<std::string, std::string>& texts = {});
 
 /// Whether the path's extension is that of a PNG (any case).
 bool is_png(const std::filesystem::path& path);
 
-/// The texts of a PNG, by their names: what write_image8() put in, and others' iTXt that is not
-/// compressed. Throws Error for a file that cannot be read, ends too early, or is damaged.
+/// The texts of a PNG that say how it was made: of what write_image8() put in, those whose name
+/// begins with "limpid/". Throws Error for a file that cannot be read, ends too early, is damaged,
+/// or has more than 1 MiB of them.
 std::map<std::string, std::string> read_image_texts(const std::filesystem::path& path);
 
 /// Whether the path's extension is .exr (any case): such files go through ExrFile instead.
