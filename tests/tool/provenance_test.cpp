@@ -143,6 +143,24 @@ TEST_F(ProvenanceTest, TheSameInputsGiveTheSameBytesAnywhere) {
   EXPECT_TRUE(text_of("deep.exr") == text_of(there + "out_deep.exr"));
 }
 
+/// Of all names only the wave map's is told: the look needs it. Nor does another instruction set
+/// pass for the same.
+TEST_F(ProvenanceTest, WhatBytesDoDependOn) {
+  composed("wet.exr", {"--simd", "scalar"});
+  const std::string bytes = text_of("wet.exr");
+  Texts texts = made("wet.exr");
+  fs::rename(folder_ / "waves.exr", folder_ / "other.exr");
+  composed("wet.exr", {"--simd", "scalar", "--set", "wave_normals.map=other.exr"});
+  Texts others = made("wet.exr");
+  EXPECT_FALSE(text_of("wet.exr") == bytes);
+  EXPECT_THAT(others.at("limpid/look"), HasSubstr("map = \"other.exr\""));
+  texts.erase("limpid/look"), others.erase("limpid/look");
+  EXPECT_EQ(texts, others);
+  fs::rename(folder_ / "other.exr", folder_ / "waves.exr");
+  composed("wet.exr");
+  EXPECT_NE(made("wet.exr").at("limpid/options"), texts.at("limpid/options"));
+}
+
 TEST_F(ProvenanceTest, TheSameModelGivesTheSameBytesAnywhere) {
   copy_pool("a");
   copy_pool("b");
