@@ -51,6 +51,12 @@ SineWave wave_of(const TomlNode& node) {
   return SineWave::from_row(node.finite_numbers(complete ? kAll : SineWave::kLeastColumns));
 }
 
+/// "1025 waves: expected at most 1024", or "".
+std::string too_many(std::size_t waves) {
+  if (waves <= kMaxWaves) return "";
+  return std::to_string(waves) + " waves: expected at most " + std::to_string(kMaxWaves);
+}
+
 WaterPlane water_of(const TomlNode& table) {
   table.expect_keys(Names{"up", "height", "waves"});
   WaterPlane water;
@@ -59,6 +65,8 @@ WaterPlane water_of(const TomlNode& table) {
   if (const TomlNode* waves = table.find("waves")) {
     if (waves->kind != TomlNode::Kind::kList)
       waves->refuse("a list of [amplitude, k_x, k_y, phase]");
+    const std::string fault = too_many(waves->items.size());
+    if (!fault.empty()) throw Error(waves->place + waves->path + ": " + fault);
     for (const TomlNode& wave : waves->items) water.waves.push_back(wave_of(wave));
   }
   return water;
@@ -266,6 +274,8 @@ std::string to_toml(const Scene& scene) {
   }
   if (scene.water) {
     const WaterPlane& water = *scene.water;
+    const std::string fault = too_many(water.waves.size());
+    if (!fault.empty()) throw Error("water.waves: " + fault);
     std::vector<std::string> waves;
     for (const SineWave& wave : water.waves) waves.push_back(list_text(wave.to_row()));
     text += "[water]\nup = " + list_text({water.up.x, water.up.y, water.up.z}) +

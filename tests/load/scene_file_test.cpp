@@ -303,5 +303,27 @@ TEST(SceneFile, WavesGetTheSpeedOfDeepWater) {
   EXPECT_NEAR(file.scene.water->waves[0].omega, std::sqrt(9.81 * 5), 1e-12);
 }
 
+/// The longest texts that numbers have.
+TEST(SceneFile, AsManyWavesAsMayBeReadAgain) {
+  const std::string number = "-1.2345678901234567e-300";
+  const std::string wave =
+      "[" + number + ", " + number + ", " + number + ", " + number + ", " + number + "],\n";
+  std::string waves;
+  for (std::size_t i = 0; i < kMaxWaves; ++i) waves += wave;
+  Scene scene = scene_from_toml("[water]\nwaves = [\n" + waves + "]\n", "text").scene;
+  ASSERT_EQ(scene.water->waves.size(), kMaxWaves);
+  EXPECT_EQ(to_toml(scene_from_toml(to_toml(scene), "text").scene), to_toml(scene));
+  // With the longest of all else.
+  const glm::dmat4 matrix(std::stod(number));
+  scene.camera = Camera{matrix, matrix, ClipSpace::kReversed};
+  scene.sun = Sun{};
+  EXPECT_LT(to_toml(scene).size(), std::size_t{255} << 10);
+
+  EXPECT_EQ(error_of([&] { scene_from_toml("[water]\nwaves = [" + waves + wave + "]\n", "text"); }),
+            "text:2:9: water.waves: 1025 waves: expected at most 1024");
+  scene.water->waves.emplace_back();
+  EXPECT_EQ(error_of([&] { to_toml(scene); }), "water.waves: 1025 waves: expected at most 1024");
+}
+
 }  // namespace
 }  // namespace limpid

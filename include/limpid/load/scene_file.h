@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -61,16 +62,21 @@ struct SceneFile {
   double environment_rotation = 0;    ///< rad
 };
 
+/// The most waves of a scene: every output carries them as text, which must be small enough to be
+/// read again.
+inline constexpr std::size_t kMaxWaves = 1024;
+
 /// Throws Error, with "file:line:column: " in front, for what is not TOML, an unknown table or key
-/// (with the nearest known name), a value of the wrong type or length, NaN, and infinity but for
-/// far.
+/// (with the nearest known name), a value of the wrong type or length, more than kMaxWaves, NaN,
+/// and infinity but for far.
 SceneFile load_scene(const std::filesystem::path& path);
 
 /// The same from a text, as the attribute `limpid/scene` of a rendered plate holds it; `name`
 /// stands for the file in errors.
 SceneFile scene_from_toml(const std::string& text, const std::string& name);
 
-/// Camera, water, sun and time as a text that scene_from_toml() reads back to the bit.
+/// Camera, water, sun and time as a text that scene_from_toml() reads back to the bit. Throws Error
+/// for more than kMaxWaves.
 std::string to_toml(const Scene& scene);
 
 /// "FILE:CHANNELS" in its two parts: cut at the last ':' unless a '/' follows it; channels are ""
