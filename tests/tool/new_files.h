@@ -2,12 +2,15 @@
 #include <cstring>
 #include <deque>
 #include <filesystem>
-#include <stdexcept>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/inotify.h>
 #include <unistd.h>
+
+#include "tool/running.h"
 
 namespace limpid::test {
 
@@ -21,19 +24,24 @@ class NewFiles {
   NewFiles(const NewFiles&) = delete;
   NewFiles& operator=(const NewFiles&) = delete;
 
-  /// Waits for the next one.
-  std::string next() {
-    if (names_.empty()) take();
+  /// Waits for the next one; nothing when there is none and their maker has ended.
+  std::optional<std::string> next(const Running& maker) {
+    if (names_.empty() && comes(maker)) take();
+    if (names_.empty()) return std::nullopt;
     const std::string name = names_.front();
     names_.pop_front();
     return name;
   }
 
  private:
+  bool comes(const Running& maker) const {
+    pollfd ends[] = {{events_, POLLIN, 0}, {maker.stdout_end(), 0, 0}};
+    ::poll(ends, 2, -1);
+    return ::poll(ends, 1, 0) == 1;  // its last ones come before it hangs up
+  }
   void take() {
     char bytes[4096];
     const ssize_t size = ::read(events_, bytes, sizeof bytes);
-    if (size <= 0) throw std::runtime_error("no more events");
     for (ssize_t at = 0; at < size;) {
       inotify_event event;
       std::memcpy(&event, bytes + at, sizeof event);

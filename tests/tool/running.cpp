@@ -34,10 +34,12 @@ Running::~Running() {
   wait();
 }
 
-std::string Running::line() {
+std::optional<std::string> Running::line() {
   std::string text;
-  for (char letter = 0; ::read(pipe_, &letter, 1) == 1 && letter != '\n';) text += letter;
-  return text;
+  for (char letter = 0; ::read(pipe_, &letter, 1) == 1; text += letter) {
+    if (letter == '\n') return text;
+  }
+  return std::nullopt;
 }
 
 void Running::close_stdout() {

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <sys/types.h>
@@ -19,8 +20,10 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  /// The next line without its end; "" when there is none any more.
-  std::string line();
+  /// The next line without its end; nothing when there is none any more.
+  std::optional<std::string> line();
+  /// A descriptor that hangs up, for poll(), when the program has ended.
+  int stdout_end() const { return pipe_; }
   /// Nobody reads any more.
   void close_stdout();
   void send(int signal) const;

@@ -11,6 +11,7 @@
 
 #include "tool/made_plate.h"
 #include "tool/new_files.h"
+#include "tool/own_mounts.h"
 #include "tool/running.h"
 #include "tool/tool.h"
 
@@ -134,18 +135,17 @@ TEST_F(TroubleTest, AFileSizeLimitInTheMiddle) {
   EXPECT_EQ(text_of("out/wet.3.exr"), "old");
 }
 
-/// On a disk of a few hundred kilobytes, where the system lets one be made.
+/// On a disk of a few hundred kilobytes, where the system lets one be mounted.
 TEST_F(TroubleTest, AFullDisk) {
   const std::string script =
       "mount -t tmpfs -o size=240k limpid out || exit 99; echo -n old > out/wet.4.exr; \"$@\"; "
       "code=$?; cp -a out copy; exit $code";
-  Words full{"/usr/bin/unshare", "-Urm", "/bin/sh", "-c", script, "sh"};
-  for (const std::string& word : words("out")) full.push_back(word);
-  const Ran ran = run(folder_, full);
-  if (ran.code == 99 || ran.err.starts_with("unshare: ")) {
-    GTEST_SKIP() << "no disk of our own can be made here (" << ran.err
-                 << "): only AFileSizeLimitInTheMiddle checks it";
+  const Words full = with_own_mounts(script, words("out"));
+  if (full.empty()) {
+    GTEST_SKIP() << "no disk of our own can be mounted here, as root or otherwise: of a failed "
+                    "write only AFileSizeLimitInTheMiddle is checked";
   }
+  const Ran ran = run(folder_, full);
   expect_refused(ran, {"cannot be written (no space left on device)"}, 75);
   expect_whole("copy", 2);
   EXPECT_THAT(text_of("copy/wet.4.exr"), AnyOf("old", undisturbed().at("wet.4.exr")));
@@ -155,13 +155,12 @@ TEST_F(TroubleTest, AReadOnlyFolder) {
   write_text("out/wet.1.exr", "old");
   const std::string script =
       "mount --bind out out && mount -o remount,ro,bind out || exit 99; exec \"$@\"";
-  Words locked{"/usr/bin/unshare", "-Urm", "/bin/sh", "-c", script, "sh"};
-  for (const std::string& word : words("out")) locked.push_back(word);
-  const Ran ran = run(folder_, locked);
-  if (ran.code == 99 || ran.err.starts_with("unshare: ")) {
-    GTEST_SKIP() << "no folder can be made read-only here (" << ran.err
-                 << "): only AtomicFile.NamesTheFolderThatCannotBeWritten checks it";
+  const Words locked = with_own_mounts(script, words("out"));
+  if (locked.empty()) {
+    GTEST_SKIP() << "no folder can be mounted read-only here, as root or otherwise: only "
+                    "AtomicFile.NamesTheFolderThatCannotBeWritten checks one";
   }
+  const Ran ran = run(folder_, locked);
   expect_refused(ran, {"frame 1: out/wet.1.exr: the folder 'out' cannot be written to (read-only"});
   EXPECT_EQ(in("out").size(), 1u);
   EXPECT_EQ(text_of("out/wet.1.exr"), "old");
@@ -195,7 +194,18 @@ TEST_F(TroubleTest, APlateThatGoes) {
 /// Reads until that many frames are told of; some that follow are under way then.
 void read_frames(Running& running, int count) {
   while (count > 0) {
-    if (running.line().starts_with(kLong + "/wet.")) --count;
+    const auto line = running.line();
+    ASSERT_TRUE(line) << "it ended, " << count << " frames too early";
+    if (line->starts_with(kLong + "/wet.")) --count;
+  }
+}
+
+/// Waits until that many temporary files were begun.
+void await_files(NewFiles& begun, const Running& running, int count) {
+  while (count > 0) {
+    const auto name = begun.next(running);
+    ASSERT_TRUE(name) << "it ended, " << count << " files too early";
+    if (name->starts_with(".limpid-")) --count;
   }
 }
 
@@ -206,7 +216,7 @@ TEST_P(TroubleSignal, EndsASequenceCleanly) {
   fs::create_directories(folder_ / kLong);
   write_text(kLong + "/wet.6.exr", "old");
   Running running(folder_, words(kLong, {"-v"}));
-  read_frames(running, 2);
+  ASSERT_NO_FATAL_FAILURE(read_frames(running, 2));
   running.send(GetParam());
   EXPECT_EQ(running.wait(), -GetParam());
   expect_whole(kLong, 2);
@@ -230,8 +240,8 @@ TEST_P(TroubleKill, LeavesWholeFramesAndResumes) {
   fs::create_directories(folder_ / kLong);
   NewFiles begun(folder_ / kLong);
   Running running(folder_, words(kLong, {"-v"}));
-  read_frames(running, GetParam().frames);
-  for (int files = 0; files < GetParam().files;) files += begun.next().starts_with(".limpid-");
+  ASSERT_NO_FATAL_FAILURE(read_frames(running, GetParam().frames));
+  ASSERT_NO_FATAL_FAILURE(await_files(begun, running, GetParam().files));
   running.send(SIGKILL);
   EXPECT_EQ(running.wait(), -SIGKILL);
 
@@ -256,7 +266,7 @@ INSTANTIATE_TEST_SUITE_P(All, TroubleKill,
 
 TEST_F(TroubleTest, AReaderThatGoesStopsNothing) {
   Running running(folder_, words("out", {"-v"}));
-  EXPECT_NE(running.line(), "");
+  EXPECT_TRUE(running.line());
   running.close_stdout();
   EXPECT_EQ(running.wait(), -SIGPIPE);
   expect_whole("out", kFrames);

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+#include "tool/tool.h"
+
+namespace limpid::test {
+
+/// A command that runs `script` in a shell that may mount what nobody else sees, with `words` as
+/// its "$@": as root, or in a user namespace. Empty where the system allows neither.
+inline Words with_own_mounts(const std::string& script, const Words& words) {
+  for (const char* kind : {"-m", "-Urm"}) {
+    Words command{"/usr/bin/unshare", kind, "/bin/sh", "-c", "mount -t tmpfs limpid /tmp"};
+    if (run("/", command).code != 0) continue;
+    command.back() = script;
+    command.push_back("sh");
+    command.insert(command.end(), words.begin(), words.end());
+    return command;
+  }
+  return {};
+}
+
+}  // namespace limpid::test
