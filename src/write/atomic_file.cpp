@@ -16,6 +16,7 @@
 #include "limpid/write/unfinished.h"
 
 #include "load/file_stream.h"
+#include "write/local_files.h"
 
 namespace limpid {
 namespace {
@@ -59,8 +60,9 @@ bool is_temporary_name(std::string_view name) {
 }
 
 /// Locks a file that was just made. False when somebody tidied it away in between: he had locked
-/// it, or it has no name any more. Without locks in the file system nobody tidies.
+/// it, or it has no name any more. Where nobody tidies there is nothing to lock.
 bool locked(int descriptor) {
+  if (!is_local(descriptor)) return true;
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
@@ -73,7 +75,7 @@ void remove_if_abandoned(const std::filesystem::path& path) {
   if (descriptor < 0) return;
   struct stat open_file {
   }, named{};
-  const bool abandoned = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&
+  const bool abandoned = is_local(descriptor) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&
                          ::fstat(descriptor, &open_file) == 0 && S_ISREG(open_file.st_mode) &&
                          ::lstat(path.c_str(), &named) == 0 && open_file.st_dev == named.st_dev &&
                          open_file.st_ino == named.st_ino;

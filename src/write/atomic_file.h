@@ -9,7 +9,8 @@ namespace limpid {
 /// and with the same extension; commit() flushes it to disk and renames it. Without commit() the
 /// temporary file is removed and what was under `path` before stays. While it exists it is locked,
 /// so that others can tell it from what a killed process has left (write/unfinished.h); the first
-/// of a process in a folder removes what lies there of those.
+/// of a process in a folder removes what lies there of those. Neither on a file system that is not
+/// known to be of this machine (local_files.h).
 class AtomicFile {
  public:
   /// Creates the empty temporary file. Throws Error that names the folder when that fails, and when
@@ -25,7 +26,7 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_, temporary_;
-  int descriptor_ = -1;  ///< open while the file is temporary: it holds the lock
+  int descriptor_ = -1;  ///< open while the file is temporary: it holds the lock, if there is one
 };
 
 }  // namespace limpid

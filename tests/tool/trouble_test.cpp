@@ -166,6 +166,27 @@ TEST_F(TroubleTest, AReadOnlyFolder) {
   EXPECT_EQ(text_of("out/wet.1.exr"), "old");
 }
 
+/// What a killed process left goes where locks can be trusted. A ramfs stands for the others: it is
+/// not among the file systems that are known to be local.
+TEST_F(TroubleTest, AFolderThatOthersMayShare) {
+  for (const std::string kind : {"tmpfs", "ramfs"}) {
+    const std::string script = "mount -t " + kind +
+                               " limpid out || exit 99; touch out/.limpid-7-0.exr; \"$@\"; "
+                               "code=$?; cp -a out " +
+                               kind + "; exit $code";
+    const Words mounted = with_own_mounts(script, words("out", {"-q"}));
+    if (mounted.empty()) {
+      GTEST_SKIP() << "nothing can be mounted here, as root or otherwise: only "
+                      "LocalFiles.AreThoseThatAreKnown checks where files are locked";
+    }
+    const Ran ran = run(folder_, mounted);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    auto found = in(kind);
+    EXPECT_EQ(found.erase(".limpid-7-0.exr"), kind == "ramfs" ? 1u : 0u) << kind;
+    EXPECT_TRUE(found == undisturbed()) << kind;
+  }
+}
+
 TEST_F(TroubleTest, AFolderThatGoes) {
   const Error error = error_after_third([&] { fs::rename(folder_ / "out", folder_ / "kept"); });
   EXPECT_THAT(error.what(), HasSubstr("frame 4: "));

@@ -13,6 +13,7 @@
 #include "limpid/write/unfinished.h"
 
 #include "load/file_stream.h"
+#include "write/local_files.h"
 
 namespace limpid {
 namespace {
@@ -220,6 +221,23 @@ TEST(RemoveAbandonedFiles, TheFirstFileOfAFolderDoesIt) {
   dead.kill();
   AtomicFile(here / "a.exr").commit();
   EXPECT_EQ(files_in(here), 1);
+}
+
+/// Types as statfs(2) lists them.
+TEST(LocalFiles, AreThoseThatAreKnown) {
+  for (unsigned long type : {0xef53ul, 0x58465342ul, 0x9123683eul, 0xf2f52010ul, 0x2fc12fc1ul,
+                             0x01021994ul, 0x794c7630ul}) {
+    EXPECT_TRUE(is_local_type(type)) << std::hex << type;
+  }
+  // NFS, SMB, CIFS, SMB 2, FUSE, 9P, AFS, Ceph, and what nobody knows.
+  for (unsigned long type : {0x6969ul, 0x517bul, 0xff534d42ul, 0xfe534d42ul, 0x65735546ul,
+                             0x01021997ul, 0x5346414ful, 0x00c36400ul, 0ul}) {
+    EXPECT_FALSE(is_local_type(type)) << std::hex << type;
+  }
+  const int proc = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+  EXPECT_FALSE(is_local(proc));
+  ::close(proc);
+  EXPECT_FALSE(is_local(-1));
 }
 
 TEST(FaultOf, WhatMayPassIsTriedAgain) {

@@ -12,9 +12,11 @@ namespace limpid {
 
 /// Removes from a folder the temporary files of processes that are no more, as one killed by
 /// SIGKILL leaves them: those with a name like theirs that nobody holds locked. Files that are
-/// being written stay, whichever process or machine writes them, and so does everything where the
-/// file system has no locks. Throws nothing; a folder that is not there has none. Whatever writes a
-/// file through this library calls it once for its folder.
+/// being written stay, whichever process writes them. On file systems that other machines may share
+/// (NFS, SMB, FUSE, and all that is not known to be local: ext2 ... ext4, XFS, Btrfs, F2FS, ZFS,
+/// bcachefs, ReiserFS, NILFS, FAT, exFAT, tmpfs, overlay) nothing is locked and nothing removed: a
+/// lock may not reach the other machine. Throws nothing; a folder that is not there has none.
+/// Whatever writes a file through this library calls it once for its folder.
 void remove_abandoned_files(const std::filesystem::path& folder);
 
 }  // namespace limpid
