@@ -76,7 +76,12 @@ class Beside {
         exposures_(exposures_of(color_of(now_.truth.target))) {}
 
   void add(const Look& look, const std::string& parameter, const std::string& value) {
-    rows_.push_back({now_.subject.facts().name, look.name, parameter, value});
+    ModelRow row;
+    row.subject = now_.subject.facts().name;
+    row.look = look.name;
+    row.parameter = parameter;
+    row.value = value;
+    rows_.push_back(row);
     looks_.push_back(look);
   }
 
