@@ -13,15 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first file of the job that is not there.
-std::optional<fs::path> missing_file(const CompositeJob& job) {
-  for (const fs::path& file : files_of(job.plate)) {
-    std::error_code ignored;
-    if (fs::status(file, ignored).type() == fs::file_type::not_found) return file;
-  }
-  return std::nullopt;
-}
-
 /// The nearest before, else the first after.
 int stand_in_for(int frame, const std::set<int>& there) {
   const auto after = there.lower_bound(frame);
@@ -32,7 +23,10 @@ int stand_in_for(int frame, const std::set<int>& there) {
 CompositeJob own_job(const JobOfFrame<CompositeJob>& job_of, int frame) {
   CompositeJob job = job_of(frame);
   if (const auto gone = missing_file(job)) {
-    throw Error(gone->string() + ": was there when the sequence began and is gone", Fault::kRetry);
+    throw Error(gone->string() +
+                    ": was there when the sequence began and is gone; run it again to "
+                    "go on as with any that is missing",
+                Fault::kRetry);
   }
   return job;
 }
@@ -48,6 +42,14 @@ CompositeJob held_job(const JobOfFrame<CompositeJob>& job_of, int frame, int sta
 }
 
 }  // namespace
+
+std::optional<fs::path> missing_file(const CompositeJob& job) {
+  for (const fs::path& file : files_of(job.plate)) {
+    std::error_code ignored;
+    if (fs::status(file, ignored).type() == fs::file_type::not_found) return file;
+  }
+  return std::nullopt;
+}
 
 FilledSequence fill_missing(const std::vector<int>& frames, const JobOfFrame<CompositeJob>& job_of,
                             Missing missing) {

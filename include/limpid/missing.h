@@ -32,6 +32,9 @@ struct FilledSequence {
   std::vector<MissingPlate> missing;
 };
 
+/// The first file of the job's plate that is not there.
+std::optional<std::filesystem::path> missing_file(const CompositeJob& job);
+
 /// Looks, once, which files of all frames are there (files_of() of their plates; nothing is opened)
 /// and decides what becomes of the others. A file that is there but cannot be read is none that is
 /// missing: it stays an error, as does anything else that is wrong with a frame, when its turn

@@ -120,7 +120,9 @@ TEST_F(MissingTest, WhatGoesLaterIsWorthAnotherTry) {
         filled.job_of(frame);
         ADD_FAILURE() << frame;
       } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("plate.2.exr: was there when the sequence began"));
+        EXPECT_THAT(
+            error.what(),
+            HasSubstr("plate.2.exr: was there when the sequence began and is gone; run it again"));
         EXPECT_EQ(error.fault(), Fault::kRetry);
       }
     }

@@ -193,7 +193,8 @@ TEST_F(ResumeTest, AFrameWithoutItsInputIsNotKept) {
   write_plates({1, 2, 3, 4});
   said_by(words({}));
   fs::remove(folder_ / "plate.3.exr");
-  expect_refused(limpid(words({"--resume", "-q"})), {"frame 3: plate.3.exr: cannot be opened"});
+  expect_refused(limpid(words({"--resume", "-q"})),
+                 {"frame 3: plate.3.exr: cannot be opened", "say --missing skip or hold"});
   EXPECT_EQ(resumed({"--missing", "skip"}),
             "limpid: 1 of 4 frames have no plate and are left out: 3\n"
             "limpid: 3 of 3 frames are there already\n");

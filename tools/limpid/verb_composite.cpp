@@ -75,6 +75,16 @@ CompositeJob first_job(const CompositeArguments& a, const Sequence& sequence,
   return job_of_frame(std::move(job), a, sequence.frames.front());
 }
 
+/// Throws Error that says what there is to do about a file that is not there.
+CompositeJob expect_plate(CompositeJob job) {
+  if (const auto missing = missing_file(job)) {
+    throw Error(missing->string() +
+                ": cannot be opened (no such file or directory); bring it, or " +
+                "say --missing skip or hold to go on without it");
+  }
+  return job;
+}
+
 void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds) {
   std::printf("%sreads %s\n", to_text(surveyed.plan, surveyed.survey, seconds).c_str(),
               roles_text(surveyed.plan.planes).c_str());
@@ -108,8 +118,9 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
     std::printf("%s", Plate::inspect(filled.job_of(sequence.frames.front()).plate).c_str());
   }
   Progress progress(common);
-  composite_sequence(sequence, filled.job_of, report_frames(progress, job.look, job.output, common),
-                     *executor);
+  composite_sequence(
+      sequence, [&](int frame) { return expect_plate(filled.job_of(frame)); },
+      report_frames(progress, job.look, job.output, common), *executor);
   return 0;
 }
 
