@@ -141,6 +141,26 @@ TEST_F(CompareTest, ADifferenceIsExitOneAndAMap) {
   EXPECT_EQ(limpid({"compare", "wet.exr", "wet.exr"}).code, 0);
 }
 
+TEST_F(CompareTest, QuietlyTheExitCodeTells) {
+  composed("wet.1.exr");
+  composed("clear.1.exr", {"--set", "depth_fog.density=0"});
+  for (const Words& frames : {Words{}, Words{"--frames", "1", "--metrics", "all"}}) {
+    const auto compared = [&](const std::string& a, const std::string& b) {
+      const std::string number = frames.empty() ? ".1" : ".%d";
+      Words words{"compare", a + number + ".exr", b + number + ".exr", "-q"};
+      words.insert(words.end(), frames.begin(), frames.end());
+      return limpid(words);
+    };
+    const Ran same = compared("wet", "wet"), other = compared("wet", "clear");
+    EXPECT_EQ(same.code, 0);
+    EXPECT_EQ(other.code, 1);
+    EXPECT_EQ(same.out + same.err + other.out + other.err, "");
+    expect_refused(compared("wet", "absent"), {"absent.1.exr: cannot be opened"});
+  }
+  EXPECT_EQ(limpid({"compare", "wet.1.exr", "clear.1.exr", "--diff", "map.png", "-q"}).out, "");
+  EXPECT_THAT(iinfo("map.png"), HasSubstr("3 channel, uint8 png"));
+}
+
 TEST_F(CompareTest, RefusesWhatCannotBeCompared) {
   composed("wet.exr");
   composed("aovs.exr", {"--aov", "path"});

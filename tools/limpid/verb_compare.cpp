@@ -17,10 +17,19 @@
 namespace limpid::tool {
 namespace {
 
-void print(const std::string& text) {
-  std::printf("%s", text.c_str());
-  std::fflush(stdout);
-}
+/// Prints what was found, unless it is the exit code alone that is wanted.
+class Out {
+ public:
+  explicit Out(const CommonArguments& common) : quiet_(common.quiet) {}
+  void operator()(const std::string& text) const {
+    if (quiet_) return;
+    std::printf("%s", text.c_str());
+    std::fflush(stdout);
+  }
+
+ private:
+  bool quiet_;
+};
 
 CompareOptions options_of(const CompareArguments& a) {
   CompareOptions options;
@@ -113,7 +122,8 @@ std::string line_of(const std::string& first, const std::vector<std::string>& ce
   return line;
 }
 
-int compare_frames(const CompareArguments& a, WantedMetrics wanted, const Limits& limits) {
+int compare_frames(const CompareArguments& a, WantedMetrics wanted, const Limits& limits,
+                   const Out& print) {
   const std::vector<int> frames = frames_to_compare(a);
   std::optional<Pair> before;
   double flicker_sum = 0, flicker_max = 0;
@@ -154,8 +164,9 @@ int compare_frames(const CompareArguments& a, WantedMetrics wanted, const Limits
 
 int compare_verb(const CompareArguments& a, const CommonArguments& common) {
   const Limits limits = limits_of(common);
+  const Out print(common);
   const WantedMetrics wanted = wanted_metrics(a);
-  if (!a.frames.empty()) return compare_frames(a, wanted, limits);
+  if (!a.frames.empty()) return compare_frames(a, wanted, limits, print);
   const Pair pair = compare_pair(a, wanted, limits);
   print(numbers_text(pair.result) + to_text(pair.metrics, wanted) + verdict(pair.passes()));
   for (const std::string& map : {a.diff, a.flip_map}) {
