@@ -7,6 +7,7 @@
 #include "limpid/run/reference.h"
 #include "limpid/write/preview.h"
 
+#include "run/each_once.h"
 #include "write/atomic_file.h"
 
 namespace limpid {
@@ -37,6 +38,7 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice) {
 }
 
 void expect_writable(const OutputChoice& choice) {
+  expect_each_once(choice.aovs);
   expect_writable(choice.picture);
   if (!choice.deep.empty()) expect_writable(choice.deep);
   if (!choice.preview.empty()) expect_writable(choice.preview);

@@ -18,7 +18,7 @@ namespace limpid {
 std::vector<Aov> computed_aovs(const OutputChoice& choice);
 
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not
-/// there or cannot be written to.
+/// there or cannot be written to, and for AOVs that are named twice.
 void expect_writable(const OutputChoice& choice);
 void expect_writable(const std::filesystem::path& file);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "limpid/raster/rasterise.h"
 #include "limpid/raster/shadow_map.h"
 
+#include "raster/check_rendered.h"
 #include "raster/water_surface.h"
 
 namespace limpid {
@@ -174,35 +174,6 @@ class PlateRenderer {
   RenderedPlate plate_;
 };
 
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 27;
-
-void check(const Scene& scene, const RenderOptions& options) {
-  scene.validate();
-  if (!scene.camera) {
-    throw Error("the scene has no camera: expected one in the scene file or in the geometry");
-  }
-  if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
-  const Size size = options.size;
-  if (size.width < 1 || size.height < 1 || size.width > 32000 || size.height > 32000) {
-    throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                ": expected 1 ... 32000 pixels a side");
-  }
-  const int limit = (32000 - std::max(size.width, size.height)) / 2;
-  if (options.overscan < 0 || options.overscan > limit) {
-    throw Error("overscan " + std::to_string(options.overscan) + ": expected 0 ... " +
-                std::to_string(limit) + " pixels");
-  }
-  const std::int64_t pixels = (std::int64_t{size.width} + 2 * options.overscan) *
-                              (std::int64_t{size.height} + 2 * options.overscan);
-  if (pixels > kMostPixels) {
-    throw Error(std::to_string(pixels) + " pixels with overscan and samples: expected at most " +
-                std::to_string(kMostPixels) + ", about 10 GB of buffers");
-  }
-  if (scene.sun && glm::dot(scene.sun->direction, scene.water->up) <= 0) {
-    throw Error("the sun is below the horizon: expected a direction that points above the water");
-  }
-}
-
 }  // namespace
 
 PlaneSet renderable(const Model& model, const Scene& scene) {
@@ -227,7 +198,7 @@ PlaneSet renderable(const Model& model, const Scene& scene) {
 
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
                            PlaneSet wanted, Executor& executor) {
-  check(scene, options);
+  check_rendered(scene, options.size, options.overscan);
   if (!sees_mirror(*scene.camera, *scene.water)) wanted = wanted - kMirrorPlanes;
   PlateRenderer renderer(model, scene, options, wanted, executor);
   if (wanted.meets(kDryPlanes)) renderer.draw_dry(wanted);

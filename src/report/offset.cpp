@@ -76,10 +76,11 @@ Tally tally(const OffsetPictures& pictures, const OffsetChannel& channel) {
   const Rect window = pictures.confidence.window;
   for (int y = window.y0; y < window.y1; ++y) {
     for (int x = window.x0; x < window.x1; ++x) {
-      if (!std::isfinite(pictures.surface_depth.at(x, y))) continue;
+      const float surface = pictures.surface_depth.at(x, y);
+      if (surface == std::numeric_limits<float>::infinity()) continue;
       ++result.wet;
       const float confidence = pictures.confidence.at(x, y), visible = channel.visible.at(x, y);
-      if (!std::isfinite(confidence) || !std::isfinite(visible)) {
+      if (!std::isfinite(surface) || !std::isfinite(confidence) || !std::isfinite(visible)) {
         result.mismatch();
         continue;
       }

@@ -6,6 +6,8 @@
 #include "limpid/core/error.h"
 #include "limpid/raster/render_plate.h"
 
+#include "raster/check_rendered.h"
+#include "run/each_once.h"
 #include "trace/geometry.h"
 
 namespace limpid {
@@ -16,16 +18,8 @@ using trace::Light;
 
 void check(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options) {
   look.validate();
-  scene.validate();
-  if (!scene.camera) {
-    throw Error("the scene has no camera: expected one in the scene file or in the geometry");
-  }
+  check_rendered(scene, options.size);
   renderable(model, scene);
-  const Size size = options.size;
-  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > 32000) {
-    throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                ": expected 1 ... 32000 pixels a side");
-  }
   if (options.samples < 1 || options.samples > 16) {
     throw Error("samples = " + std::to_string(options.samples) + ": expected 1 ... 16");
   }
@@ -35,9 +29,7 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
                   Fault::kUsage);
     }
   }
-  if (scene.sun && glm::dot(scene.sun->direction, scene.water->up) <= 0) {
-    throw Error("the sun is below the horizon: expected a direction that points above the water");
-  }
+  expect_each_once(options.aovs);
   const double above = glm::dot(scene.camera->eye(), scene.water->up) - scene.water->height;
   if (scene.camera->orthographic() && above < 0) {
     throw Error("an orthographic camera below the water: expected one above it");

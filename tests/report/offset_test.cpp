@@ -99,6 +99,8 @@ TEST(Offset, PercentilesAreExact) {
 
 TEST(Offset, NumbersThatAreNoneAreTheWorstThereIs) {
   for (const Row::Lookup& bad : std::vector<Row::Lookup>{{.confidence = kNan},
+                                                         {.depth = kNan},
+                                                         {.depth = -kInf},
                                                          {.u = kNan},
                                                          {.v = kInf},
                                                          {.true_v = kNan},

@@ -97,6 +97,8 @@ TEST_F(CompositeTest, AllAovsAreThereInTheirTypes) {
   composed("two.exr", {"--aov", "path,fresnel"});
   EXPECT_THAT(iinfo("two.exr"), HasSubstr("channel list: R (half), G (half), B (half), A (half), "
                                           "fresnel.Y (half), path.Z (float)\n"));
+  composed("again.exr", {"--aov", "path,fresnel,path"});
+  EXPECT_TRUE(same("two.exr", "again.exr"));
   composed("plain.exr");
   EXPECT_EQ(oiiotool({"--fail", "0", "aovs.exr", "--ch", "R,G,B,A", "plain.exr", "--diff"}).code,
             0);

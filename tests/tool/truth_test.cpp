@@ -21,7 +21,7 @@ TEST_F(TruthTest, EveryBundledSceneGivesAPicture) {
                             "--preview", name + ".png", "--aov", "all"});
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_THAT(ran.out, ContainsRegex(name +
-                                       ".exr: 64x36, 1 samples a pixel, look physical, "
+                                       ".exr: 64x36, 1 sample a pixel, look physical, "
                                        "trace [0-9.]+ s, write [0-9]+ ms\n" +
                                        name + ".png\n"));
     EXPECT_THAT(oiiotool({name + ".exr", "--printstats"}).out,
@@ -60,6 +60,8 @@ TEST_F(TruthTest, TakesTheLookAndTheTimeAndNumbersFrames) {
   ASSERT_EQ(with({"--time", "3", "-o", "three.exr"}).code, 0);
   EXPECT_EQ(text_of("truth.03.exr"), text_of("three.exr"));
   EXPECT_FALSE(same("truth.01.exr", "truth.03.exr"));
+  ASSERT_EQ(with({"--time", "3", "--aov", "in_scatter,in_scatter", "-o", "once.exr"}).code, 0);
+  EXPECT_EQ(text_of("once.exr"), text_of("three.exr"));
   ASSERT_EQ(with({"--set", "depth_fog.scattering=[0, 0, 0]", "-o", "clear.exr"}).code, 0);
   EXPECT_THAT(oiiotool({"clear.exr", "--ch", "in_scatter.R", "--printstats"}).out,
               HasSubstr("Stats Max: 0.0"));
@@ -73,9 +75,13 @@ TEST_F(TruthTest, RefusesInOneSentence) {
   };
   refused({"--aov", "confidence"}, {"confidence", "visible"}, 2);
   refused({"--aov", "visibl"}, {"'visibl' is no AOV"}, 2);
+  refused({"--aov", "all,visibl"}, {"'visibl' is no AOV", "did you mean 'visible'?"}, 2);
+  refused({"--aov", "all,confidence"}, {"'confidence' is no AOV"}, 2);
   refused({"--samples", "17"}, {"samples = 17", "1 ... 16"}, 1);
   refused({"--overscan", "4"}, {"has no option '--overscan'"}, 2);
   refused({"--preview", "no/such/folder/x.png"}, {"no/such/folder"}, 1);
+  expect_refused(limpid({"truth", scene("pool.toml"), "--size", "32000x32000", "-o", "x.exr"}),
+                 {"1024000000 pixels", "expected at most 134217728"}, 1);
   expect_refused(limpid({"truth", scene("pool.toml")}), {"-o OUT.exr"}, 2);
   expect_refused(limpid({"truth", scene("none.toml"), "-o", "x.exr"}), {"none.toml"}, 1);
 }

@@ -97,6 +97,7 @@ TEST_F(VerbsTest, AWrongValueIsWrongUsage) {
   expect_wrong({"--time", "soon"}, {"--time = soon: expected a number"});
   expect_wrong({"--threads", "-3"}, {"--threads: Value -3 not in range 0 to 1024"});
   expect_wrong({"--aov", "fresnell"}, {"'fresnell' is no AOV", "did you mean 'fresnel'?"});
+  expect_wrong({"--aov", "all,fresnell"}, {"'fresnell' is no AOV", "did you mean 'fresnel'?"});
   expect_wrong({"--runner", "fast"}, {"--runner fast: expected fused or reference"});
   expect_wrong({"--max-error", "-0.001"}, {"--max-error -0.001: expected a finite number from 0"});
   expect_wrong({"--max-error", "nan"}, {"--max-error nan: expected a finite number from 0 up"});

@@ -249,6 +249,12 @@ TEST(TracedPicture, RefusesWhatItCannotTrace) {
   EXPECT_THAT(refusal([](Scene&, TruthOptions& o) { o.samples = 17; }),
               HasSubstr("samples = 17: expected 1 ... 16"));
   EXPECT_THAT(refusal([](Scene&, TruthOptions& o) { o.size = {0, 5}; }), HasSubstr("size 0x5"));
+  EXPECT_THAT(refusal([](Scene&, TruthOptions& o) {
+                o.size = {32000, 32000};
+              }),
+              HasSubstr("1024000000 pixels with overscan and samples: expected at most 134217728"));
+  EXPECT_THAT(refusal([](Scene&, TruthOptions& o) { o.aovs.push_back(Aov::kPath); }),
+              HasSubstr("'path' is named twice"));
   EXPECT_THAT(refusal([](Scene&, TruthOptions& o) { o.aovs.push_back(Aov::kConfidence); }),
               HasSubstr("visible"));
   EXPECT_THAT(refusal([](Scene& s, TruthOptions&) {

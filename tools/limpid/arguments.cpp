@@ -145,7 +145,8 @@ CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
   add_settings(verb, a.water);
   verb.add_option("--aov", a.water.aovs,
                   "Also write these: all, or a list of the AOVs of water but confidence, and "
-                  "visible, where the dry picture shows what the refracted ray meets")
+                  "visible, where the dry picture shows what the refracted ray meets, with "
+                  "visible_below, where that of what lies below the water alone does")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);

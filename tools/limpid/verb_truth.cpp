@@ -10,20 +10,18 @@
 namespace limpid::tool {
 namespace {
 
+/// Those of water, but the truth guesses nothing, and `visible`.
 void choose_aovs(const std::vector<std::string>& names, TruthOutput& output) {
-  for (const std::string& name : names) {
-    if (name == "all") {
-      output.aovs.clear();
-      for (int i = 0; i < kAovCount; ++i) {
-        if (static_cast<Aov>(i) != Aov::kConfidence) output.aovs.push_back(static_cast<Aov>(i));
-      }
-      output.visible = true;
-      return;
-    }
+  std::vector<std::string> known;
+  for (const AovInfo& info : aovs()) {
+    if (info.name != "confidence") known.emplace_back(info.name);
+  }
+  known.emplace_back("visible");
+  for (const std::string& name : aov_names(names, known)) {
     if (name == "visible") {
       output.visible = true;
     } else {
-      output.aovs.push_back(as_usage([&] { return aov_named(name); }));
+      output.aovs.push_back(aov_named(name));
     }
   }
 }
@@ -50,8 +48,8 @@ TruthJob job_of(const TruthArguments& a) {
 
 std::string text_of(const TruthReport& report, const TruthJob& job) {
   char numbers[96];
-  std::snprintf(numbers, sizeof numbers, "%dx%d, %d samples a pixel", report.size.width,
-                report.size.height, job.samples * job.samples);
+  std::snprintf(numbers, sizeof numbers, "%dx%d, %d sample%s a pixel", report.size.width,
+                report.size.height, job.samples * job.samples, job.samples == 1 ? "" : "s");
   char times[64];
   std::snprintf(times, sizeof times, "trace %.1f s, write %.0f ms", report.trace_seconds,
                 1e3 * report.write_seconds);

@@ -22,15 +22,10 @@ namespace limpid::tool {
 namespace {
 
 std::vector<Aov> aov_list(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const AovInfo& info : aovs()) known.emplace_back(info.name);
   std::vector<Aov> list;
-  for (const std::string& name : names) {
-    if (name == "all") {
-      list.clear();
-      for (int i = 0; i < kAovCount; ++i) list.push_back(static_cast<Aov>(i));
-      return list;
-    }
-    list.push_back(as_usage([&] { return aov_named(name); }));
-  }
+  for (const std::string& name : aov_names(names, known)) list.push_back(aov_named(name));
   return list;
 }
 
@@ -77,6 +72,23 @@ std::string exr_named(const std::string& option, const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<std::string> aov_names(const std::vector<std::string>& names,
+                                   const std::vector<std::string>& known) {
+  const auto among = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  std::vector<std::string> list;
+  for (const std::string& name : names) {
+    if (name != "all" && !among(known, name)) {
+      throw Error("--aov: '" + name + "' is no AOV: expected all or some of " + join(known) +
+                      did_you_mean(name, known),
+                  Fault::kUsage);
+    }
+    if (!among(list, name)) list.push_back(name);
+  }
+  return among(list, "all") ? known : list;
+}
 
 std::unique_ptr<Executor> executor_of(const CommonArguments& common) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());

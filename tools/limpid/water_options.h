@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "limpid/composite.h"
 #include "limpid/core/error.h"
@@ -22,6 +23,11 @@ auto as_usage(Work&& work) {
     throw Error(error.what(), Fault::kUsage);
   }
 }
+
+/// What --aov names, each once; all that is known where `all` is among it. Throws the usage Error
+/// for what is not known.
+std::vector<std::string> aov_names(const std::vector<std::string>& names,
+                                   const std::vector<std::string>& known);
 
 /// The threads that --threads asks for: for compositing, and as many for decoding and encoding.
 std::unique_ptr<Executor> executor_of(const CommonArguments& common);

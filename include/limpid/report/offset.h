@@ -12,14 +12,17 @@ namespace limpid {
 struct OffsetChannel {
   View<const float> u, v;            ///< of the chain
   View<const float> true_u, true_v;  ///< of the truth; read only where `visible`
-  View<const float> visible;  ///< of the truth: 1 where the dry camera sees that point directly
+  /// Of the truth: 1 where the picture that the chain looks things up in has that point, 0 where
+  /// something hides it. That picture is the dry one (TruthPicture::visible), or what lies below
+  /// the water alone where the chain had that (visible_below).
+  View<const float> visible;
 };
 
 /// What the error of the chain's geometry is computed from: AOVs of the chain beside the planes of
 /// the same name of a ray-traced picture. All windows must be equal.
 struct OffsetPictures {
   Size display;
-  View<const float> surface_depth;  ///< of the chain: finite where there is water
+  View<const float> surface_depth;  ///< of the chain: +inf where there is no water
   View<const float> confidence;     ///< of the chain: the share of the lookup that is real
   std::array<OffsetChannel, 3> channels;
 };
@@ -28,7 +31,7 @@ struct OffsetPictures {
 /// `confidence` is .5 or more, else the chain fell back on something invented; it *can be had*
 /// where `visible` is .5 or more. Offsets are measured where it can be had and is accepted, in
 /// pixels. Where what says so is NaN or inf, or where a measured place is, the error is infinite (a
-/// mismatch).
+/// mismatch); so it is for a surface_depth of NaN or -inf.
 struct OffsetErrors {
   std::int64_t wet = 0;                 ///< lookups of wet pixels: the shares below are of these
   std::int64_t measured = 0;            ///< with mismatches

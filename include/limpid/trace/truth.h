@@ -78,8 +78,9 @@ struct TruthPicture {
   std::array<View<float>, 3> visible_below;
 };
 
-/// The same bits for any number of threads. Throws Error for what render_plate() refuses, samples
-/// out of range, the AOV confidence, and where Embree finds no memory.
+/// The same bits for any number of threads. Throws Error for what render_plate() refuses, an
+/// orthographic camera below the water, samples out of range, the AOV confidence, AOVs that are
+/// named twice, and where Embree finds no memory.
 TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& look,
                          const TruthOptions& options, Executor& executor);
 
