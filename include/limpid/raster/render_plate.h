@@ -31,9 +31,9 @@ struct RenderedPlate {
 /// plane sees the mirror's underside; one in the plane sees none, and these planes stay empty.
 /// Below: what lies under the calm plane, or under the highest crest of waves, alone, by a clip
 /// plane there. Depth and normals of the water's own meshes, raised and lowered by
-/// scene.water.waves, seen from either side, and the sun's visibility there; without a water mesh depth and normals stay empty, as the chain derives
-/// them from the calm plane, and the shadow is that on the calm plane. Without a sun there is
-/// ambient light alone, and no surface shadow.
+/// scene.water.waves, seen from either side, and the sun's visibility there; without a water mesh
+/// depth and normals stay empty, as the chain derives them from the calm plane, and the shadow is
+/// that on the calm plane. Without a sun there is ambient light alone, and no surface shadow.
 ///
 /// Throws Error when the scene lacks camera or water, the sun is below the horizon, or a size is
 /// out of bounds.
