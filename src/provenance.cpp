@@ -1,6 +1,5 @@
 #include "provenance.h"
 
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -73,6 +72,14 @@ std::string line(std::string_view key, const std::string& value) {
   return std::string(key) + " = " + value + "\n";
 }
 
+std::vector<std::string> names_of(const std::vector<Aov>& list) {
+  std::vector<std::string> names;
+  for (const Aov aov : list) {
+    names.push_back(toml_text(std::string(aovs()[static_cast<std::size_t>(aov)].name)));
+  }
+  return names;
+}
+
 std::string simd_line(std::string_view key, const std::string& simd) {
   return line(key, toml_text(simd.empty() ? simd_targets().front() : simd));
 }
@@ -90,46 +97,61 @@ Record record_of(const Scene& scene, const std::string& inputs, const std::strin
           {"limpid/options", options}};
 }
 
-void add_look(Record& record, const Look& look, const Plan& plan) {
+void add_look(Record& record, const Look& look) {
   // The map by its name, not where it lay; what is in it is among the inputs.
   Look recorded = look;
   std::string& map = recorded.of<WaveNormals>().map;
   map = std::filesystem::path(map).filename().string();
   record["limpid/look"] = to_toml(recorded);
+}
+
+void add_look(Record& record, const Look& look, const Plan& plan) {
+  add_look(record, look);
   record["limpid/plan"] = to_text(plan);
 }
 
-std::string model_inputs(const HashedModel& model, const RenderOptions& options) {
+std::string model_inputs(const HashedModel& model, Size size) {
   return line("model", toml_text(model.hash)) +
-         line("size", "[" + std::to_string(options.size.width) + ", " +
-                          std::to_string(options.size.height) + "]") +
-         line("overscan", std::to_string(options.overscan)) +
+         line("size", "[" + std::to_string(size.width) + ", " + std::to_string(size.height) + "]");
+}
+
+std::string model_inputs(const HashedModel& model, const RenderOptions& options) {
+  return model_inputs(model, options.size) + line("overscan", std::to_string(options.overscan)) +
          line("shadow_map", std::to_string(options.shadow_map_size));
 }
 
 std::string texture_inputs(const Plan& plan, const SceneFile& scene, SharedTextures& textures) {
   std::string text;
-  if (plan.reads_wave_map) {
-    const std::string hash = textures.hash_of(plan.look.of<WaveNormals>().map);
-    text += line("wave_map", toml_text(hash));
-  }
-  if (plan.reads_environment) {
-    text += line("environment", "{file = " + toml_text(textures.hash_of(scene.environment)) +
-                                    ", rotation = " + toml_text(scene.environment_rotation) + "}");
-  }
+  if (plan.reads_wave_map) text += wave_map_input(plan.look.of<WaveNormals>().map, textures);
+  if (plan.reads_environment) text += environment_input(scene, textures);
   return text;
+}
+
+std::string wave_map_input(const std::filesystem::path& file, SharedTextures& textures) {
+  return line("wave_map", toml_text(textures.hash_of(file)));
+}
+
+std::string environment_input(const SceneFile& scene, SharedTextures& textures) {
+  return line("environment", "{file = " + toml_text(textures.hash_of(scene.environment)) +
+                                 ", rotation = " + toml_text(scene.environment_rotation) + "}");
 }
 
 std::string picture_options(const OutputChoice& choice) {
   const bool fused = choice.runner == Runner::kFused;
-  std::vector<std::string> names;
-  for (const Aov aov : choice.aovs) {
-    names.push_back(toml_text(std::string(aovs()[static_cast<std::size_t>(aov)].name)));
-  }
   return line("runner", toml_text(std::string(fused ? "fused" : "reference"))) +
          (fused ? simd_line("simd", choice.simd) : "") +
-         line("max_error", toml_text(choice.max_error)) + line("aovs", "[" + join(names) + "]") +
+         line("max_error", toml_text(choice.max_error)) +
+         line("aovs", "[" + join(names_of(choice.aovs)) + "]") +
          file_options(choice.compression, choice.store_float);
+}
+
+std::string truth_options(const TruthJob& job) {
+  std::vector<std::string> names = names_of(job.output.aovs);
+  if (job.output.visible) names.push_back(toml_text(std::string("visible")));
+  return line("runner", toml_text(std::string("traced"))) +
+         line("samples", std::to_string(job.samples)) + line("seed", std::to_string(job.seed)) +
+         line("aovs", "[" + join(names) + "]") +
+         file_options(job.output.compression, job.output.store_float);
 }
 
 std::string raster_options(const std::string& simd) { return simd_line("raster_simd", simd); }

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include "limpid/plan/plan.h"
 #include "limpid/raster/model.h"
 #include "limpid/raster/render_plate.h"
+#include "limpid/truth.h"
 
 #include "shared_textures.h"
 
@@ -20,7 +22,9 @@ using Record = std::map<std::string, std::string>;
 
 /// Version, scene, inputs, options, and the hash of scene and inputs.
 Record record_of(const Scene& scene, const std::string& inputs, const std::string& options);
-/// The look as it was asked for, and what the plan made of it.
+/// The look as it was asked for.
+void add_look(Record& record, const Look& look);
+/// And what the plan made of it.
 void add_look(Record& record, const Look& look, const Plan& plan);
 
 /// A model and what stands for it in a record: the hash of all that is drawn of it.
@@ -31,11 +35,15 @@ struct HashedModel {
 };
 
 /// Parts of `inputs`: TOML, some lines each.
+std::string model_inputs(const HashedModel& model, Size size);
 std::string model_inputs(const HashedModel& model, const RenderOptions& options);
 std::string texture_inputs(const Plan& plan, const SceneFile& scene, SharedTextures& textures);
+std::string wave_map_input(const std::filesystem::path& file, SharedTextures& textures);
+std::string environment_input(const SceneFile& scene, SharedTextures& textures);
 
 /// Parts of `options`.
 std::string picture_options(const OutputChoice& choice);
+std::string truth_options(const TruthJob& job);
 std::string raster_options(const std::string& simd);
 std::string file_options(const std::string& compression, bool store_float);
 

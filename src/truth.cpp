@@ -4,11 +4,11 @@
 
 #include "limpid/load/texture.h"
 #include "limpid/raster/render_plate.h"
-#include "limpid/version.h"
 #include "limpid/write/exr_camera.h"
 #include "limpid/write/exr_writer.h"
 #include "limpid/write/preview.h"
 
+#include "provenance.h"
 #include "shared_textures.h"
 #include "stopwatch.h"
 #include "write/atomic_file.h"
@@ -26,18 +26,22 @@ Scene scene_of(const Model& model, const TruthJob& job) {
 /// What the look reads beside the model: raised meshes have normals of their own.
 struct Textures {
   LoadedTexture wave_map, environment;
+  std::string inputs;  ///< what a record says of them
 };
 Textures textures_of(const Model& model, const Scene& scene, const TruthJob& job) {
   Textures textures;
+  SharedTextures files;
   const WaveNormals::Params& waves = job.look.of<WaveNormals>();
   const bool raised = renderable(model, scene).covers(kSurfaceNormalPlanes);
   if (!raised && WaveNormals::needs(waves).wave_map && !waves.map.empty()) {
     textures.wave_map = load_texture(waves.map);
+    textures.inputs += wave_map_input(waves.map, files);
   }
   const bool surroundings =
       job.look.of<FresnelReflection>().source == FresnelReflection::Source::kEnvironment;
   if (surroundings && has_environment(job.scene)) {
     textures.environment = load_environment(job.scene.environment, job.scene.environment_rotation);
+    textures.inputs += environment_input(job.scene, files);
   }
   return textures;
 }
@@ -65,21 +69,20 @@ std::vector<ExrOutputChannel> channels_of(const TruthPicture& picture, const Tru
   return channels;
 }
 
+Record record_of(const Model& model, const TruthJob& job, const Scene& scene,
+                 const Textures& textures) {
+  Record record = record_of(scene, model_inputs(HashedModel(model), job.size) + textures.inputs,
+                            truth_options(job));
+  add_look(record, job.look);
+  return record;
+}
+
 ExrOutput file_of(const TruthPicture& picture, const Scene& scene, const TruthJob& job) {
   ExrOutput file;
   file.data = file.display = picture.window;
   file.compression = job.output.compression;
   file.channels = channels_of(picture, job.output);
   file.matrices = camera_attributes(*scene.camera);
-  // The map by its name, not where it lay: the same job gives the same bytes anywhere.
-  Look recorded = job.look;
-  std::string& map = recorded.of<WaveNormals>().map;
-  map = std::filesystem::path(map).filename().string();
-  file.text = {{"limpid/version", kVersion},
-               {"limpid/scene", to_toml(scene)},
-               {"limpid/look", to_toml(recorded)},
-               {"limpid/truth", "samples = " + std::to_string(job.samples) +
-                                    "\nseed = " + std::to_string(job.seed) + "\n"}};
   return file;
 }
 
@@ -103,11 +106,13 @@ TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
                              textures.environment.texture};
   const TruthPicture picture = trace_truth(model, scene, job.look, options, executor);
   report.trace_seconds = watch.lap();
+  ExrOutput file = file_of(picture, scene, job);
+  file.text = record_of(model, job, scene, textures);
   if (!job.output.preview.empty()) {
     const auto& c = picture.target.color;
-    write_preview(job.output.preview, c[0], c[1], c[2]);
+    write_preview(job.output.preview, c[0], c[1], c[2], 0, file.text);
   }
-  write_exr(job.output.picture, file_of(picture, scene, job));
+  write_exr(job.output.picture, file);
   report.write_seconds = watch.lap();
   return report;
 }

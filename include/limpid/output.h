@@ -29,7 +29,8 @@ enum class Runner { kFused, kReference };
 ///                      the same picture before look and options
 ///   limpid/options     how it was computed and stored: runner, instruction set, AOVs, compression
 ///
-/// A rendered plate has no look and no plan.
+/// A rendered plate has no look and no plan, a ray-traced picture no plan: its options name the
+/// runner "traced", samples and seed.
 struct OutputChoice {
   std::vector<Aov> aovs;
   Runner runner = Runner::kFused;

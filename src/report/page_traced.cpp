@@ -18,8 +18,8 @@ std::vector<Column> columns_of(const char* first, const char* second) {
           {"FLIP", ""},
           {"HDR-FLIP", ""},
           {"flicker", "mean"},
-          {"lookup off, median", "pixels"},
-          {"95 %", "pixels"},
+          {"off", "median px"},
+          {"off", "95 % px"},
           {"rejected", "wrongly"},
           {"accepted", "wrongly"}};
 }
@@ -102,7 +102,7 @@ std::string traced_section(const Report& report) {
   return section(
       "traced", "Models beside traced light",
       html + paragraph("<b>Flicker</b>: |change of the picture - change of the truth| to the "
-                       "next of 24 frames a second. <b>Lookup off</b>: between where a color "
+                       "next of 24 frames a second. <b>Off</b>: between where a color "
                        "was looked up and where its refracted ray ends in the picture, where "
                        "that can be seen and the chain did not fall back. <b>Wrongly "
                        "rejected</b>: it could be seen, and the chain fell back; <b>wrongly "

@@ -128,6 +128,38 @@ TEST_F(CompareMetricsTest, OffsetsOfTheLookups) {
   EXPECT_THAT(broken.out, HasSubstr("lookups are NaN or inf where they count\nFAILURE\n"));
 }
 
+/// A model is also drawn without what is over the water, and lookups go there: what hides something
+/// from the dry camera does not count then.
+TEST_F(CompareMetricsTest, OffsetsAreJudgedByThePictureThatWasLookedUp) {
+  composed("plate_wet.exr", {"--float", "--aov", "all"});
+  const std::string pool = std::string(LIMPID_DATA) + "/scenes/pool.toml";
+  ASSERT_EQ(
+      limpid({"water", pool, "--size", "64x36", "--float", "--aov", "all", "-o", "wet.exr"}).code,
+      0);
+  const std::string both =
+      "R,G,B,stmap.r.U,stmap.r.V,stmap.g.U,stmap.g.V,stmap.b.U,stmap.b.V,visible.R=0,visible.G=0,"
+      "visible.B=0";
+  const std::string below = ",visible_below.R=1,visible_below.G=1,visible_below.B=1";
+  const Words offset = with(kColor, {"--metrics", "offset"});
+  const char* const none_measured = "\n  Offset = .* of 0 lookups;";
+  const char* const measured = "\n  Offset = .* of [1-9][0-9]* lookups; .* wrongly accepted 0% of";
+
+  rechannel("wet.exr", both + below, "truth.exr");
+  const Ran of_model = compare("wet.exr", "truth.exr", offset);
+  EXPECT_THAT(of_model.out, ContainsRegex(measured));
+  EXPECT_THAT(of_model.out, HasSubstr("judged by visible_below of the truth\n"));
+
+  rechannel("wet.exr", both, "truth.exr");
+  const Ran without = compare("wet.exr", "truth.exr", offset);
+  EXPECT_THAT(without.out, ContainsRegex(none_measured));
+  EXPECT_THAT(without.out, HasSubstr("judged by visible of the truth\n"));
+
+  rechannel("plate_wet.exr", both + below, "truth.exr");
+  const Ran of_plate = compare("plate_wet.exr", "truth.exr", offset);
+  EXPECT_THAT(of_plate.out, ContainsRegex(none_measured));
+  EXPECT_THAT(of_plate.out, Not(HasSubstr("judged by")));
+}
+
 TEST_F(CompareMetricsTest, NanNeverPasses) {
   composed("wet.exr");
   rechannel("wet.exr", "R,G=nan,B", "nan.exr");

@@ -176,6 +176,43 @@ TEST_F(ProvenanceTest, TheSameModelGivesTheSameBytesAnywhere) {
   EXPECT_THAT(water.at("limpid/inputs"), HasSubstr("samples = 1\n"));
 }
 
+/// The truth says the same of itself as water does, but there is no plan to it.
+TEST_F(ProvenanceTest, TheTruthSaysHowItWasTraced) {
+  copy_pool("a");
+  copy_pool("b");
+  const auto traced = [&](const std::string& inner, const std::string& name, Words more = {}) {
+    Words words{"truth", "pool.toml",   "--size",    "32x18",
+                "-o",    name + ".exr", "--preview", name + ".png"};
+    words.insert(words.end(), more.begin(), more.end());
+    run_in(inner, words);
+    return made(inner + "/" + name + ".exr");
+  };
+  const Texts first = traced("a", "truth", {"--threads", "1"});
+  traced("b", "x", {"--threads", "2"});
+  EXPECT_TRUE(text_of("a/truth.exr") == text_of("b/x.exr"));
+  EXPECT_TRUE(text_of("a/truth.png") == text_of("b/x.png"));
+  EXPECT_EQ(made("a/truth.png"), first);
+  EXPECT_EQ(first.count("limpid/plan"), 0u);
+  EXPECT_EQ(first.size(), kNames.size() - 1);
+  EXPECT_EQ(first.at("limpid/scene_hash"),
+            hash_of(first.at("limpid/scene") + first.at("limpid/inputs")));
+  EXPECT_THAT(first.at("limpid/inputs"), ContainsRegex("^model = \"[0-9a-f]+\"\nsize = \\[32, 18"));
+  EXPECT_EQ(first.at("limpid/options"),
+            "runner = \"traced\"\nsamples = 1\nseed = 0\naovs = []\ncompression = \"piz\"\n"
+            "pixels = \"half\"\n");
+
+  const Texts other = traced("a", "other", {"--samples", "2", "--seed", "7", "--aov", "visible"});
+  EXPECT_EQ(other.at("limpid/scene_hash"), first.at("limpid/scene_hash"));
+  EXPECT_THAT(other.at("limpid/options"),
+              HasSubstr("samples = 2\nseed = 7\naovs = [\"visible\"]\n"));
+  std::string bytes = text_of("a/pool.bin");
+  bytes[0] ^= 4;  // in the mantissa of a coordinate
+  write_text("a/pool.bin", bytes);
+  const Texts moved = traced("a", "moved");
+  EXPECT_NE(moved.at("limpid/inputs"), first.at("limpid/inputs"));
+  EXPECT_NE(moved.at("limpid/scene_hash"), first.at("limpid/scene_hash"));
+}
+
 TEST_F(ProvenanceTest, TheSceneHashTellsApartWhatIsToBeSeen) {
   composed("wet.exr");
   std::map<std::string, std::string> seen{{scene_hash("wet.exr"), "as it was"}};

@@ -30,7 +30,7 @@ TEST_F(TruthTest, EveryBundledSceneGivesAPicture) {
   }
   const std::string info = iinfo("pool.exr");
   for (const char* part : {"transmitted.R", "stmap.b.V", "visible.R", "visible_below.B",
-                           "limpid/look", "limpid/scene", "limpid/truth", "worldToCamera"}) {
+                           "limpid/look", "limpid/scene", "limpid/inputs", "worldToCamera"}) {
     EXPECT_THAT(info, HasSubstr(part));
   }
   EXPECT_THAT(info, testing::Not(HasSubstr("confidence")));

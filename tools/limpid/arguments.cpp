@@ -179,7 +179,8 @@ void add_compare(CLI::App& app, CompareArguments& a) {
           "--metrics", a.metrics,
           "Tell these, too: all, or a list of ssim, flip, hdrflip (of R, G, B, scene-linear "
           "in EXR, HDR and PFM, else encoded as sRGB) and offset (of the AOVs of A and of a "
-          "ray-traced B)")
+          "ray-traced B: its visible, or visible_below where A says that it was made with what "
+          "lies below the water alone)")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "limpid/core/error.h"
+#include "limpid/load/exr_file.h"
 #include "limpid/report/heat_map.h"
 #include "limpid/report/number_text.h"
 
@@ -20,6 +21,24 @@ std::vector<std::string> with(std::vector<std::string> names,
 }
 const std::vector<std::string> kOfChain = with({"surface_depth.Z", "confidence.Y"}, kMaps);
 const std::vector<std::string> kOfTruth = with({"visible.R", "visible.G", "visible.B"}, kMaps);
+const char* const kBelow = "visible_below";
+
+// Whether the chain looked things up in a picture of what lies below the water alone: that of a
+// model, or layers of a plate.
+bool looked_below(const std::string& path) {
+  const auto inputs = ExrFile::open(path).text_attribute(0, "limpid/inputs");
+  const auto says = [&](const std::string& key) {
+    return ("\n" + inputs.value_or("")).find("\n" + key + " = ") != std::string::npos;
+  };
+  return says("model") || (says("below_color") && says("below_depth"));
+}
+
+bool tells_below(const std::string& path) {
+  const auto told = [&](const char* color) {
+    return has_channel(path, std::string(kBelow) + "." + color);
+  };
+  return told("R") && told("G") && told("B");
+}
 
 // The first channel that the offset cannot be measured without, as a sentence; "" where all is
 // there.
@@ -38,9 +57,12 @@ std::string lack(const std::string& a, const std::string& b) {
   return of_a != "" ? of_a : lack(b, kOfTruth, "a ray-traced truth with its lookups");
 }
 
-OffsetComparison measure_offset(const std::string& a, const std::string& b, const Limits& limits) {
-  const ComparedPicture chain = read_picture(a, kOfChain, limits),
-                        truth = read_picture(b, kOfTruth, limits);
+// `visible`: the channels of the truth that say what can be had.
+OffsetComparison measure_offset(const std::string& a, const std::string& b,
+                                const std::string& visible, const Limits& limits) {
+  const ComparedPicture chain = read_picture(a, kOfChain, limits);
+  const ComparedPicture truth =
+      read_picture(b, with({visible + ".R", visible + ".G", visible + ".B"}, kMaps), limits);
   if (chain.display != truth.display) {
     throw Error(a + " and " + b +
                 " are not of the same display window: their lookups cannot be "
@@ -56,7 +78,7 @@ OffsetComparison measure_offset(const std::string& a, const std::string& b, cons
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string map = std::string("stmap.") + letters[c];
     pictures.channels[c] = {of(chain, map + ".U"), of(chain, map + ".V"), of(truth, map + ".U"),
-                            of(truth, map + ".V"), of(truth, std::string("visible.") + colors[c])};
+                            of(truth, map + ".V"), of(truth, visible + "." + colors[c])};
   }
   return offset_errors(pictures);
 }
@@ -98,7 +120,9 @@ PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
   if (wanted.offset) {
     metrics.no_offset = lack(a.path, b.path);
     if (metrics.no_offset.empty()) {
-      metrics.offset = measure_offset(a.path, b.path, limits);
+      metrics.below = looked_below(a.path);
+      metrics.visible = metrics.below && tells_below(b.path) ? kBelow : "visible";
+      metrics.offset = measure_offset(a.path, b.path, metrics.visible, limits);
     } else if (!wanted.all) {
       throw Error(metrics.no_offset);
     }
@@ -125,6 +149,9 @@ std::string to_text(const PictureMetrics& metrics, const WantedMetrics& wanted) 
     text += "  HDR-FLIP = " + to_text(*metrics.hdr_flip) + " (" + ppd + ", " +
             std::to_string(e.count) + " exposures " + number_text(e.start) + " ... " +
             number_text(e.stop) + ")\n";
+  }
+  if (metrics.below) {
+    text += "  Lookups below the water alone, judged by " + metrics.visible + " of the truth\n";
   }
   if (metrics.offset) text += to_text(*metrics.offset);
   if (!metrics.no_offset.empty()) text += "  Offset not measured: " + metrics.no_offset + "\n";

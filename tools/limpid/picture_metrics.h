@@ -31,6 +31,8 @@ struct PictureMetrics {
   std::optional<ErrorMap> flip, hdr_flip;
   Exposures exposures;  ///< of hdr_flip
   std::optional<OffsetComparison> offset;
+  bool below = false;     ///< its lookups went into a picture of what lies below the water alone
+  std::string visible;    ///< the truth's channels that it was judged by
   std::string no_offset;  ///< why it was not measured, where all metrics are wanted
 
   /// False where what was looked up is not even a number.
