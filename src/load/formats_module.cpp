@@ -53,10 +53,11 @@ int guarded(char* error, Work work) {
   return 1;
 }
 
-// A limpid program decides about its threads itself.
+// A limpid program decides about its threads itself. Said once, before anything is asked of
+// OpenImageIO: its pool must not be resized while another thread uses it.
 void stay_on_this_thread() {
-  OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);
+  static const bool said = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+  check(said, "OpenImageIO cannot be held to one thread");
 }
 
 void check_limits(const OIIO::ImageSpec& spec, const FormatsLimits& limits) {
