@@ -109,7 +109,7 @@ TEST(ReportPage, NamesNothingOutsideItself) {
     EXPECT_THAT(html, HasSubstr("<section id=\"" + std::string(id) + "\">"));
     EXPECT_THAT(html, HasSubstr("href=\"#" + std::string(id) + "\""));
   }
-  EXPECT_EQ(count(html, "<svg class=\"plot\""), 6);
+  EXPECT_EQ(count(html, "<svg class=\"plot\""), 7);
 }
 
 TEST(ReportPage, NamesAreTextAndNotMarkup) {
@@ -133,7 +133,7 @@ TEST(ReportPage, BudgetsThatChangeNothingAreSaidAndNotDrawn) {
   Report report = made_report();
   report.budgets[1].error = {};
   const std::string html = to_html(report);
-  EXPECT_EQ(count(html, "<svg class=\"plot\""), 5);
+  EXPECT_EQ(count(html, "<svg class=\"plot\""), 6);
   EXPECT_THAT(html, HasSubstr("physical: no error that was allowed changed a pixel."));
 }
 
