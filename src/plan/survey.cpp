@@ -352,7 +352,7 @@ bool Survey::Scan::no_foreground(const Own& own, const Extremes& reached) const 
     case Refraction::Rejection::kNone:
       return false;
     case Refraction::Rejection::kSnap:
-      return -reached[kNear] >= own.surface_far;
+      return looked_up.below || -reached[kNear] >= own.surface_far;
     case Refraction::Rejection::kShorten:
       if (params.model == Refraction::Model::kSnell) return false;
       return reached[kGap] == 0 && (!looked_up.below || reached[kFar] < 1e30f);

@@ -37,8 +37,9 @@ namespace limpid {
 /// is hard (a halo). `shorten`: each texel of each channel is tested against the surface in front
 /// of it (op/valid_lookup.h); along snell's rays what stands under water far before their end hides
 /// that, too, and does not count. Where the frame has a layer below, that is looked up instead of
-/// the dry scene; it reaches the highest crest, and what of it stands above the surface is rejected
-/// alike. Not so where the view may begin in the water, from where one looks up into the air, too.
+/// the dry scene. It reaches the highest crest: `shorten` rejects what of it stands above the
+/// surface, `snap`, which asks for this pixel's surface alone, takes all of it. Not so where the
+/// view may begin in the water, from where one looks up into the air as well.
 ///
 /// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
@@ -113,7 +114,7 @@ struct Refraction {
           [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
     }
     strip.each([&](Pixel<F>& p) { keep_in_frame(params, planes.bounds, p); });
-    if (params.rejection == Rejection::kSnap && c.foreground) {
+    if (params.rejection == Rejection::kSnap && !planes.below && c.foreground) {
       strip.each([](Pixel<F>& p) { snap(p); });
     }
     if (params.rejection == Rejection::kShorten) {
