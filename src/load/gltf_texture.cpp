@@ -8,6 +8,7 @@
 
 #include "limpid/core/error.h"
 
+#include "load/png_inflated.h"
 #include "load/stb_image.h"
 #include "load/whole_file.h"
 
@@ -73,6 +74,11 @@ ModelTexture decode_texture(std::string_view bytes, const std::string& name, con
     throw Error(name + ": not a picture that can be read: " + stbi_failure_reason());
   }
   check_size(texture.width, texture.height, name, limits);
+  if (bytes.front() == '\x89') {
+    // Four channels of 16 bits, and a byte a row, of which interlaced pictures have twice as many.
+    const std::int64_t rows = 2 * std::int64_t{texture.height} + 8;
+    check_inflated(bytes, 8 * std::int64_t{texture.width} * texture.height + rows, name);
+  }
   const std::size_t count = static_cast<std::size_t>(texture.width) * texture.height;
   const auto decoded = [&](auto* pixels, int largest) {
     const std::unique_ptr<std::remove_pointer_t<decltype(pixels)>, Free> owner(pixels);

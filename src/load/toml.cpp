@@ -17,6 +17,8 @@ namespace {
 // A node of two bytes of text takes some 400 bytes of memory.
 constexpr std::streamsize kMaxBytes = std::streamsize{256} << 10;
 constexpr std::size_t kLongestKey = 64, kLongestText = 80;  // of texts: in sentences
+// Every node has its path.
+constexpr std::size_t kLongestPath = 512;
 
 std::string text_of_file(const std::filesystem::path& path) {
   std::error_code absent;
@@ -39,6 +41,10 @@ std::string place_of(const std::string& file, const toml::source_region& region)
 }
 
 TomlNode converted(const toml::node& value, const std::string& file, const std::string& path) {
+  if (path.size() > kLongestPath) {
+    throw Error(place_of(file, value.source()) + "keys in keys of " + std::to_string(path.size()) +
+                " letters in all: expected at most " + std::to_string(kLongestPath));
+  }
   TomlNode node;
   node.path = path;
   node.place = node.key_place = place_of(file, value.source());

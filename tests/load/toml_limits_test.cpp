@@ -70,6 +70,10 @@ TEST(TomlLimits, SentencesStayShort) {
   const std::string letters(100000, 'a');
   EXPECT_EQ(error_of_scene(letters + " = 1"),
             "s.toml:1:1: a key of 100000 letters: expected at most 64");
+  std::string path = "[" + std::string(60, 'a');
+  for (int i = 0; i < 9; ++i) path += "." + std::string(60, 'b');
+  EXPECT_THAT(error_of_scene(path + "]"),
+              testing::HasSubstr("letters in all: expected at most 512"));
   EXPECT_LT(error_of_scene("[sun]\ndirection = \"" + letters + "\"").size(), 200u);
   EXPECT_LT(error_of([&] { look_from_toml("water = \"" + letters + "\"", "look"); }).size(), 200u);
 }
