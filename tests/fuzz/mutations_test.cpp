@@ -99,11 +99,13 @@ TEST(Probe, TellsHowWorkEnds) {
 TEST(Probe, EndsWhatDoesNotEnd) {
   const Outcome outcome = probe(
       [] {
-        for (volatile int i = 0;;) i = i + 1;
+        for (volatile unsigned i = 0;;) i = i + 1;
       },
       1);
   EXPECT_EQ(outcome.end, Outcome::End::kBroken);
-  EXPECT_GT(outcome.seconds, 0.9);
+  // By the processor's time, or on a busy machine by the clock's.
+  EXPECT_THAT(outcome.cause, testing::AnyOf(HasSubstr("signal 24"), HasSubstr("signal 14"),
+                                            HasSubstr("signal 9")));
 }
 
 TEST(Probe, MeasuresMemory) {
