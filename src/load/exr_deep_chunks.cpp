@@ -6,14 +6,6 @@
 namespace limpid {
 namespace {
 
-std::uint64_t read_number(FileStream& stream, int bytes) {
-  char memory[8];
-  stream.read(memory, bytes);
-  std::uint64_t number = 0;
-  for (int i = bytes; i-- > 0;) number = number << 8 | static_cast<unsigned char>(memory[i]);
-  return number;
-}
-
 std::int32_t read_i32(FileStream& stream) {
   return static_cast<std::int32_t>(read_number(stream, 4));
 }

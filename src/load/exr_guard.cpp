@@ -67,14 +67,6 @@ std::int64_t most_threads(const ExrHeader& header, const Limits& limits) {
   return (limits.max_memory - tile_row) / a_thread;
 }
 
-std::uint64_t read_number(FileStream& stream, int bytes) {
-  char memory[8];
-  stream.read(memory, bytes);
-  std::uint64_t number = 0;
-  for (int i = bytes; i-- > 0;) number = number << 8 | static_cast<unsigned char>(memory[i]);
-  return number;
-}
-
 }  // namespace
 
 std::int64_t chunks_of(const ExrHeader& header) {

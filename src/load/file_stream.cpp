@@ -80,6 +80,14 @@ bool FileStream::read(char into[], int bytes) {
   return position_ < file_->size();
 }
 
+std::uint64_t read_number(FileStream& stream, int bytes) {
+  char memory[8];
+  stream.read(memory, bytes);
+  std::uint64_t number = 0;
+  for (int i = bytes; i-- > 0;) number = number << 8 | static_cast<unsigned char>(memory[i]);
+  return number;
+}
+
 Fault fault_of(int system_error) {
   switch (system_error) {
     case ENOSPC:

@@ -50,6 +50,9 @@ class FileStream : public Imf::IStream {
   std::vector<char> buffer_;
 };
 
+/// The next 1 to 8 bytes as a little-endian number. Throws as FileStream::read.
+std::uint64_t read_number(FileStream& stream, int bytes);
+
 /// Whether a failed system call is worth another try (disk full, file-size limit, network file
 /// gone) or not.
 Fault fault_of(int system_error);
