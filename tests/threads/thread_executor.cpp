@@ -1,14 +1,11 @@
-#include "limpid/core/executor.h"
-
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
-#include <string>
 #include <thread>
 #include <vector>
 
-#include "limpid/core/error.h"
+#include "core/executor_pool.h"
 
 /// The executor of the build with ThreadSanitizer: threads of the standard library, made for each
 /// call. It keeps the promises of executor.h and no others, so that who relies on more is seen.
@@ -69,24 +66,9 @@ class ThreadExecutor : public Executor {
   int threads_;
 };
 
-class CallingThread : public Executor {
- public:
-  void run(int count, Task task, void* context) override {
-    for (int i = 0; i < count; ++i) task(context, i);
-  }
-};
-
 }  // namespace
 
-void Executor::pipeline(int count, int /*in_flight*/, std::span<const Task> steps, void* context) {
-  for (int index = 0; index < count; ++index) {
-    for (const Task step : steps) step(context, index);
-  }
-}
-
-std::unique_ptr<Executor> make_executor(int threads) {
-  if (threads < 0) throw Error("threads = " + std::to_string(threads) + ": expected 0 or more");
-  if (threads == 1) return std::make_unique<CallingThread>();
+std::unique_ptr<Executor> make_pool(int threads) {
   return std::make_unique<ThreadExecutor>(threads);
 }
 
