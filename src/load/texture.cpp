@@ -4,7 +4,7 @@
 #include <string>
 
 #include "limpid/core/error.h"
-#include "limpid/load/sanitise.h"
+#include "limpid/enter/sanitise.h"
 
 #include "load/environment.h"
 #include "load/plate_file.h"

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "limpid/load/sanitise.h"
+#include "limpid/enter/sanitise.h"
 
 #include "report/hard_case.h"
 #include "report/hard_sea.h"

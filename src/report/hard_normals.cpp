@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "limpid/load/sanitise.h"
+#include "limpid/enter/sanitise.h"
 
 #include "report/hard_case.h"
 #include "report/hard_sea.h"

@@ -7,7 +7,7 @@
 #include "limpid/core/error.h"
 #include "limpid/load/gltf.h"
 #include "limpid/load/plate.h"
-#include "limpid/load/sanitise.h"
+#include "limpid/enter/sanitise.h"
 #include "limpid/load/scene_file.h"
 #include "limpid/raster/render_plate.h"
 

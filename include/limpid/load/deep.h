@@ -3,7 +3,7 @@
 
 #include "limpid/core/plane.h"
 #include "limpid/load/exr_file.h"
-#include "limpid/load/sanitise.h"
+#include "limpid/enter/sanitise.h"
 
 namespace limpid {
 

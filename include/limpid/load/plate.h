@@ -12,7 +12,7 @@
 #include "limpid/load/exr_file.h"
 #include "limpid/load/layers.h"
 #include "limpid/load/limits.h"
-#include "limpid/load/sanitise.h"
+#include "limpid/enter/sanitise.h"
 #include "limpid/load/scene_file.h"
 
 namespace limpid {

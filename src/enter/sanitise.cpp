@@ -1,4 +1,4 @@
-#include "limpid/load/sanitise.h"
+#include "limpid/enter/sanitise.h"
 
 #include <cmath>
 #include <limits>

@@ -1,0 +1,117 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/host_view.h"
+#include "limpid/core/scene.h"
+#include "limpid/enter/sanitise.h"
+#include "limpid/ops/look.h"
+#include "limpid/optics/depth.h"
+#include "limpid/plan/plan.h"
+#include "limpid/run/target.h"
+
+/// limpid as a post stage of another program: buffers of the host in, a wet picture in its own
+/// buffers out, frame after frame.
+///
+///   Compositor water({.depth = DepthKind::kDevice, .clip = ClipSpace::kReversed}, look);
+///   ...
+///   water.run(frame, picture);  // each frame
+
+namespace limpid {
+
+/// How a host keeps cameras and depths, the same for all of its frames. The defaults are those of
+/// OpenGL and of this library. Worlds may be left-handed: nothing here depends on it, and
+/// PlaneAxes::y then lies to the other side of x.
+struct Conventions {
+  DepthKind depth = DepthKind::kEye;  ///< what all depth planes hold
+  double near = 0, far = 0;           ///< scene units, of DepthKind::kNormalised alone
+  /// The range of clip z that projections are made for; Camera::clip of a frame does not count.
+  ClipSpace clip = ClipSpace::kGl;
+  /// View space looks down +Z and not -Z, as those of Direct3D and Unreal do: the last row of
+  /// perspective projections is 0 0 1 0.
+  bool looks_along_plus_z = false;
+  bool clip_y_down = false;  ///< clip y = +1 is the lowest row of the picture, as in Vulkan
+  /// The host vouches for its planes: no NaN, no infinity but in depths, where it means "nothing
+  /// hit" (as does the far plane of device and normalised depth, and 0 of inverse depth, but no
+  /// large number), shadows and masks within 0 ... 1, unit normals. Floats of eye depth are then
+  /// read as they lie, and NaN gives NaN around it. Otherwise all is looked through, and what is
+  /// wrong is replaced as sanitise.h says, in a copy.
+  bool sane = false;
+};
+
+/// A frame of a host. Planes as in Frame, but in the host's conventions, float or half, with any
+/// strides; those that the plan does not read are not looked at. The scene must have camera and
+/// water.
+struct HostFrame {
+  Rect display;  ///< the picture that the camera's projection belongs to
+  std::array<HostInput, kPlaneCount> planes;
+  Scene scene;
+
+  HostInput& plane(PlaneId id) { return planes[index_of(id)]; }
+};
+
+/// Where a host wants its picture, as in Target: float or half, with any strides but 0. What there
+/// is must cover the pixels of the display window that have color; all else is left alone. It may
+/// lie over planes of the frame, in place: these are copied first. Halves take the nearest value,
+/// 65520 and above become infinite.
+struct HostPicture {
+  std::array<HostOutput, 3> color;
+  HostOutput alpha;  ///< may be absent
+  std::array<std::array<HostOutput, 3>, kAovCount> aovs;
+
+  std::array<HostOutput, 3>& of(Aov aov) { return aovs[static_cast<std::size_t>(aov)]; }
+};
+
+struct CompositorOptions {
+  /// Whose threads compute; it must outlive the compositor. Null: a pool of its own, a thread for
+  /// each core.
+  Executor* executor = nullptr;
+  std::string simd = {};  ///< as in FusedOptions
+  double max_error = 0;   ///< as in make_plan()
+};
+
+/// Puts water into the frames of a host. Several may work at once, on threads and executors of
+/// their own or shared ones; one is for one thread at a time. The bits of a picture do not depend
+/// on threads, nor on the frames before it.
+///
+/// From the second frame of a kind on (same sizes, same planes, same look, same AOVs) run()
+/// allocates nothing; it never locks (executors may), opens no file, prints nothing.
+class Compositor {
+ public:
+  /// Throws Error for depths that cannot be made linear with what the conventions say, and as
+  /// make_plan() does for a look or a max_error out of range, or an unknown instruction set.
+  explicit Compositor(const Conventions& conventions = {}, const Look& look = {},
+                      const CompositorOptions& options = {});
+  ~Compositor();
+  Compositor(Compositor&&) noexcept;
+  Compositor& operator=(Compositor&&) noexcept;
+
+  /// From the next frame on. Throws Error for a parameter out of range; the look stays then.
+  void set_look(const Look& look);
+  const Look& look() const;
+
+  /// The tiling normal map, values 0 ... 1, blue is up; the surroundings as in Frame. Their memory
+  /// stays the host's and must be there until they are replaced; an empty texture takes them away.
+  /// Throws Error for channels of several sizes, NaN and infinity.
+  void set_wave_map(const Texture& map);
+  void set_environment(const Texture& environment);
+
+  /// Throws Error, before anything is written: for what Frame::validate, the camera, the water and
+  /// the planner refuse, and for a picture that does not cover the frame. Throws std::bad_alloc in
+  /// a first frame only.
+  void run(const HostFrame& frame, const HostPicture& picture);
+
+  /// Of the last frame: what ran and why, and what was replaced because it meant nothing. Throws
+  /// Error where none has been run with this look and these textures.
+  const Plan& plan() const;
+  const SanitiseCounts& replaced() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace limpid

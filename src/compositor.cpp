@@ -1,0 +1,222 @@
+#include "limpid/compositor.h"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "limpid/core/error.h"
+#include "limpid/run/fused.h"
+
+#include "enter/half.h"
+#include "enter/host_planes.h"
+#include "run/host_target.h"
+
+namespace limpid {
+namespace {
+
+/// The camera as the chain has it: view space turned to look down -Z, clip space to have y up.
+Camera camera_of(Camera camera, const Conventions& conventions) {
+  camera.clip = conventions.clip;
+  if (conventions.looks_along_plus_z) {
+    for (int c = 0; c < 4; ++c) camera.view[c][2] = -camera.view[c][2];
+    camera.projection[2] = -camera.projection[2];
+  }
+  if (conventions.clip_y_down) {
+    for (int c = 0; c < 4; ++c) camera.projection[c][1] = -camera.projection[c][1];
+  }
+  return camera;
+}
+
+void validate(const Conventions& conventions) {
+  const bool range = conventions.near < conventions.far && std::isfinite(conventions.near) &&
+                     std::isfinite(conventions.far);
+  if (conventions.depth == DepthKind::kNormalised && !range) {
+    throw Error("conventions: depth of kind normalised has near " +
+                std::to_string(conventions.near) + " and far " + std::to_string(conventions.far) +
+                ", expected near < far, both finite");
+  }
+}
+
+/// `name` as in "a normal map".
+void validate(const Texture& texture, const std::string& name) {
+  const Rect& window = texture.channels[0].window;
+  for (const View<const float>& channel : texture.channels) {
+    if (!channel || window.empty() || channel.window != window) {
+      throw Error(name + ": expected three channels of one size");
+    }
+    for (int y = window.y0; y < window.y1; ++y) {
+      for (int x = window.x0; x < window.x1; ++x) {
+        if (!std::isfinite(channel.at(x, y))) {
+          throw Error(name + ": NaN or infinity at (" + std::to_string(x) + ", " +
+                      std::to_string(y) + ")");
+        }
+      }
+    }
+  }
+}
+
+HostOutputs outputs_of(const HostPicture& picture) {
+  HostOutputs all;
+  std::size_t next = 0;
+  for (const HostOutput& view : picture.color) all[next++] = view;
+  all[next++] = picture.alpha;
+  for (const auto& aov : picture.aovs) {
+    for (const HostOutput& view : aov) all[next++] = view;
+  }
+  return all;
+}
+
+/// What a plan was made for, besides its look.
+struct PlannedFor {
+  PlaneSet planes;
+  std::uint32_t aovs = 0;  ///< bit i: AOV i
+  bool sun = false;
+  friend bool operator==(const PlannedFor&, const PlannedFor&) = default;
+};
+static_assert(kAovCount <= 32);
+
+PlannedFor planned_for(const HostFrame& host, const HostPicture& picture) {
+  PlannedFor wanted;
+  for (int i = 0; i < kPlaneCount; ++i) {
+    if (host.planes[i]) wanted.planes = wanted.planes | PlaneSet{static_cast<PlaneId>(i)};
+  }
+  for (int a = 0; a < kAovCount; ++a) wanted.aovs |= (picture.aovs[a][0] ? 1u : 0u) << a;
+  wanted.sun = host.scene.sun.has_value();
+  return wanted;
+}
+
+StateSet shown_by(std::uint32_t chosen) {
+  std::vector<Aov> list;
+  for (int a = 0; a < kAovCount; ++a) {
+    if ((chosen >> a) & 1u) list.push_back(static_cast<Aov>(a));
+  }
+  return state_shown_by(list);
+}
+
+}  // namespace
+
+struct Compositor::State {
+  Conventions conventions;
+  Look look;
+  CompositorOptions options;
+  const HalfTarget* half = nullptr;
+  std::unique_ptr<Executor> pool;  ///< where the host gave none
+  Executor* executor = nullptr;
+
+  Frame frame;  ///< as entered; its textures are set from without
+  std::vector<std::uint32_t> wave_map_bytes;
+  Scene scene;
+  std::optional<Plan> plan;  ///< none: to be made
+  PlannedFor made_for;
+  EnteredPlanes planes;
+  HostTarget target;
+  FusedRunner runner;
+  SanitiseCounts replaced;
+
+  void enter_scene(const Scene& host) {
+    if (!host.camera) throw Error("the scene has no camera, expected view and projection matrices");
+    scene = host;  // keeps the memory of its waves
+    scene.camera = camera_of(*host.camera, conventions);
+    scene.validate();
+  }
+
+  void make_plan(const PlannedFor& wanted) {
+    if (plan && made_for == wanted) return;
+    plan.reset();
+    plan = limpid::make_plan(look,
+                             {.planes = wanted.planes,
+                              .wave_map = static_cast<bool>(frame.wave_map),
+                              .sun = wanted.sun,
+                              .environment = static_cast<bool>(frame.environment)},
+                             shown_by(wanted.aovs), options.max_error);
+    made_for = wanted;
+  }
+
+  EntryRules rules(const HostPlanes& host, const HostOutputs& outputs) const {
+    EntryRules rules;
+    rules.depth = {.kind = conventions.depth,
+                   .near = conventions.near,
+                   .far = conventions.far,
+                   .camera = &*scene.camera,
+                   .display = frame.display};
+    if (scene.water) rules.up = scene.water->up;
+    rules.sane = conventions.sane;
+    rules.half = half;
+    for (int i = 0; i < kPlaneCount; ++i) {
+      for (const HostOutput& out : outputs) {
+        if (overlap(host[i], out))
+          rules.written = rules.written | PlaneSet{static_cast<PlaneId>(i)};
+      }
+    }
+    return rules;
+  }
+};
+
+Compositor::Compositor(const Conventions& conventions, const Look& look,
+                       const CompositorOptions& options)
+    : state_(std::make_unique<State>()) {
+  validate(conventions);
+  constexpr PlaneSet kLeast = kColorPlanes | PlaneSet{PlaneId::kDepth};
+  limpid::make_plan(look, {.planes = kLeast}, {}, options.max_error);  // refuses both if need be
+  State& s = *state_;
+  s.conventions = conventions;
+  s.look = look;
+  s.options = options;
+  s.half = &half_target(options.simd);
+  if (!options.executor) s.pool = make_executor(0);
+  s.executor = options.executor ? options.executor : s.pool.get();
+}
+
+Compositor::~Compositor() = default;
+Compositor::Compositor(Compositor&&) noexcept = default;
+Compositor& Compositor::operator=(Compositor&&) noexcept = default;
+
+void Compositor::set_look(const Look& look) {
+  look.validate();
+  state_->look = look;
+  state_->plan.reset();
+}
+
+const Look& Compositor::look() const { return state_->look; }
+
+void Compositor::set_wave_map(const Texture& map) {
+  if (map) validate(map, "wave map");
+  State& s = *state_;
+  s.wave_map_bytes = map ? pack_bytes(map) : std::vector<std::uint32_t>{};
+  s.frame.wave_map = map;
+  s.frame.wave_map.bytes = s.wave_map_bytes.empty() ? nullptr : s.wave_map_bytes.data();
+  s.plan.reset();
+}
+
+void Compositor::set_environment(const Texture& environment) {
+  if (environment) validate(environment, "environment");
+  state_->frame.environment = environment;
+  state_->plan.reset();
+}
+
+void Compositor::run(const HostFrame& host, const HostPicture& picture) {
+  State& s = *state_;
+  if (host.display.empty())
+    throw Error("frame: the display window is empty, expected at least 1x1");
+  s.enter_scene(host.scene);
+  s.make_plan(planned_for(host, picture));
+  s.frame.display = host.display;
+  const HostOutputs outputs = outputs_of(picture);
+  s.replaced = s.planes.enter(host.planes, s.plan->planes, s.rules(host.planes, outputs),
+                              *s.executor, s.frame);
+  s.frame.validate();
+  const Target& target = s.target.prepare(outputs, s.frame.work());
+  s.runner.run(*s.plan, s.frame, s.scene, target, *s.executor, {.simd = s.options.simd});
+  s.target.store(*s.executor, *s.half);
+}
+
+const Plan& Compositor::plan() const {
+  if (!state_->plan) throw Error("compositor: no frame has been run with this look");
+  return *state_->plan;
+}
+
+const SanitiseCounts& Compositor::replaced() const { return state_->replaced; }
+
+}  // namespace limpid

@@ -1,0 +1,18 @@
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace limpid {
+
+/// Half floats, a run of pixels at a time, as compiled for one instruction set; strides of halves
+/// count bytes. Every half is a float; floats are rounded to the nearest half (even, where two are
+/// as near), 65520 and above to infinity. NaN stays NaN.
+struct HalfTarget {
+  void (*widen)(const std::byte* halves, std::ptrdiff_t stride, float* floats, int count);
+  void (*narrow)(const float* floats, std::byte* halves, std::ptrdiff_t stride, int count);
+};
+
+/// `simd` as in FusedOptions; throws as simd_index().
+const HalfTarget& half_target(const std::string& simd);
+
+}  // namespace limpid

@@ -1,0 +1,42 @@
+// Compiled once for each instruction set, as run/lanes_target.cpp is: those with an instruction for
+// halves use it.
+#include <cstdint>
+#include <cstring>
+
+#define IMATH_HALF_NO_LOOKUP_TABLE  // which would have to be linked
+#include <Imath/half.h>
+#include <hwy/highway.h>
+
+#include "enter/half.h"
+
+namespace limpid::HWY_NAMESPACE {
+namespace {
+
+void widen(const std::byte* halves, std::ptrdiff_t stride, float* floats, int count) {
+  for (int i = 0; i < count; ++i) {
+    std::uint16_t bits;
+    std::memcpy(&bits, halves + i * stride, sizeof bits);
+    floats[i] = imath_half_to_float(bits);
+  }
+}
+
+void narrow(const float* floats, std::byte* halves, std::ptrdiff_t stride, int count) {
+  for (int i = 0; i < count; ++i) {
+    const std::uint16_t bits = imath_float_to_half(floats[i]);
+    std::memcpy(halves + i * stride, &bits, sizeof bits);
+  }
+}
+
+}  // namespace
+}  // namespace limpid::HWY_NAMESPACE
+
+namespace limpid {
+
+#define LIMPID_JOIN_(a, b) a##b
+#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
+
+extern const HalfTarget LIMPID_JOIN(kHalf_, LIMPID_LANES_TARGET);
+const HalfTarget LIMPID_JOIN(kHalf_, LIMPID_LANES_TARGET) = {HWY_NAMESPACE::widen,
+                                                             HWY_NAMESPACE::narrow};
+
+}  // namespace limpid

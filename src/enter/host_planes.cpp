@@ -1,0 +1,226 @@
+#include "enter/host_planes.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "limpid/core/error.h"
+
+namespace limpid {
+namespace {
+
+constexpr int kBandRows = 32;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Whether its samples are floats that can be read as such.
+bool is_floats(const HostInput& view) {
+  constexpr std::ptrdiff_t kSize = sizeof(float);
+  return view.sample == Sample::kFloat &&
+         reinterpret_cast<std::uintptr_t>(view.data) % kSize == 0 && view.x_stride % kSize == 0 &&
+         view.y_stride % kSize == 0;
+}
+
+View<const float> floats_of(const HostInput& view) {
+  constexpr std::ptrdiff_t kSize = sizeof(float);
+  return {static_cast<const float*>(view.data), view.x_stride / kSize, view.y_stride / kSize,
+          view.window};
+}
+
+bool is_sane(Sanitise kind, float v) {
+  switch (kind) {
+    case Sanitise::kColor:
+      return std::abs(v) <= FLT_MAX;
+    case Sanitise::kDepth:
+      return (v < 1e9f && v >= -FLT_MAX) || v == kInfinity;
+    case Sanitise::kShadow:
+    case Sanitise::kMask:
+      return v >= 0 && v <= 1;
+    case Sanitise::kNormal:
+      break;
+  }
+  return false;  // normals are hardly ever unit to the last bit
+}
+
+/// The loop knows the kind, and where it can that pixels lie side by side.
+template <Sanitise kKind>
+bool row_is_sane(const float* row, std::ptrdiff_t stride, int count) {
+  bool sane = true;
+  if (stride == 1) {
+    for (int i = 0; i < count; ++i) sane &= is_sane(kKind, row[i]);
+  } else {
+    for (int i = 0; i < count; ++i) sane &= is_sane(kKind, row[i * stride]);
+  }
+  return sane;
+}
+
+bool row_is_sane(Sanitise kind, const float* row, std::ptrdiff_t stride, int count) {
+  switch (kind) {
+    case Sanitise::kColor:
+      return row_is_sane<Sanitise::kColor>(row, stride, count);
+    case Sanitise::kDepth:
+      return row_is_sane<Sanitise::kDepth>(row, stride, count);
+    case Sanitise::kShadow:
+      return row_is_sane<Sanitise::kShadow>(row, stride, count);
+    case Sanitise::kMask:
+      return row_is_sane<Sanitise::kMask>(row, stride, count);
+    case Sanitise::kNormal:
+      break;
+  }
+  return false;
+}
+
+void copy_row(const HostInput& from, int y, float* to, const HalfTarget& half) {
+  const auto* row = static_cast<const std::byte*>(from.data) + (y - from.window.y0) * from.y_stride;
+  const int count = from.window.width();
+  if (from.sample == Sample::kHalf) {
+    half.widen(row, from.x_stride, to, count);
+  } else if (from.x_stride == sizeof(float)) {
+    std::memcpy(to, row, sizeof(float) * static_cast<std::size_t>(count));
+  } else {
+    for (int x = 0; x < count; ++x) std::memcpy(to + x, row + x * from.x_stride, sizeof(float));
+  }
+}
+
+View<float> rows_of(const View<float>& view, int y0, int y1) {
+  const Rect& w = view.window;
+  return {view.row(y0), view.x_stride, view.y_stride, {w.x0, y0, w.x1, y1}};
+}
+
+}  // namespace
+
+/// Bands of rows are the tasks: those of each role that goes that way, one after another.
+struct EnteredPlanes::Entry {
+  EnteredPlanes& self;
+  const HostPlanes& host;
+  const EntryRules& rules;
+  PlaneSet wanted;  ///< and there
+
+  Way& way(const Role& role) const { return self.ways_[index_of(role.first)]; }
+  HostInput plane(const Role& role, int i) const {
+    const PlaneId id = plane_after(role.first, i);
+    return wanted.has(id) ? host[index_of(id)] : HostInput{};
+  }
+  static int bands(const Way& way) { return (way.window.height() + kBandRows - 1) / kBandRows; }
+
+  void decide(const Role& role) const {
+    Way& way = this->way(role);
+    way.watched = way.copied = false;
+    way.window = {};
+    way.wrong = false;
+    way.replaced = 0;
+    for (int i = 0; i < role.count; ++i) {
+      const HostInput view = plane(role, i);
+      if (!view) continue;
+      const Rect& w = view.window;
+      if (w.empty()) throw Error("frame: " + std::string(role.name) + " has no pixels");
+      if (role.sanitise == Sanitise::kNormal && !way.window.empty() && w != way.window) {
+        throw Error("frame: " + std::string(role.name) + " has components of several sizes");
+      }
+      way.window = way.window.empty()
+                       ? w
+                       : Rect{std::min(way.window.x0, w.x0), std::min(way.window.y0, w.y0),
+                              std::max(way.window.x1, w.x1), std::max(way.window.y1, w.y1)};
+      way.copied |= !is_floats(view) || rules.written.has(plane_after(role.first, i));
+    }
+    if (way.window.empty()) return;
+    way.copied |= role.sanitise == Sanitise::kDepth && rules.depth.kind != DepthKind::kEye;
+    way.copied |= role.sanitise == Sanitise::kNormal && !rules.sane;
+    way.watched = !way.copied && !rules.sane;
+    if (!way.copied && !way.watched) return;
+    for (int i = 0; i < role.count; ++i) {
+      const HostInput view = plane(role, i);
+      Plane& own = self.planes_[index_of(plane_after(role.first, i))];
+      if (view && (!own || own.view().window != view.window)) own = Plane(view.window);
+    }
+  }
+
+  void watch(const Role& role, int y0, int y1) const {
+    Way& way = this->way(role);
+    for (int i = 0; i < role.count; ++i) {
+      const HostInput view = plane(role, i);
+      if (!view) continue;
+      const View<const float> floats = floats_of(view);
+      for (int y = std::max(y0, view.window.y0); y < std::min(y1, view.window.y1); ++y) {
+        if (way.wrong.load(std::memory_order_relaxed)) return;
+        if (!row_is_sane(role.sanitise, floats.row(y), floats.x_stride, view.window.width())) {
+          way.wrong.store(true, std::memory_order_relaxed);
+        }
+      }
+    }
+  }
+
+  void copy(const Role& role, int y0, int y1) const {
+    std::array<View<float>, 4> band;
+    std::int64_t replaced = 0;
+    for (int i = 0; i < role.count; ++i) {
+      const HostInput from = plane(role, i);
+      if (!from) continue;
+      const int begin = std::max(y0, from.window.y0), end = std::min(y1, from.window.y1);
+      if (begin >= end) continue;
+      View<float>& rows = band[static_cast<std::size_t>(i)];
+      rows = rows_of(self.planes_[index_of(plane_after(role.first, i))].view(), begin, end);
+      for (int y = begin; y < end; ++y) copy_row(from, y, rows.row(y), *rules.half);
+      DepthSource depth = rules.depth;
+      depth.half = from.sample == Sample::kHalf;
+      if (role.sanitise == Sanitise::kDepth) {
+        if (!rules.sane || depth.kind != DepthKind::kEye) replaced += make_eye_depth(rows, depth);
+      } else if (!rules.sane) {
+        if (role.sanitise == Sanitise::kColor) replaced += sanitise_color(rows);
+        if (role.sanitise == Sanitise::kShadow) replaced += sanitise_shadow(rows);
+        if (role.sanitise == Sanitise::kMask) replaced += sanitise_mask(rows);
+      }
+    }
+    if (role.sanitise == Sanitise::kNormal && !rules.sane && band[0] && band[1] && band[2]) {
+      replaced += sanitise_normal(band[0], band[1], band[2], rules.up);
+    }
+    way(role).replaced.fetch_add(replaced, std::memory_order_relaxed);
+  }
+
+  template <bool Way::*kGoes, void (Entry::*kStep)(const Role&, int, int) const>
+  void run(Executor& executor) const {
+    int count = 0;
+    for (const Role& role : roles()) count += way(role).*kGoes ? bands(way(role)) : 0;
+    if (count == 0) return;
+    const auto task = [](void* context, int index) {
+      const Entry& entry = *static_cast<const Entry*>(context);
+      for (const Role& role : roles()) {
+        const Way& way = entry.way(role);
+        if (!(way.*kGoes)) continue;
+        if (index < bands(way)) {
+          const int y0 = way.window.y0 + index * kBandRows;
+          return (entry.*kStep)(role, y0, std::min(y0 + kBandRows, way.window.y1));
+        }
+        index -= bands(way);
+      }
+    };
+    executor.run(count, task, const_cast<Entry*>(this));
+  }
+};
+
+SanitiseCounts EnteredPlanes::enter(const HostPlanes& host, PlaneSet wanted,
+                                    const EntryRules& rules, Executor& executor, Frame& frame) {
+  const Entry entry{*this, host, rules, wanted};
+  for (const Role& role : roles()) entry.decide(role);
+  entry.run<&Way::watched, &Entry::watch>(executor);
+  for (Way& way : ways_) way.copied |= way.wrong;
+  entry.run<&Way::copied, &Entry::copy>(executor);
+
+  SanitiseCounts counts;
+  for (const Role& role : roles()) {
+    counts.of(role) = entry.way(role).replaced;
+    for (int i = 0; i < role.count; ++i) {
+      const HostInput view = entry.plane(role, i);
+      const int index = index_of(plane_after(role.first, i));
+      const bool copied = view && entry.way(role).copied;
+      frame.planes[index] = copied ? View<const float>(planes_[index].view())
+                            : view ? floats_of(view)
+                                   : View<const float>{};
+    }
+  }
+  return counts;
+}
+
+}  // namespace limpid
