@@ -11,7 +11,7 @@
 
 #include "enter/half.h"
 #include "enter/host_planes.h"
-#include "run/host_target.h"
+#include "run/host_outputs.h"
 
 namespace limpid {
 namespace {

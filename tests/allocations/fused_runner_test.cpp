@@ -1,51 +1,9 @@
-// A program of its own: it replaces the operators new of all of it, to count.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include <gtest/gtest.h>
 
 #include "limpid/run/fused.h"
 
+#include "allocations/count.h"
 #include "support.h"
-
-namespace {
-std::atomic<int> allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  if (void* p = std::aligned_alloc(alignment, whole == 0 ? alignment : whole)) return p;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-// None of them inlined: where only one of a pair is, GCC takes free() for a mistake.
-#define LIMPID_COUNTED __attribute__((noinline))
-LIMPID_COUNTED void* operator new(std::size_t size) {
-  return counted(size, alignof(std::max_align_t));
-}
-LIMPID_COUNTED void* operator new[](std::size_t size) {
-  return counted(size, alignof(std::max_align_t));
-}
-LIMPID_COUNTED void* operator new(std::size_t size, std::align_val_t a) {
-  return counted(size, static_cast<std::size_t>(a));
-}
-LIMPID_COUNTED void* operator new[](std::size_t size, std::align_val_t a) {
-  return counted(size, static_cast<std::size_t>(a));
-}
-LIMPID_COUNTED void operator delete(void* p) noexcept { std::free(p); }
-LIMPID_COUNTED void operator delete[](void* p) noexcept { std::free(p); }
-LIMPID_COUNTED void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-LIMPID_COUNTED void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
-LIMPID_COUNTED void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-LIMPID_COUNTED void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
-LIMPID_COUNTED void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
-LIMPID_COUNTED void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
 
 namespace limpid {
 namespace {
@@ -53,9 +11,9 @@ namespace {
 using test::Buffers;
 
 TEST(Allocations, AreCounted) {
-  const int before = allocations;
+  const int before = test::allocations();
   const Plane plane({0, 0, 8, 8});
-  EXPECT_GT(allocations, before);
+  EXPECT_GT(test::allocations(), before);
 }
 
 /// Made when the first of a size is run; whatever the look, the budget and the threads.
@@ -75,12 +33,12 @@ TEST(Allocations, NoneAfterTheFirstFrame) {
         FusedRunner runner;
         RunTimes times;
         runner.run(plan, b.frame, scene, picture.target, *executor, {.times = &times});
-        const int before = allocations;
+        const int before = test::allocations();
         for (int frame = 0; frame < 3; ++frame) {
           scene.time += 0.04;
           runner.run(plan, b.frame, scene, picture.target, *executor, {.times = &times});
         }
-        EXPECT_EQ(allocations, before)
+        EXPECT_EQ(test::allocations(), before)
             << look.name << ", max_error " << max_error << ", " << threads << " threads";
       }
     }
@@ -97,9 +55,9 @@ TEST(Allocations, NoneForASmallerFrame) {
     const Scene scene = test::simple_scene(size);
     const test::Picture picture(b.frame.work());
     const Plan plan = make_plan(test::article_look(), test::inputs_of(b.frame, scene));
-    const int before = allocations;
+    const int before = test::allocations();
     runner.run(plan, b.frame, scene, picture.target, *executor);
-    const int made = allocations - before;
+    const int made = test::allocations() - before;
     if (warm) {
       EXPECT_EQ(made, 0) << size.width << "x" << size.height;
     }

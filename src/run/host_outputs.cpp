@@ -1,4 +1,4 @@
-#include "run/host_target.h"
+#include "run/host_outputs.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,0 +1,285 @@
+#include "limpid/limpid.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/type_ptr.hpp>
+#include <gmock/gmock.h>
+
+#include "limpid/version.h"
+
+#include "embed/host.h"
+
+/// The C functions, called as C calls them.
+
+namespace limpid {
+namespace {
+
+using test::Picture;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr Size kSize{37, 23};
+
+limpid_channel channel(int what, const View<const float>& view) {
+  return {what,
+          LIMPID_FLOAT,
+          const_cast<float*>(view.data),
+          4 * view.x_stride,
+          4 * view.y_stride,
+          0,
+          0,
+          0,
+          0};
+}
+
+/// A frame of noise and a picture for it, in C's words.
+class LimpidC : public testing::Test {
+ protected:
+  LimpidC() : buffers(test::noisy_frame(rect_of(kSize))), out(rect_of(kSize)) {
+    const Scene scene = test::simple_scene(kSize);
+    for (int i = 0; i < kPlaneCount; ++i) planes.push_back(channel(i, buffers.frame.planes[i]));
+    for (int c = 0; c < 3; ++c) outputs.push_back(channel(c, out.target.color[c]));
+    outputs.push_back(channel(LIMPID_OUT_A, out.target.alpha));
+    frame.size = sizeof frame;
+    frame.width = kSize.width;
+    frame.height = kSize.height;
+    frame.planes = planes.data();
+    frame.plane_count = planes.size();
+    set_matrix(frame.view, scene.camera->view);
+    set_matrix(frame.projection, scene.camera->projection);
+    frame.water_up[1] = 2;  // need not be unit
+    frame.has_sun = 1;
+    for (int i = 0; i < 3; ++i) {
+      frame.sun_direction[i] = 3 * scene.sun->direction[i];
+    }
+    frame.sun_color[0] = scene.sun->color.r;
+    frame.sun_color[1] = scene.sun->color.g;
+    frame.sun_color[2] = scene.sun->color.b;
+    picture.size = sizeof picture;
+    picture.outputs = outputs.data();
+    picture.output_count = outputs.size();
+    conventions.sane = 1;
+    limpid_create(&conventions, nullptr, &water, nullptr, 0);
+  }
+  ~LimpidC() override { limpid_destroy(water); }
+
+  static void set_matrix(double* to, const glm::dmat4& m) {
+    std::memcpy(to, glm::value_ptr(m), sizeof m);
+  }
+  std::vector<float> expected(const Look& look) {
+    Scene scene = test::simple_scene(kSize);
+    scene.sun->direction = glm::normalize(3.0 * scene.sun->direction);
+    return test::judged(look, buffers.frame, scene);
+  }
+  void expect_refused(const char* why) {
+    const std::vector<float> before = out.values();
+    EXPECT_EQ(limpid_run(water, &frame, &picture), LIMPID_REFUSED);
+    EXPECT_THAT(limpid_message(water), HasSubstr(why));
+    EXPECT_EQ(out.values(), before);
+  }
+
+  test::Buffers buffers;
+  Picture out;
+  std::vector<limpid_channel> planes, outputs;
+  limpid_frame frame{};
+  limpid_picture picture{};
+  limpid_conventions conventions = LIMPID_CONVENTIONS;
+  limpid_compositor* water = nullptr;
+};
+
+TEST_F(LimpidC, GivesTheBitsOfTheFusedRunner) {
+  ASSERT_NE(water, nullptr);
+  EXPECT_STREQ(limpid_message(water), "");
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
+  EXPECT_EQ(out.values(), expected({}));
+}
+
+TEST_F(LimpidC, SetsTheLookAKeyAtATime) {
+  Look look;
+  look.of<DepthFog>().density = 0.7;
+  look.of<Refraction>().rejection = Refraction::Rejection::kSnap;
+  look.of<DepthFog>().color = {0.1, 0.2, 0.4};
+  look.set("wave_normals", "waves", Rows{{0.02, 1, 2, 0}, {0.01, 3, 1, 1}});
+  EXPECT_EQ(limpid_set_number(water, "depth_fog", "density", 0.7), LIMPID_OK);
+  EXPECT_EQ(limpid_set_word(water, "refraction", "rejection", "snap"), LIMPID_OK);
+  const double rgb[3] = {0.1, 0.2, 0.4}, rows[8] = {0.02, 1, 2, 0, 0.01, 3, 1, 1};
+  EXPECT_EQ(limpid_set_color(water, "depth_fog", "color", rgb), LIMPID_OK);
+  EXPECT_EQ(limpid_set_rows(water, "wave_normals", "waves", rows, 2, 4), LIMPID_OK)
+      << limpid_message(water);
+  std::string text(limpid_look_text(water, nullptr, 0), ' ');
+  EXPECT_EQ(limpid_look_text(water, text.data(), text.size() + 1), text.size());
+  EXPECT_EQ(text, to_toml(look));
+  char cut[6] = "?????";
+  EXPECT_EQ(limpid_look_text(water, cut, sizeof cut), text.size());
+  EXPECT_EQ(cut, text.substr(0, 5));
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK);
+  EXPECT_EQ(out.values(), expected(look));
+
+  EXPECT_EQ(limpid_set_number(water, "depth_fog", "density", -1), LIMPID_REFUSED);
+  EXPECT_THAT(limpid_message(water), StartsWith("depth_fog.density = -1: expected"));
+  EXPECT_EQ(limpid_set_number(water, "depth_fog", "densty", 1), LIMPID_REFUSED);
+  EXPECT_THAT(limpid_message(water), HasSubstr("did you mean 'density'"));
+  EXPECT_EQ(limpid_set_word(water, "refraction", "rejection", nullptr), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_set_number(water, nullptr, "density", 1), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_set_color(water, "depth_fog", "color", nullptr), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_set_rows(water, "wave_normals", "waves", nullptr, 2, 4), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_look_text(water, nullptr, 0), text.size());
+  EXPECT_EQ(limpid_reset_look(water), LIMPID_OK);
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK);
+  EXPECT_EQ(out.values(), expected({}));
+}
+
+TEST_F(LimpidC, MatricesMayLieRowAfterRow) {
+  limpid_destroy(water);
+  conventions.row_major = 1;
+  ASSERT_EQ(limpid_create(&conventions, nullptr, &water, nullptr, 0), LIMPID_OK);
+  for (double* matrix : {frame.view, frame.projection}) {
+    set_matrix(matrix, glm::transpose(glm::make_mat4(matrix)));
+  }
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
+  EXPECT_EQ(out.values(), expected({}));
+}
+
+TEST_F(LimpidC, TellsItsPlan) {
+  EXPECT_EQ(limpid_plan_text(water, nullptr, 0), 0u);  // none yet
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK);
+  char text[2048];
+  EXPECT_GT(limpid_plan_text(water, text, sizeof text), 100u);
+  EXPECT_THAT(text, StartsWith("wave_normals"));
+}
+
+TEST_F(LimpidC, RunsOnTheHostsThreads) {
+  limpid_destroy(water);
+  int tasks = 0;
+  limpid_executor host{sizeof host, &tasks,
+                       [](void* counter, int count, limpid_task task, void* c) {
+                         *static_cast<int*>(counter) += count;
+                         for (int i = count; i-- > 0;) task(c, i);
+                       }};
+  limpid_options options = LIMPID_OPTIONS;
+  options.executor = &host;
+  options.simd = "scalar";
+  ASSERT_EQ(limpid_create(&conventions, &options, &water, nullptr, 0), LIMPID_OK);
+  host = {};  // was copied
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
+  EXPECT_GT(tasks, 1);
+}
+
+TEST_F(LimpidC, TexturesAndAovs) {
+  // Without normals of its own the frame takes those of a map.
+  planes.erase(planes.begin() + LIMPID_SURFACE_NORMAL_X,
+               planes.begin() + LIMPID_SURFACE_NORMAL_X + 3);
+  frame.planes = planes.data();
+  frame.plane_count = planes.size();
+  Look look;
+  look.of<WaveNormals>().model = WaveNormals::Model::kFourMaps;
+  limpid_set_word(water, "wave_normals", "model", "four_maps");
+  std::vector<float> pixels(5 * 16 * 8);
+  const test::NoiseMap map(16, 8);
+  for (int i = 0; i < 16 * 8; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      pixels[5 * static_cast<std::size_t>(i) + c] = map.texture.channels[c].at(i % 16, i / 16);
+    }
+  }
+  limpid_texture texture{sizeof texture, pixels.data(), 16, 8, 5, 0};
+  ASSERT_EQ(limpid_set_wave_map(water, &texture), LIMPID_OK) << limpid_message(water);
+  for (int c = 0; c < 3; ++c) {
+    outputs.push_back(channel(LIMPID_OUT_NORMAL + c, out.target.of(Aov::kNormal)[c]));
+  }
+  picture.outputs = outputs.data();
+  picture.output_count = outputs.size();
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
+  for (int c = 0; c < 3; ++c) buffers.frame.planes[index_of(PlaneId::kSurfaceNormalX) + c] = {};
+  buffers.frame.wave_map = map.texture;
+  const Picture judge = [&] {
+    Picture p(rect_of(kSize));
+    Scene scene = test::simple_scene(kSize);
+    scene.sun->direction = glm::normalize(3.0 * scene.sun->direction);
+    run_fused(make_plan(look, test::inputs_of(buffers.frame, scene), test::all_state()),
+              buffers.frame, scene, p.target, *make_executor(1));
+    return p;
+  }();
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      ASSERT_EQ(out.aov(Aov::kNormal, x, y), judge.aov(Aov::kNormal, x, y));
+    }
+  }
+  texture.channels = 2;
+  EXPECT_EQ(limpid_set_wave_map(water, &texture), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_set_environment(water, &texture), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_set_environment(water, nullptr), LIMPID_OK);
+  EXPECT_EQ(limpid_set_wave_map(water, nullptr), LIMPID_OK);
+}
+
+TEST_F(LimpidC, RefusesFramesThatAreNone) {
+  planes[2].what = LIMPID_COLOR_R;
+  expect_refused("limpid_frame.planes[2].what = 0: it is there already");
+  planes[2].what = 20;
+  expect_refused("limpid_frame.planes[2].what = 20");
+  planes[2].what = LIMPID_COLOR_B;
+  planes[2].sample = 2;
+  expect_refused("limpid_frame.planes[2].sample = 2");
+  planes[2].sample = LIMPID_FLOAT;
+  planes[2].data = nullptr;
+  expect_refused("limpid_frame.planes[2].data is NULL");
+  planes[2] = channel(2, buffers.frame.planes[2]);
+  frame.planes = nullptr;
+  expect_refused("limpid_frame.planes is NULL");
+  frame.planes = planes.data();
+  frame.width = 0;
+  expect_refused("display window is empty");
+  frame.width = kSize.width;
+  frame.water_up[1] = 0;
+  expect_refused("water_up");
+  frame.water_up[1] = 1;
+  frame.wave_count = 2;
+  expect_refused("waves is NULL");
+  frame.wave_count = 0;
+  std::memset(frame.sun_direction, 0, sizeof frame.sun_direction);
+  expect_refused("sun");
+  frame.has_sun = 0;
+  std::memset(frame.projection, 0, sizeof frame.projection);
+  expect_refused("projection");
+  EXPECT_EQ(limpid_run(water, nullptr, &picture), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_run(water, &frame, nullptr), LIMPID_REFUSED);
+  EXPECT_EQ(limpid_run(nullptr, &frame, &picture), LIMPID_REFUSED);
+}
+
+/// Older callers know less of a struct, and newer ones more.
+TEST_F(LimpidC, StructsHaveSizes) {
+  limpid_destroy(water);
+  water = nullptr;
+  char why[128] = "";
+  conventions.near_depth = 7;  // beyond what an older caller knows
+  conventions.depth = LIMPID_DEPTH_EYE;
+  conventions.size = offsetof(limpid_conventions, near_depth);
+  ASSERT_EQ(limpid_create(&conventions, nullptr, &water, why, sizeof why), LIMPID_OK) << why;
+  limpid_destroy(water);
+  conventions.size = sizeof conventions + 8;
+  EXPECT_EQ(limpid_create(&conventions, nullptr, &water, why, sizeof why), LIMPID_REFUSED);
+  EXPECT_EQ(water, nullptr);
+  EXPECT_THAT(why, HasSubstr("limpid_conventions.size"));
+  conventions.size = 0;
+  char little[8];
+  EXPECT_EQ(limpid_create(&conventions, nullptr, &water, little, sizeof little), LIMPID_REFUSED);
+  EXPECT_STREQ(little, "limpid_");
+  conventions.size = sizeof conventions;
+  conventions.clip = 3;
+  EXPECT_EQ(limpid_create(&conventions, nullptr, &water, why, sizeof why), LIMPID_REFUSED);
+  EXPECT_THAT(why, StartsWith("limpid_conventions.clip = 3: expected 0 ... 2"));
+  conventions.clip = 0;
+  EXPECT_EQ(limpid_create(&conventions, nullptr, nullptr, why, sizeof why), LIMPID_REFUSED);
+  limpid_options options = LIMPID_OPTIONS;
+  options.simd = "mmx";
+  EXPECT_EQ(limpid_create(&conventions, &options, &water, why, sizeof why), LIMPID_REFUSED);
+  EXPECT_THAT(why, HasSubstr("simd = mmx"));
+  EXPECT_STREQ(limpid_version(), kVersion);
+  EXPECT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);
+  frame.size = sizeof frame + 1;
+  expect_refused("limpid_frame.size");
+}
+
+}  // namespace
+}  // namespace limpid
