@@ -31,7 +31,8 @@ std::vector<fs::path> module_folders() {
   std::vector<fs::path> folders;
   for (const fs::path& base : bases) {
     for (const fs::path& folder :
-         {base, base / ".." / LIMPID_LIBRARY_FOLDER / "limpid", base / ".." / "src"}) {
+         {base, base / "limpid", base / ".." / LIMPID_LIBRARY_FOLDER / "limpid",
+          base / ".." / "src"}) {
       folders.push_back(folder.lexically_normal());
     }
   }

@@ -16,7 +16,6 @@ std::vector<std::filesystem::path> data_folders() {
   std::error_code ignored;
   const std::filesystem::path tool = std::filesystem::read_symlink("/proc/self/exe", ignored);
   if (!tool.empty()) folders.push_back(tool.parent_path() / "../share/limpid");
-  folders.emplace_back(LIMPID_SOURCE_DATA);
   return folders;
 }
 

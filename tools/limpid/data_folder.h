@@ -7,12 +7,11 @@
 
 namespace limpid::tool {
 
-/// The folder with looks, scenes, plates and maps: $LIMPID_DATA, share/limpid beside the tool, or
-/// the source tree's, the first that has them all. Throws Error where none has.
+/// The folder with looks, scenes, plates and maps: $LIMPID_DATA or ../share/limpid as seen from the
+/// tool's own folder, the first that has them all. Throws Error where none has.
 std::filesystem::path data_folder();
 
-/// Folders that hold looks, best first: $LIMPID_DATA/looks, share/limpid/looks beside the tool, the
-/// source tree's.
+/// Folders that hold looks, best first: those of the same two.
 std::vector<std::filesystem::path> look_folders();
 
 /// A look by name or file.
