@@ -5,6 +5,7 @@
 
 #include "limpid/sequence.h"
 
+/// @file
 /// Sequences with holes: frames whose plate is not there.
 
 namespace limpid {

@@ -18,16 +18,17 @@ enum class Runner { kFused, kReference };
 /// does count, in the last bits of pixels too, and the best is not the same on every machine: name
 /// one where machines must agree.
 ///
-///   limpid/version     of the library
-///   limpid/look        all parameters, a look file; the wave map by its name alone
-///   limpid/plan        the operators that ran, and why the others did not
-///   limpid/scene       camera, water, sun and time, a scene file
-///   limpid/inputs      all else that decides what is to be seen: the kind of depths, which
-///                      channels of which file feed what, size and samples of what was rendered;
-///                      files and models by a hash of their contents (ExrFile::content_hash)
-///   limpid/scene_hash  such a hash of the two texts before it, one after the other: the same for
-///                      the same picture before look and options
-///   limpid/options     how it was computed and stored: runner, instruction set, AOVs, compression
+///     limpid/version     of the library
+///     limpid/look        all parameters, a look file; the wave map by its name alone
+///     limpid/plan        the operators that ran, and why the others did not
+///     limpid/scene       camera, water, sun and time, a scene file
+///     limpid/inputs      all else that decides what is to be seen: the kind of depths, which
+///                        channels of which file feed what, size and samples of what was rendered;
+///                        files and models by a hash of their contents (ExrFile::content_hash)
+///     limpid/scene_hash  such a hash of the two texts before it, one after the other: the same for
+///                        the same picture before look and options
+///     limpid/options     how it was computed and stored: runner, instruction set, AOVs,
+///                        compression
 ///
 /// A rendered plate has no look and no plan, a ray-traced picture no plan: its options name the
 /// runner "traced", samples and seed.

@@ -4,6 +4,7 @@
 
 #include "limpid/sequence.h"
 
+/// @file
 /// Going on with a sequence where another run of it stopped, for whatever reason: which of its
 /// frames are there already.
 

@@ -6,6 +6,7 @@
 #include "limpid/composite.h"
 #include "limpid/water.h"
 
+/// @file
 /// Many frames, one after another, neighbours overlapped: while one is being run, others are read
 /// and written. Each gives the same bytes as composite() or water() of it alone. Frames without a
 /// plate are a matter of missing.h, those that are there already of resume.h: both give a sequence.

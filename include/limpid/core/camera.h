@@ -44,7 +44,9 @@ glm::dmat4 orthographic(double width, double height, double near, double far, Cl
 
 /// The eye ray of every pixel. With pixel coordinates x, y (centres at +0.5, display window at
 /// 0,0):
-///   world point - eye = (origin + x origin_dx + y origin_dy) + Z (ray + x ray_dx + y ray_dy)
+///
+///     world point - eye = (origin + x origin_dx + y origin_dy) + Z (ray + x ray_dx + y ray_dy)
+///
 /// for linear eye depth Z. Perspective cameras have origin = 0, orthographic ones ray_dx = ray_dy =
 /// 0.
 struct Rays {

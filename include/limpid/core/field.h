@@ -11,18 +11,19 @@
 #include "limpid/core/error.h"
 #include "limpid/core/vec.h"
 
+/// @file
 /// Parameters declared once, as data. A struct of parameters holds its defaults as initialisers; a
 /// table of Field says, for each, its name, unit, range and one sentence. Validation, `--set`,
 /// scene and look files, `limpid operators` and the contract tests all read that table and nothing
 /// else.
 ///
-///   enum class Model { kPhong, kBlinnPhong };
-///   struct Params { Model model = Model::kBlinnPhong; double power = 200; };
-///   static constexpr std::string_view kModels[] = {"phong", "blinn_phong"};
-///   static const Field<Params> kFields[] = {
-///       choice<&Params::model, kModels>("model", "How the lobe is measured."),
-///       real<&Params::power>("power", "", {0, 1e5}, "Exponent of the lobe; larger is sharper."),
-///   };
+///     enum class Model { kPhong, kBlinnPhong };
+///     struct Params { Model model = Model::kBlinnPhong; double power = 200; };
+///     static constexpr std::string_view kModels[] = {"phong", "blinn_phong"};
+///     static const Field<Params> kFields[] = {
+///         choice<&Params::model, kModels>("model", "How the lobe is measured."),
+///         real<&Params::power>("power", "", {0, 1e5}, "Exponent of the lobe; larger is sharper."),
+///     };
 
 namespace limpid {
 

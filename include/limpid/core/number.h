@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+/// @file
 /// The functions that formulas may call on a number. Formulas are templates over the number type:
 /// the reference runs them on `double` (this header), the fused pass on SIMD lanes, which bring
 /// functions of the same names in their own namespace. A comparison gives `bool` for `double` and a

@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/core/number.h"
 
+/// @file
 /// Small vectors over any number type. (GLM keeps the matrices and the `double` geometry; its
 /// vectors are unions, which SIMD lanes cannot be members of.)
 

@@ -11,6 +11,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/optics/depth.h"
 
+/// @file
 /// What is done to planes once, on entry, so that no operator ever meets a NaN: values that mean
 /// nothing are replaced and counted, depth becomes linear eye depth, normals become unit. All in
 /// place, any strides.

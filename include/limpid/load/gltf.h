@@ -12,11 +12,11 @@ namespace limpid {
 /// first camera (ClipSpace::kGl, without the scale of its node), and the first directional light of
 /// KHR_lights_punctual as the sun (color times intensity). Extras say what glTF has no word for:
 ///
-///   material  {"limpid": {"shading": "flat" | "textured" | "lambert" | "phong" | "toon",
-///             "ambient": [r, g, b], "power": 20, "specular": [r, g, b],
-///             "specular_texture": {"index": 0}}}
-///   node      {"limpid": {"water": true}}   its mesh is the water surface
-///   scene     {"limpid": {"background": [r, g, b]}}
+///     material  {"limpid": {"shading": "flat" | "textured" | "lambert" | "phong" | "toon",
+///               "ambient": [r, g, b], "power": 20, "specular": [r, g, b],
+///               "specular_texture": {"index": 0}}}
+///     node      {"limpid": {"water": true}}   its mesh is the water surface
+///     scene     {"limpid": {"background": [r, g, b]}}
 ///
 /// Without extras a material is lambert; an unlit one textured, or flat where it has no texture.
 /// Not drawn and left out: other lights and cameras, animations, metal, roughness, normal,

@@ -38,14 +38,16 @@ Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1)
 
 /// What a scene file (TOML) says:
 ///
-///   [geometry] gltf: a scene to be rendered, relative to the scene file
-///   [plates]  a key a role of core/frame.h: "FILE" or "FILE:CHANNELS", relative to the scene file;
-///             environment: a picture of the surroundings (texture.h), environment_rotation:
-///             degrees from PlaneAxes::x to where its middle looks, counter-clockwise from above
-///   [camera]  view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl, d3d,
-///             reversed; near, far; depth = eye, ray, inverse, normalised, device
-///   [water]   up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
-///   [sun]     direction, color      [scene]  time, in seconds
+///     [geometry] gltf: a scene to be rendered, relative to the scene file
+///     [plates]   a key a role of core/frame.h: "FILE" or "FILE:CHANNELS", relative to the scene
+///                file; environment: a picture of the surroundings (texture.h),
+///                environment_rotation: degrees from PlaneAxes::x to where its middle looks,
+///                counter-clockwise from above
+///     [camera]   view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl,
+///                d3d, reversed; near, far; depth = eye, ray, inverse, normalised, device
+///     [water]    up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
+///     [sun]      direction, color
+///     [scene]    time, in seconds
 ///
 /// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
 /// unit. Without near and far a field of view gets 0.01 and infinity, an orthographic width 0 and

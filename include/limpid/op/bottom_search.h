@@ -2,6 +2,7 @@
 #include "limpid/op/context.h"
 #include "limpid/op/screen_ray.h"
 
+/// @file
 /// Where a ray under the water meets what the depth plane shows.
 
 namespace limpid {

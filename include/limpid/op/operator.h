@@ -9,6 +9,7 @@
 #include "limpid/op/pixel.h"
 #include "limpid/op/ranges.h"
 
+/// @file
 /// The operator contract.
 ///
 /// An operator may read the frame's *input* planes anywhere and the running state of *its own
@@ -22,17 +23,15 @@
 /// a texel itself. It says where (a function from pixel to shift), the strip's samplers fetch, it
 /// goes on with the sample:
 ///
-///   using F = typename Strip::Number;
-///   strip.each([&](Pixel<F>& p) { ... });               // a formula on the state
-///   strip.own(plane, [&](Pixel<F>& p, F value) {});      // the input at the pixel itself
-///   strip.own3(first, [&](Pixel<F>& p, Vec3<F> v) {});    // three planes in a row (normals)
-///   strip.nearest(plane, where, [&](Pixel<F>& p, F value) {});
-///   strip.bilinear(plane, where, [&](Pixel<F>& p, F value) {});
-///   strip.bilinear_rgb(first, where, [&](Pixel<F>& p, Rgb<F> value) {});
-///   strip.tiled_rgb(texture, where, [&](Pixel<F>& p, Rgb<F> value) {});   // where: periods of the
-///   texture
-///   strip.probe([&](Pixel<F>& p, const auto& tap) { ... });   // where to look depends on what is
-///   seen
+///     using F = typename Strip::Number;
+///     strip.each([&](Pixel<F>& p) { ... });              // a formula on the state
+///     strip.own(plane, [&](Pixel<F>& p, F value) {});     // the input at the pixel itself
+///     strip.own3(first, [&](Pixel<F>& p, Vec3<F> v) {});  // three planes in a row (normals)
+///     strip.nearest(plane, where, [&](Pixel<F>& p, F value) {});
+///     strip.bilinear(plane, where, [&](Pixel<F>& p, F value) {});
+///     strip.bilinear_rgb(first, where, [&](Pixel<F>& p, Rgb<F> value) {});
+///     strip.tiled_rgb(texture, where, [&](Pixel<F>& p, Rgb<F> value) {});  // in periods of it
+///     strip.probe([&](Pixel<F>& p, const auto& tap) { ... });  // what is seen says where to look
 ///
 /// with `where(const Pixel<F>&) -> Vec2<F>`, a shift in uv from the pixel's own centre. Taps are
 /// clamped to the plane's data window; a plane that is absent reads as its role's `missing` value.
@@ -61,7 +60,7 @@ struct Needs {
 /// where nothing is known. So that bounds add up, an operator passes on of the light before it a
 /// share of at most 1. One that makes anything that later bounds are made of says so, besides, in
 ///
-///   static void reckon(const Params&, const Context&, Ranges& ranges);
+///     static void reckon(const Params&, const Context&, Ranges& ranges);
 ///
 /// which widens or narrows `ranges` to what holds after it, be it left out or not.
 template <class T>

@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/op/context.h"
 
+/// @file
 /// What operators know of the screen: where a ray that leaves the surface passes over it, and how
 /// high above the calm water what is seen there lies.
 

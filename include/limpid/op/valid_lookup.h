@@ -4,6 +4,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/op/pixel.h"
 
+/// @file
 /// Bilinear lookups in which only some texels count: those below the surface for refraction, those
 /// that the mirror really saw for reflection. What lies in front never bleeds in, in any channel.
 ///

@@ -12,6 +12,7 @@
 #include "limpid/ops/water_shadow.h"
 #include "limpid/ops/wave_normals.h"
 
+/// @file
 /// THE list of operators, in the order in which they run.
 ///
 /// To add an operator: its header (formula) and source (table of parameters) in ops/, a test in

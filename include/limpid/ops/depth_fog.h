@@ -24,9 +24,9 @@ namespace limpid {
 /// depth under the calm surface, E what the sun sends onto a surface that faces it (pi times its
 /// color, so that a white Lambert one shows that color), each per channel:
 ///
-///   transmitted *= exp(-(a + b) d) exp(-K z / cos_sun) crossing
-///   in_scatter = b ambient integral of exp(-(a + b) s)
-///              + b p E' integral of exp(-(a + b) s) exp(-K z(s) / cos_sun), s = 0 ... d
+///     transmitted *= exp(-(a + b) d) exp(-K z / cos_sun) crossing
+///     in_scatter = b ambient integral of exp(-(a + b) s)
+///                + b p E' integral of exp(-(a + b) s) exp(-K z(s) / cos_sun), s = 0 ... d
 ///
 /// K is the loss of light on its way down: that of the `water_type` if it has one, else a + b (1 -
 /// g), for what is scattered goes on forwards, mostly. By `sunlight` this way is not made (`none`:

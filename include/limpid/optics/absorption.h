@@ -3,6 +3,7 @@
 
 #include "limpid/core/vec.h"
 
+/// @file
 /// Light along a way through water. `path` is the length of the way, 0 ... +inf; `rate` and
 /// `attenuation` are what is lost per length, >= 0. path = +inf counts as the largest finite
 /// number, so that water that takes nothing away stays clear at the sky.

@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/core/number.h"
 
+/// @file
 /// What the surface does to radiance that goes through it both ways.
 
 namespace limpid {

@@ -2,6 +2,7 @@
 #include "limpid/core/camera.h"
 #include "limpid/core/number.h"
 
+/// @file
 /// Linear eye depth (distance along the view axis, scene units, positive in front) from each of the
 /// other ways to store depth. The chain itself sees eye depth only. +inf stays +inf where the kind
 /// can say it.
@@ -17,7 +18,7 @@ enum class DepthKind {
   kDevice,      ///< clip z after the division; the far plane reads as nothing hit
 };
 
-/// `ray_length` is the length of the pixel's ray per unit of eye depth (|Rays::ray_at|).
+/// `ray_length` is the length of the pixel's ray per unit of eye depth (that of Rays::ray_at()).
 template <class F>
 LIMPID_INLINE F eye_depth_from_ray_distance(F distance, F ray_length) {
   return distance / ray_length;

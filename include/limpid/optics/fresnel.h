@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/core/number.h"
 
+/// @file
 /// How much of the light that meets the surface is reflected. `cosine` is V.n, the cosine between
 /// the unit direction to the viewer and the unit normal.
 

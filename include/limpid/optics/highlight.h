@@ -4,6 +4,7 @@
 #include "limpid/core/vec.h"
 #include "limpid/optics/fresnel.h"
 
+/// @file
 /// Lobes of a sun highlight. All vectors unit: n the normal, v to the viewer, l to the light. The
 /// Phong and Blinn-Phong lobes are 0 ... 1 and not physical: their energy grows with the width. The
 /// GGX lobe is in 1/sr, to be multiplied by the sun's irradiance. A power is a number of the

@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/core/vec.h"
 
+/// @file
 /// Where a ray goes at a smooth surface. Vectors are unit: `to_viewer` points against the ray,
 /// `normal` to the viewer's side. `eta` is the index on the viewer's side over the index on the far
 /// side (1 / 1.333 from air into water, 1.333 from below), the inverse of fresnel_exact's `ior`.

@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/optics/absorption.h"
 
+/// @file
 /// Sunlight that water scatters into a view, once.
 
 namespace limpid {

@@ -2,6 +2,7 @@
 #include "limpid/core/vec.h"
 #include "limpid/optics/highlight.h"
 
+/// @file
 /// How dry surfaces answer the sun: the materials of the raster pass (Shading in raster/model.h).
 /// `base` is the surface's color, `cosine` n.L, `shadow` the sun's visibility 0 ... 1, `sun` its
 /// color. Unlit materials are `base` itself.

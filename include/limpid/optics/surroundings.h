@@ -3,6 +3,7 @@
 
 #include "limpid/core/vec.h"
 
+/// @file
 /// What a mirror sees of the surroundings, and where that is in a map of all directions.
 
 namespace limpid {

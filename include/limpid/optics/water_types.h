@@ -4,6 +4,7 @@
 
 #include "limpid/core/vec.h"
 
+/// @file
 /// Waters by name: how much light they take, at 650, 550 and 450 nm.
 
 namespace limpid {

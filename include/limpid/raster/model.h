@@ -11,6 +11,7 @@
 #include "limpid/core/plane.h"
 #include "limpid/core/scene.h"
 
+/// @file
 /// Geometry to be rendered, as plain data: what a glTF file holds that the raster pass draws. World
 /// space, scene units, right-handed. Complete and checked when made: indices are in range, numbers
 /// finite, transforms flattened.
