@@ -28,7 +28,7 @@ function(limpid_debian component package section)
   set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_PACKAGE_SUGGESTS "${suggests}" PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_DESCRIPTION "${deb_DESCRIPTION}" PARENT_SCOPE)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${package} RENAME copyright
+  install(FILES copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${package}
           COMPONENT ${component} EXCLUDE_FROM_ALL)
 endfunction()
 
