@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "limpid/ops/chain.h"
+#include "limpid/run/target.h"
 
 #include "tool/made_plate.h"
 #include "tool/tool.h"
@@ -70,6 +73,17 @@ TEST_F(VerbsTest, HelpAndVersion) {
   const Ran bare = limpid({});
   EXPECT_EQ(bare.code, 2);
   EXPECT_EQ(bare.out, help.out);
+}
+
+TEST_F(VerbsTest, HelpNamesEachAov) {
+  for (const std::string verb : {"composite", "water"}) {
+    const std::string help = limpid({"help", verb}).out;
+    const std::string list = help.substr(std::min(help.find("--aov"), help.size()));
+    const std::string line = list.substr(0, list.find('\n')) + ",";
+    for (const AovInfo& info : aovs()) {
+      EXPECT_THAT(line, HasSubstr(" " + std::string(info.name) + ",")) << verb;
+    }
+  }
 }
 
 TEST_F(VerbsTest, AMisspeltVerbOrOptionIsWrongUsage) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "limpid/core/error.h"
+#include "limpid/run/target.h"
 #include "limpid/version.h"
 
 namespace limpid::tool {
@@ -60,9 +61,9 @@ void add_settings(CLI::App& verb, WaterOptions& a) {
 
 void add_look(CLI::App& verb, WaterOptions& a) {
   add_settings(verb, a);
-  verb.add_option("--aov", a.aovs,
-                  "Also write these terms: all, or a list of transmitted, in_scatter, reflected, "
-                  "highlight, fresnel, path, confidence, normal, surface_depth")
+  std::vector<std::string> known;
+  for (const AovInfo& info : aovs()) known.emplace_back(info.name);
+  verb.add_option("--aov", a.aovs, "Also write these terms: all, or a list of " + join(known))
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
