@@ -31,15 +31,15 @@ namespace limpid {
 /// it is totally reflected nothing is transmitted by the surface and the lookup stays at the pixel.
 ///
 /// What lies above the surface must not be seen through it. `rejection` `none` takes what is there.
-/// `snap` (article 2): where the dry depth nearest to uv' is in front of this pixel's surface, uv'
-/// goes back to uv and the prism is switched off. Its faults are kept: only the centre of the three
-/// prism taps is tested, the color tap is bilinear where the depth tap is nearest, and the choice
-/// is hard (a halo). `shorten`: each texel of each channel is tested against the surface in front
-/// of it (op/valid_lookup.h); along snell's rays what stands under water far before their end hides
-/// that, too, and does not count. Where the frame has a layer below, that is looked up instead of
-/// the dry scene. It reaches the highest crest: `shorten` rejects what of it stands above the
-/// surface, `snap`, which asks for this pixel's surface alone, takes all of it. Not so where the
-/// view may begin in the water, from where one looks up into the air as well.
+/// `snap` ("Realistic Water"): where the dry depth nearest to uv' is in front of this pixel's
+/// surface, uv' goes back to uv and the prism is switched off. Its faults are kept: only the centre
+/// of the three prism taps is tested, the color tap is bilinear where the depth tap is nearest, and
+/// the choice is hard (a halo). `shorten`: each texel of each channel is tested against the surface
+/// in front of it (op/valid_lookup.h); along snell's rays what stands under water far before their
+/// end hides that, too, and does not count. Where the frame has a layer below, that is looked up
+/// instead of the dry scene. It reaches the highest crest: `shorten` rejects what of it stands
+/// above the surface, `snap`, which asks for this pixel's surface alone, takes all of it. Not so
+/// where the view may begin in the water, from where one looks up into the air as well.
 ///
 /// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
