@@ -1,0 +1,107 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include "limpid/compositor.h"
+#include "limpid/core/error.h"
+
+/// Pictures of OpenImageIO as those of a host, without copies. A buffer holds its pixels itself or
+/// lies over memory of somebody's, flat, of float or half, with any strides and channels; these go
+/// by index or by name, as in "R" or "ViewLayer.Depth.Z". Its data window becomes that of the
+/// views, its display window that of the frame, in the same coordinates. All else is refused, in
+/// the form `ImageBuf 'a.png': pixels of uint8, expected ...`. Views hold nothing: the buffer must
+/// be there, with the same pixels, as long as they are.
+
+namespace limpid {
+
+/// Throws Error unless its pixels can be read as they lie.
+inline void validate(const OIIO::ImageBuf& buf) {
+  std::string fault;
+  if (buf.deep() || buf.spec().depth > 1) {
+    fault = "it is deep or a volume, expected a flat picture";
+  } else if (!buf.localpixels()) {
+    fault = "no pixels in memory of its own, expected some, as read(0, 0, true) leaves them";
+  } else if (buf.pixeltype() != OIIO::TypeFloat && buf.pixeltype() != OIIO::TypeHalf) {
+    fault = std::string("pixels of ") + buf.pixeltype().c_str() +
+            ", expected float or half, scene-linear";
+  }
+  if (!fault.empty()) throw Error("ImageBuf '" + std::string(buf.name()) + "': " + fault);
+}
+
+/// The pixels that are there.
+inline Rect window_of(const OIIO::ImageBuf& buf) {
+  return {buf.xbegin(), buf.ybegin(), buf.xend(), buf.yend()};
+}
+
+/// The picture that they are a part of: HostFrame::display.
+inline Rect display_of(const OIIO::ImageBuf& buf) {
+  const OIIO::ROI full = buf.roi_full();
+  return {full.xbegin, full.ybegin, full.xend, full.yend};
+}
+
+/// Throws Error with the names that there are.
+inline int channel_named(const OIIO::ImageBuf& buf, const std::string& name) {
+  const int channel = buf.spec().channelindex(name);
+  if (channel < 0) {
+    throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " + name + ", but " +
+                join(buf.spec().channelnames));
+  }
+  return channel;
+}
+
+/// A channel to read or, of a buffer that is not const, to write. Throws Error as validate() does,
+/// and for a channel that is not there.
+inline HostInput channel_of(const OIIO::ImageBuf& buf, int channel) {
+  validate(buf);
+  if (channel < 0 || channel >= buf.nchannels()) {
+    throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " +
+                std::to_string(channel) + ", but " + std::to_string(buf.nchannels()));
+  }
+  return {static_cast<const std::byte*>(buf.localpixels()) + channel * buf.pixeltype().size(),
+          buf.pixeltype() == OIIO::TypeHalf ? Sample::kHalf : Sample::kFloat, buf.pixel_stride(),
+          buf.scanline_stride(), window_of(buf)};
+}
+inline HostOutput channel_of(OIIO::ImageBuf& buf, int channel) {
+  const HostInput view = channel_of(std::as_const(buf), channel);
+  return {const_cast<void*>(view.data), view.sample, view.x_stride, view.y_stride, view.window};
+}
+
+/// What a channel is to the frame, as in set_plane(frame, PlaneId::kDepth, buf, "Z").
+inline void set_plane(HostFrame& frame, PlaneId id, const OIIO::ImageBuf& buf, int channel) {
+  frame.plane(id) = channel_of(buf, channel);
+}
+inline void set_plane(HostFrame& frame, PlaneId id, const OIIO::ImageBuf& buf,
+                      const std::string& name) {
+  set_plane(frame, id, buf, channel_named(buf, name));
+}
+
+/// Three planes from `red` on: R, G and B of a layer, as in set_colors(frame,
+/// PlaneId::kReflectionR, buf, "mirrored.").
+inline void set_colors(HostFrame& frame, PlaneId red, const OIIO::ImageBuf& buf,
+                       const std::string& layer = {}) {
+  for (int c = 0; c < 3; ++c) set_plane(frame, plane_after(red, c), buf, layer + "RGB"[c]);
+}
+
+/// The dry picture: R, G, B of a layer and its A, where there is one, which they are multiplied by.
+inline void set_color(HostFrame& frame, const OIIO::ImageBuf& buf, const std::string& layer = {}) {
+  set_colors(frame, PlaneId::kColorR, buf, layer);
+  const int alpha = buf.spec().channelindex(layer + "A");
+  frame.plane(PlaneId::kColorA) = alpha >= 0 ? channel_of(buf, alpha) : HostInput{};
+}
+
+/// R, G, B of a layer, and A where there is one, as the place for the wet picture.
+inline HostPicture picture_of(OIIO::ImageBuf& buf, const std::string& layer = {}) {
+  HostPicture picture;
+  for (int c = 0; c < 3; ++c) {
+    picture.color[c] = channel_of(buf, channel_named(buf, layer + "RGB"[c]));
+  }
+  const int alpha = buf.spec().channelindex(layer + "A");
+  if (alpha >= 0) picture.alpha = channel_of(buf, alpha);
+  return picture;
+}
+
+}  // namespace limpid

@@ -1,0 +1,102 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include <opencv2/core.hpp>
+
+#include "limpid/compositor.h"
+#include "limpid/core/error.h"
+
+/// Pictures of OpenCV as those of a host, without copies. A matrix is 2-d, of 1, 3 or 4 channels of
+/// float or half (CV_32FC1, CV_16FC3 ...), with any step: parts of larger ones will do. Channels of
+/// colors are in OpenCV's order, B G R (A). The pixel at row 0, column 0 has the place `at` in the
+/// picture, else 0, 0. Bytes and doubles are refused, in the form `cv::Mat of CV_8UC3: expected
+/// ...`: pictures of 8 bits are not scene-linear, and what converts them knows their curve. Views
+/// do not share the matrix's count: it must be there as long as they are.
+
+namespace limpid {
+
+/// Throws Error unless it is a picture of a type that can be read as it lies.
+inline void validate(const cv::Mat& mat) {
+  const int depth = mat.depth(), channels = mat.channels();
+  const bool fits = mat.dims == 2 && !mat.empty() && (depth == CV_32F || depth == CV_16F) &&
+                    (channels == 1 || channels == 3 || channels == 4);
+  if (fits) return;
+  const std::string what = mat.empty()     ? "without pixels"
+                           : mat.dims != 2 ? "of " + std::to_string(mat.dims) + " dimensions"
+                                           : "of " + cv::typeToString(mat.type());
+  throw Error("cv::Mat " + what +
+              ": expected rows and columns of CV_32F or CV_16F, scene-linear, 1, 3 or 4 channels");
+}
+
+inline Rect window_of(const cv::Mat& mat, cv::Point at = {}) {
+  return {at.x, at.y, at.x + mat.cols, at.y + mat.rows};
+}
+
+/// A channel to read or to write; the matrix itself stays as it is, in its type and size. Throws
+/// Error as validate() does, and for a channel that is not there.
+inline HostOutput channel_of(const cv::Mat& mat, int channel, cv::Point at = {}) {
+  validate(mat);
+  if (channel < 0 || channel >= mat.channels()) {
+    throw Error("cv::Mat of " + cv::typeToString(mat.type()) + ": has no channel " +
+                std::to_string(channel));
+  }
+  return {mat.data + mat.elemSize1() * static_cast<std::size_t>(channel),
+          mat.depth() == CV_16F ? Sample::kHalf : Sample::kFloat,
+          static_cast<std::ptrdiff_t>(mat.elemSize()), static_cast<std::ptrdiff_t>(mat.step[0]),
+          window_of(mat, at)};
+}
+
+/// Red, green, blue. Throws Error as validate() does, and for a matrix of one channel.
+inline std::array<HostOutput, 3> colors_of(const cv::Mat& mat, cv::Point at = {}) {
+  validate(mat);
+  if (mat.channels() < 3) {
+    throw Error("cv::Mat of " + cv::typeToString(mat.type()) +
+                ": expected colors, 3 channels B G R or 4 B G R A");
+  }
+  return {channel_of(mat, 2, at), channel_of(mat, 1, at), channel_of(mat, 0, at)};
+}
+
+/// What a channel of the matrix is to the frame, as in set_plane(frame, PlaneId::kDepth, depth).
+inline void set_plane(HostFrame& frame, PlaneId id, const cv::Mat& mat, int channel = 0,
+                      cv::Point at = {}) {
+  frame.plane(id) = channel_of(mat, channel, at);
+}
+
+/// Three planes from `red` on, as in set_colors(frame, PlaneId::kReflectionR, mirrored). A fourth
+/// channel is not looked at.
+inline void set_colors(HostFrame& frame, PlaneId red, const cv::Mat& mat, cv::Point at = {}) {
+  const std::array<HostOutput, 3> colors = colors_of(mat, at);
+  for (int c = 0; c < 3; ++c) frame.plane(plane_after(red, c)) = colors[c];
+}
+
+/// The dry picture. Four channels: with alpha, colors multiplied by it; three: without.
+inline void set_color(HostFrame& frame, const cv::Mat& mat, cv::Point at = {}) {
+  set_colors(frame, PlaneId::kColorR, mat, at);
+  frame.plane(PlaneId::kColorA) = mat.channels() == 4 ? channel_of(mat, 3, at) : HostOutput{};
+}
+
+/// The matrix as the place for the wet picture, with alpha if it has four channels.
+inline HostPicture picture_of(const cv::Mat& mat, cv::Point at = {}) {
+  HostPicture picture;
+  picture.color = colors_of(mat, at);
+  if (mat.channels() == 4) picture.alpha = channel_of(mat, 3, at);
+  return picture;
+}
+
+/// A map that tiles or an environment. Throws Error unless it is CV_32F with 3 or 4 channels.
+inline Texture texture_of(const cv::Mat& mat) {
+  const std::array<HostOutput, 3> colors = colors_of(mat);
+  if (mat.depth() != CV_32F) {
+    throw Error("texture of cv::Mat of " + cv::typeToString(mat.type()) + ": expected CV_32F");
+  }
+  Texture texture;
+  for (int c = 0; c < 3; ++c) {
+    texture.channels[c] = {static_cast<const float*>(colors[c].data), mat.channels(),
+                           static_cast<std::ptrdiff_t>(mat.step1()), colors[c].window};
+  }
+  return texture;
+}
+
+}  // namespace limpid
