@@ -13,12 +13,13 @@
 #include "limpid/plan/plan.h"
 #include "limpid/run/target.h"
 
+/// @file
 /// limpid as a post stage of another program: buffers of the host in, a wet picture in its own
 /// buffers out, frame after frame.
 ///
-///   Compositor water({.depth = DepthKind::kDevice, .clip = ClipSpace::kReversed}, look);
-///   ...
-///   water.run(frame, picture);  // each frame
+///     Compositor water({.depth = DepthKind::kDevice, .clip = ClipSpace::kReversed}, look);
+///     ...
+///     water.run(frame, picture);  // each frame
 
 namespace limpid {
 

@@ -1,17 +1,18 @@
 #ifndef LIMPID_LIMPID_H
 #define LIMPID_LIMPID_H
 
-/* limpid as a post stage, for C and for whatever can call C: limpid/compositor.h in other words,
+/** @file
+ * limpid as a post stage, for C and for whatever can call C: limpid/compositor.h in other words,
  * where everything is said that is not said here. C11.
  *
- *   limpid_compositor* water = NULL;
- *   limpid_conventions conventions = LIMPID_CONVENTIONS;
- *   conventions.depth = LIMPID_DEPTH_DEVICE;
- *   char why[256];
- *   if (limpid_create(&conventions, NULL, &water, why, sizeof why) != LIMPID_OK) ...
- *   limpid_set_number(water, "depth_fog", "density", 0.4);
- *   if (limpid_run(water, &frame, &picture) != LIMPID_OK) puts(limpid_message(water));
- *   limpid_destroy(water);
+ *     limpid_compositor* water = NULL;
+ *     limpid_conventions conventions = LIMPID_CONVENTIONS;
+ *     conventions.depth = LIMPID_DEPTH_DEVICE;
+ *     char why[256];
+ *     if (limpid_create(&conventions, NULL, &water, why, sizeof why) != LIMPID_OK) ...
+ *     limpid_set_number(water, "depth_fog", "density", 0.4);
+ *     if (limpid_run(water, &frame, &picture) != LIMPID_OK) puts(limpid_message(water));
+ *     limpid_destroy(water);
  *
  * Structs begin with their size as the caller knows it, which the macros below set; all the rest of
  * them may be 0. What later versions append is taken for 0 where an older caller does not have it;
@@ -34,30 +35,30 @@ extern "C" {
 
 typedef enum limpid_status {
   LIMPID_OK = 0,
-  LIMPID_REFUSED = 1,   /* an argument is wrong: limpid_message() says which; nothing was changed */
-  LIMPID_NO_MEMORY = 2, /* nothing was changed */
-  LIMPID_FAILED = 3     /* a fault of the library */
+  LIMPID_REFUSED = 1, /**< an argument is wrong: limpid_message() says which; nothing was changed */
+  LIMPID_NO_MEMORY = 2, /**< nothing was changed */
+  LIMPID_FAILED = 3     /**< a fault of the library */
 } limpid_status;
 
-/* What depth planes hold. */
+/** What depth planes hold. */
 typedef enum limpid_depth {
-  LIMPID_DEPTH_EYE = 0,        /* distance along the view axis */
-  LIMPID_DEPTH_RAY = 1,        /* distance from the eye along the pixel's ray */
-  LIMPID_DEPTH_INVERSE = 2,    /* 1 / eye depth */
-  LIMPID_DEPTH_NORMALISED = 3, /* 0 at near ... 1 at far, linear */
-  LIMPID_DEPTH_DEVICE = 4      /* clip z after the division */
+  LIMPID_DEPTH_EYE = 0,        /**< distance along the view axis */
+  LIMPID_DEPTH_RAY = 1,        /**< distance from the eye along the pixel's ray */
+  LIMPID_DEPTH_INVERSE = 2,    /**< 1 / eye depth */
+  LIMPID_DEPTH_NORMALISED = 3, /**< 0 at near ... 1 at far, linear */
+  LIMPID_DEPTH_DEVICE = 4      /**< clip z after the division */
 } limpid_depth;
 
-/* The range of clip z. */
+/** The range of clip z. */
 typedef enum limpid_clip {
-  LIMPID_CLIP_GL = 0,      /* -1 near ... 1 far */
-  LIMPID_CLIP_D3D = 1,     /* 0 near ... 1 far: Vulkan, too */
-  LIMPID_CLIP_REVERSED = 2 /* 1 near ... 0 far */
+  LIMPID_CLIP_GL = 0,      /**< -1 near ... 1 far */
+  LIMPID_CLIP_D3D = 1,     /**< 0 near ... 1 far: Vulkan, too */
+  LIMPID_CLIP_REVERSED = 2 /**< 1 near ... 0 far */
 } limpid_clip;
 
 typedef enum limpid_sample { LIMPID_FLOAT = 0, LIMPID_HALF = 1 } limpid_sample;
 
-/* What a plane of a frame is. Color and depth must be there. */
+/** What a plane of a frame is. Color and depth must be there. */
 typedef enum limpid_plane {
   LIMPID_COLOR_R = 0,
   LIMPID_COLOR_G = 1,
@@ -81,12 +82,12 @@ typedef enum limpid_plane {
   LIMPID_SURFACE_SHADOW = 19
 } limpid_plane;
 
-/* What is written. Channel i of an AOV (x y z, r g b, u v) is its value + i. */
+/** What is written. Channel i of an AOV (x y z, r g b, u v) is its value + i. */
 typedef enum limpid_output {
   LIMPID_OUT_R = 0,
   LIMPID_OUT_G = 1,
   LIMPID_OUT_B = 2,
-  LIMPID_OUT_A = 3, /* may be absent */
+  LIMPID_OUT_A = 3, /**< may be absent */
   LIMPID_OUT_TRANSMITTED = 4,
   LIMPID_OUT_IN_SCATTER = 7,
   LIMPID_OUT_REFLECTED = 10,
@@ -102,74 +103,74 @@ typedef enum limpid_output {
   LIMPID_OUT_STMAP_B = 40
 } limpid_output;
 
-/* One channel in the host's memory. `data` points at its sample of the first pixel of the window;
+/** One channel in the host's memory. `data` points at its sample of the first pixel of the window;
  * strides count bytes. A window of four zeros is the whole picture. */
 typedef struct limpid_channel {
-  int32_t what;   /* limpid_plane of a frame, limpid_output of a picture */
-  int32_t sample; /* limpid_sample */
-  void* data;     /* not written to in a frame, unless the picture lies there, too */
+  int32_t what;   /**< limpid_plane of a frame, limpid_output of a picture */
+  int32_t sample; /**< limpid_sample */
+  void* data;     /**< not written to in a frame, unless the picture lies there, too */
   ptrdiff_t x_stride, y_stride;
-  int32_t x0, y0, x1, y1; /* pixels x0 <= x < x1, y0 <= y < y1 */
+  int32_t x0, y0, x1, y1; /**< pixels x0 <= x < x1, y0 <= y < y1 */
 } limpid_channel;
 
-/* How the host keeps cameras and depths: limpid::Conventions. */
+/** How the host keeps cameras and depths: limpid::Conventions. */
 typedef struct limpid_conventions {
   size_t size;
-  int32_t depth; /* limpid_depth */
-  int32_t clip;  /* limpid_clip */
+  int32_t depth; /**< limpid_depth */
+  int32_t clip;  /**< limpid_clip */
   int32_t looks_along_plus_z, clip_y_down, sane;
-  /* Matrices lie in memory row after row. 0: column after column, as OpenGL has them (which is also
-   * how matrices for row vectors lie that are stored by rows, as Direct3D has them). */
+  /** Matrices lie in memory row after row. 0: column after column, as OpenGL has them (which is
+   * also how matrices for row vectors lie that are stored by rows, as Direct3D has them). */
   int32_t row_major;
-  double near_depth, far_depth; /* of normalised depth alone */
+  double near_depth, far_depth; /**< of normalised depth alone */
 } limpid_conventions;
 #define LIMPID_CONVENTIONS \
   { sizeof(limpid_conventions), 0, 0, 0, 0, 0, 0, 0, 0 }
 
-/* Threads of the host. run() calls task(context, i) once for each i in 0 ... count - 1, on any
+/** Threads of the host. run() calls task(context, i) once for each i in 0 ... count - 1, on any
  * threads, in any order, and returns when all are done. */
 typedef void (*limpid_task)(void* context, int index);
 typedef struct limpid_executor {
   size_t size;
-  void* host; /* handed to run() */
+  void* host; /**< handed to run() */
   void (*run)(void* host, int count, limpid_task task, void* context);
 } limpid_executor;
 
 typedef struct limpid_options {
   size_t size;
-  const limpid_executor* executor; /* copied; NULL: a pool of the compositor's own */
-  int32_t threads;                 /* of that pool; 0: one for each core */
-  const char* simd;                /* NULL: the best; else avx512 avx2 sse4 neon scalar */
-  double max_error;                /* what may be left out changes no channel by more (white = 1) */
+  const limpid_executor* executor; /**< copied; NULL: a pool of the compositor's own */
+  int32_t threads;                 /**< of that pool; 0: one for each core */
+  const char* simd;                /**< NULL: the best; else avx512 avx2 sse4 neon scalar */
+  double max_error; /**< what may be left out changes no channel by more (white = 1) */
 } limpid_options;
 #define LIMPID_OPTIONS \
   { sizeof(limpid_options), NULL, 0, NULL, 0 }
 
-/* A frame of the host: limpid::HostFrame. */
+/** A frame of the host: limpid::HostFrame. */
 typedef struct limpid_frame {
   size_t size;
   int32_t width, height;
-  const limpid_channel* planes; /* in any order, each at most once */
+  const limpid_channel* planes; /**< in any order, each at most once */
   size_t plane_count;
-  double view[16];       /* view from world */
-  double projection[16]; /* clip from view */
-  double water_up[3];    /* need not be unit */
+  double view[16];       /**< view from world */
+  double projection[16]; /**< clip from view */
+  double water_up[3];    /**< need not be unit */
   double water_height;
-  const double* waves; /* amplitude k_x k_y phase omega of each: limpid::SineWave */
+  const double* waves; /**< amplitude k_x k_y phase omega of each: limpid::SineWave */
   size_t wave_count;
   int32_t has_sun;
-  double sun_direction[3]; /* towards the sun, need not be unit */
+  double sun_direction[3]; /**< towards the sun, need not be unit */
   double sun_color[3];
-  double time; /* seconds */
+  double time; /**< seconds */
 } limpid_frame;
 
 typedef struct limpid_picture {
   size_t size;
-  const limpid_channel* outputs; /* in any order, each at most once */
+  const limpid_channel* outputs; /**< in any order, each at most once */
   size_t output_count;
 } limpid_picture;
 
-/* Pixels of floats r g b, or more channels that are not looked at. Rows have y_stride bytes, or
+/** Pixels of floats r g b, or more channels that are not looked at. Rows have y_stride bytes, or
  * follow one another without a gap where it is 0. */
 typedef struct limpid_texture {
   size_t size;
@@ -180,23 +181,23 @@ typedef struct limpid_texture {
 
 typedef struct limpid_compositor limpid_compositor;
 
-/* "MAJOR.MINOR.PATCH" of the library that runs. */
+/** "MAJOR.MINOR.PATCH" of the library that runs. */
 LIMPID_API const char* limpid_version(void);
 
-/* Makes a compositor with the look that needs nothing but a plate, `physical`. NULL for conventions
- * or options: the defaults. Where it does not return LIMPID_OK, *compositor is NULL, and `message`,
- * if there is one, holds the reason, cut to message_size - 1 bytes. */
+/** Makes a compositor with the look that needs nothing but a plate, `physical`. NULL for
+ * conventions or options: the defaults. Where it does not return LIMPID_OK, *compositor is NULL,
+ * and `message`, if there is one, holds the reason, cut to message_size - 1 bytes. */
 LIMPID_API limpid_status limpid_create(const limpid_conventions* conventions,
                                        const limpid_options* options,
                                        limpid_compositor** compositor, char* message,
                                        size_t message_size);
-LIMPID_API void limpid_destroy(limpid_compositor* compositor); /* NULL is fine */
+LIMPID_API void limpid_destroy(limpid_compositor* compositor); /**< NULL is fine */
 
-/* Why the last call on this compositor that did not return LIMPID_OK did not; "" before the first.
+/** Why the last call on this compositor that did not return LIMPID_OK did not; "" before the first.
  * Valid until the next call on it. */
 LIMPID_API const char* limpid_message(const limpid_compositor* compositor);
 
-/* One parameter of the look, as `limpid operators` lists them: "refraction", "strength". Rows are
+/** One parameter of the look, as `limpid operators` lists them: "refraction", "strength". Rows are
  * those of tables of numbers, `columns` in each, one after another. */
 LIMPID_API limpid_status limpid_set_number(limpid_compositor* compositor, const char* table,
                                            const char* key, double value);
@@ -209,17 +210,17 @@ LIMPID_API limpid_status limpid_set_rows(limpid_compositor* compositor, const ch
                                          size_t columns);
 LIMPID_API limpid_status limpid_reset_look(limpid_compositor* compositor);
 
-/* Their memory stays the host's; NULL takes them away. */
+/** Their memory stays the host's; NULL takes them away. */
 LIMPID_API limpid_status limpid_set_wave_map(limpid_compositor* compositor,
                                              const limpid_texture* map);
 LIMPID_API limpid_status limpid_set_environment(limpid_compositor* compositor,
                                                 const limpid_texture* environment);
 
-/* Puts water into a frame. */
+/** Puts water into a frame. */
 LIMPID_API limpid_status limpid_run(limpid_compositor* compositor, const limpid_frame* frame,
                                     const limpid_picture* picture);
 
-/* The look as a TOML text; what ran in the last frame and why, a line an operator. Both write at
+/** The look as a TOML text; what ran in the last frame and why, a line an operator. Both write at
  * most size - 1 bytes and a 0, and return how long the whole text is, without that 0; 0 where there
  * is none. */
 LIMPID_API size_t limpid_look_text(const limpid_compositor* compositor, char* text, size_t size);

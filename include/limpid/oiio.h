@@ -9,6 +9,7 @@
 #include "limpid/compositor.h"
 #include "limpid/core/error.h"
 
+/// @file
 /// Pictures of OpenImageIO as those of a host, without copies. A buffer holds its pixels itself or
 /// lies over memory of somebody's, flat, of float or half, with any strides and channels; these go
 /// by index or by name, as in "R" or "ViewLayer.Depth.Z". Its data window becomes that of the

@@ -8,6 +8,7 @@
 #include "limpid/compositor.h"
 #include "limpid/core/error.h"
 
+/// @file
 /// Pictures of OpenCV as those of a host, without copies. A matrix is 2-d, of 1, 3 or 4 channels of
 /// float or half (CV_32FC1, CV_16FC3 ...), with any step: parts of larger ones will do. Channels of
 /// colors are in OpenCV's order, B G R (A). The pixel at row 0, column 0 has the place `at` in the
