@@ -7,8 +7,8 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
-#include "limpid/load/look_file.h"
 #include "limpid/enter/sanitise.h"
+#include "limpid/load/look_file.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "limpid/core/error.h"
+#include "limpid/enter/sanitise.h"
 #include "limpid/load/gltf.h"
 #include "limpid/load/plate.h"
-#include "limpid/enter/sanitise.h"
 #include "limpid/load/scene_file.h"
 #include "limpid/raster/render_plate.h"
 

@@ -2,8 +2,8 @@
 #include <array>
 
 #include "limpid/core/plane.h"
-#include "limpid/load/exr_file.h"
 #include "limpid/enter/sanitise.h"
+#include "limpid/load/exr_file.h"
 
 namespace limpid {
 

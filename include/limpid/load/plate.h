@@ -9,10 +9,10 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/enter/sanitise.h"
 #include "limpid/load/exr_file.h"
 #include "limpid/load/layers.h"
 #include "limpid/load/limits.h"
-#include "limpid/enter/sanitise.h"
 #include "limpid/load/scene_file.h"
 
 namespace limpid {
