@@ -1,0 +1,299 @@
+"""Puts water into pictures that were rendered without it.
+
+    import limpid
+
+    wet = limpid.composite(
+        color=rgba, depth=z,                        # numpy arrays: (rows, columns, 4), (rows, columns)
+        camera=limpid.Camera(view, projection),     # 4x4, for column vectors
+        water={"up": (0, 0, 1), "height": 0.0},
+        look={"depth_fog": {"water_type": "II"}},
+    )
+
+Arrays are float32 or float16, of any strides: flipped, sliced, interleaved and broadcast ones are
+read as they lie. Other types are refused, nothing is converted. Row 0 is the top of the picture.
+Color is scene-linear and premultiplied. Lengths are scene units, times seconds, angles of looks
+degrees. For frame after frame make one Compositor; `composite` makes one for each call.
+
+Looks are dicts of dicts; what they leave out has its default. `operators()` lists all that there is
+to set, `roles()` the buffers that a frame may have, `aovs()` what may be written besides the
+picture. All errors of the library are limpid.Error, a ValueError, with a sentence that says what
+was expected.
+"""
+from __future__ import annotations
+
+import os
+import pathlib
+import tomllib
+from types import MappingProxyType
+from typing import Any, Mapping, NamedTuple, Sequence
+
+import numpy as np
+
+from . import _limpid
+from ._limpid import Error, __version__
+
+__all__ = ["Camera", "Compositor", "Error", "Plan", "PlannedOperator", "aovs", "composite", "full_look",
+           "load_look", "look_at", "look_to_toml", "operators", "orthographic", "perspective", "roles"]
+
+Error.__module__ = "limpid"
+Error.__doc__ = "What the library refuses, in one sentence that says what was expected."
+
+
+class Camera(NamedTuple):
+    """Two 4x4 matrices for column vectors, [row][column], as arrays or lists of rows."""
+    view: Any  #: view from world, rigid; view space looks down -Z, +Y up
+    projection: Any  #: clip from view; see perspective() and orthographic()
+
+
+class PlannedOperator(NamedTuple):
+    """What became of an operator of the chain."""
+    name: str
+    verdict: str  #: kept, neutral, absent (an input is), or unread
+    reason: str  #: one phrase, "" for a plain "kept"
+    rule: str  #: of the planner that decided, or ""
+
+
+class Plan(tuple):
+    """What of the chain runs, and why the rest does not: a tuple of PlannedOperator.
+
+    str() of it is a text with a line for each. `reads` lists the roles that are read.
+    """
+    reads: tuple[str, ...]
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class Compositor:
+    """Puts water into frame after frame, with one pool of threads; settings hold for all frames.
+
+    look: dict of dicts, as {"refraction": {"steps": 2}}; the rest has its defaults
+    wave_map: (rows, columns, 3) float32, tiling normal map, values 0 ... 1, blue is up
+    environment: (rows, columns, 3) float32, the surroundings as a lat-long map of radiance, as
+        picture files have it: the top row is straight up, the middle looks along the water plane's
+        x axis (world x projected on it), columns run clockwise as seen from above
+    depth_kind: what all depth arrays hold: "eye" (distance along the view axis), "ray" (distance
+        from the eye), "inverse" (1 / eye depth), "normalised" (0 at near ... 1 at far), "device"
+        (clip z after the division)
+    near, far: scene units, for "normalised" alone
+    clip: the range of clip z that projections are made for: "gl", "d3d" (Vulkan) or "reversed"
+    looks_along_plus_z: view space looks down +Z
+    clip_y_down: clip y = +1 is the lowest row, as in Vulkan
+    sane: you vouch for the arrays (no NaN, shadows within 0 ... 1, unit normals): nothing is checked
+    threads: 0 is one for each core
+    simd: "" is the best of this machine; "avx512", "avx2", "sse4", "neon", "scalar"
+    max_error: leave out what together changes no channel by more than this (white = 1)
+
+    Maps are not copied: do not change them while they are set. A compositor is for one thread at a
+    time, else limpid.Error; several may run at once, as the interpreter's lock is released.
+    """
+
+    def __init__(self, *, look: Mapping | None = None, wave_map: np.ndarray | None = None,
+                 environment: np.ndarray | None = None, depth_kind: str = "eye", near: float = 0.0,
+                 far: float = 0.0, clip: str = "gl", looks_along_plus_z: bool = False,
+                 clip_y_down: bool = False, sane: bool = False, threads: int = 0, simd: str = "",
+                 max_error: float = 0.0):
+        conventions = {"depth_kind": depth_kind, "near": near, "far": far, "clip": clip,
+                       "looks_along_plus_z": looks_along_plus_z, "clip_y_down": clip_y_down, "sane": sane}
+        self._core = _limpid.Compositor(conventions, _plain(look), threads, simd, max_error)
+        self._core.set_wave_map(wave_map)
+        self._core.set_environment(environment)
+
+    @property
+    def look(self) -> Mapping[str, Mapping[str, Any]]:
+        """All parameters, to be read. Assign a dict of dicts to change those that it names."""
+        return MappingProxyType({name: MappingProxyType(table) for name, table in self._core.look().items()})
+
+    @look.setter
+    def look(self, changes: Mapping) -> None:
+        self._core.change_look(_plain(changes))
+
+    def set_wave_map(self, wave_map: np.ndarray | None) -> None:
+        """Another tiling normal map from the next frame on, or none."""
+        self._core.set_wave_map(wave_map)
+
+    def set_environment(self, environment: np.ndarray | None) -> None:
+        """Other surroundings from the next frame on, or none."""
+        self._core.set_environment(environment)
+
+    def run(self, *, color: np.ndarray, depth: np.ndarray, camera: Camera, water: Mapping,
+            sun: Mapping | None = None, time: float = 0.0, shadow: np.ndarray | None = None,
+            reflection: np.ndarray | None = None, surface_depth: np.ndarray | None = None,
+            surface_normal: np.ndarray | None = None, reflection_valid: np.ndarray | None = None,
+            reflection_depth: np.ndarray | None = None, below_color: np.ndarray | None = None,
+            below_depth: np.ndarray | None = None, surface_shadow: np.ndarray | None = None,
+            display: Sequence[int] | None = None, out: np.ndarray | None = None, dtype: str = "float32",
+            aovs: Sequence[str] | Mapping[str, np.ndarray | None] | None = None) -> Any:
+        """The frame with water in it: an array with the channels of color. With aovs: (array, dict).
+
+        color: (rows, columns, 3 or 4), the dry picture
+        depth: (rows, columns), of the dry scene; inf where nothing was hit
+        camera: Camera, or (view, projection)
+        water: {"up": (x, y, z), "height": h, "waves": rows}: the points p with dot(up, p) = h, up
+            (0, 1, 0) and height 0 unless given. Waves are rows of amplitude (scene units), k_x, k_y
+            (rad / scene unit), phase (rad), and omega (rad / s; that of deep water, if left out)
+        sun: {"direction": towards it, "color": (r, g, b)}, color (1, 1, 1) unless given
+        time: seconds, for what drifts
+        shadow: (rows, columns), visibility of the sun: 1 lit, 0 in shadow
+        reflection: (rows, columns, 3), what a flat mirror in the water plane shows at each pixel
+        surface_depth: (rows, columns), depth of the water, inf where a pixel has none
+        surface_normal: (rows, columns, 3), world normal of the water
+        reflection_valid: (rows, columns), 1 where the reflection is real
+        reflection_depth: (rows, columns), of the mirrored scene along the mirrored ray
+        below_color, below_depth: the dry scene without all that is above the water
+        surface_shadow: (rows, columns), shadow at the water surface
+        display: (x0, y0, x1, y1), the pixels of color that the camera's picture has; the rest is
+            overscan, which is looked up, but not computed
+        out: where to write, float32 or float16, 3 or 4 channels, any strides; may be color itself
+        dtype: "float32" or "float16", of the array that is made where there is no out
+        aovs: names of aovs() ("stmap" for its three), or a dict that has arrays for some of them
+            (rows, columns[, channels]), None for the others
+        """
+        planes = {"color": color, "depth": depth, "shadow": shadow, "reflection": reflection,
+                  "surface_depth": surface_depth, "surface_normal": surface_normal,
+                  "reflection_valid": reflection_valid, "reflection_depth": reflection_depth,
+                  "below_color": below_color, "below_depth": below_depth, "surface_shadow": surface_shadow}
+        planes = {name: array for name, array in planes.items()
+                  if array is not None or name in ("color", "depth")}
+        try:
+            view, projection = camera
+        except (TypeError, ValueError):
+            raise Error(f"camera is a {type(camera).__name__}, expected view and projection") from None
+        scene = {"view": view, "projection": projection, "water": water, "sun": sun, "time": time}
+        wet, made = self._core.run(planes, scene, display, out, dtype, _aov_arrays(aovs))
+        return wet if aovs is None else (wet, made)
+
+    @property
+    def plan(self) -> Plan:
+        """Of the last frame; limpid.Error where none was run with this look and these maps."""
+        operators, reads, text = self._core.plan()
+        plan = Plan(PlannedOperator(*entry) for entry in operators)
+        plan.reads, plan.text = tuple(reads), text
+        return plan
+
+    @property
+    def replaced(self) -> dict[str, int]:
+        """Of the last frame: how many values meant nothing (NaN, inf) and were replaced, by role."""
+        return self._core.replaced()
+
+
+def composite(*, look: Mapping | None = None, wave_map: np.ndarray | None = None,
+              environment: np.ndarray | None = None, depth_kind: str = "eye", near: float = 0.0,
+              far: float = 0.0, clip: str = "gl", looks_along_plus_z: bool = False,
+              clip_y_down: bool = False, sane: bool = False, threads: int = 0, simd: str = "",
+              max_error: float = 0.0, **frame: Any) -> Any:
+    """One frame with water in it: these keywords as in Compositor, all others as in Compositor.run.
+
+    wet = composite(color=rgba, depth=z, camera=camera, water={}, look=load_look("realistic"))
+    wet, parts = composite(..., aovs=["path", "stmap"])
+    """
+    compositor = Compositor(look=look, wave_map=wave_map, environment=environment, depth_kind=depth_kind,
+                            near=near, far=far, clip=clip, looks_along_plus_z=looks_along_plus_z,
+                            clip_y_down=clip_y_down, sane=sane, threads=threads, simd=simd,
+                            max_error=max_error)
+    return compositor.run(**frame)
+
+
+def operators() -> list[dict[str, Any]]:
+    """The operators in the order in which they run, and last what holds for the water as a whole.
+
+    Each is {"name", "about", "reads", "parameters"}; a parameter {"name", "kind", "unit", "range",
+    "choices", "columns", "default", "about"}, range None for words.
+    """
+    return _limpid.operators()
+
+
+def roles() -> list[dict[str, Any]]:
+    """The buffers that a frame may have: {"name", "channels", "missing", "about"}."""
+    return _limpid.roles()
+
+
+def aovs() -> list[dict[str, Any]]:
+    """What may be written besides the picture: {"name", "channels", "dry", "about"}.
+
+    channels is a letter for each, "dry" the value on dry pixels.
+    """
+    return _limpid.aovs()
+
+
+def full_look(look: Mapping | None = None) -> dict[str, dict[str, Any]]:
+    """All parameters as a dict of dicts: the defaults, and what `look` says instead."""
+    return _limpid.full_look(_plain(look))
+
+
+def look_to_toml(look: Mapping | None = None) -> str:
+    """full_look() as the text of a look file."""
+    return _limpid.look_toml(_plain(look))
+
+
+def load_look(look: str | os.PathLike) -> dict[str, dict[str, Any]]:
+    """full_look() of a look file (*.toml), or of one of limpid's own, by name.
+
+    The file of the normal map, ["wave_normals"]["map"], becomes an absolute path. It is not read:
+    whoever reads pictures does that and hands it over as wave_map.
+    """
+    path = _look_path(os.fspath(look))
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        full = full_look(tables)
+    except (ValueError, OSError) as error:
+        raise Error(f"{path}: {error}") from error
+    if full["wave_normals"]["map"]:
+        full["wave_normals"]["map"] = os.path.normpath(path.absolute().parent / full["wave_normals"]["map"])
+    return full
+
+
+def perspective(fov_y: float, aspect: float, near: float = 0.01, far: float = float("inf"),
+                clip: str = "gl", shift: tuple[float, float] = (0.0, 0.0)) -> np.ndarray:
+    """A projection: fov_y in radians, aspect = width / height, shift in picture halves."""
+    return _limpid.perspective(fov_y, aspect, near, far, clip, shift)
+
+
+def orthographic(width: float, height: float, near: float = 0.0, far: float = 1e4,
+                 clip: str = "gl") -> np.ndarray:
+    """A projection of width x height scene units."""
+    return _limpid.orthographic(width, height, near, far, clip)
+
+
+def look_at(eye: Sequence[float], target: Sequence[float],
+            up: Sequence[float] = (0.0, 1.0, 0.0)) -> np.ndarray:
+    """The view of who stands at eye and looks towards target."""
+    return _limpid.look_at(eye, target, up)
+
+
+def _plain(look: Any) -> dict:
+    """A look of dicts, whatever mappings it is made of."""
+    if look is None:
+        return {}
+    if not isinstance(look, Mapping):
+        raise Error(f"look is a {type(look).__name__}, expected a dict of dicts")
+    return {name: dict(table) if isinstance(table, Mapping) else table for name, table in look.items()}
+
+
+def _aov_arrays(wanted: Any) -> dict[str, np.ndarray | None]:
+    if wanted is None:
+        return {}
+    if isinstance(wanted, str):
+        raise Error(f"aovs is the str '{wanted}', expected a list of names")
+    arrays = {}
+    for name in wanted:
+        parts = ["stmap.r", "stmap.g", "stmap.b"] if name == "stmap" else [name]
+        array = wanted[name] if isinstance(wanted, Mapping) else None
+        if name == "stmap" and array is not None:
+            raise Error("aovs: stmap stands for three, expected arrays for stmap.r, stmap.g, stmap.b")
+        arrays.update(dict.fromkeys(parts, array))
+    return arrays
+
+
+def _look_path(name: str) -> pathlib.Path:
+    if name.endswith(".toml") or os.sep in name:
+        return pathlib.Path(name)
+    installed = pathlib.Path(__file__).absolute().parents[4] / "share/limpid"
+    folders = [pathlib.Path(folder) / "looks" for folder in (os.environ.get("LIMPID_DATA"), installed) if folder]
+    for folder in folders:
+        if (folder / f"{name}.toml").is_file():
+            return folder / f"{name}.toml"
+    known = sorted({path.stem for folder in folders for path in folder.glob("*.toml")})
+    raise Error(f"no look is named '{name}': expected " +
+                (f"one of {', '.join(known)}" if known else "the path of a look file"))

@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <pybind11/numpy.h>
+
+#include "limpid/core/field.h"
+#include "limpid/core/scene.h"
+
+/// Numbers, words, matrices and the things of a scene, from objects of Python. What takes a `name`
+/// throws Error that begins with it.
+
+namespace limpid::python {
+
+std::string type_name(const pybind11::handle& object);
+
+/// Whatever has a value as a float, but for bool and text.
+std::optional<double> number_of(const pybind11::handle& object);
+double number_in(const pybind11::handle& object, const std::string& name);
+bool flag_in(const pybind11::handle& object, const std::string& name);
+std::optional<std::vector<double>> numbers_of(const pybind11::handle& object);
+std::optional<Rows> rows_of(const pybind11::handle& object);
+
+std::string word_of(const pybind11::handle& object, const std::string& name);
+/// Where in `words` the word is.
+std::size_t choice_of(const std::string& word, const std::string& name,
+                      const std::vector<std::string>& words);
+
+/// Rows of an array or of lists are rows of the matrix.
+glm::dmat4 matrix_of(const pybind11::handle& object, const std::string& name);
+pybind11::array_t<double> array_of(const glm::dmat4& matrix);
+glm::dvec3 point_of(const pybind11::handle& object, const std::string& name);
+
+/// {"up": , "height": , "waves": }, as files have them: `up` need not be unit.
+WaterPlane water_of(const pybind11::handle& object);
+/// {"direction": , "color": }, likewise.
+Sun sun_of(const pybind11::handle& object);
+
+}  // namespace limpid::python
