@@ -90,18 +90,13 @@ class Host {
     add("planes of float, looked through", {}, look, options, planar, picture);
 
     HostFrame device = planar;
-    device_ = Plane(rect_of(kSize));
-    const View<const float>& depth = plate_.frame.plane(PlaneId::kDepth);
-    const Camera& camera = *plate_.scene.camera;
-    for (int y = 0; y < kSize.height; ++y) {
-      for (int x = 0; x < kSize.width; ++x) {
-        const float z = depth.at(x, y);
-        device_.view().at(x, y) = static_cast<float>(
-            std::isinf(z) ? camera.far_device_depth() : camera.device_from_eye_depth(z));
-      }
+    for (const Role& role : roles()) {
+      const View<const float>& depth = plate_.frame.plane(role.first);
+      if (role.sanitise != Sanitise::kDepth || !depth) continue;
+      device.plane(role.first) = host_view(as_device_depth(depth));
     }
-    device.plane(PlaneId::kDepth) = host_view(device_.view());
-    add("and device depth", {.depth = DepthKind::kDevice, .clip = camera.clip, .sane = true}, look,
+    add("planes of float, device depth",
+        {.depth = DepthKind::kDevice, .clip = plate_.scene.camera->clip, .sane = true}, look,
         options, device, picture);
 
     add_interleaved(Sample::kFloat, "RGBA of float", look, options, planar);
@@ -111,11 +106,43 @@ class Host {
   std::vector<TimedRow>& rows() { return rows_; }
 
  private:
+  View<const float> as_device_depth(const View<const float>& depth) {
+    const Camera& camera = *plate_.scene.camera;
+    const View<float> device = device_.emplace_back(rect_of(kSize)).view();
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const float z = depth.at(x, y);
+        device.at(x, y) = static_cast<float>(std::isinf(z) ? camera.far_device_depth()
+                                                           : camera.device_from_eye_depth(z));
+      }
+    }
+    return device;
+  }
+
   void add(const std::string& name, const Conventions& conventions, const Look& look,
            const CompositorOptions& options, const HostFrame& frame, const HostPicture& picture) {
     auto compositor = std::make_shared<Compositor>(conventions, look, options);
     compositor->set_wave_map(plate_.frame.wave_map);
     rows_.push_back({name, [=] { compositor->run(frame, picture); }});
+  }
+
+  /// The runner itself on such pixels.
+  void add_runner(const std::string& name, const std::string& simd, const HostFrame& host,
+                  const HostPicture& picture) {
+    const auto floats = [](auto view) {
+      auto* data = static_cast<
+          std::conditional_t<std::is_same_v<decltype(view), HostInput>, const float, float>*>(
+          view.data);
+      return View{data, view.x_stride / 4, view.y_stride / 4, view.window};
+    };
+    Frame frame = plate_.frame;
+    Target target;
+    for (int c = 0; c < 4; ++c) frame.planes[c] = floats(host.planes[c]);
+    for (std::size_t c = 0; c < 3; ++c) target.color[c] = floats(picture.color[c]);
+    target.alpha = floats(picture.alpha);
+    rows_.push_back({"fused runner, " + name, [this, frame, target, simd] {
+                       runner_.run(plan_, frame, plate_.scene, target, *executor_, {.simd = simd});
+                     }});
   }
 
   /// Color as pixels, in and out, and in place.
@@ -137,6 +164,7 @@ class Host {
       fill(to, plate_.frame.planes[c]);
       frame.planes[c] = to;
     }
+    if (sample == Sample::kFloat) add_runner(name, options.simd, frame, apart);
     add(name + ", vouched for", {.sane = true}, look, options, frame, apart);
     add(name + ", vouched for, in place", {.sane = true}, look, options, frame, here);
   }
@@ -146,7 +174,7 @@ class Host {
   Plan plan_;
   FusedRunner runner_;
   std::array<Plane, 4> wet_;
-  Plane device_;
+  std::deque<Plane> device_;
   Target target_;
   std::deque<std::vector<std::byte>> pixels_;
   std::vector<TimedRow> rows_;
