@@ -49,7 +49,7 @@ get_cmake_property(CPACK_COMPONENTS_ALL COMPONENTS)
 if("python" IN_LIST CPACK_COMPONENTS_ALL)
   limpid_debian(python python3-limpid python
     DESCRIPTION "The module for Python."
-    DEPENDS python3 python3-numpy SUGGESTS limpid)
+    DEPENDS ${LIMPID_PYTHON_DEPENDS} SUGGESTS limpid)
 endif()
 list(REMOVE_ITEM CPACK_COMPONENTS_ALL Unspecified)
 
