@@ -1,11 +1,9 @@
 #include "run/checks.h"
 
-#include <algorithm>
-#include <functional>
 #include <string>
-#include <utility>
 
 #include "limpid/core/error.h"
+#include "limpid/core/host_view.h"
 
 namespace limpid {
 
@@ -28,26 +26,10 @@ void check_texture(const Texture& texture, const std::string& name) {
   }
 }
 
-/// The addresses that a view spans, first and one past the last.
-template <class T>
-std::pair<const float*, const float*> span_of(const View<T>& view) {
-  const std::ptrdiff_t across = (view.window.width() - 1) * view.x_stride;
-  const std::ptrdiff_t down = (view.window.height() - 1) * view.y_stride;
-  const std::ptrdiff_t low =
-      std::min<std::ptrdiff_t>(across, 0) + std::min<std::ptrdiff_t>(down, 0);
-  const std::ptrdiff_t high =
-      std::max<std::ptrdiff_t>(across, 0) + std::max<std::ptrdiff_t>(down, 0);
-  return {view.data + low, view.data + high + 1};
-}
-
 /// A target over its own input would be gathered from after it was written.
 void check_apart(const Frame& frame, const View<float>& out) {
-  if (!out) return;
-  const auto [out_begin, out_end] = span_of(out);
   for (const View<const float>& in : frame.planes) {
-    if (!in) continue;
-    const auto [in_begin, in_end] = span_of(in);
-    if (std::less<>()(out_begin, in_end) && std::less<>()(in_begin, out_end)) {
+    if (overlap(host_view(in), host_view(out))) {
       throw Error("target: it lies over the memory of the frame, expected memory of its own");
     }
   }

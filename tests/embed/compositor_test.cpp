@@ -44,7 +44,7 @@ Buffers sane_frame(Size size) {
   std::array<Plane, 3> normal;
   for (int c = 0; c < 3; ++c) {
     normal[c] = Plane(rect_of(size));
-    test::fill(test::host_view(normal[c].view()),
+    test::fill(host_view(normal[c].view()),
                b.frame.plane(plane_after(PlaneId::kSurfaceNormalX, c)));
   }
   sanitise_normal(normal[0].view(), normal[1].view(), normal[2].view(), {0, 1, 0});
@@ -265,12 +265,12 @@ TEST(Compositor, WorksInPlace) {
     // Over the depth, too: all of it is in the host's hands.
     HostPicture over_depth = there;
     Plane depth(rect_of(kSize));
-    test::fill(test::host_view(depth.view()), s.buffers.frame.plane(PlaneId::kDepth));
+    test::fill(host_view(depth.view()), s.buffers.frame.plane(PlaneId::kDepth));
     for (int c = 0; c < 4; ++c) {
       test::fill(memory.channel(c), s.buffers.frame.planes[c]);
     }
-    frame.plane(PlaneId::kDepth) = test::host_view(depth.view());
-    over_depth.color[0] = test::host_view(depth.view());
+    frame.plane(PlaneId::kDepth) = host_view(depth.view());
+    over_depth.color[0] = host_view(depth.view());
     compositor.run(frame, over_depth);
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {

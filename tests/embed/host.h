@@ -80,13 +80,6 @@ inline void fill(const HostOutput& to, const View<const float>& from) {
   }
 }
 
-inline HostInput host_view(const View<const float>& view) {
-  return {view.data, Sample::kFloat, 4 * view.x_stride, 4 * view.y_stride, view.window};
-}
-inline HostOutput host_view(const View<float>& view) {
-  return {view.data, Sample::kFloat, 4 * view.x_stride, 4 * view.y_stride, view.window};
-}
-
 /// The frame as it lies.
 inline HostFrame host_frame(const Frame& frame, const Scene& scene) {
   HostFrame host;

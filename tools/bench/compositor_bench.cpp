@@ -30,13 +30,6 @@ namespace {
 
 constexpr Size kSize{1920, 1080};
 
-HostInput host_view(const View<const float>& view) {
-  return {view.data, Sample::kFloat, 4 * view.x_stride, 4 * view.y_stride, view.window};
-}
-HostOutput host_view(const View<float>& view) {
-  return {view.data, Sample::kFloat, 4 * view.x_stride, 4 * view.y_stride, view.window};
-}
-
 void fill(const HostOutput& to, const View<const float>& from) {
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "limpid/core/plane.h"
 #include "limpid/core/rect.h"
 
 namespace limpid {
@@ -47,6 +48,16 @@ HostView<Void> interleaved(Void* data, Sample sample, int channels, int index, S
   const std::ptrdiff_t bytes = bytes_of(sample);
   return {static_cast<Byte*>(data) + bytes * index, sample, bytes * channels,
           bytes * channels * size.width, rect_of(size)};
+}
+
+/// Floats of our own, as a host has them.
+inline HostInput host_view(const View<const float>& view) {
+  constexpr std::ptrdiff_t kSize = sizeof(float);
+  return {view.data, Sample::kFloat, kSize * view.x_stride, kSize * view.y_stride, view.window};
+}
+inline HostOutput host_view(const View<float>& view) {
+  constexpr std::ptrdiff_t kSize = sizeof(float);
+  return {view.data, Sample::kFloat, kSize * view.x_stride, kSize * view.y_stride, view.window};
 }
 
 /// Whether some byte may belong to both: between the first and the last byte of the one lies one of
