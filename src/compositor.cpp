@@ -9,6 +9,7 @@
 #include "limpid/core/error.h"
 #include "limpid/run/fused.h"
 
+#include "enter/clip_direction.h"
 #include "enter/half.h"
 #include "enter/host_planes.h"
 #include "run/host_outputs.h"
@@ -36,6 +37,14 @@ void validate(const Conventions& conventions) {
     throw Error("conventions: depth of kind normalised has near " +
                 std::to_string(conventions.near) + " and far " + std::to_string(conventions.far) +
                 ", expected near < far, both finite");
+  }
+}
+
+/// Far enough for any picture, and sums of sides fit into an int.
+void validate(const Rect& window) {
+  constexpr int kFar = 1 << 29;
+  if (window.x0 < -kFar || window.y0 < -kFar || window.x1 > kFar || window.y1 > kFar) {
+    throw Error("frame: a window reaches farther than 2^29 pixels");
   }
 }
 
@@ -114,12 +123,23 @@ struct Compositor::State {
   HostTarget target;
   FusedRunner runner;
   SanitiseCounts replaced;
+  bool ran = false;  ///< a frame, with this plan
+
+  void forget_plan() {
+    plan.reset();
+    ran = false;
+  }
+
+  void expect_ran() const {
+    if (!ran) throw Error("compositor: no frame has been run as it is set now");
+  }
 
   void enter_scene(const Scene& host) {
     if (!host.camera) throw Error("the scene has no camera, expected view and projection matrices");
     scene = host;  // keeps the memory of its waves
     scene.camera = camera_of(*host.camera, conventions);
     scene.validate();
+    if (conventions.depth == DepthKind::kDevice) expect_clip_direction(*scene.camera);
   }
 
   void make_plan(const PlannedFor& wanted) {
@@ -176,7 +196,7 @@ Compositor& Compositor::operator=(Compositor&&) noexcept = default;
 void Compositor::set_look(const Look& look) {
   look.validate();
   state_->look = look;
-  state_->plan.reset();
+  state_->forget_plan();
 }
 
 const Look& Compositor::look() const { return state_->look; }
@@ -187,36 +207,44 @@ void Compositor::set_wave_map(const Texture& map) {
   s.wave_map_bytes = map ? pack_bytes(map) : std::vector<std::uint32_t>{};
   s.frame.wave_map = map;
   s.frame.wave_map.bytes = s.wave_map_bytes.empty() ? nullptr : s.wave_map_bytes.data();
-  s.plan.reset();
+  s.forget_plan();
 }
 
 void Compositor::set_environment(const Texture& environment) {
   if (environment) validate(environment, "environment");
   state_->frame.environment = environment;
-  state_->plan.reset();
+  state_->forget_plan();
 }
 
 void Compositor::run(const HostFrame& host, const HostPicture& picture) {
   State& s = *state_;
+  s.ran = false;
+  validate(host.display);
   if (host.display.empty())
     throw Error("frame: the display window is empty, expected at least 1x1");
+  const HostOutputs outputs = outputs_of(picture);
+  for (const HostInput& view : host.planes) validate(view.window);
+  for (const HostOutput& view : outputs) validate(view.window);
   s.enter_scene(host.scene);
   s.make_plan(planned_for(host, picture));
   s.frame.display = host.display;
-  const HostOutputs outputs = outputs_of(picture);
   s.replaced = s.planes.enter(host.planes, s.plan->planes, s.rules(host.planes, outputs),
                               *s.executor, s.frame);
   s.frame.validate();
   const Target& target = s.target.prepare(outputs, s.frame.work());
   s.runner.run(*s.plan, s.frame, s.scene, target, *s.executor, {.simd = s.options.simd});
   s.target.store(*s.executor, *s.half);
+  s.ran = true;
 }
 
 const Plan& Compositor::plan() const {
-  if (!state_->plan) throw Error("compositor: no frame has been run with this look");
+  state_->expect_ran();
   return *state_->plan;
 }
 
-const SanitiseCounts& Compositor::replaced() const { return state_->replaced; }
+const SanitiseCounts& Compositor::replaced() const {
+  state_->expect_ran();
+  return state_->replaced;
+}
 
 }  // namespace limpid

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -124,9 +125,10 @@ Texture texture_of(const limpid_texture* given, const char* name) {
   constexpr std::ptrdiff_t kSize = sizeof(float);
   const std::ptrdiff_t row =
       t.y_stride != 0 ? t.y_stride / kSize : std::ptrdiff_t{t.width} * t.channels;
-  if (t.y_stride % kSize != 0) {
-    throw Error(std::string(name) + ".y_stride = " + std::to_string(t.y_stride) +
-                ": expected whole floats");
+  if (t.y_stride % kSize != 0 || reinterpret_cast<std::uintptr_t>(t.data) % kSize != 0) {
+    throw Error(std::string(name) +
+                ": expected floats at whole multiples of their size, y_stride = " +
+                std::to_string(t.y_stride));
   }
   Texture texture;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -355,5 +357,11 @@ size_t limpid_look_text(const limpid_compositor* compositor, char* text, size_t 
 size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t size) {
   return copy_text(text, size, [&] {
     return compositor ? to_text(compositor->compositor.plan()) : std::string();
+  });
+}
+
+size_t limpid_replaced_text(const limpid_compositor* compositor, char* text, size_t size) {
+  return copy_text(text, size, [&] {
+    return compositor ? compositor->compositor.replaced().to_text() : std::string();
   });
 }

@@ -56,8 +56,8 @@ struct HostFrame {
 
 /// Where a host wants its picture, as in Target: float or half, with any strides but 0. What there
 /// is must cover the pixels of the display window that have color; all else is left alone. It may
-/// lie over planes of the frame, in place: these are copied first. Halves take the nearest value,
-/// 65520 and above become infinite.
+/// lie over planes of the frame, in place: these are copied first. No two of its channels may share
+/// a byte, nor one with a texture. Halves take the nearest value, 65520 and above become infinite.
 struct HostPicture {
   std::array<HostOutput, 3> color;
   HostOutput alpha;  ///< may be absent
@@ -95,18 +95,20 @@ class Compositor {
   const Look& look() const;
 
   /// The tiling normal map, values 0 ... 1, blue is up; the surroundings as in Frame. Their memory
-  /// stays the host's and must be there until they are replaced; an empty texture takes them away.
-  /// Throws Error for channels of several sizes, NaN and infinity.
+  /// stays the host's and must be there, unchanged, until they are replaced: what has changed is
+  /// set again. An empty texture takes them away. Throws Error for channels of several sizes, NaN
+  /// and infinity.
   void set_wave_map(const Texture& map);
   void set_environment(const Texture& environment);
 
   /// Throws Error, before anything is written: for what Frame::validate, the camera, the water and
-  /// the planner refuse, and for a picture that does not cover the frame. Throws std::bad_alloc in
-  /// a first frame only.
+  /// the planner refuse, for device depth that runs the other way than the conventions say, windows
+  /// farther out than 2^29 pixels, and for a picture that does not cover the frame. Throws
+  /// std::bad_alloc in a first frame only.
   void run(const HostFrame& frame, const HostPicture& picture);
 
   /// Of the last frame: what ran and why, and what was replaced because it meant nothing. Throws
-  /// Error where none has been run with this look and these textures.
+  /// Error where that one was refused, or the look or a texture has been set since.
   const Plan& plan() const;
   const SanitiseCounts& replaced() const;
 

@@ -16,8 +16,9 @@
  *
  * Structs begin with their size as the caller knows it, which the macros below set; all the rest of
  * them may be 0. What later versions append is taken for 0 where an older caller does not have it;
- * a size that this library does not know is refused. Values of enums never change. A compositor is
- * for one thread at a time; several may work at once.
+ * a size that this library does not know is refused. Values of enums and limpid_channel never
+ * change. A compositor is for one thread at a time; several may work at once. Files of looks are
+ * read by limpid/load/look_file.h, in C++.
  */
 
 #include <stddef.h>
@@ -35,8 +36,9 @@ extern "C" {
 
 typedef enum limpid_status {
   LIMPID_OK = 0,
-  LIMPID_REFUSED = 1, /**< an argument is wrong: limpid_message() says which; nothing was changed */
-  LIMPID_NO_MEMORY = 2, /**< nothing was changed */
+  /** An argument is wrong: limpid_message() says which. No setting and no picture was changed. */
+  LIMPID_REFUSED = 1,
+  LIMPID_NO_MEMORY = 2, /**< likewise */
   LIMPID_FAILED = 3     /**< a fault of the library */
 } limpid_status;
 
@@ -104,7 +106,8 @@ typedef enum limpid_output {
 } limpid_output;
 
 /** One channel in the host's memory. `data` points at its sample of the first pixel of the window;
- * strides count bytes. A window of four zeros is the whole picture. */
+ * strides count bytes, and repeat a sample of a frame where they are 0. A window of four zeros is
+ * the whole picture. */
 typedef struct limpid_channel {
   int32_t what;   /**< limpid_plane of a frame, limpid_output of a picture */
   int32_t sample; /**< limpid_sample */
@@ -128,13 +131,16 @@ typedef struct limpid_conventions {
   { sizeof(limpid_conventions), 0, 0, 0, 0, 0, 0, 0, 0 }
 
 /** Threads of the host. run() calls task(context, i) once for each i in 0 ... count - 1, on any
- * threads, in any order, and returns when all are done. */
+ * threads, in any order, and returns when all are done. Several threads may call it at once, if
+ * their compositors share it. */
 typedef void (*limpid_task)(void* context, int index);
 typedef struct limpid_executor {
   size_t size;
   void* host; /**< handed to run() */
   void (*run)(void* host, int count, limpid_task task, void* context);
 } limpid_executor;
+#define LIMPID_EXECUTOR \
+  { sizeof(limpid_executor), NULL, NULL }
 
 typedef struct limpid_options {
   size_t size;
@@ -163,12 +169,16 @@ typedef struct limpid_frame {
   double sun_color[3];
   double time; /**< seconds */
 } limpid_frame;
+#define LIMPID_FRAME \
+  { sizeof(limpid_frame), 0, 0, NULL, 0, {0}, {0}, {0}, 0, NULL, 0, 0, {0}, {0}, 0 }
 
 typedef struct limpid_picture {
   size_t size;
   const limpid_channel* outputs; /**< in any order, each at most once */
   size_t output_count;
 } limpid_picture;
+#define LIMPID_PICTURE \
+  { sizeof(limpid_picture), NULL, 0 }
 
 /** Pixels of floats r g b, or more channels that are not looked at. Rows have y_stride bytes, or
  * follow one another without a gap where it is 0. */
@@ -178,6 +188,8 @@ typedef struct limpid_texture {
   int32_t width, height, channels;
   ptrdiff_t y_stride;
 } limpid_texture;
+#define LIMPID_TEXTURE \
+  { sizeof(limpid_texture), NULL, 0, 0, 0, 0 }
 
 typedef struct limpid_compositor limpid_compositor;
 
@@ -210,7 +222,8 @@ LIMPID_API limpid_status limpid_set_rows(limpid_compositor* compositor, const ch
                                          size_t columns);
 LIMPID_API limpid_status limpid_reset_look(limpid_compositor* compositor);
 
-/** Their memory stays the host's; NULL takes them away. */
+/** Their memory stays the host's, and as it is: what has changed is set again. NULL takes them
+ * away. */
 LIMPID_API limpid_status limpid_set_wave_map(limpid_compositor* compositor,
                                              const limpid_texture* map);
 LIMPID_API limpid_status limpid_set_environment(limpid_compositor* compositor,
@@ -220,11 +233,14 @@ LIMPID_API limpid_status limpid_set_environment(limpid_compositor* compositor,
 LIMPID_API limpid_status limpid_run(limpid_compositor* compositor, const limpid_frame* frame,
                                     const limpid_picture* picture);
 
-/** The look as a TOML text; what ran in the last frame and why, a line an operator. Both write at
- * most size - 1 bytes and a 0, and return how long the whole text is, without that 0; 0 where there
- * is none. */
+/** The look as a TOML text; of the last frame, what ran and why, a line an operator, and how many
+ * values were replaced because they meant nothing, as in "color 4, depth 2". All write at most
+ * size - 1 bytes and a 0, and return how long the whole text is, without that 0; 0 where there is
+ * none. */
 LIMPID_API size_t limpid_look_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t size);
+LIMPID_API size_t limpid_replaced_text(const limpid_compositor* compositor, char* text,
+                                       size_t size);
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,8 @@
 namespace limpid {
 namespace {
 
+constexpr std::ptrdiff_t kFloat = sizeof(float);
+
 /// Addresses, first and one past the last.
 struct Span {
   std::uintptr_t begin, end;
@@ -24,6 +26,22 @@ Span span_of(const HostInput& view) {
 }
 
 }  // namespace
+
+bool is_floats(const HostInput& view) {
+  return view.sample == Sample::kFloat &&
+         reinterpret_cast<std::uintptr_t>(view.data) % kFloat == 0 && view.x_stride % kFloat == 0 &&
+         view.y_stride % kFloat == 0;
+}
+
+View<const float> floats_of(const HostInput& view) {
+  return {static_cast<const float*>(view.data), view.x_stride / kFloat, view.y_stride / kFloat,
+          view.window};
+}
+
+View<float> floats_of(const HostOutput& view) {
+  return {static_cast<float*>(view.data), view.x_stride / kFloat, view.y_stride / kFloat,
+          view.window};
+}
 
 bool overlap(const HostInput& a, const HostInput& b) {
   if (!a || !b || a.window.empty() || b.window.empty()) return false;

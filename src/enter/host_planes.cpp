@@ -15,20 +15,6 @@ namespace {
 constexpr int kBandRows = 32;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Whether its samples are floats that can be read as such.
-bool is_floats(const HostInput& view) {
-  constexpr std::ptrdiff_t kSize = sizeof(float);
-  return view.sample == Sample::kFloat &&
-         reinterpret_cast<std::uintptr_t>(view.data) % kSize == 0 && view.x_stride % kSize == 0 &&
-         view.y_stride % kSize == 0;
-}
-
-View<const float> floats_of(const HostInput& view) {
-  constexpr std::ptrdiff_t kSize = sizeof(float);
-  return {static_cast<const float*>(view.data), view.x_stride / kSize, view.y_stride / kSize,
-          view.window};
-}
-
 bool is_sane(Sanitise kind, float v) {
   switch (kind) {
     case Sanitise::kColor:

@@ -3,6 +3,8 @@
 #include "limpid/core/error.h"
 #include "limpid/load/scene_file.h"
 
+#include "enter/clip_direction.h"
+
 namespace limpid {
 namespace {
 
@@ -32,27 +34,6 @@ glm::dmat4 projection_of(const CameraSpec& spec, double aspect) {
       return orthographic(spec.extent, spec.extent / aspect, spec.near, spec.far, spec.clip);
   }
   return {};
-}
-
-/// Device depth (z_scale z + z_offset) / (w_scale z + w_offset) grows with the distance -z where
-/// this is positive, everywhere.
-double device_depth_growth(const Camera& camera) {
-  const DeviceDepth rows = device_depth_of(camera);
-  return rows.z_offset * rows.w_scale - rows.z_scale * rows.w_offset;
-}
-
-void expect_clip_direction(const Camera& camera) {
-  const double growth = device_depth_growth(camera);
-  if (growth == 0) {
-    throw Error("camera: the projection gives every distance the same device depth");
-  }
-  const bool reversed = camera.clip == ClipSpace::kReversed;
-  if ((growth < 0) == reversed) return;
-  throw Error(reversed
-                  ? "camera: the projection's device depth grows with distance, expected it to "
-                    "fall for clip = reversed"
-                  : "camera: the projection's device depth falls with distance, expected "
-                    "clip = reversed");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "run/checks.h"
 
+#include <span>
 #include <string>
 
 #include "limpid/core/error.h"
@@ -28,11 +29,16 @@ void check_texture(const Texture& texture, const std::string& name) {
 
 /// A target over its own input would be gathered from after it was written.
 void check_apart(const Frame& frame, const View<float>& out) {
-  for (const View<const float>& in : frame.planes) {
-    if (overlap(host_view(in), host_view(out))) {
-      throw Error("target: it lies over the memory of the frame, expected memory of its own");
+  const auto check = [&](std::span<const View<const float>> inputs) {
+    for (const View<const float>& in : inputs) {
+      if (overlap(host_view(in), host_view(out))) {
+        throw Error("target: it lies over the memory of the frame, expected memory of its own");
+      }
     }
-  }
+  };
+  check(frame.planes);
+  check(frame.wave_map.channels);
+  check(frame.environment.channels);
 }
 
 }  // namespace
@@ -66,6 +72,9 @@ void check_run(const Plan& plan, const Frame& frame, const Scene& scene, const T
     const AovInfo& info = aovs()[a];
     for (std::size_t i = 0; i < 3; ++i) {
       const View<float>& view = target.aovs[a][i];
+      if (view && !target.aovs[a][0]) {
+        throw Error("target: AOV " + std::string(info.name) + " lacks its first channel");
+      }
       if (view && (!covers(view) || i >= info.suffixes.size())) {
         throw Error("target: AOV " + std::string(info.name) + " does not cover the picture");
       }

@@ -1,7 +1,7 @@
 #include "run/host_outputs.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -11,7 +11,6 @@ namespace limpid {
 namespace {
 
 constexpr int kBandRows = 32;
-constexpr std::ptrdiff_t kSize = sizeof(float);
 
 std::string name_of(int index) {
   if (index < 3) return "color";
@@ -31,20 +30,12 @@ void validate(const HostOutput& view, int index, const Rect& work) {
   if (!view.window.contains(work)) {
     throw Error("picture: " + name_of(index) + " does not cover the frame");
   }
-  if ((view.x_stride == 0 && work.width() > 1) || (view.y_stride == 0 && work.height() > 1)) {
-    throw Error("picture: " + name_of(index) + " has a stride of 0, expected a place a pixel");
+  const auto narrow = [&](std::ptrdiff_t stride) {
+    return std::abs(stride) < bytes_of(view.sample);
+  };
+  if ((narrow(view.x_stride) && work.width() > 1) || (narrow(view.y_stride) && work.height() > 1)) {
+    throw Error("picture: " + name_of(index) + " has a stride of less than a sample");
   }
-}
-
-bool takes_floats(const HostOutput& view) {
-  return view.sample == Sample::kFloat &&
-         reinterpret_cast<std::uintptr_t>(view.data) % kSize == 0 && view.x_stride % kSize == 0 &&
-         view.y_stride % kSize == 0;
-}
-
-View<float> floats_of(const HostOutput& view) {
-  return {static_cast<float*>(view.data), view.x_stride / kSize, view.y_stride / kSize,
-          view.window};
 }
 
 void store_row(const float* from, const HostOutput& to, const Rect& work, int y,
@@ -56,17 +47,35 @@ void store_row(const float* from, const HostOutput& to, const Rect& work, int y,
     std::memcpy(row + x * to.x_stride, from + x, sizeof(float));
 }
 
+/// Tiles would write over one another, in any order.
+void validate_apart(const HostOutputs& host) {
+  for (std::size_t i = 0; i < host.size(); ++i) {
+    for (std::size_t j = 0; host[i] && j < i; ++j) {
+      if (host[i].data != host[j].data) continue;
+      throw Error("picture: " + name_of(static_cast<int>(i)) + " begins where " +
+                  name_of(static_cast<int>(j)) + " does, expected a place of its own");
+    }
+  }
+}
+
 }  // namespace
 
 const Target& HostTarget::prepare(const HostOutputs& host, const Rect& work) {
-  for (int i = 0; i < kOutputCount; ++i) validate(host[static_cast<std::size_t>(i)], i, work);
+  for (int i = 0; i < kOutputCount; ++i) {
+    validate(host[static_cast<std::size_t>(i)], i, work);
+    const int first = i < 4 ? i : i - (i - 4) % 3;
+    if (host[static_cast<std::size_t>(i)] && !host[static_cast<std::size_t>(first)]) {
+      throw Error("picture: " + name_of(i) + " lacks its first channel");
+    }
+  }
+  validate_apart(host);
   work_ = work;
   for (std::size_t i = 0; i < host.size(); ++i) {
     const HostOutput& view = host[i];
     View<float>& place = i < 3    ? target_.color[i]
                          : i == 3 ? target_.alpha
                                   : target_.aovs[(i - 4) / 3][(i - 4) % 3];
-    stored_[i] = view && !takes_floats(view) ? view : HostOutput{};
+    stored_[i] = view && !is_floats(view) ? view : HostOutput{};
     if (stored_[i] && (!planes_[i] || planes_[i].view().window != work)) planes_[i] = Plane(work);
     place = stored_[i] ? planes_[i].view() : view ? floats_of(view) : View<float>{};
   }

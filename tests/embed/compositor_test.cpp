@@ -323,6 +323,7 @@ TEST(Compositor, LooksChangeBetweenFrames) {
   EXPECT_FALSE(same_bits(wet(compositor, frame), s.expected));
   compositor.set_look(busy_look());
   EXPECT_THROW(compositor.plan(), Error);
+  EXPECT_THROW(compositor.replaced(), Error);
   EXPECT_TRUE(same_bits(wet(compositor, frame), s.expected));
   EXPECT_TRUE(compositor.plan().keeps(0));
   Look bad = busy_look();
@@ -421,6 +422,9 @@ TEST(Compositor, RefusesBeforeItWrites) {
   frame.plane(PlaneId::kShadow).window = {};
   EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("shadow has no pixels"));
   frame = good;
+  frame.display = {-2000000000, -5, 2000000000, 41};
+  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("2^29"));
+  frame = good;
   frame.scene.camera->projection[3][3] = 1;
   EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("projection"));
 
@@ -432,7 +436,17 @@ TEST(Compositor, RefusesBeforeItWrites) {
   EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("alpha does not cover"));
   wrong = out;
   wrong.color[2].x_stride = 0;
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("stride of 0"));
+  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("less than a sample"));
+  wrong.color[2] = out.color[2];
+  wrong.color[2].x_stride = 2;
+  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("less than a sample"));
+  wrong = out;
+  wrong.color[2] = out.color[1];
+  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("begins where color does"));
+  wrong = out;
+  wrong.of(Aov::kNormal)[1] =
+      test::host_picture(picture.target, {Aov::kNormal}).of(Aov::kNormal)[1];
+  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("lacks its first channel"));
   wrong = out;
   wrong.of(Aov::kPath) = {out.color[0], out.color[1], out.color[2]};
   EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("AOV path"));
@@ -445,6 +459,21 @@ TEST(Compositor, RefusesBeforeItWrites) {
   Look bad;
   bad.water.ior = kNan;
   EXPECT_THROW(Compositor({}, bad), Error);
+}
+
+/// The commonest mistake of a host: reversed depth, and nobody was told.
+TEST(Compositor, RefusesDeviceDepthThatRunsTheOtherWay) {
+  const Subject s;
+  HostFrame frame = test::host_frame(s.buffers.frame, s.scene);
+  Picture picture(rect_of(kSize));
+  for (const bool reversed : {false, true}) {
+    const ClipSpace said = reversed ? ClipSpace::kGl : ClipSpace::kReversed;
+    const ClipSpace is = reversed ? ClipSpace::kReversed : ClipSpace::kGl;
+    Compositor compositor({.depth = DepthKind::kDevice, .clip = said}, busy_look());
+    frame.scene.camera->projection = perspective(0.9, 67.0 / 41, 0.1, 1e3, is);
+    EXPECT_THAT(refusal(compositor, frame, test::host_picture(picture.target)),
+                HasSubstr("device depth"));
+  }
 }
 
 class CountingExecutor : public Executor {

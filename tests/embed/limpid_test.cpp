@@ -146,8 +146,20 @@ TEST_F(LimpidC, TellsItsPlan) {
   EXPECT_EQ(limpid_plan_text(water, nullptr, 0), 0u);  // none yet
   ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK);
   char text[2048];
+  EXPECT_EQ(limpid_replaced_text(water, nullptr, 0), 0u);  // vouched for
   EXPECT_GT(limpid_plan_text(water, text, sizeof text), 100u);
   EXPECT_THAT(text, StartsWith("wave_normals"));
+}
+
+TEST_F(LimpidC, TellsWhatItReplaced) {
+  limpid_destroy(water);
+  ASSERT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);
+  buffers.set(PlaneId::kColorB, [](int x, int) { return x == 3 ? NAN : 0.5f; });
+  planes[2] = channel(2, buffers.frame.planes[2]);
+  ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
+  char text[64];
+  limpid_replaced_text(water, text, sizeof text);
+  EXPECT_STREQ(text, "color 23");
 }
 
 TEST_F(LimpidC, RunsOnTheHostsThreads) {
@@ -206,6 +218,9 @@ TEST_F(LimpidC, TexturesAndAovs) {
       ASSERT_EQ(out.aov(Aov::kNormal, x, y), judge.aov(Aov::kNormal, x, y));
     }
   }
+  texture.data = reinterpret_cast<const float*>(reinterpret_cast<const char*>(pixels.data()) + 1);
+  EXPECT_EQ(limpid_set_wave_map(water, &texture), LIMPID_REFUSED);
+  texture.data = pixels.data();
   texture.channels = 2;
   EXPECT_EQ(limpid_set_wave_map(water, &texture), LIMPID_REFUSED);
   EXPECT_EQ(limpid_set_environment(water, &texture), LIMPID_REFUSED);

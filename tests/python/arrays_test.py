@@ -76,6 +76,7 @@ class Arrays(unittest.TestCase):
         np.testing.assert_array_equal(from_half, from_float)
         rounded = self.compositor.run(**half, dtype="float16")
         self.assertEqual(rounded.dtype, np.float16)
+        self.assertTrue((self.compositor.run(**half, dtype=np.float16) == rounded).all())
         np.testing.assert_array_equal(rounded, from_float.astype(np.float16))
 
     def test_color_without_alpha(self):

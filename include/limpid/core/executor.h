@@ -11,7 +11,7 @@ class Executor {
   virtual ~Executor() = default;
 
   /// Calls task(context, i) once for each i in 0 ... count - 1, on any threads, in any order, and
-  /// returns when all are done.
+  /// returns when all are done. Several threads may call it at once, if they share the executor.
   virtual void run(int count, Task task, void* context) = 0;
 
   /// Takes the items 0 ... count - 1 through all steps, and returns when all are through. The first

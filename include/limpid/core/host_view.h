@@ -60,6 +60,12 @@ inline HostOutput host_view(const View<float>& view) {
   return {view.data, Sample::kFloat, kSize * view.x_stride, kSize * view.y_stride, view.window};
 }
 
+/// Whether its samples are floats that can be read as such: aligned, at whole floats from another.
+bool is_floats(const HostInput& view);
+/// The same as a view of our own, where is_floats().
+View<const float> floats_of(const HostInput& view);
+View<float> floats_of(const HostOutput& view);
+
 /// Whether some byte may belong to both: between the first and the last byte of the one lies one of
 /// the other. Channels of the same interleaved pixels overlap in this sense.
 bool overlap(const HostInput& a, const HostInput& b);
