@@ -105,4 +105,19 @@ inline HostPicture picture_of(OIIO::ImageBuf& buf, const std::string& layer = {}
   return picture;
 }
 
+/// R, G, B of a layer as a map that tiles or an environment. Throws Error unless they are floats
+/// that lie at whole floats from one another.
+inline Texture texture_of(const OIIO::ImageBuf& buf, const std::string& layer = {}) {
+  Texture texture;
+  for (int c = 0; c < 3; ++c) {
+    const HostInput channel = channel_of(buf, channel_named(buf, layer + "RGB"[c]));
+    if (!is_floats(channel)) {
+      throw Error("texture of ImageBuf '" + std::string(buf.name()) + "': expected aligned float");
+    }
+    texture.channels[c] = floats_of(channel);
+    texture.channels[c].window = rect_of(channel.window.size());
+  }
+  return texture;
+}
+
 }  // namespace limpid

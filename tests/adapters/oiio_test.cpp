@@ -170,6 +170,27 @@ TEST(Oiio, FilesMustBeReadIntoTheBuffer) {
   EXPECT_EQ(refusal(buf), "taken");
 }
 
+TEST(Oiio, TexturesAreTheFloatsOfALayer) {
+  ImageSpec spec(3, 2, 4, OIIO::TypeFloat);
+  spec.channelnames = {"sky.A", "sky.B", "sky.G", "sky.R"};
+  spec.x = 5;
+  ImageBuf buf(spec);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 3; ++x) {
+      const float at = static_cast<float>(10 * y + x);
+      const std::array<float, 4> pixel{1, 200 + at, 100 + at, at};
+      buf.setpixel(x + 5, y, 0, pixel);
+    }
+  }
+  const Texture sky = texture_of(buf, "sky.");
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(sky.channels[c].window, (Rect{0, 0, 3, 2}));
+    EXPECT_EQ(sky.channels[c].at(2, 1), 100 * c + 12);
+  }
+  EXPECT_THROW(texture_of(buf), Error);
+  EXPECT_THROW(texture_of(ImageBuf(ImageSpec(2, 2, 3, OIIO::TypeHalf))), Error);
+}
+
 TEST(Oiio, ChannelsThatAreNotThereAreRefused) {
   ImageBuf buf("gray.exr", ImageSpec(2, 2, 2, OIIO::TypeFloat));
   HostFrame frame;
