@@ -48,6 +48,7 @@ void fill(const HostOutput& to, const View<const float>& from) {
 struct TimedRow {
   std::string name;
   std::function<void()> run;
+  std::size_t beside = 0;  ///< the row that it is compared with: a runner on the same pixels
   std::vector<double> seconds = {};
 };
 
@@ -116,23 +117,18 @@ class Host {
            const CompositorOptions& options, const HostFrame& frame, const HostPicture& picture) {
     auto compositor = std::make_shared<Compositor>(conventions, look, options);
     compositor->set_wave_map(plate_.frame.wave_map);
-    rows_.push_back({name, [=] { compositor->run(frame, picture); }});
+    rows_.push_back({name, [=] { compositor->run(frame, picture); }, beside_});
   }
 
-  /// The runner itself on such pixels.
+  /// The runner itself on such pixels, which the rows after it are compared with.
   void add_runner(const std::string& name, const std::string& simd, const HostFrame& host,
                   const HostPicture& picture) {
-    const auto floats = [](auto view) {
-      auto* data = static_cast<
-          std::conditional_t<std::is_same_v<decltype(view), HostInput>, const float, float>*>(
-          view.data);
-      return View{data, view.x_stride / 4, view.y_stride / 4, view.window};
-    };
     Frame frame = plate_.frame;
     Target target;
-    for (int c = 0; c < 4; ++c) frame.planes[c] = floats(host.planes[c]);
-    for (std::size_t c = 0; c < 3; ++c) target.color[c] = floats(picture.color[c]);
-    target.alpha = floats(picture.alpha);
+    for (int c = 0; c < 4; ++c) frame.planes[c] = floats_of(host.planes[c]);
+    for (std::size_t c = 0; c < 3; ++c) target.color[c] = floats_of(picture.color[c]);
+    target.alpha = floats_of(picture.alpha);
+    beside_ = rows_.size();
     rows_.push_back({"fused runner, " + name, [this, frame, target, simd] {
                        runner_.run(plan_, frame, plate_.scene, target, *executor_, {.simd = simd});
                      }});
@@ -171,6 +167,7 @@ class Host {
   Target target_;
   std::deque<std::vector<std::byte>> pixels_;
   std::vector<TimedRow> rows_;
+  std::size_t beside_ = 0;
 };
 
 void print(const std::string& title, Host& host, int rounds) {
@@ -185,7 +182,7 @@ void print(const std::string& title, Host& host, int rounds) {
     std::vector<double> sorted = row.seconds, ratios;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-      ratios.push_back(row.seconds[i] / rows.front().seconds[i]);
+      ratios.push_back(row.seconds[i] / rows[row.beside].seconds[i]);
     }
     std::printf("  %-36s %9.2f %9.2f %9.2f %9.1f%%\n", row.name.c_str(), 1e3 * sorted.front(),
                 1e3 * median(sorted), 1e3 * sorted[sorted.size() * 95 / 100],
