@@ -67,7 +67,8 @@ int main(void) {
   /* Once: how the host keeps its pictures, whose threads compute, what water it is. */
   limpid_conventions conventions = LIMPID_CONVENTIONS;
   conventions.row_major = 1;
-  const limpid_executor executor = {sizeof executor, NULL, run_tasks};
+  limpid_executor executor = LIMPID_EXECUTOR;
+  executor.run = run_tasks;
   limpid_options options = LIMPID_OPTIONS;
   options.executor = &executor;
   limpid_compositor* water = NULL;

@@ -20,6 +20,7 @@ class ThreadPool : public limpid::Executor {
   }
 
   void run(int count, Task task, void* context) override {
+    const std::lock_guard one_at_a_time(runs_);
     std::unique_lock lock(mutex_);
     task_ = task;
     context_ = context;
@@ -48,7 +49,7 @@ class ThreadPool : public limpid::Executor {
     if (--busy_ == 0) done_.notify_all();
   }
 
-  std::mutex mutex_;
+  std::mutex runs_, mutex_;
   std::condition_variable wake_, done_;
   Task task_ = nullptr;
   void* context_ = nullptr;

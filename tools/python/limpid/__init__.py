@@ -16,8 +16,8 @@ degrees. For frame after frame make one Compositor; `composite` makes one for ea
 
 Looks are dicts of dicts; what they leave out has its default. `operators()` lists all that there is
 to set, `roles()` the buffers that a frame may have, `aovs()` what may be written besides the
-picture. All errors of the library are limpid.Error, a ValueError, with a sentence that says what
-was expected.
+picture. What the library refuses is limpid.Error, a ValueError, with a sentence that says what was
+expected; arguments of a wrong type are TypeErrors where they are no arrays.
 """
 from __future__ import annotations
 
@@ -150,6 +150,8 @@ class Compositor:
         aovs: names of aovs() ("stmap" for its three), or a dict that has arrays for some of them
             (rows, columns[, channels]), None for the others
         """
+        water = dict(water) if isinstance(water, Mapping) else water
+        sun = dict(sun) if isinstance(sun, Mapping) else sun
         planes = {"color": color, "depth": depth, "shadow": shadow, "reflection": reflection,
                   "surface_depth": surface_depth, "surface_normal": surface_normal,
                   "reflection_valid": reflection_valid, "reflection_depth": reflection_depth,
@@ -161,6 +163,7 @@ class Compositor:
         except (TypeError, ValueError):
             raise Error(f"camera is a {type(camera).__name__}, expected view and projection") from None
         scene = {"view": view, "projection": projection, "water": water, "sun": sun, "time": time}
+        dtype = dtype if isinstance(dtype, str) else np.dtype(dtype).name
         wet, made = self._core.run(planes, scene, display, out, dtype, _aov_arrays(aovs))
         return wet if aovs is None else (wet, made)
 
