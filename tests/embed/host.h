@@ -24,8 +24,7 @@ class HostMemory {
     int slack = 0;           ///< bytes after each pixel, so that samples are not aligned
   };
 
-  HostMemory(int channels, Rect window, const Layout& layout)
-      : layout_(layout), window_(window), channels_(channels) {
+  HostMemory(int channels, Rect window, const Layout& layout) : layout_(layout), window_(window) {
     const std::ptrdiff_t sample = bytes_of(layout.sample);
     pixel_ = (layout.interleaved ? sample * channels : sample) + layout.slack;
     row_ = pixel_ * window.width() + 12;
@@ -44,7 +43,6 @@ class HostMemory {
  private:
   Layout layout_;
   Rect window_;
-  int channels_;
   std::ptrdiff_t pixel_, row_, plane_;
   std::vector<std::byte> bytes_;
 };
