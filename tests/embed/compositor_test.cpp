@@ -1,89 +1,31 @@
 #include "limpid/compositor.h"
 
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <thread>
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
 
 #include "embed/host.h"
+#include "embed/subject.h"
 
 namespace limpid {
 namespace {
 
 using test::Buffers;
+using test::busy_look;
 using test::HostMemory;
+using test::kNan;
+using test::kSize;
 using test::Picture;
-using ::testing::HasSubstr;
-
-constexpr Size kSize{67, 41};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-Look busy_look() {
-  Look look = test::article_look();
-  look.of<PrismSplit>().strength = 0.01;
-  look.of<SunHighlight>().power = 20;
-  return look;
-}
-
-/// Noise that is in the conventions of a frame but for its normals, unit to a float's last bit
-/// only.
-Buffers raw_frame(Size size) {
-  Buffers b = test::noisy_frame(rect_of(size));
-  b.set(PlaneId::kReflectionValid, [](int x, int y) { return test::noise(x, y, 50); });
-  return b;
-}
-
-/// The same as it is entered.
-Buffers sane_frame(Size size) {
-  Buffers b = raw_frame(size);
-  std::array<Plane, 3> normal;
-  for (int c = 0; c < 3; ++c) {
-    normal[c] = Plane(rect_of(size));
-    test::fill(host_view(normal[c].view()),
-               b.frame.plane(plane_after(PlaneId::kSurfaceNormalX, c)));
-  }
-  sanitise_normal(normal[0].view(), normal[1].view(), normal[2].view(), {0, 1, 0});
-  for (int c = 0; c < 3; ++c) {
-    b.set(plane_after(PlaneId::kSurfaceNormalX, c),
-          [&](int x, int y) { return normal[c].view().at(x, y); });
-  }
-  return b;
-}
-
-/// A frame, its scene, and what the fused runner makes of it.
-struct Subject {
-  explicit Subject(Size size = kSize)
-      : buffers(sane_frame(size)),
-        scene(test::simple_scene(size)),
-        expected(test::judged(busy_look(), buffers.frame, scene)) {}
-  Buffers buffers;
-  Scene scene;
-  std::vector<float> expected;
-};
-
-std::vector<float> wet(Compositor& compositor, const HostFrame& frame) {
-  Picture picture(frame.display);
-  compositor.run(frame, test::host_picture(picture.target));
-  return picture.values();
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-std::string refusal(Compositor& compositor, const HostFrame& frame, const HostPicture& picture) {
-  try {
-    compositor.run(frame, picture);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::raw_frame;
+using test::same_bits;
+using test::sane_frame;
+using test::Subject;
+using test::wet;
 
 TEST(Compositor, GivesTheBitsOfTheFusedRunner) {
   const Subject s;
@@ -392,88 +334,6 @@ TEST(Compositor, LooksUpTexturesOfTheHost) {
   EXPECT_THROW(compositor.set_wave_map(texture), Error);
   texture.channels[1] = {};
   EXPECT_THROW(compositor.set_environment(texture), Error);
-}
-
-/// A refused frame leaves the picture alone.
-TEST(Compositor, RefusesBeforeItWrites) {
-  const Subject s;
-  Compositor compositor({.sane = true}, busy_look());
-  const HostFrame good = test::host_frame(s.buffers.frame, s.scene);
-  Picture picture(rect_of(kSize));
-  const HostPicture out = test::host_picture(picture.target);
-  const std::vector<float> before = picture.values();
-
-  HostFrame frame = good;
-  frame.scene.camera.reset();
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("no camera"));
-  frame = good;
-  frame.scene.water.reset();
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("no water plane"));
-  frame = good;
-  frame.plane(PlaneId::kDepth) = {};
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("no depth"));
-  frame = good;
-  frame.plane(PlaneId::kColorG).window.x1 -= 1;
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("color covers"));
-  frame = good;
-  frame.display = {};
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("display window is empty"));
-  frame = good;
-  frame.plane(PlaneId::kShadow).window = {};
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("shadow has no pixels"));
-  frame = good;
-  frame.display = {-2000000000, -5, 2000000000, 41};
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("2^29"));
-  frame = good;
-  frame.scene.camera->projection[3][3] = 1;
-  EXPECT_THAT(refusal(compositor, frame, out), HasSubstr("projection"));
-
-  HostPicture wrong = out;
-  wrong.color[1] = {};
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("no color"));
-  wrong = out;
-  wrong.alpha.window.y1 -= 1;
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("alpha does not cover"));
-  wrong = out;
-  wrong.color[2].x_stride = 0;
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("less than a sample"));
-  wrong.color[2] = out.color[2];
-  wrong.color[2].x_stride = 2;
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("less than a sample"));
-  wrong = out;
-  wrong.color[2] = out.color[1];
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("begins where color does"));
-  wrong = out;
-  wrong.of(Aov::kNormal)[1] =
-      test::host_picture(picture.target, {Aov::kNormal}).of(Aov::kNormal)[1];
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("lacks its first channel"));
-  wrong = out;
-  wrong.of(Aov::kPath) = {out.color[0], out.color[1], out.color[2]};
-  EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("AOV path"));
-  EXPECT_EQ(picture.values(), before);
-
-  EXPECT_THROW(Compositor({.depth = DepthKind::kNormalised}), Error);
-  EXPECT_THROW(Compositor({.depth = DepthKind::kNormalised, .near = 1, .far = HUGE_VAL}), Error);
-  EXPECT_THROW(Compositor({}, {}, {.simd = "mmx"}), Error);
-  EXPECT_THROW(Compositor({}, {}, {.max_error = -1}), Error);
-  Look bad;
-  bad.water.ior = kNan;
-  EXPECT_THROW(Compositor({}, bad), Error);
-}
-
-/// The commonest mistake of a host: reversed depth, and nobody was told.
-TEST(Compositor, RefusesDeviceDepthThatRunsTheOtherWay) {
-  const Subject s;
-  HostFrame frame = test::host_frame(s.buffers.frame, s.scene);
-  Picture picture(rect_of(kSize));
-  for (const bool reversed : {false, true}) {
-    const ClipSpace said = reversed ? ClipSpace::kGl : ClipSpace::kReversed;
-    const ClipSpace is = reversed ? ClipSpace::kReversed : ClipSpace::kGl;
-    Compositor compositor({.depth = DepthKind::kDevice, .clip = said}, busy_look());
-    frame.scene.camera->projection = perspective(0.9, 67.0 / 41, 0.1, 1e3, is);
-    EXPECT_THAT(refusal(compositor, frame, test::host_picture(picture.target)),
-                HasSubstr("device depth"));
-  }
 }
 
 class CountingExecutor : public Executor {
