@@ -15,11 +15,10 @@ namespace py = pybind11;
 
 Conventions conventions_of(const py::dict& keywords) {
   const std::vector<std::string> kinds = {"eye", "ray", "inverse", "normalised", "device"};
-  const std::vector<std::string> clips = {"gl", "d3d", "reversed"};
   Conventions c;
   c.depth = static_cast<DepthKind>(
       choice_of(word_of(keywords["depth_kind"], "depth_kind"), "depth_kind", kinds));
-  c.clip = static_cast<ClipSpace>(choice_of(word_of(keywords["clip"], "clip"), "clip", clips));
+  c.clip = clip_named(word_of(keywords["clip"], "clip"));
   c.near = number_in(keywords["near"], "near");
   c.far = number_in(keywords["far"], "far");
   c.looks_along_plus_z = flag_in(keywords["looks_along_plus_z"], "looks_along_plus_z");

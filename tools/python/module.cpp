@@ -44,10 +44,6 @@ py::list aovs_list() {
   return all;
 }
 
-ClipSpace clip_named(const std::string& word) {
-  return static_cast<ClipSpace>(choice_of(word, "clip", {"gl", "d3d", "reversed"}));
-}
-
 py::array_t<double> perspective_array(double fov_y, double aspect, double near, double far,
                                       const std::string& clip, std::pair<double, double> shift) {
   return array_of(

@@ -112,6 +112,10 @@ std::size_t choice_of(const std::string& word, const std::string& name,
               did_you_mean(word, words));
 }
 
+ClipSpace clip_named(const std::string& word) {
+  return static_cast<ClipSpace>(choice_of(word, "clip", {"gl", "d3d", "reversed"}));
+}
+
 glm::dmat4 matrix_of(const py::handle& object, const std::string& name) {
   std::optional<Rows> rows = rows_of(object);
   const auto is_row = [](const std::vector<double>& row) { return row.size() == 4; };

@@ -28,6 +28,7 @@ std::string word_of(const pybind11::handle& object, const std::string& name);
 /// Where in `words` the word is.
 std::size_t choice_of(const std::string& word, const std::string& name,
                       const std::vector<std::string>& words);
+ClipSpace clip_named(const std::string& word);
 
 /// Rows of an array or of lists are rows of the matrix.
 glm::dmat4 matrix_of(const pybind11::handle& object, const std::string& name);
