@@ -21,8 +21,11 @@ void expect_unit(const char* what, const glm::dvec3& v) {
 }  // namespace
 
 SineWave SineWave::from_row(std::span<const double> row) {
-  const double omega = row.size() > 4 ? row[4] : std::sqrt(9.81 * std::hypot(row[1], row[2]));
-  return {row[0], row[1], row[2], row[3], omega};
+  // |k| / 256: the product stays finite for every finite k, and the powers of two are exact.
+  const auto deep_water = [](double k_x, double k_y) {
+    return 16 * std::sqrt(9.81 * std::hypot(k_x / 256, k_y / 256));
+  };
+  return {row[0], row[1], row[2], row[3], row.size() > 4 ? row[4] : deep_water(row[1], row[2])};
 }
 
 PlaneAxes plane_axes(const glm::dvec3& up) {
@@ -39,8 +42,8 @@ void Scene::validate() const {
     expect_unit("water.up", water->up);
     if (!std::isfinite(water->height)) throw Error("water.height is not a finite number");
     for (const SineWave& w : water->waves) {
-      if (!std::isfinite(w.amplitude + w.k_x + w.k_y + w.phase + w.omega)) {
-        throw Error("water.waves holds a number that is not finite");
+      for (double x : {w.amplitude, w.k_x, w.k_y, w.phase, w.omega}) {
+        if (!std::isfinite(x)) throw Error("water.waves holds a number that is not finite");
       }
     }
   }

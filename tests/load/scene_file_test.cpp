@@ -303,6 +303,16 @@ TEST(SceneFile, WavesGetTheSpeedOfDeepWater) {
   EXPECT_NEAR(file.scene.water->waves[0].omega, std::sqrt(9.81 * 5), 1e-12);
 }
 
+/// 9.81 |k| is beyond the largest double here, and its root is not.
+TEST(SceneFile, WavesOfAnyFiniteNumbersCanBeWrittenAndRead) {
+  const Scene scene =
+      scene_from_toml("[water]\nwaves = [[1e308, 1.7e308, 1.7e308, 1e308]]\n", "text").scene;
+  const SineWave& wave = scene.water->waves[0];
+  EXPECT_NEAR(wave.omega / std::sqrt(1.7e308), std::sqrt(9.81 * std::numbers::sqrt2), 1e-12);
+  EXPECT_NO_THROW(scene.validate());
+  EXPECT_EQ(scene_from_toml(to_toml(scene), "again").scene.water->waves[0].omega, wave.omega);
+}
+
 /// The longest texts that numbers have.
 TEST(SceneFile, AsManyWavesAsMayBeReadAgain) {
   const std::string number = "-1.2345678901234567e-300";
