@@ -52,6 +52,8 @@ LIMPID_LANES_INLINE Lane select(Mask m, Lane yes, Lane no) {
   return Lane(hn::IfThenElse(m.m, yes.v, no.v));
 }
 LIMPID_LANES_INLINE bool any(Mask m) { return !hn::AllFalse(kD, m.m); }
+LIMPID_LANES_INLINE float least(Lane a) { return hn::GetLane(hn::MinOfLanes(kD, a.v)); }
+LIMPID_LANES_INLINE float greatest(Lane a) { return hn::GetLane(hn::MaxOfLanes(kD, a.v)); }
 LIMPID_LANES_INLINE Lane min(Lane a, Lane b) { return Lane(hn::Min(a.v, b.v)); }
 LIMPID_LANES_INLINE Lane max(Lane a, Lane b) { return Lane(hn::Max(a.v, b.v)); }
 LIMPID_LANES_INLINE Lane abs(Lane a) { return Lane(hn::Abs(a.v)); }

@@ -5,25 +5,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "limpid/core/simd.h"
-
 #include "plan/cell_rules.h"
 #include "plan/survey_scan.h"
 
 namespace limpid {
 
-// One for each instruction set that the build names, made by survey_target.cpp.
-#define LIMPID_TARGET(name, highway) extern const ScanTarget kScan_##name;
-#include "core/targets.inc"
-#undef LIMPID_TARGET
-
 namespace {
-
-constexpr const ScanTarget* kTargets[] = {
-#define LIMPID_TARGET(name, highway) &kScan_##name,
-#include "core/targets.inc"
-#undef LIMPID_TARGET
-};
 
 /// What is kept of a cell for the cells that look into it; least values with their sign turned.
 enum Extreme {
@@ -53,18 +40,6 @@ double reach_of(const Plan& plan, const Context& context) {
     if constexpr (std::is_same_v<Op, PrismSplit>) stretch = PrismSplit::stretch(params, context);
   });
   return reach * stretch;
-}
-
-/// See WetSeen: a few roundings of each number that goes into it.
-CalmError calm_error(const Context& c) {
-  const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
-    return std::abs(glm::dot(c.up, at)) + 4 * c.size.x * std::abs(glm::dot(c.up, dx)) +
-           4 * c.size.y * std::abs(glm::dot(c.up, dy));
-  };
-  const Rays& r = c.rays;
-  return {
-      static_cast<float>(1e-6 * (std::abs(c.eye_above) + most(r.origin, r.origin_dx, r.origin_dy))),
-      static_cast<float>(1e-6 * most(r.ray, r.ray_dx, r.ray_dy))};
 }
 
 /// Calls visit(i) for the blocks that `pixels` meet.
@@ -402,7 +377,7 @@ Rect Survey::pixels(int index) const {
 
 void Survey::make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
                   const std::string& simd) {
-  Scan scan(*this, plan, frame, context, *kTargets[simd_index(simd)]);
+  Scan scan(*this, plan, frame, context, scan_target(simd));
   scan.lay_out();
   if (!context.submersible) {
     executor.run(blocks_.height, Scan::scan_row, &scan);

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "limpid/core/plane.h"
 #include "limpid/core/rect.h"
 #include "limpid/op/context.h"
@@ -23,6 +25,7 @@ struct WetSeen {
 struct CalmError {
   float over, under;
 };
+CalmError calm_error(const Context& context);
 
 /// Blocks of a row of them, `width` pixels wide from x0 on. Memory is read fastest along a row of
 /// the picture: so they are looked at together.
@@ -36,9 +39,19 @@ struct Blocks {
 /// WetSeen is found but surface_near and own_far, which are 0 and infinite then.
 struct ScanTarget {
   void (*range)(const View<const float>& view, const Rect& pixels, Blocks blocks, LowHigh* out);
+  /// Greatest height over the calm surface of the finite texels of a surface.
+  void (*highest_water)(const Context& context, const View<const float>& surface,
+                        const Rect& pixels, Blocks blocks, float* out);
+  /// What HeightBound holds of a block.
+  void (*highest_seen)(const Context& context, const CalmError& error,
+                       const View<const float>& depth, float most, const Rect& pixels,
+                       Blocks blocks, float* out);
   void (*wet)(const Context& context, const CalmError& error, const View<const float>& depth,
               const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
               WetSeen* out);
 };
+
+/// For `simd` as in FusedOptions.
+const ScanTarget& scan_target(const std::string& simd);
 
 }  // namespace limpid

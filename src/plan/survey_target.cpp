@@ -13,15 +13,6 @@ LIMPID_LANES_INLINE Lane load(const float* from, std::ptrdiff_t x_stride, int co
   return Lane(hn::Load(kD, buffer));
 }
 
-LIMPID_LANES_INLINE float least(Lane v) {
-  alignas(64) float lanes[kLanes];
-  hn::Store(v.v, kD, lanes);
-  float result = lanes[0];
-  for (int i = 1; i < kLanes; ++i) result = lanes[i] < result ? lanes[i] : result;
-  return result;
-}
-LIMPID_LANES_INLINE float greatest(Lane v) { return -least(Lane(0) - v); }
-
 LIMPID_LANES_INLINE float sum(Lane v) {
   alignas(64) float lanes[kLanes];
   hn::Store(v.v, kD, lanes);
@@ -191,6 +182,58 @@ LIMPID_LANES_INLINE void add_rows(const Context& context, const CalmError& error
   }
 }
 
+/// The greatest in each block of height_of(z, over, under), for texels at eye depth z on rays on
+/// which z is seen at the height over + z under.
+template <class HeightOf>
+LIMPID_LANES_INLINE void greatest_height(const Context& context, const View<const float>& depth,
+                                         const Rect& pixels, Blocks blocks, float* out,
+                                         HeightOf&& height_of) {
+  const Lane steps(hn::Iota(kD, 0.0f));
+  Lane lanes[Blocks::kMost];
+  for (Lane& highest : lanes) highest = Lane(-HUGE_VAL);
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const Row row(depth, pixels, y);
+    const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
+    for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
+      Lane highest = lanes[block];
+      for_each_vector(x0, x1, [&](int x, int count) {
+        row.ask_for_next(x);
+        // What is repeated beyond the end of a row is seen on the ray of its last texel.
+        const Lane column = min(steps, Lane(count - 1)) + Lane(x - context.corner.x + 0.5);
+        const Lane z = row.at(x, count);
+        const Lane over = Lane(0) - (rays.calm_over + column * rays.calm_over_dx);
+        const Lane under = rays.calm_under + column * rays.calm_under_dx;
+        highest = max(highest, select(z < Lane(1e30), height_of(z, over, under), Lane(-HUGE_VAL)));
+      });
+      lanes[block] = highest;
+    });
+  }
+  for_each_block(pixels, blocks, [&](int block, int, int) { out[block] = greatest(lanes[block]); });
+}
+
+void highest_water(const Context& context, const View<const float>& surface, const Rect& pixels,
+                   Blocks blocks, float* out) {
+  greatest_height(context, surface, pixels, blocks, out,
+                  [](Lane z, Lane over, Lane under) { return over + z * under; });
+}
+
+void highest_seen(const Context& context, const CalmError& error, const View<const float>& depth,
+                  float most, const Rect& pixels, Blocks blocks, float* out) {
+  // A ray passes up to half a texel from the centre of the one that it sees, but for rounding, and
+  // a march rounds more than calm depths do.
+  const auto half_texel = [&](const glm::dvec2& step) LIMPID_LANES_LAMBDA {
+    return 0.51 *
+           (__builtin_fabs(step.x) / context.size.x + __builtin_fabs(step.y) / context.size.y);
+  };
+  const Lane off_over(4 * error.over + half_texel(context.over_step));
+  const Lane off_under(4 * error.under + half_texel(context.under_step));
+  greatest_height(context, depth, pixels, blocks, out, [&](Lane z, Lane over, Lane under) {
+    const Lane height = over + z * under, off = off_over + z * off_under;
+    const Lane upper = select(under + off_under < Lane(0), height + off, Lane(HUGE_VAL));
+    return select(height - off > Lane(most), Lane(-HUGE_VAL), upper);
+  });
+}
+
 void wet(const Context& context, const CalmError& error, const View<const float>& depth,
          const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
          WetSeen* out) {
@@ -221,7 +264,8 @@ namespace limpid {
 #define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
 
 extern const ScanTarget LIMPID_JOIN(kScan_, LIMPID_LANES_TARGET);
-const ScanTarget LIMPID_JOIN(kScan_, LIMPID_LANES_TARGET) = {HWY_NAMESPACE::range,
-                                                             HWY_NAMESPACE::wet};
+const ScanTarget LIMPID_JOIN(kScan_, LIMPID_LANES_TARGET) = {
+    HWY_NAMESPACE::range, HWY_NAMESPACE::highest_water, HWY_NAMESPACE::highest_seen,
+    HWY_NAMESPACE::wet};
 
 }  // namespace limpid

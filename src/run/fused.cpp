@@ -120,6 +120,10 @@ void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
   Context context(scene, frame, plan.look.water.ior, plan.made);
   if (!plan.reads_environment) context.environment = {};  // nobody has checked it
   survey_.make(plan, frame, context, executor, options.simd);
+  if (options.leaps) {
+    heights_.make(plan, frame, context, executor, options.simd);
+    context.heights = heights_.bound();
+  }
   Context open = context;
   open.foreground = false;
   FusedJob job{plan, frame, context, open, target};

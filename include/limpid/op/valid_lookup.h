@@ -103,9 +103,10 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
 }
 
 /// The taps for a lookup at `shift`. Should nothing on the way be `valid`, what is `bearable` there
-/// stands in for it: the pixel's own texel is always that.
-template <class F, class Tap, class Valid, class Bearable>
-auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable) {
+/// stands in for it: the pixel's own texel is always that. Where never(lanes) can tell that nothing
+/// is valid on the way of those lanes, nothing is looked for.
+template <class F, class Tap, class Valid, class Bearable, class Never>
+auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable, Never&& never) {
   using Quad = decltype(tap.quad(shift));
   const Quad there = tap.quad(shift);
   ValidTaps<F, Quad> taps{there, there, {}, {}, F(0), shift, false};
@@ -118,7 +119,8 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
   const auto whole = taps.share > F(1 - 1e-6);
   taps.some_made_up = any(!whole);
   if (!taps.some_made_up) return taps;
-  const Vec2<F> shortened = last_valid(tap, shift, taps.share, valid);
+  const Vec2<F> shortened =
+      never(!whole) ? Vec2<F>{F(0), F(0)} : last_valid(tap, shift, taps.share, valid);
   taps.place = select(taps.share >= F(0.5), shift, shortened);
   taps.shortened = tap.quad(shortened);
   // Half of the weight is valid there, unless nothing on the way is.
@@ -140,7 +142,7 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
 
 template <class F, class Tap, class Valid>
 auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
-  return valid_taps(tap, shift, valid, valid);
+  return valid_taps(tap, shift, valid, valid, [](const auto&) { return false; });
 }
 
 }  // namespace limpid

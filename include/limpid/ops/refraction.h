@@ -301,21 +301,28 @@ struct Refraction {
     };
     const auto valid = [&](const auto& quad) { return lies(quad, share_of_way); };
     const auto bearable = [&](const auto& quad) { return lies(quad, F(0)); };
+    const auto taps_at = [&](Vec2<F> shift) {
+      // Over a layer below that is empty.
+      return valid_taps(tap, shift, valid, bearable, [&](const auto& lanes) {
+        return planes.below &&
+               tap.highest(planes.depth, lanes, Vec2<F>{F(0), F(0)}, shift) < -1e30f;
+      });
+    };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.
     const Rgb<F> own = p.transmitted;
     const Vec2<F> green_shift = p.shift_g;
-    const auto taps = valid_taps(tap, p.shift_g, valid, bearable);
+    const auto taps = taps_at(p.shift_g);
     p.shift_g = taps.place;
     p.transmitted.g = select(taps.weight() > F(0.5), taps.read(tap, green), own.g);
     F share = taps.share;
     if (c.made.has(StatePart::kPrism)) {
-      const auto taps_r = valid_taps(tap, p.shift_r, valid, bearable);
-      const auto taps_b = valid_taps(tap, p.shift_b, valid, bearable);
+      const auto taps_r = taps_at(p.shift_r);
+      const auto taps_b = taps_at(p.shift_b);
       // Mostly green is where the common path is, and nothing is to be looked up again.
       const bool apart =
           any(abs(p.shift.x - green_shift.x) > F(0)) || any(abs(p.shift.y - green_shift.y) > F(0));
-      const auto taps_common = apart ? valid_taps(tap, p.shift, valid, bearable) : taps;
+      const auto taps_common = apart ? taps_at(p.shift) : taps;
       p.shift_r = taps_r.place;
       p.shift_b = taps_b.place;
       p.shift = taps_common.place;

@@ -8,6 +8,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
 #include "limpid/core/simd.h"
+#include "limpid/plan/heights.h"
 #include "limpid/plan/plan.h"
 #include "limpid/plan/survey.h"
 #include "limpid/run/target.h"
@@ -27,6 +28,9 @@ struct FusedOptions {
   std::string simd = {};
   Size tile = {1024, 32};
   RunTimes* times = nullptr;  ///< filled when it is there
+  /// Whether refraction's march leaves out looks of which Heights knows that they find nothing. The
+  /// bits are the same without; a test compares them.
+  bool leaps = true;
 };
 
 /// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. First a look
@@ -49,6 +53,7 @@ class FusedRunner {
   void pair_cells();
 
   Survey survey_;
+  Heights heights_;
   std::vector<CellNeeds> cells_;  ///< of the survey, as they are run
 };
 
