@@ -41,6 +41,9 @@ class Blender(unittest.TestCase):
         # The ball, above the water, is as red as it was.
         ball = picture[18:24, 38:45, :3].astype(float).mean((0, 1))
         self.assertGreater(ball[0], 4 * ball[2])
+        # The water behind it shows the floor that it hides in the dry picture: without a layer below, stone.
+        behind = picture[11:13, 38:50, :3].astype(float).mean((0, 1))
+        self.assertLess(behind[0], 0.95 * behind[2])
         preview = read(out.with_suffix(".png"))
         self.assertEqual((preview.shape, preview.dtype), ((90, 160, 4), np.uint8))
 

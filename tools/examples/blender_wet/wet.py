@@ -125,6 +125,50 @@ def render(folder, name):
             "normal": channels("Normal", "XYZ")}
 
 
+def cut(look, up, height):
+    """Lets the camera see through all of a material above a height, and out of what was cut from inside."""
+    tree = look.node_tree
+    end = tree.get_output_node("CYCLES")
+    if not end or not end.inputs["Surface"].is_linked:
+        return
+    surface = end.inputs["Surface"].links[0].from_socket
+    def node(kind, *inputs, **settings):
+        made = tree.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(made, name, value)
+        for socket, value in zip(made.inputs, inputs):
+            if isinstance(value, bpy.types.NodeSocket):
+                tree.links.new(value, socket)
+            else:
+                socket.default_value = value
+        return made.outputs
+    def math(operation, *inputs):
+        return node("ShaderNodeMath", *inputs, operation=operation)[0]
+    here, path = node("ShaderNodeNewGeometry"), node("ShaderNodeLightPath")
+    above = math("GREATER_THAN", node("ShaderNodeVectorMath", here["Position"], up, operation="DOT_PRODUCT")["Value"],
+                 height)
+    inside = math("MULTIPLY", here["Backfacing"], math("GREATER_THAN", path["Transparent Depth"], 0.5))
+    seen_through = math("MULTIPLY", path["Is Camera Ray"], math("MAXIMUM", above, inside))
+    mixed = node("ShaderNodeMixShader", seen_through, surface, node("ShaderNodeBsdfTransparent")[0])[0]
+    tree.links.new(mixed, end.inputs["Surface"])
+
+
+def render_below(folder, up, height):
+    """What lies under a height, which is lit and shaded as it was: the camera sees through the rest."""
+    plain = diffuse("plain", .8, .8, .8)  # Blender's own for what has no material
+    for thing in bpy.context.scene.objects:
+        if thing.type != "LIGHT" and hasattr(thing.data, "materials") and not any(thing.data.materials):
+            thing.data.materials.clear()
+            thing.data.materials.append(plain)
+    for look in bpy.data.materials:
+        if look.use_nodes:
+            cut(look, up, height)
+    passes = render(folder, "below")
+    nothing = passes["depth"][..., 0] > 1e9
+    passes["depth"][nothing] = np.inf
+    return passes
+
+
 def render_mirror(folder, water):
     """The water as a mirror, which alone meets the camera: everything else is seen in it only."""
     others = [thing for thing in bpy.context.scene.objects if thing is not water and thing.visible_camera]
@@ -191,6 +235,7 @@ def main():
     projection = camera.calc_matrix_camera(bpy.context.evaluated_depsgraph_get(), x=width, y=height)
     display = widen(camera, width, height)
     up = (water.matrix_world.to_3x3() @ Vector((0, 0, 1))).normalized()
+    level = up.dot(water.matrix_world.translation)
     to_sun = (sun.matrix_world.to_3x3() @ Vector((0, 0, 1))).normalized()
     sunlight = [channel * sun.data.energy / np.pi for channel in sun.data.color]  # as radiance of white
     look = limpid.load_look(wanted.look)
@@ -200,6 +245,7 @@ def main():
         folder = pathlib.Path(folder)
         dry = render(folder, "dry")
         mirror = render_mirror(folder, water)
+        below = render_below(folder, up, level + sum(wave[0] for wave in WAVES))  # to the crests
         shadow = render_shadow(folder, sun, to_sun, wanted.samples)
 
     # The mirror is real where the water is; inside of things that pierce it there is no light.
@@ -209,8 +255,9 @@ def main():
     wet = compositor.run(
         display=display, color=dry["color"], depth=dry["depth"],  # Cycles' Z is eye depth, 1e10 where nothing was hit
         shadow=shadow, reflection=mirrored, reflection_valid=real.astype(np.float32),
+        below_color=below["color"][..., :3], below_depth=below["depth"],
         surface_depth=mirror["depth"], camera=limpid.Camera(view, projection),
-        water={"up": up, "height": up.dot(water.matrix_world.translation)},
+        water={"up": up, "height": level},
         sun={"direction": to_sun, "color": sunlight})
     save(wanted.out, wet)
     print(compositor.plan)
