@@ -18,14 +18,17 @@ void expect_unit(const char* what, const glm::dvec3& v) {
   }
 }
 
+/// sqrt(9.81 |k|), of |k| / 256: the product stays finite for every finite k, and the powers of two
+/// are exact.
+double deep_water_omega(double k_x, double k_y) {
+  return 16 * std::sqrt(9.81 * std::hypot(k_x / 256, k_y / 256));
+}
+
 }  // namespace
 
 SineWave SineWave::from_row(std::span<const double> row) {
-  // |k| / 256: the product stays finite for every finite k, and the powers of two are exact.
-  const auto deep_water = [](double k_x, double k_y) {
-    return 16 * std::sqrt(9.81 * std::hypot(k_x / 256, k_y / 256));
-  };
-  return {row[0], row[1], row[2], row[3], row.size() > 4 ? row[4] : deep_water(row[1], row[2])};
+  const double omega = row.size() > 4 ? row[4] : deep_water_omega(row[1], row[2]);
+  return {row[0], row[1], row[2], row[3], omega};
 }
 
 PlaneAxes plane_axes(const glm::dvec3& up) {
