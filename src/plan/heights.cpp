@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "plan/survey_scan.h"
@@ -26,6 +27,19 @@ bool marches(const Plan& plan) {
   const Refraction::Params& refraction = plan.look.of<Refraction>();
   return plan.made.has(StatePart::kPosition) && refraction.model == Refraction::Model::kSnell &&
          refraction.steps == Refraction::kMarch;
+}
+
+/// How far off a march may reckon a height, as CalmError: a few roundings of each product in it.
+CalmError march_error(const Context& c) {
+  const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
+    const glm::dvec3 size =
+        glm::abs(at) + 4.0 * c.size.x * glm::abs(dx) + 4.0 * c.size.y * glm::abs(dy);
+    return 4e-6 * glm::dot(glm::abs(c.up), size);
+  };
+  const Rays& r = c.rays;
+  return {
+      static_cast<float>(4e-6 * std::abs(c.eye_above) + most(r.origin, r.origin_dx, r.origin_dy)),
+      static_cast<float>(most(r.ray, r.ray_dx, r.ray_dy))};
 }
 
 /// Whether all water that reaches up to `most` is seen from above: what stands higher is nearer.
@@ -69,8 +83,12 @@ void Heights::make(const Plan& plan, const Frame& frame, const Context& context,
                    const std::string& simd) {
   bound_ = {};
   if (!marches(plan) || context.submersible) return;
-  const CalmError error = calm_error(context);
-  bound_.most = 4 * error.over;  // of calm water, as a march reckons it
+  const PlaneId seen = Refraction::planes_of(context).depth;
+  const Rect& window = frame.plane(seen).window;
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  // Beyond the edge of one of them taps at both are of different rays.
+  if (surface && !(surface.window == window)) return;
+  const CalmError error = march_error(context);
   const auto scan = [&](PlaneId plane, bool water) {
     const View<const float>& depth = frame.plane(plane);
     const Size blocks = blocks_of(depth.window);
@@ -81,14 +99,14 @@ void Heights::make(const Plan& plan, const Frame& frame, const Context& context,
     executor.run(blocks.height, Scan::row, &job);
     return blocks;
   };
-  if (frame.plane(PlaneId::kSurfaceDepth)) {
+  if (surface) {
     const Size blocks = scan(PlaneId::kSurfaceDepth, true);
-    bound_.most += *std::max_element(heights_.data(), heights_.data() + count_of(blocks));
+    bound_.most = *std::max_element(heights_.data(), heights_.data() + count_of(blocks));
   }
+  // Where no water is drawn the calm level stands for it.
+  bound_.most = std::max(bound_.most, 0.0f) + error.over;
   if (!seen_from_above(context, bound_.most)) return;
-  const PlaneId seen = Refraction::planes_of(context).depth;
   stack_levels(scan(seen, false));
-  const Rect& window = frame.plane(seen).window;
   bound_.x0 = window.x0;
   bound_.y0 = window.y0;
   bound_.known = true;

@@ -42,7 +42,7 @@ struct ScanTarget {
   /// Greatest height over the calm surface of the finite texels of a surface.
   void (*highest_water)(const Context& context, const View<const float>& surface,
                         const Rect& pixels, Blocks blocks, float* out);
-  /// What HeightBound holds of a block.
+  /// What HeightBound holds of a block; `error` of heights over + z under that it is asked for.
   void (*highest_seen)(const Context& context, const CalmError& error,
                        const View<const float>& depth, float most, const Rect& pixels,
                        Blocks blocks, float* out);

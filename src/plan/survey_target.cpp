@@ -219,16 +219,15 @@ void highest_water(const Context& context, const View<const float>& surface, con
 
 void highest_seen(const Context& context, const CalmError& error, const View<const float>& depth,
                   float most, const Rect& pixels, Blocks blocks, float* out) {
-  // A ray passes up to half a texel from the centre of the one that it sees, but for rounding, and
-  // a march rounds more than calm depths do.
+  // A ray passes up to half a texel from the centre of the one that it sees, but for rounding.
   const auto half_texel = [&](const glm::dvec2& step) LIMPID_LANES_LAMBDA {
     return 0.51 *
            (__builtin_fabs(step.x) / context.size.x + __builtin_fabs(step.y) / context.size.y);
   };
-  const Lane off_over(4 * error.over + half_texel(context.over_step));
-  const Lane off_under(4 * error.under + half_texel(context.under_step));
+  const Lane off_over(error.over + half_texel(context.over_step));
+  const Lane off_under(error.under + half_texel(context.under_step));
   greatest_height(context, depth, pixels, blocks, out, [&](Lane z, Lane over, Lane under) {
-    const Lane height = over + z * under, off = off_over + z * off_under;
+    const Lane height = over + z * under, off = off_over + abs(z) * off_under;
     const Lane upper = select(under + off_under < Lane(0), height + off, Lane(HUGE_VAL));
     return select(height - off > Lane(most), Lane(-HUGE_VAL), upper);
   });

@@ -139,9 +139,9 @@ class FusedStrip {
       if (!heights.known) return HUGE_VALF;
       const Rect w = strip.source_of(plane).window;
       const Vec2<Lane> a = strip.in_texels(from), b = strip.in_texels(to);
-      const Span x =
-          span(lanes, Lane(hn::ConvertTo(kD, strip.column(vector))), a.x, b.x, w.x0, w.x1);
-      const Span y = span(lanes, Lane(strip.y_), a.y, b.y, w.y0, w.y1);
+      const Lane iota(hn::Iota(kD, 0.0f));
+      const Span x = span(lanes, strip.x0_ + vector * kLanes, iota + a.x, iota + b.x, w.x0, w.x1);
+      const Span y = span(lanes, strip.y_, a.y, b.y, w.y0, w.y1);
       return heights.highest(x.low, y.low, x.high, y.high);
     }
     LIMPID_LANES_INLINE Rgb<Lane> lat_long_rgb(const Texture& map, Vec2<Lane> at) const {
@@ -164,16 +164,15 @@ class FusedStrip {
   struct Span {
     int low, high;
   };
-  /// Of all that these lanes look up on the way from a to b, seen from their own places. A texel
-  /// more on each side, for which is nearest is a matter of rounding. Of no lane: the whole window.
-  static LIMPID_LANES_INLINE Span span(Mask lanes, Lane own, Lane a, Lane b, int begin, int end) {
-    const Lane first(begin), last(end - 1);
+  /// Of all that these lanes, of which there are some, look up on the way from a to b, seen from
+  /// the texel `own`. One more on each side, for which is nearest is a matter of rounding.
+  static LIMPID_LANES_INLINE Span span(Mask lanes, int own, Lane a, Lane b, int begin, int end) {
+    const Lane first(begin - own), last(end - 1 - own);
     const auto inside = [&](Lane at)
                             LIMPID_LANES_LAMBDA { return min(max(floor(at), first), last); };
-    const Lane low = inside(own + min(a, b) - Lane(1)), high = inside(own + max(a, b) + Lane(1));
-    if (!any(lanes)) return {begin, end - 1};
-    return {static_cast<int>(least(select(lanes, low, last))),
-            static_cast<int>(greatest(select(lanes, high, first)))};
+    const Lane low = inside(min(a, b) - Lane(1)), high = inside(max(a, b) + Lane(1));
+    return {own + static_cast<int>(least(select(lanes, low, last))),
+            own + static_cast<int>(greatest(select(lanes, high, first)))};
   }
 
   /// Four taps that a probe reads one by one, k = 0 ... 3: upper left, upper right, lower left,

@@ -1,5 +1,7 @@
+#include <cmath>
 #include <cstring>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "limpid/core/simd.h"
@@ -84,6 +86,65 @@ TEST_P(Leaps, ChangeNotABitWhereNumbersAreLargeOrSmall) {
       const Buffers b = test::landscape(rect_of(size), scene, seed, seed % 2 == 0, Below::kNone);
       EXPECT_EQ(others(marching_look(seed), b.frame, scene, GetParam()), 0u) << scale;
     }
+  }
+}
+
+/// The plane of eye depths at which what `height_of(x, y)` gives, over the calm surface, is seen.
+template <class HeightOf>
+void set_heights(Buffers& b, const Scene& scene, PlaneId plane, Rect window, HeightOf&& height_of) {
+  const Context context(scene, b.frame, 1.333, {});
+  b.set(
+      plane,
+      [&](int x, int y) {
+        const glm::dvec3 ray =
+            context.rays.ray_at(x + 0.5 - context.corner.x, y + 0.5 - context.corner.y);
+        const double under = glm::dot(context.up, ray), height = height_of(x, y);
+        return under < 0 && std::isfinite(height)
+                   ? static_cast<float>((height - context.eye_above) / under)
+                   : test::kInf;
+      },
+      window);
+}
+
+/// Low tide: the calm level, which stands for the surface ashore, lies over all water that is
+/// drawn.
+TEST_P(Leaps, ChangeNotABitWhereWaterIsLowerThanCalm) {
+  const Size size{200, 120};
+  const Scene scene = test::simple_scene(size);
+  for (const int overscan : {0, 30}) {
+    for (const double bank : {-0.05, 0.05}) {
+      Buffers b = test::landscape(rect_of(size), scene, 1, false, Below::kWhole);
+      const auto ashore = [](int x, int y) { return x > 150 || y < 20; };
+      set_heights(b, scene, PlaneId::kSurfaceDepth, rect_of(size),
+                  [&](int x, int y) { return ashore(x, y) ? HUGE_VAL : -0.1; });
+      set_heights(b, scene, PlaneId::kBelowDepth,
+                  Rect{-overscan, -overscan, size.width + overscan, size.height + overscan},
+                  [&](int x, int y) { return ashore(x, y) ? bank : HUGE_VAL; });
+      for (int seed = 0; seed < 6; ++seed) {
+        Look look = marching_look(2 * seed);
+        look.of<PrismSplit>().gain = 20;
+        EXPECT_EQ(others(look, b.frame, scene, GetParam()), 0u) << overscan << " " << bank;
+      }
+    }
+  }
+}
+
+/// Large products cancel in heights that are small.
+TEST_P(Leaps, ChangeNotABitInNarrowViewsOfTiltedWater) {
+  const Size size{200, 120};
+  for (int seed = 0; seed < 12; ++seed) {
+    const auto any = [&](int channel) { return double{test::noise(seed, channel, 71)} - 0.5; };
+    Scene scene = test::simple_scene(size);
+    const glm::dvec3 up = glm::normalize(glm::dvec3(any(0), any(1), any(2)));
+    const PlaneAxes axes = plane_axes(up);
+    scene.water = WaterPlane{up, 100 * any(3)};
+    const glm::dvec3 eye = (scene.water->height + 2) * up;
+    const double fov = seed % 2 == 0 ? 0.01 : 0.002;
+    scene.camera->view = glm::lookAt(eye, eye + axes.x - (0.6 * fov + 0.002) * up, up);
+    scene.camera->projection = perspective(fov, 5.0 / 3, 0.1, 1e5, ClipSpace::kGl);
+    const Below below = seed % 3 == 0 ? Below::kHoles : Below::kNone;
+    const Buffers b = test::landscape(rect_of(size), scene, seed, seed % 4 == 0, below);
+    EXPECT_EQ(others(marching_look(seed), b.frame, scene, GetParam()), 0u) << seed;
   }
 }
 

@@ -104,8 +104,8 @@ class BottomSearch {
   static constexpr int kSteps = 48;
   static constexpr int kLeap = 16, kLooksBetweenLeaps = 6;
 
-  /// The last of the steps, from i on, up to which a look would find nothing: the rays stay above
-  /// all that they pass, by Context::heights. `length` is how many are tried at once at first.
+  /// i, or a later step if from i up to it a look would find nothing: the rays stay above all that
+  /// they pass, by Context::heights. `length` is how many steps are tried at once at first.
   template <class Lanes>
   int leap_from(int i, int length, Lanes open, F most) const {
     const F top = F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
@@ -159,7 +159,7 @@ class BottomSearch {
   /// Whether the ray runs before a bottom that is seen.
   LIMPID_INLINE static auto is_free(const Sight& at) { return at.behind < F(0) && at.drop > F(0); }
 
-  /// How far below the surface point the bottom lies that a step before `end`, a share of the way,
+  /// How far below the surface point the bottom lies that a step up to `end`, a share of the way,
   /// has seen last; that at the pixel itself where none has. Looks again, for it is asked seldom.
   template <class Lanes>
   F last_drop(Lanes wanted, F end, F first, F most) const {
@@ -167,7 +167,7 @@ class BottomSearch {
     F looks = select(wanted, F(1), F(0));
     for (int i = kSteps; i >= 0; --i) {
       const F t = i == 0 ? first : F(double(i) / kSteps);
-      const auto before = looks > F(0.5) && t < end;
+      const auto before = looks > F(0.5) && t <= end;
       if (!any(before)) continue;
       const Sight at = look(ray_.at_share(t, most));
       const auto ends = before && is_free(at);

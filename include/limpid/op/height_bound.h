@@ -3,8 +3,8 @@
 
 namespace limpid {
 
-/// For any box of texels a height over the calm surface above which nothing is seen there that a
-/// ray under water could meet, should it begin no higher than `most`: blocks of texels, and a
+/// For any box of texels a height over the calm surface above which nothing is seen there that lies
+/// under water, be it as high as `most`: blocks of texels, and a
 /// pyramid of them in which each holds the greatest of four of the level before. Made once a frame
 /// (plan/heights.h); tells a march which steps need no look, as Uludag 2014, "Hi-Z Screen-Space
 /// Cone-Traced Reflections", does with depths. A view of somebody's memory.
@@ -18,7 +18,7 @@ struct HeightBound {
 
   Level levels[kMostLevels] = {};
   int x0 = 0, y0 = 0;  ///< the first texel of the first block
-  float most = 0;      ///< what surely stands higher does not count: rays from below pass it by
+  float most = 0;      ///< of all water; what surely stands higher is nearer and does not count
   bool known = false;  ///< false: there is nothing to ask
 
   /// Of the texels x_low ... x_high, y_low ... y_high, all of which lie in blocks; -inf where

@@ -302,10 +302,10 @@ struct Refraction {
     const auto valid = [&](const auto& quad) { return lies(quad, share_of_way); };
     const auto bearable = [&](const auto& quad) { return lies(quad, F(0)); };
     const auto taps_at = [&](Vec2<F> shift) {
-      // Over a layer below that is empty.
+      // Over a layer below that is empty, or holds only what stands higher than all water.
       return valid_taps(tap, shift, valid, bearable, [&](const auto& lanes) {
         return planes.below &&
-               tap.highest(planes.depth, lanes, Vec2<F>{F(0), F(0)}, shift) < -1e30f;
+               tap.highest(planes.depth, lanes, Vec2<F>{F(0), F(0)}, shift) <= -HUGE_VAL;
       });
     };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
