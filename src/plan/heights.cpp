@@ -29,8 +29,8 @@ bool marches(const Plan& plan) {
          refraction.steps == Refraction::kMarch;
 }
 
-/// How far off a march may reckon a height, as CalmError: a few roundings of each product in it.
-CalmError march_error(const Context& c) {
+/// Of a march, in which products may cancel: a few roundings of each.
+HeightError march_error(const Context& c) {
   const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
     const glm::dvec3 size =
         glm::abs(at) + 4.0 * c.size.x * glm::abs(dx) + 4.0 * c.size.y * glm::abs(dy);
@@ -53,7 +53,7 @@ bool seen_from_above(const Context& context, float most) {
 struct Heights::Scan {
   const Context& context;
   const ScanTarget& target;
-  CalmError error;
+  HeightError error;
   const View<const float>& depth;
   bool water;  ///< the plane is that of the surface
   float most;
@@ -88,7 +88,7 @@ void Heights::make(const Plan& plan, const Frame& frame, const Context& context,
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   // Beyond the edge of one of them taps at both are of different rays.
   if (surface && !(surface.window == window)) return;
-  const CalmError error = march_error(context);
+  const HeightError error = march_error(context);
   const auto scan = [&](PlaneId plane, bool water) {
     const View<const float>& depth = frame.plane(plane);
     const Size blocks = blocks_of(depth.window);

@@ -68,7 +68,7 @@ struct Survey::Scan {
   const ScanTarget& target;
   Refraction::Planes looked_up;
   CellRules rules;
-  CalmError error;
+  HeightError error;
   PlaneSet wanted;       // of those that are looked up
   PlaneId own_shadow;    // on the surface
   int reach_x, reach_y;  // in blocks

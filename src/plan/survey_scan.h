@@ -21,11 +21,13 @@ struct WetSeen {
   float own_near, own_far;          ///< dry eye depth less the surface's, there
 };
 
-/// How far off calm depths may be: of `over` and `under` in RowRays.
-struct CalmError {
+/// How far off `over` and `under` may be, where what lies at eye depth z has the height over + z
+/// under.
+struct HeightError {
   float over, under;
 };
-CalmError calm_error(const Context& context);
+/// Of RowRays.
+HeightError calm_error(const Context& context);
 
 /// Blocks of a row of them, `width` pixels wide from x0 on. Memory is read fastest along a row of
 /// the picture: so they are looked at together.
@@ -42,11 +44,11 @@ struct ScanTarget {
   /// Greatest height over the calm surface of the finite texels of a surface.
   void (*highest_water)(const Context& context, const View<const float>& surface,
                         const Rect& pixels, Blocks blocks, float* out);
-  /// What HeightBound holds of a block; `error` of heights over + z under that it is asked for.
-  void (*highest_seen)(const Context& context, const CalmError& error,
+  /// What HeightBound holds of a block, `error` being that of who asks it.
+  void (*highest_seen)(const Context& context, const HeightError& error,
                        const View<const float>& depth, float most, const Rect& pixels,
                        Blocks blocks, float* out);
-  void (*wet)(const Context& context, const CalmError& error, const View<const float>& depth,
+  void (*wet)(const Context& context, const HeightError& error, const View<const float>& depth,
               const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
               WetSeen* out);
 };

@@ -94,7 +94,7 @@ struct Surface {
 };
 
 /// Of the calm plane: |over| / under with `under` counted towards it, both off by their error.
-LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const CalmError& error, Lane x,
+LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const HeightError& error, Lane x,
                                  Lane dry, bool farthest) {
   const Lane infinite(HUGE_VAL), off(error.over);
   const Lane over = rays.calm_over + x * rays.calm_over_dx;
@@ -158,7 +158,7 @@ LIMPID_LANES_INLINE void add_row(const Row& depths, const Rect& pixels, Blocks b
 }
 
 template <bool kFarthest>
-LIMPID_LANES_INLINE void add_rows(const Context& context, const CalmError& error,
+LIMPID_LANES_INLINE void add_rows(const Context& context, const HeightError& error,
                                   const View<const float>& depth, const View<const float>& surface,
                                   const Rect& pixels, Blocks blocks, WetLanes* lanes) {
   const Lane steps(hn::Iota(kD, 0.0f));  // made of scalars: not in the loop
@@ -217,7 +217,7 @@ void highest_water(const Context& context, const View<const float>& surface, con
                   [](Lane z, Lane over, Lane under) { return over + z * under; });
 }
 
-void highest_seen(const Context& context, const CalmError& error, const View<const float>& depth,
+void highest_seen(const Context& context, const HeightError& error, const View<const float>& depth,
                   float most, const Rect& pixels, Blocks blocks, float* out) {
   // A ray passes up to half a texel from the centre of the one that it sees, but for rounding.
   const auto half_texel = [&](const glm::dvec2& step) LIMPID_LANES_LAMBDA {
@@ -233,7 +233,7 @@ void highest_seen(const Context& context, const CalmError& error, const View<con
   });
 }
 
-void wet(const Context& context, const CalmError& error, const View<const float>& depth,
+void wet(const Context& context, const HeightError& error, const View<const float>& depth,
          const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
          WetSeen* out) {
   WetLanes lanes[Blocks::kMost];
