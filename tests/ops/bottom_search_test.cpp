@@ -12,7 +12,7 @@ struct FlatBottom {
   const Context& context;
   const Pixel<double>& pixel;
   double drop;  ///< below calm water
-  mutable int looks = 0;
+  int& looks;
 
   double nearest(PlaneId, Vec2<double> shift) const {
     ++looks;
@@ -49,7 +49,8 @@ Met march(double drop, bool heights) {
   const double calm = rays.calm_depth(320.5);
   Pixel<double> p{};
   begin_pixel(context, rays, 320.5, 1.0, calm, calm * (1 + drop / context.eye_above), p);
-  const FlatBottom tap{context, p, drop};
+  int looks = 0;
+  const FlatBottom tap{context, p, drop, looks};
   // Not so steep as a refracted ray: there is a way to go on screen.
   const Vec3<double> down{0, -0.5, 0.866};
   const ScreenRay<double> ray(context, p, down);
@@ -57,7 +58,7 @@ Met march(double drop, bool heights) {
   const BottomSearch<double, FlatBottom> search{context, planes, p, tap, ray, 0.5};
   const auto found = search.march();
   EXPECT_EQ(found.sure, 1);
-  return {found.way, tap.looks};
+  return {found.way, looks};
 }
 
 TEST(BottomSearch, KnownHeightsSaveLooksAndChangeNothing) {
