@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "limpid/report/heat_map.h"
+#include "limpid/compare/heat_map.h"
 
 #include "report/jpeg.h"
 #include "report/markup.h"

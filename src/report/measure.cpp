@@ -1,6 +1,6 @@
 #include "report/measure.h"
 
-#include "limpid/report/heat_map.h"
+#include "limpid/compare/heat_map.h"
 #include "limpid/report/lagoon.h"
 #include "limpid/write/preview.h"
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "limpid/compare/compare.h"
 #include "limpid/core/executor.h"
 #include "limpid/ops/look.h"
-#include "limpid/report/compare.h"
 #include "limpid/report/picture.h"
 #include "limpid/report/report.h"
 

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <span>
 
+#include "limpid/compare/flip.h"
+#include "limpid/compare/offset.h"
+#include "limpid/compare/ssim.h"
+#include "limpid/compare/temporal.h"
 #include "limpid/load/gltf.h"
 #include "limpid/load/scene_file.h"
-#include "limpid/report/flip.h"
 #include "limpid/report/lagoon.h"
-#include "limpid/report/offset.h"
-#include "limpid/report/ssim.h"
-#include "limpid/report/temporal.h"
 #include "limpid/run/fused.h"
 #include "limpid/trace/truth.h"
 

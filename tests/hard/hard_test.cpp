@@ -1,4 +1,4 @@
-#include "limpid/report/hard.h"
+#include "limpid/hard/hard.h"
 
 #include <algorithm>
 #include <cctype>

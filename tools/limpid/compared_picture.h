@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "limpid/compare/color_pair.h"
+#include "limpid/compare/compare.h"
 #include "limpid/load/limits.h"
-#include "limpid/report/color_pair.h"
-#include "limpid/report/compare.h"
 
 /// Pictures as `compare` reads them.
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "limpid/compare/heat_map.h"
+#include "limpid/compare/number_text.h"
 #include "limpid/core/error.h"
 #include "limpid/load/exr_file.h"
-#include "limpid/report/heat_map.h"
-#include "limpid/report/number_text.h"
 
 namespace limpid::tool {
 namespace {

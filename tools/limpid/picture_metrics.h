@@ -2,9 +2,9 @@
 #include <optional>
 #include <string>
 
-#include "limpid/report/flip.h"
-#include "limpid/report/offset.h"
-#include "limpid/report/ssim.h"
+#include "limpid/compare/flip.h"
+#include "limpid/compare/offset.h"
+#include "limpid/compare/ssim.h"
 
 #include "arguments.h"
 #include "compared_picture.h"

@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <utility>
 
+#include "limpid/compare/compare.h"
+#include "limpid/compare/heat_map.h"
+#include "limpid/compare/number_text.h"
+#include "limpid/compare/temporal.h"
 #include "limpid/core/error.h"
 #include "limpid/load/frame_range.h"
-#include "limpid/report/compare.h"
-#include "limpid/report/heat_map.h"
-#include "limpid/report/number_text.h"
-#include "limpid/report/temporal.h"
 
 #include "compared_picture.h"
 #include "memory_limit.h"

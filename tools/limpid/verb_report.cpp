@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "limpid/core/error.h"
-#include "limpid/report/hard.h"
+#include "limpid/report/hard_page.h"
 #include "limpid/report/report.h"
 
 #include "data_folder.h"

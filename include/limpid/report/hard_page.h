@@ -1,0 +1,15 @@
+#pragma once
+#include <filesystem>
+#include <span>
+
+#include "limpid/hard/hard.h"
+
+namespace limpid {
+
+/// Creates the folder if there is none, as make_report_folder() does, for these two files.
+void make_hard_folder(const std::filesystem::path& folder);
+/// Writes hard.json and hard.html, a page that needs nothing else. Each appears whole or not at
+/// all.
+void write_hard(const std::filesystem::path& folder, std::span<const HardRow> rows);
+
+}  // namespace limpid

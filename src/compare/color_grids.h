@@ -1,0 +1,28 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "limpid/compare/color_pair.h"
+
+#include "compare/grid.h"
+
+namespace limpid {
+
+using ColorGrid = std::array<Grid<float>, 3>;
+
+/// The two pictures, black in both where there is NaN or inf, and where that was not alike.
+struct CleanPair {
+  Rect window;
+  ColorGrid a, b;
+  Grid<std::uint8_t> mismatched;
+};
+
+/// Throws Error for windows that differ.
+CleanPair clean(const ColorPair& pictures);
+
+/// Y of the primaries of sRGB.
+inline double luminance(double r, double g, double b) {
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+}  // namespace limpid

@@ -1,0 +1,11 @@
+#pragma once
+#include <span>
+
+#include "limpid/compare/compare.h"
+
+namespace limpid {
+
+/// Throws Error for no channel, no pixels, and windows that differ.
+void check_compared(std::span<const ComparedChannel> channels);
+
+}  // namespace limpid

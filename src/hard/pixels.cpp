@@ -1,0 +1,128 @@
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "hard/hard_case.h"
+#include "hard/sea.h"
+
+namespace limpid {
+namespace {
+
+constexpr Size kSize{45, 23};
+
+struct Kind {
+  const char* name;
+  float value;
+};
+using Float = std::numeric_limits<float>;
+constexpr Kind kKinds[] = {
+    {"NaN", Float::quiet_NaN()},
+    {"inf", Float::infinity()},
+    {"-inf", -Float::infinity()},
+    {"-1", -1},
+    {"denormal", 1e-40f},
+    {"65504", 65504},
+    {"-65504", -65504},
+    {"1e30", 1e30f},
+    {"-1e30", -1e30f},
+};
+
+/// A frame in all of whose planes every eighth texel or so is that value, entered as loaders do.
+HardFrame littered(float value, const glm::dvec3& up) {
+  HardFrame frame = noisy_frame(kSize);
+  for (int i = 0; i < kPlaneCount; ++i) {
+    const View<float> plane = frame.plane(static_cast<PlaneId>(i));
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        if (hard_noise(x, y, 90 + i) < 0.12f) plane.at(x, y) = value;
+      }
+    }
+  }
+  frame.sanitise(up);
+  return frame;
+}
+
+Worst sound(const HardWorld& world, float value) {
+  const Scene scene = noisy_scene(kSize);
+  return unsound_values(world, littered(value, scene.water->up), scene);
+}
+
+/// Every kind but those that entering replaces.
+Worst dry_bits(const HardWorld& world) {
+  Worst worst;
+  const Scene scene = noisy_scene(kSize);
+  for (const Kind& kind : kKinds) {
+    if (!std::isfinite(kind.value)) continue;
+    const HardFrame frame = littered(kind.value, scene.water->up);
+    const View<const float>& depth = frame.frame().plane(PlaneId::kDepth);
+    const View<const float>& surface = frame.frame().plane(PlaneId::kSurfaceDepth);
+    const View<const float>& dry = frame.frame().plane(PlaneId::kColorB);
+    for (const std::string& runner : world.runners()) {
+      const HardPicture picture = world.run(runner, world.looks()[0], frame, scene);
+      for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 0; x < kSize.width; ++x) {
+          if (surface.at(x, y) < depth.at(x, y)) continue;
+          const float out = picture.target.color[2].at(x, y);
+          worst.expect(
+              std::bit_cast<std::uint32_t>(out) == std::bit_cast<std::uint32_t>(dry.at(x, y)),
+              [&] { return place_text(runner, kind.name, x, y); });
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+/// Light is linear: a world 2^80 times as bright has the same bits but for the exponent.
+Worst brightness(const HardWorld& world) {
+  Worst worst;
+  const Scene scene = noisy_scene(kSize);
+  HardFrame frame = noisy_frame(kSize), bright = noisy_frame(kSize);
+  for (HardFrame* made : {&frame, &bright}) {
+    made->drop(PlaneId::kReflectionValid);  // the surroundings would stand in, as bright as ever
+  }
+  for (const PlaneId first : {PlaneId::kColorR, PlaneId::kReflectionR, PlaneId::kBelowR}) {
+    for (int c = 0; c < 3; ++c) {
+      const View<float> plane = bright.plane(plane_after(first, c));
+      for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 0; x < kSize.width; ++x) plane.at(x, y) *= 0x1p80f;
+      }
+    }
+  }
+  for (const Look& look : world.looks()) {
+    for (const std::string& runner : world.runners()) {
+      const HardPicture judge = world.run(runner, look, frame, scene);
+      const HardPicture picture = world.run(runner, look, bright, scene);
+      for (const Aov term : {Aov::kTransmitted, Aov::kReflected}) {
+        if (term == Aov::kReflected &&
+            look.of<FresnelReflection>().source != FresnelReflection::Source::kPlanar) {
+          continue;
+        }
+        for (int y = 0; y < kSize.height; ++y) {
+          for (int x = 0; x < kSize.width; ++x) {
+            const double off = picture.aov(term, x, y) - 0x1p80 * judge.aov(term, x, y);
+            worst.expect(off == 0, [&] { return place_text(runner, look.name, x, y); });
+          }
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+void add_pixel_cases(HardCases& cases) {
+  for (const Kind& kind : kKinds) {
+    cases.push_back({"pixels", std::string(kind.name) + " in every plane, every look",
+                     "values that are not finite",
+                     "what means nothing is replaced on entry, and sane input makes none", 0,
+                     [=](const HardWorld& world) { return sound(world, kind.value); }});
+  }
+  cases.push_back({"pixels", "dry ones of every kind", "values with other bits",
+                   "dry pixels are copied", 0, dry_bits});
+  cases.push_back({"pixels", "2^80 times as bright, every look", "values with other bits",
+                   "light is linear: the exponent alone changes", 0, brightness});
+}
+
+}  // namespace limpid
