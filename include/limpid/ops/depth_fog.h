@@ -159,7 +159,8 @@ struct DepthFog {
       p.transmittance = transmittance(length, rate);
       // What is above the surface, seen from below, is not lit through the water.
       const F under = select(p.side < F(0), F(0), way.end);
-      const Rgb<F> lit = select(from_air, bottom, F(1)) * transmittance(under, down);
+      const Rgb<F> fallen = transmittance(under, down);
+      const Rgb<F> lit = select(from_air, bottom, F(1)) * fallen;
       p.transmitted = lit * p.transmittance * p.transmitted;
 
       p.in_scatter = p.sun_near = p.sun_far = {F(0), F(0), F(0)};
@@ -172,9 +173,16 @@ struct DepthFog {
       if (medium.sunlit) {
         const F turned = henyey_greenstein(dot(to_sun, view), anisotropy);
         const F seen = select(from_air, water, F(1)) * turned;
-        const SunColumn<F> red = sun_column(way, rate.r, down.r);
-        const SunColumn<F> green = sun_column(way, rate.g, down.g);
-        const SunColumn<F> blue = sun_column(way, rate.b, down.b);
+        // From the air sunlight loses on its way down what the bottom's light has lost of it.
+        Rgb<F> left = p.transmittance * fallen;
+        if (any(!from_air)) {
+          left = select(from_air, left,
+                        {sun_left(way, rate.r, down.r), sun_left(way, rate.g, down.g),
+                         sun_left(way, rate.b, down.b)});
+        }
+        const SunColumn<F> red = sun_column(way, rate.r, down.r, left.r);
+        const SunColumn<F> green = sun_column(way, rate.g, down.g, left.g);
+        const SunColumn<F> blue = sun_column(way, rate.b, down.b, left.b);
         const Rgb<F> light = seen * (sun * Rgb<F>{red.light, green.light, blue.light});
         p.sun_far = light * Rgb<F>{red.far_share, green.far_share, blue.far_share};
         p.sun_near = light - p.sun_far;
