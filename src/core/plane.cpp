@@ -1,6 +1,7 @@
 #include "limpid/core/plane.h"
 
-#include <cstring>
+#include <cstdlib>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -12,9 +13,7 @@ constexpr std::size_t kAlignment = 64;
 constexpr std::ptrdiff_t kFloatsPerLine = kAlignment / sizeof(float);
 }  // namespace
 
-void Plane::Free::operator()(float* p) const {
-  ::operator delete (p, std::align_val_t{kAlignment});
-}
+void Plane::Free::operator()(float*) const { std::free(block); }
 
 Plane::Plane(Rect window) : window_(window) {
   if (window.empty()) {
@@ -24,8 +23,14 @@ Plane::Plane(Rect window) : window_(window) {
   y_stride_ = (window.width() + kFloatsPerLine - 1) / kFloatsPerLine * kFloatsPerLine;
   const std::size_t bytes = static_cast<std::size_t>(y_stride_) *
                             static_cast<std::size_t>(window.height()) * sizeof(float);
-  data_.reset(static_cast<float*>(::operator new (bytes, std::align_val_t{kAlignment})));
-  std::memset(data_.get(), 0, bytes);
+  // Zeros that the system hands out page by page, to the threads that fill them: clearing them here
+  // would touch all of it once more, on one thread.
+  std::size_t space = bytes + kAlignment;
+  void* block = std::calloc(space, 1);
+  if (block == nullptr) throw std::bad_alloc();
+  void* first = block;
+  std::align(kAlignment, bytes, first, space);
+  data_ = {static_cast<float*>(first), Free{block}};
 }
 
 }  // namespace limpid

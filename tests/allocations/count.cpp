@@ -1,4 +1,5 @@
-// A program of its own: it replaces the operators new of all of it, to count.
+// A program of its own: it replaces the operators new of all of it, and the linker leads calls of
+// calloc() to __wrap_calloc() (-Wl,--wrap), to count.
 #include "allocations/count.h"
 
 #include <atomic>
@@ -42,6 +43,12 @@ LIMPID_COUNTED void operator delete(void* p, std::size_t, std::align_val_t) noex
 }
 LIMPID_COUNTED void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
   std::free(p);
+}
+
+extern "C" void* __real_calloc(std::size_t number, std::size_t size);
+extern "C" void* __wrap_calloc(std::size_t number, std::size_t size) {
+  ++count;
+  return __real_calloc(number, size);
 }
 
 int limpid::test::allocations() { return count; }

@@ -2,7 +2,7 @@
 
 namespace limpid::test {
 
-/// How often any operator new of this program was called.
+/// How often any operator new or calloc() of this program was called.
 int allocations();
 
 }  // namespace limpid::test

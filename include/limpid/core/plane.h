@@ -38,7 +38,8 @@ class Plane {
 
  private:
   struct Free {
-    void operator()(float* p) const;
+    void* block;  ///< what was allocated; the first row is aligned within
+    void operator()(float*) const;
   };
   std::unique_ptr<float[], Free> data_;
   std::ptrdiff_t y_stride_ = 0;
