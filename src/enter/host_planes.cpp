@@ -1,62 +1,17 @@
 #include "enter/host_planes.h"
 
 #include <algorithm>
-#include <cfloat>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 
 #include "limpid/core/error.h"
+
+#include "enter/sane_row.h"
 
 namespace limpid {
 namespace {
 
 constexpr int kBandRows = 32;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-bool is_sane(Sanitise kind, float v) {
-  switch (kind) {
-    case Sanitise::kColor:
-      return std::abs(v) <= FLT_MAX;
-    case Sanitise::kDepth:
-      return (v < 1e9f && v >= -FLT_MAX) || v == kInfinity;
-    case Sanitise::kShadow:
-    case Sanitise::kMask:
-      return v >= 0 && v <= 1;
-    case Sanitise::kNormal:
-      break;
-  }
-  return false;  // normals are hardly ever unit to the last bit
-}
-
-/// The loop knows the kind, and where it can that pixels lie side by side.
-template <Sanitise kKind>
-bool row_is_sane(const float* row, std::ptrdiff_t stride, int count) {
-  bool sane = true;
-  if (stride == 1) {
-    for (int i = 0; i < count; ++i) sane &= is_sane(kKind, row[i]);
-  } else {
-    for (int i = 0; i < count; ++i) sane &= is_sane(kKind, row[i * stride]);
-  }
-  return sane;
-}
-
-bool row_is_sane(Sanitise kind, const float* row, std::ptrdiff_t stride, int count) {
-  switch (kind) {
-    case Sanitise::kColor:
-      return row_is_sane<Sanitise::kColor>(row, stride, count);
-    case Sanitise::kDepth:
-      return row_is_sane<Sanitise::kDepth>(row, stride, count);
-    case Sanitise::kShadow:
-      return row_is_sane<Sanitise::kShadow>(row, stride, count);
-    case Sanitise::kMask:
-      return row_is_sane<Sanitise::kMask>(row, stride, count);
-    case Sanitise::kNormal:
-      break;
-  }
-  return false;
-}
 
 void copy_row(const HostInput& from, int y, float* to, const HalfTarget& half) {
   const auto* row = static_cast<const std::byte*>(from.data) + (y - from.window.y0) * from.y_stride;
@@ -125,13 +80,14 @@ struct EnteredPlanes::Entry {
 
   void watch(const Role& role, int y0, int y1) const {
     Way& way = this->way(role);
+    const SaneRange range = sane_range(role.sanitise);
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = plane(role, i);
       if (!view) continue;
       const View<const float> floats = floats_of(view);
       for (int y = std::max(y0, view.window.y0); y < std::min(y1, view.window.y1); ++y) {
         if (way.wrong.load(std::memory_order_relaxed)) return;
-        if (!row_is_sane(role.sanitise, floats.row(y), floats.x_stride, view.window.width())) {
+        if (!row_is_sane(range, floats.row(y), floats.x_stride, view.window.width())) {
           way.wrong.store(true, std::memory_order_relaxed);
         }
       }

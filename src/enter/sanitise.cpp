@@ -8,6 +8,8 @@
 
 #include "limpid/core/error.h"
 
+#include "enter/sane_row.h"
+
 namespace limpid {
 namespace {
 
@@ -21,15 +23,25 @@ void for_each_pixel(const View<float>& plane, Fn&& fn) {
   }
 }
 
+/// Of the rows that hold anything but sane numbers: nearly always there is none.
+template <class Fn>
+void for_each_insane(const View<float>& plane, const SaneRange& range, Fn&& fn) {
+  const Rect& w = plane.window;
+  for (int y = w.y0; y < w.y1; ++y) {
+    if (row_is_sane(range, plane.row(y), plane.x_stride, w.width())) continue;
+    for_each_pixel({plane.row(y), plane.x_stride, plane.y_stride, {w.x0, y, w.x1, y + 1}}, fn);
+  }
+}
+
 /// Applies convert(value, x, y) to what is not "nothing hit"; returns how many values, or what they
 /// were converted to, were NaN or -inf.
 template <class Missed, class Convert>
 std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
   std::int64_t replaced = 0;
   for_each_pixel(plane, [&](float& z, int x, int y) {
-    const float depth =
-        missed(z) ? kNothingHit : static_cast<float>(convert(static_cast<double>(z), x, y));
-    const bool means_nothing = std::isnan(depth) || depth == -kNothingHit;
+    const double converted = convert(static_cast<double>(z), x, y);
+    const float depth = missed(z) ? kNothingHit : static_cast<float>(converted);
+    const bool means_nothing = !(depth > -kNothingHit);
     replaced += means_nothing;
     z = means_nothing ? kNothingHit : depth;
   });
@@ -37,9 +49,9 @@ std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& 
 }
 
 /// Clamped to 0 ... 1; NaN and inf become `otherwise` and are counted.
-std::int64_t sanitise_share(const View<float>& plane, float otherwise) {
+std::int64_t sanitise_share(const View<float>& plane, Sanitise kind, float otherwise) {
   std::int64_t replaced = 0;
-  for_each_pixel(plane, [&](float& s, int, int) {
+  for_each_insane(plane, sane_range(kind), [&](float& s, int, int) {
     if (std::isfinite(s)) {
       s = s < 0 ? 0 : s > 1 ? 1 : s;
     } else {
@@ -75,7 +87,7 @@ std::string SanitiseCounts::to_text() const {
 
 std::int64_t sanitise_color(const View<float>& plane) {
   std::int64_t replaced = 0;
-  for_each_pixel(plane, [&](float& c, int, int) {
+  for_each_insane(plane, sane_range(Sanitise::kColor), [&](float& c, int, int) {
     if (std::isfinite(c)) return;
     c = 0;
     ++replaced;
@@ -83,9 +95,13 @@ std::int64_t sanitise_color(const View<float>& plane) {
   return replaced;
 }
 
-std::int64_t sanitise_shadow(const View<float>& plane) { return sanitise_share(plane, 1); }
+std::int64_t sanitise_shadow(const View<float>& plane) {
+  return sanitise_share(plane, Sanitise::kShadow, 1);
+}
 
-std::int64_t sanitise_mask(const View<float>& plane) { return sanitise_share(plane, 0); }
+std::int64_t sanitise_mask(const View<float>& plane) {
+  return sanitise_share(plane, Sanitise::kMask, 0);
+}
 
 std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
                              glm::dvec3 up) {
@@ -109,8 +125,15 @@ std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source)
   const float nothing = source.half ? 6e4f : 1e9f;
   const auto far_away = [=](float z) { return z >= nothing; };
   switch (source.kind) {
-    case DepthKind::kEye:
-      return convert_depth(plane, far_away, [](double z, int, int) { return z; });
+    case DepthKind::kEye: {
+      std::int64_t replaced = 0;
+      for_each_insane(plane, sane_range(Sanitise::kDepth, nothing), [&](float& z, int, int) {
+        if (z > -kNothingHit && z < nothing) return;
+        replaced += !(z > -kNothingHit);
+        z = kNothingHit;
+      });
+      return replaced;
+    }
     case DepthKind::kRay: {
       const Rect& d = source.display;
       const Rays rays = rays_of(camera_of(source, "ray"), {d.width(), d.height()});

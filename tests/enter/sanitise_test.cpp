@@ -36,6 +36,33 @@ TEST(Sanitise, ColorAndShadow) {
   EXPECT_EQ(shadow, (std::vector<float>{0.25f, 1, 1, 0, 1}));
 }
 
+/// Rows are looked through before one of their values is touched: wherever the wrong one lies.
+TEST(Sanitise, OneValueAmongManyIsFound) {
+  struct Kind {
+    std::int64_t (*sanitise)(const View<float>&);
+    float wrong, right;
+    int counted;
+  };
+  const auto depth = [](const View<float>& v) { return make_eye_depth(v, {}); };
+  const Kind kinds[] = {{sanitise_color, kNan, 0, 1},  {sanitise_color, -kInf, 0, 1},
+                        {sanitise_shadow, kNan, 1, 1}, {sanitise_shadow, 1.5f, 1, 0},
+                        {sanitise_mask, -0.25f, 0, 0}, {depth, kNan, kInf, 1},
+                        {depth, -kInf, kInf, 1},       {depth, 1e9f, kInf, 0}};
+  for (const Kind& kind : kinds) {
+    for (const int stride : {1, 3}) {
+      for (int wrong_at = 0; wrong_at < 37; ++wrong_at) {
+        constexpr Rect kWindow{0, 0, 37, 3};
+        std::vector<float> values(37 * 3 * 3, 0.5f), expected = values;
+        const auto at = static_cast<std::size_t>((37 + wrong_at) * stride);
+        values[at] = kind.wrong;
+        expected[at] = kind.right;
+        EXPECT_EQ(kind.sanitise({values.data(), stride, 37 * stride, kWindow}), kind.counted);
+        ASSERT_EQ(values, expected) << kind.wrong << " at " << wrong_at << ", stride " << stride;
+      }
+    }
+  }
+}
+
 TEST(Sanitise, NormalsAreMadeUnitOrUp) {
   std::vector<float> x{3, 0, kNan}, y{0, 0, 1}, z{4, 0, 0};
   const auto view = [](std::vector<float>& v) {
