@@ -12,7 +12,7 @@ struct SaneRange {
 };
 
 /// Of a frame's plane. Normals have none: they are hardly ever unit to the last bit. `nothing_hit`
-/// is the depth from which on nothing was hit.
+/// counts for kDepth alone: from that depth on nothing was hit.
 SaneRange sane_range(Sanitise kind, float nothing_hit = 1e9f);
 
 /// Whether all of `count` numbers, `stride` floats apart, are in the range.

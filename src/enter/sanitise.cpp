@@ -23,7 +23,8 @@ void for_each_pixel(const View<float>& plane, Fn&& fn) {
   }
 }
 
-/// Of the rows that hold anything but sane numbers: nearly always there is none.
+/// All values of rows that hold any insane one, which nearly always none does. `fn` leaves the sane
+/// ones as they are.
 template <class Fn>
 void for_each_insane(const View<float>& plane, const SaneRange& range, Fn&& fn) {
   const Rect& w = plane.window;

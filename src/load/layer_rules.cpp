@@ -33,8 +33,10 @@ constexpr LayerRule kRules[] = {
     {kLayer, "color",          "color|colour",                kPicture,   "Blender's File Output"},
     {kLayer, "color",          "rgba|rgb|beauty",             kPicture,   "Nuke, Arnold, oiiotool"},
     {kLayer, "color",          "c",                           kPicture,   "Karma"},
+    {kLayer, "color",          "final image",                 kPicture,   "Unreal"},
     {kLayer, "depth",          "depth",                       kLength,    "Blender, Nuke, Natron"},
     {kLayer, "depth",          "z",                           "Z",        "Arnold"},
+    {kLayer, "depth",          "final image movie render queue world depth", kGrayLength, "Unreal"},
     {kLayer, "depth",          "combined|color|colour|rgba|rgb|beauty|c", "Z", "beside the color"},
     {kLayer, "shadow",         "shadow",                      kMask,      "Blender"},
     {kLayer, "shadow",         "shadow matte|shadow mask",    kMask,      "Arnold, Karma"},
@@ -67,7 +69,7 @@ constexpr LayerRule kRules[] = {
     {kFileName, "reflection",     "reflection|water reflection", kMirror,   "file name"},
     {kFileName, "color",          "color|colour|beauty|rgba|combined", kPicture, "file name"},
 
-    {kBare, "color", "", kRgba, "Blender, Nuke, Arnold, Karma, V-Ray"},
+    {kBare, "color", "", kRgba, "Blender, Nuke, Arnold, Karma, V-Ray, Unreal"},
     {kBare, "depth", "", "Z",   "Blender, Arnold, Karma, V-Ray"},
 
     {kGiven, "reflection",     "combined|color|colour|rgba|rgb|beauty|c", kMirror,     "a mirrored picture"},

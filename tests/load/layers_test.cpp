@@ -198,6 +198,21 @@ TEST(FindLayers, ArnoldAndKarma) {
             "color: R G B A\ndepth: Z\nshadow: shadow_mask\n");
 }
 
+/// Movie Render Queue: the world's depth is gray, beside the final image with a layer or without.
+TEST(FindLayers, Unreal) {
+  for (const std::string image : {"", "FinalImage."}) {
+    std::vector<std::string> channels;
+    for (const char* component : {"A", "B", "G", "R"}) channels.push_back(image + component);
+    for (const std::string layer :
+         {"ActorHitProxyMask00.", "FinalImageMovieRenderQueue_MotionVectors.",
+          "FinalImageMovieRenderQueue_WorldDepth."}) {
+      for (const char* component : {"A", "B", "G", "R"}) channels.push_back(layer + component);
+    }
+    EXPECT_EQ(found(channels), "color: " + image + "R " + image + "G " + image + "B " + image +
+                                   "A\ndepth: FinalImageMovieRenderQueue_WorldDepth.R\n");
+  }
+}
+
 TEST(FindLayers, VRayNormalsAreOfTheDryScene) {
   EXPECT_EQ(found({"A",
                    "B",
@@ -377,7 +392,7 @@ TEST(FindLayers, ReasonsAreTold) {
   EXPECT_EQ(reason({source(0, "a.exr", {"shadow_mask"})}, "shadow"),
             "channel 'shadow_mask' (Arnold, Karma)");
   EXPECT_EQ(reason({source(0, "a.exr", kRgba)}, "color"),
-            "channels without a layer (Blender, Nuke, Arnold, Karma, V-Ray)");
+            "channels without a layer (Blender, Nuke, Arnold, Karma, V-Ray, Unreal)");
   EXPECT_EQ(reason({source(0, "shadow.exr", {"Y"})}, "shadow"), "the file's name");
 }
 

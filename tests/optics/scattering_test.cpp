@@ -57,6 +57,21 @@ TEST(SunColumn, HandWorked) {
   EXPECT_NEAR(sun_column(way(3, -1, 3), 0.0, 0.5).light, (1 - std::exp(-1.5)) / 0.5, 1e-12);
 }
 
+/// As depth_fog takes it from what it has.
+TEST(SunColumn, LeftIsWhatTheEndLosesOfWaysThatBeginAtTheSurface) {
+  for (double rate : {0.0, 0.1, 1.5}) {
+    for (double down : {0.0, 0.2, 2.5}) {
+      for (double sink : {0.0, 0.6, 1.0}) {
+        const Way<double> w = way(3, sink, 0);
+        EXPECT_NEAR(sun_left(w, rate, down), std::exp(-rate * w.length) * std::exp(-down * w.end),
+                    1e-15);
+      }
+    }
+  }
+  // Where it brightens it is the other way round.
+  EXPECT_NEAR(sun_left(way(3, -1, 3), 0.0, 0.5), std::exp(-1.5), 1e-15);
+}
+
 // 3e38 is what +inf counts as.
 TEST(SunColumn, FiniteForAnyWay) {
   for (double rate : {0.0, 1e-30, 0.3, 2e6}) {

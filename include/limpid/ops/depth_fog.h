@@ -152,7 +152,8 @@ struct DepthFog {
       const auto from_air = p.side > F(0);
       const Vec3<F> view =
           select(from_air, refract(p.to_viewer, up, eta).direction, F(-1) * p.to_viewer);
-      const F length = min(p.path, F(3e38)), sink = F(0) - dot(view, up);
+      const F length = min(p.path, F(3e38)), fall = F(0) - dot(view, up);
+      const F sink = select(from_air, max(fall, F(0)), fall);  // against rounding
       const F begin = select(from_air, F(0), eye_depth);
       const Way<F> way{length, sink, begin, max(begin + sink * length, F(0))};
 
@@ -173,7 +174,8 @@ struct DepthFog {
       if (medium.sunlit) {
         const F turned = henyey_greenstein(dot(to_sun, view), anisotropy);
         const F seen = select(from_air, water, F(1)) * turned;
-        // From the air sunlight loses on its way down what the bottom's light has lost of it.
+        // sun_left() of ways that begin at the surface and go down, as all from the air do: what
+        // the light of their end loses, to it and from it.
         Rgb<F> left = p.transmittance * fallen;
         if (any(!from_air)) {
           left = select(from_air, left,

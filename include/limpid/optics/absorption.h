@@ -19,7 +19,8 @@ LIMPID_INLINE Rgb<F> transmittance(F path, Rgb<F> attenuation) {
   return {exp(finite * attenuation.r), exp(finite * attenuation.g), exp(finite * attenuation.b)};
 }
 
-/// 1/tau - 1/(exp(tau) - 1), where that difference cancels: tau in 0 ... 1. Error below 1e-9.
+/// 1/tau - 1/(exp(tau) - 1), where that difference cancels: tau in 0 ... 1. Error below 1e-9
+/// in double.
 template <class F>
 LIMPID_INLINE F thin_share(F tau) {
   const F square = tau * tau;

@@ -71,7 +71,7 @@ struct ModelRow {
   PixelError error;
   double rmse = 0, rel_mse = 0, ssim = 0, flip = 0, hdr_flip = 0;
   double flicker = 0;  ///< mean change to the next of 24 frames a second beyond the truth's own
-  /// Of lookups of wet pixels (report/offset.h).
+  /// Of lookups of wet pixels (compare/offset.h).
   double offset_median = 0, offset_p95 = 0;  ///< pixels
   double wrongly_rejected = 0, wrongly_accepted = 0;
 };
