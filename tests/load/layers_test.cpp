@@ -5,32 +5,19 @@
 
 #include "limpid/core/error.h"
 
+#include "load/layer_names.h"
+
 namespace limpid {
 namespace {
 
+using test::chosen;
+using test::kBlenderMultilayer;
+using test::kRgb;
+using test::kRgba;
+using test::Names;
+using test::source;
+using test::text_of;
 using testing::HasSubstr;
-using Names = std::vector<std::string>;
-
-LayerSource source(int file, const std::string& file_name, const Names& channels,
-                   const std::string& part_name = "", int part = 0, const std::string& view = "") {
-  return {file, part, file_name, part_name, view, channels};
-}
-
-/// "depth: ViewLayer.Depth.Z" a line, with file and part in front of the name where not 0.
-std::string text_of(const LayerChoices& choices) {
-  std::string text;
-  for (const Role& role : roles()) {
-    if (!choices.contains(role.name)) continue;
-    Names names;
-    for (const ChannelRef& ref : choices.at(role.name).channels) {
-      const std::string file = ref.file ? std::to_string(ref.file) + ":" : "";
-      const std::string part = ref.part ? "#" + std::to_string(ref.part) + ":" : "";
-      names.push_back(file + part + ref.name);
-    }
-    text += std::string(role.name) + ": " + join(names, " ") + "\n";
-  }
-  return text;
-}
 
 std::string found_in(const std::vector<LayerSource>& sources) {
   try {
@@ -43,34 +30,6 @@ std::string found_in(const std::vector<LayerSource>& sources) {
 std::string found(const Names& channels, const std::string& file_name = "plate.exr") {
   return found_in({source(0, file_name, channels)});
 }
-
-std::string chosen(const std::string& role, const std::string& text,
-                   const std::vector<LayerSource>& sources) {
-  try {
-    LayerChoices choices;
-    const Role& r = role_named(role);
-    choices[r.name] = choose_layer(r, text, sources);
-    return text_of(choices);
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
-const Names kBlenderMultilayer = {
-    "ViewLayer.Combined.A",       "ViewLayer.Combined.B",       "ViewLayer.Combined.G",
-    "ViewLayer.Combined.R",       "ViewLayer.CryptoObject00.a", "ViewLayer.CryptoObject00.b",
-    "ViewLayer.CryptoObject00.g", "ViewLayer.CryptoObject00.r", "ViewLayer.CryptoObject01.a",
-    "ViewLayer.CryptoObject01.b", "ViewLayer.CryptoObject01.g", "ViewLayer.CryptoObject01.r",
-    "ViewLayer.CryptoObject02.a", "ViewLayer.CryptoObject02.b", "ViewLayer.CryptoObject02.g",
-    "ViewLayer.CryptoObject02.r", "ViewLayer.Depth.Z",          "ViewLayer.DiffCol.B",
-    "ViewLayer.DiffCol.G",        "ViewLayer.DiffCol.R",        "ViewLayer.IndexOB.X",
-    "ViewLayer.Mist.Z",           "ViewLayer.Normal.X",         "ViewLayer.Normal.Y",
-    "ViewLayer.Normal.Z",         "ViewLayer.Position.X",       "ViewLayer.Position.Y",
-    "ViewLayer.Position.Z",       "ViewLayer.Shadow Catcher.B", "ViewLayer.Shadow Catcher.G",
-    "ViewLayer.Shadow Catcher.R", "ViewLayer.Shadow.B",         "ViewLayer.Shadow.G",
-    "ViewLayer.Shadow.R"};
-const Names kRgba = {"A", "B", "G", "R"};
-const Names kRgb = {"B", "G", "R"};
 
 TEST(FindLayers, BlenderMultilayer) {
   EXPECT_EQ(found(kBlenderMultilayer),
@@ -465,104 +424,6 @@ TEST(LayerSources, HaveTheNamesOfTheParts) {
   EXPECT_EQ(sources[0].channels, (Names{"G", "R"}));
   EXPECT_EQ(sources[1].part, 1);
   EXPECT_EQ(sources[1].file_name, "a.exr");
-}
-
-const std::vector<LayerSource> kBlender = {source(0, "dry.exr", kBlenderMultilayer)};
-
-TEST(ChooseLayer, ByChannel) {
-  EXPECT_EQ(chosen("depth", "ViewLayer.Mist.Z", kBlender), "depth: ViewLayer.Mist.Z\n");
-  EXPECT_EQ(chosen("depth", "viewlayer.depth.z", kBlender), "depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("depth", "Depth.Z", kBlender), "depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("depth", "ViewLayer.Normal.Z", kBlender), "depth: ViewLayer.Normal.Z\n");
-  EXPECT_EQ(chosen("color", "Depth.Z", kBlender),
-            "color: ViewLayer.Depth.Z ViewLayer.Depth.Z ViewLayer.Depth.Z\n");
-}
-
-TEST(ChooseLayer, ByList) {
-  EXPECT_EQ(chosen("color", "DiffCol.R, DiffCol.G, DiffCol.B", kBlender),
-            "color: ViewLayer.DiffCol.R ViewLayer.DiffCol.G ViewLayer.DiffCol.B\n");
-  EXPECT_EQ(chosen("surface_normal", "B,G,R", {source(2, "n.exr", kRgb)}),
-            "surface_normal: 2:B 2:G 2:R\n");
-}
-
-TEST(ChooseLayer, ByLayer) {
-  EXPECT_EQ(chosen("depth", "ViewLayer.Depth", kBlender), "depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("depth", "depth", kBlender), "depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("shadow", "shadow catcher", kBlender), "shadow: ViewLayer.Shadow Catcher.R\n");
-  EXPECT_EQ(chosen("surface_normal", "Normal", kBlender),
-            "surface_normal: ViewLayer.Normal.X ViewLayer.Normal.Y ViewLayer.Normal.Z\n");
-  EXPECT_EQ(chosen("reflection", "ViewLayer.Combined", kBlender),
-            "reflection: ViewLayer.Combined.R ViewLayer.Combined.G ViewLayer.Combined.B\n");
-  EXPECT_EQ(chosen("depth", "normal",
-                   {source(0, "p.exr", {"Z"}, "depth"), source(0, "p.exr", {"Z"}, "normal", 1)}),
-            "depth: #1:Z\n");
-}
-
-TEST(ChooseLayer, ANameWithACommaIsTriedWhole) {
-  EXPECT_EQ(chosen("depth", "rocks, sand.Z", {source(0, "a.exr", {"rocks, sand.Z"})}),
-            "depth: rocks, sand.Z\n");
-}
-
-TEST(ChooseLayer, AWholeFile) {
-  EXPECT_EQ(chosen("depth", "", {source(1, "far.exr", kRgb)}), "depth: 1:R\n");
-  EXPECT_EQ(chosen("depth", "", kBlender), "depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("depth", "", {source(0, "a.exr", {"A", "B", "G", "R", "Z"})}), "depth: Z\n");
-  EXPECT_EQ(chosen("depth", "", {source(0, "water_depth.exr", {"Z"})}), "depth: Z\n");
-  EXPECT_EQ(chosen("surface_depth", "", {source(0, "a.exr", {"A", "B", "G", "R", "Z"})}),
-            "surface_depth: Z\n");
-  EXPECT_EQ(chosen("surface_depth", "", kBlender), "surface_depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("surface_normal", "", kBlender),
-            "surface_normal: ViewLayer.Normal.X ViewLayer.Normal.Y ViewLayer.Normal.Z\n");
-  EXPECT_EQ(chosen("reflection", "", {source(0, "mirror.exr", {"A", "B", "G", "R", "Z"})}),
-            "reflection: R G B\n");
-  EXPECT_EQ(chosen("shadow", "", {source(0, "a.exr", {"light.sun.V"})}), "shadow: light.sun.V\n");
-  EXPECT_EQ(chosen("below_color", "", kBlender),
-            "below_color: ViewLayer.Combined.R ViewLayer.Combined.G ViewLayer.Combined.B\n");
-  EXPECT_EQ(chosen("below_depth", "", kBlender), "below_depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("reflection_depth", "", kBlender), "reflection_depth: ViewLayer.Depth.Z\n");
-  EXPECT_EQ(chosen("surface_shadow", "", kBlender), "surface_shadow: ViewLayer.Shadow.R\n");
-  EXPECT_EQ(chosen("reflection_valid", "", {source(0, "a.exr", kRgb)}), "reflection_valid: R\n");
-  EXPECT_EQ(chosen("reflection_valid", "", {source(0, "a.exr", {"reflection.A", "reflection.R"})}),
-            "reflection_valid: reflection.A\n");
-}
-
-TEST(ChooseLayer, AWholeFileWithNothingForTheRole) {
-  EXPECT_EQ(chosen("surface_normal", "", {source(0, "a.exr", {"Z", "left.A", "mask.A"})}),
-            "surface_normal=a.exr: nothing there is known to be world normal of the water surface; "
-            "name its channels, there is Z, left (A), mask (A)");
-}
-
-TEST(ChooseLayer, AMisspeltNameGetsTheNearest) {
-  const std::vector<LayerSource> small = {
-      source(0, "a.exr", {"A", "B", "G", "R", "ViewLayer.Depth.Z"})};
-  EXPECT_EQ(chosen("depth", "ViewLayer.Dept.Z", small),
-            "depth=ViewLayer.Dept.Z: no channel or layer 'ViewLayer.Dept.Z'; there is R G B A, "
-            "ViewLayer.Depth (Z); did you mean 'ViewLayer.Depth.Z'?");
-  EXPECT_EQ(chosen("color", "R,G,Blue sky", small),
-            "color=R,G,Blue sky: no channel or layer 'Blue sky'; there is R G B A, "
-            "ViewLayer.Depth (Z)");
-  EXPECT_THAT(chosen("depth", "Z", {}), HasSubstr("there is no channel"));
-}
-
-TEST(ChooseLayer, AWrongCountSaysHowManyAreNeeded) {
-  EXPECT_EQ(chosen("depth", "DiffCol.R,DiffCol.G", kBlender),
-            "depth=DiffCol.R,DiffCol.G means 2 channels: depth needs 1 channel");
-  EXPECT_EQ(chosen("color", "DiffCol.R,DiffCol.G", kBlender),
-            "color=DiffCol.R,DiffCol.G means 2 channels: color needs 4 channels, 3 (no alpha) or "
-            "1 (gray)");
-  EXPECT_EQ(chosen("reflection", "Normal.X,Normal.Y", kBlender),
-            "reflection=Normal.X,Normal.Y means 2 channels: reflection needs 3 channels or 1 "
-            "(gray)");
-  EXPECT_EQ(chosen("surface_normal", "Depth.Z", kBlender),
-            "surface_normal=Depth.Z means 1 channel: surface_normal needs 3 channels");
-  EXPECT_EQ(chosen("depth", "Normal", kBlender),
-            "depth=Normal means 3 channels: depth needs 1 channel");
-}
-
-TEST(ChooseLayer, AnUnclearNameListsWhatItMayMean) {
-  EXPECT_THAT(chosen("depth", "Z", kBlender),
-              HasSubstr("depth=Z: 4 choices fit equally well: ViewLayer.Depth.Z, ViewLayer.Mist.Z, "
-                        "ViewLayer.Normal.Z, ViewLayer.Position.Z; say which"));
 }
 
 }  // namespace
