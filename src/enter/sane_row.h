@@ -8,7 +8,7 @@ namespace limpid {
 /// What numbers need not be touched on entry: NaN never is one of them.
 struct SaneRange {
   float least, most;
-  float besides;  ///< one more
+  float besides;  ///< one more; none where it is NaN
 };
 
 /// Of a frame's plane. Normals have none: they are hardly ever unit to the last bit. `nothing_hit`

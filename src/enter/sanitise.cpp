@@ -40,8 +40,8 @@ template <class Missed, class Convert>
 std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
   std::int64_t replaced = 0;
   for_each_pixel(plane, [&](float& z, int x, int y) {
-    const double converted = convert(static_cast<double>(z), x, y);
-    const float depth = missed(z) ? kNothingHit : static_cast<float>(converted);
+    const float depth =
+        missed(z) ? kNothingHit : static_cast<float>(convert(static_cast<double>(z), x, y));
     const bool means_nothing = !(depth > -kNothingHit);
     replaced += means_nothing;
     z = means_nothing ? kNothingHit : depth;
