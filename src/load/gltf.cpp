@@ -13,6 +13,7 @@
 #include "load/gltf_parse.h"
 #include "load/gltf_scene.h"
 #include "load/gltf_texture.h"
+#include "load/model_warnings.h"
 
 namespace limpid {
 namespace {
@@ -49,7 +50,9 @@ Model gltf_model(const GltfFile& file, const fs::path& folder, const Limits& lim
   std::optional<std::int64_t> binary_bytes;
   if (file.binary) binary_bytes = static_cast<std::int64_t>(file.binary->size());
   check_gltf(root, binary_bytes, limits);
-  const GltfMaterials looks = read_gltf_materials(root);
+  ModelWarnings warnings;
+  if (root.count("animations") > 0) warnings.add("animations are not played, nodes stay in place");
+  const GltfMaterials looks = read_gltf_materials(root, warnings);
 
   MemoryBudget budget{limits.max_memory};
   budget.take(file.memory, "its JSON");
@@ -69,6 +72,7 @@ Model gltf_model(const GltfFile& file, const fs::path& folder, const Limits& lim
   }
   read_gltf_scene(gltf, looks.materials, budget, model);
   model.background = background_of(root, model.background);
+  model.warnings = warnings.lines();
   return model;
 }
 

@@ -10,6 +10,7 @@ namespace {
 // In the order of Shading.
 constexpr std::string_view kShadings[] = {"flat", "textured", "lambert", "phong", "toon"};
 constexpr std::string_view kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};
+constexpr const char* kUnlit = "KHR_materials_unlit";
 constexpr std::int64_t kRepeat = 10497, kClamp = 33071, kMirror = 33648;
 
 Rgb<double> rgb(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
@@ -30,8 +31,10 @@ bool repeats(const JsonPlace& sampler) {
 
 class Reader {
  public:
-  explicit Reader(const JsonPlace& root)
-      : textures_(root.list("textures")), texture_of_image_(root.count("images"), -1) {
+  Reader(const JsonPlace& root, ModelWarnings& warnings)
+      : warnings_(warnings),
+        textures_(root.list("textures")),
+        texture_of_image_(root.count("images"), -1) {
     for (const JsonPlace& sampler : root.list("samplers")) {
       sampler_repeats_.push_back(repeats(sampler));
     }
@@ -53,11 +56,18 @@ class Reader {
     if (const auto sided = place.find("doubleSided")) material.double_sided = sided->boolean();
     if (const auto mode = place.find("alphaMode")) read.opaque = mode->choice(kAlphaModes) == 0;
     if (const auto base = place.find("pbrMetallicRoughness")) read_base(*base, read);
-    const auto extensions = place.find("extensions");
-    if (extensions && extensions->find("KHR_materials_unlit")) {
+    if (const auto extensions = place.find("extensions")) read_extensions(*extensions, read);
+    if (const auto extras = place.extras()) read_extras(*extras, read);
+  }
+
+  void read_extensions(const JsonPlace& extensions, GltfMaterial& read) {
+    Material& material = read.material;
+    if (extensions.find(kUnlit)) {
       material.shading = material.base_texture < 0 ? Shading::kFlat : Shading::kTextured;
     }
-    if (const auto extras = place.extras()) read_extras(*extras, read);
+    for (const std::string& name : extensions.keys()) {
+      if (name != kUnlit) warnings_.add(name + " is not drawn", extensions.path());
+    }
   }
 
   void read_base(const JsonPlace& base, GltfMaterial& read) {
@@ -130,6 +140,7 @@ class Reader {
     return index;
   }
 
+  ModelWarnings& warnings_;
   std::vector<JsonPlace> textures_;
   std::vector<int> texture_of_image_;
   std::vector<bool> sampler_repeats_;
@@ -138,6 +149,8 @@ class Reader {
 
 }  // namespace
 
-GltfMaterials read_gltf_materials(const JsonPlace& root) { return Reader(root).take(); }
+GltfMaterials read_gltf_materials(const JsonPlace& root, ModelWarnings& warnings) {
+  return Reader(root, warnings).take();
+}
 
 }  // namespace limpid

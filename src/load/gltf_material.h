@@ -4,6 +4,7 @@
 #include "limpid/raster/model.h"
 
 #include "load/json_place.h"
+#include "load/model_warnings.h"
 
 namespace limpid {
 
@@ -21,6 +22,6 @@ struct GltfMaterials {
 
 /// Reads and checks the materials, textures and samplers, from the document itself: tinygltf leaves
 /// out what is not of the type it expects. Throws Error as load_gltf() says.
-GltfMaterials read_gltf_materials(const JsonPlace& root);
+GltfMaterials read_gltf_materials(const JsonPlace& root, ModelWarnings& warnings);
 
 }  // namespace limpid

@@ -70,6 +70,13 @@ std::size_t JsonPlace::count(std::string_view key) const {
   return found ? found->value_->size() : 0;
 }
 
+std::vector<std::string> JsonPlace::keys() const {
+  expect_object();
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : value_->items()) keys.push_back(key);
+  return keys;
+}
+
 std::optional<JsonPlace> JsonPlace::extras() const {
   const std::optional<JsonPlace> extras = find("extras");
   if (!extras || !extras->value_->is_object()) return std::nullopt;  // anybody's, of any type

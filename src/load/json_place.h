@@ -31,6 +31,8 @@ class JsonPlace {
   /// How many list(key) would give.
   std::size_t count(std::string_view key) const;
   void expect_object() const;
+  /// The keys of an object.
+  std::vector<std::string> keys() const;
   /// The member "limpid" of the member "extras", where there is one.
   std::optional<JsonPlace> extras() const;
   /// Throws unless every key of the object is known; gives the nearest known name.

@@ -97,6 +97,7 @@ TEST(Gltf, ReadsASquare) {
   EXPECT_FALSE(model.sun);
   EXPECT_EQ(model.background, (Rgb<double>{0.5, 0.7, 1.0}));
   EXPECT_EQ(model.skipped_triangles, 0);
+  EXPECT_THAT(model.warnings, ElementsAre());
 }
 
 TEST(Gltf, ReadsBuffersBesideTheFileAndInBinaries) {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "limpid/missing.h"
+#include "limpid/raster/model.h"
 #include "limpid/resume.h"
 
 #include "arguments.h"
@@ -21,5 +22,7 @@ std::string ranges_text(const std::vector<int>& numbers);
 void tell_rest(const Rest& rest, const CommonArguments& common);
 /// Which frames lack a plate and what becomes of them; with -v each file.
 void tell_missing(const FilledSequence& filled, std::size_t of, const CommonArguments& common);
+/// What of a scene's geometry is not drawn, a line each; `file` is where it was read from.
+void tell_warnings(const Model& model, const std::string& file, const CommonArguments& common);
 
 }  // namespace limpid::tool

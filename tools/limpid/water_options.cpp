@@ -17,6 +17,7 @@
 #include "data_folder.h"
 #include "frame_options.h"
 #include "memory_limit.h"
+#include "notes.h"
 
 namespace limpid::tool {
 namespace {
@@ -128,6 +129,7 @@ Model model_to_render(const SceneFile& scene, const CommonArguments& common) {
     std::printf("%s: %lld triangles of no area left out\n", scene.geometry.c_str(),
                 static_cast<long long>(model.skipped_triangles));
   }
+  tell_warnings(model, scene.geometry.string(), common);
   return model;
 }
 

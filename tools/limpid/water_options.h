@@ -39,7 +39,7 @@ Look look_of(const WaterOptions& options);
 
 /// Throws the Error for a scene file without geometry.
 SceneFile scene_to_render(const std::string& path);
-/// Its geometry. Says so where it had triangles of no area.
+/// Its geometry. Says so where it had triangles of no area, and what is not drawn.
 Model model_to_render(const SceneFile& scene, const CommonArguments& common);
 
 /// Throws the usage Error for no name, or one that is not an EXR's.

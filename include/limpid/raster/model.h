@@ -74,6 +74,9 @@ struct Model {
   std::optional<Sun> sun;        ///< the first directional light
   Rgb<double> background{0.5, 0.7, 1.0};
   std::int64_t skipped_triangles = 0;  ///< zero-area or otherwise degenerate, left out
+  /// What of the file is not drawn, or not as the file says: a sentence each, without the file's
+  /// name. Names in the sentences are those of the file, of any bytes.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace limpid
