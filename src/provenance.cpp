@@ -34,7 +34,8 @@ class ModelHash {
   ContentHash hash_;
 };
 
-static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8 && sizeof(glm::dmat4) == 128,
+static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8 && sizeof(glm::vec4) == 16 &&
+                  sizeof(glm::dmat4) == 128,
               "lists of vectors are hashed as their numbers, without gaps");
 
 /// Names do not count, nor what was left out: nothing of them is seen.
@@ -45,15 +46,22 @@ std::string hash_of_model(const Model& model) {
     hash.add_list(mesh.positions);
     hash.add_list(mesh.normals);
     hash.add_list(mesh.uvs);
+    hash.add_list(mesh.second_uvs);
+    hash.add_list(mesh.colors);
     hash.add_list(mesh.indices);
     hash.add(mesh.material);
   }
   hash.add_count(model.materials.size());
   for (const Material& m : model.materials) {
     hash.add(m.shading, m.base_texture, m.specular_texture, m.power, m.double_sided);
+    hash.add(m.alpha_mode, m.alpha, m.alpha_cutoff, m.emissive_texture);
     hash.add(m.base_color);
     hash.add(m.ambient);
     hash.add(m.specular);
+    hash.add(m.emission);
+    for (const TextureLookup& lookup : {m.base_lookup, m.specular_lookup, m.emissive_lookup}) {
+      hash.add(lookup.uv_set, lookup.wrap_u, lookup.wrap_v);
+    }
   }
   hash.add_count(model.textures.size());
   for (const ModelTexture& texture : model.textures) {

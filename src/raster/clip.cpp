@@ -7,13 +7,19 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "raster/prepared.h"
+
 namespace limpid::raster {
 namespace {
 
+/// Normal and uv; then, for a mesh that has any of them, color and second uv.
+constexpr std::size_t kFew = 5, kAll = 11;
+
 struct Vertex {
   std::array<double, VertexTransform::kRows> row;
-  std::array<double, 5> attribute;  ///< normal, uv
-  const Corner* whole = nullptr;    ///< where the vertex stage put it, if that was inside
+  std::array<double, kAll> attribute;
+  std::size_t attributes;         ///< how many of them there are
+  const Corner* whole = nullptr;  ///< where the vertex stage put it, if that was inside
 
   double w(const VertexTransform& t) const {
     return t.perspective ? row[VertexTransform::kDepth] : 1;
@@ -62,7 +68,8 @@ Vertex between(const Vertex& inside, const Vertex& outside, double t) {
   for (std::size_t i = 0; i < v.row.size(); ++i) {
     v.row[i] = inside.row[i] + t * (outside.row[i] - inside.row[i]);
   }
-  for (std::size_t i = 0; i < v.attribute.size(); ++i) {
+  v.attributes = inside.attributes;
+  for (std::size_t i = 0; i < v.attributes; ++i) {
     v.attribute[i] = inside.attribute[i] + t * (outside.attribute[i] - inside.attribute[i]);
   }
   return v;
@@ -103,6 +110,12 @@ Vertex transformed(const DrawnInstance& instance, const Corner* corners, std::ui
     v.attribute[3] = instance.mesh.uvs[2 * std::ptrdiff_t{index}];
     v.attribute[4] = instance.mesh.uvs[2 * std::ptrdiff_t{index} + 1];
   }
+  v.attributes = has_more(instance.mesh) ? kAll : kFew;
+  if (v.attributes == kFew) return v;
+  const MoreAttributes more = more_of(instance.mesh, index);
+  std::copy(more.color, more.color + 4, v.attribute.begin() + kFew);
+  v.attribute[9] = more.u;
+  v.attribute[10] = more.v;
   return v;
 }
 
@@ -161,6 +174,7 @@ void bound_depth(const std::array<float, 3>& q, bool perspective, Triangle& out)
 void ClippedPieces::clear() {
   corners.clear();
   attributes.clear();
+  more.clear();
   pieces.clear();
 }
 
@@ -188,6 +202,9 @@ void clip(const DrawnInstance& instance, const Screen& screen, const Corner* cor
     out.corners.push_back(corner_of(t, v));
     const auto attribute = [&](std::size_t k) { return static_cast<float>(v.attribute[k]); };
     out.attributes.push_back({attribute(1), attribute(2), attribute(3), attribute(4)});
+    if (v.attributes == kFew) continue;
+    out.more.push_back(
+        {{attribute(5), attribute(6), attribute(7), attribute(8)}, attribute(9), attribute(10)});
   }
   for (int i = 1; i + 1 < polygon.count; ++i) {
     const Corner* all = out.corners.data() + base;

@@ -15,6 +15,7 @@ struct ClippedPieces {
   };
   std::vector<Corner> corners;
   std::vector<Attributes> attributes;
+  std::vector<MoreAttributes> more;  ///< as many, of a mesh that has them, or none
   std::vector<Piece> pieces;
   void clear();
 };

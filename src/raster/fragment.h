@@ -20,13 +20,25 @@ struct Corners {
   Lane u[3], v[3];
 };
 
+/// A place in a texture, and how it changes from pixel to pixel.
+struct Footprint {
+  Lane u, v, u_dx, v_dx, u_dy, v_dy;
+};
+
 /// Pixels of one row, kLanes at a time.
 struct Fragment {
   Mask covered;
   VI material;  ///< with Triangle::kBack
   Lane depth;
   Vec3<Lane> normal;  ///< interpolated, not unit
-  Lane u, v, u_dx, v_dx, u_dy, v_dy;
+  Footprint uv;
+};
+
+/// What the corners of a triangle contribute to a pixel, and how that changes from pixel to pixel:
+/// a value's change is the sum over the corners of dx times the corner's difference from the
+/// pixel's own value, so that far uvs lose nothing.
+struct Shares {
+  Lane of[3], dx[3], dy[3];
 };
 
 LIMPID_LANES_INLINE const Triangle& triangle_of(const ShadeJob& job, std::int32_t id) {
@@ -147,47 +159,63 @@ LIMPID_LANES_INLINE Lane depth_of(const ShadeJob& job, const Corners& in, int x,
   return job.perspective ? Lane(1) / kept : Lane(0) - kept;
 }
 
-/// Normal, uv, and how uv changes from pixel to pixel.
-LIMPID_LANES_INLINE void interpolate(const ShadeJob& job, Corners& in, int x, int y, Fragment& f) {
+LIMPID_LANES_INLINE Shares shares_of(const ShadeJob& job, const Corners& in, int x, int y,
+                                     Mask covered) {
   // attribute = sum(e_k p_k attribute_k) / sum(e_k p_k), p = 1 / Z: perspective-correct.
   const Edges edges = edges_of(in, x, y);
-  Lane weight[3], sum(0);
+  Lane p[3], weight[3], sum(0);
   for (int k = 0; k < 3; ++k) {
-    const Lane p = job.perspective ? in.q[k] : Lane(1);
-    weight[k] = edges.value[k] * p;
-    in.q[k] = p;
+    p[k] = job.perspective ? in.q[k] : Lane(1);
+    weight[k] = edges.value[k] * p[k];
     sum = sum + weight[k];
   }
-  const Mask inside = f.covered && sum > Lane(0);
+  const Mask inside = covered && sum > Lane(0);
   const Lane inverse = select(inside, Lane(1) / select(inside, sum, Lane(1)), Lane(0));
-  const Lane b0 = weight[0] * inverse, b1 = weight[1] * inverse, b2 = weight[2] * inverse;
-  f.normal = b0 * in.normal[0] + b1 * in.normal[1] + b2 * in.normal[2];
-  f.u = b0 * in.u[0] + b1 * in.u[1] + b2 * in.u[2];
-  f.v = b0 * in.v[0] + b1 * in.v[1] + b2 * in.v[2];
-  // The quotient's derivatives; differences from the pixel's own uv, so that far uv lose nothing.
-  f.u_dx = f.v_dx = f.u_dy = f.v_dy = Lane(0);
+  Shares shares;
   for (int k = 0; k < 3; ++k) {
-    const Lane du = in.u[k] - f.u, dv = in.v[k] - f.v;
-    const Lane along = edges.dx[k] * in.q[k] * inverse, downward = edges.dy[k] * in.q[k] * inverse;
-    f.u_dx = f.u_dx + along * du;
-    f.v_dx = f.v_dx + along * dv;
-    f.u_dy = f.u_dy + downward * du;
-    f.v_dy = f.v_dy + downward * dv;
+    shares.of[k] = weight[k] * inverse;
+    shares.dx[k] = edges.dx[k] * p[k] * inverse;
+    shares.dy[k] = edges.dy[k] * p[k] * inverse;
   }
+  return shares;
 }
 
-/// `ids`: those of the pixels (x ... x + kLanes - 1, y); at least one shows something. Without kLit
-/// only what is covered and how deep.
+template <class T>
+LIMPID_LANES_INLINE T mixed(const Shares& shares, const T (&values)[3]) {
+  return shares.of[0] * values[0] + shares.of[1] * values[1] + shares.of[2] * values[2];
+}
+
+LIMPID_LANES_INLINE Footprint footprint(const Shares& shares, const Lane (&u)[3],
+                                        const Lane (&v)[3]) {
+  Footprint at;
+  at.u = mixed(shares, u);
+  at.v = mixed(shares, v);
+  at.u_dx = at.v_dx = at.u_dy = at.v_dy = Lane(0);
+  for (int k = 0; k < 3; ++k) {
+    const Lane du = u[k] - at.u, dv = v[k] - at.v;
+    at.u_dx = at.u_dx + shares.dx[k] * du;
+    at.v_dx = at.v_dx + shares.dx[k] * dv;
+    at.u_dy = at.u_dy + shares.dy[k] * du;
+    at.v_dy = at.v_dy + shares.dy[k] * dv;
+  }
+  return at;
+}
+
+/// Normal and uv.
+LIMPID_LANES_INLINE void interpolate(const Shares& shares, const Corners& in, Fragment& f) {
+  f.normal = mixed(shares, in.normal);
+  f.uv = footprint(shares, in.u, in.v);
+}
+
+/// `ids`: those of the pixels (x ... x + kLanes - 1, y); at least one shows something. Brings their
+/// triangles to `in`, and says which of the pixels are covered.
 template <bool kLit>
-LIMPID_LANES_INLINE void find_fragment(const ShadeJob& job, const std::int32_t* ids, int x, int y,
-                                       Fragment& f) {
+LIMPID_LANES_INLINE Mask find_corners(const ShadeJob& job, const std::int32_t* ids, Corners& in) {
   const VI id = hn::Load(kDI, ids), nothing = hn::Set(kDI, static_cast<std::int32_t>(kNothing));
   const auto covered = hn::Ne(id, nothing);
-  f.covered = {hn::RebindMask(kD, covered)};
   int first = 0;
   while (ids[first] == static_cast<std::int32_t>(kNothing)) ++first;
   const VI all = hn::Set(kDI, ids[first]);
-  Corners in;
   if (hn::AllTrue(kDI, hn::Or(hn::Not(covered), hn::Eq(id, all)))) {
     set_all<kLit>(job, triangle_of(job, ids[first]), in);
   } else {
@@ -195,9 +223,18 @@ LIMPID_LANES_INLINE void find_fragment(const ShadeJob& job, const std::int32_t* 
     hn::Store(hn::IfThenElse(covered, id, all), kDI, some);
     set_each<kLit>(job, some, in);
   }
+  return {hn::RebindMask(kD, covered)};
+}
+
+/// Without kLit only what is covered and how deep.
+template <bool kLit>
+LIMPID_LANES_INLINE void find_fragment(const ShadeJob& job, const std::int32_t* ids, int x, int y,
+                                       Fragment& f) {
+  Corners in;
+  f.covered = find_corners<kLit>(job, ids, in);
   f.material = in.material;
   f.depth = depth_of(job, in, x, y);
-  if constexpr (kLit) interpolate(job, in, x, y, f);
+  if constexpr (kLit) interpolate(shares_of(job, in, x, y, f.covered), in, f);
 }
 
 }  // namespace limpid::raster::HWY_NAMESPACE

@@ -107,9 +107,11 @@ void Group::sort_into_tiles() {
   v.offsets = offsets;
 }
 
-void Group::place_new_corners(std::uint32_t first, Corner* corners, Attributes* attributes) {
+void Group::place_new_corners(std::uint32_t first, Corner* corners, Attributes* attributes,
+                              MoreAttributes* more) {
   std::copy(clipped_.corners.begin(), clipped_.corners.end(), corners + first);
   std::copy(clipped_.attributes.begin(), clipped_.attributes.end(), attributes + first);
+  if (more) std::copy(clipped_.more.begin(), clipped_.more.end(), more + first);
   for (int i = whole_; i < total_; ++i) {
     for (std::uint32_t& corner : triangles_.data()[i].corner) corner += first;
   }

@@ -37,11 +37,13 @@ class Group {
   void reset(const DrawnInstance& instance, int first, int count);
 
   void set_up(const RasterTarget& target, const Screen& screen, const Corner* corners);
-  /// Corners that clipping made are in `corners` from `first` on.
-  void place_new_corners(std::uint32_t first, Corner* corners, Attributes* attributes);
+  /// Corners that clipping made are in `corners` from `first` on. `more` may be null.
+  void place_new_corners(std::uint32_t first, Corner* corners, Attributes* attributes,
+                         MoreAttributes* more);
 
   std::uint32_t new_corners() const { return static_cast<std::uint32_t>(clipped_.corners.size()); }
   const GroupView& view() const { return view_; }
+  AlphaMode alpha() const { return instance_->alpha; }
 
  private:
   struct TileBox {

@@ -1,5 +1,6 @@
 #include "raster/prepared.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -7,12 +8,13 @@
 
 #include "limpid/core/error.h"
 
+#include "raster/material_view.h"
+
 namespace limpid::raster {
 namespace {
 
-void expect_index(const std::string& what, std::int64_t index, std::size_t count,
-                  std::int64_t least = 0) {
-  if (index < least || index >= static_cast<std::int64_t>(count)) {
+void expect_index(const std::string& what, std::int64_t index, std::size_t count) {
+  if (index < 0 || index >= static_cast<std::int64_t>(count)) {
     throw Error(what + " = " + std::to_string(index) + ": expected less than " +
                 std::to_string(count));
   }
@@ -44,6 +46,11 @@ void check(const Mesh& mesh, const Model& model) {
                 std::to_string(mesh.normals.size()) + " normals and " +
                 std::to_string(mesh.uvs.size()) + " uvs, expected one a vertex or none");
   }
+  if (!fits(mesh.second_uvs.size()) || !fits(mesh.colors.size())) {
+    throw Error(name + " has " + std::to_string(mesh.positions.size()) + " positions, " +
+                std::to_string(mesh.second_uvs.size()) + " second uvs and " +
+                std::to_string(mesh.colors.size()) + " colors, expected one a vertex or none");
+  }
   expect_index(name + ": material", mesh.material, model.materials.size());
 }
 
@@ -61,11 +68,22 @@ void split_faces(const Mesh& mesh, PreparedMesh& out) {
         const glm::vec2& uv = mesh.uvs[mesh.indices[k]];
         out.uvs.insert(out.uvs.end(), {uv.x, uv.y});
       }
+      if (!mesh.second_uvs.empty()) {
+        const glm::vec2& uv = mesh.second_uvs[mesh.indices[k]];
+        out.second_uvs.insert(out.second_uvs.end(), {uv.x, uv.y});
+      }
+      if (!mesh.colors.empty()) {
+        const glm::vec4& c = mesh.colors[mesh.indices[k]];
+        out.colors.insert(out.colors.end(), {c.r, c.g, c.b, c.a});
+      }
       out.indices.push_back(static_cast<std::uint32_t>(k));
     }
   }
-  out.view = {out.positions.data(), out.normals.data(), mesh.uvs.empty() ? nullptr : out.uvs.data(),
-              out.indices.data()};
+  const auto some = [](const std::vector<float>& list) {
+    return list.empty() ? nullptr : list.data();
+  };
+  out.view = {out.positions.data(), out.normals.data(), some(out.uvs),
+              some(out.second_uvs), some(out.colors),   out.indices.data()};
   out.vertices = static_cast<std::uint32_t>(mesh.indices.size());
 }
 
@@ -76,46 +94,46 @@ PreparedMesh prepared(const Mesh& mesh) {
   if (mesh.normals.empty()) {
     split_faces(mesh, out);
   } else {
-    out.view = {&mesh.positions[0].x, &mesh.normals[0].x,
-                mesh.uvs.empty() ? nullptr : &mesh.uvs[0].x, mesh.indices.data()};
+    const auto some = [](const auto& list) { return list.empty() ? nullptr : &list[0].x; };
+    out.view = {&mesh.positions[0].x,  &mesh.normals[0].x, some(mesh.uvs),
+                some(mesh.second_uvs), some(mesh.colors),  mesh.indices.data()};
     out.vertices = static_cast<std::uint32_t>(mesh.positions.size());
   }
   return out;
 }
 
-void copy(const Rgb<double>& from, float* to) {
-  to[0] = static_cast<float>(from.r);
-  to[1] = static_cast<float>(from.g);
-  to[2] = static_cast<float>(from.b);
-}
-
 }  // namespace
 
+MoreAttributes more_of(const MeshView& mesh, std::uint32_t vertex) {
+  MoreAttributes more;
+  if (mesh.colors) {
+    const float* color = mesh.colors + 4 * std::ptrdiff_t{vertex};
+    std::copy(color, color + 4, more.color);
+  }
+  if (mesh.second_uvs) {
+    more.u = mesh.second_uvs[2 * std::ptrdiff_t{vertex}];
+    more.v = mesh.second_uvs[2 * std::ptrdiff_t{vertex} + 1];
+  }
+  return more;
+}
+
 PreparedModel::PreparedModel(const Model& from) : model(from) {
-  static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8);
+  static_assert(sizeof(glm::vec4) == 16 && sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8);
   if (model.materials.empty()) throw Error("model without materials: expected at least one");
   for (const ModelTexture& texture : model.textures) pyramids.emplace_back(texture);
   for (const Material& m : model.materials) {
-    const std::string name = "material '" + m.name + "'";
-    expect_index(name + ": base_texture", m.base_texture, model.textures.size(), -1);
-    expect_index(name + ": specular_texture", m.specular_texture, model.textures.size(), -1);
-    MaterialView view{};
-    view.shading = m.shading;
-    copy(m.base_color, view.base);
-    copy(m.ambient, view.ambient);
-    copy(m.specular, view.specular);
-    view.power = static_cast<float>(m.power);
-    const auto texture = [&](int index) -> const PyramidView* {
-      return index < 0 ? nullptr : &pyramids[static_cast<std::size_t>(index)].view();
-    };
-    view.base_texture = texture(m.base_texture);
-    view.specular_texture = texture(m.specular_texture);
-    materials.push_back(view);
+    materials.push_back(material_view(m, model, pyramids, {}));
   }
   std::vector<std::int64_t> degenerate;
   for (const Mesh& mesh : model.meshes) {
     check(mesh, model);
     meshes.push_back(prepared(mesh));
+    meshes.back().material = mesh.material;
+    if (!mesh.colors.empty()) {
+      meshes.back().material = static_cast<int>(materials.size());
+      const Material& m = model.materials[static_cast<std::size_t>(mesh.material)];
+      materials.push_back(material_view(m, model, pyramids, mesh.colors));
+    }
     degenerate.push_back(0);
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       const glm::dvec3 n = face_normal(mesh, i);

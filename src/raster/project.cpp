@@ -1,5 +1,6 @@
 #include "raster/project.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -94,26 +95,32 @@ Screen screen_of(const RasterView& view) {
 std::vector<DrawnInstance> drawn_instances(const PreparedModel& prepared, const RasterView& view,
                                            const Screen& screen) {
   std::vector<DrawnInstance> drawn;
-  std::uint32_t vertices = 0;
   for (const Instance& instance : prepared.model.instances) {
     if (instance.water != (view.subject == RasterSubject::kWater)) continue;
     const PreparedMesh& mesh = prepared.meshes[static_cast<std::size_t>(instance.mesh)];
     if (mesh.triangles == 0) continue;
-    const int material = prepared.model.meshes[static_cast<std::size_t>(instance.mesh)].material;
+    const Mesh& source = prepared.model.meshes[static_cast<std::size_t>(instance.mesh)];
     DrawnInstance d{};
     d.mesh = mesh.view;
     d.transform = transform_of(view, screen, instance.world_from_mesh);
     d.rays = plane_rays(view, screen, instance.world_from_mesh);
-    d.first_vertex = vertices;
     d.vertices = mesh.vertices;
     d.triangles = mesh.triangles;
-    d.material = static_cast<std::uint32_t>(material);
+    d.material = static_cast<std::uint32_t>(mesh.material);
+    d.alpha = prepared.materials[d.material].alpha_mode;
     const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_mesh)) < 0;
     d.flip = mirrored != view.flip_winding;
-    d.cull =
-        view.cull && !prepared.model.materials[static_cast<std::size_t>(material)].double_sided;
+    d.cull = view.cull &&
+             !prepared.model.materials[static_cast<std::size_t>(source.material)].double_sided;
     drawn.push_back(d);
-    vertices += mesh.vertices;
+  }
+  std::stable_sort(drawn.begin(), drawn.end(), [](const DrawnInstance& a, const DrawnInstance& b) {
+    return a.alpha < b.alpha;
+  });
+  std::uint32_t vertices = 0;
+  for (DrawnInstance& d : drawn) {
+    d.first_vertex = vertices;
+    vertices += d.vertices;
   }
   return drawn;
 }

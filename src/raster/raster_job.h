@@ -26,6 +26,12 @@ struct alignas(16) Attributes {
   float normal_y, normal_z, u, v;
 };
 
+/// What few vertices have, and only who draws such materials reads.
+struct alignas(16) MoreAttributes {
+  float color[4] = {1, 1, 1, 1};
+  float u = 0, v = 0;  ///< of the second set
+};
+
 /// A triangle that may be seen, corners clockwise on the screen. q = a x + b y + c at the pixel
 /// coordinates x, y (from Screen::origin), kept within q_min ... q_max.
 struct alignas(16) Triangle {
@@ -50,11 +56,13 @@ struct VertexTransform {
   bool perspective;
 };
 
-/// A mesh as the stages read it; three floats a vertex, uvs two or null.
+/// A mesh as the stages read it; three floats a vertex, uvs two or null, colors four or null.
 struct MeshView {
   const float* positions;
   const float* normals;
   const float* uvs;
+  const float* second_uvs;
+  const float* colors;
   const std::uint32_t* indices;
 };
 
@@ -76,6 +84,7 @@ struct DrawnInstance {
   std::uint32_t first_vertex, vertices;
   std::uint32_t triangles;
   std::uint32_t material;
+  AlphaMode alpha;
   bool flip;  ///< front faces are counter-clockwise in fixed-point space
   bool cull;  ///< leave out back faces
 };
@@ -121,6 +130,15 @@ struct MaterialView {
   float base[3], ambient[3], specular[3], power;
   const PyramidView* base_texture;      ///< or null
   const PyramidView* specular_texture;  ///< or null
+  bool plain;                           ///< all below says nothing
+  bool vertex_colors;
+  float emission[3];
+  const PyramidView* emissive_texture;  ///< or null
+  TextureLookup base_lookup, specular_lookup, emissive_lookup;
+  AlphaMode alpha_mode;  ///< opaque also where no fragment could be anything else
+  float alpha;
+  float solid_from;   ///< a fragment of at least this opacity hides all behind it
+  float blocks_from;  ///< a fragment of at least this opacity has the pixel's depth
 };
 
 /// The shadow map seen from the eye: for points relative to `eye`.
@@ -136,17 +154,19 @@ struct ShadeJob {
   Screen screen;
   bool perspective;
   int tiles_across;
-  const GroupView* groups;
-  int group_count;
+  const GroupView* groups;  ///< of opaque materials first, then masked, then blended ones
+  int opaque_groups, unblended_groups, group_count;
   const Corner* corners;
   const Attributes* attributes;
+  const MoreAttributes* more;  ///< or null
   const MaterialView* materials;
   double origin[3], origin_dx[3], origin_dy[3];  ///< of the eye ray at pixel coordinates
   double ray[3], ray_dx[3], ray_dy[3];
   float background[3];
   float sun_direction[3], sun_color[3];
   ShadowView shadow;
-  bool lit;  ///< anything but depth and coverage is wanted
+  bool lit;    ///< anything but depth and coverage is wanted
+  bool plain;  ///< all materials that are drawn are
   std::ptrdiff_t y_stride;
   float *color[3], *depth, *coverage, *shadow_out, *normal[3];  ///< null when not wanted
 };

@@ -1,5 +1,6 @@
 #include "limpid/raster/rasterise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <string>
@@ -142,10 +143,14 @@ struct Rasteriser::State {
   std::vector<raster::GroupView> views;
   raster::Buffer<raster::Corner> corners;
   raster::Buffer<raster::Attributes> attributes;
+  std::vector<raster::MoreAttributes> more_attributes;  ///< one a corner, or empty
 
   std::uint32_t transform_vertices(const raster::RasterTarget& target, Executor& executor);
   void make_groups();
   void add_clipped_corners(std::uint32_t vertices);
+  void add_more_attributes(std::uint32_t corner_count);
+  bool all_plain() const;
+  int groups_up_to(AlphaMode alpha) const;
 };
 
 std::uint32_t Rasteriser::State::transform_vertices(const raster::RasterTarget& target,
@@ -199,19 +204,48 @@ void Rasteriser::State::add_clipped_corners(std::uint32_t vertices) {
   std::size_t needed = vertices;
   for (std::size_t g = 0; g < group_count; ++g) needed += groups[g].new_corners();
   if (needed > corners.size()) {
-    raster::Buffer<raster::Corner> more_corners;
-    raster::Buffer<raster::Attributes> more_attributes;
-    std::copy(corners.data(), corners.data() + vertices, more_corners.take(needed + needed / 4));
+    raster::Buffer<raster::Corner> larger_corners;
+    raster::Buffer<raster::Attributes> larger_attributes;
+    std::copy(corners.data(), corners.data() + vertices, larger_corners.take(needed + needed / 4));
     std::copy(attributes.data(), attributes.data() + vertices,
-              more_attributes.take(needed + needed / 4));
-    std::swap(corners, more_corners);
-    std::swap(attributes, more_attributes);
+              larger_attributes.take(needed + needed / 4));
+    std::swap(corners, larger_corners);
+    std::swap(attributes, larger_attributes);
   }
+  add_more_attributes(static_cast<std::uint32_t>(needed));
   std::uint32_t first = vertices;
   for (std::size_t g = 0; g < group_count; ++g) {
-    groups[g].place_new_corners(first, corners.data(), attributes.data());
+    groups[g].place_new_corners(first, corners.data(), attributes.data(),
+                                more_attributes.empty() ? nullptr : more_attributes.data());
     first += groups[g].new_corners();
   }
+}
+
+void Rasteriser::State::add_more_attributes(std::uint32_t corner_count) {
+  more_attributes.clear();
+  for (const raster::DrawnInstance& instance : instances) {
+    if (!raster::has_more(instance.mesh)) continue;
+    more_attributes.resize(corner_count);
+    for (std::uint32_t i = 0; i < instance.vertices; ++i) {
+      more_attributes[instance.first_vertex + i] = raster::more_of(instance.mesh, i);
+    }
+  }
+}
+
+bool Rasteriser::State::all_plain() const {
+  return std::all_of(instances.begin(), instances.end(), [&](const raster::DrawnInstance& i) {
+    return prepared.materials[i.material].plain;
+  });
+}
+
+/// Groups lie in the order of their instances.
+int Rasteriser::State::groups_up_to(AlphaMode alpha) const {
+  int count = 0;
+  while (count < static_cast<int>(group_count) &&
+         groups[static_cast<std::size_t>(count)].alpha() <= alpha) {
+    ++count;
+  }
+  return count;
 }
 
 Rasteriser::Rasteriser(const Model& model) : state_(std::make_unique<State>(model)) {}
@@ -239,9 +273,13 @@ void Rasteriser::draw(const RasterView& view, const RasterLighting& lighting, Ra
 
   raster::ShadeJob job = raster::shade_job(view, screen, lighting, s.prepared.model, wanted, image);
   job.groups = s.views.data();
+  job.opaque_groups = s.groups_up_to(AlphaMode::kOpaque);
+  job.unblended_groups = s.groups_up_to(AlphaMode::kMask);
   job.group_count = static_cast<int>(s.group_count);
+  job.plain = s.all_plain();
   job.corners = s.corners.data();
   job.attributes = s.attributes.data();
+  job.more = s.more_attributes.empty() ? nullptr : s.more_attributes.data();
   job.materials = s.prepared.materials.data();
   const int down = (view.window.height() + raster::kTile - 1) / raster::kTile;
   raster::run(executor, job.tiles_across * down, [&](int index) { target.draw_tile(job, index); });

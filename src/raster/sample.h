@@ -10,7 +10,7 @@ namespace limpid::raster::HWY_NAMESPACE {
 
 /// The mip level whose texels are nearest in size to the pixel: log2 of the longer side of its
 /// footprint in texels, rounded.
-LIMPID_LANES_INLINE VI level_of(const PyramidView& texture, const Fragment& f) {
+LIMPID_LANES_INLINE VI level_of(const PyramidView& texture, const Footprint& f) {
   const Lane w(texture.width), h(texture.height);
   const Lane ax = f.u_dx * w, ay = f.v_dx * h, bx = f.u_dy * w, by = f.v_dy * h;
   const Lane square = max(ax * ax + ay * ay, bx * bx + by * by);
@@ -20,25 +20,42 @@ LIMPID_LANES_INLINE VI level_of(const PyramidView& texture, const Fragment& f) {
   return hn::Min(hn::ShiftRight<1>(exponent), hn::Set(kDI, texture.levels - 1));
 }
 
-/// Bilinear, repeating in both directions.
-LIMPID_LANES_INLINE Rgb<Lane> sample(const PyramidView& texture, const Fragment& f) {
+struct Texel {
+  Rgb<Lane> color;
+  Lane alpha;
+};
+
+/// A place along one axis, brought into 0 ... 1; NaN becomes 0.
+LIMPID_LANES_INLINE Lane wrapped(Lane at, Wrap wrap) {
+  Lane part = at;
+  if (wrap == Wrap::kRepeat) part = at - floor(at);
+  if (wrap == Wrap::kMirror) {
+    part = at - Lane(2) * floor(Lane(0.5) * at);
+    part = min(part, Lane(2) - part);
+  }
+  return min(select(part > Lane(0), part, Lane(0)), Lane(1));
+}
+
+/// Bilinear.
+LIMPID_LANES_INLINE Texel sample(const PyramidView& texture, const Footprint& f, Wrap wrap_u,
+                                 Wrap wrap_v) {
   const VI level = level_of(texture, f), one = hn::Set(kDI, 1);
   const auto size_at = [&](int size) { return hn::Max(hn::Shr(hn::Set(kDI, size), level), one); };
   const VI width = size_at(texture.width), height = size_at(texture.height);
   const VI start = hn::GatherIndex(kDI, texture.level_start, level);
-  const auto place = [](Lane at, VI size, VI& low, VI& high) {
-    const Lane part = at - floor(at);
-    const Lane inside = min(select(part > Lane(0), part, Lane(0)), Lane(1));  // NaN becomes 0
-    const Lane texel = inside * Lane(hn::ConvertTo(kD, size)) - Lane(0.5);
+  const auto place = [](Lane at, Wrap wrap, VI size, VI& low, VI& high) {
+    const Lane texel = wrapped(at, wrap) * Lane(hn::ConvertTo(kD, size)) - Lane(0.5);
     const Lane whole = floor(texel);
     const VI n = hn::ConvertTo(kDI, whole.v), last = hn::Sub(size, hn::Set(kDI, 1));
-    low = hn::Min(hn::IfThenElse(hn::Lt(n, hn::Zero(kDI)), last, n), last);
+    const bool repeats = wrap == Wrap::kRepeat;  // else what lies beyond is the outermost texel
+    const VI zero = hn::Zero(kDI), before = repeats ? last : zero, beyond = repeats ? zero : last;
+    low = hn::Min(hn::IfThenElse(hn::Lt(n, zero), before, n), last);
     const VI next = hn::Add(n, hn::Set(kDI, 1));
-    high = hn::IfThenElse(hn::Gt(next, last), hn::Zero(kDI), next);
+    high = hn::IfThenElse(hn::Gt(next, last), beyond, next);
     return texel - whole;
   };
   VI x0, x1, y0, y1;
-  const Lane s = place(f.u, width, x0, x1), t = place(f.v, height, y0, y1);
+  const Lane s = place(f.u, wrap_u, width, x0, x1), t = place(f.v, wrap_v, height, y0, y1);
   const VI upper = hn::Add(start, hn::Mul(y0, width)), lower = hn::Add(start, hn::Mul(y1, width));
   alignas(64) std::int32_t at[4][kLanes];
   alignas(64) float weight[4][kLanes];
@@ -62,7 +79,12 @@ LIMPID_LANES_INLINE Rgb<Lane> sample(const PyramidView& texture, const Fragment&
   }
   V r, g, b, alpha;
   hn::LoadInterleaved4(kD, texels, r, g, b, alpha);
-  return {Lane(r), Lane(g), Lane(b)};
+  return {{Lane(r), Lane(g), Lane(b)}, Lane(alpha)};
+}
+
+/// Of a plain material: repeating in both directions.
+LIMPID_LANES_INLINE Rgb<Lane> sample(const PyramidView& texture, const Footprint& f) {
+  return sample(texture, f, Wrap::kRepeat, Wrap::kRepeat).color;
 }
 
 /// The same as shadow_at(), for points relative to the eye.

@@ -55,9 +55,10 @@ LIMPID_LANES_INLINE Light light_at(const ShadeJob& job, const Fragment& f, const
   return light;
 }
 
-LIMPID_LANES_INLINE Rgb<Lane> shaded(const MaterialView& m, const Fragment& f, const Light& light) {
-  Rgb<Lane> base = color_of(m.base);
-  if (m.base_texture) base = base * sample(*m.base_texture, f);
+/// `specular_of()` is asked for the specular color where that matters.
+template <class Specular>
+LIMPID_LANES_INLINE Rgb<Lane> lit_by(const MaterialView& m, const Rgb<Lane>& base,
+                                     const Light& light, Specular&& specular_of) {
   const Rgb<Lane> ambient = color_of(m.ambient);
   switch (m.shading) {
     case Shading::kFlat:
@@ -68,8 +69,7 @@ LIMPID_LANES_INLINE Rgb<Lane> shaded(const MaterialView& m, const Fragment& f, c
     case Shading::kToon:
       return toon_shading(base, ambient, light.cosine, light.shadow, light.color);
     case Shading::kPhong: {
-      Rgb<Lane> specular = color_of(m.specular);
-      if (m.specular_texture) specular = specular * sample(*m.specular_texture, f);
+      const Rgb<Lane> specular = specular_of();
       return lambert_shading(base, ambient, light.cosine, light.shadow, light.color) +
              phong_glint(specular, Lane(m.power), light.normal, light.viewer, light.sun,
                          light.shadow, light.color);
@@ -78,9 +78,18 @@ LIMPID_LANES_INLINE Rgb<Lane> shaded(const MaterialView& m, const Fragment& f, c
   return base;
 }
 
-/// Every material of the vector in turn.
-LIMPID_LANES_INLINE Rgb<Lane> color_at(const ShadeJob& job, const Fragment& f, const Light& light) {
-  Rgb<Lane> color = color_of(job.background);
+LIMPID_LANES_INLINE Rgb<Lane> shaded(const MaterialView& m, const Fragment& f, const Light& light) {
+  Rgb<Lane> base = color_of(m.base);
+  if (m.base_texture) base = base * sample(*m.base_texture, f.uv);
+  return lit_by(m, base, light, [&]() LIMPID_LANES_LAMBDA {
+    const Rgb<Lane> specular = color_of(m.specular);
+    return m.specular_texture ? specular * sample(*m.specular_texture, f.uv) : specular;
+  });
+}
+
+/// Calls visit(material, lanes) for every material of the vector in turn.
+template <class Visit>
+LIMPID_LANES_INLINE void each_material(const ShadeJob& job, const Fragment& f, Visit&& visit) {
   const VI material =
       hn::And(f.material, hn::Set(kDI, static_cast<std::int32_t>(Triangle::kMaterial)));
   Mask left = f.covered;
@@ -90,9 +99,16 @@ LIMPID_LANES_INLINE Rgb<Lane> color_at(const ShadeJob& job, const Fragment& f, c
     hn::Store(material, kDI, numbers);
     const std::int32_t number = numbers[at];
     const Mask same = {hn::RebindMask(kD, hn::Eq(material, hn::Set(kDI, number)))};
-    color = select(left && same, shaded(job.materials[number], f, light), color);
+    visit(job.materials[number], left && same);
     left = left && !same;
   }
+}
+
+LIMPID_LANES_INLINE Rgb<Lane> color_at(const ShadeJob& job, const Fragment& f, const Light& light) {
+  Rgb<Lane> color = color_of(job.background);
+  each_material(job, f, [&](const MaterialView& m, Mask lanes) LIMPID_LANES_LAMBDA {
+    color = select(lanes, shaded(m, f, light), color);
+  });
   return color;
 }
 
@@ -115,20 +131,22 @@ LIMPID_LANES_INLINE void store_depth(const ShadeJob& job, std::ptrdiff_t at, con
   store(job.coverage, at, select(f.covered, Lane(1), Lane(0)));
 }
 
-LIMPID_LANES_INLINE void store_lit(const ShadeJob& job, std::ptrdiff_t at, int x, int y,
-                                   const Fragment& f) {
-  const Light light = light_at(job, f, Sight(job, x, y));
+LIMPID_LANES_INLINE void store_light(const ShadeJob& job, std::ptrdiff_t at, const Fragment& f,
+                                     const Light& light) {
   store(job.shadow_out, at, select(f.covered, light.shadow, Lane(1)));
   store(job.normal[0], at, select(f.covered, light.normal.x, Lane(0)));
   store(job.normal[1], at, select(f.covered, light.normal.y, Lane(0)));
   store(job.normal[2], at, select(f.covered, light.normal.z, Lane(0)));
-  if (!job.color[0]) return;
-  const Rgb<Lane> color = color_at(job, f, light);
+}
+
+LIMPID_LANES_INLINE void store_color(const ShadeJob& job, std::ptrdiff_t at,
+                                     const Rgb<Lane>& color) {
   store(job.color[0], at, color.r);
   store(job.color[1], at, color.g);
   store(job.color[2], at, color.b);
 }
 
+/// Of plain materials what is wanted, of all materials depth and coverage.
 template <bool kLit>
 void shade_tile(const ShadeJob& job, const Screen& tile, const Visibility& seen) {
   const VI nothing = hn::Set(kDI, static_cast<std::int32_t>(kNothing));
@@ -143,7 +161,11 @@ void shade_tile(const ShadeJob& job, const Screen& tile, const Visibility& seen)
       Fragment f;
       find_fragment<kLit>(job, ids, x, y, f);
       store_depth(job, at, f);
-      if constexpr (kLit) store_lit(job, at, x, y, f);
+      if constexpr (kLit) {
+        const Light light = light_at(job, f, Sight(job, x, y));
+        store_light(job, at, f, light);
+        if (job.color[0]) store_color(job, at, color_at(job, f, light));
+      }
     }
   }
 }

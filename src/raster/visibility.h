@@ -101,8 +101,16 @@ LIMPID_LANES_INLINE void make_batch(const GroupView& group, const std::uint32_t*
   hn::Store(hn::Sub(y1, hn::Set(kWI, tile.y0)), kWI, batch.y1);
 }
 
-/// One triangle of the batch into the tile. The nearest wins, among equals the first.
-LIMPID_LANES_INLINE void draw(const EdgeBatch& batch, int l, std::int32_t id, Visibility& out) {
+/// Lets every fragment of a triangle through.
+struct EveryFragment {
+  LIMPID_LANES_INLINE M operator()(V, int, int, M put) const { return put; }
+};
+
+/// One triangle of the batch into the tile. The nearest wins, among equals the first. `test(q, x,
+/// y, put)` says which of the fragments `put`, from pixel (x, y) of the tile on, are there.
+template <class Test>
+LIMPID_LANES_INLINE void draw(const EdgeBatch& batch, int l, std::int32_t id, Visibility& out,
+                              Test&& test) {
   const int x0 = batch.x0[l], x1 = batch.x1[l], y1 = batch.y1[l];
   const VI lane = hn::Iota(kDI, 0);
   VI edge[3], across[3], down[3];
@@ -115,18 +123,19 @@ LIMPID_LANES_INLINE void draw(const EdgeBatch& batch, int l, std::int32_t id, Vi
   const V q_min = hn::Set(kD, batch.q_min[l]), q_max = hn::Set(kD, batch.q_max[l]);
   V q = hn::MulAdd(q_dx, hn::ConvertTo(kD, lane), hn::Set(kD, batch.q[l]));
   const VI new_id = hn::Set(kDI, id);
-  const auto visit = [&](VI e, V depth, int at) {
+  const auto visit = [&](VI e, V depth, int x, int y) {
+    const int at = y * kTileStride + x;
     const V kept = hn::Min(hn::Max(depth, q_min), q_max);
     const V old = hn::LoadU(kD, out.q + at);
     const M nearer = hn::Gt(kept, old);
     const M inside = hn::RebindMask(kD, hn::Gt(e, hn::Set(kDI, -1)));
-    const M put = hn::And(inside, nearer);
+    const M put = test(kept, x, y, hn::And(inside, nearer));
     hn::BlendedStore(kept, put, kD, out.q + at);
     hn::BlendedStore(new_id, hn::RebindMask(kDI, put), kDI, out.id + at);
   };
   if (x1 - x0 < kLanes) {
     for (int y = batch.y0[l]; y <= y1; ++y) {
-      visit(hn::Or(edge[0], hn::Or(edge[1], edge[2])), q, y * kTileStride + x0);
+      visit(hn::Or(edge[0], hn::Or(edge[1], edge[2])), q, x0, y);
       for (int k = 0; k < 3; ++k) edge[k] = hn::Add(edge[k], down[k]);
       q = hn::Add(q, q_dy);
     }
@@ -140,7 +149,7 @@ LIMPID_LANES_INLINE void draw(const EdgeBatch& batch, int l, std::int32_t id, Vi
     VI e[3] = {edge[0], edge[1], edge[2]};
     V depth = q;
     for (int x = x0; x <= x1; x += kLanes) {
-      visit(hn::Or(e[0], hn::Or(e[1], e[2])), depth, y * kTileStride + x);
+      visit(hn::Or(e[0], hn::Or(e[1], e[2])), depth, x, y);
       for (int k = 0; k < 3; ++k) e[k] = hn::Add(e[k], step[k]);
       depth = hn::Add(depth, q_step);
     }
@@ -149,27 +158,48 @@ LIMPID_LANES_INLINE void draw(const EdgeBatch& batch, int l, std::int32_t id, Vi
   }
 }
 
-LIMPID_LANES_INLINE void find_visible(const ShadeJob& job, int tx, int ty, const Screen& tile,
-                                      Visibility& out) {
-  fill(out);
+/// A tile of the window.
+struct Tile {
+  int tx, ty;
+  Screen pixels;
+};
+
+/// The place of the tile in the group's offsets, or -1.
+LIMPID_LANES_INLINE int place_of(const GroupView& group, const Tile& tile) {
+  const int tx = tile.tx, ty = tile.ty;
+  if (tx < group.tx0 || tx >= group.tx1 || ty < group.ty0 || ty >= group.ty1) return -1;
+  return (ty - group.ty0) * (group.tx1 - group.tx0) + tx - group.tx0;
+}
+
+/// Calls draw_one(batch, lane, id) for every triangle of these groups that the tile has.
+template <class DrawOne>
+LIMPID_LANES_INLINE void each_triangle(const ShadeJob& job, const Tile& tile, int first_group,
+                                       int end_group, DrawOne&& draw_one) {
   EdgeBatch batch;
-  for (int g = 0; g < job.group_count; ++g) {
+  for (int g = first_group; g < end_group; ++g) {
     const GroupView& group = job.groups[g];
-    if (tx < group.tx0 || tx >= group.tx1 || ty < group.ty0 || ty >= group.ty1) continue;
-    const int t = (ty - group.ty0) * (group.tx1 - group.tx0) + tx - group.tx0;
+    const int t = place_of(group, tile);
+    if (t < 0) continue;
     const std::uint32_t end = group.offsets[t + 1];
     for (std::uint32_t e = group.offsets[t]; e < end; e += kWide) {
       const int count =
           end - e < static_cast<std::uint32_t>(kWide) ? static_cast<int>(end - e) : kWide;
-      make_batch(group, group.entries + e, count, job.corners, tile, batch);
+      make_batch(group, group.entries + e, count, job.corners, tile.pixels, batch);
       for (int l = 0; l < count; ++l) {
-        draw(batch, l,
-             static_cast<std::int32_t>((static_cast<std::uint32_t>(g) << 16) |
-                                       group.entries[e + static_cast<std::uint32_t>(l)]),
-             out);
+        draw_one(batch, l,
+                 static_cast<std::int32_t>((static_cast<std::uint32_t>(g) << 16) |
+                                           group.entries[e + static_cast<std::uint32_t>(l)]));
       }
     }
   }
+}
+
+/// Opaque materials alone.
+LIMPID_LANES_INLINE void find_visible(const ShadeJob& job, const Tile& tile, Visibility& out) {
+  fill(out);
+  each_triangle(job, tile, 0, job.opaque_groups,
+                [&](const EdgeBatch& batch, int l, std::int32_t id)
+                    LIMPID_LANES_LAMBDA { draw(batch, l, id, out, EveryFragment{}); });
 }
 
 }  // namespace limpid::raster::HWY_NAMESPACE

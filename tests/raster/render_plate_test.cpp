@@ -104,6 +104,67 @@ TEST(RenderPlate, DepthIsThatOfThePlanes) {
   EXPECT_GT(water_pixels, 1000);
 }
 
+/// The basin with a wall in its middle, from under the water to above it.
+Model basin_with_wall(AlphaMode mode, double alpha) {
+  Model model = basin();
+  model.meshes.push_back(quad({-3, -0.8f, -3}, {6, 0, 0}, {0, 2, 0}, 4, 3));
+  model.materials.push_back(model.materials[0]);
+  model.materials[3].alpha_mode = mode;
+  model.materials[3].alpha = alpha;
+  model.instances.push_back({4, glm::dmat4(1.0), false});
+  return model;
+}
+
+RenderedPlate every_plane(const Model& model) {
+  return render_plate(model, over_basin(), {.size = kSize}, kEverything, *make_executor(1));
+}
+
+int different_pixels(const RenderedPlate& a, const RenderedPlate& b, PlaneId id) {
+  int different = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      different += a.frame.plane(id).at(x, y) != b.frame.plane(id).at(x, y);
+    }
+  }
+  return different;
+}
+
+TEST(RenderPlate, WhatIsMaskedAwayIsInNoPlane) {
+  const RenderedPlate without = every_plane(basin());
+  const RenderedPlate masked = every_plane(basin_with_wall(AlphaMode::kMask, 0.4));
+  const RenderedPlate there = every_plane(basin_with_wall(AlphaMode::kMask, 0.6));
+  for (int i = 0; i < kPlaneCount; ++i) {
+    const PlaneId id = static_cast<PlaneId>(i);
+    if (!without.frame.plane(id)) continue;
+    EXPECT_EQ(different_pixels(masked, without, id), 0) << i;
+  }
+  for (const PlaneId id :
+       {PlaneId::kColorR, PlaneId::kDepth, PlaneId::kShadow, PlaneId::kBelowR, PlaneId::kBelowDepth,
+        PlaneId::kReflectionR, PlaneId::kReflectionDepth, PlaneId::kSurfaceShadow}) {
+    EXPECT_GT(different_pixels(there, without, id), 50) << index_of(id);
+  }
+}
+
+TEST(RenderPlate, WhatIsBlendedIsInAllColorsAndByItsOpacityInTheRest) {
+  const RenderedPlate without = every_plane(basin());
+  const RenderedPlate opaque = every_plane(basin_with_wall(AlphaMode::kOpaque, 1));
+  const RenderedPlate thin = every_plane(basin_with_wall(AlphaMode::kBlend, 0.49));
+  const RenderedPlate thick = every_plane(basin_with_wall(AlphaMode::kBlend, 0.51));
+  for (int i = 0; i < kPlaneCount; ++i) {
+    const PlaneId id = static_cast<PlaneId>(i);
+    if (!without.frame.plane(id)) continue;
+    const bool color =
+        (kColorPlanes | kReflectionPlanes | kBelowPlanes).has(id) && id != PlaneId::kBelowDepth;
+    if (color) {
+      EXPECT_GT(different_pixels(thin, without, id), 50) << i;
+      EXPECT_GT(different_pixels(thick, opaque, id), 50) << i;
+    } else {
+      EXPECT_EQ(different_pixels(thin, without, id), 0) << i;
+      EXPECT_EQ(different_pixels(thick, opaque, id), 0) << i;
+    }
+  }
+}
+
 TEST(RenderPlate, ReflectionOfAFlatMirrorIsTheSceneUpsideDown) {
   const Scene scene = over_basin();
   const RenderedPlate plate = render_basin(scene);

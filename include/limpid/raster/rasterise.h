@@ -51,7 +51,8 @@ struct RasterImage {
   std::array<Plane, 3> normal;  ///< unit, world, towards the viewer's side; 0 where nothing is
 };
 
-/// Draws a model by software: visibility first, then shading once a pixel. Pixels are sampled at
+/// Draws a model by software: visibility first, then shading once a pixel, and once for each
+/// surface that blends over it (AlphaMode). Pixels are sampled at
 /// their centres, corners snapped to 1/256 pixel, edges shared by two triangles belong to one of
 /// them (top-left rule). Depth is that of the triangle's plane, worked out in double. Textures are
 /// bilinear in the mip level nearest to the pixel's footprint. Without normals faces are flat;
