@@ -1,12 +1,14 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 
-#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "limpid/raster/model.h"
 
 #include "raster/prepared.h"
+#include "trace/texture.h"
 #include "trace/triangles.h"
 
 namespace limpid::trace {
@@ -25,12 +27,17 @@ struct SolidPoint {
   glm::dvec3 normal{0};  ///< unit, for shading
   glm::dvec3 smooth{0};  ///< the point on the round surface that the normals tell of
   int material = 0;
-  glm::dvec2 uv{0}, uv_dx{0}, uv_dy{0};
+  std::array<TexturePlace, 2> places;  ///< of each set of uvs
+  glm::dvec4 color{1};                 ///< of the vertices
+  double opacity = 1;                  ///< below 1 something behind it is seen as well
 
   /// Where a ray from here to that direction may begin without meeting its own triangle, nor the
   /// corners of what shall look round.
   glm::dvec3 off_towards(const glm::dvec3& direction) const;
 };
+
+/// Which points of surfaces that blend are there: AlphaMode. Of masked ones always the same are.
+enum class Opacity : std::uint8_t { kSeen, kBlocking, kSolid };
 
 /// All of a model but its water, relative to an eye.
 class Solid {
@@ -38,11 +45,10 @@ class Solid {
   /// Throws Error for a model that the rasteriser refuses.
   Solid(const Model& model, const glm::dvec3& eye);
 
-  std::optional<SolidPoint> nearest(const Beam& beam) const;
-  std::optional<Triangles::Hit> nearest(const Ray& ray) const {
-    return triangles_.nearest(ray, Sides::kShown);
-  }
-  bool blocks(const Ray& ray) const { return triangles_.block(ray); }
+  std::optional<SolidPoint> nearest(const Beam& beam, Opacity least) const;
+  /// What a depth buffer has. Rays know no footprint: opacity is that of the finest mip level.
+  std::optional<Triangles::Hit> nearest(const Ray& ray) const;
+  bool blocks(const Ray& ray) const;
 
   /// The light that goes back along the beam, by the material. `visible` is asked for the sun's
   /// visibility, 0 ... 1, where that matters.
@@ -61,6 +67,19 @@ class Solid {
     int material;
   };
 
+  class Test;
+
+  const raster::MaterialView& material_of(std::uint32_t part) const {
+    return model_.materials[static_cast<std::size_t>(sources_[part].material)];
+  }
+  const std::uint32_t* corner_numbers(std::uint32_t part, std::uint32_t triangle) const {
+    return triangles_.parts()[part].indices.data() + 3 * std::size_t{triangle};
+  }
+  std::array<TexturePlace, 2> places_at(std::uint32_t part, std::uint32_t triangle,
+                                        const glm::dvec3& shares, const Beam* beam) const;
+  glm::dvec4 color_at(std::uint32_t part, std::uint32_t triangle, const glm::dvec3& shares) const;
+  double opacity_at(std::uint32_t part, std::uint32_t triangle, const glm::dvec3& shares,
+                    const Beam* beam) const;
   bool is_lit(const SolidPoint& point) const;
   Rgb<double> shaded(const SolidPoint& point, const glm::dvec3& to_viewer, const Sunlight& sun,
                      double visible) const;

@@ -7,10 +7,19 @@
 
 namespace limpid::trace {
 
-/// A texture as the raster pass filters it: bilinear, repeating, in the mip level whose texels are
-/// nearest in size to the sample's footprint, of which uv_dx and uv_dy are the sides. Footprints
-/// that are not finite see the coarsest level.
-Rgb<double> sample(const raster::PyramidView& texture, const glm::dvec2& uv,
-                   const glm::dvec2& uv_dx, const glm::dvec2& uv_dy);
+/// A place in a texture, and the sides of the sample's footprint there.
+struct TexturePlace {
+  glm::dvec2 uv{0}, dx{0}, dy{0};
+};
+
+struct Texel {
+  Rgb<double> color{1, 1, 1};
+  double alpha = 1;
+};
+
+/// A texture as the raster pass filters it: bilinear, in the mip level whose texels are nearest in
+/// size to the footprint. Footprints that are not finite see the coarsest level.
+Texel sample(const raster::PyramidView& texture, const TextureLookup& lookup,
+             const TexturePlace& place);
 
 }  // namespace limpid::trace

@@ -22,6 +22,13 @@ Sunlight in_the_air(const Scene& scene) {
   return {scene.sun->direction, 1, scene.sun->color};
 }
 
+/// The beam goes on behind a point that it was seen through.
+Beam beyond(const Beam& beam, const SolidPoint& point) {
+  Beam on = turned(beam, point.hit.point, point.face, [](const glm::dvec3& d) { return d; });
+  on.ray.origin -= point.hit.slack * point.face;
+  return on;
+}
+
 }  // namespace
 
 Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
@@ -41,15 +48,32 @@ Light Tracer::seen(const Beam& beam, bool in_water, int steps, Samples& samples)
   return in_water ? from_water(beam, view) : in_air(beam, view);
 }
 
+std::optional<SolidPoint> Tracer::nearest_dry(const Beam& beam, const View& view) const {
+  return solid_.nearest(beam, view.layers < kBlendedLayers ? Opacity::kSeen : Opacity::kSolid);
+}
+
+/// What lies behind a surface that blends, and the surface over it.
+Light Tracer::through_layer(const SolidPoint& layer, const Beam& beam, View view) const {
+  ++view.layers;
+  Light light = in_air(beyond(beam, layer), view);
+  const double left = 1 - layer.opacity;
+  light.transmitted = left * light.transmitted + layer.opacity * dry_light(layer, beam);
+  light.in_scatter = left * light.in_scatter;
+  light.reflected = left * light.reflected;
+  light.highlight = left * light.highlight;
+  return light;
+}
+
 Light Tracer::in_air(const Beam& beam, View view) const {
   Light light;
-  const std::optional<SolidPoint> dry = solid_.nearest(beam);
+  const std::optional<SolidPoint> dry = nearest_dry(beam, view);
   std::optional<SurfacePoint> wet;
   if (view.events < kTruthEvents) {
     Ray ray = beam.ray;
     if (dry) ray.to = std::min(ray.to, dry->hit.distance);
     wet = surface_.nearest(ray, true);
   }
+  if (!wet && dry && dry->opacity < 1) return through_layer(*dry, beam, view);
   if (!wet) {
     light.transmitted = dry ? dry_light(*dry, beam) : background(beam.ray.direction, view);
     return light;
@@ -91,25 +115,48 @@ Light Tracer::from_water(const Beam& beam, View view) const {
   return light;
 }
 
+/// The way to the surface that blends, the surface, and the way on behind it.
+Tracer::Leg Tracer::through_layer(const SolidPoint& layer, const Beam& beam, const Band& band,
+                                  View view) const {
+  ++view.layers;
+  const double length = layer.hit.distance;
+  const Rgb<double> before = transmittance(length, medium_.rate);
+  Leg leg = through_water(beyond(beam, layer), band, view);
+  const Rgb<double> left = (1 - layer.opacity) * before;
+  leg.through = left * leg.through + layer.opacity * end_light(&layer, beam, length, band, view);
+  leg.mirrored = left * leg.mirrored;
+  leg.in_scatter = scattered(beam.ray, length, band, view) + left * leg.in_scatter;
+  leg.transmittance = before * leg.transmittance;
+  return leg;
+}
+
+/// What comes to the view from the end of a way through the water: a dry surface, or none.
+Rgb<double> Tracer::end_light(const SolidPoint* dry, const Beam& beam, double length,
+                              const Band& band, const View& view) const {
+  const Rgb<double> end =
+      dry ? bottom_light(*dry, beam, band) : background(beam.ray.direction, view);
+  const double depth =
+      dry ? depth_of(dry->hit.point) : std::max(0.0, depth_of(beam.ray.at(length)));
+  const double leaves = view.from_air ? band.light.bottom : 1;
+  return leaves *
+         (transmittance(depth, band.light.down) * (transmittance(length, medium_.rate) * end));
+}
+
 Tracer::Leg Tracer::through_water(const Beam& beam, const Band& band, View view) const {
-  const std::optional<SolidPoint> dry = solid_.nearest(beam);
+  const std::optional<SolidPoint> dry = nearest_dry(beam, view);
   std::optional<SurfacePoint> wet;
   if (view.events < kTruthEvents) {
     Ray ray = beam.ray;
     if (dry) ray.to = std::min(ray.to, dry->hit.distance);
     wet = surface_.nearest(ray, false);
   }
+  if (!wet && dry && dry->opacity < 1) return through_layer(*dry, beam, band, view);
   const double length = wet ? wet->distance : dry ? dry->hit.distance : kEndless;
   Leg leg;
   leg.transmittance = transmittance(length, medium_.rate);
   leg.in_scatter = scattered(beam.ray, length, band, view);
   if (!wet) {
-    const Rgb<double> end =
-        dry ? bottom_light(*dry, beam, band) : background(beam.ray.direction, view);
-    const double depth =
-        dry ? depth_of(dry->hit.point) : std::max(0.0, depth_of(beam.ray.at(length)));
-    const double leaves = view.from_air ? band.light.bottom : 1;
-    leg.through = leaves * (transmittance(depth, band.light.down) * (leg.transmittance * end));
+    leg.through = end_light(dry ? &*dry : nullptr, beam, length, band, view);
     return leg;
   }
   ++view.events;

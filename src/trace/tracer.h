@@ -35,6 +35,7 @@ class Tracer {
   /// A view on its way: what it has behind it.
   struct View {
     int events = 0;         ///< meetings with the surface
+    int layers = 0;         ///< surfaces that it was seen through
     bool mirrored = false;  ///< for what it sees where it leaves the scene
     bool from_air = true;   ///< where the eye is
     int steps;
@@ -53,6 +54,11 @@ class Tracer {
   Light in_air(const Beam& beam, View view) const;
   Light from_water(const Beam& beam, View view) const;
   Leg through_water(const Beam& beam, const Band& band, View view) const;
+  Light through_layer(const SolidPoint& layer, const Beam& beam, View view) const;
+  Leg through_layer(const SolidPoint& layer, const Beam& beam, const Band& band, View view) const;
+  Rgb<double> end_light(const SolidPoint* dry, const Beam& beam, double length, const Band& band,
+                        const View& view) const;
+  std::optional<SolidPoint> nearest_dry(const Beam& beam, const View& view) const;
   Rgb<double> scattered(const Ray& ray, double length, const Band& band, const View& view) const;
   double sunlit_column(const Ray& ray, double length, double rate, double down, const Band& band,
                        const View& view) const;

@@ -13,18 +13,39 @@ namespace {
 struct Query {
   RTCIntersectContext context;
   const Triangles* triangles;
+  const PointTest* test;
   Sides sides;
   glm::dvec3 direction;
 };
 
+const Query& query_of(const RTCFilterFunctionNArguments* arguments) {
+  return *reinterpret_cast<const Query*>(arguments->context);
+}
+
 /// Embree asks this of every triangle that a ray meets.
 void drop_hidden_side(const RTCFilterFunctionNArguments* arguments) {
-  const Query& query = *reinterpret_cast<const Query*>(arguments->context);
+  const Query& query = query_of(arguments);
   const std::uint32_t part = RTCHitN_geomID(arguments->hit, arguments->N, 0);
   const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
   if (query.sides == Sides::kShown && query.triangles->parts()[part].back_shown) return;
   const bool back = glm::dot(query.triangles->corners(part, triangle).cross(), query.direction) > 0;
   if (back != (query.sides == Sides::kBack)) arguments->valid[0] = 0;
+}
+
+/// This one of every tested triangle.
+void drop_holes(const RTCFilterFunctionNArguments* arguments) {
+  const Query& query = query_of(arguments);
+  if (!query.test) return;
+  const unsigned n = arguments->N;
+  const double b = RTCHitN_u(arguments->hit, n, 0), c = RTCHitN_v(arguments->hit, n, 0);
+  const bool there = query.test->there(RTCHitN_geomID(arguments->hit, n, 0),
+                                       RTCHitN_primID(arguments->hit, n, 0), {1 - b - c, b, c});
+  if (!there) arguments->valid[0] = 0;
+}
+
+void drop_hidden_side_and_holes(const RTCFilterFunctionNArguments* arguments) {
+  drop_hidden_side(arguments);
+  if (arguments->valid[0] != 0) drop_holes(arguments);
 }
 
 RTCRay ray_of(const Ray& ray) {
@@ -74,7 +95,9 @@ struct Triangles::State {
         for (int c = 0; c < 3; ++c) *positions++ = static_cast<float>(p[c]);
       }
       std::copy(part.indices.begin(), part.indices.end(), indices);
-      rtcSetGeometryIntersectFilterFunction(geometry, drop_hidden_side);
+      rtcSetGeometryIntersectFilterFunction(
+          geometry, part.tested ? drop_hidden_side_and_holes : drop_hidden_side);
+      if (part.tested) rtcSetGeometryOccludedFilterFunction(geometry, drop_holes);
       rtcCommitGeometry(geometry);
       rtcAttachGeometry(scene, geometry);
     }
@@ -102,9 +125,10 @@ Triangles::Corners Triangles::corners(std::uint32_t part, std::uint32_t triangle
   return {p.positions[corner[0]], p.positions[corner[1]], p.positions[corner[2]]};
 }
 
-std::optional<Triangles::Hit> Triangles::nearest(const Ray& ray, Sides sides) const {
+std::optional<Triangles::Hit> Triangles::nearest(const Ray& ray, Sides sides,
+                                                 const PointTest* test) const {
   if (empty()) return std::nullopt;
-  Query query{{}, this, sides, ray.direction};
+  Query query{{}, this, test, sides, ray.direction};
   rtcInitIntersectContext(&query.context);
   RTCRayHit found{ray_of(ray), {}};
   found.hit.geomID = found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -129,12 +153,12 @@ std::optional<Triangles::Hit> Triangles::nearest(const Ray& ray, Sides sides) co
   return hit;
 }
 
-bool Triangles::block(const Ray& ray) const {
+bool Triangles::block(const Ray& ray, const PointTest* test) const {
   if (empty()) return false;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  Query query{{}, this, test, Sides::kShown, ray.direction};
+  rtcInitIntersectContext(&query.context);
   RTCRay r = ray_of(ray);
-  rtcOccluded1(state_->scene, &context, &r);
+  rtcOccluded1(state_->scene, &query.context, &r);
   return r.tfar < 0;
 }
 

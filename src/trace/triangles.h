@@ -18,6 +18,15 @@ enum class Sides : std::uint8_t {
   kBack,
 };
 
+/// Says of points of a triangle whether anything is there.
+class PointTest {
+ public:
+  virtual ~PointTest() = default;
+  /// `shares` of the corners.
+  virtual bool there(std::uint32_t part, std::uint32_t triangle,
+                     const glm::dvec3& shares) const = 0;
+};
+
 /// Triangles that rays are traced through: Embree behind an interface. It searches in float; where
 /// exactly a ray meets the triangle that was found is worked out in double, by its plane.
 class Triangles {
@@ -26,6 +35,7 @@ class Triangles {
     std::vector<glm::dvec3> positions;
     std::vector<std::uint32_t> indices;  ///< three a triangle
     bool back_shown = true;              ///< for Sides::kShown
+    bool tested = false;                 ///< where it is, a PointTest says
   };
   struct Corners {
     glm::dvec3 a, b, c;
@@ -44,9 +54,10 @@ class Triangles {
   explicit Triangles(std::vector<Part> parts);
   ~Triangles();
 
-  std::optional<Hit> nearest(const Ray& ray, Sides sides) const;
+  /// Without a test, parts that are tested are there everywhere.
+  std::optional<Hit> nearest(const Ray& ray, Sides sides, const PointTest* test = nullptr) const;
   /// Whether anything, from whichever side, is in the ray's way.
-  bool block(const Ray& ray) const;
+  bool block(const Ray& ray, const PointTest* test = nullptr) const;
 
   bool empty() const { return parts_.empty(); }
   Corners corners(std::uint32_t part, std::uint32_t triangle) const;

@@ -38,7 +38,9 @@ namespace limpid {
 ///   background, the environment (if there is one), or the constant color. Others see the
 ///   background.
 /// - Penetration, and the ways of the other operators to look things up, have no meaning here.
-/// Dry surfaces answer light as in the raster pass (Shading), with hard shadows of the sun.
+/// Dry surfaces answer light as in the raster pass (Shading), with hard shadows of the sun. Those
+/// that blend are seen through where they lie, in the air or in the water, up to kBlendedLayers on
+/// one way; shadows, ends of ways and `visible` are by the rule that AlphaMode has for depth.
 ///
 /// Left out: light that waves focus on the bottom (caustics), light that is scattered or reflected
 /// more than once on its way from the sun to where it is seen, the sky's light being shadowed.
