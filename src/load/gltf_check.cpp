@@ -7,7 +7,9 @@
 namespace limpid {
 namespace {
 
-const std::vector<std::string> kExtensions = {"KHR_lights_punctual", "KHR_materials_unlit"};
+const std::vector<std::string> kExtensions = {"KHR_lights_punctual", "KHR_materials_unlit",
+                                              "KHR_materials_emissive_strength",
+                                              "KHR_materials_pbrSpecularGlossiness"};
 
 // "2.0", "2.1" ...: minor versions stay compatible.
 void check_version(const JsonPlace& asset) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "limpid/core/error.h"
 
 #include "load/gltf_check.h"
@@ -29,12 +31,17 @@ void check_floats(const JsonPlace& use, const JsonPlace& accessor, std::string_v
   }
 }
 
-void check_uvs(const JsonPlace& use, const JsonPlace& accessor) {
+// Of uvs and colors.
+void check_shares(const JsonPlace& use, const JsonPlace& accessor,
+                  const std::vector<std::string>& types) {
   check_dense(accessor);
   const std::int64_t component = accessor.at("componentType").integer(0, INT32_MAX);
   const bool integers = (component == kByte || component == kShort) && normalized(accessor);
-  if (accessor.at("type").text() != "VEC2" || !(component == kFloat || integers)) {
-    use.refuse("an accessor of VEC2 float, or of normalized unsigned bytes or shorts");
+  const bool fits =
+      std::find(types.begin(), types.end(), accessor.at("type").text()) != types.end();
+  if (!fits || !(component == kFloat || integers)) {
+    use.refuse("an accessor of " + join(types, " or ") +
+               " float, or of normalized unsigned bytes or shorts");
   }
 }
 
@@ -66,13 +73,15 @@ std::int64_t check_attributes(const JsonPlace& primitive, const std::vector<Json
     check_floats(*normal, accessor_of(*normal), "VEC3");
     check_count(*normal);
   }
-  if (const std::optional<JsonPlace> uv = attributes.find("TEXCOORD_0")) {
-    check_uvs(*uv, accessor_of(*uv));
-    check_count(*uv);
+  for (const std::string& key : attributes.keys()) {
+    if (!key.starts_with("TEXCOORD_")) continue;
+    const JsonPlace uv = attributes.at(key);
+    check_shares(uv, accessor_of(uv), {"VEC2"});
+    check_count(uv);
   }
-  if (attributes.find("COLOR_0")) {
-    throw Error(attributes.path() +
-                ".COLOR_0: vertex colors are not supported, expected a texture");
+  if (const std::optional<JsonPlace> color = attributes.find("COLOR_0")) {
+    check_shares(*color, accessor_of(*color), {"VEC3", "VEC4"});
+    check_count(*color);
   }
   return vertices;
 }

@@ -4,6 +4,8 @@
 
 #include "limpid/core/error.h"
 
+#include "load/gltf_sampler.h"
+
 namespace limpid {
 namespace {
 
@@ -11,22 +13,16 @@ namespace {
 constexpr std::string_view kShadings[] = {"flat", "textured", "lambert", "phong", "toon"};
 constexpr std::string_view kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};
 constexpr const char* kUnlit = "KHR_materials_unlit";
-constexpr std::int64_t kRepeat = 10497, kClamp = 33071, kMirror = 33648;
+constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+constexpr int kUvSets = 2;  // that a Mesh has room for
 
 Rgb<double> rgb(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
-bool repeats(const JsonPlace& sampler) {
-  bool both = true;
-  for (const std::string_view key : {"wrapS", "wrapT"}) {
-    const std::optional<JsonPlace> wrap = sampler.find(key);
-    if (!wrap) continue;
-    const std::int64_t word = wrap->integer(0, INT32_MAX);
-    if (word != kRepeat && word != kClamp && word != kMirror) {
-      wrap->refuse("one of 10497, 33071, 33648");
-    }
-    both = both && word == kRepeat;
-  }
-  return both;
+double number_from_0(const JsonPlace& place) {
+  if (!(place.number() >= 0)) place.refuse("a number from 0 up");
+  return place.number();
 }
 
 class Reader {
@@ -36,11 +32,11 @@ class Reader {
         textures_(root.list("textures")),
         texture_of_image_(root.count("images"), -1) {
     for (const JsonPlace& sampler : root.list("samplers")) {
-      sampler_repeats_.push_back(repeats(sampler));
+      samplers_.push_back(read_gltf_sampler(sampler));
     }
     for (const JsonPlace& texture : textures_) {
       texture.at("source").index(texture_of_image_.size());
-      if (const auto sampler = texture.find("sampler")) sampler->index(sampler_repeats_.size());
+      if (const auto sampler = texture.find("sampler")) sampler->index(samplers_.size());
     }
     for (const JsonPlace& material : root.list("materials")) add(material);
     result_.materials.emplace_back();
@@ -54,33 +50,74 @@ class Reader {
     Material& material = read.material;
     if (const auto name = place.find("name")) material.name = name->text();
     if (const auto sided = place.find("doubleSided")) material.double_sided = sided->boolean();
-    if (const auto mode = place.find("alphaMode")) read.opaque = mode->choice(kAlphaModes) == 0;
-    if (const auto base = place.find("pbrMetallicRoughness")) read_base(*base, read);
-    if (const auto extensions = place.find("extensions")) read_extensions(*extensions, read);
+    if (const auto mode = place.find("alphaMode")) {
+      material.alpha_mode = static_cast<AlphaMode>(mode->choice(kAlphaModes));
+    }
+    if (const auto cutoff = place.find("alphaCutoff")) {
+      material.alpha_cutoff = number_from_0(*cutoff);
+    }
+    const auto extensions = place.find("extensions");
+    const auto extension = [&](const char* name) {
+      return extensions ? extensions->find(name) : std::nullopt;
+    };
+    const auto unlit = extension(kUnlit), diffuse = extension(kSpecularGlossiness);
+    if (diffuse && !unlit) {
+      warnings_.add(std::string(kSpecularGlossiness) + " is drawn by its diffuse color alone",
+                    place.path());
+      read_base(*diffuse, "diffuseFactor", "diffuseTexture", read);
+    } else if (const auto base = place.find("pbrMetallicRoughness")) {
+      read_base(*base, "baseColorFactor", "baseColorTexture", read);
+      warn_of_map(*base, "metallicRoughnessTexture", "metallic-roughness", place);
+    }
+    if (unlit) {
+      material.shading = material.base_texture < 0 ? Shading::kFlat : Shading::kTextured;
+    } else {
+      read_emission(place, extension(kEmissiveStrength), read);
+      warn_of_map(place, "normalTexture", "normal", place);
+      warn_of_map(place, "occlusionTexture", "occlusion", place);
+    }
+    if (extensions) warn_of_extensions(*extensions);
     if (const auto extras = place.extras()) read_extras(*extras, read);
   }
 
-  void read_extensions(const JsonPlace& extensions, GltfMaterial& read) {
-    Material& material = read.material;
-    if (extensions.find(kUnlit)) {
-      material.shading = material.base_texture < 0 ? Shading::kFlat : Shading::kTextured;
-    }
+  void warn_of_map(const JsonPlace& holder, std::string_view key, const std::string& kind,
+                   const JsonPlace& material) {
+    if (holder.find(key)) warnings_.add(kind + " maps are not drawn", material.path());
+  }
+
+  void warn_of_extensions(const JsonPlace& extensions) {
     for (const std::string& name : extensions.keys()) {
-      if (name != kUnlit) warnings_.add(name + " is not drawn", extensions.path());
+      if (name == kUnlit || name == kSpecularGlossiness || name == kEmissiveStrength) continue;
+      warnings_.add(name + " is not drawn", extensions.path());
     }
   }
 
-  void read_base(const JsonPlace& base, GltfMaterial& read) {
-    if (const auto factor = base.find("baseColorFactor")) {
+  void read_base(const JsonPlace& base, const char* factor_key, const char* texture_key,
+                 GltfMaterial& read) {
+    Material& material = read.material;
+    if (const auto factor = base.find(factor_key)) {
       const std::vector<double> color = factor->numbers(4);
       if (*std::min_element(color.begin(), color.end()) < 0) {
         factor->refuse("four numbers from 0 up");
       }
-      read.material.base_color = rgb(color);
+      material.base_color = rgb(color);
+      material.alpha = color[3];
     }
-    if (const auto texture = base.find("baseColorTexture")) {
-      read.material.base_texture = texture_of(*texture, read);
+    if (const auto texture = base.find(texture_key)) {
+      material.base_texture = texture_of(*texture, read, material.base_lookup);
     }
+  }
+
+  void read_emission(const JsonPlace& place, const std::optional<JsonPlace>& strength,
+                     GltfMaterial& read) {
+    Material& material = read.material;
+    if (const auto factor = place.find("emissiveFactor")) material.emission = rgb(factor->color());
+    if (const auto times = strength ? strength->find("emissiveStrength") : std::nullopt) {
+      material.emission = number_from_0(*times) * material.emission;
+    }
+    const auto texture = place.find("emissiveTexture");
+    if (!texture || material.emission == Rgb<double>{0, 0, 0}) return;
+    material.emissive_texture = texture_of(*texture, read, material.emissive_lookup);
   }
 
   void read_extras(const JsonPlace& extras, GltfMaterial& read) {
@@ -112,24 +149,39 @@ class Reader {
       material.specular = rgb(specular->color());
     }
     if (const auto texture = used("specular_texture", shiny, "phong")) {
-      texture->expect_keys({"index"});
-      material.specular_texture = texture_of(*texture, read);
+      texture->expect_keys({"index", "texCoord"});
+      material.specular_texture = texture_of(*texture, read, material.specular_lookup);
     }
   }
 
-  // The place of its image in result_.images.
-  int texture_of(const JsonPlace& info, GltfMaterial& read) {
-    const JsonPlace& texture = textures_[info.at("index").index(textures_.size())];
-    if (const auto set = info.find("texCoord")) {
-      if (set->integer(0, INT32_MAX) != 0) set->refuse("0: only TEXCOORD_0 is supported");
+  // Which of the material's sets of uvs a texture is looked up by.
+  static int uv_set_of(const JsonPlace& info, GltfMaterial& read) {
+    const auto set = info.find("texCoord");
+    const int number = set ? static_cast<int>(set->integer(0, INT32_MAX)) : 0;
+    const auto found = std::find(read.uv_sets.begin(), read.uv_sets.end(), number);
+    const int place = static_cast<int>(found - read.uv_sets.begin());
+    if (found == read.uv_sets.end()) read.uv_sets.push_back(number);
+    if (place >= kUvSets) {
+      throw Error(info.path() + ": TEXCOORD_" + std::to_string(number) + " beside TEXCOORD_" +
+                  std::to_string(read.uv_sets[0]) + " and TEXCOORD_" +
+                  std::to_string(read.uv_sets[1]) + ", expected at most two sets in one material");
     }
+    return place;
+  }
+
+  // The place of its image in result_.images.
+  int texture_of(const JsonPlace& info, GltfMaterial& read, TextureLookup& lookup) {
+    const JsonPlace& texture = textures_[info.at("index").index(textures_.size())];
+    lookup.uv_set = uv_set_of(info, read);
     const auto extensions = info.find("extensions");
     if (extensions && extensions->find("KHR_texture_transform")) {
       throw Error(info.path() +
                   ": KHR_texture_transform is not supported, expected it applied to the uvs");
     }
-    if (const auto sampler = texture.find("sampler")) {
-      read.repeats = read.repeats && sampler_repeats_[sampler->index(sampler_repeats_.size())];
+    if (const auto place = texture.find("sampler")) {
+      const GltfSampler& sampler = samplers_[place->index(samplers_.size())];
+      lookup.wrap_u = sampler.wrap_u;
+      lookup.wrap_v = sampler.wrap_v;
     }
     const int image = texture.at("source").index(texture_of_image_.size());
     int& index = texture_of_image_[image];
@@ -143,7 +195,7 @@ class Reader {
   ModelWarnings& warnings_;
   std::vector<JsonPlace> textures_;
   std::vector<int> texture_of_image_;
-  std::vector<bool> sampler_repeats_;
+  std::vector<GltfSampler> samplers_;
   GltfMaterials result_;
 };
 

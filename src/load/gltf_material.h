@@ -11,8 +11,7 @@ namespace limpid {
 /// A material and what drawing with it asks for.
 struct GltfMaterial {
   Material material;
-  bool opaque = true;
-  bool repeats = true;  ///< else its textures clamp or mirror outside 0 ... 1
+  std::vector<int> uv_sets;  ///< the TEXCOORD_n that Mesh::uvs and Mesh::second_uvs are read from
 };
 
 struct GltfMaterials {

@@ -1,5 +1,6 @@
 #include "load/gltf_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -15,7 +16,7 @@ struct Elements {
   const unsigned char* first;
   std::size_t stride;
   std::size_t count;
-  int component;
+  int component, components;
 
   template <class T>
   T at(std::size_t element, int index) const {
@@ -31,7 +32,7 @@ Elements elements_of(const tinygltf::Model& gltf, int index) {
   const unsigned char* bytes = gltf.buffers.at(view.buffer).data.data();
   return {bytes + view.byteOffset + accessor.byteOffset,
           static_cast<std::size_t>(accessor.ByteStride(view)), accessor.count,
-          accessor.componentType};
+          accessor.componentType, tinygltf::GetNumComponentsInType(accessor.type)};
 }
 
 std::string shown(glm::vec3 v) {
@@ -55,7 +56,8 @@ std::vector<glm::vec3> read_vectors(const Elements& elements, const std::string&
   return vectors;
 }
 
-float uv_at(const Elements& elements, std::size_t vertex, int index) {
+// A float, or an integer as a share of the largest one.
+float share_at(const Elements& elements, std::size_t vertex, int index) {
   switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return static_cast<float>(elements.at<std::uint8_t>(vertex, index)) / 255.0f;
@@ -66,20 +68,50 @@ float uv_at(const Elements& elements, std::size_t vertex, int index) {
   }
 }
 
-std::vector<glm::vec2> read_uvs(const Elements& elements, bool repeats, const std::string& label) {
+std::vector<glm::vec2> read_uvs(const Elements& elements, const std::string& label) {
   std::vector<glm::vec2> uvs(elements.count);
   for (std::size_t i = 0; i < elements.count; ++i) {
-    uvs[i] = {uv_at(elements, i, 0), uv_at(elements, i, 1)};
+    uvs[i] = {share_at(elements, i, 0), share_at(elements, i, 1)};
     for (const float c : {uvs[i].x, uvs[i].y}) {
       if (!std::isfinite(c)) refuse(label, i, "uv " + std::to_string(c) + ", expected a number");
-      if (!repeats && !(c >= 0 && c <= 1)) {
-        refuse(
-            label, i,
-            "uv " + std::to_string(c) + ", expected 0 ... 1 because its texture does not repeat");
-      }
     }
   }
   return uvs;
+}
+
+// None where all are white and opaque. Numbers below 0 become 0.
+std::vector<glm::vec4> read_colors(const Elements& elements, const std::string& label) {
+  std::vector<glm::vec4> colors(elements.count, glm::vec4(1));
+  bool some = false;
+  for (std::size_t i = 0; i < elements.count; ++i) {
+    for (int c = 0; c < elements.components; ++c) {
+      const float value = share_at(elements, i, c);
+      if (!std::isfinite(value)) {
+        refuse(label, i, "color " + std::to_string(value) + ", expected a number");
+      }
+      colors[i][c] = std::max(value, 0.0f);
+    }
+    some = some || colors[i] != glm::vec4(1);
+  }
+  if (!some) colors.clear();
+  return colors;
+}
+
+/// Those of the sets that the material asks for; of none asked for, the first that there is.
+void add_uvs(const tinygltf::Model& gltf, const tinygltf::Primitive& primitive,
+             const GltfMaterial& looks, const std::string& label, Mesh& mesh) {
+  const bool textured = !looks.uv_sets.empty();
+  const std::vector<int> sets = textured ? looks.uv_sets : std::vector<int>{0};
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const std::string key = "TEXCOORD_" + std::to_string(sets[i]);
+    const auto found = primitive.attributes.find(key);
+    if (found != primitive.attributes.end()) {
+      (i == 0 ? mesh.uvs : mesh.second_uvs) = read_uvs(elements_of(gltf, found->second), label);
+    } else if (textured) {
+      throw Error(label + ": expected " + key + ", because material '" + looks.material.name +
+                  "' has a texture");
+    }
+  }
 }
 
 std::uint32_t index_at(const Elements& elements, std::size_t corner) {
@@ -167,25 +199,25 @@ GltfMesh read_gltf_mesh(const tinygltf::Model& gltf, int index,
     const bool indexed = primitive.indices >= 0;
     const Elements indices = indexed ? elements_of(gltf, primitive.indices) : Elements{};
     const std::size_t corners = indexed ? indices.count : positions.count;
-    budget.take(
-        static_cast<std::int64_t>(positions.count * (2 * sizeof(glm::vec3) + sizeof(glm::vec2)) +
-                                  corners * sizeof(std::uint32_t)),
-        label);
+    const int material =
+        primitive.material >= 0 ? primitive.material : static_cast<int>(materials.size()) - 1;
+    const GltfMaterial& looks = materials.at(material);
+    const std::size_t bytes_a_vertex =
+        2 * sizeof(glm::vec3) + std::max<std::size_t>(looks.uv_sets.size(), 1) * sizeof(glm::vec2) +
+        attributes.count("COLOR_0") * sizeof(glm::vec4);
+    budget.take(static_cast<std::int64_t>(positions.count * bytes_a_vertex +
+                                          corners * sizeof(std::uint32_t)),
+                label);
     Mesh mesh;
     mesh.name = source.name;
-    mesh.material =
-        primitive.material >= 0 ? primitive.material : static_cast<int>(materials.size()) - 1;
+    mesh.material = material;
     mesh.positions = read_vectors(positions, label, "position");
     if (const auto found = attributes.find("NORMAL"); found != attributes.end()) {
       mesh.normals = read_vectors(elements_of(gltf, found->second), label, "normal");
     }
-    const GltfMaterial& looks = materials.at(mesh.material);
-    const bool textured = looks.material.base_texture >= 0 || looks.material.specular_texture >= 0;
-    if (const auto found = attributes.find("TEXCOORD_0"); found != attributes.end()) {
-      mesh.uvs = read_uvs(elements_of(gltf, found->second), !textured || looks.repeats, label);
-    } else if (textured) {
-      throw Error(label + ": expected TEXCOORD_0, because material '" + looks.material.name +
-                  "' has a texture");
+    add_uvs(gltf, primitive, looks, label, mesh);
+    if (const auto found = attributes.find("COLOR_0"); found != attributes.end()) {
+      mesh.colors = read_colors(elements_of(gltf, found->second), label);
     }
     read.skipped_triangles += add_triangles(mesh, corners, label, [&](std::size_t corner) {
       return indexed ? index_at(indices, corner) : static_cast<std::uint32_t>(corner);

@@ -25,8 +25,8 @@ struct GltfMesh {
 };
 
 /// Reads a mesh of a checked document. Throws Error for vertices that are not finite, indices
-/// beyond the vertices, textures without uvs, and uvs outside 0 ... 1 on textures that do not
-/// repeat. Normals become unit; a zero one becomes that of the triangles around its vertex.
+/// beyond the vertices, and textures without uvs. Normals become unit; a zero one becomes that of
+/// the triangles around its vertex.
 GltfMesh read_gltf_mesh(const tinygltf::Model& gltf, int mesh,
                         const std::vector<GltfMaterial>& materials, MemoryBudget& budget);
 

@@ -188,6 +188,8 @@ class SceneReader {
         const Mesh& original = model_.meshes[part];
         budget_.take(static_cast<std::int64_t>(original.positions.size() *
                                                    (2 * sizeof(glm::vec3) + sizeof(glm::vec2)) +
+                                               original.second_uvs.size() * sizeof(glm::vec2) +
+                                               original.colors.size() * sizeof(glm::vec4) +
                                                original.indices.size() * sizeof(std::uint32_t)),
                      "the mirrored mesh '" + original.name + "'");
         mesh.mirrored_parts.push_back(put(mirrored(original)));
@@ -195,11 +197,6 @@ class SceneReader {
     }
     const glm::dmat4 matrix = mirrors ? glm::scale(world, glm::dvec3(-1, 1, 1)) : world;
     for (const int part : mirrors ? mesh.mirrored_parts : mesh.parts) {
-      const GltfMaterial& looks = materials_[model_.meshes[part].material];
-      if (!looks.opaque && !water) {
-        throw Error("its material '" + looks.material.name +
-                    "' is not opaque, expected alphaMode OPAQUE on all but water");
-      }
       model_.instances.push_back({part, matrix, water});
     }
   }

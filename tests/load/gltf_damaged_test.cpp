@@ -137,8 +137,6 @@ const Damage kDamages[] = {
      "mode = \"4\": expected an integer"},
     {"morph", [](json& g) { g["meshes"][0]["primitives"][0]["targets"] = json::array(); },
      "morph targets are not supported"},
-    {"vertex_colors", [](json& g) { g["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 0; },
-     "COLOR_0: vertex colors are not supported"},
     {"material_index", [](json& g) { g["meshes"][0]["primitives"][0]["material"] = 0; },
      "material = 0: expected an index below 0"},
     {"material_negative", [](json& g) { g["meshes"][0]["primitives"][0]["material"] = -1; },
@@ -172,12 +170,6 @@ const Damage kDamages[] = {
      },
      "meshes[0] 'square' vertex 1: uv nan"},
     // materials
-    {"not_opaque",
-     [](json& g) {
-       g["materials"] = json::parse(R"([{"name": "glass", "alphaMode": "BLEND"}])");
-       g["meshes"][0]["primitives"][0]["material"] = 0;
-     },
-     "nodes[0] 'thing': its material 'glass' is not opaque"},
     {"texture_index",
      [](json& g) {
        g["materials"] =

@@ -176,6 +176,21 @@ TEST_F(ProvenanceTest, TheSameModelGivesTheSameBytesAnywhere) {
   EXPECT_THAT(water.at("limpid/inputs"), HasSubstr("samples = 1\n"));
 }
 
+TEST_F(ProvenanceTest, AnotherMaterialIsAnotherModel) {
+  const auto rendered = [&](const std::string& inner, const std::string& more) {
+    copy_pool(inner);
+    std::string gltf = text_of(inner + "/pool.gltf");
+    const std::string begin = "\"materials\":[{";
+    gltf.replace(gltf.find(begin), begin.size(), begin + more);
+    write_text(inner + "/pool.gltf", gltf);
+    run_in(inner, {"render", "pool.toml", "--size", "32x18", "-o", "x.exr"});
+    return made(inner + "/x.exr").at("limpid/inputs");
+  };
+  const std::string plain = rendered("plain", "");
+  EXPECT_NE(rendered("masked", R"("alphaMode": "MASK", )"), plain);
+  EXPECT_NE(rendered("emissive", R"("emissiveFactor": [0, 0, 1], )"), plain);
+}
+
 /// The truth says the same of itself as water does, but there is no plan to it.
 TEST_F(ProvenanceTest, TheTruthSaysHowItWasTraced) {
   copy_pool("a");
