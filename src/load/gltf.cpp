@@ -5,12 +5,12 @@
 
 #include "limpid/core/error.h"
 
+#include "load/gltf_accessors.h"
+#include "load/gltf_buffers.h"
 #include "load/gltf_check.h"
 #include "load/gltf_files.h"
 #include "load/gltf_material.h"
-#include "load/gltf_mesh.h"
 #include "load/gltf_model.h"
-#include "load/gltf_parse.h"
 #include "load/gltf_scene.h"
 #include "load/gltf_texture.h"
 #include "load/model_warnings.h"
@@ -30,55 +30,101 @@ Rgb<double> background_of(const JsonPlace& root, Rgb<double> otherwise) {
   return {color[0], color[1], color[2]};
 }
 
-ModelTexture read_texture(const JsonPlace& place, const tinygltf::Image& image,
+std::string bytes_of_image(const JsonPlace& place, const GltfBuffers& buffers,
+                           const fs::path& folder, const MemoryBudget& budget) {
+  const auto uri = place.find("uri");
+  if (!uri) return std::string(buffers.view(place.at("bufferView").index(INT32_MAX)));
+  if (is_data_uri(uri->text())) return bytes_of_data_uri(*uri);
+  return read_file_in(folder, relative_path_of(*uri),
+                      std::min<std::int64_t>(budget.left, INT32_MAX));
+}
+
+ModelTexture read_texture(const JsonPlace& place, const GltfBuffers& buffers,
                           const fs::path& folder, Limits limits, MemoryBudget& budget) {
   limits.max_memory = budget.left;
-  const bool embedded = !image.image.empty();
-  const std::string bytes = embedded ? std::string(image.image.begin(), image.image.end())
-                                     : read_file_in(folder, relative_path_of(place.at("uri")),
-                                                    std::min<std::int64_t>(budget.left, INT32_MAX));
-  const std::string name = embedded ? place.path() : place.path() + " " + place.at("uri").text();
-  ModelTexture texture = decode_texture(bytes, name, limits);
-  budget.take(static_cast<std::int64_t>(texture.rgba.size() * sizeof(float)), name);
+  const auto uri = place.find("uri");
+  const std::string name =
+      uri && !is_data_uri(uri->text()) ? place.path() + " " + uri->text() : place.path();
+  ModelTexture texture =
+      decode_texture(bytes_of_image(place, buffers, folder, budget), name, limits);
+  budget.take(texture.rgba.size(), sizeof(float), name);
   return texture;
 }
 
-}  // namespace
-
-Model gltf_model(const GltfFile& file, const fs::path& folder, const Limits& limits) {
-  const JsonPlace root(file.json);
-  std::optional<std::int64_t> binary_bytes;
-  if (file.binary) binary_bytes = static_cast<std::int64_t>(file.binary->size());
-  check_gltf(root, binary_bytes, limits);
-  ModelWarnings warnings;
-  if (root.count("animations") > 0) warnings.add("animations are not played, nodes stay in place");
-  const GltfMaterials looks = read_gltf_materials(root, warnings);
-
-  MemoryBudget budget{limits.max_memory};
-  budget.take(file.memory, "its JSON");
-  for (const JsonPlace& buffer : root.list("buffers")) {
-    // There are two of each while they are handed over.
-    budget.take(2 * buffer.at("byteLength").integer(1, INT32_MAX), buffer.path());
+// What cannot be drawn without a texture has its fault.
+void blame_materials(const std::vector<std::string>& faults, std::vector<GltfMaterial>& materials) {
+  for (GltfMaterial& material : materials) {
+    for (const int texture : material.textures) {
+      if (!faults[texture].empty()) material.fault = faults[texture];
+    }
   }
-  const tinygltf::Model gltf = parse_gltf(file, folder, limits);
-  Model model;
-  for (const GltfMaterial& material : looks.materials) {
-    model.materials.push_back(material.material);
-  }
-  const std::vector<JsonPlace> images = root.list("images");
-  for (const int image : looks.images) {
-    model.textures.push_back(
-        read_texture(images[image], gltf.images[image], folder, limits, budget));
-  }
-  read_gltf_scene(gltf, looks.materials, budget, model);
-  model.background = background_of(root, model.background);
-  model.warnings = warnings.lines();
-  return model;
 }
 
-Model load_gltf(const fs::path& path, const Limits& limits) {
+class Reader {
+ public:
+  Reader(const GltfFile& file, const fs::path& folder, const Limits& limits, Undrawable undrawable)
+      : file_(file), root_(file.json), folder_(folder), limits_(limits), undrawable_(undrawable) {}
+
+  Model read() {
+    std::optional<std::int64_t> binary_bytes;
+    if (file_.binary) binary_bytes = static_cast<std::int64_t>(file_.binary->size());
+    const GltfFaults faults = check_gltf(root_, binary_bytes, limits_, undrawable_, warnings_);
+    if (root_.count("animations") > 0) {
+      warnings_.add("animations are not played, nodes stay in place");
+    }
+    GltfMaterials looks = read_gltf_materials(root_, undrawable_, warnings_);
+    budget_.take(file_.memory, "its JSON");
+    const GltfBuffers buffers(file_, folder_, budget_);
+    const GltfAccessors accessors(root_, buffers, budget_);
+    read_textures(buffers, looks);
+    for (const GltfMaterial& look : looks.materials) model_.materials.push_back(look.material);
+    read_gltf_scene({root_, faults, accessors, looks.materials}, undrawable_, budget_, warnings_,
+                    model_);
+    model_.background = background_of(root_, model_.background);
+    model_.warnings = warnings_.lines();
+    return std::move(model_);
+  }
+
+ private:
+  void read_textures(const GltfBuffers& buffers, GltfMaterials& looks) {
+    const std::vector<JsonPlace> images = root_.list("images");
+    std::vector<std::string> faults(looks.images.size());
+    for (std::size_t i = 0; i < looks.images.size(); ++i) {
+      ModelTexture& texture = model_.textures.emplace_back();
+      try {
+        texture = read_texture(images[looks.images[i]], buffers, folder_, limits_, budget_);
+      } catch (const OverLimit&) {
+        throw;
+      } catch (const Error& error) {
+        if (undrawable_ == Undrawable::kRefuse) throw;
+        texture = {1, 1, {1, 1, 1, 1}};  // nothing shows it
+        faults[i] = error.what();
+      }
+    }
+    blame_materials(faults, looks.materials);
+  }
+
+  const GltfFile& file_;
+  JsonPlace root_;
+  const fs::path& folder_;
+  const Limits& limits_;
+  Undrawable undrawable_;
+  MemoryBudget budget_{limits_.max_memory};
+  ModelWarnings warnings_;
+  Model model_;
+};
+
+}  // namespace
+
+Model gltf_model(const GltfFile& file, const fs::path& folder, const Limits& limits,
+                 Undrawable undrawable) {
+  return Reader(file, folder, limits, undrawable).read();
+}
+
+Model load_gltf(const fs::path& path, const Limits& limits, Undrawable undrawable) {
   try {
-    return gltf_model(read_gltf_file(path, limits), fs::absolute(path).parent_path(), limits);
+    return gltf_model(read_gltf_file(path, limits), fs::absolute(path).parent_path(), limits,
+                      undrawable);
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what(), error.fault());
   }

@@ -1,15 +1,11 @@
 #include "load/gltf_check.h"
 
-#include <algorithm>
-
 #include "limpid/core/error.h"
+
+#include "load/gltf_extensions.h"
 
 namespace limpid {
 namespace {
-
-const std::vector<std::string> kExtensions = {"KHR_lights_punctual", "KHR_materials_unlit",
-                                              "KHR_materials_emissive_strength",
-                                              "KHR_materials_pbrSpecularGlossiness"};
 
 // "2.0", "2.1" ...: minor versions stay compatible.
 void check_version(const JsonPlace& asset) {
@@ -18,26 +14,20 @@ void check_version(const JsonPlace& asset) {
   if (least && least->text() != "2.0") least->refuse("\"2.0\" at most");
 }
 
-void check_required_extensions(const JsonPlace& root) {
-  for (const JsonPlace& name : root.list("extensionsRequired")) {
-    if (std::find(kExtensions.begin(), kExtensions.end(), name.text()) != kExtensions.end()) {
-      continue;
-    }
-    name.refuse("a file that does not require more than " + join(kExtensions));
-  }
-}
-
 }  // namespace
 
-void check_gltf(const JsonPlace& root, std::optional<std::int64_t> binary_bytes,
-                const Limits& limits) {
+GltfFaults check_gltf(const JsonPlace& root, std::optional<std::int64_t> binary_bytes,
+                      const Limits& limits, Undrawable undrawable, ModelWarnings& warnings) {
   root.expect_object();
   root.at("asset").expect_object();
   check_version(root.at("asset"));
-  check_required_extensions(root);
+  check_extensions(root, undrawable, warnings);
   check_gltf_buffers(root, binary_bytes, limits);
-  check_gltf_meshes(root);
-  check_gltf_nodes(root);
+  GltfFaults faults;
+  check_gltf_meshes(root, undrawable, faults);
+  check_gltf_skins(root, undrawable, faults);
+  check_gltf_nodes(root, undrawable, faults);
+  return faults;
 }
 
 }  // namespace limpid

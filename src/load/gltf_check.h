@@ -1,25 +1,52 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "limpid/load/limits.h"
+#include "limpid/core/error.h"
+#include "limpid/load/gltf.h"
 
 #include "load/json_place.h"
+#include "load/model_warnings.h"
 
 /// What a glTF document must be before anything is read by it: every index, size, type and uri
-/// holds. tinygltf checks few of them and drops what it does not understand. What only the bytes of
-/// the buffers can tell (index values, NaN) is checked where they are read, and so are materials.
+/// holds. What only the bytes of the buffers can tell (index values, NaN) is checked where they are
+/// read, and so are materials.
 
 namespace limpid {
 
-/// `binary_bytes` is the size of a .glb's binary chunk. Throws Error as load_gltf() says.
-void check_gltf(const JsonPlace& root, std::optional<std::int64_t> binary_bytes,
-                const Limits& limits);
+/// Why things of a document cannot be read, "" for those that can; one a thing of each list.
+struct GltfFaults {
+  std::vector<std::string> meshes, skins, nodes;
+};
+
+/// `binary_bytes` is the size of a .glb's binary chunk. Throws Error as load_gltf() says; with
+/// Undrawable::kLeaveOut what is wrong with a mesh, a skin or a node alone is told instead.
+GltfFaults check_gltf(const JsonPlace& root, std::optional<std::int64_t> binary_bytes,
+                      const Limits& limits, Undrawable undrawable, ModelWarnings& warnings);
 
 // Its parts, a file each.
 void check_gltf_buffers(const JsonPlace& root, std::optional<std::int64_t> binary_bytes,
                         const Limits& limits);
-void check_gltf_meshes(const JsonPlace& root);
-void check_gltf_nodes(const JsonPlace& root);
+void check_gltf_meshes(const JsonPlace& root, Undrawable undrawable, GltfFaults& faults);
+void check_gltf_skins(const JsonPlace& root, Undrawable undrawable, GltfFaults& faults);
+void check_gltf_nodes(const JsonPlace& root, Undrawable undrawable, GltfFaults& faults);
+
+/// What `check` says against each of the things: thrown, or with kLeaveOut returned.
+template <class Check>
+std::vector<std::string> faults_of(const std::vector<JsonPlace>& things, Undrawable undrawable,
+                                   Check check) {
+  std::vector<std::string> faults(things.size());
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    try {
+      check(things[i]);
+    } catch (const Error& error) {
+      if (undrawable == Undrawable::kRefuse) throw;
+      faults[i] = error.what();
+    }
+  }
+  return faults;
+}
 
 }  // namespace limpid

@@ -3,17 +3,15 @@
 #include "limpid/core/error.h"
 
 #include "load/gltf_check.h"
+#include "load/gltf_extensions.h"
 #include "load/gltf_files.h"
+#include "load/gltf_types.h"
 
 namespace limpid {
 namespace {
 
 // Sizes up to this can be multiplied by a stride without leaving 64 bits.
 constexpr std::int64_t kLargest = std::int64_t{1} << 40;
-
-// Components of SCALAR, VEC2 ...
-constexpr std::string_view kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-constexpr std::int64_t kComponents[] = {1, 2, 3, 4, 4, 9, 16};
 
 std::int64_t size_or(const JsonPlace& object, std::string_view key, std::int64_t otherwise) {
   const std::optional<JsonPlace> size = object.find(key);
@@ -39,7 +37,9 @@ void check_buffers(const JsonPlace& root, std::optional<std::int64_t> binary_byt
   const std::vector<JsonPlace> buffers = root.list("buffers");
   for (const JsonPlace& buffer : buffers) {
     const JsonPlace length = buffer.at("byteLength");
-    total += length.integer(1, INT32_MAX);
+    const std::int64_t bytes = length.integer(1, INT32_MAX);
+    if (is_packed_buffer(buffer)) continue;
+    total += bytes;
     if (total > limits.max_memory) {
       throw Error("its buffers have " + std::to_string(total) + " bytes: expected at most " +
                   std::to_string(limits.max_memory));
@@ -53,7 +53,7 @@ void check_buffers(const JsonPlace& root, std::optional<std::int64_t> binary_byt
                   ": expected a uri; only the first buffer of a .glb with a chunk "
                   "BIN goes without");
     }
-    if (length.integer(1, INT32_MAX) > *binary_bytes) {
+    if (bytes > *binary_bytes) {
       length.refuse("at most the " + std::to_string(*binary_bytes) + " bytes of the chunk BIN");
     }
   }
@@ -76,30 +76,44 @@ void check_views(const JsonPlace& root) {
   }
 }
 
-std::int64_t component_size(const JsonPlace& type) {
-  switch (type.integer(0, INT32_MAX)) {
-    case 5120:
-    case 5121:
-      return 1;
-    case 5122:
-    case 5123:
-      return 2;
-    case 5125:
-    case 5126:
-      return 4;
+// Bytes from `offset` of a buffer view on.
+void check_room(const JsonPlace& user, const JsonPlace& view, std::int64_t offset,
+                std::int64_t bytes) {
+  const std::int64_t length = view.at("byteLength").integer(1, kLargest);
+  if (offset + bytes > length) {
+    throw Error(user.path() + ": needs " + std::to_string(offset + bytes) +
+                " bytes of a buffer view of " + std::to_string(length));
   }
-  type.refuse("one of 5120, 5121, 5122, 5123, 5125, 5126");
+}
+
+// The elements of an accessor that its base does not give: as many indices and values, both tightly
+// packed. What the indices are only the bytes can tell.
+void check_sparse(const JsonPlace& sparse, const std::vector<JsonPlace>& views,
+                  std::int64_t element, std::int64_t elements) {
+  const std::int64_t count = sparse.at("count").integer(1, elements);
+  const auto check_part = [&](const JsonPlace& part, std::int64_t size) {
+    const JsonPlace& view = views[part.at("bufferView").index(views.size())];
+    check_room(part, view, size_or(part, "byteOffset", 0), count * size);
+  };
+  const JsonPlace indices = sparse.at("indices");
+  const JsonPlace component = indices.at("componentType");
+  const std::int64_t type = component.integer(0, INT32_MAX);
+  if (type != kGltfUbyte && type != kGltfUshort && type != kGltfUint) {
+    component.refuse("one of 5121, 5123, 5125");
+  }
+  check_part(indices, gltf_component_size(type));
+  check_part(sparse.at("values"), element);
 }
 
 void check_accessors(const JsonPlace& root) {
   const std::vector<JsonPlace> views = root.list("bufferViews");
   for (const JsonPlace& accessor : root.list("accessors")) {
-    const std::int64_t element = component_size(accessor.at("componentType")) *
-                                 kComponents[accessor.at("type").choice(kTypes)];
+    const std::int64_t element = gltf_element_size(accessor);
     const std::int64_t count = accessor.at("count").integer(1, INT32_MAX);
     const std::int64_t offset = size_or(accessor, "byteOffset", 0);
-    if (const std::optional<JsonPlace> normalized = accessor.find("normalized")) {
-      normalized->boolean();
+    is_normalized(accessor);
+    if (const std::optional<JsonPlace> sparse = accessor.find("sparse")) {
+      check_sparse(*sparse, views, element, count);
     }
     const std::optional<JsonPlace> index = accessor.find("bufferView");
     if (!index) continue;
@@ -109,12 +123,7 @@ void check_accessors(const JsonPlace& root) {
       throw Error(accessor.path() + ": elements of " + std::to_string(element) +
                   " bytes in a buffer view of byteStride " + std::to_string(stride));
     }
-    const std::int64_t end = offset + (count - 1) * stride + element;
-    const std::int64_t length = view.at("byteLength").integer(1, kLargest);
-    if (end > length) {
-      throw Error(accessor.path() + ": needs " + std::to_string(end) +
-                  " bytes of a buffer view of " + std::to_string(length));
-    }
+    check_room(accessor, view, offset, (count - 1) * stride + element);
   }
 }
 
@@ -125,7 +134,11 @@ void check_images(const JsonPlace& root) {
     if (uri.has_value() == view.has_value()) {
       throw Error(image.path() + ": expected either a uri or a bufferView");
     }
-    if (uri) check_uri(*uri, {"image/png", "image/jpeg"});
+    // Pictures of the other types may stand beside one of these and not be used.
+    if (uri) {
+      check_uri(*uri, {"image/png", "image/jpeg", "image/webp", "image/ktx2", "image/avif",
+                       "image/vnd-ms.dds"});
+    }
     if (view) view->index(views);
   }
 }

@@ -1,9 +1,15 @@
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 #include "limpid/core/error.h"
 
 #include "load/gltf_check.h"
+#include "load/gltf_extensions.h"
+#include "load/gltf_mesh_uses.h"
 
 namespace limpid {
 namespace {
@@ -67,8 +73,12 @@ void check_transform(const JsonPlace& node) {
     if (matrix) throw Error(part->path() + ": expected either a matrix or its parts");
     const std::vector<double> v = part->numbers(key == "rotation" ? 4 : 3);
     if (key != "rotation") continue;
-    const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3];
-    if (!(std::abs(square - 1) < 1e-2)) part->refuse("a unit quaternion");
+    const double norm = glm::length(glm::dvec4(v[0], v[1], v[2], v[3]));
+    if (std::abs(norm - 1) < 5e-3) continue;
+    char value[160];
+    std::snprintf(value, sizeof value, " = [%g, %g, %g, %g], of norm %g", v[0], v[1], v[2], v[3],
+                  norm);
+    throw Error(part->path() + value + ": expected a unit quaternion (norm 1)");
   }
 }
 
@@ -82,19 +92,15 @@ void check_extras(const JsonPlace& node) {
 }
 
 void check_node(const JsonPlace& root, const JsonPlace& node, std::size_t lights) {
-  if (node.find("skin")) throw Error(node.path() + ".skin: skins are not supported");
-  if (const std::optional<JsonPlace> mesh = node.find("mesh")) mesh->index(root.count("meshes"));
   if (const std::optional<JsonPlace> camera = node.find("camera")) {
     camera->index(root.count("cameras"));
   }
   check_transform(node);
   check_extras(node);
-  const std::optional<JsonPlace> extensions = node.find("extensions");
-  if (!extensions) return;
-  if (extensions->find("EXT_mesh_gpu_instancing")) {
-    throw Error(extensions->path() + ".EXT_mesh_gpu_instancing: is not supported");
+  if (const auto visibility = extension_of(node, "KHR_node_visibility")) {
+    if (const auto visible = visibility->find("visible")) visible->boolean();
   }
-  if (const auto punctual = extensions->find("KHR_lights_punctual")) {
+  if (const auto punctual = extension_of(node, "KHR_lights_punctual")) {
     punctual->at("light").index(lights);
   }
 }
@@ -158,11 +164,15 @@ void check_scenes(const JsonPlace& root, const std::vector<int>& parents) {
 
 }  // namespace
 
-void check_gltf_nodes(const JsonPlace& root) {
+void check_gltf_nodes(const JsonPlace& root, Undrawable undrawable, GltfFaults& faults) {
   for (const JsonPlace& camera : root.list("cameras")) check_camera(camera);
   const std::size_t lights = check_lights(root);
   const std::vector<JsonPlace> nodes = root.list("nodes");
-  for (const JsonPlace& node : nodes) check_node(root, node, lights);
+  const GltfMeshUses mesh_uses(root);
+  faults.nodes = faults_of(nodes, undrawable, [&](const JsonPlace& node) {
+    check_node(root, node, lights);
+    mesh_uses.check(node);
+  });
   const std::vector<int> parents = parents_of(nodes);
   check_acyclic(nodes, parents);
   check_scenes(root, parents);

@@ -102,6 +102,13 @@ std::string percent_decoded(const JsonPlace& uri) {
   return decoded;
 }
 
+int base64_value(char letter) {
+  if (letter >= 'A' && letter <= 'Z') return letter - 'A';
+  if (letter >= 'a' && letter <= 'z') return letter - 'a' + 26;
+  if (letter >= '0' && letter <= '9') return letter - '0' + 52;
+  return letter == '+' ? 62 : letter == '/' ? 63 : -1;
+}
+
 bool has_scheme(std::string_view name) {
   const std::size_t colon = name.find(':');
   return colon != std::string_view::npos && name.find('/') > colon;
@@ -119,6 +126,26 @@ GltfFile split_gltf(std::string_view bytes, const Limits& limits) {
 }
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
+
+std::string bytes_of_data_uri(const JsonPlace& uri) {
+  std::string_view text = uri.text();
+  text.remove_prefix(std::min(text.size(), text.find(',') + 1));
+  for (int pads = 0; pads < 2 && text.ends_with('='); ++pads) text.remove_suffix(1);
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char letter : text) {
+    const int value = base64_value(letter);
+    if (value < 0) uri.refuse("letters of base64");
+    bits = (bits << 6 | static_cast<std::uint32_t>(value)) & 0xFFFF;
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 0xFF);
+  }
+  return bytes;
+}
 
 fs::path relative_path_of(const JsonPlace& uri) {
   const std::string name = percent_decoded(uri);

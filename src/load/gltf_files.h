@@ -30,6 +30,10 @@ GltfFile split_gltf(std::string_view bytes, const Limits& limits);
 /// Whether a uri holds its bytes itself.
 bool is_data_uri(std::string_view uri);
 
+/// The bytes that a data uri of base64 holds (RFC 4648 "The Base16, Base32, and Base64 Data
+/// Encodings", section 4). Throws Error for other letters.
+std::string bytes_of_data_uri(const JsonPlace& uri);
+
 /// The file that a uri names, relative to the folder of the glTF file, percent-decoded. Throws
 /// Error unless it is a plain relative path: no scheme, no "..", no backslash, not absolute.
 std::filesystem::path relative_path_of(const JsonPlace& uri);

@@ -4,6 +4,7 @@
 
 #include "limpid/core/error.h"
 
+#include "load/gltf_extensions.h"
 #include "load/gltf_sampler.h"
 
 namespace limpid {
@@ -27,7 +28,7 @@ double number_from_0(const JsonPlace& place) {
 
 class Reader {
  public:
-  Reader(const JsonPlace& root, ModelWarnings& warnings)
+  Reader(const JsonPlace& root, Undrawable undrawable, ModelWarnings& warnings)
       : warnings_(warnings),
         textures_(root.list("textures")),
         texture_of_image_(root.count("images"), -1) {
@@ -35,10 +36,17 @@ class Reader {
       samplers_.push_back(read_gltf_sampler(sampler));
     }
     for (const JsonPlace& texture : textures_) {
-      texture.at("source").index(texture_of_image_.size());
+      if (const auto source = texture.find("source")) source->index(texture_of_image_.size());
       if (const auto sampler = texture.find("sampler")) sampler->index(samplers_.size());
     }
-    for (const JsonPlace& material : root.list("materials")) add(material);
+    for (const JsonPlace& material : root.list("materials")) {
+      try {
+        add(material);
+      } catch (const Error& error) {
+        if (undrawable == Undrawable::kRefuse) throw;
+        result_.materials.back().fault = error.what();
+      }
+    }
     result_.materials.emplace_back();
   }
 
@@ -149,46 +157,50 @@ class Reader {
       material.specular = rgb(specular->color());
     }
     if (const auto texture = used("specular_texture", shiny, "phong")) {
-      texture->expect_keys({"index", "texCoord"});
+      texture->expect_keys({"index", "texCoord", "extensions"});
       material.specular_texture = texture_of(*texture, read, material.specular_lookup);
     }
   }
 
-  // Which of the material's sets of uvs a texture is looked up by.
+  // Which of the material's uvs a texture is looked up by.
   static int uv_set_of(const JsonPlace& info, GltfMaterial& read) {
-    const auto set = info.find("texCoord");
-    const int number = set ? static_cast<int>(set->integer(0, INT32_MAX)) : 0;
-    const auto found = std::find(read.uv_sets.begin(), read.uv_sets.end(), number);
-    const int place = static_cast<int>(found - read.uv_sets.begin());
-    if (found == read.uv_sets.end()) read.uv_sets.push_back(number);
+    const UvSource source = read_uv_source(info);
+    const auto found = std::find(read.uvs.begin(), read.uvs.end(), source);
+    const int place = static_cast<int>(found - read.uvs.begin());
     if (place >= kUvSets) {
-      throw Error(info.path() + ": TEXCOORD_" + std::to_string(number) + " beside TEXCOORD_" +
-                  std::to_string(read.uv_sets[0]) + " and TEXCOORD_" +
-                  std::to_string(read.uv_sets[1]) + ", expected at most two sets in one material");
+      throw Error(info.path() + ": " + source.text() + " beside " + read.uvs[0].text() + " and " +
+                  read.uvs[1].text() + ", expected at most two sets in one material");
     }
+    if (found == read.uvs.end()) read.uvs.push_back(source);
     return place;
+  }
+
+  // The image of a texture; a packed one counts where there is no other.
+  int image_of(const JsonPlace& texture) const {
+    const auto source = texture.find("source");
+    if (source) return source->index(texture_of_image_.size());
+    const auto packing = packing_of(texture);
+    if (!packing) texture.at("source");
+    throw Error(texture.path() + ": has a picture by " + *packing +
+                " alone, which is not read, expected a source in PNG or JPEG");
   }
 
   // The place of its image in result_.images.
   int texture_of(const JsonPlace& info, GltfMaterial& read, TextureLookup& lookup) {
     const JsonPlace& texture = textures_[info.at("index").index(textures_.size())];
     lookup.uv_set = uv_set_of(info, read);
-    const auto extensions = info.find("extensions");
-    if (extensions && extensions->find("KHR_texture_transform")) {
-      throw Error(info.path() +
-                  ": KHR_texture_transform is not supported, expected it applied to the uvs");
-    }
     if (const auto place = texture.find("sampler")) {
       const GltfSampler& sampler = samplers_[place->index(samplers_.size())];
       lookup.wrap_u = sampler.wrap_u;
       lookup.wrap_v = sampler.wrap_v;
     }
-    const int image = texture.at("source").index(texture_of_image_.size());
+    const int image = image_of(texture);
     int& index = texture_of_image_[image];
     if (index < 0) {
       index = static_cast<int>(result_.images.size());
       result_.images.push_back(image);
     }
+    read.textures.push_back(index);
     return index;
   }
 
@@ -201,8 +213,9 @@ class Reader {
 
 }  // namespace
 
-GltfMaterials read_gltf_materials(const JsonPlace& root, ModelWarnings& warnings) {
-  return Reader(root, warnings).take();
+GltfMaterials read_gltf_materials(const JsonPlace& root, Undrawable undrawable,
+                                  ModelWarnings& warnings) {
+  return Reader(root, undrawable, warnings).take();
 }
 
 }  // namespace limpid

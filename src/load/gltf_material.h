@@ -1,8 +1,11 @@
 #pragma once
+#include <string>
 #include <vector>
 
+#include "limpid/load/gltf.h"
 #include "limpid/raster/model.h"
 
+#include "load/gltf_uvs.h"
 #include "load/json_place.h"
 #include "load/model_warnings.h"
 
@@ -11,7 +14,9 @@ namespace limpid {
 /// A material and what drawing with it asks for.
 struct GltfMaterial {
   Material material;
-  std::vector<int> uv_sets;  ///< the TEXCOORD_n that Mesh::uvs and Mesh::second_uvs are read from
+  std::vector<UvSource> uvs;  ///< what Mesh::uvs and Mesh::second_uvs are read from
+  std::vector<int> textures;  ///< all that it uses, by their place in GltfMaterials::images
+  std::string fault;          ///< why it cannot be drawn, "" if it can
 };
 
 struct GltfMaterials {
@@ -19,8 +24,9 @@ struct GltfMaterials {
   std::vector<int> images;  ///< the image of each texture that the materials use, once each
 };
 
-/// Reads and checks the materials, textures and samplers, from the document itself: tinygltf leaves
-/// out what is not of the type it expects. Throws Error as load_gltf() says.
-GltfMaterials read_gltf_materials(const JsonPlace& root, ModelWarnings& warnings);
+/// Reads and checks the materials, textures and samplers. Throws Error as load_gltf() says; with
+/// Undrawable::kLeaveOut what is wrong with a material alone becomes its fault.
+GltfMaterials read_gltf_materials(const JsonPlace& root, Undrawable undrawable,
+                                  ModelWarnings& warnings);
 
 }  // namespace limpid

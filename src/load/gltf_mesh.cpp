@@ -2,38 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
 #include "limpid/core/error.h"
 
+#include "load/gltf_nodes.h"
+#include "load/gltf_triangles.h"
+
 namespace limpid {
 namespace {
-
-/// The elements of an accessor, where they lie in their buffer.
-struct Elements {
-  const unsigned char* first;
-  std::size_t stride;
-  std::size_t count;
-  int component, components;
-
-  template <class T>
-  T at(std::size_t element, int index) const {
-    T value;
-    std::memcpy(&value, first + element * stride + index * sizeof(T), sizeof(T));
-    return value;
-  }
-};
-
-Elements elements_of(const tinygltf::Model& gltf, int index) {
-  const tinygltf::Accessor& accessor = gltf.accessors.at(index);
-  const tinygltf::BufferView& view = gltf.bufferViews.at(accessor.bufferView);
-  const unsigned char* bytes = gltf.buffers.at(view.buffer).data.data();
-  return {bytes + view.byteOffset + accessor.byteOffset,
-          static_cast<std::size_t>(accessor.ByteStride(view)), accessor.count,
-          accessor.componentType, tinygltf::GetNumComponentsInType(accessor.type)};
-}
 
 std::string shown(glm::vec3 v) {
   return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
@@ -43,35 +22,28 @@ std::string shown(glm::vec3 v) {
   throw Error(label + " vertex " + std::to_string(vertex) + ": " + phrase);
 }
 
-std::vector<glm::vec3> read_vectors(const Elements& elements, const std::string& label,
-                                    const char* name) {
-  std::vector<glm::vec3> vectors(elements.count);
-  for (std::size_t i = 0; i < elements.count; ++i) {
-    const glm::vec3 v(elements.at<float>(i, 0), elements.at<float>(i, 1), elements.at<float>(i, 2));
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
-      refuse(label, i, std::string(name) + " " + shown(v) + ", expected finite numbers");
-    }
-    vectors[i] = v;
+void expect_finite(const std::vector<glm::vec3>& vectors, const std::string& label,
+                   const char* name) {
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    const glm::vec3& v = vectors[i];
+    if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
+    refuse(label, i, std::string(name) + " " + shown(v) + ", expected finite numbers");
   }
+}
+
+std::vector<glm::vec3> read_vectors(const GltfElements& elements, const std::string& label,
+                                    const char* name) {
+  std::vector<glm::vec3> vectors(elements.count());
+  for (std::size_t i = 0; i < elements.count(); ++i) vectors[i] = elements.vector(i);
+  expect_finite(vectors, label, name);
   return vectors;
 }
 
-// A float, or an integer as a share of the largest one.
-float share_at(const Elements& elements, std::size_t vertex, int index) {
-  switch (elements.component) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return static_cast<float>(elements.at<std::uint8_t>(vertex, index)) / 255.0f;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return static_cast<float>(elements.at<std::uint16_t>(vertex, index)) / 65535.0f;
-    default:
-      return elements.at<float>(vertex, index);
-  }
-}
-
-std::vector<glm::vec2> read_uvs(const Elements& elements, const std::string& label) {
-  std::vector<glm::vec2> uvs(elements.count);
-  for (std::size_t i = 0; i < elements.count; ++i) {
-    uvs[i] = {share_at(elements, i, 0), share_at(elements, i, 1)};
+std::vector<glm::vec2> read_transformed(const GltfElements& elements, const UvTransform& transform,
+                                        const std::string& label) {
+  std::vector<glm::vec2> uvs(elements.count());
+  for (std::size_t i = 0; i < elements.count(); ++i) {
+    uvs[i] = transform.apply({elements.number(i, 0), elements.number(i, 1)});
     for (const float c : {uvs[i].x, uvs[i].y}) {
       if (!std::isfinite(c)) refuse(label, i, "uv " + std::to_string(c) + ", expected a number");
     }
@@ -80,12 +52,12 @@ std::vector<glm::vec2> read_uvs(const Elements& elements, const std::string& lab
 }
 
 // None where all are white and opaque. Numbers below 0 become 0.
-std::vector<glm::vec4> read_colors(const Elements& elements, const std::string& label) {
-  std::vector<glm::vec4> colors(elements.count, glm::vec4(1));
+std::vector<glm::vec4> read_colors(const GltfElements& elements, const std::string& label) {
+  std::vector<glm::vec4> colors(elements.count(), glm::vec4(1));
   bool some = false;
-  for (std::size_t i = 0; i < elements.count; ++i) {
-    for (int c = 0; c < elements.components; ++c) {
-      const float value = share_at(elements, i, c);
+  for (std::size_t i = 0; i < elements.count(); ++i) {
+    for (int c = 0; c < elements.components(); ++c) {
+      const float value = elements.number(i, c);
       if (!std::isfinite(value)) {
         refuse(label, i, "color " + std::to_string(value) + ", expected a number");
       }
@@ -97,34 +69,6 @@ std::vector<glm::vec4> read_colors(const Elements& elements, const std::string& 
   return colors;
 }
 
-/// Those of the sets that the material asks for; of none asked for, the first that there is.
-void add_uvs(const tinygltf::Model& gltf, const tinygltf::Primitive& primitive,
-             const GltfMaterial& looks, const std::string& label, Mesh& mesh) {
-  const bool textured = !looks.uv_sets.empty();
-  const std::vector<int> sets = textured ? looks.uv_sets : std::vector<int>{0};
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const std::string key = "TEXCOORD_" + std::to_string(sets[i]);
-    const auto found = primitive.attributes.find(key);
-    if (found != primitive.attributes.end()) {
-      (i == 0 ? mesh.uvs : mesh.second_uvs) = read_uvs(elements_of(gltf, found->second), label);
-    } else if (textured) {
-      throw Error(label + ": expected " + key + ", because material '" + looks.material.name +
-                  "' has a texture");
-    }
-  }
-}
-
-std::uint32_t index_at(const Elements& elements, std::size_t corner) {
-  switch (elements.component) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return elements.at<std::uint8_t>(corner, 0);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return elements.at<std::uint16_t>(corner, 0);
-    default:
-      return elements.at<std::uint32_t>(corner, 0);
-  }
-}
-
 // Twice the triangle's area, along its normal.
 glm::dvec3 area_vector(const Mesh& mesh, const std::uint32_t corners[3]) {
   const glm::dvec3 a = mesh.positions[corners[0]];
@@ -132,28 +76,43 @@ glm::dvec3 area_vector(const Mesh& mesh, const std::uint32_t corners[3]) {
                     glm::dvec3(mesh.positions[corners[2]]) - a);
 }
 
+// A strip goes from row to row by triangles with two corners in one place.
+bool joins_strips(const Mesh& mesh, GltfMode mode, const std::uint32_t corners[3]) {
+  const auto at = [&](int k) { return mesh.positions[corners[k]]; };
+  return mode == GltfMode::kStrip && (at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
+}
+
 // Fills mesh.indices with the triangles that have an area; returns how many have none.
 template <class IndexOf>
-std::int64_t add_triangles(Mesh& mesh, std::size_t corners, const std::string& label,
+std::int64_t add_triangles(Mesh& mesh, GltfMode mode, std::size_t corners, const std::string& label,
                            IndexOf index_of) {
   std::int64_t skipped = 0;
-  mesh.indices.reserve(corners);
-  for (std::size_t corner = 0; corner < corners; corner += 3) {
+  const std::size_t count = triangle_count(mode, corners);
+  mesh.indices.reserve(3 * count);
+  for (std::size_t i = 0; i < count; ++i) {
     std::uint32_t triangle[3];
+    const std::array<std::size_t, 3> corner = corners_of_triangle(mode, i);
     for (int k = 0; k < 3; ++k) {
-      triangle[k] = index_of(corner + k);
+      triangle[k] = index_of(corner[k]);
       if (triangle[k] < mesh.positions.size()) continue;
-      throw Error(label + " corner " + std::to_string(corner + k) + ": index " +
+      throw Error(label + " corner " + std::to_string(corner[k]) + ": index " +
                   std::to_string(triangle[k]) + ", expected one below " +
                   std::to_string(mesh.positions.size()));
     }
-    if (area_vector(mesh, triangle) == glm::dvec3(0)) {
-      ++skipped;
-    } else {
+    if (area_vector(mesh, triangle) != glm::dvec3(0)) {
       mesh.indices.insert(mesh.indices.end(), triangle, triangle + 3);
+    } else if (!joins_strips(mesh, mode, triangle)) {
+      ++skipped;
     }
   }
   return skipped;
+}
+
+// What joints mirror keeps its front.
+void turn_mirrored(const std::vector<bool>& mirrored, Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    if (mirrored[mesh.indices[i]]) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+  }
 }
 
 void make_unit_normals(Mesh& mesh) {
@@ -175,54 +134,122 @@ void make_unit_normals(Mesh& mesh) {
 
 }  // namespace
 
-void MemoryBudget::take(std::int64_t bytes, const std::string& what) {
-  if (bytes > left) {
-    throw Error(what + ": needs " + std::to_string(bytes) + " bytes of memory, expected at most " +
-                std::to_string(left) + " that are left of the limit");
+const JsonPlace& GltfMeshes::mesh_of(int mesh) const {
+  if (!faults_.at(mesh).empty()) throw Error(faults_[mesh]);
+  return meshes_[mesh];
+}
+
+std::size_t GltfMeshes::corners_of(const JsonPlace& primitive) const {
+  const auto indices = primitive.find("indices");
+  const JsonPlace counted = indices ? *indices : primitive.at("attributes").at("POSITION");
+  return accessors_.count(counted.index(INT32_MAX));
+}
+
+std::int64_t GltfMeshes::triangles(int mesh) const {
+  std::size_t triangles = 0;
+  for (const JsonPlace& primitive : mesh_of(mesh).list("primitives")) {
+    const GltfMode mode = gltf_mode_of(primitive);
+    if (!is_triangles(mode) || !primitive.at("attributes").find("POSITION")) continue;
+    triangles += triangle_count(mode, corners_of(primitive));
   }
-  left -= bytes;
+  return static_cast<std::int64_t>(triangles);
 }
 
-std::string gltf_label(const char* list, int index, const std::string& name) {
-  const std::string place = std::string(list) + "[" + std::to_string(index) + "]";
-  return name.empty() ? place : place + " '" + name + "'";
+std::vector<double> GltfMeshes::weights(int mesh) const {
+  const auto weights = mesh_of(mesh).find("weights");
+  return weights ? weights->numbers(mesh_of(mesh).count("weights")) : std::vector<double>{};
 }
 
-GltfMesh read_gltf_mesh(const tinygltf::Model& gltf, int index,
-                        const std::vector<GltfMaterial>& materials, MemoryBudget& budget) {
-  const tinygltf::Mesh& source = gltf.meshes.at(index);
-  const std::string label = gltf_label("meshes", index, source.name);
+bool GltfMeshes::is_drawn(const JsonPlace& primitive, const std::string& label) const {
+  const GltfMode mode = gltf_mode_of(primitive);
+  if (mode == GltfMode::kPoints) {
+    warnings_.add("points are not drawn", label);
+  } else if (!is_triangles(mode)) {
+    warnings_.add("lines are not drawn", label);
+  } else if (!primitive.at("attributes").find("POSITION")) {
+    warnings_.add("primitives without POSITION are not drawn", label);
+  } else {
+    return true;
+  }
+  return false;
+}
+
+// Those that the material asks for; if it asks for none, the first that there are.
+void GltfMeshes::read_uvs(const JsonPlace& attributes, const std::string& label, Mesh& mesh) const {
+  const GltfMaterial& looks = materials_.at(mesh.material);
+  const bool textured = !looks.uvs.empty();
+  const std::vector<UvSource> sources = textured ? looks.uvs : std::vector<UvSource>{UvSource{}};
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::string name = sources[i].attribute();
+    if (const auto found = attributes.find(name)) {
+      (i == 0 ? mesh.uvs : mesh.second_uvs) =
+          read_transformed(accessors_.of(found->index(INT32_MAX)), sources[i].transform, label);
+    } else if (textured) {
+      throw Error(label + ": expected " + name + ", because material '" + looks.material.name +
+                  "' has a texture");
+    }
+  }
+}
+
+Mesh GltfMeshes::read_vertices(const JsonPlace& primitive, const std::string& label) const {
+  const JsonPlace attributes = primitive.at("attributes");
+  Mesh mesh;
+  const auto material = primitive.find("material");
+  mesh.material =
+      material ? material->index(materials_.size()) : static_cast<int>(materials_.size()) - 1;
+  const GltfMaterial& looks = materials_[mesh.material];
+  if (!looks.fault.empty()) throw Error(looks.fault);
+  mesh.positions =
+      read_vectors(accessors_.of(attributes.at("POSITION").index(INT32_MAX)), label, "position");
+  if (const auto normals = attributes.find("NORMAL")) {
+    mesh.normals = read_vectors(accessors_.of(normals->index(INT32_MAX)), label, "normal");
+  }
+  read_uvs(attributes, label, mesh);
+  if (const auto colors = attributes.find("COLOR_0")) {
+    mesh.colors = read_colors(accessors_.of(colors->index(INT32_MAX)), label);
+  }
+  return mesh;
+}
+
+Mesh GltfMeshes::read_part(const JsonPlace& primitive, const std::string& label,
+                           const GltfPose& pose, std::int64_t& skipped) const {
+  const GltfMode mode = gltf_mode_of(primitive);
+  const std::size_t corners = corners_of(primitive);
+  const std::size_t vertices =
+      accessors_.count(primitive.at("attributes").at("POSITION").index(INT32_MAX));
+  budget_.take(static_cast<std::int64_t>(vertices * kBytesAVertex +
+                                         3 * triangle_count(mode, corners) * sizeof(std::uint32_t)),
+               label);
+  Mesh mesh = read_vertices(primitive, label);
+  apply_morph_targets(primitive, pose.weights, accessors_, budget_, warnings_, label, mesh);
+  std::vector<bool> mirrored;
+  if (pose.joints) {
+    mirrored = apply_skin(primitive, *pose.joints, accessors_, budget_, label, mesh);
+  }
+  expect_finite(mesh.positions, label, "posed position");
+  expect_finite(mesh.normals, label, "posed normal");
+  std::optional<GltfElements> indices;
+  if (const auto use = primitive.find("indices")) indices = accessors_.of(use->index(INT32_MAX));
+  skipped += add_triangles(mesh, mode, corners, label, [&](std::size_t corner) {
+    return indices ? indices->integer(corner, 0) : static_cast<std::uint32_t>(corner);
+  });
+  if (pose.joints) turn_mirrored(mirrored, mesh);
+  make_unit_normals(mesh);
+  return mesh;
+}
+
+GltfMesh GltfMeshes::read(int index, const GltfPose& pose) const {
+  const JsonPlace& place = mesh_of(index);
+  const std::string label = gltf_label(place);
+  const auto name = place.find("name");
+  // Nodes may ask for poses of their own of a mesh that has nothing to draw.
+  budget_.take(pose.weights.size(), sizeof(double), label);
+  budget_.take(place.count("primitives"), sizeof(Mesh), label);
   GltfMesh read;
-  for (const tinygltf::Primitive& primitive : source.primitives) {
-    const auto& attributes = primitive.attributes;
-    const Elements positions = elements_of(gltf, attributes.at("POSITION"));
-    const bool indexed = primitive.indices >= 0;
-    const Elements indices = indexed ? elements_of(gltf, primitive.indices) : Elements{};
-    const std::size_t corners = indexed ? indices.count : positions.count;
-    const int material =
-        primitive.material >= 0 ? primitive.material : static_cast<int>(materials.size()) - 1;
-    const GltfMaterial& looks = materials.at(material);
-    const std::size_t bytes_a_vertex =
-        2 * sizeof(glm::vec3) + std::max<std::size_t>(looks.uv_sets.size(), 1) * sizeof(glm::vec2) +
-        attributes.count("COLOR_0") * sizeof(glm::vec4);
-    budget.take(static_cast<std::int64_t>(positions.count * bytes_a_vertex +
-                                          corners * sizeof(std::uint32_t)),
-                label);
-    Mesh mesh;
-    mesh.name = source.name;
-    mesh.material = material;
-    mesh.positions = read_vectors(positions, label, "position");
-    if (const auto found = attributes.find("NORMAL"); found != attributes.end()) {
-      mesh.normals = read_vectors(elements_of(gltf, found->second), label, "normal");
-    }
-    add_uvs(gltf, primitive, looks, label, mesh);
-    if (const auto found = attributes.find("COLOR_0"); found != attributes.end()) {
-      mesh.colors = read_colors(elements_of(gltf, found->second), label);
-    }
-    read.skipped_triangles += add_triangles(mesh, corners, label, [&](std::size_t corner) {
-      return indexed ? index_at(indices, corner) : static_cast<std::uint32_t>(corner);
-    });
-    make_unit_normals(mesh);
+  for (const JsonPlace& primitive : place.list("primitives")) {
+    if (!is_drawn(primitive, label)) continue;
+    Mesh mesh = read_part(primitive, label, pose, read.skipped_triangles);
+    if (name) mesh.name = name->text();
     if (!mesh.indices.empty()) read.parts.push_back(std::move(mesh));
   }
   return read;

@@ -5,29 +5,63 @@
 
 #include "limpid/raster/model.h"
 
+#include "load/gltf_accessors.h"
 #include "load/gltf_material.h"
-#include "load/gltf_parser.h"
+#include "load/gltf_pose.h"
+#include "load/json_place.h"
+#include "load/memory_budget.h"
+#include "load/model_warnings.h"
 
 namespace limpid {
 
-/// The memory that a model may still take.
-struct MemoryBudget {
-  std::int64_t left;
-  void take(std::int64_t bytes, const std::string& what);  ///< throws Error when it is used up
-};
-
-/// "meshes[2] 'rock'", for sentences.
-std::string gltf_label(const char* list, int index, const std::string& name);
+/// What a vertex takes at most.
+constexpr std::size_t kBytesAVertex =
+    2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
 
 struct GltfMesh {
   std::vector<Mesh> parts;  ///< one a primitive with triangles in it
   std::int64_t skipped_triangles = 0;
 };
 
-/// Reads a mesh of a checked document. Throws Error for vertices that are not finite, indices
-/// beyond the vertices, and textures without uvs. Normals become unit; a zero one becomes that of
-/// the triangles around its vertex.
-GltfMesh read_gltf_mesh(const tinygltf::Model& gltf, int mesh,
-                        const std::vector<GltfMaterial>& materials, MemoryBudget& budget);
+/// The meshes of a checked document.
+class GltfMeshes {
+ public:
+  GltfMeshes(const JsonPlace& root, const GltfAccessors& accessors,
+             const std::vector<GltfMaterial>& materials, const std::vector<std::string>& faults,
+             MemoryBudget& budget, ModelWarnings& warnings)
+      : meshes_(root.list("meshes")),
+        accessors_(accessors),
+        materials_(materials),
+        faults_(faults),
+        budget_(budget),
+        warnings_(warnings) {}
+
+  std::size_t count() const { return meshes_.size(); }
+  /// How many triangles it has, with those of no area.
+  std::int64_t triangles(int mesh) const;
+  /// Those of the mesh itself; empty where it has none.
+  std::vector<double> weights(int mesh) const;
+
+  /// Reads a mesh as a node poses it. Throws Error for vertices that are not finite, indices beyond
+  /// the vertices, textures without uvs, and for what check_gltf() or read_gltf_materials() found.
+  /// Normals become unit; a zero one becomes that of the triangles around its vertex.
+  GltfMesh read(int mesh, const GltfPose& pose) const;
+
+ private:
+  const JsonPlace& mesh_of(int mesh) const;
+  bool is_drawn(const JsonPlace& primitive, const std::string& label) const;
+  std::size_t corners_of(const JsonPlace& primitive) const;
+  Mesh read_vertices(const JsonPlace& primitive, const std::string& label) const;
+  void read_uvs(const JsonPlace& attributes, const std::string& label, Mesh& mesh) const;
+  Mesh read_part(const JsonPlace& primitive, const std::string& label, const GltfPose& pose,
+                 std::int64_t& skipped) const;
+
+  std::vector<JsonPlace> meshes_;
+  const GltfAccessors& accessors_;
+  const std::vector<GltfMaterial>& materials_;
+  const std::vector<std::string>& faults_;
+  MemoryBudget& budget_;
+  ModelWarnings& warnings_;
+};
 
 }  // namespace limpid

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 
+#include "limpid/load/gltf.h"
 #include "limpid/load/limits.h"
 #include "limpid/raster/model.h"
 
@@ -10,6 +11,7 @@ namespace limpid {
 
 /// What load_gltf() makes of a file; `folder` is where it lies. Throws Error without the name of
 /// the file.
-Model gltf_model(const GltfFile& file, const std::filesystem::path& folder, const Limits& limits);
+Model gltf_model(const GltfFile& file, const std::filesystem::path& folder, const Limits& limits,
+                 Undrawable undrawable = Undrawable::kRefuse);
 
 }  // namespace limpid

@@ -2,65 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <glm/ext/matrix_transform.hpp>
-#include <glm/ext/quaternion_double.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
 #include "limpid/core/error.h"
 
+#include "load/gltf_camera.h"
+#include "load/gltf_extensions.h"
+#include "load/gltf_instances.h"
+#include "load/gltf_mesh.h"
+#include "load/gltf_nodes.h"
+#include "load/gltf_skins.h"
+
 namespace limpid {
 namespace {
-
-bool finite(const glm::dmat4& m) {
-  const double* entries = glm::value_ptr(m);
-  return std::all_of(entries, entries + 16, [](double entry) { return std::isfinite(entry); });
-}
-
-glm::dmat4 parent_from_node(const tinygltf::Node& node) {
-  if (!node.matrix.empty()) return glm::make_mat4(node.matrix.data());
-  glm::dmat4 matrix(1.0);
-  if (!node.translation.empty()) {
-    matrix = glm::translate(matrix, glm::make_vec3(node.translation.data()));
-  }
-  if (!node.rotation.empty()) {
-    const std::vector<double>& q = node.rotation;
-    matrix *= glm::mat4_cast(glm::normalize(glm::dquat(q[3], q[0], q[1], q[2])));
-  }
-  if (!node.scale.empty()) matrix = glm::scale(matrix, glm::make_vec3(node.scale.data()));
-  return matrix;
-}
-
-bool is_water(const tinygltf::Node& node) {
-  if (!node.extras.Has("limpid")) return false;
-  return node.extras.Get("limpid").Get("water").Get<bool>();
-}
-
-glm::dmat4 projection_of(const tinygltf::Camera& camera) {
-  if (camera.type == "orthographic") {
-    const tinygltf::OrthographicCamera& lens = camera.orthographic;
-    return orthographic(2 * lens.xmag, 2 * lens.ymag, lens.znear, lens.zfar, ClipSpace::kGl);
-  }
-  const tinygltf::PerspectiveCamera& lens = camera.perspective;
-  const double far = lens.zfar > 0 ? lens.zfar : std::numeric_limits<double>::infinity();
-  const double aspect = lens.aspectRatio > 0 ? lens.aspectRatio : 1;
-  return perspective(lens.yfov, aspect, lens.znear, far, ClipSpace::kGl);
-}
-
-Camera camera_of(const tinygltf::Camera& source, glm::dmat4 world) {
-  for (int c = 0; c < 3; ++c) world[c] = glm::normalize(world[c]);
-  if (glm::determinant(glm::dmat3(world)) < 0) {
-    throw Error("its camera is mirrored, expected a rotation and a translation");
-  }
-  const Camera camera{glm::inverse(world), projection_of(source), ClipSpace::kGl};
-  camera.validate();
-  return camera;
-}
 
 // The mesh seen in a mirror that swaps x and -x: its front stays its front.
 Mesh mirrored(Mesh mesh) {
@@ -72,132 +30,199 @@ Mesh mirrored(Mesh mesh) {
   return mesh;
 }
 
+std::vector<JsonPlace> lights_of(const JsonPlace& root) {
+  const auto punctual = extension_of(root, "KHR_lights_punctual");
+  return punctual ? punctual->at("lights").items() : std::vector<JsonPlace>{};
+}
+
+// A light shines down the -Z of its node: the sun stands on its +Z.
+Sun sun_of(const JsonPlace& light, const glm::dmat4& world) {
+  const auto color = light.find("color"), intensity = light.find("intensity");
+  const std::vector<double> c = color ? color->color() : std::vector<double>{1, 1, 1};
+  return Sun{glm::normalize(glm::dvec3(world[2])),
+             (intensity ? intensity->number() : 1.0) * Rgb<double>{c[0], c[1], c[2]}};
+}
+
 class SceneReader {
  public:
-  SceneReader(const tinygltf::Model& gltf, const std::vector<GltfMaterial>& materials,
-              MemoryBudget& budget, Model& model)
-      : gltf_(gltf),
-        materials_(materials),
+  SceneReader(const GltfDocument& document, Undrawable undrawable, MemoryBudget& budget,
+              ModelWarnings& warnings, Model& model)
+      : document_(document),
+        undrawable_(undrawable),
         budget_(budget),
+        warnings_(warnings),
         model_(model),
-        meshes_(gltf.meshes.size()) {}
+        nodes_(read_gltf_nodes(document.root, document.faults.nodes)),
+        worlds_(world_from_nodes(nodes_, document.faults.nodes)),
+        skins_(document.root, document.accessors, worlds_, document.faults.skins, budget),
+        meshes_(document.root, document.accessors, document.materials, document.faults.meshes,
+                budget, warnings),
+        cameras_(document.root.list("cameras")),
+        lights_(lights_of(document.root)),
+        shared_(meshes_.count()) {}
 
   void read() {
-    struct Visit {
-      int node;
-      glm::dmat4 world_from_parent;
+    std::vector<int> left;  // the next one last
+    const auto push = [&](const std::vector<int>& nodes) {
+      left.insert(left.end(), nodes.rbegin(), nodes.rend());
     };
-    std::vector<Visit> left;  // the next one last
-    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& world) {
-      for (std::size_t i = nodes.size(); i-- > 0;) left.push_back({nodes[i], world});
-    };
-    push(roots(), glm::dmat4(1.0));
+    push(roots());
     while (!left.empty()) {
-      const Visit visit = left.back();
+      const int index = left.back();
       left.pop_back();
-      const tinygltf::Node& node = gltf_.nodes[visit.node];
-      const glm::dmat4 world = visit.world_from_parent * parent_from_node(node);
-      try {
-        add(node, world);
-      } catch (const Error& error) {
-        throw Error(gltf_label("nodes", visit.node, node.name) + ": " + error.what(),
-                    error.fault());
+      const GltfNode& node = nodes_[index];
+      if (!node.visible) {
+        warnings_.add("hidden nodes are not drawn, nor what hangs on them", node.label);
+      } else if (add_or_leave_out(index)) {
+        push(node.children);
       }
-      push(node.children, world);
     }
   }
 
  private:
-  struct ReadMesh {
+  struct Parts {
     bool read = false;
-    std::vector<int> parts, mirrored_parts;  // in the model
+    std::vector<int> plain, mirrored;  // in the model
+    std::int64_t triangles = -1;       // once somebody has counted them
   };
 
   std::vector<int> roots() const {
-    if (!gltf_.scenes.empty()) return gltf_.scenes[std::max(gltf_.defaultScene, 0)].nodes;
-    std::vector<bool> child(gltf_.nodes.size());
-    for (const tinygltf::Node& node : gltf_.nodes) {
+    const std::vector<JsonPlace> scenes = document_.root.list("scenes");
+    std::vector<int> roots;
+    if (!scenes.empty()) {
+      const auto chosen = document_.root.find("scene");
+      const JsonPlace& scene = scenes[chosen ? chosen->index(scenes.size()) : 0];
+      for (const JsonPlace& root : scene.list("nodes")) roots.push_back(root.index(nodes_.size()));
+      return roots;
+    }
+    std::vector<bool> child(nodes_.size());
+    for (const GltfNode& node : nodes_) {
       for (const int index : node.children) child[index] = true;
     }
-    std::vector<int> roots;
     for (std::size_t i = 0; i < child.size(); ++i) {
       if (!child[i]) roots.push_back(static_cast<int>(i));
     }
     return roots;
   }
 
-  void add(const tinygltf::Node& node, const glm::dmat4& world) {
-    if (!finite(world)) {
+  // Says whether what is below the node has a place.
+  bool add_or_leave_out(int index) {
+    const std::string& fault = document_.faults.nodes[index];
+    const std::string& label = nodes_[index].label;
+    if (!fault.empty()) {
+      warnings_.add(label + " is left out, with all below it: " + fault);
+      return false;
+    }
+    try {
+      add(nodes_[index], *worlds_[index]);
+    } catch (const OverLimit& error) {
+      throw Error(label + ": " + error.what(), error.fault());
+    } catch (const Error& error) {
+      if (undrawable_ == Undrawable::kRefuse) {
+        throw Error(label + ": " + error.what(), error.fault());
+      }
+      warnings_.add(label + " is left out: " + error.what());
+    }
+    return true;
+  }
+
+  void add(const GltfNode& node, const glm::dmat4& world) {
+    if (!is_finite(world)) {
       throw Error("its matrix, with those of its parents, has a NaN or infinite entry");
     }
-    const std::optional<int> light = sun_of(node);
-    if (node.mesh < 0 && node.camera < 0 && !light) return;
-    const glm::dmat3 linear(world);
-    const double determinant = glm::determinant(linear);
-    if (determinant == 0 || !std::isfinite(determinant)) {
-      const bool hidden = linear == glm::dmat3(0.0);
-      if (hidden && node.mesh >= 0) model_.skipped_triangles += triangles_of(node.mesh);
-      if (hidden) return;
-      throw Error("its matrix has the determinant " + std::to_string(determinant) +
-                  ", expected one that can be inverted");
-    }
-    if (node.mesh >= 0) add_mesh(node, world, determinant < 0);
+    if (node.mesh >= 0) add_mesh(node, world);
+    if (node.camera < 0 && node.light < 0) return;
+    if (!has_inverse(world)) return;
     if (node.camera >= 0 && !model_.camera) {
-      model_.camera = camera_of(gltf_.cameras[node.camera], world);
+      model_.camera = gltf_camera(cameras_[node.camera], world);
     }
-    if (light && !model_.sun) add_sun(gltf_.lights[*light], world);
+    if (node.light >= 0) add_light(node, world);
   }
 
-  std::optional<int> sun_of(const tinygltf::Node& node) const {
-    const auto punctual = node.extensions.find("KHR_lights_punctual");
-    if (punctual == node.extensions.end()) return std::nullopt;
-    const int light = punctual->second.Get("light").GetNumberAsInt();
-    if (gltf_.lights[light].type != "directional") return std::nullopt;
-    return light;
+  // A scale of 0 has none and is no fault: it is a way to hide things.
+  static bool has_inverse(const glm::dmat4& matrix) {
+    const glm::dmat3 linear(matrix);
+    const double determinant = glm::determinant(linear);
+    if (determinant != 0 && std::isfinite(determinant)) return true;
+    if (linear == glm::dmat3(0.0)) return false;
+    throw Error("its matrix has the determinant " + std::to_string(determinant) +
+                ", expected one that can be inverted");
   }
 
-  // A light shines down the -Z of its node: the sun stands on its +Z.
-  void add_sun(const tinygltf::Light& light, const glm::dmat4& world) {
-    const Rgb<double> color = light.color.empty()
-                                  ? Rgb<double>{1, 1, 1}
-                                  : Rgb<double>{light.color[0], light.color[1], light.color[2]};
-    model_.sun = Sun{glm::normalize(glm::dvec3(world[2])), light.intensity * color};
-  }
-
-  std::int64_t triangles_of(int mesh) {
-    std::int64_t corners = 0;
-    for (const tinygltf::Primitive& primitive : gltf_.meshes[mesh].primitives) {
-      const int counted =
-          primitive.indices >= 0 ? primitive.indices : primitive.attributes.at("POSITION");
-      corners += static_cast<std::int64_t>(gltf_.accessors[counted].count);
+  void add_light(const GltfNode& node, const glm::dmat4& world) {
+    const JsonPlace& light = lights_[node.light];
+    if (light.at("type").text() == "directional" && !model_.sun) {
+      model_.sun = sun_of(light, world);
+    } else {
+      warnings_.add("lights but the first directional one are not drawn", node.label);
     }
-    return corners / 3;
   }
 
-  void add_mesh(const tinygltf::Node& node, const glm::dmat4& world, bool mirrors) {
-    const bool water = is_water(node);
-    ReadMesh& mesh = meshes_[node.mesh];
-    if (!mesh.read) {
-      GltfMesh parts = read_gltf_mesh(gltf_, node.mesh, materials_, budget_);
-      model_.skipped_triangles += parts.skipped_triangles;
-      for (Mesh& part : parts.parts) mesh.parts.push_back(put(std::move(part)));
-      mesh.read = true;
+  void add_mesh(const GltfNode& node, const glm::dmat4& world) {
+    if (node.skin >= 0) return add_skinned(node);
+    std::vector<glm::dmat4> placed = {world};
+    if (node.instancing) {
+      placed = read_gltf_instances(*node.instancing, document_.accessors, budget_);
+      for (glm::dmat4& matrix : placed) matrix = world * matrix;
     }
-    if (mirrors && mesh.mirrored_parts.empty()) {
-      for (const int part : mesh.parts) {
-        const Mesh& original = model_.meshes[part];
-        budget_.take(static_cast<std::int64_t>(original.positions.size() *
-                                                   (2 * sizeof(glm::vec3) + sizeof(glm::vec2)) +
-                                               original.second_uvs.size() * sizeof(glm::vec2) +
-                                               original.colors.size() * sizeof(glm::vec4) +
-                                               original.indices.size() * sizeof(std::uint32_t)),
-                     "the mirrored mesh '" + original.name + "'");
-        mesh.mirrored_parts.push_back(put(mirrored(original)));
+    Parts own;
+    Parts& parts = node.weights.empty() ? shared_[node.mesh] : own;
+    for (const glm::dmat4& matrix : placed) {
+      if (!is_finite(matrix)) throw Error("an instance has a NaN or infinite entry in its matrix");
+      if (has_inverse(matrix)) {
+        put_instance(node, parts, matrix);
+      } else {
+        std::int64_t& triangles = shared_[node.mesh].triangles;
+        if (triangles < 0) triangles = meshes_.triangles(node.mesh);
+        skip_triangles(triangles);
       }
     }
+  }
+
+  // A file may repeat large meshes beyond all numbers.
+  void skip_triangles(std::int64_t count) {
+    constexpr std::int64_t kMost = std::int64_t{1} << 60;
+    model_.skipped_triangles = std::min(model_.skipped_triangles + std::min(count, kMost), kMost);
+  }
+
+  // Joints say where it is, its own matrix counts for nothing (glTF 2.0, 3.7.3.2).
+  void add_skinned(const GltfNode& node) {
+    Parts own;
+    read_parts(node, own);
+    for (const int part : own.plain) put_instance({part, glm::dmat4(1.0), node.water});
+  }
+
+  void put_instance(const GltfNode& node, Parts& parts, const glm::dmat4& world) {
+    if (!parts.read) read_parts(node, parts);
+    const bool mirrors = glm::determinant(glm::dmat3(world)) < 0;
+    if (mirrors && parts.mirrored.empty()) mirror_parts(parts);
     const glm::dmat4 matrix = mirrors ? glm::scale(world, glm::dvec3(-1, 1, 1)) : world;
-    for (const int part : mirrors ? mesh.mirrored_parts : mesh.parts) {
-      model_.instances.push_back({part, matrix, water});
+    for (const int part : mirrors ? parts.mirrored : parts.plain) {
+      put_instance({part, matrix, node.water});
+    }
+  }
+
+  void put_instance(const Instance& instance) {
+    budget_.take(1, sizeof(Instance), "its instances");
+    model_.instances.push_back(instance);
+  }
+
+  void read_parts(const GltfNode& node, Parts& parts) {
+    GltfPose pose{node.weights.empty() ? meshes_.weights(node.mesh) : node.weights};
+    if (node.skin >= 0) pose.joints = &skins_.joints(node.skin);
+    GltfMesh mesh = meshes_.read(node.mesh, pose);
+    skip_triangles(mesh.skipped_triangles);
+    for (Mesh& part : mesh.parts) parts.plain.push_back(put(std::move(part)));
+    parts.read = true;
+  }
+
+  void mirror_parts(Parts& parts) {
+    for (const int part : parts.plain) {
+      const Mesh& original = model_.meshes[part];
+      const std::string what = "the mirrored mesh '" + original.name + "'";
+      budget_.take(original.positions.size(), kBytesAVertex, what);
+      budget_.take(original.indices.size(), sizeof(std::uint32_t), what);
+      parts.mirrored.push_back(put(mirrored(original)));
     }
   }
 
@@ -206,18 +231,24 @@ class SceneReader {
     return static_cast<int>(model_.meshes.size()) - 1;
   }
 
-  const tinygltf::Model& gltf_;
-  const std::vector<GltfMaterial>& materials_;
+  const GltfDocument& document_;
+  Undrawable undrawable_;
   MemoryBudget& budget_;
+  ModelWarnings& warnings_;
   Model& model_;
-  std::vector<ReadMesh> meshes_;
+  std::vector<GltfNode> nodes_;
+  std::vector<std::optional<glm::dmat4>> worlds_;
+  GltfSkins skins_;
+  GltfMeshes meshes_;
+  std::vector<JsonPlace> cameras_, lights_;
+  std::vector<Parts> shared_;  // of meshes as they are, whoever shows them
 };
 
 }  // namespace
 
-void read_gltf_scene(const tinygltf::Model& gltf, const std::vector<GltfMaterial>& materials,
-                     MemoryBudget& budget, Model& model) {
-  SceneReader(gltf, materials, budget, model).read();
+void read_gltf_scene(const GltfDocument& document, Undrawable undrawable, MemoryBudget& budget,
+                     ModelWarnings& warnings, Model& model) {
+  SceneReader(document, undrawable, budget, warnings, model).read();
 }
 
 }  // namespace limpid

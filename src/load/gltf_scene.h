@@ -1,16 +1,32 @@
 #pragma once
+#include <string>
+#include <vector>
+
+#include "limpid/load/gltf.h"
 #include "limpid/raster/model.h"
 
+#include "load/gltf_accessors.h"
+#include "load/gltf_check.h"
 #include "load/gltf_material.h"
-#include "load/gltf_mesh.h"
-#include "load/gltf_parser.h"
+#include "load/json_place.h"
+#include "load/memory_budget.h"
+#include "load/model_warnings.h"
 
 namespace limpid {
 
+/// A checked document and what has been read of it.
+struct GltfDocument {
+  const JsonPlace& root;
+  const GltfFaults& faults;
+  const GltfAccessors& accessors;
+  const std::vector<GltfMaterial>& materials;
+};
+
 /// Walks the nodes of the default scene and puts what hangs on them into `model`: meshes with their
 /// instances, the first camera, the first directional light. A node of scale 0 hides what is below
-/// it; its triangles count as skipped. Throws Error for other matrices without an inverse.
-void read_gltf_scene(const tinygltf::Model& gltf, const std::vector<GltfMaterial>& materials,
-                     MemoryBudget& budget, Model& model);
+/// it; its triangles count as skipped. Throws Error for other matrices without an inverse, and for
+/// what a node needs and cannot be read; with Undrawable::kLeaveOut tells of such nodes.
+void read_gltf_scene(const GltfDocument& document, Undrawable undrawable, MemoryBudget& budget,
+                     ModelWarnings& warnings, Model& model);
 
 }  // namespace limpid

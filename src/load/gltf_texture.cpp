@@ -8,6 +8,7 @@
 
 #include "limpid/core/error.h"
 
+#include "load/memory_budget.h"
 #include "load/png_inflated.h"
 #include "load/stb_image.h"
 #include "load/whole_file.h"
@@ -48,22 +49,29 @@ void check_size(int width, int height, const std::string& name, const Limits& li
   const std::int64_t pixels = std::int64_t{width} * height;
   const std::string size = name + ": " + std::to_string(width) + "x" + std::to_string(height);
   if (width > limits.max_side || height > limits.max_side) {
-    throw Error(size + " pixels: expected sides of at most " + std::to_string(limits.max_side));
+    throw OverLimit(size + " pixels: expected sides of at most " + std::to_string(limits.max_side));
   }
   if (pixels > limits.max_pixels) {
-    throw Error(size + " pixels: expected at most " + std::to_string(limits.max_pixels));
+    throw OverLimit(size + " pixels: expected at most " + std::to_string(limits.max_pixels));
   }
   if (pixels > limits.max_memory / kBytesATexel) {
-    throw Error(size + " pixels: expected at most " + std::to_string(limits.max_memory) +
-                " bytes for it and all before");
+    throw OverLimit(size + " pixels: expected at most " + std::to_string(limits.max_memory) +
+                    " bytes for it and all before");
   }
+}
+
+// "is WebP, " where it is a known one.
+std::string other_format(std::string_view bytes) {
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "is WebP, ";
+  if (bytes.starts_with("\xABKTX 20\xBB"sv)) return "is KTX2, ";
+  return "";
 }
 
 }  // namespace
 
 ModelTexture decode_texture(std::string_view bytes, const std::string& name, const Limits& limits) {
   if (!bytes.starts_with("\x89PNG\r\n\x1a\n"sv) && !bytes.starts_with("\xFF\xD8\xFF"sv)) {
-    throw Error(name + ": expected a PNG or JPEG picture");
+    throw Error(name + ": " + other_format(bytes) + "expected a PNG or JPEG picture");
   }
   check_whole(bytes, name);
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());

@@ -17,9 +17,10 @@ void ModelWarnings::add(const std::string& sentence, const std::string& place) {
       ++beyond_;
       return;
     }
-    line = lines_.insert(lines_.end(), {sentence, "", 0});
+    line = lines_.insert(lines_.end(), {sentence, "", "", 0});
   }
-  if (place.empty()) return;
+  if (place.empty() || place == line->last) return;
+  line->last = place;
   if (++line->count <= kPlaces) line->places += (line->places.empty() ? "" : ", ") + place;
 }
 

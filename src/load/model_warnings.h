@@ -8,7 +8,8 @@ namespace limpid {
 /// often it is said.
 class ModelWarnings {
  public:
-  /// `place` is where in the file, as in "meshes[2] 'rock'". Of many places the first few are kept.
+  /// `place` is where in the file, as in "meshes[2] 'rock'". Of many places the first few are kept,
+  /// and one said again at once counts once.
   void add(const std::string& sentence, const std::string& place = "");
 
   /// As in "points are not drawn: meshes[2] 'rock', meshes[7] and 3 more"; kMost lines at most,
@@ -19,7 +20,7 @@ class ModelWarnings {
 
  private:
   struct Line {
-    std::string sentence, places;
+    std::string sentence, places, last;
     std::size_t count = 0;  // of places
   };
   std::vector<Line> lines_;

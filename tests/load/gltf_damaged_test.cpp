@@ -1,3 +1,5 @@
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 
@@ -27,6 +29,39 @@ struct Damage {
 
 const char* const kCamera = R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])";
 
+// The square's positions again, by the indices of its triangles: 0 1 2 0 2 3.
+void make_sparse(json& g, int count) {
+  g["accessors"][0]["sparse"] = {{"count", count},
+                                 {"indices", {{"bufferView", 2}, {"componentType", 5123}}},
+                                 {"values", {{"bufferView", 0}}}};
+}
+
+void make_skin(json& g) {
+  g["nodes"][0]["skin"] = 0;
+  g["skins"] = json::parse(R"([{"joints": [0]}])");
+}
+
+// All four vertices alike.
+void make_bound(json& g, const std::array<std::uint8_t, 4>& joints,
+                const std::array<float, 4>& weights) {
+  make_skin(g);
+  std::string bytes;
+  for (int i = 0; i < 4; ++i) bytes += std::string(joints.begin(), joints.end());
+  for (int i = 0; i < 4; ++i) {
+    bytes += test::bytes_of(std::vector<float>(weights.begin(), weights.end()));
+  }
+  g["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", test::data_uri(bytes)}});
+  g["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 16}});
+  g["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", 16}, {"byteLength", 64}});
+  g["accessors"].push_back(
+      {{"bufferView", 3}, {"componentType", 5121}, {"type", "VEC4"}, {"count", 4}});
+  g["accessors"].push_back(
+      {{"bufferView", 4}, {"componentType", 5126}, {"type", "VEC4"}, {"count", 4}});
+  json& attributes = g["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = 4;
+  attributes["WEIGHTS_0"] = 5;
+}
+
 const Damage kDamages[] = {
     // structure
     {"no_asset", [](json& g) { g.erase("asset"); }, "the file: expected \"asset\" in it"},
@@ -36,14 +71,25 @@ const Damage kDamages[] = {
      "asset.minVersion = \"2.1\": expected \"2.0\" at most"},
     {"required_extension",
      [](json& g) { g["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
-     "extensionsRequired[0] = \"KHR_draco_mesh_compression\": expected a file that does not "
-     "require more than KHR_lights_punctual, KHR_materials_unlit"},
+     "extensionsRequired[0] = \"KHR_draco_mesh_compression\": meshes packed by Draco are not read, "
+     "expected a file that requires no more than EXT_mesh_gpu_instancing, "},
+    {"required_meshopt", [](json& g) { g["extensionsRequired"] = {"EXT_meshopt_compression"}; },
+     "\"EXT_meshopt_compression\": buffers packed by meshopt are not read"},
+    {"required_new_meshopt", [](json& g) { g["extensionsRequired"] = {"KHR_meshopt_compression"}; },
+     "\"KHR_meshopt_compression\": buffers packed by meshopt are not read"},
+    {"required_ktx2", [](json& g) { g["extensionsRequired"] = {"KHR_texture_basisu"}; },
+     "\"KHR_texture_basisu\": textures in KTX2 are not read"},
+    {"required_webp", [](json& g) { g["extensionsRequired"] = {"EXT_texture_webp"}; },
+     "\"EXT_texture_webp\": textures in WebP are not read"},
+    {"required_unknown", [](json& g) { g["extensionsRequired"] = {"EXT_soup"}; },
+     "extensionsRequired[0] = \"EXT_soup\": is not read, expected a file that requires no more"},
     {"nodes_no_list", [](json& g) { g["nodes"] = 5; }, "nodes = 5: expected a list"},
     {"mesh_no_object", [](json& g) { g["meshes"][0] = "x"; },
      "meshes[0] = \"x\": expected an object"},
     // buffers
     {"buffer_no_uri", [](json& g) { g["buffers"][0].erase("uri"); }, "buffers[0]: expected a uri"},
-    {"buffer_too_long", [](json& g) { g["buffers"][0]["byteLength"] = 141; }, "not glTF: "},
+    {"buffer_too_long", [](json& g) { g["buffers"][0]["byteLength"] = 141; },
+     "buffers[0].byteLength = 141: expected at most the 140 bytes that it has"},
     {"buffer_negative", [](json& g) { g["buffers"][0]["byteLength"] = -1; },
      "buffers[0].byteLength = -1: expected an integer from 1 to 2147483647"},
     {"buffer_huge", [](json& g) { g["buffers"][0]["byteLength"] = 18446744073709551615u; },
@@ -68,7 +114,7 @@ const Damage kDamages[] = {
     {"uri_number", [](json& g) { g["buffers"][0]["uri"] = 7; }, "uri = 7: expected a text"},
     {"data_not_base64",
      [](json& g) { g["buffers"][0]["uri"] = "data:application/octet-stream;base64,~~~~"; },
-     "not glTF: "},
+     "expected letters of base64"},
     {"data_of_html", [](json& g) { g["buffers"][0]["uri"] = "data:text/html;base64,AAAA"; },
      "expected a data uri of base64 and of type"},
     {"uri_backslash", [](json& g) { g["buffers"][0]["uri"] = "..\\x.bin"; },
@@ -100,7 +146,44 @@ const Damage kDamages[] = {
     {"accessor_type", [](json& g) { g["accessors"][0]["type"] = "VEC5"; },
      "expected one of SCALAR, VEC2, VEC3"},
     {"accessor_sparse", [](json& g) { g["accessors"][0]["sparse"] = json::object(); },
-     "accessors[0]: sparse accessors are not supported"},
+     "accessors[0].sparse: expected \"count\" in it"},
+    {"sparse_count", [](json& g) { make_sparse(g, 5); },
+     "accessors[0].sparse.count = 5: expected an integer from 1 to 4"},
+    {"sparse_indices_of_bytes",
+     [](json& g) {
+       make_sparse(g, 1);
+       g["accessors"][0]["sparse"]["indices"]["componentType"] = 5122;
+     },
+     "accessors[0].sparse.indices.componentType = 5122: expected one of 5121, 5123, 5125"},
+    {"sparse_view",
+     [](json& g) {
+       make_sparse(g, 1);
+       g["accessors"][0]["sparse"]["values"]["bufferView"] = 3;
+     },
+     "accessors[0].sparse.values.bufferView = 3: expected an index below 3"},
+    {"sparse_values_beyond",
+     [](json& g) {
+       make_sparse(g, 4);
+       g["accessors"][0]["sparse"]["values"]["byteOffset"] = 52;
+     },
+     "accessors[0].sparse.values: needs 100 bytes of a buffer view of 96"},
+    {"sparse_indices_beyond",
+     [](json& g) {
+       make_sparse(g, 4);
+       g["accessors"][0]["sparse"]["indices"]["byteOffset"] = 6;
+     },
+     "accessors[0].sparse.indices: needs 14 bytes of a buffer view of 12"},
+    // The indices of the triangles, 0 1 2 0, do not rise.
+    {"sparse_falls", [](json& g) { make_sparse(g, 4); },
+     "accessors[0].sparse: index 3 is 0, expected one above 2 and below 4"},
+    {"sparse_index_beyond",
+     [](json& g) {
+       Square square;
+       square.indices[0] = 4;
+       g["buffers"][0]["uri"] = test::data_uri(square.bytes());
+       make_sparse(g, 1);
+     },
+     "accessors[0].sparse: index 0 is 4, expected one above -1 and below 4"},
     {"view_offset_negative", [](json& g) { g["bufferViews"][1]["byteOffset"] = -4; },
      "bufferViews[1].byteOffset = -4: expected an integer from 0"},
     {"view_empty", [](json& g) { g["bufferViews"][1]["byteLength"] = 0; },
@@ -113,15 +196,18 @@ const Damage kDamages[] = {
      "accessors[1]: needs 1099511627824 bytes of a buffer view of 96"},
     {"accessor_empty", [](json& g) { g["accessors"][0]["count"] = 0; },
      "accessors[0].count = 0: expected an integer from 1"},
-    {"accessor_of_nothing", [](json& g) { g["accessors"][0].erase("bufferView"); },
-     "accessors[0]: expected a bufferView"},
+    {"accessor_of_much_nothing",
+     [](json& g) {
+       for (const int i : {0, 1, 2}) {
+         g["accessors"][i].erase("bufferView");
+         g["accessors"][i]["count"] = 2147483647;
+       }
+     },
+     "bytes of memory, expected at most"},
     // meshes
     {"attribute_index",
      [](json& g) { g["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 9; },
      "meshes[0].primitives[0].attributes.NORMAL = 9: expected an index below 4"},
-    {"no_positions",
-     [](json& g) { g["meshes"][0]["primitives"][0]["attributes"].erase("POSITION"); },
-     "meshes[0].primitives[0].attributes: expected \"POSITION\" in it"},
     {"positions_of_vec2",
      [](json& g) { g["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 2; },
      "expected an accessor of VEC3 float"},
@@ -131,12 +217,71 @@ const Damage kDamages[] = {
      "accessors[2].count = 3: expected 4 as in POSITION"},
     {"two_corners", [](json& g) { g["accessors"][3]["count"] = 5; },
      "5 corners, expected three a triangle"},
-    {"strip", [](json& g) { g["meshes"][0]["primitives"][0]["mode"] = 5; },
-     "mode = 5: expected 4, a triangle list, not a triangle strip"},
+    {"short_strip",
+     [](json& g) {
+       g["meshes"][0]["primitives"][0]["mode"] = 5;
+       g["accessors"][3]["count"] = 2;
+     },
+     "meshes[0].primitives[0].indices: 2 corners, expected at least three"},
+    {"mode_of_seven", [](json& g) { g["meshes"][0]["primitives"][0]["mode"] = 7; },
+     "mode = 7: expected an integer from 0 to 6"},
+    {"quantized_unsaid", [](json& g) { g["accessors"][0]["componentType"] = 5122; },
+     "attributes.POSITION = 0: expected an accessor of VEC3 float"},
+    {"quantized_normals_unnormalized",
+     [](json& g) {
+       g["extensionsUsed"] = {"KHR_mesh_quantization"};
+       g["accessors"][1]["componentType"] = 5122;
+     },
+     "attributes.NORMAL = 1: expected an accessor of VEC3 float, normalized bytes or shorts"},
+    {"draco_alone",
+     [](json& g) {
+       g["meshes"][0]["primitives"][0]["extensions"] = {
+           {"KHR_draco_mesh_compression", json::object()}};
+       g["accessors"][1].erase("bufferView");
+     },
+     "meshes[0].primitives[0]: is packed by Draco (KHR_draco_mesh_compression), which is not read"},
+    {"meshopt_alone",
+     [](json& g) {
+       g["buffers"].push_back(
+           {{"byteLength", 96}, {"extensions", {{"EXT_meshopt_compression", json::object()}}}});
+       g["bufferViews"][0]["buffer"] = 1;
+     },
+     "nodes[0] 'thing': bufferViews[0]: is packed by meshopt, which is not read"},
+    {"meshopt_beyond",
+     [](json& g) {
+       g["buffers"].push_back(
+           {{"byteLength", 95}, {"extensions", {{"EXT_meshopt_compression", json::object()}}}});
+       g["bufferViews"][0]["buffer"] = 1;
+     },
+     "bufferViews[0]: bytes 0 to 96 of a buffer of 95"},
     {"mode_of_text", [](json& g) { g["meshes"][0]["primitives"][0]["mode"] = "4"; },
      "mode = \"4\": expected an integer"},
-    {"morph", [](json& g) { g["meshes"][0]["primitives"][0]["targets"] = json::array(); },
-     "morph targets are not supported"},
+    {"morph_weights",
+     [](json& g) {
+       g["meshes"][0]["primitives"][0]["targets"] = json::parse(R"([{"POSITION": 0}])");
+       g["meshes"][0]["weights"] = {1, 1};
+     },
+     "meshes[0].weights = [...] of 2: expected a list of 1 numbers"},
+    {"morph_weights_of_node", [](json& g) { g["nodes"][0]["weights"] = {1}; },
+     "nodes[0].weights = [...] of 1: expected a list of 0 numbers"},
+    {"morph_count",
+     [](json& g) {
+       g["meshes"][0]["primitives"][0]["targets"] = json::parse(R"([{"POSITION": 3}])");
+     },
+     "accessors[3].count = 6: expected 4 as in POSITION"},
+    {"morph_of_some",
+     [](json& g) {
+       json& primitives = g["meshes"][0]["primitives"];
+       primitives.push_back(primitives[0]);
+       primitives[0]["targets"] = json::parse(R"([{"POSITION": 0}])");
+     },
+     "meshes[0].primitives[1]: has 0 morph targets, expected 1 as in the first primitive"},
+    {"endless_morph",
+     [](json& g) {
+       g["meshes"][0]["primitives"][0]["targets"] = json::parse(R"([{"POSITION": 0}])");
+       g["meshes"][0]["weights"] = {1e300};
+     },
+     "meshes[0] 'square' vertex 0: posed position"},
     {"material_index", [](json& g) { g["meshes"][0]["primitives"][0]["material"] = 0; },
      "material = 0: expected an index below 0"},
     {"material_negative", [](json& g) { g["meshes"][0]["primitives"][0]["material"] = -1; },
@@ -193,6 +338,38 @@ const Damage kDamages[] = {
            json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
      },
      "images[0]: expected a PNG or JPEG picture"},
+    {"webp_alone",
+     [](json& g) {
+       g["images"] = json::parse(R"([{"uri": "data:image/webp;base64,UklGRgAAAABXRUJQ"}])");
+       g["textures"] = json::parse(R"([{"extensions": {"EXT_texture_webp": {"source": 0}}}])");
+       g["materials"] =
+           json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+     },
+     "textures[0]: has a picture by EXT_texture_webp alone, which is not read"},
+    {"ktx2_alone",
+     [](json& g) {
+       g["images"] = json::parse(R"([{"uri": "x.ktx2"}])");
+       g["textures"] = json::parse(R"([{"extensions": {"KHR_texture_basisu": {"source": 0}}}])");
+       g["materials"] = json::parse(R"([{"emissiveFactor": [1, 1, 1],
+                                         "emissiveTexture": {"index": 0}}])");
+     },
+     "textures[0]: has a picture by KHR_texture_basisu alone, which is not read"},
+    {"webp_for_png",
+     [](json& g) {
+       g["images"] = json::parse(R"([{"uri": "data:image/png;base64,UklGRgAAAABXRUJQ"}])");
+       g["textures"] = json::parse(R"([{"source": 0}])");
+       g["materials"] =
+           json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+     },
+     "images[0]: is WebP, expected a PNG or JPEG picture"},
+    {"transform_of_text",
+     [](json& g) {
+       g["images"] = json::parse(R"([{"uri": "x.png"}])");
+       g["textures"] = json::parse(R"([{"source": 0}])");
+       g["materials"] = json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0,
+         "extensions": {"KHR_texture_transform": {"offset": "left"}}}}}])");
+     },
+     "KHR_texture_transform.offset = \"left\": expected a list of 2 numbers"},
     {"extras_key",
      [](json& g) {
        g["materials"] = json::parse(R"([{"extras": {"limpid": {"shadin": "flat"}}}])");
@@ -249,7 +426,69 @@ const Damage kDamages[] = {
        g["nodes"][0]["extensions"] = json::parse(R"({"KHR_lights_punctual": {"light": 0}})");
      },
      "nodes[0].extensions.KHR_lights_punctual.light = 0: expected an index below 0"},
-    {"skin", [](json& g) { g["nodes"][0]["skin"] = 0; }, "nodes[0].skin: skins are not supported"},
+    {"skin_index", [](json& g) { g["nodes"][0]["skin"] = 0; },
+     "nodes[0].skin = 0: expected an index below 0"},
+    {"skin_without_mesh",
+     [](json& g) {
+       make_skin(g);
+       g["nodes"][0].erase("mesh");
+     },
+     "nodes[0].skin = 0: expected a mesh in the node that has a skin"},
+    {"skin_joint",
+     [](json& g) {
+       make_skin(g);
+       g["skins"][0]["joints"] = {0, 7};
+     },
+     "skins[0].joints[1] = 7: expected an index below 1"},
+    {"skin_matrices",
+     [](json& g) {
+       make_skin(g);
+       g["skins"][0]["inverseBindMatrices"] = 0;
+     },
+     "skins[0].inverseBindMatrices = 0: expected an accessor of MAT4 float"},
+    {"skin_of_unbound", [](json& g) { make_skin(g); },
+     "nodes[0] 'thing': meshes[0] 'square': expected JOINTS_0 and WEIGHTS_0"},
+    {"joint_beyond",
+     [](json& g) {
+       make_bound(g, {0, 0, 1, 0}, {0.5f, 0.5f, 0.5f, 0});
+     },
+     "meshes[0] 'square' vertex 0: joint 1, expected one below 1"},
+    {"weight_below_0",
+     [](json& g) {
+       make_bound(g, {0, 0, 0, 0}, {1, -0.5f, 0, 0});
+     },
+     "meshes[0] 'square' vertex 0: weight -0.500000, expected a number from 0 up"},
+    {"weight_nan",
+     [](json& g) {
+       make_bound(g, {0, 0, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 0, 0});
+     },
+     "weight nan, expected a number from 0 up"},
+    {"instance_counts",
+     [](json& g) {
+       g["nodes"][0]["extensions"] =
+           json::parse(R"({"EXT_mesh_gpu_instancing": {"attributes": {"SCALE": 0, "_ID": 3}}})");
+     },
+     "accessors[3].count = 6: expected 4 as in the other attributes of instances"},
+    {"instance_rotation",
+     [](json& g) {
+       g["nodes"][0]["extensions"] =
+           json::parse(R"({"EXT_mesh_gpu_instancing": {"attributes": {"ROTATION": 0}}})");
+     },
+     "ROTATION = 0: expected an accessor of VEC4 float, or of normalized bytes or shorts"},
+    {"instances_without_end",
+     [](json& g) {
+       g["accessors"][1].erase("bufferView");
+       g["accessors"][1]["count"] = 2147483647;
+       g["nodes"][0]["extensions"] =
+           json::parse(R"({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}})");
+       g["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
+     },
+     "bytes of memory, expected at most"},
+    {"visible_of_text",
+     [](json& g) {
+       g["nodes"][0]["extensions"] = json::parse(R"({"KHR_node_visibility": {"visible": "no"}})");
+     },
+     "nodes[0].extensions.KHR_node_visibility.visible = \"no\": expected true or false"},
     {"short_matrix",
      [](json& g) {
        g["nodes"][0]["matrix"] = {1, 2, 3};
@@ -264,7 +503,13 @@ const Damage kDamages[] = {
      [](json& g) {
        g["nodes"][0]["rotation"] = {0, 0, 0, 0};
      },
-     "expected a unit quaternion"},
+     "nodes[0].rotation = [0, 0, 0, 0], of norm 0: expected a unit quaternion (norm 1)"},
+    {"long_rotation",
+     [](json& g) {
+       g["nodes"][0]["rotation"] = {0, 0.5, -0.25, 1};
+     },
+     "nodes[0].rotation = [0, 0.5, -0.25, 1], of norm 1.14564: expected a unit quaternion (norm "
+     "1)"},
     {"null_in_matrix",
      [](json& g) {
        g["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, nullptr, 0, 0, 1};

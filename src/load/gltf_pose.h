@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "limpid/raster/model.h"
+
+#include "load/gltf_accessors.h"
+#include "load/json_place.h"
+#include "load/model_warnings.h"
+
+namespace limpid {
+
+/// What a node does to the vertices of its mesh.
+struct GltfPose {
+  std::vector<double> weights;                      ///< of the morph targets; those beyond are 0
+  const std::vector<glm::dmat4>* joints = nullptr;  ///< of its skin: world from mesh
+};
+
+/// Adds the morph targets of a primitive to its positions and normals (glTF 2.0, 3.7.2.2). Normals
+/// become unit before. Tells of what else the targets would change.
+void apply_morph_targets(const JsonPlace& primitive, const std::vector<double>& weights,
+                         const GltfAccessors& accessors, MemoryBudget& budget,
+                         ModelWarnings& warnings, const std::string& label, Mesh& mesh);
+
+/// Takes positions and normals to where the joints put them (glTF 2.0, 3.7.3.3 "Skinned Mesh
+/// Attributes"); the weights of a vertex count by their share of the sum, one without any follows
+/// its first joint. Returns for each vertex whether its joints mirror it. Throws Error for joints
+/// that the skin has not, and for weights below 0 or not finite.
+std::vector<bool> apply_skin(const JsonPlace& primitive, const std::vector<glm::dmat4>& joints,
+                             const GltfAccessors& accessors, MemoryBudget& budget,
+                             const std::string& label, Mesh& mesh);
+
+}  // namespace limpid

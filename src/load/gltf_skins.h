@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "load/gltf_accessors.h"
+#include "load/json_place.h"
+
+namespace limpid {
+
+/// The joints of the skins of a checked document, as the nodes of the file pose them.
+class GltfSkins {
+ public:
+  using Worlds = std::vector<std::optional<glm::dmat4>>;
+
+  GltfSkins(const JsonPlace& root, const GltfAccessors& accessors, const Worlds& world_from_node,
+            const std::vector<std::string>& faults, MemoryBudget& budget)
+      : skins_(root.list("skins")),
+        accessors_(accessors),
+        worlds_(world_from_node),
+        faults_(faults),
+        budget_(budget),
+        read_(skins_.size()) {}
+
+  /// Of each joint, where it takes the vertices that are bound to it: world from mesh. Without
+  /// inverse bind matrices the mesh is in the space of its joints. Throws Error for a joint that
+  /// stands nowhere, and for matrices that are not finite.
+  const std::vector<glm::dmat4>& joints(int skin);
+
+ private:
+  std::vector<glm::dmat4> read(const JsonPlace& skin) const;
+
+  std::vector<JsonPlace> skins_;
+  const GltfAccessors& accessors_;
+  const Worlds& worlds_;
+  const std::vector<std::string>& faults_;
+  MemoryBudget& budget_;
+  std::vector<std::vector<glm::dmat4>> read_;
+};
+
+}  // namespace limpid

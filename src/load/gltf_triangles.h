@@ -1,0 +1,41 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "load/json_place.h"
+
+/// How the corners of a primitive make triangles (glTF 2.0, 3.7.2.1 "Overview" of meshes).
+
+namespace limpid {
+
+enum class GltfMode : std::uint8_t {
+  kPoints,
+  kLines,
+  kLineLoop,
+  kLineStrip,
+  kTriangles,
+  kStrip,
+  kFan,
+};
+
+/// The mode of a primitive. Throws Error for one that there is not.
+GltfMode gltf_mode_of(const JsonPlace& primitive);
+
+constexpr bool is_triangles(GltfMode mode) { return mode >= GltfMode::kTriangles; }
+
+/// How many triangles so many corners make.
+constexpr std::size_t triangle_count(GltfMode mode, std::size_t corners) {
+  if (corners < 3) return 0;
+  return mode == GltfMode::kTriangles ? corners / 3 : corners - 2;
+}
+
+/// Which corners a triangle has, counter-clockwise seen from its front.
+constexpr std::array<std::size_t, 3> corners_of_triangle(GltfMode mode, std::size_t triangle) {
+  const std::size_t i = triangle;
+  if (mode == GltfMode::kStrip) return {i, i + 1 + i % 2, i + 2 - i % 2};
+  if (mode == GltfMode::kFan) return {i + 1, i + 2, 0};
+  return {3 * i, 3 * i + 1, 3 * i + 2};
+}
+
+}  // namespace limpid

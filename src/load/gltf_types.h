@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+
+#include "load/json_place.h"
+
+/// The types of an accessor's numbers (glTF 2.0, 3.6.2.2 "Accessor Data Types").
+
+namespace limpid {
+
+constexpr std::int64_t kGltfByte = 5120, kGltfUbyte = 5121, kGltfShort = 5122, kGltfUshort = 5123,
+                       kGltfUint = 5125, kGltfFloat = 5126;
+
+/// Bytes of one of these, 0 of another.
+std::int64_t gltf_component_size(std::int64_t component);
+
+/// Bytes of an accessor's element. Throws Error for types that there are not.
+std::int64_t gltf_element_size(const JsonPlace& accessor);
+
+/// Whether an accessor's integers are fractions of the largest.
+bool is_normalized(const JsonPlace& accessor);
+
+}  // namespace limpid
