@@ -119,15 +119,17 @@ constexpr const char* kRenderedFrames =
     "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes into names with "
     "%04d or ####";
 
-void add_scene(CLI::App& verb, std::string& scene, std::string& size) {
+void add_scene(CLI::App& verb, std::string& scene, std::string& size, bool& draw_what_you_can) {
   verb.add_option("scene", scene, "Scene file with [geometry]")
       ->required()
       ->option_text("SCENE.toml");
   verb.add_option("--size", size, "Pixels (default: 1920x1080)")->option_text("WxH");
+  verb.add_flag("--draw-what-you-can", draw_what_you_can,
+                "Leave out nodes of the glTF file that cannot be drawn, and list them");
 }
 
 void add_render(CLI::App& verb, RenderArguments& a) {
-  add_scene(verb, a.scene, a.size);
+  add_scene(verb, a.scene, a.size, a.draw_what_you_can);
   verb.add_option("--overscan", a.overscan, "Pixels beyond each side (default: 0)")
       ->option_text("N");
   verb.add_option("--shadow-map", a.shadow_map, "Texels a side (default: 2048)")->option_text("N");
@@ -137,7 +139,7 @@ void add_render(CLI::App& verb, RenderArguments& a) {
 CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
   CLI::App& verb =
       *app.add_subcommand("truth", "Trace a scene's rays, to judge by: SCENE.toml -o OUT.exr");
-  add_scene(verb, a.scene, a.size);
+  add_scene(verb, a.scene, a.size, a.draw_what_you_can);
   verb.add_option("--samples", a.samples, "N x N samples a pixel; 1 is its centre (default: 1)")
       ->option_text("N");
   verb.add_option("--seed", a.seed, "Of where in the pixel samples lie (default: 0)")

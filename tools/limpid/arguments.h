@@ -45,6 +45,7 @@ struct CompositeArguments {
 struct RenderArguments {
   std::string scene, size = "1920x1080";
   int overscan = 0, samples = 1, shadow_map = 2048;
+  bool draw_what_you_can = false;
   FrameOptions frames;
   WaterOptions water;
 };
@@ -53,6 +54,7 @@ struct TruthArguments {
   std::string scene, size = "1920x1080";
   int samples = 1;
   std::uint64_t seed = 0;
+  bool draw_what_you_can = false;
   FrameOptions frames;
   WaterOptions water;
 };

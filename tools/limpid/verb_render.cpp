@@ -29,7 +29,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
   const OutputChoice choice = output_of(a.water);
   const PlateJob job{job_of(a, common), {choice.picture, choice.compression, choice.store_float}};
   const auto executor = executor_of(common);
-  const Model model = model_to_render(job.render.scene, common);
+  const Model model = model_to_render(job.render.scene, a.draw_what_you_can, common);
   if (sequence.frames.empty()) {
     render(model, job, *executor);
     if (!common.quiet) std::printf("%s\n", a.water.output.c_str());
@@ -59,7 +59,7 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
   if (!a.water.dry_run) expect_output(a.water.output);
   const WaterJob job{job_of(a, common), look_of(a.water), a.samples, output_of(a.water)};
   const auto executor = executor_of(common);
-  const Model model = model_to_render(job.render.scene, common);
+  const Model model = model_to_render(job.render.scene, a.draw_what_you_can, common);
   const auto job_of_frame = [&](int frame) {
     WaterJob one = job;
     one.render.time = time_of_frame(a.frames, a.water, frame);

@@ -88,7 +88,7 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   const TruthJob job = job_of(a);
   const auto executor = executor_of(common);
-  const Model model = model_to_render(job.scene, common);
+  const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
   if (sequence.frames.empty()) {
     const TruthReport report = truth(model, job, *executor);
     if (!common.quiet) std::printf("%s", text_of(report, job).c_str());

@@ -123,8 +123,10 @@ SceneFile scene_to_render(const std::string& path) {
   return scene;
 }
 
-Model model_to_render(const SceneFile& scene, const CommonArguments& common) {
-  Model model = load_gltf(scene.geometry, limits_of(common));
+Model model_to_render(const SceneFile& scene, bool draw_what_you_can,
+                      const CommonArguments& common) {
+  const Undrawable undrawable = draw_what_you_can ? Undrawable::kLeaveOut : Undrawable::kRefuse;
+  Model model = load_gltf(scene.geometry, limits_of(common), undrawable);
   if (model.skipped_triangles > 0 && !common.quiet) {
     std::printf("%s: %lld triangles of no area left out\n", scene.geometry.c_str(),
                 static_cast<long long>(model.skipped_triangles));

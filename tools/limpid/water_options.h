@@ -40,7 +40,8 @@ Look look_of(const WaterOptions& options);
 /// Throws the Error for a scene file without geometry.
 SceneFile scene_to_render(const std::string& path);
 /// Its geometry. Says so where it had triangles of no area, and what is not drawn.
-Model model_to_render(const SceneFile& scene, const CommonArguments& common);
+Model model_to_render(const SceneFile& scene, bool draw_what_you_can,
+                      const CommonArguments& common);
 
 /// Throws the usage Error for no name, or one that is not an EXR's.
 void expect_output(const std::string& path);
