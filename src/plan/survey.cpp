@@ -365,8 +365,13 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     ranges.color[static_cast<std::size_t>(c)] = range(kColorLow + c, kColorHigh + c);
   }
+  // Where nothing was hit no light is seen.
+  if (!(ranges.own.max < 1e30 && ranges.looked_up.max < 1e30)) {
+    for (Range& c : ranges.color) c = {std::min(c.min, 0.0), std::max(c.max, 0.0)};
+  }
   Weighed& weighed = survey.weighed_[static_cast<std::size_t>(index / survey.cells_.width)];
   needs = rules.decide(ranges, no_foreground(own, reached), weighed);
+  needs.grounded = wanted.has(looked_up.depth) && reached[kFar] < 1e30f;
 }
 
 Rect Survey::pixels(int index) const {

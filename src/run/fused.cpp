@@ -100,6 +100,7 @@ void FusedRunner::pair_cells() {
     a.skips = b.skips = a.skips & b.skips;
     a.open = b.open = a.open && b.open;
     a.opaque = b.opaque = a.opaque && b.opaque;
+    a.grounded = b.grounded = a.grounded && b.grounded;
   }
 }
 
@@ -124,9 +125,16 @@ void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
     heights_.make(plan, frame, context, executor, options.simd);
     context.heights = heights_.bound();
   }
-  Context open = context;
-  open.foreground = false;
-  FusedJob job{plan, frame, context, open, target};
+  const auto context_for = [&](bool open, bool grounded) {
+    Context of_cell = context;
+    of_cell.foreground = !open;
+    of_cell.bottomless = !grounded;
+    return of_cell;
+  };
+  const std::array<Context, FusedJob::kContexts> contexts{
+      context_for(false, false), context_for(true, false), context_for(false, true),
+      context_for(true, true)};
+  FusedJob job{plan, frame, contexts[0], contexts.data(), target};
   pair_cells();
   job.cells = cells_.data();
   job.cells_across = survey_.across();

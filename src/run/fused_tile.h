@@ -26,7 +26,7 @@ struct FusedJob {
   const Plan& plan;
   const Frame& frame;
   const Context& context;
-  const Context& open;  ///< the same for cells without foreground
+  const Context* contexts;  ///< the same as cells need it, see kContexts
   const Target& target;
   const CellNeeds* cells = nullptr;  ///< Survey, rows of them from the corner of Frame::work()
   int cells_across = 0;
@@ -40,6 +40,8 @@ struct FusedJob {
   StateSet begins{};           ///< state that is read before an operator of the plan makes it
   bool writes_aovs = false;    ///< whether the target has any
   StopClock* clock = nullptr;  ///< only for a run that is timed
+
+  static constexpr int kContexts = 4;  ///< open or not, and 2 more where grounded
 };
 
 /// The fused pass as compiled for one instruction set.

@@ -31,7 +31,12 @@ struct Segment {
 };
 
 LIMPID_LANES_INLINE bool same(const CellNeeds& a, const CellNeeds& b) {
-  return a.skips == b.skips && a.dry == b.dry && a.open == b.open && a.opaque == b.opaque;
+  return a.skips == b.skips && a.dry == b.dry && a.open == b.open && a.opaque == b.opaque &&
+         a.grounded == b.grounded;
+}
+
+LIMPID_LANES_INLINE const Context& context_of(const FusedJob& job, const CellNeeds& needs) {
+  return job.contexts[(needs.open ? 1 : 0) + (needs.grounded ? 2 : 0)];
 }
 
 LIMPID_LANES_INLINE Segment segment_from(const FusedJob& job, const Rect& tile, int x, int y) {
@@ -61,7 +66,7 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
   // Refraction is skipped, so this is what it leaves to the others.
   if (needs.opaque) strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
   if (wet) {
-    const Context& context = needs.open ? job.open : job.context;
+    const Context& context = context_of(job, needs);
     Chain::for_each([&]<class Op, int I>() {
       if (!job.keeps[I] || !needs.needs(I)) return;
       Op::apply(std::get<typename Op::Params>(job.plan.look.operators), context, strip);

@@ -75,6 +75,10 @@ TEST(Penetration, OpaqueAndClearSurfaces) {
   noise.look.of<Penetration>() = view_angle(0.7, 0, 5);
   const test::Picture half = noise.wet();
   each_wet(opaque, size, [&](int x, int y) {
+    if (std::isinf(noise.buffers.frame.plane(PlaneId::kDepth).at(x, y))) {
+      test::expect_rgb(clear.color(x, y), opaque.color(x, y), 0);  // there is nothing to be seen
+      return;
+    }
     const Rgb<double> picture{dry(0, x, y), dry(1, x, y), dry(2, x, y)};
     test::expect_rgb(clear.color(x, y), picture, 0);
     test::expect_rgb(half.color(x, y), 0.7 * opaque.color(x, y) + 0.3 * picture);

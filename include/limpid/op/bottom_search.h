@@ -32,7 +32,9 @@ class BottomSearch {
   Found iterate(int steps) const {
     F way = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
     for (int i = 0; i < steps; ++i) way = to_level(way);
-    return {select(way < F(1e20), way, F(HUGE_VAL)), F(1)};
+    const auto meets = way < F(1e20);
+    // From below it is the sky that is met without end, and that is seen.
+    return {select(meets, way, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
   }
 
   /// To where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU
@@ -204,20 +206,27 @@ class BottomSearch {
     return sqrt(x * x + y * y);
   }
 
-  /// Where the ray meets the level of the bottom that is seen at `way`, mixed from four texels;
-  /// `way` itself where nothing below the surface is seen.
+  /// Where the ray meets the level of the bottom that is seen at `way`, mixed from four texels, and
+  /// +inf where half of what is seen or more has none; `way` itself where nothing below the surface
+  /// is seen.
   F to_level(F way) const {
     const auto quad = tap_.quad(ray_.shift_at(way));
     const Four<F> depths = tap_.read(planes_.depth, quad);
-    F level = F(0), weight = F(0);
+    F level = F(0), weight = F(0), endless = F(0);
     for (int k = 0; k < 4; ++k) {
       const F drop = seen_drop(tap_.place(planes_.depth, quad, k), depths[k]);
-      const F share = select(drop > F(0), quad.weight(k), F(0));
+      F share = select(drop > F(0), quad.weight(k), F(0));
+      if (c_.bottomless) {
+        endless = endless + select(nothing(depths[k]), share, F(0));
+        share = select(nothing(depths[k]), F(0), share);
+      }
       level = level + share * drop;
       weight = weight + share;
     }
     const auto seen = weight > F(1e-3);
-    return select(seen, level / (max(weight, F(1e-3)) * fall_), way);
+    const F met = select(seen, level / (max(weight, F(1e-3)) * fall_), way);
+    if (!c_.bottomless) return met;
+    return select(endless > F(1e-3) && endless >= weight, F(HUGE_VAL), met);
   }
 
   /// Whether the ray has passed the level of a bottom that is so near on screen that the staircase

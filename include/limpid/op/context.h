@@ -64,6 +64,9 @@ struct Context {
   /// False where it is known that nothing stands before the water in any place that refraction may
   /// look up (plan/survey.h): an operator may leave out its test for that.
   bool foreground = true;
+  /// False where it is known that something was hit in every place that refraction may look up: an
+  /// operator may leave out its test for nothing().
+  bool bottomless = true;
   /// Of what a march of refraction may look up, where a runner has made it (plan/heights.h). It
   /// saves looks and changes no result.
   HeightBound heights = {};
@@ -148,11 +151,18 @@ LIMPID_INLINE void begin_pixel(const Context& c, const RowRays<F>& row, F x, F s
   p.side = side;
 }
 
+/// Whether an eye depth says that nothing was hit.
+template <class F>
+LIMPID_INLINE auto nothing(F depth) {
+  return depth > F(1e30);
+}
+
 /// Gives these parts of the state what Pixel says that they begin as, once begin_pixel() is done.
 template <class F>
 LIMPID_INLINE void begin_state(StateSet parts, const Context& c, Rgb<F> dry_color, Pixel<F>& p) {
   const Vec2<F> none{F(0), F(0)};
   const Rgb<F> black{F(0), F(0), F(0)};
+  const auto endless = nothing(p.dry_depth) && p.side > F(-0.5);
   if (parts.has(StatePart::kNormal)) {
     p.normal = vec3_of<F>(c.up);
     p.tilt = none;
@@ -166,9 +176,9 @@ LIMPID_INLINE void begin_state(StateSet parts, const Context& c, Rgb<F> dry_colo
     p.hit_depth = p.dry_depth;
   }
   if (parts.has(StatePart::kPath)) p.path = F(0);
-  if (parts.has(StatePart::kConfidence)) p.confidence = F(1);
+  if (parts.has(StatePart::kConfidence)) p.confidence = select(endless, F(0), F(1));
   if (parts.has(StatePart::kTransmittance)) p.transmittance = {F(1), F(1), F(1)};
-  if (parts.has(StatePart::kTransmitted)) p.transmitted = dry_color;
+  if (parts.has(StatePart::kTransmitted)) p.transmitted = select(endless, black, dry_color);
   if (parts.has(StatePart::kInScatter)) p.in_scatter = black;
   if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = black;
   if (parts.has(StatePart::kFresnel)) p.fresnel = F(0);

@@ -61,11 +61,13 @@ struct Pixel {
   Vec2<F> shift_r, shift_g, shift_b;  ///< where each channel is looked up in the end; begin as 0
   F hit_depth;                        ///< dry eye depth at `shift`; begins as dry_depth
   F path;                ///< scene units, >= 0, +inf where the ray meets nothing; begins as 0
-  F confidence;          ///< begins as 1
+  F confidence;          ///< begins as 1; as 0 where water without a bottom begins
   Rgb<F> transmittance;  ///< begins as 1
 
-  Rgb<F> transmitted;  ///< begins as the dry color at this pixel
-  Rgb<F> in_scatter;   ///< begins as 0, as do all below
+  /// Begins as the dry color at this pixel; as 0 where nothing was hit and no surface lies between
+  /// that and water: what is seen there is the water itself.
+  Rgb<F> transmitted;
+  Rgb<F> in_scatter;  ///< begins as 0, as do all below
   /// Parts of in_scatter that the sun lights: the first in the shadow of the surface point, the
   /// second in that of the point where the ray ends.
   Rgb<F> sun_near, sun_far;

@@ -8,8 +8,9 @@ namespace limpid {
 ///
 /// `view_angle` (Rito15 2021): out = lerp(dry color at this pixel, out, a), a = sat(alpha - amount
 /// sat(V.up)^power) with the calm normal, so that one sees through most straight down. The dry
-/// color is neither refracted nor fogged, and counts as transmitted light. Not physical: on top of
-/// refraction and Fresnel, which say how much passes, it lets light through twice.
+/// color is neither refracted nor fogged, and counts as transmitted light. Where nothing was hit
+/// behind the water there is nothing to let through: the surface stays as it is. Not physical: on
+/// top of refraction and Fresnel, which say how much passes, it lets light through twice.
 struct Penetration {
   enum class Model { kNone, kViewAngle };
   struct Params {
@@ -42,7 +43,8 @@ struct Penetration {
     const F alpha(params.alpha), amount(params.amount);
     strip.own3(PlaneId::kColorR, [&](Pixel<F>& p, Vec3<F> dry) {
       const F seen_through = amount * pow(saturate(dot(p.to_viewer, up)), params.power);
-      const F a = select(p.side > F(0.5), saturate(alpha - seen_through), F(1));
+      const auto lets_through = p.side > F(0.5) && !nothing(p.dry_depth);
+      const F a = select(lets_through, saturate(alpha - seen_through), F(1));
       p.transmitted = a * p.transmitted + (F(1) - a) * Rgb<F>{dry.x, dry.y, dry.z};
       p.in_scatter = a * p.in_scatter;
       p.reflected = a * p.reflected;

@@ -41,13 +41,20 @@ namespace limpid {
 /// above the surface, `snap`, which asks for this pixel's surface alone, takes all of it. Not so
 /// where the view may begin in the water, from where one looks up into the air as well.
 ///
+/// Where nothing was hit (a depth of +inf) no light comes from: the water there has no end, and
+/// what is seen is the fog of an endless way, never the sky. A texel of that kind does not count
+/// when four are mixed; where half of the weight is such, nothing is there, for all channels. Of an
+/// empty place of the layer below this holds where the dry scene is empty, too; elsewhere something
+/// stands before it, and `snap` goes back to the pixel itself, `shorten` along the way. The sky
+/// over a view that begins in the water is seen as it is.
+///
 /// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
 /// end, faded in over a twentieth of the picture.
 ///
-/// `confidence` is the share of the lookup that is real: 0 for what was rejected or is off frame.
-/// `path` is the refracted way through the water: with snell the ray's own, else that of the bottom
-/// found, taken for flat.
+/// `confidence` is the share of the lookup that is real: 0 for what was rejected or is off frame,
+/// and where nothing is there. `path` is the refracted way through the water: with snell the ray's
+/// own, else that of the bottom found, taken for flat.
 struct Refraction {
   enum class Model { kNormalOffset, kDudvOffset, kSnell };
   enum class Rejection { kNone, kSnap, kShorten };
@@ -117,10 +124,16 @@ struct Refraction {
     if (params.rejection == Rejection::kSnap && !planes.below && c.foreground) {
       strip.each([](Pixel<F>& p) { snap(p); });
     }
+    if (params.rejection == Rejection::kSnap && planes.below && c.bottomless) {
+      strip.probe([&](Pixel<F>& p, const auto& tap) { snap_from_empty(planes, p, tap); });
+    }
     if (params.rejection == Rejection::kShorten) {
       strip.probe([&](Pixel<F>& p, const auto& tap) { look_up_valid(params, c, planes, p, tap); });
     } else {
       look_up(c, planes, strip);
+      if (c.bottomless) {
+        strip.probe([&](Pixel<F>& p, const auto& tap) { leave_out_nothing(c, planes, p, tap); });
+      }
     }
     strip.each([&](Pixel<F>& p) {
       if (params.model != Model::kSnell) measure_path(c, p);
@@ -234,16 +247,111 @@ struct Refraction {
 
   // --- what is seen there -----------------------------------------------------------------------
 
+  /// Where `lanes`, to the pixel itself, at which the depth is `own`.
+  template <class F, class Lanes>
+  static LIMPID_INLINE void go_back(Lanes lanes, F own, Pixel<F>& p) {
+    const Vec2<F> none{F(0), F(0)};
+    p.shift = select(lanes, none, p.shift);
+    p.shift_r = select(lanes, none, p.shift_r);
+    p.shift_g = select(lanes, none, p.shift_g);
+    p.shift_b = select(lanes, none, p.shift_b);
+    p.hit_depth = select(lanes, own, p.hit_depth);
+    p.confidence = select(lanes, F(0), p.confidence);
+  }
+
   template <class F>
   static LIMPID_INLINE void snap(Pixel<F>& p) {
-    const auto above = p.hit_depth < p.surface_depth;
-    const Vec2<F> none{F(0), F(0)};
-    p.shift = select(above, none, p.shift);
-    p.shift_r = select(above, none, p.shift_r);
-    p.shift_g = select(above, none, p.shift_g);
-    p.shift_b = select(above, none, p.shift_b);
-    p.hit_depth = select(above, p.dry_depth, p.hit_depth);
-    p.confidence = select(above, F(0), p.confidence);
+    go_back(p.hit_depth < p.surface_depth, p.dry_depth, p);
+  }
+
+  /// The layer below is empty where something rises out of the water, or stands before it.
+  template <class F, class Tap>
+  static void snap_from_empty(const Planes& planes, Pixel<F>& p, const Tap& tap) {
+    const auto empty = nothing(p.hit_depth);
+    if (!any(empty)) return;
+    const auto hidden = empty && !nothing(tap.nearest(PlaneId::kDepth, p.shift));
+    go_back(hidden, tap.nearest(planes.depth, Vec2<F>{F(0), F(0)}), p);
+  }
+
+  /// Where `lanes`, the water has no end.
+  template <class F, class Lanes>
+  static LIMPID_INLINE void see_no_end(Lanes lanes, Pixel<F>& p) {
+    p.transmitted = select(lanes, Rgb<F>{F(0), F(0), F(0)}, p.transmitted);
+    p.hit_depth = select(lanes, F(HUGE_VAL), p.hit_depth);
+    p.path = select(lanes, F(HUGE_VAL), p.path);
+    p.confidence = select(lanes, F(0), p.confidence);
+  }
+
+  /// Four texels of which some count.
+  template <class F, class Quad>
+  struct Counted {
+    Quad quad;
+    Four<F> depths, weights;
+    F lost;  ///< weight of those at which nothing was hit: they do not count
+
+    template <class Tap>
+    F read(const Tap& tap, PlaneId plane) const {
+      return mean(weights, tap.read(plane, quad));
+    }
+    /// Of those behind a surface; +inf where none is.
+    F depth_behind(F surface) const {
+      Four<F> behind = weights;
+      F some = F(0);
+      for (int k = 0; k < 4; ++k) {
+        behind.at[k] = select(depths[k] > surface, weights[k], F(0));
+        some = some + behind[k];
+      }
+      return select(some > F(0), mean(behind, depths), F(HUGE_VAL));
+    }
+
+   private:
+    static F mean(Four<F> shares, Four<F> values) {
+      F sum = F(0), weight = F(0);
+      for (int k = 0; k < 4; ++k) {
+        sum = sum + shares[k] * select(shares[k] > F(0), values[k], F(0));
+        weight = weight + shares[k];
+      }
+      return sum / max(weight, F(1e-6));
+    }
+  };
+  template <class F, class Tap>
+  static auto counted(const Planes& planes, const Pixel<F>& p, const Tap& tap, Vec2<F> shift) {
+    const auto quad = tap.quad(shift);
+    Counted<F, std::decay_t<decltype(quad)>> taps{quad, tap.read(planes.depth, quad), {}, F(0)};
+    for (int k = 0; k < 4; ++k) {
+      const auto gone = nothing(taps.depths[k]) && p.side > F(-0.5);
+      taps.weights.at[k] = select(gone, F(0), quad.weight(k));
+      taps.lost = taps.lost + select(gone, quad.weight(k), F(0));
+    }
+    return taps;
+  }
+
+  /// What look_up() has mixed without a look at depths, again where some of it does not count.
+  template <class F, class Tap>
+  static void leave_out_nothing(const Context& c, const Planes& planes, Pixel<F>& p,
+                                const Tap& tap) {
+    const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
+    const auto mend = [&](const auto& taps, PlaneId plane, F& value) {
+      if (!any(taps.lost > F(0))) return;
+      const F kept = select(taps.lost < F(0.5), taps.read(tap, plane), F(0));
+      value = select(taps.lost > F(0), kept, value);
+    };
+    const auto common = counted(planes, p, tap, p.shift);
+    if (c.made.has(StatePart::kPrism)) {
+      mend(counted(planes, p, tap, p.shift_r), red, p.transmitted.r);
+      mend(counted(planes, p, tap, p.shift_g), green, p.transmitted.g);
+      mend(counted(planes, p, tap, p.shift_b), blue, p.transmitted.b);
+    } else {
+      mend(common, red, p.transmitted.r);
+      mend(common, green, p.transmitted.g);
+      mend(common, blue, p.transmitted.b);
+    }
+    if (!any(common.lost > F(0))) return;
+    const auto some = common.lost > F(0);
+    const F behind = common.depth_behind(p.surface_depth);
+    p.hit_depth = select(some && nothing(p.hit_depth), behind, p.hit_depth);
+    p.confidence = p.confidence * (F(1) - common.lost);
+    see_no_end(common.lost >= F(0.5) || (some && nothing(p.hit_depth)), p);
   }
 
   template <class Strip>
@@ -266,17 +374,22 @@ struct Refraction {
   }
 
   /// A texel counts where it lies under the surface, and not so far before the end of a ray that it
-  /// must hide it. Where a layer below is empty nothing does.
+  /// must hide it. Where nothing was hit, or a layer below is empty, nothing does.
   template <class F, class Tap>
   static void look_up_valid(const Params& params, const Context& c, const Planes& planes,
                             Pixel<F>& p, const Tap& tap) {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
     const F share_of_way(params.model == Model::kSnell ? 0.4 : 0);
     const F ray_end = min(p.hit_depth, F(1e30));
+    const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
     const auto lies = [&](const auto& quad, F share) -> Four<F> {
-      if (!c.foreground) return {F(1), F(1), F(1), F(1)};
+      if (!c.foreground && !c.bottomless) return {F(1), F(1), F(1), F(1)};
       const Four<F> depths = tap.read(planes.depth, quad);
       Four<F> surfaces, counts;
+      if (!c.foreground) {
+        for (int k = 0; k < 4; ++k) counts.at[k] = select(is_empty(depths[k]), F(0), F(1));
+        return counts;
+      }
       if (surface_plane) surfaces = tap.read(PlaneId::kSurfaceDepth, quad);
       for (int k = 0; k < 4; ++k) {
         const F depth = depths[k];
@@ -293,7 +406,7 @@ struct Refraction {
           surface = select(depth <= surface && p.side * height <= F(0), F(0), surface);
         }
         const F least = surface + share * max(ray_end - surface, F(0));
-        const F seen = planes.below ? select(depth < F(1e30), depth, F(0)) : depth;
+        const F seen = planes.below || c.bottomless ? select(is_empty(depth), F(0), depth) : depth;
         const auto there = seen > surface && (seen > least || share <= F(0));
         counts.at[k] = select(there, F(1), F(0));
       }
@@ -311,11 +424,15 @@ struct Refraction {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.
     const Rgb<F> own = p.transmitted;
+    const auto color = [&](const auto& taps, PlaneId plane, F stays) {
+      return select(taps.weight() > F(0.5), of_whole(c, taps, taps.read(tap, plane)), stays);
+    };
+    const F lost = c.bottomless ? share_of_nothing(planes, p, tap) : F(0);
     const Vec2<F> green_shift = p.shift_g;
     const auto taps = taps_at(p.shift_g);
     p.shift_g = taps.place;
-    p.transmitted.g = select(taps.weight() > F(0.5), taps.read(tap, green), own.g);
-    F share = taps.share;
+    p.transmitted.g = color(taps, green, own.g);
+    F share = taps.share, weight = taps.weight();
     if (c.made.has(StatePart::kPrism)) {
       const auto taps_r = taps_at(p.shift_r);
       const auto taps_b = taps_at(p.shift_b);
@@ -326,17 +443,42 @@ struct Refraction {
       p.shift_r = taps_r.place;
       p.shift_b = taps_b.place;
       p.shift = taps_common.place;
-      p.transmitted.r = select(taps_r.weight() > F(0.5), taps_r.read(tap, red), own.r);
-      p.transmitted.b = select(taps_b.weight() > F(0.5), taps_b.read(tap, blue), own.b);
-      p.hit_depth = taps_common.read_depth(tap, planes.depth);
+      p.transmitted.r = color(taps_r, red, own.r);
+      p.transmitted.b = color(taps_b, blue, own.b);
+      p.hit_depth = of_whole(c, taps_common, taps_common.read_depth(tap, planes.depth));
+      weight = taps_common.weight();
       share = F(1.0 / 3) * (taps_r.share + taps.share + taps_b.share);
     } else {
       p.shift = p.shift_r = p.shift_b = taps.place;
-      p.transmitted.r = select(taps.weight() > F(0.5), taps.read(tap, red), own.r);
-      p.transmitted.b = select(taps.weight() > F(0.5), taps.read(tap, blue), own.b);
-      p.hit_depth = taps.read_depth(tap, planes.depth);
+      p.transmitted.r = color(taps, red, own.r);
+      p.transmitted.b = color(taps, blue, own.b);
+      p.hit_depth = of_whole(c, taps, taps.read_depth(tap, planes.depth));
     }
     p.confidence = p.confidence * share;
+    if (!c.bottomless) return;
+    see_no_end(lost >= F(0.5) || (weight <= F(0.5) && is_empty(p.dry_depth)), p);
+  }
+
+  /// Share of the four texels at the pixel's shift at which nothing was hit, of the dry scene, too.
+  template <class F, class Tap>
+  static F share_of_nothing(const Planes& planes, const Pixel<F>& p, const Tap& tap) {
+    const auto taps = counted(planes, p, tap, p.shift);
+    if (!planes.below || !any(taps.lost > F(0))) return taps.lost;
+    const Four<F> dry = tap.read(PlaneId::kDepth, taps.quad);
+    F share = F(0);
+    for (int k = 0; k < 4; ++k) {
+      const auto gone = nothing(taps.depths[k]) && nothing(dry[k]);
+      share = share + select(gone, taps.quad.weight(k), F(0));
+    }
+    return share;
+  }
+
+  /// A sum over taps whose weights are no whole, for there was nothing to make up the rest from.
+  template <class F, class Taps>
+  static LIMPID_INLINE F of_whole(const Context& c, const Taps& taps, F sum) {
+    if (!c.bottomless) return sum;
+    const F weight = taps.weight();
+    return select(weight > F(0.5) && weight < F(0.999), sum / max(weight, F(0.5)), sum);
   }
 
   /// Of a bottom as deep as the one found, taken for flat, below a calm surface.

@@ -30,6 +30,8 @@ struct CellNeeds {
   /// What lies at the end of the way through the water cannot be seen. Refraction is among the
   /// skips: hit_depth and path must be +inf in its place when depth_fog begins.
   bool opaque = false;
+  /// Something was hit wherever lookups of refraction may end: its test for nothing cannot fire.
+  bool grounded = false;
   float bound = 0;
 
   bool needs(int chain_index) const { return ((skips >> chain_index) & 1u) == 0; }
