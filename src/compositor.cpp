@@ -38,6 +38,10 @@ void validate(const Conventions& conventions) {
                 std::to_string(conventions.near) + " and far " + std::to_string(conventions.far) +
                 ", expected near < far, both finite");
   }
+  if (conventions.depth_nothing && !std::isfinite(*conventions.depth_nothing)) {
+    throw Error("conventions: depth_nothing = " + std::to_string(*conventions.depth_nothing) +
+                ", expected a finite number");
+  }
 }
 
 /// Far enough for any picture, and sums of sides fit into an int.
@@ -160,7 +164,8 @@ struct Compositor::State {
                    .near = conventions.near,
                    .far = conventions.far,
                    .camera = &*scene.camera,
-                   .display = frame.display};
+                   .display = frame.display,
+                   .nothing = conventions.depth_nothing};
     if (scene.water) rules.up = scene.water->up;
     rules.sane = conventions.sane;
     rules.half = half;

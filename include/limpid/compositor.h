@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "limpid/core/executor.h"
@@ -41,6 +42,9 @@ struct Conventions {
   /// read as they lie, and NaN gives NaN around it. Otherwise all is looked through, and what is
   /// wrong is replaced as sanitise.h says, in a copy.
   bool sane = false;
+  /// A depth that is stored as exactly this is "nothing hit", too. Where the planes are not `sane`,
+  /// so is a depth of 0 with an alpha of 0.
+  std::optional<double> depth_nothing = {};
 };
 
 /// A frame of a host. Planes as in Frame, but in the host's conventions, float or half, with any

@@ -6,6 +6,7 @@
 
 #include "limpid/core/error.h"
 
+#include "enter/nothing_hit.h"
 #include "enter/sane_row.h"
 
 namespace limpid {
@@ -23,6 +24,22 @@ void copy_row(const HostInput& from, int y, float* to, const HalfTarget& half) {
   } else {
     for (int x = 0; x < count; ++x) std::memcpy(to + x, row + x * from.x_stride, sizeof(float));
   }
+}
+
+/// Whether a plane of alpha is 0 there. Where it does not reach, nobody knows.
+bool is_zero(const HostInput& alpha, int x, int y) {
+  if (!alpha.window.contains({x, y, x + 1, y + 1})) return false;
+  const auto* row = static_cast<const std::byte*>(alpha.data) +
+                    std::ptrdiff_t{y - alpha.window.y0} * alpha.y_stride;
+  const std::byte* at = row + std::ptrdiff_t{x - alpha.window.x0} * alpha.x_stride;
+  if (alpha.sample == Sample::kHalf) {
+    std::uint16_t half;
+    std::memcpy(&half, at, sizeof half);
+    return (half & 0x7fff) == 0;  // of either sign
+  }
+  float value;
+  std::memcpy(&value, at, sizeof value);
+  return value == 0;
 }
 
 View<float> rows_of(const View<float>& view, int y0, int y1) {
@@ -43,6 +60,10 @@ struct EnteredPlanes::Entry {
   HostInput plane(const Role& role, int i) const {
     const PlaneId id = plane_after(role.first, i);
     return wanted.has(id) ? host[index_of(id)] : HostInput{};
+  }
+  /// Whether it is the depth of a scene whose alpha says where there is something.
+  bool covered(const Role& role) const {
+    return role.first == PlaneId::kDepth && !rules.sane && host[index_of(PlaneId::kColorA)];
   }
   static int bands(const Way& way) { return (way.window.height() + kBandRows - 1) / kBandRows; }
 
@@ -67,7 +88,8 @@ struct EnteredPlanes::Entry {
       way.copied |= !is_floats(view) || rules.written.has(plane_after(role.first, i));
     }
     if (way.window.empty()) return;
-    way.copied |= role.sanitise == Sanitise::kDepth && rules.depth.kind != DepthKind::kEye;
+    const bool read_anew = rules.depth.kind != DepthKind::kEye || rules.depth.nothing;
+    way.copied |= role.sanitise == Sanitise::kDepth && read_anew;
     way.copied |= role.sanitise == Sanitise::kNormal && !rules.sane;
     way.watched = !way.copied && !rules.sane;
     if (!way.copied && !way.watched) return;
@@ -87,7 +109,10 @@ struct EnteredPlanes::Entry {
       const View<const float> floats = floats_of(view);
       for (int y = std::max(y0, view.window.y0); y < std::min(y1, view.window.y1); ++y) {
         if (way.wrong.load(std::memory_order_relaxed)) return;
-        if (!row_is_sane(range, floats.row(y), floats.x_stride, view.window.width())) {
+        const auto* row = floats.row(y);
+        const int count = view.window.width();
+        const bool zero = covered(role) && row_has(0, row, floats.x_stride, count);
+        if (zero || !row_is_sane(range, row, floats.x_stride, count)) {
           way.wrong.store(true, std::memory_order_relaxed);
         }
       }
@@ -107,8 +132,11 @@ struct EnteredPlanes::Entry {
       for (int y = begin; y < end; ++y) copy_row(from, y, rows.row(y), *rules.half);
       DepthSource depth = rules.depth;
       depth.half = from.sample == Sample::kHalf;
+      const HostInput& alpha = host[index_of(PlaneId::kColorA)];
+      if (covered(role)) depth.uncovered = [&](int x, int y) { return is_zero(alpha, x, y); };
       if (role.sanitise == Sanitise::kDepth) {
-        if (!rules.sane || depth.kind != DepthKind::kEye) replaced += make_eye_depth(rows, depth);
+        const bool read_anew = depth.kind != DepthKind::kEye || depth.nothing;
+        if (!rules.sane || read_anew) replaced += make_eye_depth(rows, depth);
       } else if (!rules.sane) {
         if (role.sanitise == Sanitise::kColor) replaced += sanitise_color(rows);
         if (role.sanitise == Sanitise::kShadow) replaced += sanitise_shadow(rows);

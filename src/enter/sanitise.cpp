@@ -8,6 +8,7 @@
 
 #include "limpid/core/error.h"
 
+#include "enter/nothing_hit.h"
 #include "enter/sane_row.h"
 
 namespace limpid {
@@ -123,6 +124,7 @@ std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const V
 }
 
 std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source) {
+  mark_nothing_hit(plane, source);
   const float nothing = source.half ? 6e4f : 1e9f;
   const auto far_away = [=](float z) { return z >= nothing; };
   switch (source.kind) {

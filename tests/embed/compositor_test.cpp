@@ -258,6 +258,36 @@ TEST(Compositor, ReplacesWhatMeansNothing) {
   EXPECT_EQ(compositor.replaced().total(), 0);
 }
 
+TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
+  const Scene scene = test::simple_scene(kSize);
+  Buffers zeros = raw_frame(kSize), clean = sane_frame(kSize);
+  const auto with = [](float nothing, const Buffers& of) {
+    return [=, &of](int x, int y) {
+      return x > 20 && x < 30 && y > 20 ? nothing : of.frame.plane(PlaneId::kDepth).at(x, y);
+    };
+  };
+  const Buffers raw = raw_frame(kSize), sane = sane_frame(kSize);
+  zeros.set(PlaneId::kDepth, with(0, raw));
+  clean.set(PlaneId::kDepth, with(test::kInf, sane));
+  const std::vector<float> expected = test::judged(busy_look(), clean.frame, scene);
+  Compositor plain({}, busy_look()), asked({.depth_nothing = 0}, busy_look());
+  EXPECT_FALSE(same_bits(wet(plain, test::host_frame(zeros.frame, scene)), expected));
+  EXPECT_TRUE(same_bits(wet(asked, test::host_frame(zeros.frame, scene)), expected));
+  EXPECT_EQ(asked.replaced().total(), 0);
+
+  // An alpha of 0 says so, too, as float and as half.
+  const auto alpha = [](int x, int y) { return x > 20 && x < 30 && y > 20 ? 0.0f : 1.0f; };
+  zeros.set(PlaneId::kColorA, alpha);
+  clean.set(PlaneId::kColorA, alpha);
+  const std::vector<float> covered = test::judged(busy_look(), clean.frame, scene);
+  HostFrame frame = test::host_frame(zeros.frame, scene);
+  EXPECT_TRUE(same_bits(wet(plain, frame), covered));
+  HostMemory memory(1, rect_of(kSize), {.sample = Sample::kHalf});
+  test::fill(memory.channel(0), zeros.frame.plane(PlaneId::kColorA));
+  frame.plane(PlaneId::kColorA) = memory.channel(0);
+  EXPECT_TRUE(same_bits(wet(plain, frame), covered));
+}
+
 TEST(Compositor, LooksChangeBetweenFrames) {
   const Subject s;
   Compositor compositor({.sane = true}, {});

@@ -111,5 +111,16 @@ TEST(Compositor, RefusesDeviceDepthThatRunsTheOtherWay) {
   }
 }
 
+TEST(Compositor, RefusesADepthNothingThatIsNoNumber) {
+  for (const double bad : {double{test::kInf}, std::nan("")}) {
+    try {
+      Compositor({.depth_nothing = bad});
+      ADD_FAILURE() << bad;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("depth_nothing"), std::string::npos);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace limpid

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -54,6 +55,10 @@ struct DepthSource {
   double near = 0, far = 0;  ///< kNormalised
   const Camera* camera = nullptr;  ///< kRay and kDevice
   Rect display = {};               ///< kRay
+  /// As it is stored, "nothing hit" besides what always is: exactly this value.
+  std::optional<double> nothing = {};
+  /// Whether alpha is 0 at a pixel: a stored depth of 0 is "nothing hit" there.
+  std::function<bool(int x, int y)> uncovered = {};
 };
 
 /// Linear eye depth in place of whatever the plane holds; "nothing hit" and NaN become +inf.

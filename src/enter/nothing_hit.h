@@ -1,0 +1,13 @@
+#pragma once
+#include "limpid/enter/sanitise.h"
+
+namespace limpid {
+
+/// Gives the pixels that the source itself says are "nothing hit" (DepthSource::nothing and
+/// ::uncovered) the value that means so in a plane of its kind.
+void mark_nothing_hit(const View<float>& plane, const DepthSource& source);
+
+/// Whether any of `count` numbers, `stride` floats apart, is this one.
+bool row_has(float value, const float* row, std::ptrdiff_t stride, int count);
+
+}  // namespace limpid
