@@ -8,6 +8,7 @@
 
 #include "composite_frame.h"
 #include "stopwatch.h"
+#include "wet_warning.h"
 
 namespace limpid {
 namespace {
@@ -33,7 +34,7 @@ Scene scene_of(const CompositeJob& job, const Plate& plate) {
   }
   const double unsaid =
       plate.has_scene() ? carried.scene.time + job.time_after_plate : job.time_if_unsaid;
-  scene.time = job.time.value_or(unsaid);
+  scene.time = job.time.value_or(job.scene.time.value_or(unsaid));
   return scene;
 }
 
@@ -52,7 +53,8 @@ DepthMeaning depth_of(const CompositeJob& job) {
         "depth of kind device: expected a projection, or near and far beside the lens, in the "
         "scene's [camera]");
   }
-  return {kind, scene.near.value_or(0), scene.far.value_or(0)};
+  const auto nothing = job.depth_nothing ? job.depth_nothing : scene.depth_nothing;
+  return {kind, scene.near.value_or(0), scene.far.value_or(0), nothing};
 }
 
 Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
@@ -73,10 +75,27 @@ Record record_of(const CompositeJob& job, const Plate& plate, const Scene& scene
   if (depth.kind == DepthKind::kNormalised) {
     inputs += "near = " + toml_text(depth.near) + "\nfar = " + toml_text(depth.far) + "\n";
   }
+  if (depth.nothing) inputs += "depth_nothing = " + toml_text(*depth.nothing) + "\n";
   inputs += plate.inputs_text(plan.planes) + texture_inputs(plan, job.scene, textures);
   Record record = record_of(scene, inputs, picture_options(job.output));
   add_look(record, job.look, plan);
   return record;
+}
+
+/// Of the plan, and the layers that somebody has named in vain.
+std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate,
+                                     const Plan& plan) {
+  std::vector<std::string> warnings = plan.warnings;
+  const auto unread = [&](const std::string& what) {
+    warnings.push_back(what + " is named, and nothing that runs of the look " + job.look.name +
+                       " reads it");
+  };
+  for (const Role& role : roles()) {
+    const bool named = plate.named_planes().meets(role.planes());
+    if (named && !plan.planes.meets(role.planes())) unread("the layer " + std::string(role.name));
+  }
+  if (has_environment(job.scene) && !plan.reads_environment) unread("the environment");
+  return warnings;
 }
 
 /// What a survey looks at: depths, colors and shadows; not where the water's normals point, nor
@@ -101,12 +120,14 @@ Plan plan_composite(const CompositeJob& job) {
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   const Plate plate = Plate::open(job.plate);
   const Scene scene = scene_of(job, plate);
-  SurveyedPlan surveyed{plan_of(job, plate, scene), {}};
+  SurveyedPlan surveyed{plan_of(job, plate, scene), {}, {}};
   const Plan& plan = surveyed.plan;
   const LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
   loaded.frame.validate();
   const Context context(scene, loaded.frame, plan.look.water.ior, plan.made);
   surveyed.survey.make(plan, loaded.frame, context, executor, job.output.simd);
+  surveyed.warnings = warnings_of(job, plate, plan);
+  warn_of_wet(loaded.frame, scene, surveyed.warnings);
   return surveyed;
 }
 
@@ -120,7 +141,7 @@ MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor) {
   frame.read(job, executor, false);
   RunTimes times;
   for (int i = 0; i < 2; ++i) frame.run(job, executor, &times);
-  return {{frame.report().plan, frame.survey()}, times};
+  return {{frame.report().plan, frame.survey(), frame.report().warnings}, times};
 }
 
 CompositeReport composite(const CompositeJob& job, Executor& executor) {
@@ -152,6 +173,8 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool 
   loaded_.frame.environment = texture_of(environment_);
   report_.size = loaded_.frame.work().size();
   report_.replaced = loaded_.replaced;
+  report_.warnings = warnings_of(job, plate, report_.plan);
+  warn_of_wet(loaded_.frame, scene_, report_.warnings);
 
   file_.display = plate.display();
   file_.pixel_aspect = plate.pixel_aspect();

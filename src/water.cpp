@@ -8,6 +8,7 @@
 
 #include "stopwatch.h"
 #include "water_frame.h"
+#include "wet_warning.h"
 
 namespace limpid {
 namespace {
@@ -178,6 +179,8 @@ void WaterFrame::read(const WaterJob& job, Executor& executor) {
   plate_.frame.wave_map = texture_of(wave_map_);
   plate_.frame.environment = texture_of(environment_);
   report_.size = job.render.render.size;
+  report_.warnings = report_.plan.warnings;
+  warn_of_wet(plate_.frame, scene_, report_.warnings);
   report_.read_seconds = watch.lap();
 }
 

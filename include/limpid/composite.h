@@ -20,8 +20,10 @@ struct CompositeJob {
   PlateRequest plate;
   SceneFile scene;
   std::optional<DepthKind> depth_kind;  ///< instead of the scene's
-  std::optional<double> time;           ///< seconds, for drifting waves, instead of the plate's own
-  double time_if_unsaid = 0;            ///< where neither `time` nor the plate says one
+  std::optional<double> depth_nothing;  ///< instead of the scene's
+  /// Seconds, for drifting waves, instead of the scene's, which counts before the plate's own.
+  std::optional<double> time;
+  double time_if_unsaid = 0;    ///< where neither `time` nor scene nor plate says one
   double time_after_plate = 0;  ///< seconds, added to the plate's own time where that counts
   Look look;
 
@@ -33,6 +35,9 @@ struct CompositeReport {
   Plan plan;
   Size size;
   SanitiseCounts replaced;
+  /// What the picture does not show though it was asked for, a sentence each: Plan::warnings,
+  /// layers that are named and not read, and a picture without a wet pixel or a dry one.
+  std::vector<std::string> warnings;
   double read_seconds = 0, run_seconds = 0, write_seconds = 0;
 };
 
@@ -43,6 +48,7 @@ Plan plan_composite(const CompositeJob& job);
 struct SurveyedPlan {
   Plan plan;
   Survey survey;
+  std::vector<std::string> warnings;  ///< as CompositeReport's
 };
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor);
 

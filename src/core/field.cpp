@@ -42,6 +42,18 @@ std::string to_string(const Value& value) {
   return "[" + join(rows) + "]";
 }
 
+bool Condition::holds(std::string_view value) const {
+  return key.empty() || std::find(words.begin(), words.end(), value) != words.end();
+}
+
+std::string to_string(const Condition& condition) {
+  std::vector<std::string> words;
+  for (const std::string_view word : condition.words) {
+    if (!word.empty()) words.emplace_back(word);
+  }
+  return std::string(condition.key) + " = " + join(words, " or ");
+}
+
 std::string columns_text(const FieldInfo& field) {
   std::string text;
   for (std::size_t count = field.least_columns; count <= field.columns.size(); ++count) {

@@ -56,6 +56,7 @@ struct Plate::State {
   Limits limits;
   std::vector<PlateFile> files;
   LayerChoices choices;
+  PlaneSet named;                                    ///< of roles that the request names
   std::map<std::string_view, std::string> problems;  ///< filled instead of throwing, for inspect
 
   const ExrPart& part_of(const ChannelRef& ref) const {
@@ -96,9 +97,11 @@ struct Plate::State {
     const std::string name(role.name);
     if (const auto found = request.layers.find(name); found != request.layers.end()) {
       if (found->second == kNone) return std::nullopt;
+      named = named | role.planes();
       return decided(split_layer(found->second));
     }
     if (const auto found = request.named.find(name); found != request.named.end()) {
+      named = named | role.planes();
       return decided(split_plate(found->second));
     }
     return find_layer(role, sources_of(0, searched));
@@ -210,6 +213,8 @@ PlaneSet Plate::planes() const {
   return set;
 }
 
+PlaneSet Plate::named_planes() const { return planes() & state_->named; }
+
 Rect Plate::display() const { return state_->part_of(state_->color_ref()).display; }
 
 double Plate::pixel_aspect() const { return state_->part_of(state_->color_ref()).pixel_aspect; }
@@ -320,8 +325,17 @@ void Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
     const bool half = std::any_of(channels.begin(), channels.end(), [&](const auto& c) {
       return c.name == ref.name && c.type == SampleType::kHalf;
     });
-    return {depth.kind, half, depth.near, depth.far, scene.camera ? &*scene.camera : nullptr,
-            display()};
+    DepthSource source{
+        depth.kind, half,         depth.near, depth.far, scene.camera ? &*scene.camera : nullptr,
+        display(),  depth.nothing};
+    const Plane& alpha = loaded.planes[index_of(PlaneId::kColorA)];
+    if (role.first == PlaneId::kDepth && alpha) {
+      source.uncovered = [&alpha](int x, int y) {
+        const View<const float> view = alpha.view();
+        return view.window.contains({x, y, x + 1, y + 1}) && view.at(x, y) == 0;
+      };
+    }
+    return source;
   };
   loaded.replaced = sanitise_planes(loaded.planes,
                                     scene.water ? scene.water->up : glm::dvec3(0, 1, 0), source_of);

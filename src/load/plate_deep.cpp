@@ -83,9 +83,13 @@ void read_deep_planes(const ExrFile& file, int part, PlaneSet planes, const Rect
   };
   for (int c = 0; c < 4; ++c) keep(plane_after(PlaneId::kColorR, c), layers.color[c]);
   for (int c = 0; c < 3; ++c) keep(plane_after(PlaneId::kBelowR, c), layers.below_color[c]);
-  const DepthSource source{
-      depth.kind,          false, depth.near, depth.far, scene.camera ? &*scene.camera : nullptr,
-      loaded.frame.display};
+  const DepthSource source{depth.kind,
+                           false,
+                           depth.near,
+                           depth.far,
+                           scene.camera ? &*scene.camera : nullptr,
+                           loaded.frame.display,
+                           depth.nothing};
   for (Plane* plane : {&layers.depth, &layers.below_depth}) make_eye_depth(plane->view(), source);
   keep(PlaneId::kDepth, layers.depth);
   keep(PlaneId::kBelowDepth, layers.below_depth);

@@ -220,7 +220,10 @@ std::optional<CameraSpec> camera_of(const TomlNode& table, const SceneFile& file
 
 void read_camera(const TomlNode& table, SceneFile& file) {
   table.expect_keys(Names{"view", "projection", "fov_x", "fov_y", "orthographic", "clip", "near",
-                          "far", "depth"});
+                          "far", "depth", "depth_nothing"});
+  if (const TomlNode* nothing = table.find("depth_nothing")) {
+    file.depth_nothing = nothing->finite_number();
+  }
   read_range(table, file);
   read_depth(table, file);
   file.camera = camera_of(table, file);
@@ -237,7 +240,9 @@ SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
     if (table.key == "sun") file.scene.sun = sun_of(table);
     if (table.key == "scene") {
       table.expect_keys(Names{"time"});
-      if (const TomlNode* time = table.find("time")) file.scene.time = time->finite_number();
+      if (const TomlNode* time = table.find("time")) {
+        file.time = file.scene.time = time->finite_number();
+      }
     }
   }
   return file;

@@ -20,24 +20,36 @@ constexpr std::string_view kCrossings[] = {"none", "radiance"};
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>("model", "How light dies away with distance."),
     choice<&P::distance, kDistances>("distance", "How the way through the water is measured."),
-    real<&P::density>("density", "1/scene unit", {0, 1e6}, "Slope of the linear fog."),
+    real<&P::density>("density", "1/scene unit", {0, 1e6}, "Slope of the linear fog.")
+        .when("model", {"linear"}),
     real<&P::offset>("offset", "", {-1e6, 1e6},
-                     "Taken off the linear fog; clear water up to offset / density."),
-    color<&P::color>("color", "radiance", {0, 1e6}, "What the water itself looks like, linear."),
-    real<&P::alpha>("alpha", "", {0, 1}, "Share of the linear fog that is blended in."),
+                     "Taken off the linear fog; clear water up to offset / density.")
+        .when("model", {"linear"}),
+    color<&P::color>("color", "radiance", {0, 1e6}, "What the water itself looks like, linear.")
+        .when("model", {"linear"}),
+    real<&P::alpha>("alpha", "", {0, 1}, "Share of the linear fog that is blended in.")
+        .when("model", {"linear"}),
     color<&P::absorption>("absorption", "1/scene unit", {0, 1e6},
-                          "What the water swallows of the light; pure water by default."),
+                          "What the water swallows of the light; pure water by default.")
+        .when("model", {"beer_lambert"})
+        .brings("water_type", "custom"),
     color<&P::scattering>("scattering", "1/scene unit", {0, 1e6},
-                          "What it throws elsewhere: murky water glows in the sun."),
+                          "What it throws elsewhere: murky water glows in the sun.")
+        .when("model", {"beer_lambert"}),
     choice<&P::water_type, kWaterTypes>(
-        "water_type", "Water by name: Jerlov's types replace absorption and the loss downwards."),
+        "water_type", "Water by name: Jerlov's types replace absorption and the loss downwards.")
+        .when("model", {"beer_lambert"}),
     real<&P::anisotropy>("anisotropy", "", {-0.99, 0.99},
-                         "Mean cosine of the angle by which scattered light turns; 0 is evenly."),
+                         "Mean cosine of the angle by which scattered light turns; 0 is evenly.")
+        .when("model", {"beer_lambert"}),
     color<&P::ambient>("ambient", "radiance", {0, 1e6},
-                       "Light from all around that is scattered besides the sun's."),
-    choice<&P::sunlight, kSunlights>("sunlight", "The light's own way down to where it scatters."),
+                       "Light from all around that is scattered besides the sun's.")
+        .when("model", {"beer_lambert"}),
+    choice<&P::sunlight, kSunlights>("sunlight", "The light's own way down to where it scatters.")
+        .when("model", {"beer_lambert"}),
     choice<&P::crossing, kCrossings>("crossing",
-                                     "What passing the surface does to light from below."),
+                                     "What passing the surface does to light from below.")
+        .when("model", {"beer_lambert"}),
 };
 
 constexpr Rgb<double> kBlack{0, 0, 0};

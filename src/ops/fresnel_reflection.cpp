@@ -14,14 +14,21 @@ constexpr std::string_view kLookups[] = {"offset", "ray"};
 
 constexpr Field<P> kFields[] = {
     choice<&P::reflectance, kReflectances>("reflectance", "How much is reflected at which angle."),
-    real<&P::power>("power", "", {0, 100}, "Exponent of rim and inverse_power."),
+    real<&P::power>("power", "", {0, 100}, "Exponent of rim and inverse_power.")
+        .when("reflectance", {"rim", "inverse_power"}),
     real<&P::intensity>("intensity", "", {0, 100},
-                        "Share of inverse_power that is not reflected at normal incidence."),
-    real<&P::f0>("f0", "", {0, 1}, "Reflectance at normal incidence, for schlick."),
+                        "Share of inverse_power that is not reflected at normal incidence.")
+        .when("reflectance", {"inverse_power"}),
+    real<&P::f0>("f0", "", {0, 1}, "Reflectance at normal incidence, for schlick.")
+        .when("reflectance", {"schlick"}),
     choice<&P::source, kSources>("source", "What is mirrored."),
-    choice<&P::lookup, kLookups>("lookup", "Where in the planar source each pixel looks."),
-    real<&P::strength>("strength", "uv per unit tilt", {-10, 10}, "Size of the lookup offset."),
-    color<&P::color>("color", "radiance", {0, 1e6}, "What the constant source mirrors."),
+    choice<&P::lookup, kLookups>("lookup", "Where in the planar source each pixel looks.")
+        .when("source", {"planar"}),
+    real<&P::strength>("strength", "uv per unit tilt", {-10, 10}, "Size of the lookup offset.")
+        .when("source", {"planar"})
+        .when("lookup", {"offset"}),
+    color<&P::color>("color", "radiance", {0, 1e6}, "What the constant source mirrors.")
+        .when("source", {"constant"}),
 };
 
 }  // namespace

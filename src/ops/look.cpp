@@ -25,6 +25,26 @@ std::string list_text(std::span<const double> numbers) {
   return "[" + join(texts) + "]";
 }
 
+/// What setting `field` brings with it.
+template <class P>
+void follow(std::span<const Field<P>> fields, const Field<P>& field, P& params) {
+  for (const Condition& condition : field.used_when) {
+    if (!condition.follows) continue;
+    for (const Field<P>& other : fields) {
+      if (other.name != condition.key || condition.holds(to_string(other.get(params)))) continue;
+      other.set(params, std::string(condition.words.front()));
+    }
+  }
+}
+
+const Parameter* beside(const std::vector<Parameter>& all, const Parameter& p,
+                        std::string_view key) {
+  for (const Parameter& other : all) {
+    if (other.table == p.table && other.name == key) return &other;
+  }
+  return nullptr;
+}
+
 std::string value_text(const Value& value) {
   if (const double* x = std::get_if<double>(&value)) return toml_text(*x);
   if (const std::string* word = std::get_if<std::string>(&value)) return toml_text(*word);
@@ -52,6 +72,7 @@ void Look::set(std::string_view table, std::string_view key, const Value& value)
       if (field.name != key) continue;
       key_found = true;
       assign(owner, field, params, value);
+      follow(fields, field, params);
     }
   });
   if (!table_found) {
@@ -76,6 +97,24 @@ std::vector<Parameter> parameters(const Look& look) {
     for (const auto& field : fields) all.push_back({field, table, field.get(params)});
   });
   return all;
+}
+
+std::vector<std::string> unread_settings(const Look& look) {
+  std::vector<std::string> sentences;
+  const std::vector<Parameter> all = parameters(look), defaults = parameters(Look{});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Parameter& p = all[i];
+    if (p.value == defaults[i].value) continue;
+    for (const Condition& condition : p.used_when) {
+      const Parameter* other = beside(all, p, condition.key);
+      if (!other || condition.holds(to_string(other->value))) continue;
+      sentences.push_back(std::string(p.table) + "." + std::string(p.name) + " = " +
+                          to_string(p.value) + " changes nothing: " + std::string(other->name) +
+                          " is " + to_string(other->value) + ", expected " + to_string(condition));
+      break;
+    }
+  }
+  return sentences;
 }
 
 std::string to_toml(const Look& look) {

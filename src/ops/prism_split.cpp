@@ -13,8 +13,10 @@ constexpr std::string_view kModels[] = {"axis", "dispersion"};
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>("model", "How the channels part."),
     real<&P::strength>("strength", "uv per unit tilt", {-10, 10},
-                       "Width of the axis split; 0 is none."),
-    real<&P::gain>("gain", "", {0, 100}, "Times the dispersion of water; 0 is none, 1 water."),
+                       "Width of the axis split; 0 is none.")
+        .when("model", {"axis"}),
+    real<&P::gain>("gain", "", {0, 100}, "Times the dispersion of water; 0 is none, 1 water.")
+        .when("model", {"dispersion"}),
 };
 
 }  // namespace

@@ -16,12 +16,14 @@ constexpr std::string_view kOffFrames[] = {"clamp", "shorten", "fog"};
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>("model", "How the refracted position is found."),
     real<&P::strength>("strength", "uv per unit tilt", {-10, 10},
-                       "Size of the offset, not for snell; 0 is none."),
+                       "Size of the offset, not for snell; 0 is none.")
+        .when("model", {"normal_offset", "dudv_offset"}),
     choice<&P::rejection, kRejections>("rejection",
                                        "What is done where the lookup lands above the surface."),
     count_or_word<&P::steps, kSteps>(
         "steps", "", {0, 64},
-        "How often snell reads the depth again; march walks along the ray until it meets it."),
+        "How often snell reads the depth again; march walks along the ray until it meets it.")
+        .when("model", {"snell"}),
     choice<&P::off_frame, kOffFrames>("off_frame",
                                       "What is seen where the ray leaves the picture."),
 };

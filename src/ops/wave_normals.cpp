@@ -14,16 +14,21 @@ constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>(
         "model", "Where normals come from; plate normals are taken whenever there are any."),
     real<&P::strength>("strength", "", {0, 4},
-                       "Scales the waves, not the plate's; 0 is calm, 1 the waves as they are."),
-    real<&P::tile_size>("tile_size", "scene units", {1e-6, 1e9},
-                        "Length of one period of the map."),
-    real<&P::speed>("speed", "scene units/s", {-1e6, 1e6}, "Drift of the map."),
+                       "Scales the waves, not the plate's; 0 is calm, 1 the waves as they are.")
+        .when("model", {"four_maps", "two_flows", "dudv", "sines", "slopes"}),
+    real<&P::tile_size>("tile_size", "scene units", {1e-6, 1e9}, "Length of one period of the map.")
+        .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
+    real<&P::speed>("speed", "scene units/s", {-1e6, 1e6}, "Drift of the map.")
+        .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
     real<&P::direction>("direction", "deg", {-360, 360},
-                        "Where two_flows drifts: 0 is map x, 90 map y."),
-    text<&P::map>("map", "File of the tiling normal map, blue up; relative to the look file."),
+                        "Where two_flows drifts: 0 is map x, 90 map y.")
+        .when("model", {"two_flows"}),
+    text<&P::map>("map", "File of the tiling normal map, blue up; relative to the look file.")
+        .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
     table<&P::waves>("waves", "", {-1e6, 1e6},
                      "Waves of sines; none: those of the scene. Phase in rad, k in rad a scene "
-                     "unit, omega in rad/s, by default that of deep water."),
+                     "unit, omega in rad/s, by default that of deep water.")
+        .when("model", {"sines"}),
 };
 
 }  // namespace

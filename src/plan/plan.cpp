@@ -177,6 +177,7 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
   plan.outputs = outputs;
   plan.max_error = max_error;
   Chain::for_each([&]<class Op, int>() { plan.operators.push_back({Op::kName, {}, {}}); });
+  plan.warnings = unread_settings(look);
   apply_rules(plan, inputs, outputs);
 
   plan.planes = kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};
@@ -189,6 +190,7 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
     plan.needs_sun |= declared(plan.look, i).needs.sun;
   }
   plan.planes = plan.planes & inputs.planes;
+  if (!plan.planes.covers(kBelowPlanes)) plan.planes = plan.planes - kBelowPlanes;  // half a layer
   return plan;
 }
 

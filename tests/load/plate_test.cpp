@@ -208,5 +208,31 @@ TEST(Plate, PlanesOfAFrameStayWithinTheLimitsTogether) {
       "of at most 65536 and 268435456 pixels");
 }
 
+TEST(Plate, AZeroOfDepthIsNothingWhereAlphaIsZero) {
+  for (const float alpha : {0.0f, 1.0f}) {
+    PlateFiles files(kDisplay);
+    files.add({"color.R", "color.G", "color.B", "color.A"}, alpha, "color.exr");
+    files.add({"depth.Z", "surface.Z"}, 0, "depth.exr");
+    const Plate plate = Plate::open(files.request);
+    const LoadedPlate loaded = plate.read(plate.planes(), {}, {});
+    const float depth = loaded.frame.plane(PlaneId::kDepth).at(3, 3);
+    EXPECT_EQ(std::isinf(depth), alpha == 0) << alpha;
+    EXPECT_EQ(loaded.frame.plane(PlaneId::kSurfaceDepth).at(3, 3), 0) << "that has no alpha";
+    const LoadedPlate asked = plate.read(plate.planes(), {}, {.nothing = 0});
+    EXPECT_TRUE(std::isinf(asked.frame.plane(PlaneId::kDepth).at(3, 3)));
+    EXPECT_TRUE(std::isinf(asked.frame.plane(PlaneId::kSurfaceDepth).at(3, 3)));
+  }
+}
+
+TEST(Plate, KnowsWhichLayersARequestNames) {
+  PlateFiles files(kDisplay);
+  files.add(kDryChannels, 1, "dry.exr");
+  EXPECT_TRUE(Plate::open(files.request).named_planes().empty());
+  files.request.layers["depth"] = "depth.Z";
+  EXPECT_EQ(Plate::open(files.request).named_planes(), PlaneSet{PlaneId::kDepth});
+  files.request.layers = {{"shadow", "none"}};
+  EXPECT_TRUE(Plate::open(files.request).named_planes().empty());
+}
+
 }  // namespace
 }  // namespace limpid

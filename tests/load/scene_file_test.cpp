@@ -335,5 +335,16 @@ TEST(SceneFile, AsManyWavesAsMayBeReadAgain) {
   EXPECT_EQ(error_of([&] { to_toml(scene); }), "water.waves: 1025 waves: expected at most 1024");
 }
 
+TEST(SceneFile, TimeAndNothingAreKnownAsGiven) {
+  const SceneFile bare = scene_of("[camera]\ndepth = \"eye\"\n");
+  EXPECT_FALSE(bare.time.has_value());
+  EXPECT_FALSE(bare.depth_nothing.has_value());
+  const SceneFile file = scene_of("[camera]\ndepth_nothing = 0\n[scene]\ntime = 0\n");
+  EXPECT_EQ(file.time, 0.0);
+  EXPECT_EQ(file.depth_nothing, 0.0);
+  EXPECT_THAT(error_of([] { scene_of("[camera]\ndepth_nothing = inf\n"); }),
+              HasSubstr("camera.depth_nothing"));
+}
+
 }  // namespace
 }  // namespace limpid

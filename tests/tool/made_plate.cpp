@@ -150,8 +150,7 @@ std::string look_toml() {
          "\"clamp\"\nstrength = 0.03\n\n"
          "[prism_split]\nmodel = \"axis\"\nstrength = 0.004\n\n"
          "[depth_fog]\nmodel = \"linear\"\ndistance = \"eye\"\ndensity = 0.15\n"
-         "color = [0.02, 0.10, 0.12]\nalpha = 0.9\nwater_type = \"custom\"\n"
-         "scattering = [0, 0, 0]\nambient = [0, 0, 0]\ncrossing = \"none\"\n\n"
+         "color = [0.02, 0.10, 0.12]\nalpha = 0.9\n\n"
          "[water_shadow]\nmodel = \"darken\"\nstrength = 0.5\n\n"
          "[fresnel_reflection]\nreflectance = \"schlick\"\nlookup = \"offset\"\nstrength = 0.02\n\n"
          "[sun_highlight]\nmodel = \"blinn_phong\"\npower = 20.0\nstrength = 0.5\n";

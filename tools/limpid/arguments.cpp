@@ -27,7 +27,8 @@ void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& s
 }
 
 void add_time(CLI::App& verb, WaterOptions& a) {
-  verb.add_option("--time", a.time, "Seconds, for waves and their drift (default: 0)")
+  verb.add_option("--time", a.time,
+                  "Seconds, for waves and their drift (default: the scene's, or 0)")
       ->option_text("S");
 }
 
@@ -108,6 +109,10 @@ void add_composite(CLI::App& verb, CompositeArguments& a) {
                   "What depth planes hold: eye, ray, inverse, normalised, device (default: the "
                   "scene's, or eye)")
       ->option_text("KIND");
+  verb.add_option("--depth-nothing", a.depth_nothing,
+                  "What depth planes hold where nothing was hit, as 0 (default: the scene's, and 0 "
+                  "where alpha is 0)")
+      ->option_text("Z");
   add_frames(verb, a.frames,
              "Frames, as in 1-100x2: their numbers go into the names of plates, layers, scene and "
              "outputs with %04d or ####. Frame F is at --time + F / --fps, or at its plate's own "

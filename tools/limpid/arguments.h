@@ -37,6 +37,7 @@ struct CompositeArguments {
   std::vector<std::string> plates, layers;
   bool measure = false;  ///< `plan` runs it, too
   std::string scene, depth_kind;
+  std::optional<double> depth_nothing;
   FrameOptions frames;
   WaterOptions water;
 };

@@ -63,8 +63,12 @@ Missing missing_named(const std::string& name) {
   throw Error("--missing " + name + ": expected error, skip or hold", Fault::kUsage);
 }
 
-double time_of_frame(const FrameOptions& options, const WaterOptions& water, int frame) {
-  return water.time.value_or(0) + frame / options.fps.value_or(kUsualFps);
+double begin_of(const WaterOptions& water, const SceneFile& scene) {
+  return water.time.value_or(scene.time.value_or(0));
+}
+
+double time_of_frame(const FrameOptions& options, double begin, int frame) {
+  return begin + frame / options.fps.value_or(kUsualFps);
 }
 
 OutputChoice output_of_frame(OutputChoice output, int frame) {

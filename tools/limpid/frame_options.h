@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "limpid/load/scene_file.h"
 #include "limpid/missing.h"
 #include "limpid/output.h"
 #include "limpid/sequence.h"
@@ -19,8 +20,10 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs);
 /// That --missing names.
 Missing missing_named(const std::string& name);
 
-/// --time + frame / --fps.
-double time_of_frame(const FrameOptions& options, const WaterOptions& water, int frame);
+/// --time, or that of the scene where it is not given; 0 without either.
+double begin_of(const WaterOptions& water, const SceneFile& scene);
+/// That + frame / --fps.
+double time_of_frame(const FrameOptions& options, double begin, int frame);
 
 /// The output with the frame's number in its names.
 OutputChoice output_of_frame(OutputChoice output, int frame);

@@ -30,6 +30,11 @@ std::string ranges_text(const std::vector<int>& numbers) {
   return text;
 }
 
+void tell_warnings(const std::vector<std::string>& sentences, bool quiet) {
+  if (quiet) return;
+  for (const std::string& sentence : sentences) note("warning: " + sentence);
+}
+
 void tell_rest(const Rest& rest, const CommonArguments& common) {
   if (common.quiet) return;
   const std::size_t of = rest.frames.size() + static_cast<std::size_t>(rest.kept);

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "limpid/missing.h"
 #include "limpid/raster/model.h"
@@ -16,6 +17,9 @@ std::string one_line(std::string sentence);
 
 /// "3, 5-9, 12" for numbers in rising order.
 std::string ranges_text(const std::vector<int>& numbers);
+
+/// A line each.
+void tell_warnings(const std::vector<std::string>& sentences, bool quiet);
 
 /// "12 of 240 frames are there already", and which are made again and why: the first, or with -v
 /// each.

@@ -1,9 +1,12 @@
 #include "progress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <unistd.h>
+
+#include "notes.h"
 
 namespace limpid::tool {
 namespace {
@@ -39,6 +42,16 @@ Progress::Progress(const CommonArguments& common)
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\n", stderr);
+}
+
+void Progress::warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) {
+    if (std::find(warned_.begin(), warned_.end(), sentence) != warned_.end()) continue;
+    warned_.push_back(sentence);
+    if (drawn_) std::fputs("\r\033[K", stderr);
+    drawn_ = false;
+    tell_warnings({sentence}, quiet_);
+  }
 }
 
 void Progress::frame_done(const SequenceProgress& progress, const std::string& line,

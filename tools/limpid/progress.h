@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "limpid/sequence.h"
 
@@ -19,6 +20,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Tells on stderr what has not been told of a frame before.
+  void warn(const std::vector<std::string>& sentences);
+
   /// `line` tells of the frame alone; it is left out on a terminal unless it is `news`. `notes` are
   /// shown when they are not those of the frame before.
   void frame_done(const SequenceProgress& progress, const std::string& line,
@@ -28,6 +32,7 @@ class Progress {
   bool quiet_, live_, lines_;
   bool drawn_ = false;  ///< the line on the terminal is not ended yet
   std::string notes_;
+  std::vector<std::string> warned_;
 };
 
 }  // namespace limpid::tool

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <span>
 #include <vector>
@@ -30,6 +31,13 @@ LayerOverrides layer_overrides(const std::vector<std::string>& texts) {
   return overrides;
 }
 
+double finite_nothing(double depth) {
+  if (std::isfinite(depth)) return depth;
+  throw Error("--depth-nothing " + std::to_string(depth) +
+                  ": expected a finite number, for inf is nothing always",
+              Fault::kUsage);
+}
+
 /// What the jobs of all frames have in common.
 CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
                         const CommonArguments& common) {
@@ -47,6 +55,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
                 Fault::kUsage);
   }
   if (!a.depth_kind.empty()) job.depth_kind = depth_kind_named(a.depth_kind);
+  if (a.depth_nothing) job.depth_nothing = finite_nothing(*a.depth_nothing);
   job.look = look_of(a.water);
   job.time = a.water.time;
   job.output = output_of(a.water);
@@ -61,8 +70,10 @@ CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int fra
   for (auto& file : job.plate.files) file = name_of_frame(file.string(), frame);
   for (auto& [role, name] : job.plate.named) name = name_of_frame(name, frame);
   for (auto& [role, name] : job.plate.layers) name = name_of_frame(name, frame);
-  job.time_if_unsaid = time_of_frame(a.frames, a.water, frame);
-  if (a.water.time || a.frames.fps) job.time = job.time_if_unsaid;
+  job.time_if_unsaid = time_of_frame(a.frames, begin_of(a.water, job.scene), frame);
+  // A scene of its own for each frame says the time of that frame.
+  const bool of_scene = job.scene.time && !has_frame_number(a.scene);
+  if (a.water.time || a.frames.fps || of_scene) job.time = job.time_if_unsaid;
   job.output = output_of_frame(job.output, frame);
   return job;
 }
@@ -85,7 +96,9 @@ CompositeJob expect_plate(CompositeJob job) {
   return job;
 }
 
-void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds) {
+void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds,
+                const CommonArguments& common) {
+  tell_warnings(surveyed.warnings, common.quiet);
   std::printf("%sreads %s\n", to_text(surveyed.plan, surveyed.survey, seconds).c_str(),
               roles_text(surveyed.plan.planes).c_str());
 }
@@ -128,13 +141,13 @@ int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
   const CompositeJob job = first_job(a, sequence_of(a.frames, a.water), common);
   const auto executor = executor_of(common);
   if (!a.measure) {
-    print_plan(survey_composite(job, *executor), {});
+    print_plan(survey_composite(job, *executor), {}, common);
     return 0;
   }
   const MeasuredPlan measured = measure_composite(job, *executor);
   std::vector<double> seconds(measured.times.operators.begin(), measured.times.operators.end());
   seconds.push_back(measured.times.rest);
-  print_plan(measured.surveyed, seconds);
+  print_plan(measured.surveyed, seconds, common);
   return 0;
 }
 

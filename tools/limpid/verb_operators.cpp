@@ -39,11 +39,21 @@ std::string allowed_text(const Parameter& p) {
   return {};
 }
 
+/// "; with model = linear", or "" for a parameter that is always read.
+std::string used_text(const Parameter& p) {
+  std::vector<std::string> conditions;
+  for (const Condition& condition : p.used_when) {
+    if (!condition.key.empty()) conditions.push_back(to_string(condition));
+  }
+  return conditions.empty() ? "" : "; with " + join(conditions, " and ");
+}
+
 void print_parameter(const Parameter& p) {
-  const std::string allowed = allowed_text(p);
+  const std::string allowed = allowed_text(p) + used_text(p);
   std::printf("  %-12s = %-20s %s\n", std::string(p.name).c_str(), to_string(p.value).c_str(),
               std::string(p.about).c_str());
-  if (!allowed.empty()) std::printf("  %-12s   %-20s %s\n", "", "", allowed.c_str());
+  const std::size_t first = allowed.starts_with(';') ? 2 : 0;  // a text may hold anything
+  if (!allowed.empty()) std::printf("  %-12s   %-20s %s\n", "", "", allowed.c_str() + first);
 }
 
 void print_table(const std::vector<Parameter>& all, std::string_view table) {

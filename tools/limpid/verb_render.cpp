@@ -16,7 +16,7 @@ RenderJob job_of(const RenderArguments& a, const CommonArguments& common) {
   RenderJob job;
   job.scene = scene_to_render(a.scene);
   job.render = {size_named(a.size), a.overscan, a.shadow_map, a.water.simd};
-  job.time = a.water.time.value_or(0);
+  job.time = begin_of(a.water, job.scene);
   job.limits = limits_of(common);
   return job;
 }
@@ -37,7 +37,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
   }
   const auto job_of_frame = [&](int frame) {
     PlateJob one = job;
-    one.render.time = time_of_frame(a.frames, a.water, frame);
+    one.render.time = time_of_frame(a.frames, job.render.time, frame);
     one.output.plate = output_of_frame(choice, frame).picture;
     return one;
   };
@@ -62,13 +62,14 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
   const Model model = model_to_render(job.render.scene, a.draw_what_you_can, common);
   const auto job_of_frame = [&](int frame) {
     WaterJob one = job;
-    one.render.time = time_of_frame(a.frames, a.water, frame);
+    one.render.time = time_of_frame(a.frames, job.render.time, frame);
     one.output = output_of_frame(job.output, frame);
     return one;
   };
   if (a.water.dry_run) {
     const Plan plan =
         plan_water(model, sequence.frames.empty() ? job : job_of_frame(sequence.frames.front()));
+    tell_warnings(plan.warnings, common.quiet);
     std::printf("%srenders %s\n", to_text(plan).c_str(), roles_text(plan.planes).c_str());
     return 0;
   }

@@ -34,7 +34,7 @@ TruthJob job_of(const TruthArguments& a) {
   TruthJob job;
   job.scene = scene_to_render(a.scene);
   job.size = size_named(a.size);
-  job.time = a.water.time.value_or(0);
+  job.time = begin_of(a.water, job.scene);
   job.look = look_of(a.water);
   job.samples = a.samples;
   job.seed = a.seed;
@@ -102,7 +102,7 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
     names = output_of_frame(names, frame);
     one.output.picture = names.picture;
     one.output.preview = names.preview;
-    one.time = time_of_frame(a.frames, a.water, frame);
+    one.time = time_of_frame(a.frames, job.time, frame);
     return one;
   };
   sequence.in_flight = 1;

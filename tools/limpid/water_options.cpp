@@ -187,6 +187,7 @@ std::string report_notes(const CompositeReport& report) {
 
 void print_report(const CompositeReport& report, const Look& look, const OutputChoice& output,
                   const CommonArguments& common) {
+  tell_warnings(report.warnings, common.quiet);
   if (common.quiet) return;
   std::printf("%s%s", report_text(report, look, output, common).c_str(),
               report_notes(report).c_str());
@@ -196,6 +197,7 @@ OnFrame report_frames(Progress& progress, const Look& look, const OutputChoice& 
                       const CommonArguments& common) {
   return [&](const SequenceProgress& at, const CompositeReport& report) {
     const OutputChoice written = output_of_frame(output, at.frame);
+    progress.warn(report.warnings);
     progress.frame_done(at, report_text(report, look, written, common), report_notes(report),
                         report.replaced.total() > 0);
   };

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,7 +24,8 @@
 ///     static constexpr std::string_view kModels[] = {"phong", "blinn_phong"};
 ///     static const Field<Params> kFields[] = {
 ///         choice<&Params::model, kModels>("model", "How the lobe is measured."),
-///         real<&Params::power>("power", "", {0, 1e5}, "Exponent of the lobe; larger is sharper."),
+///         real<&Params::power>("power", "", {0, 1e5}, "Exponent of the lobe; larger is sharper.")
+///             .when("model", {"phong", "blinn_phong"}),
 ///     };
 
 namespace limpid {
@@ -40,6 +43,19 @@ struct Range {
   double min, max;
 };
 
+/// When a parameter matters: where another one of the same struct holds one of some words. (That
+/// one may be a number, too, as no word can be.)
+struct Condition {
+  static constexpr std::size_t kMost = 5;
+  std::string_view key;  ///< "" for none
+  std::array<std::string_view, kMost> words{};
+  bool follows = false;  ///< where it is none of the words, it becomes the first with the parameter
+
+  bool holds(std::string_view value) const;
+};
+/// "model = four_maps or slopes".
+std::string to_string(const Condition& condition);
+
 enum class FieldKind { kReal, kChoice, kColor, kText, kCountOrWord, kTable };
 
 /// What is declared of a parameter, whatever struct it is a member of.
@@ -52,6 +68,7 @@ struct FieldInfo {
   std::span<const std::string_view> columns;  ///< kTable: what the numbers of a row are
   std::size_t least_columns;                  ///< kTable: the rest may be left out
   std::string_view about;                     ///< one sentence
+  std::array<Condition, 2> used_when{};       ///< all must hold, else nothing reads the parameter
 };
 
 /// The numbers of a row as an example of one, each column by its name: "[a, b] or [a, b, c]".
@@ -61,6 +78,22 @@ template <class P>
 struct Field : FieldInfo {
   Value (*get)(const P&);
   void (*set)(P&, const Value&);  ///< unchecked: go through assign()
+
+  /// The same, but read only where the parameter `key` is one of these words; once or twice.
+  constexpr Field when(std::string_view key, std::initializer_list<std::string_view> words) const {
+    Field field = *this;
+    Condition& free = field.used_when[field.used_when[0].key.empty() ? 0 : 1];
+    free.key = key;
+    std::size_t next = 0;
+    for (const std::string_view word : words) free.words[next++] = word;
+    return field;
+  }
+  /// The same; and who sets the parameter means that word, too.
+  constexpr Field brings(std::string_view key, std::string_view word) const {
+    Field field = when(key, {word});
+    for (Condition& condition : field.used_when) condition.follows |= condition.key == key;
+    return field;
+  }
 };
 
 namespace detail {

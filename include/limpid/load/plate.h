@@ -36,6 +36,8 @@ std::vector<std::filesystem::path> files_of(const PlateRequest& request);
 struct DepthMeaning {
   DepthKind kind = DepthKind::kEye;
   double near = 0, far = 0;  ///< for kNormalised
+  /// A depth that is stored as exactly this is "nothing hit", too.
+  std::optional<double> nothing = {};
 };
 
 /// The planes of a plate in the conventions of the chain, owned.
@@ -61,6 +63,8 @@ class Plate {
   ~Plate();
 
   PlaneSet planes() const;
+  /// Of these, the ones of roles that the request names.
+  PlaneSet named_planes() const;
   Rect display() const;
   double pixel_aspect() const;
   /// From the attributes of the file that has the color, see exr_camera.h.
@@ -80,10 +84,11 @@ class Plate {
   /// files whole. Throws Error when that fails.
   std::string inputs_text(PlaneSet wanted) const;
 
-  /// Decodes the wanted planes and enters them (sanitise.h). Planes smaller than the picture are
-  /// filled up with their role's `missing` value. What is below the water in deep samples begins at
-  /// the surface depth, or else at the scene's calm plane. Throws Error for damaged pixels, for a
-  /// depth kind that needs what the scene lacks, and for deep samples of a kind but eye or ray.
+  /// Decodes the wanted planes and enters them (sanitise.h). A depth of 0 is "nothing hit" where
+  /// the color's alpha is 0 and wanted. Planes smaller than the picture are filled up with their
+  /// role's `missing` value. What is below the water in deep samples begins at the surface depth,
+  /// or else at the scene's calm plane. Throws Error for damaged pixels, for a depth kind that
+  /// needs what the scene lacks, and for deep samples of a kind but eye or ray.
   LoadedPlate read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const;
   /// The same into a plate that was read before, in whose planes of the right windows it is read.
   void read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,

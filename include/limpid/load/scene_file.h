@@ -44,10 +44,12 @@ Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1)
 ///                environment_rotation: degrees from PlaneAxes::x to where its middle looks,
 ///                counter-clockwise from above
 ///     [camera]   view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl,
-///                d3d, reversed; near, far; depth = eye, ray, inverse, normalised, device
+///                d3d, reversed; near, far; depth = eye, ray, inverse, normalised, device;
+///                depth_nothing: what depth planes hold where nothing was hit, if not a number that
+///                always means so (1e9 and above, inf, the far plane): 0, as a rule
 ///     [water]    up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
 ///     [sun]      direction, color
-///     [scene]    time, in seconds
+///     [scene]    time, in seconds: that of the picture, unless another one is asked for
 ///
 /// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
 /// unit. Without near and far a field of view gets 0.01 and infinity, an orthographic width 0 and
@@ -56,7 +58,8 @@ struct SceneFile {
   Scene scene;                       ///< water and sun; its camera comes from camera_for()
   std::optional<CameraSpec> camera;  ///< when there is a view
   DepthKind depth = DepthKind::kEye;
-  std::optional<double> near, far;  ///< as given; far may be +inf
+  std::optional<double> near, far;            ///< as given; far may be +inf
+  std::optional<double> depth_nothing, time;  ///< as given
   /// Role -> absolute "FILE" or "FILE:CHANNELS", for split_plate().
   std::map<std::string, std::string> plates;
   std::filesystem::path geometry;     ///< glTF file, absolute, or empty

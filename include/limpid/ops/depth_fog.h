@@ -28,16 +28,17 @@ namespace limpid {
 ///     in_scatter = b ambient integral of exp(-(a + b) s)
 ///                + b p E' integral of exp(-(a + b) s) exp(-K z(s) / cos_sun), s = 0 ... d
 ///
-/// K is the loss of light on its way down: that of the `water_type` if it has one, else a + b (1 -
-/// g), for what is scattered goes on forwards, mostly. By `sunlight` this way is not made (`none`:
-/// K = 0, E' = E), or made along the sun's straight ray (E' = E), or along its refracted one: E' =
-/// (1 - F) E cos_i / cos_t, what the surface lets in, in a wider beam. By `crossing` the change of
-/// radiance at the surface is made or not: (1 - F_sun) / n^2 for the bottom (0.0664 for F_sun when
-/// the sky alone lights it), 1 / n^2 for the sun's in-scatter; (1 - F) of the view is
-/// fresnel_reflection's. `ambient` is radiance as the viewer in the air sees it and loses nothing.
-/// A view that begins in the water crosses nothing, and what it sees through the surface from below
-/// is not lit through water. A sun at the horizon or under it counts as none. Light is scattered
-/// once: very murky water comes out too dark.
+/// `absorption` is that of the `water_type` custom; to set it is to mean that one, and a type that
+/// is named afterwards has its own. K is the loss of light on its way down: that of the
+/// `water_type` if it has one, else a + b (1 - g), for what is scattered goes on forwards, mostly.
+/// By `sunlight` this way is not made (`none`: K = 0, E' = E), or made along the sun's straight ray
+/// (E' = E), or along its refracted one: E' = (1 - F) E cos_i / cos_t, what the surface lets in, in
+/// a wider beam. By `crossing` the change of radiance at the surface is made or not: (1 - F_sun) /
+/// n^2 for the bottom (0.0664 for F_sun when the sky alone lights it), 1 / n^2 for the sun's
+/// in-scatter; (1 - F) of the view is fresnel_reflection's. `ambient` is radiance as the viewer in
+/// the air sees it and loses nothing. A view that begins in the water crosses nothing, and what it
+/// sees through the surface from below is not lit through water. A sun at the horizon or under it
+/// counts as none. Light is scattered once: very murky water comes out too dark.
 struct DepthFog {
   enum class Model { kLinear, kBeerLambert };
   enum class Distance { kEye, kRay, kRefracted };

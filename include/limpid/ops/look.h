@@ -33,8 +33,10 @@ struct Look {
     return std::get<typename Op::Params>(operators);
   }
 
-  /// Sets `table.key`, as in set("refraction", "strength", 0.03). Throws Error with the nearest
-  /// name for an unknown table or key, and for a value that its declaration refuses.
+  /// Sets `table.key`, as in set("refraction", "strength", 0.03). What that brings with it (see
+  /// Condition::follows) is set, too: an absorption makes the water_type `custom`, and a named type
+  /// that is set afterwards wins. Throws Error with the nearest name for an unknown table or key,
+  /// and for a value that its declaration refuses.
   void set(std::string_view table, std::string_view key, const Value& value);
 
   /// Throws Error at the first parameter outside its range (NaN included).
@@ -49,6 +51,10 @@ struct Parameter : FieldInfo {
 
 /// Every parameter of the look with its value, in the order of `water` and the chain.
 std::vector<Parameter> parameters(const Look& look);
+
+/// A sentence for each parameter that is not at its default and that nothing reads, for another one
+/// says so (FieldInfo::used_when).
+std::vector<std::string> unread_settings(const Look& look);
 
 /// The look as a TOML text that reads back as the same look.
 std::string to_toml(const Look& look);

@@ -53,6 +53,9 @@ struct Plan {
   StateSet outputs;                        ///< that is written besides the picture
   /// What may be left out together changes no channel of a pixel by more than this (white = 1).
   double max_error = 0;
+  /// What was asked for and does nothing, a sentence each: parameters that another one switches
+  /// off.
+  std::vector<std::string> warnings;
 
   /// Whether an operator that is kept looks up the tiling normal map.
   bool reads_wave_map = false;

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "ops/contract.h"
+#include "ops/probe_strip.h"
+
+// What the tables say of when a parameter matters, against what the operators do.
+
+namespace limpid {
+namespace {
+
+using test::candidates;
+using test::label;
+using test::ProbeStrip;
+
+StateSet everything() {
+  StateSet all;
+  for (StatePart part : test::kStateParts) all = all | StateSet{part};
+  return all;
+}
+
+template <class Op>
+const Field<typename Op::Params>* field_named(std::string_view name) {
+  for (const auto& field : Op::fields()) {
+    if (field.name == name) return &field;
+  }
+  return nullptr;
+}
+
+TEST(UsedWhen, ConditionsNameWordsOfTheSameOperator) {
+  Chain::for_each([&]<class Op, int>() {
+    for (const auto& field : Op::fields()) {
+      for (const Condition& condition : field.used_when) {
+        if (condition.key.empty()) continue;
+        const auto* other = field_named<Op>(condition.key);
+        ASSERT_NE(other, nullptr) << label<Op>(field.name);
+        EXPECT_NE(other->name, field.name);
+        EXPECT_FALSE(condition.words.front().empty()) << label<Op>(field.name);
+        for (const std::string_view word : condition.words) {
+          if (word.empty()) continue;
+          EXPECT_EQ(std::count(other->choices.begin(), other->choices.end(), word), 1)
+              << label<Op>(field.name) << ": " << word;
+        }
+      }
+    }
+  });
+}
+
+/// All state of a few pixels after an operator, as numbers.
+template <class Op>
+std::vector<double> made_by(const typename Op::Params& params, const Context& context) {
+  ProbeStrip strip;
+  for (int i = 0; i < 8; ++i) strip.pixels.push_back(test::random_pixel(i, everything()));
+  Op::apply(params, context, strip);
+  std::vector<double> all{strip.farthest};
+  for (const Pixel<double>& p : strip.pixels) {
+    for (StatePart part : test::kStateParts) {
+      const std::vector<double> values = test::values_of(p, part);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+  }
+  return all;
+}
+
+template <class Op>
+bool read(const Field<typename Op::Params>& field, const typename Op::Params& params) {
+  return std::all_of(field.used_when.begin(), field.used_when.end(), [&](const Condition& c) {
+    const auto* other = field_named<Op>(c.key);
+    return !other || c.holds(to_string(other->get(params)));
+  });
+}
+
+TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
+  const test::World world;
+  Frame frame = world.buffers.frame;
+  const Context context(world.scene, frame, 1.333, everything());
+  Chain::for_each([&]<class Op, int>() {
+    for (const auto& field : Op::fields()) {
+      bool matters = field.kind == FieldKind::kText;  // a file's name
+      for (int seed = 0; seed < 60; ++seed) {
+        const typename Op::Params params = test::random_params<Op>(seed);
+        const std::vector<double> before = made_by<Op>(params, context);
+        for (const Value& value : candidates(field)) {
+          typename Op::Params other = params;
+          assign(Op::kName, field, other, value);
+          const bool same = made_by<Op>(other, context) == before;
+          if (!read<Op>(field, params)) {
+            ASSERT_TRUE(same) << label<Op>(field.name) << ", seed " << seed;
+          }
+          matters = matters || (read<Op>(field, params) && !same);
+        }
+      }
+      EXPECT_TRUE(matters) << label<Op>(field.name);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace limpid

@@ -1,0 +1,186 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "tool/made_plate.h"
+#include "tool/tool.h"
+
+/// What is asked for and does nothing is told on stderr, once, a line each.
+
+namespace limpid::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class WarningsTest : public ToolTest {
+ protected:
+  WarningsTest() {
+    write_plate(folder_ / "plate.exr");
+    write_waves(folder_ / "waves.exr");
+    write_text("scene.toml", scene_toml());
+    write_text("look.toml", look_toml());
+  }
+  /// The scene with the water at that height.
+  void raise_water(const std::string& height) const {
+    std::string text = scene_toml();
+    const std::string old = "height = 0.0";
+    text.replace(text.find(old), old.size(), "height = " + height);
+    write_text("scene.toml", text);
+  }
+  static long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+};
+
+TEST_F(WarningsTest, AUsualPictureHasNone) {
+  const Ran ran = composite("wet.exr");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.err, "");
+}
+
+TEST_F(WarningsTest, ASettingThatAnotherSwitchesOff) {
+  const Words setting = {"--set", "prism_split.gain=2"};
+  const Ran ran = composite("wet.exr", setting);
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.err,
+            "limpid: warning: prism_split.gain = 2 changes nothing: model is axis, expected model "
+            "= dispersion\n");
+  const Ran plan = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml",
+                           setting[0], setting[1]});
+  EXPECT_EQ(plan.err, ran.err);
+  EXPECT_EQ(composite("wet.exr", {setting[0], setting[1], "-q"}).err, "");
+}
+
+TEST_F(WarningsTest, AnAbsorptionWinsOverTheTypeOfTheLook) {
+  write_text("named.toml", "[depth_fog]\nwater_type = \"9C\"\n");
+  const Words plain = {"composite", "plate.exr", "--scene", "scene.toml", "--float", "-o"};
+  const auto with = [&](const std::string& output, const Words& more) {
+    Words words = plain;
+    words.push_back(output);
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = limpid(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+  };
+  with("a.exr", {"--look", "named.toml", "--set", "depth_fog.absorption=2,1,0.5"});
+  with("b.exr", {"--look", "named.toml", "--set", "depth_fog.water_type=custom", "--set",
+                 "depth_fog.absorption=2,1,0.5"});
+  with("c.exr", {"--look", "named.toml"});
+  EXPECT_TRUE(same("a.exr", "b.exr"));
+  EXPECT_FALSE(same("a.exr", "c.exr"));
+}
+
+TEST_F(WarningsTest, ALayerThatNothingReads) {
+  const Words named = {"--layer", "shadow=shadow.Y"};
+  EXPECT_EQ(composite("wet.exr", named).err, "");
+  const Ran ran = composite("wet.exr", {named[0], named[1], "--set", "water_shadow.strength=0",
+                                        "--set", "sun_highlight.strength=0"});
+  EXPECT_EQ(ran.err,
+            "limpid: warning: the layer shadow is named, and nothing that runs of the look look "
+            "reads it\n");
+  // One that was found, not named, is no matter.
+  EXPECT_EQ(composite("wet.exr",
+                      {"--set", "water_shadow.strength=0", "--set", "sun_highlight.strength=0"})
+                .err,
+            "");
+}
+
+TEST_F(WarningsTest, APictureWithoutAWetPixelOrADryOne) {
+  raise_water("-5");
+  const Ran dry = composite("dry.exr");
+  EXPECT_EQ(dry.code, 0);
+  EXPECT_THAT(dry.err, HasSubstr("limpid: warning: no pixel is wet"));
+  EXPECT_EQ(lines(dry.err), 1);
+  const Ran plan = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml"});
+  EXPECT_EQ(plan.err, dry.err);
+
+  // Straight down on the bottom and the shore, both under water.
+  write_text("scene.toml",
+             "[camera]\nview = [[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, -2], [0, 0, 0, 1]]\n"
+             "fov_y = 20\n[water]\nheight = 1.9\n");
+  const Ran wet = composite("wet.exr");
+  EXPECT_EQ(wet.code, 0) << wet.err;
+  EXPECT_THAT(wet.err, HasSubstr("limpid: warning: every pixel is wet"));
+}
+
+TEST_F(WarningsTest, AreToldOnceOfASequence) {
+  for (int frame = 1; frame <= 3; ++frame) {
+    write_plate(folder_ / ("plate." + std::to_string(frame) + ".exr"));
+  }
+  raise_water("-5");
+  const Ran ran = limpid({"composite", "plate.#.exr", "--scene", "scene.toml", "--look",
+                          "look.toml", "-o", "wet.#.exr", "--frames", "1-3"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(lines(ran.err), 1) << ran.err;
+}
+
+TEST_F(WarningsTest, ShippedLooksHaveNone) {
+  for (const std::string look : {"physical", "fast", "realistic", "monogame", "rito"}) {
+    const Ran ran = limpid({"water", std::string(LIMPID_DATA) + "/scenes/pool.toml", "--look", look,
+                            "--size", "64x36", "-o", "pool.exr"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "") << look;
+  }
+}
+
+TEST_F(WarningsTest, TheTimeOfASceneCountsWhereNoneIsGiven) {
+  write_text("scene.toml", scene_toml() + "[scene]\ntime = 2.5\n");
+  composed("scene_time.exr");
+  composed("given.exr", {"--time", "2.5"});
+  composed("other.exr", {"--time", "0"});
+  EXPECT_TRUE(same("scene_time.exr", "given.exr"));
+  EXPECT_FALSE(same("scene_time.exr", "other.exr"));
+  // Frames of a sequence begin at it.
+  write_plate(folder_ / "plate.24.exr");
+  const Ran ran = limpid({"composite", "plate.#.exr", "--scene", "scene.toml", "--look",
+                          "look.toml", "-o", "wet.#.exr", "--frames", "24", "-q"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  composed("later.exr", {"--time", "3.5"});
+  EXPECT_TRUE(same("wet.24.exr", "later.exr"));
+}
+
+TEST_F(WarningsTest, TheTimeOfARenderedSceneCountsToo) {
+  const std::string pool = std::string(LIMPID_DATA) + "/scenes/pool";
+  write_text("timed.toml",
+             "[geometry]\ngltf = \"" + pool +
+                 ".gltf\"\n[water]\nwaves = [[0.05, 1, 2, 0]]\n[scene]\ntime = 1.5\n");
+  const auto with = [&](const std::string& verb, const std::string& output, const Words& more) {
+    Words words = {verb, "timed.toml", "--size", "48x27", "-q", "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = limpid(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  };
+  for (const std::string verb : {"water", "render", "truth"}) {
+    with(verb, "own.exr", {});
+    with(verb, "given.exr", {"--time", "1.5"});
+    with(verb, "other.exr", {"--time", "0"});
+    EXPECT_TRUE(same("own.exr", "given.exr")) << verb;
+    EXPECT_FALSE(same("own.exr", "other.exr")) << verb;
+  }
+}
+
+TEST_F(WarningsTest, ADepthOfZeroIsNothingWhereThatIsSaid) {
+  PlateOptions zeros;
+  zeros.depth_code = [](double z, double) { return z < 1e9 ? z : 0; };
+  write_plate(folder_ / "zeros.exr", zeros);
+  const Words plain = {"composite", "zeros.exr", "--scene", "scene.toml",
+                       "--look",    "look.toml", "-q",      "-o"};
+  const auto with = [&](const std::string& output, const Words& more) {
+    Words words = plain;
+    words.push_back(output);
+    words.insert(words.end(), more.begin(), more.end());
+    return limpid(words);
+  };
+  composed("infinite.exr");
+  EXPECT_EQ(with("asked.exr", {"--depth-nothing", "0"}).code, 0);
+  EXPECT_TRUE(same("asked.exr", "infinite.exr"));
+  EXPECT_EQ(with("unasked.exr", {}).code, 0);
+  EXPECT_FALSE(same("unasked.exr", "infinite.exr")) << "alpha is 1 there";
+  write_text("scene.toml", scene_toml("depth_nothing = 0\n"));
+  EXPECT_EQ(with("scene.exr", {}).code, 0);
+  EXPECT_TRUE(same("scene.exr", "infinite.exr"));
+  expect_refused(with("none.exr", {"--depth-nothing", "inf"}), {"--depth-nothing inf", "finite"},
+                 2);
+}
+
+}  // namespace
+}  // namespace limpid::test
