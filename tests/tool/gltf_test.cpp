@@ -38,7 +38,7 @@ TEST_F(GltfToolTest, TellsWhatItDoesNotDrawInALineEach) {
   gltf["materials"] = json::parse(R"([{"extensions": {"KHR_\nior": {}}}])");
   const Ran ran = rendered(gltf);
   EXPECT_EQ(ran.code, 0) << ran.err;
-  const std::string file = "limpid: " + (folder_ / "thing.gltf").string() + ": ";
+  const std::string file = "limpid: warning: " + (folder_ / "thing.gltf").string() + ": ";
   EXPECT_EQ(ran.err, file + "animations are not played, nodes stay in place\n" + file +
                          "KHR_?ior is not drawn: materials[0].extensions\n");
   EXPECT_EQ(rendered(gltf, {"-q"}).err, "");

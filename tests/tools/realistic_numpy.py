@@ -62,6 +62,44 @@ def bilinear(image, u, v):
     return lerp(above, below, fy)
 
 
+def taps(image, u, v):
+    """The four texels that bilinear filtering mixes, and how much of each."""
+    height, width = image.shape
+    x, y = u * width - 0.5, v * height - 0.5
+    x0, y0 = np.floor(x), np.floor(y)
+    fx, fy = x - x0, y - y0
+    columns = [np.clip(x0 + i, 0, width - 1).astype(int) for i in (0, 1)]
+    rows = [np.clip(y0 + i, 0, height - 1).astype(int) for i in (0, 1)]
+    values = [image[row, column] for row in rows for column in columns]
+    weights = [wy * wx for wy in (1 - fy, fy) for wx in (1 - fx, fx)]
+    return np.stack(values), np.stack(weights)
+
+
+def mean(values, weights):
+    return (np.where(weights > 0, values, 0) * weights).sum(0) / np.maximum(weights.sum(0), 1e-12)
+
+
+def seen(channel, depth, u, v):
+    """Bilinear, of texels at which something was hit; 0 where those have less than half the weight."""
+    values, weights = taps(channel, u, v)
+    hit = np.isfinite(taps(depth, u, v)[0])
+    lost = np.where(hit, 0, weights).sum(0)
+    some = np.where(lost < 0.5, mean(values, np.where(hit, weights, 0)), 0)
+    return np.where(lost > 0, some, bilinear(channel, u, v))
+
+
+def depth_seen(depth, u, v, surface):
+    """Of the nearest texel; where nothing was hit there, of those beside it that lie behind the
+    surface; +inf where half of the weight or more has hit nothing."""
+    values, weights = taps(depth, u, v)
+    lost = np.where(np.isfinite(values), 0, weights).sum(0)
+    behind = np.where(np.isfinite(values) & (values > surface), weights, 0)
+    beside = np.where(behind.sum(0) > 0, mean(values, behind), np.inf)
+    at = nearest(depth, u, v)
+    at = np.where((lost > 0) & np.isinf(at), beside, at)
+    return np.where(lost < 0.5, at, np.inf)
+
+
 def nearest(image, u, v):
     height, width = image.shape[:2]
     x = np.clip(np.floor(u * width), 0, width - 1).astype(int)
@@ -118,17 +156,18 @@ def realistic(plate, p=REALISTIC):
     u1, v1 = np.where(snapped, u, u1), np.where(snapped, v, v1)
     px = np.where(snapped, 0.0, p["prism"] * mx)
     py = np.where(snapped, 0.0, p["prism"] * my)
-    path = nearest(depth, u1, v1) - zs
+    path = depth_seen(depth, u1, v1, zs) - zs
 
-    # Prism: one lookup a channel.
+    # Prism: one lookup a channel. No light comes from where the water has no end.
     under = np.stack(
         [
-            bilinear(color[..., 0], u1 + px, v1),
-            bilinear(color[..., 1], u1 + px / 2, v1 + py / 2),
-            bilinear(color[..., 2], u1, v1 + py),
+            seen(color[..., 0], depth, u1 + px, v1),
+            seen(color[..., 1], depth, u1 + px / 2, v1 + py / 2),
+            seen(color[..., 2], depth, u1, v1 + py),
         ],
         axis=-1,
     )
+    under = np.where(np.isinf(path)[..., None], 0, under)
 
     # Fog, then the shadow on murky water.
     f = 1 - sat(p["fog_density"] * path - p["fog_offset"])

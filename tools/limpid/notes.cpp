@@ -66,7 +66,7 @@ void tell_missing(const FilledSequence& filled, std::size_t of, const CommonArgu
 
 void tell_warnings(const Model& model, const std::string& file, const CommonArguments& common) {
   if (common.quiet) return;
-  for (const std::string& warning : model.warnings) note(file + ": " + warning);
+  for (const std::string& warning : model.warnings) note("warning: " + file + ": " + warning);
 }
 
 }  // namespace limpid::tool
