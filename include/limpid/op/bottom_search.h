@@ -210,22 +210,35 @@ class BottomSearch {
   /// +inf where half of what is seen or more has none; `way` itself where nothing below the surface
   /// is seen.
   F to_level(F way) const {
+    if (c_.bottomless) return to_level_if_any(way);
+    const auto quad = tap_.quad(ray_.shift_at(way));
+    const Four<F> depths = tap_.read(planes_.depth, quad);
+    F level = F(0), weight = F(0);
+    for (int k = 0; k < 4; ++k) {
+      const F drop = seen_drop(tap_.place(planes_.depth, quad, k), depths[k]);
+      const F share = select(drop > F(0), quad.weight(k), F(0));
+      level = level + share * drop;
+      weight = weight + share;
+    }
+    const auto seen = weight > F(1e-3);
+    return select(seen, level / (max(weight, F(1e-3)) * fall_), way);
+  }
+
+  /// The same where there may be no bottom. On its own, for the march is to stay small.
+  [[gnu::noinline]] F to_level_if_any(F way) const {
     const auto quad = tap_.quad(ray_.shift_at(way));
     const Four<F> depths = tap_.read(planes_.depth, quad);
     F level = F(0), weight = F(0), endless = F(0);
     for (int k = 0; k < 4; ++k) {
       const F drop = seen_drop(tap_.place(planes_.depth, quad, k), depths[k]);
-      F share = select(drop > F(0), quad.weight(k), F(0));
-      if (c_.bottomless) {
-        endless = endless + select(nothing(depths[k]), share, F(0));
-        share = select(nothing(depths[k]), F(0), share);
-      }
-      level = level + share * drop;
-      weight = weight + share;
+      const F share = select(drop > F(0), quad.weight(k), F(0));
+      const F some = select(nothing(depths[k]), F(0), share);
+      endless = endless + (share - some);
+      level = level + some * drop;
+      weight = weight + some;
     }
     const auto seen = weight > F(1e-3);
     const F met = select(seen, level / (max(weight, F(1e-3)) * fall_), way);
-    if (!c_.bottomless) return met;
     return select(endless > F(1e-3) && endless >= weight, F(HUGE_VAL), met);
   }
 

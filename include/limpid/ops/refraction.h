@@ -128,7 +128,13 @@ struct Refraction {
       strip.probe([&](Pixel<F>& p, const auto& tap) { snap_from_empty(planes, p, tap); });
     }
     if (params.rejection == Rejection::kShorten) {
-      strip.probe([&](Pixel<F>& p, const auto& tap) { look_up_valid(params, c, planes, p, tap); });
+      if (c.bottomless) {
+        strip.probe(
+            [&](Pixel<F>& p, const auto& tap) { look_up_valid_if_any(params, c, planes, p, tap); });
+      } else {
+        strip.probe(
+            [&](Pixel<F>& p, const auto& tap) { look_up_valid<false>(params, c, planes, p, tap); });
+      }
     } else {
       look_up(c, planes, strip);
       if (c.bottomless) {
@@ -266,7 +272,7 @@ struct Refraction {
 
   /// The layer below is empty where something rises out of the water, or stands before it.
   template <class F, class Tap>
-  static void snap_from_empty(const Planes& planes, Pixel<F>& p, const Tap& tap) {
+  [[gnu::noinline]] static void snap_from_empty(const Planes& planes, Pixel<F>& p, const Tap& tap) {
     const auto empty = nothing(p.hit_depth);
     if (!any(empty)) return;
     const auto hidden = empty && !nothing(tap.nearest(PlaneId::kDepth, p.shift));
@@ -328,8 +334,8 @@ struct Refraction {
 
   /// What look_up() has mixed without a look at depths, again where some of it does not count.
   template <class F, class Tap>
-  static void leave_out_nothing(const Context& c, const Planes& planes, Pixel<F>& p,
-                                const Tap& tap) {
+  [[gnu::noinline]] static void leave_out_nothing(const Context& c, const Planes& planes,
+                                                  Pixel<F>& p, const Tap& tap) {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     const auto mend = [&](const auto& taps, PlaneId plane, F& value) {
       if (!any(taps.lost > F(0))) return;
@@ -375,7 +381,7 @@ struct Refraction {
 
   /// A texel counts where it lies under the surface, and not so far before the end of a ray that it
   /// must hide it. Where nothing was hit, or a layer below is empty, nothing does.
-  template <class F, class Tap>
+  template <bool kBottomless, class F, class Tap>
   static void look_up_valid(const Params& params, const Context& c, const Planes& planes,
                             Pixel<F>& p, const Tap& tap) {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
@@ -383,10 +389,10 @@ struct Refraction {
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
     const auto lies = [&](const auto& quad, F share) -> Four<F> {
-      if (!c.foreground && !c.bottomless) return {F(1), F(1), F(1), F(1)};
+      if (!kBottomless && !c.foreground) return {F(1), F(1), F(1), F(1)};
       const Four<F> depths = tap.read(planes.depth, quad);
       Four<F> surfaces, counts;
-      if (!c.foreground) {
+      if (kBottomless && !c.foreground) {
         for (int k = 0; k < 4; ++k) counts.at[k] = select(is_empty(depths[k]), F(0), F(1));
         return counts;
       }
@@ -406,7 +412,8 @@ struct Refraction {
           surface = select(depth <= surface && p.side * height <= F(0), F(0), surface);
         }
         const F least = surface + share * max(ray_end - surface, F(0));
-        const F seen = planes.below || c.bottomless ? select(is_empty(depth), F(0), depth) : depth;
+        const F below = planes.below ? select(depth < F(1e30), depth, F(0)) : depth;
+        const F seen = kBottomless ? select(is_empty(depth), F(0), depth) : below;
         const auto there = seen > surface && (seen > least || share <= F(0));
         counts.at[k] = select(there, F(1), F(0));
       }
@@ -425,14 +432,15 @@ struct Refraction {
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.
     const Rgb<F> own = p.transmitted;
     const auto color = [&](const auto& taps, PlaneId plane, F stays) {
-      return select(taps.weight() > F(0.5), of_whole(c, taps, taps.read(tap, plane)), stays);
+      return select(taps.weight() > F(0.5), of_whole<kBottomless>(taps, taps.read(tap, plane)),
+                    stays);
     };
-    const F lost = c.bottomless ? share_of_nothing(planes, p, tap) : F(0);
+    const F lost = kBottomless ? share_of_nothing(planes, p, tap) : F(0);
     const Vec2<F> green_shift = p.shift_g;
     const auto taps = taps_at(p.shift_g);
     p.shift_g = taps.place;
     p.transmitted.g = color(taps, green, own.g);
-    F share = taps.share, weight = taps.weight();
+    F share = taps.share, weight = kBottomless ? taps.weight() : F(1);
     if (c.made.has(StatePart::kPrism)) {
       const auto taps_r = taps_at(p.shift_r);
       const auto taps_b = taps_at(p.shift_b);
@@ -445,18 +453,27 @@ struct Refraction {
       p.shift = taps_common.place;
       p.transmitted.r = color(taps_r, red, own.r);
       p.transmitted.b = color(taps_b, blue, own.b);
-      p.hit_depth = of_whole(c, taps_common, taps_common.read_depth(tap, planes.depth));
-      weight = taps_common.weight();
+      p.hit_depth = of_whole<kBottomless>(taps_common, taps_common.read_depth(tap, planes.depth));
+      if (kBottomless) weight = taps_common.weight();
       share = F(1.0 / 3) * (taps_r.share + taps.share + taps_b.share);
     } else {
       p.shift = p.shift_r = p.shift_b = taps.place;
       p.transmitted.r = color(taps, red, own.r);
       p.transmitted.b = color(taps, blue, own.b);
-      p.hit_depth = of_whole(c, taps, taps.read_depth(tap, planes.depth));
+      p.hit_depth = of_whole<kBottomless>(taps, taps.read_depth(tap, planes.depth));
     }
     p.confidence = p.confidence * share;
-    if (!c.bottomless) return;
+    if (!kBottomless) return;
     see_no_end(lost >= F(0.5) || (weight <= F(0.5) && is_empty(p.dry_depth)), p);
+  }
+
+  /// Where there may be nothing. On its own, and so are its like, for the code that nearly all
+  /// cells run is to stay as small as it is.
+  template <class F, class Tap>
+  [[gnu::noinline]] static void look_up_valid_if_any(const Params& params, const Context& c,
+                                                     const Planes& planes, Pixel<F>& p,
+                                                     const Tap& tap) {
+    look_up_valid<true>(params, c, planes, p, tap);
   }
 
   /// Share of the four texels at the pixel's shift at which nothing was hit, of the dry scene, too.
@@ -474,9 +491,9 @@ struct Refraction {
   }
 
   /// A sum over taps whose weights are no whole, for there was nothing to make up the rest from.
-  template <class F, class Taps>
-  static LIMPID_INLINE F of_whole(const Context& c, const Taps& taps, F sum) {
-    if (!c.bottomless) return sum;
+  template <bool kBottomless, class F, class Taps>
+  static LIMPID_INLINE F of_whole(const Taps& taps, F sum) {
+    if (!kBottomless) return sum;
     const F weight = taps.weight();
     return select(weight > F(0.5) && weight < F(0.999), sum / max(weight, F(0.5)), sum);
   }
