@@ -122,6 +122,15 @@ TEST_F(WarningsTest, ShippedLooksHaveNone) {
   }
 }
 
+TEST_F(WarningsTest, TheTruthTellsOfItsLookToo) {
+  const Ran ran = limpid({"truth", std::string(LIMPID_DATA) + "/scenes/pool.toml", "--size", "16x9",
+                          "-o", "truth.exr", "--set", "sun_highlight.power=7"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.err,
+            "limpid: warning: sun_highlight.power = 7 changes nothing: model is ggx, expected "
+            "model = phong or blinn_phong\n");
+}
+
 TEST_F(WarningsTest, TheTimeOfASceneCountsWhereNoneIsGiven) {
   write_text("scene.toml", scene_toml() + "[scene]\ntime = 2.5\n");
   composed("scene_time.exr");

@@ -4,6 +4,7 @@
 #include "limpid/truth.h"
 
 #include "frame_options.h"
+#include "notes.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -88,6 +89,7 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   const TruthJob job = job_of(a);
   const auto executor = executor_of(common);
+  tell_warnings(unread_settings(job.look), common.quiet);
   const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
   if (sequence.frames.empty()) {
     const TruthReport report = truth(model, job, *executor);
