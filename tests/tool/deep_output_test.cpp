@@ -130,7 +130,8 @@ TEST_F(DeepOutputTest, LeavesThePictureAsItIs) {
 
 TEST_F(DeepOutputTest, WaterWithoutEndEndsWhereTheLightDoes) {
   composed_deep({"--set", "depth_fog.model=\"beer_lambert\"", "--set", "depth_fog.distance=\"ray\"",
-                 "--set", "depth_fog.absorption=[0.4, 0.2, 0.1]"});
+                 "--set", "depth_fog.absorption=[0.4, 0.2, 0.1]", "--set",
+                 "depth_fog.scattering=[0, 0, 0]"});
   std::map<Place, Values> samples = samples_of(folder_ / "deep.exr");
   Flat wet(folder_ / "wet.exr");
   const Rays rays = rays_of(plate_camera(), {kPicture.width(), kPicture.height()});
