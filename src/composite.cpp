@@ -94,7 +94,9 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
     const bool named = plate.named_planes().meets(role.planes());
     if (named && !plan.planes.meets(role.planes())) unread("the layer " + std::string(role.name));
   }
-  if (has_environment(job.scene) && !plan.reads_environment) unread("the environment");
+  // It may stand by for a reflection.
+  const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);
+  if (has_environment(job.scene) && !mirrors) unread("the environment");
   return warnings;
 }
 

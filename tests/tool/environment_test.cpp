@@ -41,6 +41,22 @@ TEST_F(EnvironmentTest, ThatNothingReadsChangesNothing) {
   EXPECT_TRUE(same("sky_wet.exr", "wet.exr"));
 }
 
+TEST_F(EnvironmentTest, IsToldOfWhereNothingReadsItNorAReflection) {
+  write_scene("waves.exr");
+  const auto warned = [&](const Words& more) {
+    Words words = {
+        "composite", "plate.exr", "--scene", "sky.toml", "--look",
+        "look.toml", "-o",        "wet.exr", "--set",    "fresnel_reflection.lookup=ray"};
+    words.insert(words.end(), more.begin(), more.end());
+    return limpid(words).err;
+  };
+  EXPECT_EQ(warned({}), "") << "a reflection is better";
+  EXPECT_EQ(
+      warned({"--set", "fresnel_reflection.source=constant"}),
+      "limpid: warning: the environment is named, and nothing that runs of the look look reads "
+      "it\n");
+}
+
 TEST_F(EnvironmentTest, IsLoadedAndTurnedForAPlanThatReadsIt) {
   ASSERT_EQ(oiiotool({"--pattern", "constant:color=0,0,0", "8x4", "3", "--point:color=5,6,7", "3,1",
                       "-o", "sky.exr"})
