@@ -6,6 +6,7 @@
 #include <cstring>
 #include <mutex>
 #include <new>
+#include <set>
 
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfThreading.h>
@@ -114,16 +115,12 @@ void check_channel(const ExrPart& part, const std::string& where, const std::str
   }
 }
 
-/// Throws Error unless the requests fit one part of the file.
+/// Throws Error unless the requests fit the file.
 void check_requests(const std::vector<ExrPart>& parts, std::span<const ExrRequest> requests,
                     const Limits& limits) {
   std::int64_t bytes = 0;
   for (const ExrRequest& request : requests) {
     const ExrPart& part = checked_part(parts, request.part);
-    if (request.part != requests[0].part) {
-      throw Error("channels of parts " + std::to_string(requests[0].part) + " and " +
-                  std::to_string(request.part) + " in one request: expected one part");
-    }
     const std::string where = label(parts, request.part);
     if (part.deep) throw Error(where + " holds deep samples: expected flat pixels");
     check_channel(part, where, request.channel);
@@ -162,6 +159,18 @@ struct ExrFile::State {
   }
 
   void read(std::span<const ExrRequest> requests) {
+    std::map<int, std::vector<ExrRequest>> by_part;
+    std::set<int> decoded = decoded_parts;
+    for (const ExrRequest& request : requests) {
+      by_part[request.part].push_back(request);
+      decoded.insert(request.part);
+    }
+    check_decoded_parts(headers, decoded, limits);
+    decoded_parts = std::move(decoded);
+    for (const auto& [part, wanted] : by_part) read_part(wanted);
+  }
+
+  void read_part(std::span<const ExrRequest> requests) {
     const ExrHeader& header = headers[requests[0].part];
     fill_outside(header.part.data, requests);
     std::vector<ExrRequest> stored;
@@ -218,6 +227,7 @@ struct ExrFile::State {
   std::vector<ExrPart> parts;
   int threads = 0;
   std::optional<Imf::MultiPartInputFile> image;
+  std::set<int> decoded_parts;  ///< whose buffers `image` keeps
   std::mutex mutex;
 };
 

@@ -44,10 +44,16 @@ std::int64_t sample_bytes(const ExrPart& part, std::int64_t width, std::int64_t 
   return bytes;
 }
 
-/// How many threads the limit has memory for. OpenEXR holds two chunks a thread as they are stored
-/// and, for tiles, a row of them as floats. ExrUnpacker holds three more, and whole ones however
-/// few lines there are. Throws Error when it is not even one.
-std::int64_t most_threads(const ExrHeader& header, const Limits& limits) {
+/// Bytes that decoding a part takes besides the planes.
+struct DecodeBytes {
+  std::int64_t chunk, a_thread, besides;
+
+  std::int64_t of_one_thread() const { return a_thread + besides; }
+};
+
+/// OpenEXR holds two chunks a thread as they are stored and, for tiles, a row of them as floats.
+/// ExrUnpacker holds three more, and whole ones however few lines there are.
+DecodeBytes decode_bytes(const ExrHeader& header) {
   const ExrPart& part = header.part;
   const std::int64_t width = part.data.width();
   const bool ours = ExrUnpacker::knows(header);
@@ -58,13 +64,18 @@ std::int64_t most_threads(const ExrHeader& header, const Limits& limits) {
   const std::int64_t tile_row =
       part.tiled ? width * header.tile_height * 4 * static_cast<std::int64_t>(part.channels.size())
                  : 0;
-  const std::int64_t a_thread = (ours ? 5 : 2) * std::max<std::int64_t>(chunk, 1);
-  if (chunk > std::numeric_limits<std::int32_t>::max() || a_thread > limits.max_memory - tile_row) {
-    throw Error("chunks of " + std::to_string(chunk) +
+  return {chunk, (ours ? 5 : 2) * std::max<std::int64_t>(chunk, 1), tile_row};
+}
+
+/// Throws Error where the limit has no memory for even one thread.
+void check_chunk(const ExrHeader& header, const Limits& limits) {
+  const DecodeBytes bytes = decode_bytes(header);
+  if (bytes.chunk > std::numeric_limits<std::int32_t>::max() ||
+      bytes.a_thread > limits.max_memory - bytes.besides) {
+    throw Error("chunks of " + std::to_string(bytes.chunk) +
                 " bytes need more memory than the limit of " + std::to_string(limits.max_memory) +
                 " bytes");
   }
-  return (limits.max_memory - tile_row) / a_thread;
 }
 
 }  // namespace
@@ -84,11 +95,27 @@ std::int64_t most_unpacked(const ExrHeader& header, std::int64_t packed) {
 }
 
 int threads_for(const std::vector<ExrHeader>& headers, const Limits& limits) {
-  std::int64_t threads = Imf::globalThreadCount();
+  std::int64_t a_thread = 0, rest = limits.max_memory;
   for (const ExrHeader& header : headers) {
-    threads = std::min(threads, most_threads(header, limits));
+    const DecodeBytes bytes = decode_bytes(header);
+    if (bytes.a_thread > limits.max_memory - a_thread || bytes.besides > rest) return 0;
+    a_thread += bytes.a_thread;
+    rest -= bytes.besides;
   }
-  return static_cast<int>(threads);
+  return static_cast<int>(std::min<std::int64_t>(Imf::globalThreadCount(), rest / a_thread));
+}
+
+void check_decoded_parts(const std::vector<ExrHeader>& headers, const std::set<int>& parts,
+                         const Limits& limits) {
+  std::int64_t rest = limits.max_memory;
+  for (const int part : parts) {
+    rest -= decode_bytes(headers[static_cast<std::size_t>(part)]).of_one_thread();
+    if (rest < 0) {
+      throw Error("the chunks of " + std::to_string(parts.size()) +
+                  " parts need more memory than the limit of " + std::to_string(limits.max_memory) +
+                  " bytes");
+    }
+  }
 }
 
 void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limits,
@@ -107,7 +134,7 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
                     " pixels: expected sides of 1 ... " + std::to_string(most));
       }
     }
-    most_threads(header, limits);
+    check_chunk(header, limits);
 
     const std::int64_t chunks = std::max(chunks_of(header), header.chunk_count);
     const std::int64_t pixels = sample_bytes(part, part.data.width(), part.data.height());

@@ -92,6 +92,7 @@ class AttributeReader {
     return text;
   }
   std::string rest() const { return {rest_.begin(), rest_.end()}; }
+  bool ended() const { return rest_.empty(); }
 
  private:
   std::string name_;
@@ -135,6 +136,21 @@ std::string text_of(const ExrHeader& header, const std::string& name) {
   return header.attributes.contains(name) ? AttributeReader(header, name, "string").rest() : "";
 }
 
+/// The names in a list of texts, each behind its length.
+std::vector<std::string> texts_of(const ExrHeader& header, const std::string& name, int limit) {
+  if (!header.attributes.contains(name)) return {};
+  AttributeReader reader(header, name, "stringvector");
+  std::vector<std::string> texts;
+  while (!reader.ended()) {
+    const std::span<const char> text = reader.take(reader.u32());
+    texts.emplace_back(text.begin(), text.end());
+    if (texts.size() > static_cast<std::size_t>(limit)) {
+      throw Error("more than " + std::to_string(limit) + " texts in '" + name + "', the limit");
+    }
+  }
+  return texts;
+}
+
 double pixel_aspect_of(const ExrHeader& header) {
   const std::uint32_t bits = AttributeReader(header, "pixelAspectRatio", "float").u32();
   float value;
@@ -149,6 +165,7 @@ ExrHeader header_of(std::map<std::string, ExrFile::Attribute> attributes, std::u
   ExrPart& part = header.part;
   part.name = text_of(header, "name");
   part.view = text_of(header, "view");
+  part.views = texts_of(header, "multiView", limits.max_channels);
   part.data = window_of(header, "dataWindow");
   part.display = window_of(header, "displayWindow");
   part.pixel_aspect = pixel_aspect_of(header);
@@ -206,6 +223,27 @@ bool is_structural(std::string_view attribute) {
                                          "deepImageState",
                                          "dwaCompressionLevel"};
   return std::find(std::begin(kNames), std::end(kNames), attribute) != std::end(kNames);
+}
+
+bool describes_content(std::string_view attribute) {
+  constexpr std::string_view kFamilies[] = {"cryptomatte/", "idmanifest/", "limpid/"};
+  constexpr std::string_view kNames[] = {"multiView",
+                                         "idManifest",
+                                         "envmap",
+                                         "wrapmodes",
+                                         "acesImageContainerFlag",
+                                         "BlenderMultiChannel",
+                                         "nuke/full_layer_names",
+                                         "oiio:subimages",
+                                         "oiio:subimagename",
+                                         "oiio:AverageColor",
+                                         "oiio:ConstantColor",
+                                         "oiio:SHA-1",
+                                         "spectralLayoutVersion",
+                                         "textureformat"};
+  const auto begins = [&](std::string_view family) { return attribute.starts_with(family); };
+  return std::any_of(std::begin(kFamilies), std::end(kFamilies), begins) ||
+         std::find(std::begin(kNames), std::end(kNames), attribute) != std::end(kNames);
 }
 
 std::vector<ExrHeader> read_exr_headers(FileStream& stream, const Limits& limits) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,11 @@ inline constexpr std::uint32_t kMultiPartFlag = 0x1000;
 /// Whether an attribute describes how pixels are stored, or shows them (the preview): such ones
 /// belong to one file and are not handed on to another.
 bool is_structural(std::string_view attribute);
+
+/// Whether an attribute tells of channels, parts or pixels of the file that it lies in, and would
+/// be false in a file with others made from it: manifests of cryptomattes, lists of views, what a
+/// host notes of its own layers, sums over pixels, the projection of a whole panorama.
+bool describes_content(std::string_view attribute);
 
 /// One part's header, read and checked by ourselves before OpenEXR sees the file.
 struct ExrHeader {
@@ -41,8 +47,14 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
                        std::uint64_t header_end, std::uint64_t file_size);
 
 /// How many threads to decode a file with that passed the check: as many as OpenEXR has (0: the
-/// calling one alone), or fewer where the limits have no memory for the chunks of all.
+/// calling one alone), or fewer where the limits have no memory for the chunks of all, of all parts
+/// together: OpenEXR keeps those of each part that it has read.
 int threads_for(const std::vector<ExrHeader>& headers, const Limits& limits);
+
+/// Throws Error (without the path) where one thread's chunks of these parts together need more
+/// memory than the limit.
+void check_decoded_parts(const std::vector<ExrHeader>& headers, const std::set<int>& parts,
+                         const Limits& limits);
 
 /// How many chunks the pixels of a part make (tiled: of level 0), which come first in its table.
 std::int64_t chunks_of(const ExrHeader& header);

@@ -202,8 +202,6 @@ TEST(ExrFile, RefusesWhatItCannotRead) {
             path + ": no channel 'h' in part 1 ('beauty'): expected one of F, H, U");
   EXPECT_EQ(error({{2, "H", plane.view()}}), path + ": part 2: expected 0 ... 1");
   EXPECT_EQ(error({{-1, "H", plane.view()}}), path + ": part -1: expected 0 ... 1");
-  EXPECT_EQ(error({{1, "H", plane.view()}, {0, "Z", plane.view()}}),
-            path + ": channels of parts 1 and 0 in one request: expected one part");
   EXPECT_THAT(error({{1, "H", View<float>{}}}), HasSubstr("channel 'H' has no memory"));
   EXPECT_THAT(error_of([&] { file.attributes(5); }), AllOf(StartsWith(path), HasSubstr("part 5")));
   EXPECT_NO_THROW(file.read({}));

@@ -24,8 +24,9 @@ struct ExrChannel {
 
 /// What the header of one part says.
 struct ExrPart {
-  std::string name;  ///< "" where the file has none
-  std::string view;  ///< "left", "right", ... or ""
+  std::string name;                ///< "" where the file has none
+  std::string view;                ///< "left", "right", ... or ""
+  std::vector<std::string> views;  ///< of the attribute multiView, the default one first
   Rect data, display;
   std::string compression;  ///< as in --compression: none rle zips zip piz pxr24 b44 b44a dwaa dwab
   bool tiled = false, deep = false;
@@ -66,10 +67,11 @@ class ExrFile {
   const std::vector<ExrPart>& parts() const;
   const Limits& limits() const;  ///< what it was opened with
 
-  /// Decodes the requested channels, all of one part in one pass; half and uint become float. Views
-  /// that hold whole rows of the data window are decoded in place. Throws Error for an unknown
-  /// channel and for truncated or damaged pixels (never silent black); what was written by then is
-  /// unspecified.
+  /// Decodes the requested channels, of any parts, each part in one pass; half and uint become
+  /// float. Views that hold whole rows of the data window are decoded in place. Throws Error for an
+  /// unknown channel and, before anything is allocated, where channels or the chunks of all parts
+  /// that were ever read need more memory than the limits have; for truncated or damaged pixels
+  /// (never silent black), too, and then what was written is unspecified.
   void read(std::span<const ExrRequest> requests) const;
 
   /// Decodes channels of a deep part (scan-line, or tiled: level 0) and hands them to `sink`, some
