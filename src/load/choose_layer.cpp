@@ -4,6 +4,7 @@
 #include "limpid/load/layers.h"
 
 #include "load/layer_candidates.h"
+#include "load/layer_views.h"
 
 namespace limpid {
 namespace {
@@ -36,19 +37,21 @@ std::string with_part(const LayerGroup& group, const std::string& name) {
 /// One override: `text` is meant for `role`, in these sources.
 class Choosing {
  public:
-  Choosing(const Role& role, std::string_view text, std::span<const LayerSource> sources)
-      : role_(role), text_(text), sources_(sources), groups_(group_layers(sources)) {}
+  Choosing(const Role& role, std::string_view text, std::span<const LayerSource> sources,
+           const std::string& view)
+      : role_(role), text_(text), sources_(sources), groups_(group_layers(sources)), asked_(view) {}
 
   LayerChoice choose() const {
     if (text_.empty()) return whole_file();
     if (std::optional<Candidate> one = named(text_)) return checked(*one);
     const std::vector<std::string_view> names = split(text_, ",");
     if (names.size() == 1) fail_unknown(text_);
-    LayerChoice choice{{}, kReason};
+    LayerChoice choice{{}, kReason, ""};
     for (std::string_view name : names) {
       const std::optional<Candidate> one = channel(name);
       if (!one) fail_unknown(name);
       const LayerSource& source = *one->group->source;
+      if (choice.channels.empty()) choice.view = one->group->view;
       choice.channels.push_back({source.file, source.part, one->channels[0]});
     }
     check_count(names.size());
@@ -62,7 +65,12 @@ class Choosing {
   }
 
   std::optional<Candidate> one_of(const std::vector<Candidate>& candidates) const {
-    const Candidate* one = only_one(role_, subject(), candidates, sources_);
+    std::vector<Candidate> of_one;
+    if (candidates.size() > 1) {
+      of_one = of_view(candidates, asked_.empty() ? default_view(groups_) : asked_);
+    }
+    const Candidate* one =
+        only_one(role_, subject(), of_one.empty() ? candidates : of_one, sources_);
     return one ? std::optional(*one) : std::nullopt;
   }
 
@@ -122,7 +130,7 @@ class Choosing {
   }
 
   LayerChoice whole_file() const {
-    if (std::optional<LayerChoice> found = find_layer(role_, sources_)) return *found;
+    if (std::optional<LayerChoice> found = find_layer(role_, sources_, asked_)) return *found;
     if (std::optional<Candidate> one = one_of(candidates_of(LayerRank::kGiven, role_, groups_))) {
       return choice_of(role_, *one, kReason);
     }
@@ -158,6 +166,11 @@ class Choosing {
       if (!group.path.empty()) known.push_back(group.path);
       if (!group.source->part_name.empty()) known.push_back(group.source->part_name);
       known.insert(known.end(), group.channels.begin(), group.channels.end());
+      for (const std::string& channel : group.channels) {
+        if (const std::string full = with_part(group, channel); !full.empty()) {
+          known.push_back(full);
+        }
+      }
     }
     const std::string word(name);
     throw Error(subject() + ": no channel or layer '" + word + "'; there is " +
@@ -168,13 +181,14 @@ class Choosing {
   std::string_view text_;
   std::span<const LayerSource> sources_;
   std::vector<LayerGroup> groups_;
+  const std::string& asked_;  ///< view, or ""
 };
 
 }  // namespace
 
 LayerChoice choose_layer(const Role& role, std::string_view channels,
-                         std::span<const LayerSource> sources) {
-  return Choosing(role, channels, sources).choose();
+                         std::span<const LayerSource> sources, const std::string& view) {
+  return Choosing(role, channels, sources, view).choose();
 }
 
 }  // namespace limpid

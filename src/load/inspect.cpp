@@ -6,7 +6,7 @@
 
 #include "limpid/core/error.h"
 
-#include "load/layer_names.h"
+#include "load/layer_views.h"
 
 namespace limpid {
 namespace {
@@ -69,6 +69,7 @@ std::string part_text(std::size_t index, const ExrPart& part) {
   if (part.deep) facts.push_back("deep");
   if (part.pixel_aspect != 1) facts.push_back("pixel aspect " + number_text(part.pixel_aspect));
   if (!part.view.empty()) facts.push_back("view " + visible(part.view));
+  if (!part.views.empty()) facts.push_back("views " + visible(join(part.views, " ")));
   const std::string name = part.name.empty() ? "" : " '" + visible(part.name) + "'";
   return "  part " + std::to_string(index) + name + ": " + join(facts) + "\n";
 }
@@ -121,6 +122,28 @@ std::string channels_text(const LayerChoice& choice) {
   return text;
 }
 
+/// "left (used), right"
+std::string views_text(const InspectedViews& views) {
+  std::vector<std::string> names = views.names;
+  if (views.used.empty()) names.insert(names.begin(), "default");
+  for (std::string& name : names) {
+    const bool used = views.used.empty() ? name == "default" : is_same_view(name, views.used);
+    name = visible(name) + (used ? " (used)" : "");
+  }
+  return "views\n  " + join(names) + "\n";
+}
+
+/// "(a.exr)", or "(a.exr, part 1)" where the file has several.
+std::string place_text(const InspectedFile& file, const LayerChoice& choice) {
+  if (file.parts.size() == 1) return "(" + file.name + ")";
+  std::vector<std::string> parts;
+  for (const ChannelRef& ref : choice.channels) {
+    const std::string part = std::to_string(ref.part);
+    if (parts.empty() || parts.back() != part) parts.push_back(part);
+  }
+  return "(" + file.name + (parts.size() == 1 ? ", part " : ", parts ") + join(parts) + ")";
+}
+
 /// A line a text, or the name and then its lines.
 std::string made_text(const std::map<std::string, std::string>& texts) {
   std::string text;
@@ -145,7 +168,8 @@ std::string made_text(const std::map<std::string, std::string>& texts) {
 }  // namespace
 
 std::string inspect_text(std::span<const InspectedFile> files, const LayerChoices& choices,
-                         const std::map<std::string_view, std::string>& problems) {
+                         const std::map<std::string_view, std::string>& problems,
+                         const InspectedViews& views) {
   std::string text;
   for (const InspectedFile& file : files) {
     text += visible(file.name) + "\n";
@@ -153,6 +177,8 @@ std::string inspect_text(std::span<const InspectedFile> files, const LayerChoice
       text += part_text(i, file.parts[i]) + aligned(layer_rows(file.parts[i]), "    ");
     }
   }
+
+  if (!views.names.empty()) text += views_text(views);
 
   std::vector<Row> found, open;
   std::set<int> used;
@@ -163,7 +189,7 @@ std::string inspect_text(std::span<const InspectedFile> files, const LayerChoice
       const LayerChoice& c = choice->second;
       for (const ChannelRef& ref : c.channels) used.insert(ref.file);
       found.push_back({std::string(role.name), channels_text(c),
-                       "(" + files[c.channels[0].file].name + ")", "- " + c.reason});
+                       place_text(files[c.channels[0].file], c), "- " + c.reason});
     } else if (problem != problems.end()) {
       open.push_back({std::string(role.name), problem->second});
     } else {

@@ -83,8 +83,14 @@ std::vector<Candidate> candidates_of(LayerRank rank, const Role& role,
 const Candidate* only_one(const Role& role, const std::string& subject,
                           const std::vector<Candidate>& candidates,
                           std::span<const LayerSource> sources) {
-  if (candidates.size() > 1) fail_ambiguous(role, subject, candidates, sources);
-  return candidates.empty() ? nullptr : &candidates[0];
+  if (candidates.empty()) return nullptr;
+  const auto is_flat = [](const Candidate& c) { return !c.group->source->deep; };
+  const auto flat = std::find_if(candidates.begin(), candidates.end(), is_flat);
+  const auto flat_ones = std::count_if(candidates.begin(), candidates.end(), is_flat);
+  if (candidates.size() > 1 && flat_ones != 1) {
+    fail_ambiguous(role, subject, candidates, sources);
+  }
+  return flat_ones == 1 ? &*flat : &candidates[0];
 }
 
 std::string layer_list(const std::vector<LayerGroup>& groups,
@@ -97,7 +103,9 @@ std::string layer_list(const std::vector<LayerGroup>& groups,
       components.push_back(split_channel(channel).component);
     }
     sort_components(components);
-    const std::string& name = group.path.empty() ? group.source->part_name : group.path;
+    const std::string& part = group.source->part_name;
+    const bool say_part = is_in_other_parts(group.channels[0], *group.source, sources);
+    const std::string name = group.path.empty() ? part : (say_part ? part + "." : "") + group.path;
     const std::string text = join(components, " ");
     texts.push_back(file_prefix(*group.source, sources) +
                     (name.empty() ? text : name + " (" + text + ")"));
@@ -108,7 +116,7 @@ std::string layer_list(const std::vector<LayerGroup>& groups,
 bool is_picture(const Role& role) { return role.sanitise == Sanitise::kColor; }
 
 LayerChoice choice_of(const Role& role, const Candidate& candidate, std::string reason) {
-  LayerChoice choice{{}, std::move(reason)};
+  LayerChoice choice{{}, std::move(reason), candidate.group->view};
   const LayerSource& source = *candidate.group->source;
   for (const std::string& channel : candidate.channels) {
     choice.channels.push_back({source.file, source.part, channel});

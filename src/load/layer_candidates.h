@@ -16,12 +16,16 @@ struct Candidate {
   const LayerRule* rule = nullptr;  ///< null where the user named them
 };
 
+/// The ranks of what is found without being named, strongest first.
+inline constexpr LayerRank kFoundRanks[] = {
+    LayerRank::kOwn, LayerRank::kLayer, LayerRank::kFileName, LayerRank::kBare, LayerRank::kPart};
+
 /// What the rules of one rank find; at most one candidate a layer.
 std::vector<Candidate> candidates_of(LayerRank rank, const Role& role,
                                      const std::vector<LayerGroup>& groups);
 
-/// The one candidate, or null where there is none. Throws Error that begins with `subject` and
-/// lists them where there are several.
+/// The one candidate, or the only one of flat pixels; null where there is none. Throws Error that
+/// begins with `subject` and lists them where there are several.
 const Candidate* only_one(const Role& role, const std::string& subject,
                           const std::vector<Candidate>& candidates,
                           std::span<const LayerSource> sources);

@@ -4,13 +4,14 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <tuple>
 
 #include "limpid/core/error.h"
 
 namespace limpid {
 namespace {
 
-constexpr std::array<std::string_view, 2> kViews = {"left", "right"};
+constexpr std::array<const char*, 2> kViews = {"left", "right"};
 constexpr std::array<std::string_view, 2> kWaterWords = {"water", "surface"};
 constexpr std::array<std::string_view, 11> kComponents = {"r", "g", "b",  "a",  "x", "y",
                                                           "z", "v", "nx", "ny", "nz"};
@@ -79,31 +80,80 @@ std::string with_water(const LayerGroup& group) {
   return group.topic.empty() ? "water" : "water " + group.topic;
 }
 
-/// Whether some convention, or one of that role, knows a layer of this name.
-bool is_known(const LayerGroup& group, std::string_view role = "") {
-  for (const LayerRule& rule : layer_rules()) {
-    if (rule.rank == LayerRank::kLayer && (role.empty() || rule.role == role) &&
-        one_of(with_water(group), rule.layer)) {
-      return true;
+/// A name by which a file tells its views apart.
+struct ViewName {
+  std::string name, lower;
+  std::vector<std::string> words;
+
+  ViewName(const std::string& view) : name(view), lower(lower_case(view)), words(words_of(view)) {}
+};
+using ViewNames = std::vector<ViewName>;
+
+void add_view(ViewNames& views, const std::string& view) {
+  const std::string lower = lower_case(view);
+  const auto same = [&](const ViewName& other) { return other.lower == lower; };
+  if (!view.empty() && std::none_of(views.begin(), views.end(), same)) views.emplace_back(view);
+}
+
+/// Those of attributes, which are spelled as there, and those that need none.
+std::map<int, ViewNames> views_by_file(std::span<const LayerSource> sources) {
+  std::map<int, ViewNames> views;
+  for (const LayerSource& source : sources) {
+    for (const std::string& view : source.views) add_view(views[source.file], view);
+    add_view(views[source.file], source.view);
+  }
+  for (const LayerSource& source : sources) {
+    for (const char* view : kViews) add_view(views[source.file], view);
+  }
+  return views;
+}
+
+void set_view(LayerGroup& group, const ViewName& view) {
+  if (group.view.empty()) group.view = view.name;
+}
+
+void read_words(std::vector<std::string> words, LayerGroup& group) {
+  const auto is_water = [](const std::string& word) { return contains(kWaterWords, word); };
+  if (std::erase_if(words, is_water) > 0) group.water = true;
+  group.topic = join(words, " ");
+  group.named = true;
+}
+
+/// "depth_left": the name of a known layer with a view's behind it or before it.
+bool read_with_view(const std::vector<std::string>& words, const ViewNames& views,
+                    LayerGroup& group) {
+  const auto [topic, water, named] = std::tuple(group.topic, group.water, group.named);
+  for (const ViewName& view : views) {
+    if (view.words.empty() || words.size() <= view.words.size()) continue;
+    const auto length = std::ssize(view.words);
+    for (const auto first : {words.end() - length, words.begin()}) {
+      if (!std::equal(first, first + length, view.words.begin())) continue;
+      std::vector<std::string> rest(words.begin(), first);
+      rest.insert(rest.end(), first + length, words.end());
+      read_words(std::move(rest), group);
+      if (is_known(group)) {
+        set_view(group, view);
+        return true;
+      }
+      std::tie(group.topic, group.water, group.named) = std::tie(topic, water, named);
     }
   }
   return false;
 }
 
-/// Reads the meaning of a dotted name: its last part is the topic, a part "left" or "right" the
+/// Reads the meaning of a dotted name: its last part is the topic, a part that is a view's name the
 /// view, and the water may be named anywhere.
-void read_name(std::string_view name, LayerGroup& group) {
+void read_name(std::string_view name, const ViewNames& views, LayerGroup& group) {
   for (std::string_view part : split(name, "./")) {
     if (part.empty()) continue;
-    if (contains(kViews, lower_case(part))) {
-      if (group.view.empty()) group.view = lower_case(part);
+    const auto view = std::find_if(views.begin(), views.end(),
+                                   [&](const ViewName& v) { return v.lower == lower_case(part); });
+    if (view != views.end()) {
+      set_view(group, *view);
       continue;
     }
-    std::vector<std::string> words = words_of(part);
-    const auto is_water = [](const std::string& word) { return contains(kWaterWords, word); };
-    if (std::erase_if(words, is_water) > 0) group.water = true;
-    group.topic = join(words, " ");
-    group.named = true;
+    const std::vector<std::string> words = words_of(part);
+    if (!read_with_view(words, views, group)) read_words(words, group);
   }
 }
 
@@ -124,6 +174,19 @@ void read_file_name(LayerGroup& group) {
     group.file_rule = &rule;
     return;
   }
+}
+
+/// Whether R G B of a part may be the picture, though no convention knows the part's name.
+bool may_be_picture(const LayerGroup& group) {
+  if (!group.path.empty() || group.source->part_name.empty() || group.water || is_known(group) ||
+      channel_of(group, "R").empty()) {
+    return false;
+  }
+  const std::vector<std::string> words = words_of(group.topic);
+  const auto names_other = [&](const LayerRule& rule) {
+    return rule.rank == LayerRank::kFileName && rule.role.empty() && name_has(words, rule.layer);
+  };
+  return std::none_of(layer_rules().begin(), layer_rules().end(), names_other);
 }
 
 }  // namespace
@@ -186,7 +249,18 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
   }
 }
 
+bool is_known(const LayerGroup& group, std::string_view role) {
+  for (const LayerRule& rule : layer_rules()) {
+    if (rule.rank == LayerRank::kLayer && (role.empty() || rule.role == role) &&
+        one_of(with_water(group), rule.layer)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::vector<LayerGroup> group_layers(std::span<const LayerSource> sources) {
+  std::map<int, ViewNames> views = views_by_file(sources);
   std::vector<LayerGroup> groups;
   std::map<std::array<std::string, 2>, std::size_t> places;  // part and layer -> index in groups
   std::map<int, int> parts_of_file, groups_of_file;
@@ -210,17 +284,20 @@ std::vector<LayerGroup> group_layers(std::span<const LayerSource> sources) {
     }
   }
   for (LayerGroup& group : groups) {
-    const int file = group.source->file;
-    read_name(group.source->part_name, group);
+    const LayerSource& source = *group.source;
+    const int file = source.file;
+    const ViewNames& views_of_file = views[file];
+    read_name(source.part_name, views_of_file, group);
     if (parts_of_file[file] == 1 && group.path.empty() && !is_known(group)) {
       group.named = false;  // the only part of a file may be called anything
       group.topic.clear();
     }
-    read_name(group.path, group);
+    read_name(group.path, views_of_file, group);
     const ChannelName first = split_channel(group.channels[0]);
     if (group.path.empty() && !contains(kComponents, plain_component(first.component))) {
-      read_name(group.channels[0], group);
+      read_name(group.channels[0], views_of_file, group);
     }
+    if (group.view.empty() && !source.views.empty()) group.view = source.views.front();
     if (groups_of_file[file] == 1) read_file_name(group);
   }
   return groups;
@@ -238,6 +315,8 @@ std::vector<std::string> match(const LayerRule& rule, const LayerGroup& group) {
         return group.file_rule == &rule;
       case LayerRank::kBare:
         return !group.named && group.file_rule == nullptr;
+      case LayerRank::kPart:
+        return may_be_picture(group);
       case LayerRank::kGiven:
         return one_of(group.topic, rule.layer);
     }

@@ -38,7 +38,7 @@ struct LayerGroup {
   const LayerSource* source = nullptr;
   std::string path;                      ///< the layer as in the file, "" for loose channels
   std::vector<std::string> channels;     ///< full names, in the file's order
-  std::string view;                      ///< "left", "right" or ""
+  std::string view;                      ///< as views_of() spells it, or ""
   std::string topic;                     ///< words of the name's last part, without the water
   bool named = false;                    ///< whether path, part or channel give a layer's name
   bool water = false;                    ///< whether any name says that this belongs to the water
@@ -47,6 +47,9 @@ struct LayerGroup {
 
 /// `sources` must outlive the groups.
 std::vector<LayerGroup> group_layers(std::span<const LayerSource> sources);
+
+/// Whether a rule knows the layer's name, or that of a layer for the role.
+bool is_known(const LayerGroup& group, std::string_view role = "");
 
 /// The channels that the rule picks from the layer, or none where it does not fit.
 std::vector<std::string> match(const LayerRule& rule, const LayerGroup& group);

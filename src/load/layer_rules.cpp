@@ -33,11 +33,12 @@ constexpr LayerRule kRules[] = {
     {kLayer, "color",          "color|colour",                kPicture,   "Blender's File Output"},
     {kLayer, "color",          "rgba|rgb|beauty",             kPicture,   "Nuke, Arnold, oiiotool"},
     {kLayer, "color",          "c",                           kPicture,   "Karma"},
+    {kLayer, "color",          "main|master",                 kPicture,   "a main part or layer"},
     {kLayer, "color",          "final image",                 kPicture,   "Unreal"},
     {kLayer, "depth",          "depth",                       kLength,    "Blender, Nuke, Natron"},
-    {kLayer, "depth",          "z",                           "Z",        "Arnold"},
+    {kLayer, "depth",          "z",                           "Z|V|Y",    "Arnold"},
     {kLayer, "depth",          "final image movie render queue world depth", kGrayLength, "Unreal"},
-    {kLayer, "depth",          "combined|color|colour|rgba|rgb|beauty|c", "Z", "beside the color"},
+    {kLayer, "depth",          "combined|color|colour|rgba|rgb|beauty|c|main|master", "Z", "beside the color"},
     {kLayer, "shadow",         "shadow",                      kMask,      "Blender"},
     {kLayer, "shadow",         "shadow matte|shadow mask",    kMask,      "Arnold, Karma"},
     {kLayer, "reflection",     "reflection|water reflection", kMirror,    "Blender's File Output"},
@@ -71,6 +72,9 @@ constexpr LayerRule kRules[] = {
 
     {kBare, "color", "", kRgba, "Blender, Nuke, Arnold, Karma, V-Ray, Unreal"},
     {kBare, "depth", "", "Z",   "Blender, Arnold, Karma, V-Ray"},
+
+    {kPart, "color", "", kRgba, "the only one with R G B"},
+    {kPart, "depth", "", "Z",   "beside the color"},
 
     {kGiven, "reflection",     "combined|color|colour|rgba|rgb|beauty|c", kMirror,     "a mirrored picture"},
     {kGiven, "surface_depth",  "depth|z",                                 kGrayLength, "the water alone"},

@@ -10,6 +10,7 @@ enum class LayerRank {
   kLayer,     ///< the last word of a layer's path, or of a part's name, is a known one
   kFileName,  ///< a file of one kind of channel whose name has the words
   kBare,      ///< channels without any layer
+  kPart,      ///< R G B without a layer, in a part of an unknown name
   kGiven,     ///< only in a file that the user gave for the role
 };
 

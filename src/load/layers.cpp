@@ -1,12 +1,22 @@
 #include "limpid/load/layers.h"
 
 #include "load/layer_candidates.h"
+#include "load/layer_views.h"
 
 namespace limpid {
 namespace {
 
-constexpr LayerRank kRanks[] = {LayerRank::kOwn, LayerRank::kLayer, LayerRank::kFileName,
-                                LayerRank::kBare};
+/// Views in the order in which a role is looked for in them; the empty name is what names none.
+std::vector<std::string> order_of_views(const std::vector<LayerGroup>& groups,
+                                        const std::string& asked) {
+  std::vector<std::string> order{asked.empty() ? default_view(groups) : asked};
+  if (!order.front().empty()) {
+    order.push_back("");
+  } else {
+    for (const std::string& view : views_of(groups)) order.push_back(view);
+  }
+  return order;
+}
 
 std::string reason_of(const Candidate& candidate) {
   const LayerGroup& group = *candidate.group;
@@ -25,28 +35,38 @@ std::vector<LayerSource> layer_sources(int file, const std::string& file_name,
   std::vector<LayerSource> sources;
   for (const ExrPart& part : parts) {
     LayerSource source{file, static_cast<int>(sources.size()), file_name, part.name, part.view, {}};
+    source.views = part.views;
+    source.deep = part.deep;
     for (const ExrChannel& channel : part.channels) source.channels.push_back(channel.name);
     sources.push_back(std::move(source));
   }
   return sources;
 }
 
-std::optional<LayerChoice> find_layer(const Role& role, std::span<const LayerSource> sources) {
+std::optional<LayerChoice> find_layer(const Role& role, std::span<const LayerSource> sources,
+                                      const std::string& view) {
   const std::vector<LayerGroup> groups = group_layers(sources);
-  for (LayerRank rank : kRanks) {
-    const std::vector<Candidate> candidates = candidates_of(rank, role, groups);
-    if (const Candidate* one = only_one(role, std::string(role.name), candidates, sources)) {
-      return choice_of(role, *one, reason_of(*one));
+  std::vector<std::vector<Candidate>> found;  // strongest first
+  for (LayerRank rank : kFoundRanks) found.push_back(candidates_of(rank, role, groups));
+  for (const std::string& searched : order_of_views(groups, view)) {
+    for (const std::vector<Candidate>& all : found) {
+      const std::vector<Candidate> candidates = of_view(all, searched);
+      if (const Candidate* one = only_one(role, std::string(role.name), candidates, sources)) {
+        return choice_of(role, *one, reason_of(*one));
+      }
     }
   }
   return std::nullopt;
 }
 
-LayerChoices find_layers(std::span<const LayerSource> sources, const LayerOverrides& decided) {
+LayerChoices find_layers(std::span<const LayerSource> sources, const LayerOverrides& decided,
+                         const std::string& view) {
   LayerChoices choices;
   for (const Role& role : roles()) {
     if (decided.contains(std::string(role.name))) continue;
-    if (std::optional<LayerChoice> choice = find_layer(role, sources)) {
+    const auto color = choices.find("color");
+    const bool of_color = view.empty() && color != choices.end();
+    if (auto choice = find_layer(role, sources, of_color ? color->second.view : view)) {
       choices[role.name] = std::move(*choice);
     }
   }

@@ -12,6 +12,7 @@
 #include "limpid/load/scene_file.h"
 
 #include "load/layer_candidates.h"
+#include "load/layer_views.h"
 #include "load/plane_budget.h"
 #include "load/plate_deep.h"
 #include "load/plate_file.h"
@@ -86,13 +87,19 @@ struct Plate::State {
     return sources;
   }
 
+  std::vector<LayerSource> all_sources() const {
+    return sources_of(0, static_cast<int>(files.size()));
+  }
+
   /// The role as the request decides it, or as it is found among the request's files.
   std::optional<LayerChoice> resolve(const Role& role, const PlateRequest& request) {
     const int searched = static_cast<int>(request.files.size());
+    const LayerChoice* color = choice("color");
+    const std::string view = request.view.empty() && color ? color->view : request.view;
     const auto decided = [&](const PlateName& name) {
-      if (name.file.empty()) return choose_layer(role, name.channels, sources_of(0, searched));
-      const int index = index_of_file(name.file);
-      return choose_layer(role, name.channels, sources_of(index, index + 1));
+      const int index = name.file.empty() ? 0 : index_of_file(name.file);
+      const int end = name.file.empty() ? searched : index + 1;
+      return choose_layer(role, name.channels, sources_of(index, end), view);
     };
     const std::string name(role.name);
     if (const auto found = request.layers.find(name); found != request.layers.end()) {
@@ -104,7 +111,16 @@ struct Plate::State {
       named = named | role.planes();
       return decided(split_plate(found->second));
     }
-    return find_layer(role, sources_of(0, searched));
+    return find_layer(role, sources_of(0, searched), view);
+  }
+
+  void check_view(const std::string& asked) const {
+    const std::vector<std::string> views = views_of(all_sources());
+    const auto is_asked = [&](const std::string& view) { return is_same_view(view, asked); };
+    if (asked.empty() || std::any_of(views.begin(), views.end(), is_asked)) return;
+    throw Error("view '" + asked + "': expected " +
+                (views.empty() ? "none, for no plate has views" : "one of " + join(views)) +
+                did_you_mean(asked, views));
   }
 
   /// Whether the plane is one that the deep samples of that part give.
@@ -157,7 +173,16 @@ struct Plate::State {
         problems.emplace(role.name, error.what());
       }
     }
+    check_view(request.view);
     add_deep_below(request);
+  }
+
+  InspectedViews views(const std::string& asked) const {
+    const std::vector<LayerSource> sources = all_sources();
+    const LayerChoice* color = choice("color");
+    return {views_of(sources), !asked.empty() ? asked
+                               : color        ? color->view
+                                              : default_view(sources)};
   }
 };
 
@@ -198,7 +223,7 @@ std::string Plate::inspect(const PlateRequest& request) {
   for (const PlateFile& file : state.files) {
     files.push_back({file.path.string(), file.parts, file.made()});
   }
-  return inspect_text(files, state.choices, state.problems);
+  return inspect_text(files, state.choices, state.problems, state.views(request.view));
 }
 
 PlaneSet Plate::planes() const {
@@ -248,7 +273,7 @@ std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
 }
 
 void Plate::refuse_without(std::string_view role) const {
-  const auto sources = state_->sources_of(0, static_cast<int>(state_->files.size()));
+  const std::vector<LayerSource> sources = state_->all_sources();
   throw Error("no " + std::string(role) + " found; there is " +
               layer_list(group_layers(sources), sources) + "; name it with --layer " +
               std::string(role) + "=LAYER");
@@ -257,22 +282,34 @@ void Plate::refuse_without(std::string_view role) const {
 std::string Plate::inputs_text(PlaneSet wanted) const {
   wanted = state_->read_for(wanted);
   std::map<int, std::string> hashes;
+  const auto hash_of_file = [&](int file) -> const std::string& {
+    std::string& hash = hashes[file];
+    if (hash.empty()) hash = state_->files[static_cast<std::size_t>(file)].content_hash();
+    return hash;
+  };
   std::string text;
   for (const Role& role : roles()) {
     const LayerChoice* choice = state_->choice(role.name);
     if (!choice) continue;
-    std::vector<std::string> channels;
+    std::vector<ChannelRef> refs;
     for (std::size_t i = 0; i < choice->channels.size(); ++i) {
       if (wanted.has(plane_after(role.first, static_cast<int>(i)))) {
-        channels.push_back(toml_text(choice->channels[i].name));
+        refs.push_back(choice->channels[i]);
       }
     }
-    if (channels.empty()) continue;
-    const ChannelRef& ref = choice->channels.front();
-    std::string& hash = hashes[ref.file];
-    if (hash.empty()) hash = state_->files[static_cast<std::size_t>(ref.file)].content_hash();
-    text += std::string(role.name) + " = {file = \"" + hash +
-            "\", part = " + std::to_string(ref.part) + ", channels = [" + join(channels) + "]}\n";
+    if (refs.empty()) continue;
+    std::vector<std::string> inputs;  // one for each run of channels of one part
+    for (std::size_t i = 0; i < refs.size();) {
+      const ChannelRef& first = refs[i];
+      std::vector<std::string> channels;
+      for (; i < refs.size() && refs[i].file == first.file && refs[i].part == first.part; ++i) {
+        channels.push_back(toml_text(refs[i].name));
+      }
+      inputs.push_back("{file = \"" + hash_of_file(first.file) + "\", part = " +
+                       std::to_string(first.part) + ", channels = [" + join(channels) + "]}");
+    }
+    const std::string input = inputs.size() == 1 ? inputs[0] : "[" + join(inputs) + "]";
+    text += std::string(role.name) + " = " + input + "\n";
   }
   return text;
 }

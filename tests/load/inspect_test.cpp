@@ -90,8 +90,8 @@ reflection_shadow.exr
   part 0: 480x270, zip, scan lines
     (no layer)  Y  half
 found
-  color  R G B A  (stereo.exr)  - part 'beauty' (Nuke, Arnold, oiiotool)
-  depth  Z        (stereo.exr)  - part 'beauty' (beside the color)
+  color  R G B A  (stereo.exr, part 0)  - part 'beauty' (Nuke, Arnold, oiiotool)
+  depth  Z        (stereo.exr, part 0)  - part 'beauty' (beside the color)
 not found
   shadow            visibility of the sun: 1 lit, 0 in shadow
   reflection        what a flat mirror in the water plane shows at each pixel
@@ -105,6 +105,22 @@ not found
 not used
   reflection_shadow.exr
 )");
+}
+
+TEST(Inspect, ViewsAndPartsThatAreUsed) {
+  ExrPart color = part({4, 4}, {"B", "G", "R", "right.B", "right.G", "right.R"}, {});
+  color.views = {"left", "right"};
+  const ExrPart depth = part({4, 4}, {}, {"Z"});
+  const std::vector parts = {color, depth};
+  LayerChoices choices;
+  choices["color"] = {{{0, 0, "R"}, {0, 0, "G"}, {0, 1, "Z"}}, "as asked for", "left"};
+  const std::string text = inspect_text(std::vector<InspectedFile>{{"s.exr", parts}}, choices, {},
+                                        {{"left", "right"}, "Left"});
+  EXPECT_THAT(text, HasSubstr("part 0: 4x4, zip, scan lines, views left right\n"));
+  EXPECT_THAT(text, HasSubstr("\nviews\n  left (used), right\nfound\n"
+                              "  color  R G Z  (s.exr, parts 0, 1)  - as asked for\n"));
+  EXPECT_THAT(inspect_text(std::vector<InspectedFile>{{"s.exr", parts}}, {}, {}, {{"right"}, ""}),
+              HasSubstr("\nviews\n  default (used), right\n"));
 }
 
 TEST(Inspect, ARoleThatCouldNotBeDecidedShowsWhy) {

@@ -213,6 +213,40 @@ TEST(FindLayers, PartNamesAreLayers) {
             "surface_normal: #3:X #3:Y #3:Z\n");
 }
 
+TEST(FindLayers, DepthOfAPartByAnyNameOfItsChannel) {
+  for (const std::string part : {"Z", "depth", "Depth"}) {
+    for (const std::string channel : {"Z", "Y", "depth", "depth.Z"}) {
+      EXPECT_EQ(
+          found_in({source(0, "a.exr", kRgba, "rgba"), source(0, "a.exr", {channel}, part, 1)}),
+          "color: R G B A\ndepth: #1:" + channel + "\n")
+          << part;
+    }
+  }
+}
+
+TEST(FindLayers, TheOnlyPartWithAPictureMayBeCalledAnything) {
+  const Names rgbaz = {"A", "B", "G", "R", "Z"};
+  EXPECT_EQ(found_in({source(0, "a.exr", rgbaz, "main"), source(0, "a.exr", kRgb, "diffuse", 1)}),
+            "color: R G B A\ndepth: Z\n");
+  EXPECT_EQ(
+      found_in(
+          {source(0, "a.exr", rgbaz, "shot010"), source(0, "a.exr", {"X", "Y", "Z"}, "position", 1),
+           source(0, "a.exr", kRgb, "normals", 2), source(0, "a.exr", kRgb, "water beauty", 3)}),
+      "color: R G B A\ndepth: Z\n");
+  EXPECT_EQ(found_in({source(0, "a.exr", kRgb, "shot010"), source(0, "a.exr", {"Z"}, "mist", 1)}),
+            "color: R G B\n");
+  EXPECT_EQ(found_in({source(0, "a.exr", rgbaz, "one"), source(0, "a.exr", kRgb, "two", 1)}),
+            "color: 2 choices fit equally well: one, two; say which, as in --layer color=one");
+}
+
+TEST(FindLayers, FlatPixelsWinOverDeepSamples) {
+  LayerSource deep = source(0, "a.exr", {"A", "B", "G", "R", "Z"}, "samples");
+  deep.deep = true;
+  const LayerSource flat = source(0, "a.exr", {"A", "B", "G", "R", "Z"}, "pixels", 1);
+  EXPECT_EQ(found_in({deep, flat}), "color: #1:R #1:G #1:B #1:A\ndepth: #1:Z\n");
+  EXPECT_EQ(found_in({deep}), "color: R G B A\ndepth: Z\n");
+}
+
 TEST(FindLayers, DepthBesideTheColorOfAPart) {
   EXPECT_EQ(found_in({source(0, "a.exr", {"A", "B", "G", "R", "Z"}, "rgba"),
                       source(0, "a.exr", {"B", "G", "R"}, "diffuse", 1)}),
@@ -362,20 +396,6 @@ TEST(FindLayers, SeveralViewLayersAreAmbiguous) {
             "--layer color=Near.Combined");
 }
 
-TEST(FindLayers, SeveralViewsAreAmbiguous) {
-  EXPECT_EQ(found({"ViewLayer.Depth.left.Z", "ViewLayer.Depth.right.Z"}),
-            "depth: 2 choices fit equally well (views left, right): ViewLayer.Depth.left.Z, "
-            "ViewLayer.Depth.right.Z; say which, as in --layer depth=ViewLayer.Depth.left.Z");
-  EXPECT_EQ(found({"B", "G", "R", "right.B", "right.G", "right.R"}),
-            "color: 2 choices fit equally well (views default, right): R,G,B, right; say which, "
-            "as in --layer color=R,G,B");
-  EXPECT_EQ(found_in({source(0, "s.exr", kRgb, "rgba.left", 0, "left"),
-                      source(0, "s.exr", kRgb, "rgba.right", 1, "right")}),
-            "color: 2 choices fit equally well (views left, right): rgba.left, rgba.right; say "
-            "which, as in --layer color=rgba.left");
-  EXPECT_EQ(found({"ViewLayer.Depth.left.Z"}), "depth: ViewLayer.Depth.left.Z\n");
-}
-
 TEST(FindLayers, SeveralFilesAreAmbiguous) {
   EXPECT_EQ(found_in({source(0, "a.exr", {"Z"}), source(1, "b.exr", {"Z"})}),
             "depth: 2 choices fit equally well: a.exr:Z, b.exr:Z; say which, as in --layer "
@@ -398,16 +418,20 @@ TEST(FindLayers, WhatTheUserDecidedIsNotLookedFor) {
 }
 
 TEST(FindLayers, EveryCandidateOfAnAmbiguityCanBeChosenByItsText) {
-  const std::vector<LayerSource> sources = {
-      source(0, "s.exr", {"B", "G", "R", "depth.Z"}, "left", 0, "left"),
-      source(0, "s.exr", {"B", "G", "R", "depth.Z"}, "right", 1, "right")};
-  EXPECT_THAT(found_in(sources), HasSubstr(": left, right; say which"));
-  EXPECT_EQ(chosen("color", "left", sources), "color: R G B\n");
-  EXPECT_EQ(chosen("color", "right", sources), "color: #1:R #1:G #1:B\n");
-  EXPECT_THAT(chosen("depth", "", sources), HasSubstr(": left.depth.Z, right.depth.Z; say which"));
-  EXPECT_EQ(chosen("depth", "left.depth.Z", sources), "depth: depth.Z\n");
-  EXPECT_EQ(chosen("depth", "right.depth.Z", sources), "depth: #1:depth.Z\n");
-  EXPECT_EQ(chosen("color", "right.R,right.G,right.B", sources), "color: #1:R #1:G #1:B\n");
+  const Names channels = {"A.Depth.Z", "View.rgba.B", "View.rgba.G", "View.rgba.R"};
+  const std::vector<LayerSource> sources = {source(0, "s.exr", channels, "near", 0),
+                                            source(0, "s.exr", channels, "far", 1)};
+  EXPECT_THAT(found_in(sources), HasSubstr(": near.View.rgba, far.View.rgba; say which"));
+  EXPECT_EQ(chosen("color", "near.View.rgba", sources),
+            "color: View.rgba.R View.rgba.G View.rgba.B\n");
+  EXPECT_EQ(chosen("color", "far.View.rgba", sources),
+            "color: #1:View.rgba.R #1:View.rgba.G #1:View.rgba.B\n");
+  EXPECT_THAT(chosen("depth", "", sources),
+              HasSubstr(": near.A.Depth.Z, far.A.Depth.Z; say which"));
+  EXPECT_EQ(chosen("depth", "near.A.Depth.Z", sources), "depth: A.Depth.Z\n");
+  EXPECT_EQ(chosen("depth", "far.A.Depth.Z", sources), "depth: #1:A.Depth.Z\n");
+  EXPECT_THAT(chosen("depth", "mist", sources),
+              HasSubstr("there is near.A.Depth (Z), near.View.rgba (R G B), far.A.Depth (Z), "));
 }
 
 TEST(LayerSources, HaveTheNamesOfTheParts) {

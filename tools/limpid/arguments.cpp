@@ -14,7 +14,7 @@ namespace {
 constexpr int kWrongUsage = 2;
 
 void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& scene,
-                std::vector<std::string>& layers) {
+                std::vector<std::string>& layers, std::string& view) {
   verb.add_option("plates", plates, "EXR files with the buffers of one frame")
       ->option_text("PLATE...");
   verb.add_option("--scene", scene, "Scene file: plates, camera, water, sun")->option_text("FILE");
@@ -24,6 +24,9 @@ void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& s
           "(repeatable)")
       ->option_text("ROLE=LAYER")
       ->allow_extra_args(false);
+  verb.add_option("--view", view,
+                  "Which view of a plate with several, as left or right (default: the first)")
+      ->option_text("NAME");
 }
 
 void add_time(CLI::App& verb, WaterOptions& a) {
@@ -104,7 +107,7 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
 }
 
 void add_composite(CLI::App& verb, CompositeArguments& a) {
-  add_plates(verb, a.plates, a.scene, a.layers);
+  add_plates(verb, a.plates, a.scene, a.layers, a.view);
   verb.add_option("--depth-kind", a.depth_kind,
                   "What depth planes hold: eye, ray, inverse, normalised, device (default: the "
                   "scene's, or eye)")
@@ -323,7 +326,7 @@ Parsed parse(int argc, char** argv) {
 
   CLI::App& inspect =
       *app.add_subcommand("inspect", "Say what is in plates and what would be used");
-  add_plates(inspect, a.inspect.plates, a.inspect.scene, a.inspect.layers);
+  add_plates(inspect, a.inspect.plates, a.inspect.scene, a.inspect.layers, a.inspect.view);
 
   CLI::App& operators = *app.add_subcommand("operators", "The chain and its parameters");
   operators.add_option("name", a.operators.name, "One operator")->option_text("NAME");

@@ -36,7 +36,7 @@ struct FrameOptions {
 struct CompositeArguments {
   std::vector<std::string> plates, layers;
   bool measure = false;  ///< `plan` runs it, too
-  std::string scene, depth_kind;
+  std::string scene, view, depth_kind;
   std::optional<double> depth_nothing;
   FrameOptions frames;
   WaterOptions water;
@@ -62,7 +62,7 @@ struct TruthArguments {
 
 struct InspectArguments {
   std::vector<std::string> plates;
-  std::string scene;
+  std::string scene, view;
   std::vector<std::string> layers;
 };
 

@@ -50,6 +50,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   job.plate.files.assign(a.plates.begin(), a.plates.end());
   job.plate.named = job.scene.plates;
   job.plate.layers = layer_overrides(a.layers);
+  job.plate.view = a.view;
   if (a.plates.empty() && job.plate.named.empty() && job.plate.layers.empty()) {
     throw Error("nothing to put water into: give plates, or a scene that names some",
                 Fault::kUsage);
@@ -156,6 +157,7 @@ int inspect_verb(const InspectArguments& a, const CommonArguments& common) {
   request.limits = limits_of(common);
   request.files.assign(a.plates.begin(), a.plates.end());
   request.layers = layer_overrides(a.layers);
+  request.view = a.view;
   if (!a.scene.empty()) request.named = load_scene(a.scene).plates;
   if (request.files.empty() && request.named.empty() && request.layers.empty()) {
     throw Error("nothing to inspect: give plates, or a scene that names some", Fault::kUsage);

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limpid/load/layers.h"
 
@@ -15,11 +16,19 @@ struct InspectedFile {
   std::map<std::string, std::string> made = {};  ///< what it says of how limpid made it, by name
 };
 
+/// The views of all files, and the one whose channels are used; "" is the one without a name.
+struct InspectedViews {
+  std::vector<std::string> names = {};
+  std::string used = {};
+};
+
 /// What `limpid inspect` prints: each part of each file with its windows, storage and layers (a
-/// line for each layer and sample type), then where each role comes from and why. `problems` has
+/// line for each layer and sample type), the views if there are any, then where each role comes
+/// from and why. `problems` has
 /// the sentence of the Error for roles that could not be decided. Last what files say of how they
 /// were made. Control characters in names and texts of the files appear as '?'.
 std::string inspect_text(std::span<const InspectedFile> files, const LayerChoices& choices,
-                         const std::map<std::string_view, std::string>& problems = {});
+                         const std::map<std::string_view, std::string>& problems = {},
+                         const InspectedViews& views = {});
 
 }  // namespace limpid

@@ -25,6 +25,8 @@ struct LayerSource {
   std::string part_name;
   std::string view;
   std::vector<std::string> channels;
+  std::vector<std::string> views = {};  ///< of a part that holds several, see ExrPart::views
+  bool deep = false;
 };
 
 /// Where a role's planes come from and why.
@@ -32,7 +34,8 @@ struct LayerChoice {
   /// One per plane of the role, in the role's order. Color without alpha has three. A picture of
   /// one channel feeds all three of R G B: its channel is there three times.
   std::vector<ChannelRef> channels;
-  std::string reason;  ///< one phrase, for `inspect`, e.g. "layer 'ViewLayer.Depth' (Blender)"
+  std::string reason;     ///< one phrase, for `inspect`, e.g. "layer 'ViewLayer.Depth' (Blender)"
+  std::string view = {};  ///< that the channels belong to; "" where they name none
 };
 
 /// What the user said: role name -> "FILE:CHANNELS", "FILE" or "CHANNELS" (the text after
@@ -46,24 +49,41 @@ using LayerChoices = std::map<std::string_view, LayerChoice>;
 std::vector<LayerSource> layer_sources(int file, const std::string& file_name,
                                        std::span<const ExrPart> parts);
 
+/// The views of stereo and the like, each once: first those of the attributes `multiView` and
+/// `view`, then those that parts and layers are called after ("rgba_left", "right.R"), which are
+/// left and right alone. Channels that name no view are those of the default view where the
+/// attribute `multiView` says which that is; else they belong to all views.
+std::vector<std::string> views_of(std::span<const LayerSource> sources);
+
+/// The view that is taken where none is asked for: the first that `multiView` lists; else that of
+/// the color, "" where a color names none; of several colors that of the first one.
+std::string default_view(std::span<const LayerSource> sources);
+
 /// Finds the channels of a role by the conventions of Blender, Nuke, Natron, Arnold, Karma, V-Ray,
 /// and our own plates (src/load/layer_rules.cpp lists them). Our own names win over layers and
 /// parts with a known name, those over files with a telling name, those over bare channels. Letter
 /// case does not count. Layers of the water never feed a role of the dry scene, nor the other way
-/// round. Empty when nothing fits. Throws Error that lists the candidates when two fit equally
-/// well, and names the flag (`--layer depth=ViewLayer.Depth.Z`) that decides.
-std::optional<LayerChoice> find_layer(const Role& role, std::span<const LayerSource> sources);
+/// round. Of several views it is `view`, and what names no view where that one has nothing for the
+/// role; "" is default_view(). Of flat and deep samples that fit equally well it is the flat ones.
+/// Empty when nothing fits. Throws Error that lists the candidates when two fit equally well, and
+/// names the flag (`--layer depth=ViewLayer.Depth.Z`) that decides.
+std::optional<LayerChoice> find_layer(const Role& role, std::span<const LayerSource> sources,
+                                      const std::string& view = "");
 
-/// find_layer() for every role but those that the user has decided.
-LayerChoices find_layers(std::span<const LayerSource> sources, const LayerOverrides& decided = {});
+/// find_layer() for every role but those that the user has decided, of one view: `view`, or that of
+/// the color.
+LayerChoices find_layers(std::span<const LayerSource> sources, const LayerOverrides& decided = {},
+                         const std::string& view = "");
 
 /// The channels meant by an override's channel part: a full channel name ("ViewLayer.Depth.Z"), a
 /// list ("R,G,B"), a layer or part ("ViewLayer.Depth", "depth"), or "" for what of these sources
-/// fits the role best, where a file given for the water may use the names of a dry scene. A name
-/// may leave out its beginning ("Depth.Z") and its letter case while it stays clear. Throws Error
-/// that lists what there is, with the nearest name, when it fits nothing, and one that says how
-/// many channels the role needs when their number is wrong.
+/// fits the role best, where a file given for the water may use the names of a dry scene. A
+/// channel or layer may have its part's name in front ("rgba.left.R"). A name may leave out its
+/// beginning ("Depth.Z") and its letter case while it stays clear; a name that several views have
+/// means that of `view`, "" as in find_layer(). Throws Error that lists what there is, with the
+/// nearest name, when it fits nothing, and one that says how many channels the role needs when
+/// their number is wrong.
 LayerChoice choose_layer(const Role& role, std::string_view channels,
-                         std::span<const LayerSource> sources);
+                         std::span<const LayerSource> sources, const std::string& view = "");
 
 }  // namespace limpid

@@ -25,7 +25,10 @@ struct PlateRequest {
   /// role -> "FILE:CHANNELS", "FILE", "CHANNELS" of `files`, or "none" to leave the role out. Wins
   /// over both.
   LayerOverrides layers;
-  Limits limits;
+  /// Of stereo and the like: that of every role, by its name in any letter case. "": the color's,
+  /// which is then that of the default view (layers.h).
+  std::string view = {};
+  Limits limits = {};
 };
 
 /// The files that Plate::open() of this request opens, each once, in no particular order. A layer
@@ -54,7 +57,7 @@ struct LoadedPlate {
 class Plate {
  public:
   /// Throws Error: a file that cannot be opened, no color (the list of what there is), two
-  /// candidates, display windows that differ.
+  /// candidates, a view that no file has (the list of views), display windows that differ.
   static Plate open(const PlateRequest& request);
   /// What `limpid inspect` prints. Roles that cannot be decided are told, not thrown.
   static std::string inspect(const PlateRequest& request);
@@ -67,9 +70,10 @@ class Plate {
   PlaneSet named_planes() const;
   Rect display() const;
   double pixel_aspect() const;
-  /// From the attributes of the file that has the color, see exr_camera.h.
+  /// From the attributes of the part that has the color (its first channel), see exr_camera.h:
+  /// parts of other views have other cameras.
   std::optional<Camera> camera() const;
-  /// From the attribute limpid/scene of that file, as `limpid render` writes it; empty where there
+  /// From the attribute limpid/scene of that part, as `limpid render` writes it; empty where there
   /// is none.
   SceneFile scene() const;
   bool has_scene() const;
@@ -79,7 +83,8 @@ class Plate {
   [[noreturn]] void refuse_without(std::string_view role) const;
 
   /// What read() of these planes goes by besides scene and depth, as TOML: for each role that has
-  /// one of them, the hash of the file's bytes (ExrFile::content_hash), the part and the channels.
+  /// one of them, the hash of the file's bytes (ExrFile::content_hash), the part and the channels;
+  /// a list of such where its channels lie in several parts.
   /// No names of files, nor where they lie: the same text stands for the same planes. Reads the
   /// files whole. Throws Error when that fails.
   std::string inputs_text(PlaneSet wanted) const;
