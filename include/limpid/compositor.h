@@ -61,7 +61,8 @@ struct HostFrame {
 /// Where a host wants its picture, as in Target: float or half, with any strides but 0. What there
 /// is must cover the pixels of the display window that have color; all else is left alone. It may
 /// lie over planes of the frame, in place: these are copied first. No two of its channels may share
-/// a byte, nor one with a texture. Halves take the nearest value, 65520 and above become infinite.
+/// a byte, nor one with a texture. Halves take the nearest value, finite ones beyond 65504 that
+/// one.
 struct HostPicture {
   std::array<HostOutput, 3> color;
   HostOutput alpha;  ///< may be absent

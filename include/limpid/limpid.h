@@ -234,9 +234,9 @@ LIMPID_API limpid_status limpid_run(limpid_compositor* compositor, const limpid_
                                     const limpid_picture* picture);
 
 /** The look as a TOML text; of the last frame, what ran and why, a line an operator, and how many
- * values were replaced because they meant nothing, as in "color 4, depth 2". All write at most
- * size - 1 bytes and a 0, and return how long the whole text is, without that 0; 0 where there is
- * none. */
+ * values were replaced because they meant nothing, as in "color 3 NaN 1 inf, depth 2 NaN".
+ * All write at most size - 1 bytes and a 0, and return how long the whole text is, without that 0;
+ * 0 where there is none. */
 LIMPID_API size_t limpid_look_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_replaced_text(const limpid_compositor* compositor, char* text,

@@ -6,7 +6,8 @@ namespace limpid {
 
 /// Half floats, a run of pixels at a time, as compiled for one instruction set; strides of halves
 /// count bytes. Every half is a float; floats are rounded to the nearest half (even, where two are
-/// as near), 65520 and above to infinity. NaN stays NaN.
+/// as near), finite ones beyond the largest half to that one. NaN and infinities stay what they
+/// are.
 struct HalfTarget {
   void (*widen)(const std::byte* halves, std::ptrdiff_t stride, float* floats, int count);
   void (*narrow)(const float* floats, std::byte* halves, std::ptrdiff_t stride, int count);

@@ -1,5 +1,6 @@
 // Compiled once for each instruction set, as run/lanes_target.cpp is: those with an instruction for
 // halves use it.
+#include <cfloat>
 #include <cstdint>
 #include <cstring>
 
@@ -12,6 +13,8 @@
 namespace limpid::HWY_NAMESPACE {
 namespace {
 
+constexpr float kLargest = 65504, kLargestFloat = FLT_MAX;
+
 void widen(const std::byte* halves, std::ptrdiff_t stride, float* floats, int count) {
   for (int i = 0; i < count; ++i) {
     std::uint16_t bits;
@@ -22,7 +25,10 @@ void widen(const std::byte* halves, std::ptrdiff_t stride, float* floats, int co
 
 void narrow(const float* floats, std::byte* halves, std::ptrdiff_t stride, int count) {
   for (int i = 0; i < count; ++i) {
-    const std::uint16_t bits = imath_float_to_half(floats[i]);
+    const float value = floats[i];
+    const bool high = value > kLargest && value <= kLargestFloat;
+    const bool low = value < -kLargest && value >= -kLargestFloat;
+    const std::uint16_t bits = imath_float_to_half(high ? kLargest : low ? -kLargest : value);
     std::memcpy(halves + i * stride, &bits, sizeof bits);
   }
 }

@@ -72,7 +72,7 @@ struct EnteredPlanes::Entry {
     way.watched = way.copied = false;
     way.window = {};
     way.wrong = false;
-    way.replaced = 0;
+    way.nan = way.inf = 0;
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = plane(role, i);
       if (!view) continue;
@@ -121,7 +121,7 @@ struct EnteredPlanes::Entry {
 
   void copy(const Role& role, int y0, int y1) const {
     std::array<View<float>, 4> band;
-    std::int64_t replaced = 0;
+    Replaced replaced;
     for (int i = 0; i < role.count; ++i) {
       const HostInput from = plane(role, i);
       if (!from) continue;
@@ -138,7 +138,9 @@ struct EnteredPlanes::Entry {
         const bool read_anew = depth.kind != DepthKind::kEye || depth.nothing;
         if (!rules.sane || read_anew) replaced += make_eye_depth(rows, depth);
       } else if (!rules.sane) {
-        if (role.sanitise == Sanitise::kColor) replaced += sanitise_color(rows);
+        if (role.sanitise == Sanitise::kColor) {
+          replaced += sanitise_color(rows, largest_of(plane_after(role.first, i)));
+        }
         if (role.sanitise == Sanitise::kShadow) replaced += sanitise_shadow(rows);
         if (role.sanitise == Sanitise::kMask) replaced += sanitise_mask(rows);
       }
@@ -146,7 +148,8 @@ struct EnteredPlanes::Entry {
     if (role.sanitise == Sanitise::kNormal && !rules.sane && band[0] && band[1] && band[2]) {
       replaced += sanitise_normal(band[0], band[1], band[2], rules.up);
     }
-    way(role).replaced.fetch_add(replaced, std::memory_order_relaxed);
+    way(role).nan.fetch_add(replaced.nan, std::memory_order_relaxed);
+    way(role).inf.fetch_add(replaced.inf, std::memory_order_relaxed);
   }
 
   template <bool Way::*kGoes, void (Entry::*kStep)(const Role&, int, int) const>
@@ -180,7 +183,7 @@ SanitiseCounts EnteredPlanes::enter(const HostPlanes& host, PlaneSet wanted,
 
   SanitiseCounts counts;
   for (const Role& role : roles()) {
-    counts.of(role) = entry.way(role).replaced;
+    counts.of(role) = {entry.way(role).nan, entry.way(role).inf};
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = entry.plane(role, i);
       const int index = index_of(plane_after(role.first, i));

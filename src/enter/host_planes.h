@@ -43,7 +43,7 @@ class EnteredPlanes {
     bool watched = false, copied = false;
     Rect window;  ///< of all its planes together
     std::atomic<bool> wrong = false;
-    std::atomic<std::int64_t> replaced = 0;
+    std::atomic<std::int64_t> nan = 0, inf = 0;  ///< that were replaced
   };
 
   std::array<Plane, kPlaneCount> planes_;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -35,30 +34,32 @@ void for_each_insane(const View<float>& plane, const SaneRange& range, Fn&& fn) 
   }
 }
 
-/// Applies convert(value, x, y) to what is not "nothing hit"; returns how many values, or what they
-/// were converted to, were NaN or -inf.
+void count(Replaced& replaced, float value) { ++(std::isnan(value) ? replaced.nan : replaced.inf); }
+
+/// Applies convert(value, x, y) to what is not "nothing hit"; counts the values that were, or were
+/// converted to, NaN or -inf.
 template <class Missed, class Convert>
-std::int64_t convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
-  std::int64_t replaced = 0;
+Replaced convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
+  Replaced replaced;
   for_each_pixel(plane, [&](float& z, int x, int y) {
     const float depth =
         missed(z) ? kNothingHit : static_cast<float>(convert(static_cast<double>(z), x, y));
     const bool means_nothing = !(depth > -kNothingHit);
-    replaced += means_nothing;
+    if (means_nothing) count(replaced, std::isfinite(z) ? depth : z);
     z = means_nothing ? kNothingHit : depth;
   });
   return replaced;
 }
 
 /// Clamped to 0 ... 1; NaN and inf become `otherwise` and are counted.
-std::int64_t sanitise_share(const View<float>& plane, Sanitise kind, float otherwise) {
-  std::int64_t replaced = 0;
+Replaced sanitise_share(const View<float>& plane, Sanitise kind, float otherwise) {
+  Replaced replaced;
   for_each_insane(plane, sane_range(kind), [&](float& s, int, int) {
     if (std::isfinite(s)) {
       s = s < 0 ? 0 : s > 1 ? 1 : s;
     } else {
+      count(replaced, s);
       s = otherwise;
-      ++replaced;
     }
   });
   return replaced;
@@ -73,48 +74,66 @@ const Camera& camera_of(const DepthSource& source, const char* kind) {
 
 }  // namespace
 
+Replaced& Replaced::operator+=(const Replaced& more) {
+  nan += more.nan;
+  inf += more.inf;
+  return *this;
+}
+
+SanitiseCounts& SanitiseCounts::operator+=(const SanitiseCounts& more) {
+  for (std::size_t i = 0; i < by_role.size(); ++i) by_role[i] += more.by_role[i];
+  return *this;
+}
+
 std::int64_t SanitiseCounts::total() const {
-  return std::accumulate(by_role.begin(), by_role.end(), std::int64_t{0});
+  std::int64_t total = 0;
+  for (const Replaced& replaced : by_role) total += replaced.total();
+  return total;
 }
 
 std::string SanitiseCounts::to_text() const {
   std::vector<std::string> parts;
   for (const Role& role : roles()) {
-    if (of(role) != 0) {
-      parts.push_back(std::string(role.name) + " " + std::to_string(of(role)));
-    }
+    const Replaced& replaced = of(role);
+    if (replaced.total() == 0) continue;
+    std::string text(role.name);
+    if (replaced.nan != 0) text += " " + std::to_string(replaced.nan) + " NaN";
+    if (replaced.inf != 0) text += " " + std::to_string(replaced.inf) + " inf";
+    parts.push_back(text);
   }
   return join(parts);
 }
 
-std::int64_t sanitise_color(const View<float>& plane) {
-  std::int64_t replaced = 0;
+float largest_of(PlaneId plane) { return plane == PlaneId::kColorA ? 1 : kLargestColor; }
+
+Replaced sanitise_color(const View<float>& plane, float largest) {
+  Replaced replaced;
   for_each_insane(plane, sane_range(Sanitise::kColor), [&](float& c, int, int) {
     if (std::isfinite(c)) return;
-    c = 0;
-    ++replaced;
+    count(replaced, c);
+    c = c > 0 ? largest : 0;
   });
   return replaced;
 }
 
-std::int64_t sanitise_shadow(const View<float>& plane) {
+Replaced sanitise_shadow(const View<float>& plane) {
   return sanitise_share(plane, Sanitise::kShadow, 1);
 }
 
-std::int64_t sanitise_mask(const View<float>& plane) {
+Replaced sanitise_mask(const View<float>& plane) {
   return sanitise_share(plane, Sanitise::kMask, 0);
 }
 
-std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
-                             glm::dvec3 up) {
-  std::int64_t replaced = 0;
+Replaced sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
+                         glm::dvec3 up) {
+  Replaced replaced;
   for_each_pixel(x, [&](float& nx, int column, int row) {
     float& ny = y.at(column, row);
     float& nz = z.at(column, row);
     const glm::dvec3 n(nx, ny, nz);
     const bool finite = std::isfinite(nx) && std::isfinite(ny) && std::isfinite(nz);
     const double length = glm::length(n);
-    replaced += !finite;
+    if (!finite) count(replaced, std::isnan(nx) || std::isnan(ny) ? nx + ny : nz);
     const glm::dvec3 unit = finite && length > 1e-15 ? n / length : up;
     nx = static_cast<float>(unit.x);
     ny = static_cast<float>(unit.y);
@@ -123,16 +142,16 @@ std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const V
   return replaced;
 }
 
-std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source) {
+Replaced make_eye_depth(const View<float>& plane, const DepthSource& source) {
   mark_nothing_hit(plane, source);
   const float nothing = source.half ? 6e4f : 1e9f;
   const auto far_away = [=](float z) { return z >= nothing; };
   switch (source.kind) {
     case DepthKind::kEye: {
-      std::int64_t replaced = 0;
+      Replaced replaced;
       for_each_insane(plane, sane_range(Sanitise::kDepth, nothing), [&](float& z, int, int) {
         if (z > -kNothingHit && z < nothing) return;
-        replaced += !(z > -kNothingHit);
+        if (!(z > -kNothingHit)) count(replaced, z);
         z = kNothingHit;
       });
       return replaced;
@@ -168,7 +187,7 @@ std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source)
           [&](double z, int, int) { return eye_depth_from_device(z, rows); });
     }
   }
-  return 0;
+  return {};
 }
 
 SanitiseCounts sanitise_planes(std::span<Plane> planes, glm::dvec3 up,
@@ -179,24 +198,25 @@ SanitiseCounts sanitise_planes(std::span<Plane> planes, glm::dvec3 up,
       return planes[static_cast<std::size_t>(index_of(plane_after(role.first, i)))];
     };
     if (!plane(0)) continue;
-    std::int64_t& count = replaced.of(role);
+    Replaced& counted = replaced.of(role);
     switch (role.sanitise) {
       case Sanitise::kColor:
         for (int i = 0; i < role.count; ++i) {
-          if (plane(i)) count += sanitise_color(plane(i).view());
+          if (!plane(i)) continue;
+          counted += sanitise_color(plane(i).view(), largest_of(plane_after(role.first, i)));
         }
         break;
       case Sanitise::kShadow:
-        count += sanitise_shadow(plane(0).view());
+        counted += sanitise_shadow(plane(0).view());
         break;
       case Sanitise::kMask:
-        count += sanitise_mask(plane(0).view());
+        counted += sanitise_mask(plane(0).view());
         break;
       case Sanitise::kNormal:
-        count += sanitise_normal(plane(0).view(), plane(1).view(), plane(2).view(), up);
+        counted += sanitise_normal(plane(0).view(), plane(1).view(), plane(2).view(), up);
         break;
       case Sanitise::kDepth:
-        count += make_eye_depth(plane(0).view(), source_of ? source_of(role) : DepthSource{});
+        counted += make_eye_depth(plane(0).view(), source_of ? source_of(role) : DepthSource{});
         break;
     }
   }

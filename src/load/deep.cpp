@@ -70,14 +70,14 @@ class SampleReader {
       const auto value = [&](int channel) { return block.values[channel][s]; };
       const float front = value(channels_.z);
       if (std::isnan(front) || front == -kInf) {
-        ++replaced_.of(PlaneId::kDepth);
+        count(PlaneId::kDepth, front);
         continue;
       }
       DeepSample sample;
       sample.front = sample.back = front >= channels_.nothing ? kInf : front;
       if (channels_.back >= 0) {
         const float back = value(channels_.back);
-        if (std::isnan(back) || back == -kInf) ++replaced_.of(PlaneId::kDepth);
+        if (std::isnan(back) || back == -kInf) count(PlaneId::kDepth, back);
         if (back > front && back < channels_.back_nothing) sample.back = back;
       }
       for (int c = 0; c < 3; ++c) sample.color[c] = finite(value(channels_.color[c]));
@@ -94,10 +94,15 @@ class SampleReader {
   }
 
  private:
+  void count(PlaneId role, float value) {
+    Replaced& replaced = replaced_.of(role);
+    ++(std::isnan(value) ? replaced.nan : replaced.inf);
+  }
+
   float finite(float value) {
     if (std::isfinite(value)) return value;
-    ++replaced_.of(PlaneId::kColorR);
-    return 0;
+    count(PlaneId::kColorR, value);
+    return value > 0 ? kLargestColor : 0;
   }
 
   const DeepChannels& channels_;

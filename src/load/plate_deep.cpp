@@ -72,9 +72,7 @@ void read_deep_planes(const ExrFile& file, int part, PlaneSet planes, const Rect
     surface = below.view();
   }
   DeepLayers layers = read_deep_layers(file, part, surface);
-  for (std::size_t i = 0; i < layers.replaced.by_role.size(); ++i) {
-    loaded.replaced.by_role[i] += layers.replaced.by_role[i];
-  }
+  loaded.replaced += layers.replaced;
 
   const auto keep = [&](PlaneId id, Plane& plane) {
     if (!planes.has(id)) return;

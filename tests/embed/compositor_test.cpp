@@ -239,6 +239,8 @@ TEST(Compositor, ReplacesWhatMeansNothing) {
     clean.set(id, with(good));
   };
   spoil(PlaneId::kColorG, 66, 40, kNan, 0);
+  spoil(PlaneId::kColorR, 65, 40, test::kInf, kLargestColor);
+  spoil(PlaneId::kColorB, 64, 40, -test::kInf, 0);
   spoil(PlaneId::kDepth, 3, 7, kNan, test::kInf);
   spoil(PlaneId::kSurfaceDepth, 5, 35, 1e10f, test::kInf);  // nothing hit: not counted
   spoil(PlaneId::kShadow, 0, 0, -test::kInf, 1);
@@ -246,10 +248,10 @@ TEST(Compositor, ReplacesWhatMeansNothing) {
   HostFrame frame = test::host_frame(dirty.frame, scene);
   Compositor compositor({}, busy_look());
   EXPECT_TRUE(same_bits(wet(compositor, frame), test::judged(busy_look(), clean.frame, scene)));
-  EXPECT_EQ(compositor.replaced().of(PlaneId::kColorR), 1);
-  EXPECT_EQ(compositor.replaced().of(PlaneId::kDepth), 1);
-  EXPECT_EQ(compositor.replaced().of(PlaneId::kShadow), 1);
-  EXPECT_EQ(compositor.replaced().total(), 3);
+  EXPECT_EQ(compositor.replaced().of(PlaneId::kColorR), (Replaced{1, 2}));
+  EXPECT_EQ(compositor.replaced().of(PlaneId::kDepth), (Replaced{1, 0}));
+  EXPECT_EQ(compositor.replaced().of(PlaneId::kShadow), (Replaced{0, 1}));
+  EXPECT_EQ(compositor.replaced().total(), 5);
   EXPECT_TRUE(std::isnan(dirty.frame.plane(PlaneId::kColorG).at(66, 40)));
   // The next frame begins anew.
   const Subject next;

@@ -159,7 +159,7 @@ TEST_F(LimpidC, TellsWhatItReplaced) {
   ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
   char text[64];
   limpid_replaced_text(water, text, sizeof text);
-  EXPECT_STREQ(text, "color 23");
+  EXPECT_STREQ(text, "color 23 NaN");
 }
 
 TEST_F(LimpidC, RunsOnTheHostsThreads) {

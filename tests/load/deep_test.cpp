@@ -231,11 +231,11 @@ TEST(Deep, ValuesThatMeanNothingAreReplacedAndCounted) {
       one_pixel({broken, point(kNan, 5, 1), point(-kInf, 5, 1), point(4, 0.5f, kInf),
                  volume(6, kNan, 0, 7), point(7, 9, -1)},
                 1, {"ZBack"});
-  EXPECT_EQ(layers.replaced.of(PlaneId::kDepth), 3);
-  EXPECT_EQ(layers.replaced.of(PlaneId::kColorR), 4);
+  EXPECT_EQ(layers.replaced.of(PlaneId::kDepth).total(), 3);
+  EXPECT_EQ(layers.replaced.of(PlaneId::kColorR), (Replaced{2, 2}));
   const Pixel p = pixel_of(layers, 0, 0);
   EXPECT_FLOAT_EQ(p.r, 0.5f * 0.5f);
-  EXPECT_FLOAT_EQ(p.g, 0.5f * 1);
+  EXPECT_FLOAT_EQ(p.g, kLargestColor + 0.5f * 1);
   EXPECT_FLOAT_EQ(p.b, 0.5f * 1.5f);
   EXPECT_EQ(p.a, 1);  // 7 counts as 1
   EXPECT_EQ(p.depth, 3);

@@ -160,8 +160,8 @@ TEST_F(DeepPlate, CountsWhatMeantNothing) {
   deep.samples[{3, 1}] = {point(3, kInf, 1)};
   add_deep(deep);
   const LoadedPlate plate = read(scene());
-  EXPECT_EQ(plate.replaced.of(PlaneId::kDepth), 1);
-  EXPECT_EQ(plate.replaced.of(PlaneId::kColorR), 3);
+  EXPECT_EQ(plate.replaced.of(PlaneId::kDepth), (Replaced{1, 0}));
+  EXPECT_EQ(plate.replaced.of(PlaneId::kColorR), (Replaced{0, 3}));
 }
 
 TEST_F(DeepPlate, InspectSaysWhatTheSamplesGive) {

@@ -124,10 +124,10 @@ class Arrays(unittest.TestCase):
 
     def test_values_that_mean_nothing_are_replaced_and_told(self):
         color, depth = self.frame["color"].copy(), self.frame["depth"].copy()
-        color[3, 40:42, 0], depth[5, 40] = np.nan, np.nan
+        color[3, 40:42, 0], color[4, 40, 1], depth[5, 40] = np.nan, np.inf, np.nan
         wet = self.compositor.run(**{**self.frame, "color": color, "depth": depth})
         self.assertTrue(np.isfinite(wet).all())
-        self.assertEqual(self.compositor.replaced, {"color": 2, "depth": 1})
+        self.assertEqual(self.compositor.replaced, {"color": {"nan": 2, "inf": 1}, "depth": {"nan": 1}})
         self.compositor.run(**self.frame)
         self.assertEqual(self.compositor.replaced, {})
 

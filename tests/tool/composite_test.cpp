@@ -284,7 +284,7 @@ TEST_F(CompositeTest, CountsWhatItReplaced) {
   write_plate(folder_ / "plate.exr", {.broken = true});
   const Ran ran = composite("wet.exr", {"--aov", "transmitted,path"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("; NaN or inf replaced: color 2, depth 1, shadow 1\n"));
+  EXPECT_THAT(ran.out, HasSubstr("; replaced: color 1 NaN 1 inf, depth 1 NaN, shadow 1 NaN\n"));
   const Ran stats = oiiotool({"wet.exr", "--ch", "R,G,B,A", "--printstats"});
   EXPECT_THAT(stats.out, HasSubstr("Stats NanCount: 0 0 0 0"));
   EXPECT_THAT(stats.out, HasSubstr("Stats InfCount: 0 0 0 0"));

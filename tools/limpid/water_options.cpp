@@ -167,7 +167,7 @@ std::string report_text(const CompositeReport& report, const Look& look, const O
   text += output.picture.string() + ": " + std::to_string(report.size.width) + "x" +
           std::to_string(report.size.height) + ", look " + look.name + ", " + times;
   const std::string replaced = report.replaced.to_text();
-  if (!replaced.empty()) text += "; NaN or inf replaced: " + replaced;
+  if (!replaced.empty()) text += "; replaced: " + replaced;
   text += "\n";
   for (const auto& also : {output.preview, output.deep}) {
     if (!also.empty()) text += also.string() + "\n";

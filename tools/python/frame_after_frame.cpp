@@ -208,7 +208,12 @@ py::dict FrameAfterFrame::replaced() const {
   const Busy busy(busy_);
   py::dict counts;
   for (const Role& role : roles()) {
-    if (const auto count = compositor_->replaced().of(role)) counts[py::str(role.name)] = count;
+    const Replaced& replaced = compositor_->replaced().of(role);
+    if (replaced.total() == 0) continue;
+    py::dict kinds;
+    if (replaced.nan != 0) kinds["nan"] = replaced.nan;
+    if (replaced.inf != 0) kinds["inf"] = replaced.inf;
+    counts[py::str(role.name)] = kinds;
   }
   return counts;
 }

@@ -46,7 +46,7 @@ using PlaneSet = EnumSet<PlaneId>;
 
 /// What a NaN or infinity in a plane becomes when the frame is entered.
 enum class Sanitise : std::uint8_t {
-  kColor,   ///< NaN, inf -> 0
+  kColor,   ///< NaN, -inf -> 0; +inf -> the largest half
   kDepth,   ///< NaN, and what stands for "nothing hit" -> +inf
   kShadow,  ///< NaN, inf -> 1, then clamped to 0 ... 1
   kNormal,  ///< made unit; NaN, inf or zero length -> up

@@ -19,34 +19,49 @@
 
 namespace limpid {
 
-/// How many values were replaced because they were NaN or infinite where that means nothing (a
-/// depth of +inf means "nothing hit" and is not counted), by role.
+/// How many values were replaced because they were NaN, and because they were +inf or -inf.
+struct Replaced {
+  std::int64_t nan = 0, inf = 0;
+
+  std::int64_t total() const { return nan + inf; }
+  Replaced& operator+=(const Replaced& more);
+  friend bool operator==(const Replaced&, const Replaced&) = default;
+};
+
+/// What was replaced where it means nothing (a depth of +inf means "nothing hit" and is not
+/// counted), by role.
 struct SanitiseCounts {
-  std::array<std::int64_t, kPlaneCount> by_role{};  ///< at the role's first plane
+  std::array<Replaced, kPlaneCount> by_role{};  ///< at the role's first plane
 
   /// `first` is the role's first plane.
-  std::int64_t& of(PlaneId first) { return by_role[index_of(first)]; }
-  std::int64_t of(PlaneId first) const { return by_role[index_of(first)]; }
-  std::int64_t& of(const Role& role) { return by_role[index_of(role.first)]; }
-  std::int64_t of(const Role& role) const { return by_role[index_of(role.first)]; }
+  Replaced& of(PlaneId first) { return by_role[index_of(first)]; }
+  const Replaced& of(PlaneId first) const { return by_role[index_of(first)]; }
+  Replaced& of(const Role& role) { return by_role[index_of(role.first)]; }
+  const Replaced& of(const Role& role) const { return by_role[index_of(role.first)]; }
+  SanitiseCounts& operator+=(const SanitiseCounts& more);
   std::int64_t total() const;
-  /// "color 4, depth 2", or "" when nothing was replaced.
+  /// "color 3 NaN 1 inf, depth 2 NaN", or "" when nothing was replaced.
   std::string to_text() const;
 };
 
-/// NaN, inf -> 0. Returns how many.
-std::int64_t sanitise_color(const View<float>& plane);
+/// What a color of +inf becomes: the largest half, also where the color is stored as float, so that
+/// sums and means of it stay finite. An alpha of +inf becomes 1.
+inline constexpr float kLargestColor = 65504;
 
-/// NaN, inf -> 1, then clamped to 0 ... 1. Returns how many were NaN or infinite.
-std::int64_t sanitise_shadow(const View<float>& plane);
+/// NaN, -inf -> 0, +inf -> `largest`.
+Replaced sanitise_color(const View<float>& plane, float largest = kLargestColor);
 
-/// NaN, inf -> 0, then clamped to 0 ... 1. Returns how many were NaN or infinite.
-std::int64_t sanitise_mask(const View<float>& plane);
+/// NaN, inf -> 1, then clamped to 0 ... 1; what was NaN or infinite is counted.
+Replaced sanitise_shadow(const View<float>& plane);
 
-/// Made unit; where a component is NaN or infinite or all are 0, `up` instead. Returns how many of
-/// those were NaN or infinite (renderers write 0 where there is no surface).
-std::int64_t sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
-                             glm::dvec3 up);
+/// NaN, inf -> 0, then clamped to 0 ... 1; what was NaN or infinite is counted.
+Replaced sanitise_mask(const View<float>& plane);
+
+/// Made unit; where a component is NaN or infinite or all are 0, `up` instead. Counts the normals
+/// with a NaN, and those with an infinity and no NaN; not those of 0, which renderers write where
+/// there is no surface.
+Replaced sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
+                         glm::dvec3 up);
 
 /// What a depth plane holds, and what is needed to make linear eye depth of it.
 struct DepthSource {
@@ -61,10 +76,13 @@ struct DepthSource {
   std::function<bool(int x, int y)> uncovered = {};
 };
 
-/// Linear eye depth in place of whatever the plane holds; "nothing hit" and NaN become +inf.
-/// Returns how many were NaN. Throws Error when the kind needs a camera, or near and far, that is
-/// not there.
-std::int64_t make_eye_depth(const View<float>& plane, const DepthSource& source);
+/// Linear eye depth in place of whatever the plane holds; "nothing hit", NaN and -inf become +inf,
+/// of which NaN and -inf are counted. Throws Error when the kind needs a camera, or near and far,
+/// that is not there.
+Replaced make_eye_depth(const View<float>& plane, const DepthSource& source);
+
+/// What the plane of a role becomes in place of +inf, where the role's values are colors.
+float largest_of(PlaneId plane);
 
 /// All of the above, by role, to the planes that are there (by PlaneId). `source_of` says what the
 /// depth planes hold; without it they are linear eye depth in float.

@@ -30,8 +30,9 @@ struct DeepLayers {
 ///
 /// Depths of 1e9 and above, 6e4 in half, are "nothing hit": such a sample (a sky) is behind
 /// everything and its depth +inf. A sample whose Z is NaN or -inf is left out. One without a finite
-/// back above its front is a point. NaN and inf in colors and alphas become 0, alphas are clamped
-/// to 0 ... 1. Throws Error that names a channel that is missing, and as ExrFile::read_deep().
+/// back above its front is a point. NaN and -inf in colors and alphas become 0, +inf the
+/// largest half, then alphas are clamped to 0 ... 1. Throws Error that names a channel that is
+/// missing, and as ExrFile::read_deep().
 DeepLayers read_deep_layers(const ExrFile& file, int part, View<const float> surface);
 
 }  // namespace limpid

@@ -17,7 +17,8 @@ struct LoadedTexture {
 };
 
 /// The first three channels of a picture file as a tiling texture: R G B of an EXR, or any other
-/// format as image_file.h reads it. NaN and infinities become 0. Throws Error when it has fewer.
+/// format as image_file.h reads it. NaN and -inf become 0, +inf the largest half. Throws Error when
+/// it has fewer.
 LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits = {});
 
 /// The surroundings from a picture file of either layout, with channels as load_texture() reads

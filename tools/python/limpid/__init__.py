@@ -176,8 +176,8 @@ class Compositor:
         return plan
 
     @property
-    def replaced(self) -> dict[str, int]:
-        """Of the last frame: how many values meant nothing (NaN, inf) and were replaced, by role."""
+    def replaced(self) -> dict[str, dict[str, int]]:
+        """Of the last frame: how many values meant nothing and were replaced, by role, "nan" and "inf" apart."""
         return self._core.replaced()
 
 
