@@ -1,6 +1,7 @@
 #include "limpid/core/scene.h"
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -53,9 +54,11 @@ void Scene::validate() const {
   if (sun) {
     expect_unit("sun.direction", sun->direction);
     for (double c : {sun->color.r, sun->color.g, sun->color.b}) {
-      if (!(c >= 0) || std::isinf(c)) {
-        throw Error("sun.color has a channel " + std::to_string(c) +
-                    ", expected finite numbers from 0 up");
+      if (!(c >= 0 && c <= Sun::kBrightest)) {
+        char text[96];
+        std::snprintf(text, sizeof text, "sun.color has a channel %g, expected 0 ... %g", c,
+                      Sun::kBrightest);
+        throw Error(text);
       }
     }
   }

@@ -80,7 +80,8 @@ Sun sun_of(const TomlNode& table) {
   sun.direction = direction_of(*direction);
   if (const TomlNode* color = table.find("color")) {
     const std::vector<double> c = color->finite_numbers(3);
-    if (c[0] < 0 || c[1] < 0 || c[2] < 0) color->refuse("three numbers from 0 up");
+    const auto in_range = [](double x) { return x >= 0 && x <= Sun::kBrightest; };
+    if (!std::all_of(c.begin(), c.end(), in_range)) color->refuse("three numbers of 0 ... 1e9");
     sun.color = {c[0], c[1], c[2]};
   }
   return sun;

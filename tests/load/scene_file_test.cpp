@@ -222,7 +222,10 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[water]\nheight = inf\n", ":2:10: ", "water.height = inf: expected a finite number"},
       {"[sun]\ncolor = [1, 1, 1]\n", ":1:", "sun: expected a direction"},
       {"[sun]\ndirection = [0, inf, 0]\n", ":2:17: ", "expected a finite number"},
-      {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, -1, 1]\n", ":3:9: ", "numbers from 0 up"},
+      {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, -1, 1]\n",
+       ":3:9: ", "three numbers of 0 ... 1e9"},
+      {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, 1, 1.001e9]\n",
+       ":3:9: ", "three numbers of 0 ... 1e9"},
       {"[camera]\nfovx = 40\n", ":2:1: ", "did you mean 'fov_x'?"},
       {"[camera]\nview = 1\n", ":2:1: ", "camera.view: expected one of projection, fov_x, fov_y"},
       {"[camera]\nfov_x = 40\n", ":2:1: ", "camera.fov_x: expected a view beside it"},
@@ -296,6 +299,18 @@ TEST(SceneFile, WrittenOutReadsBackToTheBit) {
   EXPECT_EQ(back.scene.water->waves[0].omega, 5);
   EXPECT_EQ(back.scene.sun->direction, scene.sun->direction);
   EXPECT_EQ(back.scene.sun->color, scene.sun->color);
+}
+
+TEST(SceneFile, ASceneOfAnyOriginKeepsTheSunWithinItsRange) {
+  Scene scene;
+  scene.sun = Sun{{0, 1, 0}, {0, Sun::kBrightest, 1}};
+  EXPECT_NO_THROW(scene.validate());
+  scene.sun->color.b = 2e9;
+  EXPECT_EQ(error_of([&] { scene.validate(); }),
+            "sun.color has a channel 2e+09, expected 0 ... 1e+09");
+  scene.sun->color.b = std::nan("");
+  EXPECT_EQ(error_of([&] { scene.validate(); }),
+            "sun.color has a channel nan, expected 0 ... 1e+09");
 }
 
 TEST(SceneFile, WavesGetTheSpeedOfDeepWater) {

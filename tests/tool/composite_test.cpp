@@ -280,6 +280,37 @@ TEST_F(CompositeTest, SaysWhatDoesNotRunForWantOfInput) {
   EXPECT_THAT(ran.out, HasSubstr("\nwater_shadow does not run: no shadow\n"));
 }
 
+TEST_F(CompositeTest, TheBrightestSunMakesNoInfinity) {
+  const auto scene_of = [](const std::string& color) {
+    std::string scene = scene_toml();
+    const std::string usual = "[3, 2.8, 2.5]";
+    return scene.replace(scene.find(usual), usual.size(), color);
+  };
+  write_text("scene.toml", scene_of("[1e9, 1e9, 1e9]"));
+  const Words strongest = {"--set", "sun_highlight.strength=1e6",
+                           "--set", "depth_fog.model=beer_lambert",
+                           "--set", "depth_fog.scattering=[100, 100, 100]"};
+  for (const Words& glint :
+       {Words{"--set", "sun_highlight.model=ggx", "--set", "sun_highlight.roughness=0.01"},
+        Words{"--set", "sun_highlight.power=0"}}) {
+    for (const Words& kind : {Words{}, Words{"--float"}, Words{"--runner", "reference"}}) {
+      Words more = strongest;
+      more.insert(more.end(), glint.begin(), glint.end());
+      more.insert(more.end(), kind.begin(), kind.end());
+      more.insert(more.end(), {"--aov", "in_scatter,highlight", "--deep", "deep.exr"});
+      composed("wet.exr", more);
+      const std::string stats =
+          oiiotool({"wet.exr", "--ch", "R,G,B,A,highlight.R,in_scatter.R", "--printstats"}).out;
+      EXPECT_THAT(stats, HasSubstr("Stats NanCount: 0 0 0 0 0 0"));
+      EXPECT_THAT(stats, HasSubstr("Stats InfCount: 0 0 0 0 0 0"));
+      EXPECT_THAT(stats, Not(ContainsRegex("Stats Max: [0-9]{1,4}\\."))) << "it is bright";
+    }
+  }
+  write_text("scene.toml", scene_of("[1, 1.1e9, 1]"));
+  expect_no_composite({"plate.exr", "--scene", "scene.toml"},
+                      {"scene.toml", "color", "three numbers of 0 ... 1e9"});
+}
+
 TEST_F(CompositeTest, CountsWhatItReplaced) {
   write_plate(folder_ / "plate.exr", {.broken = true});
   const Ran ran = composite("wet.exr", {"--aov", "transmitted,path"});

@@ -42,8 +42,12 @@ struct PlaneAxes {
 };
 PlaneAxes plane_axes(const glm::dvec3& up);
 
-/// `direction` is unit and points towards the sun; `color` scales its radiance.
+/// `direction` is unit and points towards the sun; `color` scales its radiance: 0 ... kBrightest.
 struct Sun {
+  /// Times the largest strength and the narrowest lobe of a highlight it is 1e-18 of the largest
+  /// float, so that no sum or product of the chain becomes infinite.
+  static constexpr double kBrightest = 1e9;
+
   glm::dvec3 direction{0, 1, 0};
   Rgb<double> color{1, 1, 1};
 };
@@ -56,7 +60,8 @@ struct Scene {
   std::optional<Sun> sun;
   double time = 0;  ///< seconds
 
-  /// Throws Error for a bad camera, or a water or sun direction that is zero or not finite.
+  /// Throws Error for a bad camera, a water or sun direction that is not unit, a sun color out of
+  /// its range, and numbers that are not finite.
   void validate() const;
 };
 
