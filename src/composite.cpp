@@ -82,10 +82,11 @@ Record record_of(const CompositeJob& job, const Plate& plate, const Scene& scene
   return record;
 }
 
-/// Of the plan, and the layers that somebody has named in vain.
+/// Of the plate and the plan, and of layers that are named in vain.
 std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate,
                                      const Plan& plan) {
-  std::vector<std::string> warnings = plan.warnings;
+  std::vector<std::string> warnings = plate.warnings();
+  warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
   const auto unread = [&](const std::string& what) {
     warnings.push_back(what + " is named, and nothing that runs of the look " + job.look.name +
                        " reads it");

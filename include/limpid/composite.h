@@ -35,8 +35,9 @@ struct CompositeReport {
   Plan plan;
   Size size;
   SanitiseCounts replaced;
-  /// What the picture does not show though it was asked for, a sentence each: Plan::warnings,
-  /// layers that are named and not read, and a picture without a wet pixel or a dry one.
+  /// What the picture does not show though it was asked for, a sentence each: Plate::warnings(),
+  /// Plan::warnings, layers that are named and not read, and a picture without a wet pixel or a dry
+  /// one.
   std::vector<std::string> warnings;
   double read_seconds = 0, run_seconds = 0, write_seconds = 0;
 };

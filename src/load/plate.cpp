@@ -11,11 +11,13 @@
 #include "limpid/load/inspect.h"
 #include "limpid/load/scene_file.h"
 
+#include "load/exr_header.h"
 #include "load/layer_candidates.h"
 #include "load/layer_views.h"
 #include "load/plane_budget.h"
 #include "load/plate_deep.h"
 #include "load/plate_file.h"
+#include "load/primaries.h"
 
 namespace limpid {
 namespace {
@@ -269,7 +271,17 @@ std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
   const ChannelRef& ref = state_->color_ref();
   const PlateFile& file = state_->files[static_cast<std::size_t>(ref.file)];
   if (!file.exr) return {};
-  return file.exr->attributes(ref.part);
+  auto attributes = file.exr->attributes(ref.part);
+  std::erase_if(attributes, [](const auto& entry) { return describes_content(entry.first); });
+  return attributes;
+}
+
+std::vector<std::string> Plate::warnings() const {
+  const std::string primaries = other_primaries(attributes());
+  if (primaries.empty()) return {};
+  return {"the plate's chromaticities are those of " + primaries +
+          ", not of Rec.709: coefficients and colors of the water are for Rec.709 and are not "
+          "converted"};
 }
 
 void Plate::refuse_without(std::string_view role) const {

@@ -107,6 +107,7 @@ TEST_F(PlateParts, AFileOfOnePartMayHoldSeveralViews) {
   write({part});
   EXPECT_EQ(at(PlaneId::kColorB), level_at(3, 5, 7));
   EXPECT_EQ(at(PlaneId::kDepth), level_at(4, 5, 7));
+  EXPECT_EQ(Plate::open(request_).attributes().count("multiView"), 0u);
   request_.view = "right";
   EXPECT_EQ(at(PlaneId::kColorB), level_at(7, 5, 7));
   EXPECT_EQ(at(PlaneId::kDepth), level_at(8, 5, 7));
@@ -169,6 +170,21 @@ TEST_F(PlateParts, DeepPartsMayStandBesideFlatOnes) {
   EXPECT_EQ(
       Plate::open(request_).read(kColorPlanes, scene, {}).frame.plane(PlaneId::kColorR).at(5, 7),
       level_at(20, 5, 7));
+}
+
+TEST_F(PlateParts, WhatTellsOfOtherChannelsIsNotHandedOn) {
+  WrittenPart color = part_of("", kDisplay, {"R", "G", "B", "Z"});
+  for (const char* name :
+       {"cryptomatte/f834d0a/name", "cryptomatte/f834d0a/manifest", "BlenderMultiChannel",
+        "nuke/full_layer_names", "limpid/plan", "owner", "shot/take"}) {
+    color.texts[name] = "text";
+  }
+  write({color});
+  std::vector<std::string> names;
+  for (const auto& [name, attribute] : Plate::open(request_).attributes()) {
+    if (attribute.type == "string") names.push_back(name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"owner", "shot/take"}));
 }
 
 }  // namespace

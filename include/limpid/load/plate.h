@@ -77,8 +77,13 @@ class Plate {
   /// is none.
   SceneFile scene() const;
   bool has_scene() const;
-  /// Attributes of the color's part, to be handed on.
+  /// Attributes of the color's part (ExrFile::attributes), to be handed on to a picture made from
+  /// it: without those that tell of the part's own channels or pixels, as the manifests of a
+  /// cryptomatte do, and without what limpid wrote of how it was made.
   std::map<std::string, ExrFile::Attribute> attributes() const;
+  /// A sentence for each thing of the plate that the picture will not be right for: that its
+  /// chromaticities are not those of Rec.709, which coefficients and colors of the water are for.
+  std::vector<std::string> warnings() const;
   /// Throws the Error for a role that nothing feeds, with the list of all layers that there are.
   [[noreturn]] void refuse_without(std::string_view role) const;
 
