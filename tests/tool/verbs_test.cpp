@@ -183,7 +183,7 @@ TEST_F(CompareTest, RefusesWhatCannotBeCompared) {
   expect_refused(limpid({"compare", "wet.exr", "aovs.exr"}),
                  {"wet.exr has the channels", "--channels"});
   expect_refused(limpid({"compare", "wet.exr", "aovs.exr", "--channels", "R,Q"}),
-                 {"wet.exr has no channel 'Q': there is A, B, G, R"});
+                 {"wet.exr has no channel or layer 'Q': there is A, B, G, R"});
   expect_refused(limpid({"compare", "wet.exr", "waves.exr", "--channels", "R"}),
                  {"64x36", "16x16"});
   expect_refused(limpid({"compare", "wet.exr"}), {"b is required"}, 2);

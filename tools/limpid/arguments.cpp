@@ -171,8 +171,10 @@ void add_compare(CLI::App& app, CompareArguments& a) {
       *app.add_subcommand("compare", "Compare two pictures: A B, B is the one to trust");
   verb.add_option("a", a.a, "Picture")->required()->option_text("A");
   verb.add_option("b", a.b, "Picture to compare with")->required()->option_text("B");
-  verb.add_option("--channels", a.channels, "Only these channels (default: all)")
-      ->option_text("NAME,...")
+  verb.add_option("--channels", a.channels,
+                  "Only these channels, and those of these layers; A=B is channel or layer A of "
+                  "the first picture with B of the second (default: all)")
+      ->option_text("NAME|A=B,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   verb.add_option("--tolerance", a.tolerance, "Largest difference of a pixel (default: 1e-6)")

@@ -22,7 +22,100 @@ bool is_linear(const std::string& path) {
   return among(extension, {".exr", ".hdr", ".rgbe", ".pfm"});
 }
 
+std::string component_of(const std::string& channel) {
+  return channel.substr(channel.rfind('.') + 1);
+}
+
+/// The channel of that name, else all of the layer of that name.
+std::vector<std::string> named_in(const std::vector<std::string>& known, const std::string& name) {
+  if (among(name, known)) return {name};
+  std::vector<std::string> of_layer;
+  for (const std::string& channel : known) {
+    if (!name.empty() && channel == name + "." + component_of(channel)) of_layer.push_back(channel);
+  }
+  return of_layer;
+}
+
+/// Throws Error where the picture has neither.
+std::vector<std::string> expect_named(const std::string& path,
+                                      const std::vector<std::string>& known,
+                                      const std::string& name) {
+  std::vector<std::string> named = named_in(known, name);
+  if (!named.empty()) return named;
+  throw Error(path + " has no channel or layer '" + name + "': there is " + join(known) +
+              did_you_mean(name, known));
+}
+
+/// Each channel of one with that of the other of the same component; whatever they are called where
+/// each is one.
+std::vector<ChannelPair> paired(const std::string& text, const std::vector<std::string>& a,
+                                const std::vector<std::string>& b) {
+  if (a.size() == 1 && b.size() == 1) return {{a[0], b[0]}};
+  std::vector<ChannelPair> pairs;
+  for (const std::string& channel : a) {
+    const auto same = std::find_if(b.begin(), b.end(), [&](const std::string& other) {
+      return component_of(other) == component_of(channel);
+    });
+    if (same != b.end()) pairs.push_back({channel, *same});
+  }
+  if (pairs.size() == a.size() && pairs.size() == b.size()) return pairs;
+  throw Error("--channels " + text + ": " + join(a) + " cannot be compared with " + join(b) +
+              ": expected the same components");
+}
+
+std::vector<ChannelPair> pairs_of(const std::string& text, const std::string& a,
+                                  const std::vector<std::string>& known_a, const std::string& b,
+                                  const std::vector<std::string>& known_b) {
+  const std::size_t first = text.find('=');
+  const bool whole = !named_in(known_a, text).empty() || !named_in(known_b, text).empty();
+  if (whole || first == std::string::npos) {
+    const std::vector<std::string> of_a = expect_named(a, known_a, text);
+    return paired(text, of_a, expect_named(b, known_b, text));
+  }
+  // A name may hold an '=' itself.
+  std::size_t split = first;
+  for (std::size_t at = first; at != std::string::npos; at = text.find('=', at + 1)) {
+    const bool fits = !named_in(known_a, text.substr(0, at)).empty() &&
+                      !named_in(known_b, text.substr(at + 1)).empty();
+    if (fits) split = at;
+  }
+  const std::vector<std::string> of_a = expect_named(a, known_a, text.substr(0, split));
+  return paired(text, of_a, expect_named(b, known_b, text.substr(split + 1)));
+}
+
+/// The channel of that name, or the only one of a layer; null where there is none.
+const Plane* color_plane(const ComparedPicture& picture, const std::string& name) {
+  if (const Plane* plane = picture.find(name)) return plane;
+  const Plane* found = nullptr;
+  for (std::size_t i = 0; i < picture.names.size(); ++i) {
+    if (component_of(picture.names[i]) != name) continue;
+    if (found != nullptr) return nullptr;
+    found = &picture.planes[i];
+  }
+  return found;
+}
+
 }  // namespace
+
+std::vector<std::string> channel_names(const std::string& path, const Limits& limits) {
+  if (!is_exr(path)) return read_image(path, limits).channels;
+  std::vector<std::string> names;
+  const ExrFile file = ExrFile::open(path, limits);
+  for (const ExrChannel& channel : file.parts().front().channels) names.push_back(channel.name);
+  return names;
+}
+
+std::vector<ChannelPair> pairs_of(const std::vector<std::string>& texts, const std::string& a,
+                                  const std::vector<std::string>& known_a, const std::string& b,
+                                  const std::vector<std::string>& known_b) {
+  std::vector<ChannelPair> pairs;
+  for (const std::string& text : texts) {
+    for (const ChannelPair& pair : pairs_of(text, a, known_a, b, known_b)) {
+      if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
 
 const Plane* ComparedPicture::find(const std::string& name) const {
   const auto at = std::find(names.begin(), names.end(), name);
@@ -92,12 +185,22 @@ std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const Compare
   return channels;
 }
 
+std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b,
+                                         const std::vector<ChannelPair>& pairs) {
+  std::vector<ComparedChannel> channels;
+  for (const ChannelPair& pair : pairs) {
+    const std::string name = pair.a == pair.b ? pair.a : pair.a + "=" + pair.b;
+    channels.push_back({name, a.find(pair.a)->view(), b.find(pair.b)->view()});
+  }
+  return channels;
+}
+
 LinearColor::LinearColor(const ComparedPicture& picture, const std::optional<double>& clip) {
   const bool decode = !is_linear(picture.path);
   const float most = clip ? static_cast<float>(*clip) : HUGE_VALF;
   const std::array<const char*, 3> names = {"R", "G", "B"};
   for (std::size_t c = 0; c < 3; ++c) {
-    const Plane* plane = picture.find(names[c]);
+    const Plane* plane = color_plane(picture, names[c]);
     if (plane == nullptr) {
       throw Error(picture.path +
                   ": metrics of color need the channels R, G, B among those that are "

@@ -22,6 +22,22 @@ struct ComparedPicture {
   const Plane* find(const std::string& name) const;
 };
 
+/// The channel of one picture that is compared with that of the other.
+struct ChannelPair {
+  std::string a, b;
+  friend bool operator==(const ChannelPair&, const ChannelPair&) = default;
+};
+
+/// The names of the channels that read_picture() knows. Throws Error as that does.
+std::vector<std::string> channel_names(const std::string& path, const Limits& limits);
+
+/// What --channels means: each text is a channel or layer of both pictures (all the layer's
+/// channels), or `A=B` with one of each. Each pair once, in order. Throws Error that lists what
+/// there is for a name that is not there, and for layers that hold different components.
+std::vector<ChannelPair> pairs_of(const std::vector<std::string>& texts, const std::string& a,
+                                  const std::vector<std::string>& known_a, const std::string& b,
+                                  const std::vector<std::string>& known_b);
+
 /// All channels of the first part of an EXR, or of another format, that `wanted` names; all when it
 /// is empty. Throws Error for those that are not there.
 ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted,
@@ -32,13 +48,16 @@ bool has_channel(const std::string& path, const std::string& name);
 
 /// The channels of both, in the order of `a`. Throws Error where one has others.
 std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b);
+/// The channels of the pairs, which were read. One of two names is called "A=B".
+std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b,
+                                         const std::vector<ChannelPair>& pairs);
 
 /// The colors of a picture as the metrics of color want them: scene-linear, larger values than
 /// `clip` counted as that. EXR, HDR and PFM are taken to be linear, other formats to be encoded as
 /// sRGB.
 class LinearColor {
  public:
-  /// Throws Error where there are no channels R, G and B.
+  /// Throws Error where there are no channels R, G and B, be it of one layer.
   LinearColor(const ComparedPicture& picture, const std::optional<double>& clip);
 
   ColorViews views() const { return {planes_[0].view(), planes_[1].view(), planes_[2].view()}; }

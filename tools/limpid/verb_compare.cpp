@@ -53,9 +53,19 @@ struct Pair {
 /// Reads, compares, and writes the maps.
 Pair compare_pair(const CompareArguments& a, const WantedMetrics& wanted, const Limits& limits) {
   Pair pair;
-  pair.a = read_picture(a.a, a.channels, limits);
-  pair.b = read_picture(a.b, a.channels, limits);
-  pair.channels = channels_of(pair.a, pair.b);
+  const std::vector<ChannelPair> chosen =
+      a.channels.empty()
+          ? std::vector<ChannelPair>()
+          : pairs_of(a.channels, a.a, channel_names(a.a, limits), a.b, channel_names(a.b, limits));
+  std::vector<std::string> of_a, of_b;
+  for (const ChannelPair& names : chosen) {
+    of_a.push_back(names.a);
+    of_b.push_back(names.b);
+  }
+  pair.a = read_picture(a.a, of_a, limits);
+  pair.b = read_picture(a.b, of_b, limits);
+  pair.channels =
+      chosen.empty() ? channels_of(pair.a, pair.b) : channels_of(pair.a, pair.b, chosen);
   pair.result = compare(pair.channels, options_of(a));
   pair.metrics = measure(wanted, pair.a, pair.b, limits);
   if (!a.diff.empty()) {
