@@ -16,6 +16,7 @@
 #include "limpid/write/unfinished.h"
 
 #include "load/file_stream.h"
+#include "write/file_identity.h"
 #include "write/local_files.h"
 
 namespace limpid {
@@ -93,20 +94,21 @@ void flush_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+AtomicFile::AtomicFile(std::filesystem::path path)
+    : path_(std::move(path)), target_(followed(path_)) {
   std::error_code ignored;
-  const auto status = std::filesystem::status(path_, ignored);
+  const auto status = std::filesystem::status(target_, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw Error(path_.string() + ": is there and not a file, so it is not replaced");
   }
-  const std::filesystem::path folder = folder_of(path_);
+  const std::filesystem::path folder = folder_of(target_);
   Unfinished& unfinished = Unfinished::all();
   const std::lock_guard lock(unfinished.mutex);
   if (unfinished.tidied.insert(std::filesystem::absolute(folder, ignored)).second) {
     remove_abandoned_files(folder);
   }
   for (int attempt = 0;; ++attempt) {
-    temporary_ = folder / temporary_name(attempt, path_.extension().string());
+    temporary_ = folder / temporary_name(attempt, target_.extension().string());
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0 && locked(descriptor_)) {
       unfinished.files.insert(temporary_);
@@ -134,14 +136,14 @@ void AtomicFile::commit() {
   int error = ::fsync(descriptor_) == 0 ? 0 : errno;
   if (error == 0) {
     const std::lock_guard lock(Unfinished::all().mutex);
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) error = errno;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) error = errno;
     if (error == 0) Unfinished::all().files.erase(temporary_);
   }
   if (error != 0) {
     throw Error(path_.string() + ": cannot be written (" + describe(error) + ")", fault_of(error));
   }
   ::close(std::exchange(descriptor_, -1));
-  flush_folder(folder_of(path_));
+  flush_folder(folder_of(target_));
 }
 
 std::unique_lock<std::mutex> remove_unfinished_files() {

@@ -131,6 +131,47 @@ TEST(AtomicFile, ReplacesFilesOnly) {
   EXPECT_THAT(error_of("/dev/null"), StartsWith("/dev/null: is there and"));
 }
 
+TEST(AtomicFile, ReplacesWhatALinkLeadsTo) {
+  const fs::path here = folder();
+  fs::create_directory(here / "other");
+  write_text(here / "other/real.exr", "old");
+  fs::create_symlink("other/real.exr", here / "near.exr");
+  fs::create_symlink(here / "near.exr", here / "far.exr");
+  AtomicFile file(here / "far.exr");
+  EXPECT_EQ(file.temporary().parent_path(), here / "other");
+  write_text(file.temporary(), "new");
+  EXPECT_EQ(text_of(here / "far.exr"), "old");
+  file.commit();
+  EXPECT_EQ(text_of(here / "other/real.exr"), "new");
+  EXPECT_TRUE(fs::is_symlink(here / "near.exr"));
+  EXPECT_TRUE(fs::is_symlink(here / "far.exr"));
+  EXPECT_EQ(files_in(here / "other"), 1);
+}
+
+TEST(AtomicFile, MakesWhatADanglingLinkLeadsTo) {
+  const fs::path here = folder();
+  fs::create_directory(here / "other");
+  fs::create_symlink("other/new.exr", here / "a.exr");
+  AtomicFile(here / "a.exr").commit();
+  EXPECT_TRUE(fs::is_symlink(here / "a.exr"));
+  EXPECT_TRUE(fs::is_regular_file(here / "other/new.exr"));
+  fs::create_symlink("absent/new.exr", here / "b.exr");
+  EXPECT_EQ(error_of(here / "b.exr"), (here / "b.exr").string() + ": the folder '" +
+                                          (here / "absent").string() +
+                                          "' cannot be written to (no such file or directory)");
+}
+
+TEST(AtomicFile, RefusesLinksThatTheSystemDoesNotFollow) {
+  const fs::path here = folder();
+  fs::create_symlink("b.exr", here / "a.exr");
+  fs::create_symlink("a.exr", here / "b.exr");
+  EXPECT_THAT(error_of(here / "a.exr"),
+              StartsWith((here / "a.exr").string() + ": is a link that cannot be followed ("));
+  fs::create_directory(here / "folder");
+  fs::create_symlink("folder", here / "c.exr");
+  EXPECT_THAT(error_of(here / "c.exr"), StartsWith((here / "c.exr").string() + ": is there and"));
+}
+
 TEST(RemoveUnfinishedFiles, LeavesNothingButWholeFiles) {
   const fs::path here = folder();
   AtomicFile whole(here / "whole.exr"), first(here / "a.exr"), second(here / "b.png");
