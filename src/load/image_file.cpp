@@ -160,4 +160,14 @@ bool is_png(const fs::path& path) { return extension_of(path) == ".png"; }
 
 bool is_exr(const fs::path& path) { return extension_of(path) == ".exr"; }
 
+bool holds_exr(const fs::path& path) {
+  std::error_code ignored;
+  if (is_exr(path)) return true;
+  if (!fs::is_regular_file(path, ignored)) return false;  // to read from a pipe would take it away
+  constexpr std::array<char, 4> kMagic = {'\x76', '\x2f', '\x31', '\x01'};
+  std::array<char, 4> bytes{};
+  std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+  return bytes == kMagic;
+}
+
 }  // namespace limpid

@@ -28,7 +28,7 @@ void premultiply(ImageFile& image) {
 PlateFile PlateFile::open(const std::filesystem::path& path, const Limits& limits) {
   PlateFile file;
   file.path = path;
-  if (is_exr(path)) {
+  if (holds_exr(path)) {
     file.exr = ExrFile::open(path, limits);
     file.parts = file.exr->parts();
     return file;

@@ -367,6 +367,19 @@ TEST(ImageFile, KnowsExrByItsExtension) {
   EXPECT_FALSE(is_exr("a.exr/b"));
 }
 
+TEST(ImageFile, KnowsExrByItsFirstBytesToo) {
+  const fs::path folder = scratch();
+  write_bytes(folder / "a.png", "\x76\x2f\x31\x01 and so on");
+  write_bytes(folder / "short", "\x76\x2f\x31");
+  write_bytes(folder / "text.exr", "words");
+  EXPECT_TRUE(holds_exr(folder / "a.png"));
+  EXPECT_TRUE(holds_exr(folder / "text.exr"));
+  EXPECT_TRUE(holds_exr(folder / "absent.exr"));
+  EXPECT_FALSE(holds_exr(folder / "short"));
+  EXPECT_FALSE(holds_exr(folder / "absent.png"));
+  EXPECT_FALSE(holds_exr(folder));
+}
+
 // In a process of its own, because a module once loaded stays.
 TEST(ImageFileDeathTest, SaysWhichModuleIsMissing) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");

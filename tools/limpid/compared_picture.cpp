@@ -19,7 +19,7 @@ bool among(const std::string& name, const std::vector<std::string>& names) {
 bool is_linear(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return among(extension, {".exr", ".hdr", ".rgbe", ".pfm"});
+  return holds_exr(path) || among(extension, {".hdr", ".rgbe", ".pfm"});
 }
 
 std::string component_of(const std::string& channel) {
@@ -130,7 +130,7 @@ ComparedPicture read_picture(const std::string& path, const std::vector<std::str
   ComparedPicture picture;
   picture.path = path;
   std::vector<std::string> known;
-  if (is_exr(path)) {
+  if (holds_exr(path)) {
     const ExrFile file = ExrFile::open(path, limits);
     const ExrPart& part = file.parts().front();
     picture.display = part.display.size();
@@ -163,7 +163,7 @@ ComparedPicture read_picture(const std::string& path, const std::vector<std::str
 }
 
 bool has_channel(const std::string& path, const std::string& name) {
-  if (!is_exr(path)) return false;
+  if (!holds_exr(path)) return false;
   const ExrFile file = ExrFile::open(path);
   const std::vector<ExrChannel>& channels = file.parts().front().channels;
   return std::any_of(channels.begin(), channels.end(),

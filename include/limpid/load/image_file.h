@@ -41,7 +41,11 @@ bool is_png(const std::filesystem::path& path);
 /// or has more than 1 MiB of them.
 std::map<std::string, std::string> read_image_texts(const std::filesystem::path& path);
 
-/// Whether the path's extension is .exr (any case): such files go through ExrFile instead.
+/// Whether the path's extension is .exr (any case).
 bool is_exr(const std::filesystem::path& path);
+
+/// Whether a file is read by ExrFile instead: it begins as an EXR, whatever its name, or it has the
+/// name of one, whatever is in it. Opens a file of another name.
+bool holds_exr(const std::filesystem::path& path);
 
 }  // namespace limpid
