@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 
 #include "limpid/core/error.h"
@@ -11,7 +12,7 @@
 namespace limpid {
 namespace {
 
-constexpr std::size_t kMostFrames = 1'000'000;
+constexpr int kMostNumber = std::numeric_limits<int>::max();
 constexpr int kDigitsOfOne = 4;
 
 [[noreturn]] void refuse(std::string_view range) {
@@ -24,12 +25,36 @@ constexpr int kDigitsOfOne = 4;
 int take_number(std::string_view& text, std::string_view range) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc::result_out_of_range || number < -kMostNumber) {
+    throw Error("frames '" + std::string(range) + "': " + std::string(text.data(), end) +
+                    ": expected numbers -" + std::to_string(kMostNumber) + " ... " +
+                    std::to_string(kMostNumber),
+                Fault::kUsage);
+  }
   if (error != std::errc()) refuse(range);
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return number;
 }
 
-void add_part(std::string_view part, std::string_view range, std::vector<int>& frames) {
+/// Frames from `first` towards `last`: each `step`-th, or all but these.
+struct Part {
+  int first = 0, last = 0, step = 1;
+  bool complement = false;
+
+  std::int64_t span() const { return std::abs(std::int64_t{last} - first) + 1; }
+  std::int64_t count() const {
+    const std::int64_t stepped = (span() - 1) / step + 1;
+    return complement ? span() - stepped : stepped;
+  }
+  void add_to(std::vector<int>& frames) const {
+    for (std::int64_t i = 0; i < span(); i += complement ? 1 : step) {
+      if (complement && i % step == 0) continue;
+      frames.push_back(static_cast<int>(last >= first ? first + i : first - i));
+    }
+  }
+};
+
+Part part_of(std::string_view part, std::string_view range) {
   const int first = take_number(part, range);
   int last = first, step = 1;
   bool complement = false;
@@ -43,12 +68,7 @@ void add_part(std::string_view part, std::string_view range, std::vector<int>& f
     step = std::abs(take_number(part, range));
   }
   if (!part.empty() || step == 0) refuse(range);
-  const std::int64_t count = std::abs(std::int64_t{last} - first) + 1;
-  for (std::int64_t i = 0; i < count; ++i) {
-    if ((i % step == 0) == complement) continue;
-    if (frames.size() == kMostFrames) refuse(range);
-    frames.push_back(static_cast<int>(last >= first ? first + i : first - i));
-  }
+  return {first, last, step, complement};
 }
 
 /// A place for a number in a pattern: where it is, and how many digits it has at least.
@@ -77,14 +97,25 @@ std::optional<Slot> find_slot(std::string_view pattern) {
 }  // namespace
 
 std::vector<int> frames_of(std::string_view range) {
-  std::vector<int> frames;
-  std::string_view rest = range;
-  while (true) {
+  std::vector<Part> parts;
+  std::int64_t count = 0;
+  for (std::string_view rest = range;;) {
     const std::size_t comma = rest.find(',');
-    add_part(rest.substr(0, comma), range, frames);
-    if (comma == std::string_view::npos) return frames;
+    parts.push_back(part_of(rest.substr(0, comma), range));
+    count += parts.back().count();
+    if (comma == std::string_view::npos) break;
     rest.remove_prefix(comma + 1);
   }
+  if (count == 0) refuse(range);
+  if (count > kMostFrames) {
+    throw Error("frames '" + std::string(range) + "' are " + std::to_string(count) +
+                    ": expected at most " + std::to_string(kMostFrames),
+                Fault::kUsage);
+  }
+  std::vector<int> frames;
+  frames.reserve(static_cast<std::size_t>(count));
+  for (const Part& part : parts) part.add_to(frames);
+  return frames;
 }
 
 std::string name_of_frame(std::string_view pattern, int frame) {

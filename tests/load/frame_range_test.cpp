@@ -20,9 +20,36 @@ TEST(FrameRange, ReadsWhatOiiotoolReads) {
 }
 
 TEST(FrameRange, RefusesTheRest) {
-  for (const char* text : {"", "a", "1-", "1-5x", "1-5x0", "1,,2", "1-5z2", "1 5", "0-99999999"}) {
+  for (const char* text :
+       {"", "a", "1-", "1-5x", "1-5x0", "1,,2", "1-5z2", "1 5", "0-99999999", "1-5y1"}) {
     EXPECT_THROW(frames_of(text), Error) << text;
   }
+}
+
+std::string refusal(const char* range) {
+  try {
+    frames_of(range);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::kUsage);
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(FrameRange, NamesTheCountThatIsTooLarge) {
+  EXPECT_EQ(frames_of("1-1000000").size(), 1'000'000u);
+  EXPECT_EQ(frames_of("1-2000000x2").size(), 1'000'000u);
+  EXPECT_EQ(frames_of("-2147483647-2147483647x2147483647"),
+            (std::vector<int>{-2147483647, 0, 2147483647}));
+  EXPECT_EQ(refusal("0-1000000"), "frames '0-1000000' are 1000001: expected at most 1000000");
+  EXPECT_EQ(refusal("1-600000,1-400000,7"),
+            "frames '1-600000,1-400000,7' are 1000001: expected at most 1000000");
+  EXPECT_EQ(refusal("-2147483647-2147483647y2"),
+            "frames '-2147483647-2147483647y2' are 2147483647: expected at most 1000000");
+  EXPECT_EQ(refusal("1-99999999999"),
+            "frames '1-99999999999': 99999999999: expected numbers -2147483647 ... 2147483647");
+  EXPECT_THAT(refusal("-2147483648"), testing::HasSubstr("': -2147483648: expected numbers"));
+  EXPECT_THAT(refusal("5-5y1"), testing::HasSubstr("5-5y1"));
 }
 
 TEST(FrameRange, PutsTheNumberIntoNames) {
