@@ -4,6 +4,7 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
+#include "limpid/job_files.h"
 #include "limpid/write/exr_camera.h"
 
 #include "composite_frame.h"
@@ -158,6 +159,7 @@ CompositeReport composite(const CompositeJob& job, Executor& executor) {
 
 void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool writes) {
   Stopwatch watch;
+  if (writes) expect_apart(files_of(job));
   const Plate plate = Plate::open(job.plate);
   scene_ = scene_of(job, plate);
   const DepthMeaning depth = depth_of(job);

@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "limpid/core/error.h"
+#include "limpid/job_files.h"
 #include "limpid/load/exr_file.h"
 #include "limpid/load/image_file.h"
 #include "limpid/write/unfinished.h"
 
 #include "composite_frame.h"
 #include "water_frame.h"
+#include "write/file_identity.h"
 
 namespace limpid {
 namespace {
@@ -20,18 +22,9 @@ namespace fs = std::filesystem;
 
 using Files = std::vector<fs::path>;
 
-/// The picture comes first.
-Files files_of(const OutputChoice& output) {
-  Files files{output.picture};
-  for (const fs::path& also : {output.deep, output.preview}) {
-    if (!also.empty()) files.push_back(also);
-  }
-  return files;
-}
-
-Files files_of(const CompositeJob& job) { return files_of(job.output); }
-Files files_of(const WaterJob& job) { return files_of(job.output); }
-Files files_of(const PlateJob& job) { return {job.output.plate}; }
+Files outputs_of(const CompositeJob& job) { return outputs_of(job.output); }
+Files outputs_of(const WaterJob& job) { return outputs_of(job.output); }
+Files outputs_of(const PlateJob& job) { return {job.output.plate}; }
 
 bool is_there(const fs::path& file) {
   std::error_code ignored;
@@ -95,6 +88,14 @@ Found find(const Files& files, const RecordOfJob& record_of_job) {
 struct Findings {
   Rest rest;
   std::set<fs::path> folders;
+
+  void add_folder_of(const fs::path& file) {
+    try {
+      folders.insert(fs::absolute(followed(file)).parent_path());
+    } catch (const Error&) {
+      return;  // it will be told when the frame is made
+    }
+  }
 };
 
 /// A slot that looks at frames instead of making them.
@@ -112,11 +113,10 @@ class LookingSlot : public FrameSlot {
     } catch (const Error&) {
       return;  // it will be told when the frame is made
     }
-    for (const fs::path& file : files_of(*job_))
-      findings_.folders.insert(fs::absolute(file).parent_path());
+    for (const fs::path& file : outputs_of(*job_)) findings_.add_folder_of(file);
   }
   void read(Executor&) override {
-    if (job_) found_ = find(files_of(*job_), [&] { return record_of_job_(*job_); });
+    if (job_) found_ = find(outputs_of(*job_), [&] { return record_of_job_(*job_); });
   }
   void run(Executor&) override {}
   void write() override {}
@@ -154,6 +154,7 @@ Rest rest_of(const Sequence& sequence, const JobOfFrame<Job>& job_of,
 
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                        Executor& executor) {
+  expect_apart(sequence.frames, [&](int frame) { return files_of(job_of(frame)); });
   SharedTextures textures;
   return rest_of(
       sequence, job_of, [&](const CompositeJob& job) { return record_of(job, textures); },
@@ -162,6 +163,7 @@ Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>&
 
 Rest rest_of_render(const Model& model, const Sequence& sequence,
                     const JobOfFrame<PlateJob>& job_of, Executor& executor) {
+  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
   const HashedModel hashed(model);
   return rest_of(
       sequence, job_of, [&](const PlateJob& job) { return record_of(hashed, job); }, executor);
@@ -169,6 +171,7 @@ Rest rest_of_render(const Model& model, const Sequence& sequence,
 
 Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
                    Executor& executor) {
+  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
   SharedTextures textures;
   const HashedModel hashed(model);
   return rest_of(

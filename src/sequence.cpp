@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "limpid/core/error.h"
+#include "limpid/job_files.h"
 
 #include "composite_frame.h"
 #include "stopwatch.h"
@@ -129,6 +130,8 @@ void run_sequence(const Sequence& sequence,
 
 void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                         const OnFrame& on_frame, Executor& executor) {
+  check(sequence);
+  expect_apart(sequence.frames, [&](int frame) { return files_of(job_of(frame)); });
   SharedTextures textures;
   const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
     return std::make_unique<JobSlot<CompositeJob, CompositeFrame>>(job_of, on_frame,
@@ -140,6 +143,8 @@ void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>
 void render_sequence(const Model& model, const Sequence& sequence,
                      const JobOfFrame<PlateJob>& job_of, const OnFrame& on_frame,
                      Executor& executor) {
+  check(sequence);
+  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
   const HashedModel hashed(model);
   const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
     return std::make_unique<JobSlot<PlateJob, RenderFrame>>(job_of, on_frame, RenderFrame(hashed));
@@ -150,6 +155,8 @@ void render_sequence(const Model& model, const Sequence& sequence,
 void water_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<WaterJob>& job_of, const OnFrame& on_frame,
                     Executor& executor) {
+  check(sequence);
+  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
   SharedTextures textures;
   const HashedModel hashed(model);
   const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {

@@ -88,10 +88,15 @@ ExrOutput file_of(const TruthPicture& picture, const Scene& scene, const TruthJo
 
 }  // namespace
 
+JobFiles files_of(const Model& model, const TruthJob& job) {
+  return {inputs_of(model, job.scene, job.look), {job.output.picture, job.output.preview}};
+}
+
 TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
   Stopwatch watch;
   TruthReport report;
   report.size = job.size;
+  expect_apart(files_of(model, job));
   // The Error that writing would end with, before the work is done.
   AtomicFile{job.output.picture};
   if (!job.output.preview.empty()) AtomicFile{job.output.preview};

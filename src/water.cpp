@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "limpid/core/error.h"
+#include "limpid/job_files.h"
 #include "limpid/write/exr_camera.h"
 
 #include "stopwatch.h"
@@ -116,6 +117,7 @@ void render(const Model& model, const PlateJob& job, Executor& executor) {
 void RenderFrame::read(const PlateJob& job, Executor& executor) {
   Stopwatch watch;
   const Model& model = *model_->model;
+  expect_apart(files_of(model, job));
   scene_ = scene_of(model, job.render);
   expect_writable(job.output.plate);
   record_ = record_of(*model_, job, scene_);
@@ -162,8 +164,9 @@ CompositeReport water(const Model& model, const WaterJob& job, Executor& executo
 void WaterFrame::read(const WaterJob& job, Executor& executor) {
   Stopwatch watch;
   check(job);
-  expect_writable(job.output);
   const Model& model = *model_->model;
+  expect_apart(files_of(model, job));
+  expect_writable(job.output);
   scene_ = scene_of(model, job.render);
   report_ = {};
   report_.plan = plan_of(model, scene_, job);

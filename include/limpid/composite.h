@@ -60,7 +60,8 @@ struct MeasuredPlan {
 };
 MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor);
 
-/// Loads, plans, runs, writes. Throws Error; nothing is left under the output's name then but what
+/// Loads, plans, runs, writes. Throws Error, also for an output that is one of the inputs or
+/// another output (job_files.h); nothing is left under the output's name then but what
 /// was there before.
 CompositeReport composite(const CompositeJob& job, Executor& executor);
 

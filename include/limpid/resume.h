@@ -28,7 +28,7 @@ struct Rest {
 /// frame is never kept. Inputs are looked at for frames alone whose picture is there: headers are
 /// read, bytes hashed, no pixel is decoded. What is wrong with a frame's inputs is no error here,
 /// but when its turn comes. Removes abandoned temporary files (write/unfinished.h) from the folders
-/// of all outputs. Throws Error as run_sequence() does.
+/// of all outputs. Throws Error as the sequences do: first of all for outputs that are not apart.
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                        Executor& executor);
 Rest rest_of_render(const Model& model, const Sequence& sequence,

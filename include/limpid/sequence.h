@@ -32,13 +32,16 @@ struct SequenceProgress {
   double seconds_left() const { return seconds / done * (of - done); }
 };
 
-/// Asked for the job of a frame when its turn comes: in order, from any thread, one at a time.
+/// Asked for the jobs of all frames before the first is made, to see that no frame writes what it
+/// or another reads or writes (job_files.h), and then again for each when its turn comes: in order,
+/// from any thread, one at a time.
 template <class Job>
 using JobOfFrame = std::function<Job(int frame)>;
 /// Called likewise, for frames that are done. What it throws stops the sequence.
 using OnFrame = std::function<void(const SequenceProgress&, const CompositeReport&)>;
 
-/// Throws Error, which names the frame, for the first one (in the order of `frames`) that fails.
+/// Throws Error before anything is made for outputs that are not apart. Throws Error, which names
+/// the frame, for the first one (in the order of `frames`) that fails.
 /// All before it are done and told of then; of those after it none begins any more, and the few
 /// that had begun are whole or not there. What does not change from frame to frame, textures, is
 /// loaded once.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "limpid/job_files.h"
 #include "limpid/load/scene_file.h"
 #include "limpid/trace/truth.h"
 
@@ -35,8 +36,12 @@ struct TruthReport {
   double trace_seconds = 0, write_seconds = 0;
 };
 
-/// Traces and writes. Throws Error as trace_truth() does, and for textures that cannot be read;
-/// nothing is left under the output's name then but what was there before.
+/// What it reads and writes (job_files.h).
+JobFiles files_of(const Model& model, const TruthJob& job);
+
+/// Traces and writes. Throws Error as trace_truth() does, for textures that cannot be read, and for
+/// an output that is one of the inputs or another output; nothing is left under the output's name
+/// then but what was there before.
 TruthReport truth(const Model& model, const TruthJob& job, Executor& executor);
 
 }  // namespace limpid

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "limpid/core/error.h"
 
@@ -60,6 +61,12 @@ void blame_materials(const std::vector<std::string>& faults, std::vector<GltfMat
   }
 }
 
+/// Adds the file that a buffer or an image names, if it names one.
+void add_file_of(const JsonPlace& place, const fs::path& folder, std::vector<fs::path>& files) {
+  const auto uri = place.find("uri");
+  if (uri && !is_data_uri(uri->text())) files.push_back(folder / relative_path_of(*uri));
+}
+
 class Reader {
  public:
   Reader(const GltfFile& file, const fs::path& folder, const Limits& limits, Undrawable undrawable)
@@ -82,6 +89,10 @@ class Reader {
                     model_);
     model_.background = background_of(root_, model_.background);
     model_.warnings = warnings_.lines();
+    const std::vector<JsonPlace> images = root_.list("images");
+    for (const JsonPlace& buffer : root_.list("buffers"))
+      add_file_of(buffer, folder_, model_.files);
+    for (const int image : looks.images) add_file_of(images[image], folder_, model_.files);
     return std::move(model_);
   }
 
@@ -123,8 +134,10 @@ Model gltf_model(const GltfFile& file, const fs::path& folder, const Limits& lim
 
 Model load_gltf(const fs::path& path, const Limits& limits, Undrawable undrawable) {
   try {
-    return gltf_model(read_gltf_file(path, limits), fs::absolute(path).parent_path(), limits,
-                      undrawable);
+    Model model = gltf_model(read_gltf_file(path, limits), fs::absolute(path).parent_path(), limits,
+                             undrawable);
+    model.files.push_back(fs::absolute(path));
+    return model;
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what(), error.fault());
   }

@@ -191,6 +191,7 @@ Look look_of(const TomlNode& root, std::string name) {
 Look load_look(const fs::path& path) {
   Look look = look_of(parse_toml(path), path.stem().string());
   resolve_files(look, fs::absolute(path).parent_path());
+  look.file = fs::absolute(path).string();
   return look;
 }
 

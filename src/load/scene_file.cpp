@@ -264,7 +264,9 @@ std::string matrix_text(const glm::dmat4& m) {
 }  // namespace
 
 SceneFile load_scene(const fs::path& path) {
-  return scene_of(parse_toml(path), fs::absolute(path).parent_path());
+  SceneFile scene = scene_of(parse_toml(path), fs::absolute(path).parent_path());
+  scene.file = fs::absolute(path);
+  return scene;
 }
 
 SceneFile scene_from_toml(const std::string& text, const std::string& name) {

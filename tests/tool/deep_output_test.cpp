@@ -194,7 +194,7 @@ TEST_F(DeepOutputTest, RefusesWhatIsNoDeepFile) {
     expect_no_composite(words, parts, code);
   };
   refused({"--deep", "deep.png"}, {"--deep deep.png", ".exr"}, 2);
-  refused({"--deep", "old.exr"}, {"--deep old.exr", "another name"}, 2);
+  refused({"--deep", "old.exr"}, {"old.exr: is another output, too"}, 2);
   refused({"--deep", "absent/deep.exr"}, {"absent"}, 1);
   const std::string scene = std::string(LIMPID_DATA) + "/scenes/pool.toml";
   const Words water = {"water", scene, "--size", "16x9", "-o", "x.exr", "--deep"};

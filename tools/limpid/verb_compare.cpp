@@ -7,6 +7,7 @@
 #include "limpid/compare/number_text.h"
 #include "limpid/compare/temporal.h"
 #include "limpid/core/error.h"
+#include "limpid/job_files.h"
 #include "limpid/load/frame_range.h"
 
 #include "compared_picture.h"
@@ -88,6 +89,8 @@ CompareArguments arguments_of_frame(const CompareArguments& a, int frame) {
   return one;
 }
 
+JobFiles files_of(const CompareArguments& a) { return {{a.a, a.b}, {a.diff, a.flip_map}}; }
+
 std::vector<int> frames_to_compare(const CompareArguments& a) {
   for (const std::string& name : {a.a, a.b, a.diff, a.flip_map}) {
     if (name.empty() || has_frame_number(name)) continue;
@@ -135,6 +138,7 @@ std::string line_of(const std::string& first, const std::vector<std::string>& ce
 int compare_frames(const CompareArguments& a, WantedMetrics wanted, const Limits& limits,
                    const Out& print) {
   const std::vector<int> frames = frames_to_compare(a);
+  expect_apart(frames, [&](int frame) { return files_of(arguments_of_frame(a, frame)); });
   std::optional<Pair> before;
   double flicker_sum = 0, flicker_max = 0;
   std::vector<std::string> failed;
@@ -177,6 +181,7 @@ int compare_verb(const CompareArguments& a, const CommonArguments& common) {
   const Out print(common);
   const WantedMetrics wanted = wanted_metrics(a);
   if (!a.frames.empty()) return compare_frames(a, wanted, limits, print);
+  expect_apart(files_of(a));
   const Pair pair = compare_pair(a, wanted, limits);
   print(numbers_text(pair.result) + to_text(pair.metrics, wanted) + verdict(pair.passes()));
   for (const std::string& map : {a.diff, a.flip_map}) {

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "limpid/core/error.h"
+#include "limpid/job_files.h"
 #include "limpid/report/hard_page.h"
 #include "limpid/report/report.h"
 
@@ -27,6 +28,20 @@ ReportOptions options_of(const ReportArguments& a, const CommonArguments& common
   return options;
 }
 
+/// Throws Error where a file of these names in the folder is, by a link, one of the data that a
+/// report reads.
+void expect_apart_from_data(const std::string& folder, std::initializer_list<const char*> names) {
+  JobFiles files;
+  const std::filesystem::path data = data_folder();
+  for (const char* part : {"looks", "scenes", "plates", "maps"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(data / part)) {
+      if (entry.is_regular_file()) files.inputs.push_back(entry.path());
+    }
+  }
+  for (const char* name : names) files.outputs.push_back(std::filesystem::path(folder) / name);
+  expect_apart(files);
+}
+
 void print_files(const std::string& folder, std::initializer_list<const char*> names) {
   for (const char* name : names)
     std::printf("%s\n", (std::filesystem::path(folder) / name).c_str());
@@ -38,6 +53,7 @@ int hard_cases(const ReportArguments& a, const CommonArguments& common) {
     throw Error("report --hard: has cases of its own, expected no --size, --rounds or --quick",
                 Fault::kUsage);
   }
+  expect_apart_from_data(a.output, {"hard.json", "hard.html"});
   make_hard_folder(a.output);
   const std::vector<HardRow> rows = HardSuite(data_folder(), common.threads).measure_all();
   write_hard(a.output, rows);
@@ -60,6 +76,7 @@ int report_verb(const ReportArguments& a, const CommonArguments& common) {
   if (a.hard) return hard_cases(a, common);
   const ReportOptions options = options_of(a, common);
   options.validate();
+  expect_apart_from_data(a.output, {"report.json", "index.html"});
   make_report_folder(a.output);
   write_report(a.output, measure_report(options));
   if (!common.quiet) print_files(a.output, {"report.json", "index.html"});

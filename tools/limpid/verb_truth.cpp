@@ -107,6 +107,7 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
     one.time = time_of_frame(a.frames, job.time, frame);
     return one;
   };
+  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of_frame(frame)); });
   sequence.in_flight = 1;
   Progress progress(common);
   run_sequence(

@@ -149,9 +149,6 @@ OutputChoice output_of(const WaterOptions& a) {
   output.picture = exr_named("-o", a.output);
   output.preview = a.preview;
   output.deep = exr_named("--deep", a.deep);
-  if (!a.deep.empty() && a.deep == a.output) {
-    throw Error("--deep " + a.deep + ": expected another name than the picture's", Fault::kUsage);
-  }
   validate_compression(a.compression);
   output.compression = a.compression;
   output.store_float = a.store_float;

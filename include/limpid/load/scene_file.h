@@ -65,6 +65,7 @@ struct SceneFile {
   std::filesystem::path geometry;     ///< glTF file, absolute, or empty
   std::filesystem::path environment;  ///< picture file, absolute, or empty
   double environment_rotation = 0;    ///< rad
+  std::filesystem::path file;         ///< that it was read from, absolute, or empty
 };
 
 /// The most waves of a scene: every output carries them as text, which must be small enough to be

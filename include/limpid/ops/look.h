@@ -23,6 +23,7 @@ struct Look {
   std::string name;
   Water water;
   Chain::AllParams operators;
+  std::string file;  ///< that it was read from, absolute, or ""
 
   template <Operator Op>
   typename Op::Params& of() {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -116,6 +117,7 @@ struct Model {
   /// What of the file is not drawn, or not as the file says: a sentence each, without the file's
   /// name. Names in the sentences are those of the file, of any bytes.
   std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> files;  ///< that it was read from
 };
 
 }  // namespace limpid
