@@ -19,8 +19,6 @@
 namespace limpid {
 namespace {
 
-constexpr int kMostInFlight = 64;
-
 /// The frames' way through their slots, and the first failure. Frame i is in slot i % in_flight,
 /// which is free by then: that is what Executor::pipeline promises.
 class Line {

@@ -60,8 +60,10 @@ constexpr NamedPlane kPlaneChannels[] = {
 static_assert(std::size(kPlaneChannels) == kPlaneCount);
 
 void check(const WaterJob& job) {
-  if (job.samples < 1 || job.samples > 16) {
-    throw Error("samples = " + std::to_string(job.samples) + ": expected 1 ... 16");
+  if (job.samples < 1 || job.samples > kMostSamples) {
+    throw Error("samples = " + std::to_string(job.samples) + ": expected 1 ... " +
+                    std::to_string(kMostSamples),
+                Fault::kUsage);
   }
   if (job.samples > 1 && !job.output.deep.empty()) {
     throw Error("samples = " + std::to_string(job.samples) + " and a deep file: expected 1, " +
@@ -69,12 +71,13 @@ void check(const WaterJob& job) {
                 Fault::kUsage);
   }
   const Size size = job.render.render.size;
-  const int most = 32000 / job.samples;
+  const int most = kMostRenderedSide / job.samples;
   if (std::max({size.width, size.height, job.render.render.overscan}) > most) {
     throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                ", overscan " + std::to_string(job.render.render.overscan) + ", samples " +
-                std::to_string(job.samples) + ": expected at most " + std::to_string(most) +
-                " pixels a side");
+                    ", overscan " + std::to_string(job.render.render.overscan) + ", samples " +
+                    std::to_string(job.samples) + ": expected at most " + std::to_string(most) +
+                    " pixels a side",
+                Fault::kUsage);
   }
 }
 

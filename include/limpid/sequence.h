@@ -13,10 +13,12 @@
 
 namespace limpid {
 
+inline constexpr int kMostInFlight = 64;
+
 /// Which frames, and how many of them at once.
 struct Sequence {
   std::vector<int> frames;  ///< their numbers, in the order in which they are worked on
-  int in_flight = 3;        ///< 1 ... 64; each of these holds the buffers of one frame
+  int in_flight = 3;        ///< 1 ... kMostInFlight; each of these holds the buffers of one frame
 };
 /// Throws the Error that all of the functions below begin with: of Fault::kUsage, for an
 /// `in_flight` out of range.

@@ -28,13 +28,15 @@ struct PlateJob {
 };
 void render(const Model& model, const PlateJob& job, Executor& executor);
 
+inline constexpr int kMostSamples = 16;
+
 /// `limpid water`: render and composite without a file between. With samples = N the picture is
 /// made N times as wide and high and the finished water filtered down last, so that no pixel mixes
 /// depths.
 struct WaterJob {
   RenderJob render;
   Look look;
-  int samples = 1;  ///< 1 ... 16
+  int samples = 1;  ///< 1 ... kMostSamples
   OutputChoice output;
 };
 

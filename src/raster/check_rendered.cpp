@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "limpid/core/error.h"
+#include "limpid/raster/render_plate.h"
 
 namespace limpid {
 namespace {
@@ -21,20 +22,24 @@ void check_rendered(const Scene& scene, Size size, int overscan) {
     throw Error("the scene has no camera: expected one in the scene file or in the geometry");
   }
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
-  if (size.width < 1 || size.height < 1 || size.width > 32000 || size.height > 32000) {
+  const int longest = std::max(size.width, size.height);
+  if (size.width < 1 || size.height < 1 || longest > kMostRenderedSide) {
     throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                ": expected 1 ... 32000 pixels a side");
+                    ": expected 1 ... " + std::to_string(kMostRenderedSide) + " pixels a side",
+                Fault::kUsage);
   }
-  const int limit = (32000 - std::max(size.width, size.height)) / 2;
+  const int limit = (kMostRenderedSide - longest) / 2;
   if (overscan < 0 || overscan > limit) {
     throw Error("overscan " + std::to_string(overscan) + ": expected 0 ... " +
-                std::to_string(limit) + " pixels");
+                    std::to_string(limit) + " pixels",
+                Fault::kUsage);
   }
   const std::int64_t pixels =
       (std::int64_t{size.width} + 2 * overscan) * (std::int64_t{size.height} + 2 * overscan);
   if (pixels > kMostPixels) {
     throw Error(std::to_string(pixels) + " pixels with overscan and samples: expected at most " +
-                std::to_string(kMostPixels) + ", about 10 GB of buffers");
+                    std::to_string(kMostPixels) + ", about 10 GB of buffers",
+                Fault::kUsage);
   }
   if (scene.sun && glm::dot(scene.sun->direction, scene.water->up) <= 0) {
     throw Error("the sun is below the horizon: expected a direction that points above the water");

@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "limpid/core/error.h"
+#include "limpid/raster/render_plate.h"
 #include "limpid/raster/rasterise.h"
 
 namespace limpid {
@@ -67,8 +68,10 @@ void keep_within(const Box& bounds, const glm::dmat3& sun_from_world, Extent& ex
 
 ShadowMap make_shadow_map(const Model& model, const Sun& sun, const std::optional<Box>& bounds,
                           int size, Executor& executor, const std::string& simd) {
-  if (size < 1 || size > 16384) {
-    throw Error("shadow map of " + std::to_string(size) + " texels: expected 1 ... 16384");
+  if (size < 1 || size > kMostShadowMap) {
+    throw Error("shadow map of " + std::to_string(size) + " texels: expected 1 ... " +
+                    std::to_string(kMostShadowMap),
+                Fault::kUsage);
   }
   Scene scene;
   scene.sun = sun;

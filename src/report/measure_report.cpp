@@ -80,11 +80,13 @@ void ReportOptions::validate() const {
   const auto expect = [](bool holds, const std::string& what) {
     if (!holds) throw Error("report." + what, Fault::kUsage);
   };
-  expect(size.width >= 16 && size.height >= 16 && size.width <= 8192 && size.height <= 8192,
+  const auto within = [](int side) { return side >= kLeastReportSide && side <= kMostReportSide; };
+  expect(within(size.width) && within(size.height),
          "size = " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-             ": expected 16x16 ... 8192x8192");
-  expect(rounds >= 1 && rounds <= 1000,
-         "rounds = " + std::to_string(rounds) + ": expected 1 ... 1000");
+             ": expected " + std::to_string(kLeastReportSide) + " ... " +
+             std::to_string(kMostReportSide) + " pixels a side");
+  expect(rounds >= 1 && rounds <= kMostRounds,
+         "rounds = " + std::to_string(rounds) + ": expected 1 ... " + std::to_string(kMostRounds));
 }
 
 Report measure_report(const ReportOptions& options) {

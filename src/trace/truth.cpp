@@ -20,8 +20,10 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
   look.validate();
   check_rendered(scene, options.size);
   renderable(model, scene);
-  if (options.samples < 1 || options.samples > 16) {
-    throw Error("samples = " + std::to_string(options.samples) + ": expected 1 ... 16");
+  if (options.samples < 1 || options.samples > kMostTruthSamples) {
+    throw Error("samples = " + std::to_string(options.samples) + ": expected 1 ... " +
+                    std::to_string(kMostTruthSamples),
+                Fault::kUsage);
   }
   for (Aov aov : options.aovs) {
     if (aov == Aov::kConfidence) {

@@ -200,8 +200,8 @@ TEST_F(ReportTest, WrongUsage) {
   expect_refused(limpid({"report", "-o", "r", "--hard", "--quick"}), {"--hard", "no --size"}, 2);
   expect_refused(limpid({"report"}), {"-o FOLDER"}, 2);
   expect_refused(limpid({"report", "-o", "r", "--size", "12"}), {"--size 12", "WxH"}, 2);
-  expect_refused(limpid({"report", "-o", "r", "--size", "8x8"}), {"8x8", "16x16"}, 2);
-  expect_refused(limpid({"report", "-o", "r", "--rounds", "0"}), {"rounds = 0", "1 ..."}, 2);
+  expect_refused(limpid({"report", "-o", "r", "--size", "8x8"}), {"--size 8x8", "16 ... 8192"}, 2);
+  expect_refused(limpid({"report", "-o", "r", "--rounds", "0"}), {"--rounds 0", "1 ..."}, 2);
   expect_refused(limpid({"report", "-o", "r", "--rounds", "many"}), {"many", "number"}, 2);
   expect_refused(limpid({"report", "-o", "plate.exr"}), {"plate.exr", "not a folder"});
   EXPECT_FALSE(fs::exists(folder_ / "r"));

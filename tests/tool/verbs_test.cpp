@@ -109,7 +109,7 @@ TEST_F(VerbsTest, AWrongValueIsWrongUsage) {
     expect_no_composite(all, parts, 2);
   };
   expect_wrong({"--time", "soon"}, {"--time = soon: expected a number"});
-  expect_wrong({"--threads", "-3"}, {"--threads: Value -3 not in range 0 to 1024"});
+  expect_wrong({"--threads", "-3"}, {"--threads -3: expected a whole number, 0 ... 1024"});
   expect_wrong({"--aov", "fresnell"}, {"'fresnell' is no AOV", "did you mean 'fresnel'?"});
   expect_wrong({"--aov", "all,fresnell"}, {"'fresnell' is no AOV", "did you mean 'fresnel'?"});
   expect_wrong({"--runner", "fast"}, {"--runner fast: expected fused or reference"});

@@ -1,17 +1,28 @@
 #include "arguments.h"
 
 #include <iostream>
+#include <limits>
 
 #include <CLI/CLI.hpp>
 
 #include "limpid/core/error.h"
+#include "limpid/raster/render_plate.h"
+#include "limpid/report/report.h"
 #include "limpid/run/target.h"
+#include "limpid/sequence.h"
+#include "limpid/trace/truth.h"
 #include "limpid/version.h"
+#include "limpid/water.h"
+
+#include "option_range.h"
 
 namespace limpid::tool {
 namespace {
 
 constexpr int kWrongUsage = 2;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMostSeconds = 1e12;  ///< so that no wave's phase overflows
+constexpr double kMostFps = 1e6;
 
 void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& scene,
                 std::vector<std::string>& layers, std::string& view) {
@@ -32,12 +43,15 @@ void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& s
 void add_time(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--time", a.time,
                   "Seconds, for waves and their drift (default: the scene's, or 0)")
-      ->option_text("S");
+      ->option_text("S")
+      ->check(number_in(-kMostSeconds, kMostSeconds, "s"));
 }
 
 void add_frame_numbers(CLI::App& verb, FrameOptions& a, const std::string& about) {
   verb.add_option("--frames", a.range, about)->option_text("RANGE");
-  verb.add_option("--fps", a.fps, "Frames a second (default: 24)")->option_text("N");
+  verb.add_option("--fps", a.fps, "Frames a second (default: 24)")
+      ->option_text("N")
+      ->check(number_in(1 / kMostFps, kMostFps));
 }
 
 void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
@@ -45,7 +59,8 @@ void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
   verb.add_option("--frames-in-flight", a.in_flight,
                   "Frames that are read, run and written at once, each in its own memory "
                   "(default: 3)")
-      ->option_text("N");
+      ->option_text("N")
+      ->check(whole_number_in(1, kMostInFlight));
 }
 
 void add_resume(CLI::App& verb, FrameOptions& a) {
@@ -75,7 +90,8 @@ void add_look(CLI::App& verb, WaterOptions& a) {
           "--max-error", a.max_error,
           "Leave out what changes no channel of a pixel by more than this in all, white = 1 "
           "(default: 0, exact)")
-      ->option_text("E");
+      ->option_text("E")
+      ->check(number_in(0, kInfinity, "white = 1"));
 }
 
 void add_file(CLI::App& verb, WaterOptions& a) {
@@ -139,8 +155,11 @@ void add_scene(CLI::App& verb, std::string& scene, std::string& size, bool& draw
 void add_render(CLI::App& verb, RenderArguments& a) {
   add_scene(verb, a.scene, a.size, a.draw_what_you_can);
   verb.add_option("--overscan", a.overscan, "Pixels beyond each side (default: 0)")
-      ->option_text("N");
-  verb.add_option("--shadow-map", a.shadow_map, "Texels a side (default: 2048)")->option_text("N");
+      ->option_text("N")
+      ->check(whole_number_in(0, kMostRenderedSide / 2));
+  verb.add_option("--shadow-map", a.shadow_map, "Texels a side (default: 2048)")
+      ->option_text("N")
+      ->check(whole_number_in(1, kMostShadowMap));
   add_frames(verb, a.frames, kRenderedFrames);
 }
 
@@ -149,9 +168,11 @@ CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
       *app.add_subcommand("truth", "Trace a scene's rays, to judge by: SCENE.toml -o OUT.exr");
   add_scene(verb, a.scene, a.size, a.draw_what_you_can);
   verb.add_option("--samples", a.samples, "N x N samples a pixel; 1 is its centre (default: 1)")
-      ->option_text("N");
+      ->option_text("N")
+      ->check(whole_number_in(1, kMostTruthSamples));
   verb.add_option("--seed", a.seed, "Of where in the pixel samples lie (default: 0)")
-      ->option_text("N");
+      ->option_text("N")
+      ->check(whole_number_in(0, std::numeric_limits<std::uint64_t>::max()));
   add_frame_numbers(verb, a.frames, kRenderedFrames);
   add_settings(verb, a.water);
   verb.add_option("--aov", a.water.aovs,
@@ -178,16 +199,22 @@ void add_compare(CLI::App& app, CompareArguments& a) {
       ->delimiter(',')
       ->allow_extra_args(false);
   verb.add_option("--tolerance", a.tolerance, "Largest difference of a pixel (default: 1e-6)")
-      ->option_text("D");
+      ->option_text("D")
+      ->check(number_in(0, kInfinity));
   verb.add_option("--allowed-percent", a.allowed_percent,
                   "Share of pixels that may exceed it (default: 0)")
-      ->option_text("P");
+      ->option_text("P")
+      ->check(number_in(0, 100, "%"));
   verb.add_option("--hard-limit", a.hard_limit, "Difference that no pixel may exceed")
-      ->option_text("D");
+      ->option_text("D")
+      ->check(number_in(0, kInfinity));
   verb.add_option("--epsilon", a.epsilon,
                   "Of relMSE = mean((a-b)^2 / (b^2 + epsilon)) (default: 0.01)")
-      ->option_text("E");
-  verb.add_option("--clip", a.clip, "Count larger values as this one")->option_text("MAX");
+      ->option_text("E")
+      ->check(number_above_zero());
+  verb.add_option("--clip", a.clip, "Count larger values as this one")
+      ->option_text("MAX")
+      ->check(number_in(-kInfinity, kInfinity));
   verb.add_option(
           "--metrics", a.metrics,
           "Tell these, too: all, or a list of ssim, flip, hdrflip (of R, G, B, scene-linear "
@@ -198,7 +225,8 @@ void add_compare(CLI::App& app, CompareArguments& a) {
       ->delimiter(',')
       ->allow_extra_args(false);
   verb.add_option("--ppd", a.ppd, "Pixels a degree, of flip and hdrflip (default: 67.02)")
-      ->option_text("N");
+      ->option_text("N")
+      ->check(number_in(1, 1000));
   verb.add_option("--diff", a.diff, "Write a heat map of the differences")->option_text("OUT.png");
   verb.add_option("--flip-map", a.flip_map,
                   "Write a heat map of flip, or of hdrflip where only that is among the metrics")
@@ -218,7 +246,8 @@ void add_report(CLI::App& app, ReportArguments& a) {
   verb.add_option("--size", a.size, "Pixels of rendered scenes (default: 480x270; quick: 160x90)")
       ->option_text("WxH");
   verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 5; quick: 2)")
-      ->option_text("N");
+      ->option_text("N")
+      ->check(whole_number_in(1, kMostRounds));
   verb.add_flag("--quick", a.quick, "Small pictures, few rounds: to see that it works");
   verb.add_flag("--hard", a.hard,
                 "The hard cases with their bounds instead, also printed: hard.html and hard.json");
@@ -261,10 +290,25 @@ std::string unexpected(const CLI::App& app) {
 
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unexpected(app);
-  const std::string text = error.what();
+  std::string text = error.what();
+  if (dynamic_cast<const CLI::ValidationError*>(&error)) {
+    return text.erase(text.find(": "), 1);  // "--fps: 0: expected ..."
+  }
   constexpr std::string_view kNoNumber = "Could not convert: ";
   if (text.starts_with(kNoNumber)) return text.substr(kNoNumber.size()) + ": expected a number";
   return text;
+}
+
+/// The first option of the verb that was given an empty word, as a sentence; "" where none was.
+std::string empty_word(const CLI::App& app) {
+  for (const CLI::App* verb : app.get_subcommands()) {
+    for (const CLI::Option* option : verb->get_options()) {
+      for (const std::string& word : option->results()) {
+        if (word.empty()) return option->get_name() + " '': expected " + option->get_option_text();
+      }
+    }
+  }
+  return "";
 }
 
 }  // namespace
@@ -279,7 +323,7 @@ Parsed parse(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "Help of all verbs");
   app.add_option("--threads", a.common.threads, "Threads; 0, the default, is one a core")
       ->option_text("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number_in(0, 1024));
   app.add_option("--max-memory", a.common.max_memory,
                  "Most memory to take, from 64M up; a job or file that needs more is refused "
                  "(default: 8G a file)")
@@ -305,7 +349,8 @@ Parsed parse(int argc, char** argv) {
   water
       .add_option("--samples", a.render.samples,
                   "N x N samples a pixel, filtered after the water is in (default: 1)")
-      ->option_text("N");
+      ->option_text("N")
+      ->check(whole_number_in(1, kMostSamples));
   add_resume(water, a.render.frames);
   add_look(water, a.render.water);
   add_picture(water, a.render.water);
@@ -354,6 +399,10 @@ Parsed parse(int argc, char** argv) {
       return finish(0);
     }
     std::cerr << "limpid ERROR: " << sentence_of(error, app) << "\n";
+    return finish(kWrongUsage);
+  }
+  if (const std::string fault = empty_word(app); !fault.empty()) {
+    std::cerr << "limpid ERROR: " << fault << "\n";
     return finish(kWrongUsage);
   }
   if (help.parsed() && !help_verb.empty()) {

@@ -1,7 +1,5 @@
 #include "frame_options.h"
 
-#include <cmath>
-
 #include "limpid/core/error.h"
 #include "limpid/load/frame_range.h"
 #include "limpid/load/image_file.h"
@@ -20,11 +18,6 @@ std::string numbered(const std::filesystem::path& name, int frame) {
 Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
   Sequence sequence;
   sequence.in_flight = options.in_flight.value_or(sequence.in_flight);
-  check(sequence);
-  if (options.fps && (!(*options.fps > 0) || std::isinf(*options.fps))) {
-    throw Error("--fps " + std::to_string(*options.fps) + ": expected a number above 0",
-                Fault::kUsage);
-  }
   const bool fills = missing_named(options.missing) != Missing::kError;
   if (options.range.empty()) {
     const char* alone = options.fps         ? "--fps"

@@ -42,8 +42,9 @@ std::int64_t memory_named(const std::string& text) {
   const bool good = read.ec == std::errc() && rest == end && (read.ptr == end || unit > 0);
   const double bytes = std::ldexp(number, 10 * static_cast<int>(unit));
   if (!good || !(bytes >= static_cast<double>(kLeast)) || bytes > 0x1p62) {
-    throw Error("--max-memory " + text + ": expected bytes, or as in 512M or 1.5G, from 64M up",
-                Fault::kUsage);
+    throw Error(
+        "--max-memory " + text + ": expected bytes, or as in 512M or 1.5G, from 64M up to 4194304T",
+        Fault::kUsage);
   }
   return static_cast<std::int64_t>(bytes);
 }

@@ -105,9 +105,6 @@ WantedMetrics wanted_metrics(const CompareArguments& arguments) {
     if (!wanted.flip && !wanted.hdr_flip) {
       throw Error("--ppd: expected --metrics flip or hdrflip beside it", Fault::kUsage);
     }
-    if (!(ppd >= 1 && ppd <= 1000)) {
-      throw Error("--ppd " + number_text(ppd) + ": expected 1 ... 1000", Fault::kUsage);
-    }
     wanted.observer.pixels_per_degree = ppd;
   }
   wanted.clip = arguments.clip;

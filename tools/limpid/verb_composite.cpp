@@ -21,8 +21,11 @@ LayerOverrides layer_overrides(const std::vector<std::string>& texts) {
   LayerOverrides overrides;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw Error("--layer " + text + ": expected ROLE=LAYER, as in depth=ViewLayer.Depth.Z",
+    const bool whole = equals != std::string::npos && equals > 0 && equals + 1 < text.size();
+    if (!whole || text.ends_with(':') || text[equals + 1] == ':') {
+      throw Error("--layer " + text +
+                      ": expected ROLE=LAYER, as in depth=ViewLayer.Depth.Z, depth=plate.exr:Z or "
+                      "depth=none",
                   Fault::kUsage);
     }
     as_usage([&] { role_named(text.substr(0, equals)); });

@@ -18,7 +18,7 @@ ReportOptions options_of(const ReportArguments& a, const CommonArguments& common
     options.size = {160, 90};
     options.rounds = 2;
   }
-  if (a.size) options.size = size_named(*a.size);
+  if (a.size) options.size = size_named(*a.size, kLeastReportSide, kMostReportSide);
   if (a.rounds) options.rounds = *a.rounds;
   options.threads = common.threads;
   options.data = data_folder();

@@ -51,16 +51,11 @@ std::string simd_named(const std::string& name, Runner runner) {
 }
 
 double max_error_of(const WaterOptions& a, Runner runner) {
-  const auto refuse = [&](const char* why) {
-    char text[64];
-    std::snprintf(text, sizeof text, "--max-error %g: ", a.max_error);
-    throw Error(text + std::string(why), Fault::kUsage);
-  };
-  if (!(a.max_error >= 0) || std::isinf(a.max_error)) {
-    refuse("expected a finite number from 0 up (white = 1)");
-  }
   if (a.max_error > 0 && runner == Runner::kReference) {
-    refuse("the reference runner leaves nothing out");
+    char text[96];
+    std::snprintf(text, sizeof text, "--max-error %g: the reference runner leaves nothing out",
+                  a.max_error);
+    throw Error(text, Fault::kUsage);
   }
   return a.max_error;
 }
@@ -97,14 +92,18 @@ std::unique_ptr<Executor> executor_of(const CommonArguments& common) {
   return make_executor(common.threads);
 }
 
-Size size_named(const std::string& text) {
+Size size_named(const std::string& text, int least, int most) {
   Size size;
   const char* end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.width);
   const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
   const auto height = cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  if (!cross || height.ec != std::errc() || height.ptr != end) {
-    throw Error("--size " + text + ": expected WxH, as in 1920x1080", Fault::kUsage);
+  const auto within = [&](int side) { return side >= least && side <= most; };
+  const bool numbers = cross && height.ec == std::errc() && height.ptr == end;
+  if (!numbers || !within(size.width) || !within(size.height)) {
+    throw Error("--size " + text + ": expected WxH, as in 1920x1080, with " +
+                    std::to_string(least) + " ... " + std::to_string(most) + " pixels a side",
+                Fault::kUsage);
   }
   return size;
 }

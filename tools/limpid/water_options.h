@@ -6,6 +6,7 @@
 #include "limpid/composite.h"
 #include "limpid/core/error.h"
 #include "limpid/raster/model.h"
+#include "limpid/raster/render_plate.h"
 
 #include "arguments.h"
 #include "progress.h"
@@ -32,8 +33,8 @@ std::vector<std::string> aov_names(const std::vector<std::string>& names,
 /// The threads that --threads asks for: for compositing, and as many for decoding and encoding.
 std::unique_ptr<Executor> executor_of(const CommonArguments& common);
 
-/// WxH. Throws the usage Error of an option --size.
-Size size_named(const std::string& text);
+/// WxH, each in least ... most. Throws the usage Error of an option --size.
+Size size_named(const std::string& text, int least = 1, int most = kMostRenderedSide);
 
 Look look_of(const WaterOptions& options);
 

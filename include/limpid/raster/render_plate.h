@@ -9,10 +9,14 @@
 
 namespace limpid {
 
+/// Of a picture with its overscan.
+inline constexpr int kMostRenderedSide = 32000;
+inline constexpr int kMostShadowMap = 16384;
+
 struct RenderOptions {
-  Size size{1920, 1080};
+  Size size{1920, 1080};       ///< 1 ... kMostRenderedSide a side
   int overscan = 0;            ///< pixels beyond each side of the display window
-  int shadow_map_size = 2048;  ///< texels a side
+  int shadow_map_size = 2048;  ///< texels a side, 1 ... kMostShadowMap
   std::string simd = {};       ///< "" for the best
 };
 

@@ -9,6 +9,8 @@
 
 namespace limpid {
 
+inline constexpr int kLeastReportSide = 16, kMostReportSide = 8192, kMostRounds = 1000;
+
 /// What `limpid report` is to measure: the looks, scenes and plates of a data folder.
 struct ReportOptions {
   std::filesystem::path data;  ///< has looks, scenes, plates and maps

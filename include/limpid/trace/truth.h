@@ -12,6 +12,8 @@
 
 namespace limpid {
 
+inline constexpr int kMostTruthSamples = 16;
+
 /// The light that would really arrive, by tracing rays through a model: what the chain, which only
 /// looks things up in pictures, is judged by.
 ///
@@ -46,8 +48,8 @@ namespace limpid {
 /// more than once on its way from the sun to where it is seen, the sky's light being shadowed.
 struct TruthOptions {
   Size size{1920, 1080};
-  /// N x N samples a pixel, stratified and filtered by their mean, 1 ... 16. One is the pixel's
-  /// centre, as in the chain.
+  /// N x N samples a pixel, stratified and filtered by their mean, 1 ... kMostTruthSamples. One is
+  /// the pixel's centre, as in the chain.
   int samples = 1;
   std::uint64_t seed = 0;  ///< of where in its stratum each sample lies
   std::vector<Aov> aovs;   ///< all but confidence, for nothing is guessed

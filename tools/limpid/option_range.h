@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+/// Ranges of options. What is out of one is wrong usage, told when the command line is read: the
+/// sentence names option, value and range.
+
+namespace limpid::tool {
+
+/// A number of the range, ends included, in the unit where there is one. An infinite end means
+/// "from
+/// ... up" and lets no infinity in.
+CLI::Validator number_in(double least, double most, const std::string& unit = "");
+/// Any finite number above 0.
+CLI::Validator number_above_zero();
+/// A whole number of the range, ends included.
+CLI::Validator whole_number_in(std::int64_t least, std::uint64_t most);
+
+}  // namespace limpid::tool
