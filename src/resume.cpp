@@ -31,12 +31,22 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, ignored);
 }
 
-/// What the file says under the names of the record. Throws Error for one that cannot be read or is
-/// not whole.
-Record said_by(const fs::path& file, const Record& record) {
-  if (!is_exr(file)) return read_image_texts(file);
+/// Throws Error unless the file is as it was written, as far as it is looked at.
+void check(const ExrFile& file, Scrutiny scrutiny) {
+  const std::string name = file.path().string();
+  if (!file.is_whole()) throw Error(name + ": is not whole");
+  if (scrutiny == Scrutiny::kWhole) return;
+  const std::optional<bool> as_written = file.is_as_written();
+  if (!as_written) throw Error(name + " has no hash of its bytes");
+  if (!*as_written) throw Error(name + " has changed since it was written (its hash is another)");
+}
+
+/// What the file says under the names of the record. Throws Error for one that cannot be read or
+/// does not pass.
+Record said_by(const fs::path& file, const Record& record, Scrutiny scrutiny) {
+  if (!holds_exr(file)) return read_image_texts(file);
   const ExrFile exr = ExrFile::open(file);
-  if (!exr.is_whole()) throw Error(file.string() + ": is not whole");
+  check(exr, scrutiny);
   Record said;
   for (const auto& [name, text] : record) {
     if (const auto found = exr.text_attribute(0, name)) said[name] = *found;
@@ -45,9 +55,9 @@ Record said_by(const fs::path& file, const Record& record) {
 }
 
 /// Why the file is not as it would be made now, or "".
-std::string why_not(const fs::path& file, const Record& record) {
+std::string why_not(const fs::path& file, const Record& record, Scrutiny scrutiny) {
   try {
-    const Record said = said_by(file, record);
+    const Record said = said_by(file, record, scrutiny);
     std::vector<std::string> others;
     for (const auto& [name, text] : record) {
       const auto found = said.find(name);
@@ -67,7 +77,7 @@ struct Found {
 };
 
 template <class RecordOfJob>
-Found find(const Files& files, const RecordOfJob& record_of_job) {
+Found find(const Files& files, const RecordOfJob& record_of_job, Scrutiny scrutiny) {
   if (!is_there(files.front())) return {};
   for (const fs::path& file : files) {
     if (!is_there(file)) return {false, file.string() + " is not there"};
@@ -79,13 +89,14 @@ Found find(const Files& files, const RecordOfJob& record_of_job) {
     return {};  // it will be told when the frame is made
   }
   for (const fs::path& file : files) {
-    const std::string why = why_not(file, record);
+    const std::string why = why_not(file, record, scrutiny);
     if (!why.empty()) return {false, why};
   }
   return {true, ""};
 }
 
 struct Findings {
+  Scrutiny scrutiny;
   Rest rest;
   std::set<fs::path> folders;
 
@@ -116,7 +127,8 @@ class LookingSlot : public FrameSlot {
     for (const fs::path& file : outputs_of(*job_)) findings_.add_folder_of(file);
   }
   void read(Executor&) override {
-    if (job_) found_ = find(outputs_of(*job_), [&] { return record_of_job_(*job_); });
+    const auto record = [&] { return record_of_job_(*job_); };
+    if (job_) found_ = find(outputs_of(*job_), record, findings_.scrutiny);
   }
   void run(Executor&) override {}
   void write() override {}
@@ -140,8 +152,8 @@ class LookingSlot : public FrameSlot {
 
 template <class Job, class RecordOfJob>
 Rest rest_of(const Sequence& sequence, const JobOfFrame<Job>& job_of,
-             const RecordOfJob& record_of_job, Executor& executor) {
-  Findings findings;
+             const RecordOfJob& record_of_job, Executor& executor, Scrutiny scrutiny) {
+  Findings findings{scrutiny, {}, {}};
   const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
     return std::make_unique<LookingSlot<Job, RecordOfJob>>(job_of, record_of_job, findings);
   };
@@ -153,30 +165,31 @@ Rest rest_of(const Sequence& sequence, const JobOfFrame<Job>& job_of,
 }  // namespace
 
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
-                       Executor& executor) {
+                       Executor& executor, Scrutiny scrutiny) {
   expect_apart(sequence.frames, [&](int frame) { return files_of(job_of(frame)); });
   SharedTextures textures;
   return rest_of(
-      sequence, job_of, [&](const CompositeJob& job) { return record_of(job, textures); },
-      executor);
+      sequence, job_of, [&](const CompositeJob& job) { return record_of(job, textures); }, executor,
+      scrutiny);
 }
 
 Rest rest_of_render(const Model& model, const Sequence& sequence,
-                    const JobOfFrame<PlateJob>& job_of, Executor& executor) {
+                    const JobOfFrame<PlateJob>& job_of, Executor& executor, Scrutiny scrutiny) {
   expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
   const HashedModel hashed(model);
   return rest_of(
-      sequence, job_of, [&](const PlateJob& job) { return record_of(hashed, job); }, executor);
+      sequence, job_of, [&](const PlateJob& job) { return record_of(hashed, job); }, executor,
+      scrutiny);
 }
 
 Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
-                   Executor& executor) {
+                   Executor& executor, Scrutiny scrutiny) {
   expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
   SharedTextures textures;
   const HashedModel hashed(model);
   return rest_of(
       sequence, job_of, [&](const WaterJob& job) { return record_of(hashed, job, textures); },
-      executor);
+      executor, scrutiny);
 }
 
 }  // namespace limpid

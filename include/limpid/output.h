@@ -30,6 +30,9 @@ enum class Runner { kFused, kReference };
 ///     limpid/options     how it was computed and stored: runner, instruction set, AOVs,
 ///                        compression
 ///
+/// Each EXR also has `limpid_file_hash`, a hash of its own bytes: whether it is still as it was
+/// written (ExrFile::is_as_written).
+///
 /// A rendered plate has no look and no plan, a ray-traced picture no plan: its options name the
 /// runner "traced", samples and seed.
 struct OutputChoice {

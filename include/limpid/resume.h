@@ -22,6 +22,16 @@ struct Rest {
   std::vector<Other> others;  ///< those of `frames` whose picture is there, but cannot be kept
 };
 
+/// How closely the files of a frame are looked at.
+enum class Scrutiny {
+  /// Headers, and whether all pixels are there: sees a file that was cut off or is another one, not
+  /// a byte that has changed among the pixels of an EXR. PNGs have checksums, which are looked at.
+  kWhole,
+  /// All bytes besides, by the hash that each EXR carries (ExrFile::is_as_written): sees any byte
+  /// that has changed since the file was written. Reads all files that are there.
+  kContents,
+};
+
 /// A frame is kept when all of its files are there, are whole, and say of themselves (output.h)
 /// exactly what they would say if they were made now: by this version, from inputs of the same
 /// contents, with the same look, plan and options. A preview other than a PNG cannot say it, so its
@@ -30,10 +40,11 @@ struct Rest {
 /// but when its turn comes. Removes abandoned temporary files (write/unfinished.h) from the folders
 /// of all outputs. Throws Error as the sequences do: first of all for outputs that are not apart.
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
-                       Executor& executor);
+                       Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
 Rest rest_of_render(const Model& model, const Sequence& sequence,
-                    const JobOfFrame<PlateJob>& job_of, Executor& executor);
+                    const JobOfFrame<PlateJob>& job_of, Executor& executor,
+                    Scrutiny scrutiny = Scrutiny::kWhole);
 Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
-                   Executor& executor);
+                   Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
 
 }  // namespace limpid

@@ -17,6 +17,7 @@
 #include "load/exr_pixels.h"
 #include "load/exr_scanlines.h"
 #include "load/exr_unpack.h"
+#include "load/file_hash.h"
 
 namespace limpid {
 namespace {
@@ -279,6 +280,12 @@ bool ExrFile::is_whole() const {
   } catch (const Iex::InputExc&) {
     return false;  // it ends too early
   }
+}
+
+std::optional<bool> ExrFile::is_as_written() const {
+  const std::optional<FileHash> hash = file_hash(*state_->file, state_->header_end);
+  if (!hash) return std::nullopt;
+  return hash->said == hash->found;
 }
 
 std::string ExrFile::content_hash() const { return hash_of(*state_->file); }

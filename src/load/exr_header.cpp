@@ -5,6 +5,7 @@
 #include <span>
 
 #include "load/exr_attribute_size.h"
+#include "load/file_hash.h"
 
 namespace limpid {
 namespace {
@@ -221,7 +222,8 @@ bool is_structural(std::string_view attribute) {
                                          "pixelAspectRatio",
                                          "maxSamplesPerPixel",
                                          "deepImageState",
-                                         "dwaCompressionLevel"};
+                                         "dwaCompressionLevel",
+                                         kFileHashName};
   return std::find(std::begin(kNames), std::end(kNames), attribute) != std::end(kNames);
 }
 

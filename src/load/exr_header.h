@@ -17,8 +17,8 @@ inline constexpr std::array<std::string_view, 10> kCompressions{
 /// Of the version field behind the magic number: chunks begin with the number of their part.
 inline constexpr std::uint32_t kMultiPartFlag = 0x1000;
 
-/// Whether an attribute describes how pixels are stored, or shows them (the preview): such ones
-/// belong to one file and are not handed on to another.
+/// Whether an attribute describes how pixels are stored, shows them (the preview), or is a hash of
+/// the file: such ones belong to one file and are not handed on to another.
 bool is_structural(std::string_view attribute);
 
 /// Whether an attribute tells of channels, parts or pixels of the file that it lies in, and would

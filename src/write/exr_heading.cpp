@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfVersion.h>
 
 #include "load/exr_header.h"
+#include "load/file_hash.h"
 #include "write/exr_streams.h"
 
 namespace limpid {
@@ -79,6 +80,7 @@ Imf::Header header_of(const ExrHeading& heading, const Compression& compression)
     std::copy(value.begin(), value.end(), matrix.getValue());
     header.insert(name, Imf::M44fAttribute(matrix));
   }
+  header.insert(std::string(kFileHashName), Imf::StringAttribute(std::string(kNoFileHash)));
   return header;
 }
 

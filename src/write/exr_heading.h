@@ -13,8 +13,9 @@ namespace limpid {
 /// written.
 void check_heading(const ExrHeading& heading);
 
-/// All of the header but the channels. Throws Error (without the path) for an inherited attribute
-/// of another type than the one that OpenEXR knows by this name.
+/// All of the header but the channels, with a place for the file's hash (load/file_hash.h). Throws
+/// Error (without the path) for an inherited attribute of another type than the one that OpenEXR
+/// knows by this name.
 Imf::Header header_of(const ExrHeading& heading, const Compression& compression);
 
 }  // namespace limpid

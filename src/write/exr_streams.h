@@ -15,8 +15,10 @@ namespace limpid {
 /// The temporary file, which remembers the first failure: OpenEXR swallows those of its destructor.
 class OutputStream : public Imf::OStream {
  public:
-  explicit OutputStream(const std::filesystem::path& path)
-      : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb")) {
+  enum Mode { kNew, kChange };  ///< empty at first, or with what is in it
+
+  explicit OutputStream(const std::filesystem::path& path, Mode mode = kNew)
+      : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), mode == kNew ? "wb" : "r+b")) {
     if (file_ == nullptr) error_ = errno;
   }
   ~OutputStream() override {

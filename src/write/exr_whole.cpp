@@ -6,20 +6,36 @@
 #include <optional>
 
 #include "load/exr_header.h"
+#include "load/file_hash.h"
 #include "write/atomic_file.h"
 
 namespace limpid {
 namespace {
 
-/// OpenEXR 3.1 leaves a chunk out without a word when its compressor fails.
-void check_complete(const std::filesystem::path& path) {
-  FileStream stream(std::make_shared<FileHandle>(path));
+/// The text in the file's place for it.
+void put_hash(const std::filesystem::path& path, const FileHash& hash) {
+  OutputStream stream(path, OutputStream::kChange);
+  stream.seekp(hash.place);
+  stream.write(hash.found.data(), static_cast<int>(hash.found.size()));
+  stream.close();
+  if (stream.error() != 0) {
+    throw Error("cannot be written (" + describe(stream.error()) + ")", fault_of(stream.error()));
+  }
+}
+
+/// OpenEXR 3.1 leaves a chunk out without a word when its compressor fails. What is whole gets its
+/// hash.
+void finish(const std::filesystem::path& path) {
+  const auto file = std::make_shared<FileHandle>(path);
+  FileStream stream(file);
   const Limits unlimited{std::numeric_limits<std::int64_t>::max(), std::numeric_limits<int>::max(),
                          std::numeric_limits<int>::max(), 1,
                          std::numeric_limits<std::int64_t>::max()};
   const ExrHeader header = read_exr_headers(stream, unlimited)[0];
+  const std::uint64_t header_end = stream.tellg();
   if (!has_all_chunks(stream, header))
     throw Error("cannot be written (some lines could not be compressed)");
+  if (const auto hash = file_hash(*file, header_end)) put_hash(path, *hash);
 }
 
 }  // namespace
@@ -38,7 +54,7 @@ void write_whole_exr(const std::filesystem::path& path, const std::function<void
   try {
     write(stream);
     stream.close();
-    if (stream.error() == 0) check_complete(file.temporary());
+    if (stream.error() == 0) finish(file.temporary());
   } catch (const Error& error) {
     failure.emplace(name + ": " + error.what(), error.fault());
   } catch (const std::bad_alloc&) {

@@ -154,6 +154,50 @@ TEST_F(ResumeTest, WhatIsNotWholeOrNotOursIsMadeAgain) {
   expect_again("wet.2.exr was made otherwise (version)");
 }
 
+/// One byte of frame 2: of its pixels, of the hash, of an attribute that came with the plate.
+TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
+  const Words preview{"--preview", "wet.%d.png"};
+  write_plates({1, 2, 3, 4});
+  said_by(words(preview));
+  const auto all = outputs();
+  const std::string head = "limpid: 3 of 4 frames are there already\n";
+  const auto verified = [&] { return resumed({"--verify", "--preview", "wet.%d.png"}); };
+  EXPECT_EQ(verified(), "limpid: 4 of 4 frames are there already\n");
+  for (const std::string name : {"wet.2.exr", "deep.2.exr"}) {
+    const std::string whole = text_of(name);
+    const std::size_t digits = whole.find("limpid_file_hash") + 30;
+    const std::size_t studio = whole.find("shallow end");
+    for (const std::size_t at : {whole.size() - 1, digits, studio}) {
+      std::string other = whole;
+      other[at] = static_cast<char>(other[at] ^ 1);
+      write_text(name, other);
+      EXPECT_EQ(verified(), head + "limpid: 1 that are there are made again; frame 2: " + name +
+                                " has changed since it was written (its hash is another)\n")
+          << at;
+      EXPECT_TRUE(outputs() == all) << name << " " << at;
+    }
+    // Among the pixels only --verify sees it.
+    std::string other = whole;
+    other.back() = static_cast<char>(other.back() ^ 1);
+    write_text(name, other);
+    EXPECT_EQ(resumed(preview), "limpid: 4 of 4 frames are there already\n");
+    write_text(name, whole);
+    fs::resize_file(folder_ / name, whole.size() - 1);
+    EXPECT_THAT(verified(), HasSubstr("frame 2: " + name + ": is not whole\n"));
+    EXPECT_TRUE(outputs() == all);
+  }
+  std::string png = text_of("wet.2.png");
+  char& pixel = png[png.find("IDAT") + 20];
+  pixel = static_cast<char>(pixel ^ 1);
+  write_text("wet.2.png", png);
+  EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.png: is damaged: wrong checksum"));
+  EXPECT_TRUE(outputs() == all);
+  // Other programs leave no hash, or this one as it was.
+  ASSERT_EQ(oiiotool({"wet.2.exr", "--attrib", "copyright", "ours", "-o", "wet.2.exr"}).code, 0);
+  EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.exr has changed since it was written"));
+  EXPECT_TRUE(outputs() == all);
+}
+
 TEST_F(ResumeTest, PreviewsSayHowTheyWereMade) {
   write_plates({1, 2});
   const auto run = [&](const Words& more) {
@@ -218,6 +262,12 @@ TEST_F(ResumeTest, RendersAndWatersResumeToo) {
     fs::remove(folder_ / (verb + ".2.exr"));
     const ino_t first = file_number(verb + ".1.exr");
     EXPECT_EQ(with({"--resume"}), "limpid: 2 of 3 frames are there already\n");
+    EXPECT_TRUE(text_of(verb + ".2.exr") == second);
+    std::string other = second;
+    other.back() = static_cast<char>(other.back() ^ 1);
+    write_text(verb + ".2.exr", other);
+    EXPECT_THAT(with({"--resume", "--verify"}),
+                HasSubstr("frame 2: " + verb + ".2.exr has changed"));
     EXPECT_TRUE(text_of(verb + ".2.exr") == second);
     EXPECT_EQ(file_number(verb + ".1.exr"), first);
     EXPECT_THAT(with({"--resume", "--overscan", "1"}), HasSubstr("(inputs, scene_hash)\n"));
@@ -286,6 +336,7 @@ TEST_F(ResumeTest, RefusesWhatMakesNoSense) {
     expect_refused(limpid(all), parts, 2);
   };
   refused({"--resume"}, {"--resume: expected --frames beside it"});
+  refused({"--verify", "--frames", "1"}, {"--verify: expected --resume beside it"});
   refused({"--missing", "skip"}, {"--missing: expected --frames beside it"});
   refused({"--missing", "guess", "--frames", "1"}, {"--missing guess", "error, skip or hold"});
   refused({"--resume", "-n", "--frames", "1"}, {"--resume and -n: expected one of them"});

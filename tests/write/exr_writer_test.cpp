@@ -11,6 +11,8 @@
 
 #include "limpid/core/error.h"
 
+#include "load/content_hash.h"
+
 namespace limpid {
 namespace {
 
@@ -278,6 +280,50 @@ TEST(ExrWriter, AWholeFileIsToldFromAPartOfIt) {
     }
     EXPECT_GT(opened, 0) << compression;
   }
+}
+
+/// Any byte of the file, each in turn.
+TEST(ExrWriter, AFileTellsWhetherItIsAsItWasWritten) {
+  const fs::path path = folder() / "a.exr", other = path.parent_path() / "other.exr";
+  Plane small({0, 0, 7, 5});
+  ExrOutput output;
+  output.data = output.display = small.view().window;
+  output.channels = {{"R", small.view(), true}};
+  output.text = {{"comments", "ours"}};
+  write_exr(path, output);
+  EXPECT_EQ(ExrFile::open(path).is_as_written(), true);
+
+  const std::vector<char> bytes = bytes_of(path);
+  int opened = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::vector<char> changed = bytes;
+    changed[i] = static_cast<char>(changed[i] ^ 4);
+    std::ofstream(other, std::ios::binary)
+        .write(changed.data(), static_cast<std::streamsize>(changed.size()));
+    try {
+      EXPECT_NE(ExrFile::open(other).is_as_written(), true) << "byte " << i;
+      ++opened;
+    } catch (const Error&) {
+    }
+  }
+  EXPECT_GT(opened, 100);
+  std::ofstream(path, std::ios::binary | std::ios::app) << '.';
+  EXPECT_EQ(ExrFile::open(path).is_as_written(), false);
+}
+
+/// As a program in another language would check it.
+TEST(ExrWriter, TheHashIsOfAllBytesButItself) {
+  const fs::path path = folder() / "a.exr";
+  const Plane plane = picture();
+  write_exr(path, output_of(plane));
+  const std::vector<char> read = bytes_of(path);
+  std::string bytes(read.begin(), read.end());
+  const std::size_t at = bytes.find("limpid_file_hash") + 28;  // the name, "string", the size
+  const std::string said = bytes.substr(at, 32);
+  EXPECT_EQ(ExrFile::open(path).text_attribute(0, "limpid_file_hash"), said);
+  EXPECT_EQ(said, hash_of(bytes.replace(at, 32, 32, '0')));
+  // It is not handed on.
+  EXPECT_FALSE(ExrFile::open(path).attributes(0).contains("limpid_file_hash"));
 }
 
 TEST(ExrWriter, RefusesWhatItCannotWrite) {

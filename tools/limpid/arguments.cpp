@@ -67,6 +67,8 @@ void add_resume(CLI::App& verb, FrameOptions& a) {
   verb.add_flag("--resume", a.resume,
                 "Leave frames alone that are there, whole, and made from the same inputs in the "
                 "same way");
+  verb.add_flag("--verify", a.verify,
+                "With --resume: look at every byte of these frames, by the hashes they carry");
 }
 
 void add_settings(CLI::App& verb, WaterOptions& a) {

@@ -30,7 +30,7 @@ struct FrameOptions {
   std::optional<double> fps;
   std::optional<int> in_flight;
   std::string missing = "error";
-  bool resume = false;
+  bool resume = false, verify = false;
 };
 
 struct CompositeArguments {

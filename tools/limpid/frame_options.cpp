@@ -18,6 +18,9 @@ std::string numbered(const std::filesystem::path& name, int frame) {
 Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
   Sequence sequence;
   sequence.in_flight = options.in_flight.value_or(sequence.in_flight);
+  if (options.verify && !options.resume) {
+    throw Error("--verify: expected --resume beside it", Fault::kUsage);
+  }
   const bool fills = missing_named(options.missing) != Missing::kError;
   if (options.range.empty()) {
     const char* alone = options.fps         ? "--fps"
@@ -47,6 +50,10 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
     }
   }
   return sequence;
+}
+
+Scrutiny scrutiny_of(const FrameOptions& options) {
+  return options.verify ? Scrutiny::kContents : Scrutiny::kWhole;
 }
 
 Missing missing_named(const std::string& name) {

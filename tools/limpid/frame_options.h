@@ -4,6 +4,7 @@
 #include "limpid/load/scene_file.h"
 #include "limpid/missing.h"
 #include "limpid/output.h"
+#include "limpid/resume.h"
 #include "limpid/sequence.h"
 
 #include "arguments.h"
@@ -16,6 +17,9 @@ namespace limpid::tool {
 /// bad numbers, for options that mean nothing without --frames or on a dry run, for outputs that
 /// several frames would overwrite, and for a preview that a sequence cannot be resumed by.
 Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs);
+
+/// How closely --resume looks at what is there.
+Scrutiny scrutiny_of(const FrameOptions& options);
 
 /// That --missing names.
 Missing missing_named(const std::string& name);

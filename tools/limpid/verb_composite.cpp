@@ -126,7 +126,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   tell_missing(filled, sequence.frames.size(), common);
   sequence.frames = filled.frames;
   if (a.frames.resume) {
-    const Rest rest = rest_of_composite(sequence, filled.job_of, *executor);
+    const Rest rest = rest_of_composite(sequence, filled.job_of, *executor, scrutiny_of(a.frames));
     tell_rest(rest, common);
     sequence.frames = rest.frames;
   }

@@ -42,7 +42,8 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
     return one;
   };
   if (a.frames.resume) {
-    const Rest rest = rest_of_render(model, sequence, job_of_frame, *executor);
+    const Rest rest =
+        rest_of_render(model, sequence, job_of_frame, *executor, scrutiny_of(a.frames));
     tell_rest(rest, common);
     sequence.frames = rest.frames;
   }
@@ -78,7 +79,8 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
     return 0;
   }
   if (a.frames.resume) {
-    const Rest rest = rest_of_water(model, sequence, job_of_frame, *executor);
+    const Rest rest =
+        rest_of_water(model, sequence, job_of_frame, *executor, scrutiny_of(a.frames));
     tell_rest(rest, common);
     sequence.frames = rest.frames;
   }

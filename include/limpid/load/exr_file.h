@@ -86,6 +86,11 @@ class ExrFile {
   /// no for files of another kind. Nothing is decoded. Throws Error when the system cannot read.
   bool is_whole() const;
 
+  /// Whether all bytes are as this library wrote them: it leaves their hash in the text attribute
+  /// "limpid_file_hash", for which itself 32 digits 0 count. Nothing where there is none. Reads the
+  /// whole file, decodes nothing. Throws Error when the system cannot read.
+  std::optional<bool> is_as_written() const;
+
   /// A hash of all bytes of the file as it was opened, whatever has its name by now: XXH3, 128
   /// bits, 32 hexadecimal digits, what `xxhsum -H2` prints. It tells files apart; it is no seal.
   std::string content_hash() const;
@@ -99,7 +104,7 @@ class ExrFile {
   /// Serialised attributes of a part as they lie in the file, also of unknown types, for handing on
   /// to a writer: name -> (type name, bytes). Without the ones that describe the pixels' storage
   /// (channels, compression, windows, tiles, lineOrder, chunkCount, type, name ...) and without the
-  /// preview, which would show another picture.
+  /// preview and the hash, which would be of another picture.
   struct Attribute {
     std::string type;
     std::vector<char> bytes;

@@ -27,7 +27,8 @@ void validate_compression(const std::string& compression);
 /// Writes the file under a temporary name in the same folder, flushes it to disk and renames it:
 /// under `path` there is the old file or the whole new one, never a part. On failure the temporary
 /// file is removed and an Error thrown that names path and cause (Fault::kRetry where the disk is
-/// full). The bytes depend on the arguments alone, not on date, host or threads.
+/// full). The file carries a hash of its bytes (ExrFile::is_as_written). The bytes depend on the
+/// arguments alone, not on date, host or threads.
 void write_exr(const std::filesystem::path& path, const ExrOutput& output);
 
 }  // namespace limpid
