@@ -145,7 +145,7 @@ limpid_status guarded(Body&& body, Say&& say) noexcept {
     return LIMPID_OK;
   } catch (const Error& e) {
     say(e.what());
-    return LIMPID_REFUSED;
+    return e.fault() == Fault::kMemory ? LIMPID_NO_MEMORY : LIMPID_REFUSED;
   } catch (const std::bad_alloc&) {
     say("out of memory");
     return LIMPID_NO_MEMORY;

@@ -60,21 +60,21 @@ class Line {
     try {
       (line.*kStep)(slot, index);
     } catch (const Error& error) {
-      line.fail(index, error.what(), error.fault());
+      line.fail(index, error);
     } catch (const std::bad_alloc&) {
-      line.fail(index, "needs more memory than there is", Fault::kRetry);
+      line.fail(index, no_memory());
     } catch (const std::exception& error) {
-      line.fail(index, error.what(), Fault::kJob);
+      line.fail(index, Error(error.what()));
     } catch (...) {
-      line.fail(index, "failed for an unknown reason", Fault::kJob);
+      line.fail(index, Error("failed for an unknown reason"));
     }
   }
 
-  void fail(int index, const std::string& what, Fault fault) {
+  void fail(int index, const Error& error) {
     const std::lock_guard lock(mutex_);
     if (index >= failed_.load()) return;
     failed_ = index;
-    failure_.emplace("frame " + std::to_string(frame(index)) + ": " + what, fault);
+    failure_.emplace("frame " + std::to_string(frame(index)) + ": " + error.what(), error.fault());
   }
 
   const std::vector<int>& frames_;

@@ -28,6 +28,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+Error no_memory(const std::string& name) {
+  return Error((name.empty() ? "" : name + ": ") + std::string(kNeedsMemory), Fault::kMemory);
+}
+
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known) {
   std::string best;
   std::size_t best_distance = word.size();

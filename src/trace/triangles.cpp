@@ -66,7 +66,7 @@ void expect_no_error(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
   if (error == RTC_ERROR_OUT_OF_MEMORY) {
-    throw Error("no memory is left for the triangles to trace", Fault::kRetry);
+    throw no_memory("the triangles to trace");
   }
   throw Error("Embree cannot trace here: its error " + std::to_string(error));
 }

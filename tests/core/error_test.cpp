@@ -12,6 +12,14 @@ TEST(Error, KeepsSentenceAndFault) {
   EXPECT_EQ(retry.fault(), Fault::kRetry);
 }
 
+TEST(Error, MemoryEndsItsSentenceInTheSameWords) {
+  for (const Error& error : {no_memory(), no_memory("plate.exr")}) {
+    EXPECT_EQ(error.fault(), Fault::kMemory);
+    EXPECT_TRUE(std::string_view(error.what()).ends_with(kNeedsMemory)) << error.what();
+  }
+  EXPECT_STREQ(no_memory("plate.exr").what(), "plate.exr: needs more memory than there is");
+}
+
 TEST(NearestName, FindsSlipsOfTheHandOnly) {
   const std::vector<std::string> known = {"strength", "density", "offset", "rejection"};
   EXPECT_EQ(nearest_name("strenght", known), "strength");

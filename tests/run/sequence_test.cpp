@@ -166,7 +166,7 @@ TEST_P(SequenceThreads, WhatIsNoErrorOfOursBecomesOne) {
   };
   const Error memory = error_of([] { throw std::bad_alloc(); });
   EXPECT_STREQ(memory.what(), "frame 7: needs more memory than there is");
-  EXPECT_EQ(memory.fault(), Fault::kRetry);
+  EXPECT_EQ(memory.fault(), Fault::kMemory);
   EXPECT_STREQ(error_of([] { throw std::runtime_error("odd"); }).what(), "frame 7: odd");
   EXPECT_THAT(error_of([] { throw 5; }).what(), ::testing::StartsWith("frame 7: "));
 }

@@ -327,7 +327,7 @@ Parsed parse(int argc, char** argv) {
       ->option_text("N")
       ->check(whole_number_in(0, 1024));
   app.add_option("--max-memory", a.common.max_memory,
-                 "Most memory to take, from 64M up; a job or file that needs more is refused "
+                 "Most memory to take, from 16M up; a job or file that needs more is refused "
                  "(default: 8G a file)")
       ->option_text("SIZE");
   app.add_flag("-q", a.common.quiet, "Print nothing but errors");

@@ -1,13 +1,15 @@
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
-#include <optional>
 #include <string>
+#include <system_error>
 
 #include "limpid/core/error.h"
 
 #include "memory_limit.h"
 #include "notes.h"
+#include "out_of_memory.h"
 #include "signals.h"
 #include "streams.h"
 #include "verbs.h"
@@ -20,6 +22,8 @@ int exit_code_of(limpid::Fault fault) {
       return 2;
     case limpid::Fault::kRetry:
       return 75;
+    case limpid::Fault::kMemory:
+      return limpid::tool::memory_exit_code();
     case limpid::Fault::kJob:
       break;
   }
@@ -30,9 +34,19 @@ void print_error(const std::string& sentence) {
   std::fprintf(stderr, "limpid ERROR: %s\n", limpid::tool::one_line(sentence).c_str());
 }
 
+/// At once: what libraries do at the end of a program may need memory.
+[[noreturn]] void end_out_of_memory(const std::string& sentence) {
+  std::fflush(stdout);
+  print_error(limpid::tool::out_of_memory(sentence));
+  std::_Exit(exit_code_of(limpid::Fault::kMemory));
+}
+
 int run(const limpid::tool::Arguments& a) {
   using limpid::tool::Verb;
+  limpid::tool::note_memory_limits(a.common);
+  if (limpid::tool::is_memory_limited()) limpid::tool::make_threads_small();
   limit_process(a.common);
+  limpid::tool::end_cleanly_on_signals();
   switch (a.verb) {
     case Verb::kComposite:
       return composite_verb(a.composite, a.common);
@@ -61,23 +75,30 @@ int run(const limpid::tool::Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  limpid::tool::keep_streams_apart();
-  const limpid::tool::Parsed parsed = limpid::tool::parse(argc, argv);
+  using namespace limpid::tool;
+  keep_streams_apart();
+  end_when_memory_ends();
   try {
+    const Parsed parsed = parse(argc, argv);
     int code = parsed.exit_code.value_or(0);
-    if (!parsed.exit_code) {
-      limpid::tool::end_cleanly_on_signals();
-      code = run(parsed.arguments);
-    }
-    limpid::tool::finish_stdout();
+    if (!parsed.exit_code) code = run(parsed.arguments);
+    finish_stdout();
     return code;
   } catch (const limpid::Error& error) {
+    if (error.fault() == limpid::Fault::kMemory) end_out_of_memory(error.what());
     print_error(error.what());
     return exit_code_of(error.fault());
   } catch (const std::bad_alloc&) {
-    const std::optional<std::string>& most = parsed.arguments.common.max_memory;
-    print_error(most ? "needs more memory than --max-memory " + *most : "out of memory");
-    return most ? 1 : 75;
+    end_out_of_memory(limpid::no_memory().what());
+  } catch (const std::system_error& error) {
+    // No thread can be made: its stack is memory, too.
+    if (error.code() != std::errc::resource_unavailable_try_again) {
+      print_error(error.what());
+      return 1;
+    }
+    if (is_memory_limited()) end_out_of_memory(limpid::no_memory().what());
+    print_error(std::string("cannot make a thread (") + error.what() + ")");
+    return exit_code_of(limpid::Fault::kRetry);
   } catch (const std::exception& error) {
     print_error(error.what());
     return 1;

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string_view>
 
+#include <malloc.h>
 #include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -17,7 +18,7 @@
 namespace limpid::tool {
 namespace {
 
-constexpr std::int64_t kLeast = std::int64_t{64} << 20;
+constexpr std::int64_t kLeast = std::int64_t{16} << 20;
 constexpr std::size_t kStackBytes = std::size_t{1} << 20;
 
 /// Bytes of this process that RLIMIT_DATA counts: the sixth number of /proc/self/statm, in pages.
@@ -43,7 +44,7 @@ std::int64_t memory_named(const std::string& text) {
   const double bytes = std::ldexp(number, 10 * static_cast<int>(unit));
   if (!good || !(bytes >= static_cast<double>(kLeast)) || bytes > 0x1p62) {
     throw Error(
-        "--max-memory " + text + ": expected bytes, or as in 512M or 1.5G, from 64M up to 4194304T",
+        "--max-memory " + text + ": expected bytes, or as in 512M or 1.5G, from 16M up to 4194304T",
         Fault::kUsage);
   }
   return static_cast<std::int64_t>(bytes);
@@ -55,15 +56,22 @@ Limits limits_of(const CommonArguments& common) {
   return limits;
 }
 
-void limit_process(const CommonArguments& common) {
-  if (!common.max_memory) return;
-  const std::int64_t wanted = memory_named(*common.max_memory);
-  // Of threads that are to come; glibc would give each 8 MiB, which count whether used or not.
+void make_threads_small() {
+  // glibc would give each 8 MiB, which count whether used or not.
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
   ::pthread_attr_setstacksize(&attributes, kStackBytes);
   ::pthread_setattr_default_np(&attributes);
   ::pthread_attr_destroy(&attributes);
+  // And a heap of 64 MiB, which counts where addresses do.
+  rlimit addresses{};
+  ::getrlimit(RLIMIT_AS, &addresses);
+  if (addresses.rlim_cur != RLIM_INFINITY) ::mallopt(M_ARENA_MAX, 1);
+}
+
+void limit_process(const CommonArguments& common) {
+  if (!common.max_memory) return;
+  const std::int64_t wanted = memory_named(*common.max_memory);
   rlimit limit{};
   ::getrlimit(RLIMIT_DATA, &limit);
   const auto most = static_cast<rlim_t>(data_bytes() + wanted);

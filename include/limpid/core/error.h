@@ -8,9 +8,10 @@ namespace limpid {
 
 /// What the caller can do about an error; the tool turns it into its exit code.
 enum class Fault {
-  kJob,    ///< the input or the request is wrong: exit 1
-  kUsage,  ///< the command line is wrong: exit 2
-  kRetry,  ///< trying again may work (disk full, file vanished): exit 75
+  kJob,     ///< the input or the request is wrong: exit 1
+  kUsage,   ///< the command line is wrong: exit 2
+  kRetry,   ///< trying again may work (disk full, file vanished): exit 75
+  kMemory,  ///< memory ended: exit 1 where a limit says how much there may be, else 75
 };
 
 /// The one exception of the library. what() is one sentence that names the thing, the value and
@@ -25,6 +26,12 @@ class Error : public std::runtime_error {
  private:
   Fault fault_;
 };
+
+/// How the sentence of each Error of Fault::kMemory ends.
+inline constexpr std::string_view kNeedsMemory = "needs more memory than there is";
+
+/// The Error of Fault::kMemory: "NAME: needs more memory than there is", or without a name.
+Error no_memory(const std::string& name = "");
 
 /// The name of `known` that is closest to `word` by edit distance, or "" when none is near enough
 /// to be a slip of the hand (more than a third of the letters differ).
