@@ -1,24 +1,42 @@
 #include <algorithm>
+#include <atomic>
+#include <system_error>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include "limpid/core/error.h"
+
 #include "core/executor_pool.h"
+#include "core/memory.h"
+#include "core/threads.h"
 
 namespace limpid {
 namespace {
+
+/// oneTBB's, or what the program has set for its threads if that is less.
+std::size_t stack_bytes() {
+  using tbb::global_control;
+  return std::min(global_control::active_value(global_control::thread_stack_size),
+                  usual_stack_bytes());
+}
+
+/// As many as asked for, as the machine has, and as can be made; the calling thread is one.
+int threads_of(int asked) {
+  const int most = tbb::this_task_arena::max_concurrency();
+  return 1 + threads_to_be_had((asked == 0 ? most : std::min(asked, most)) - 1, stack_bytes());
+}
 
 /// The last of these to go joins the pool's threads. Left to themselves they would still be ending
 /// while the program ends, which leak checkers stumble over.
 class TbbExecutor : public Executor {
  public:
-  explicit TbbExecutor(int threads)
-      : arena_(threads == 0 ? tbb::task_arena::automatic
-                            : std::min(threads, tbb::this_task_arena::max_concurrency())) {}
+  explicit TbbExecutor(int threads) : arena_(threads_of(threads)) {}
 
   ~TbbExecutor() override {
+    if (lacks_thread_) return;  // finalize() would wait for a thread that never began
     arena_.terminate();
     tbb::finalize(pool_, std::nothrow);  // false while somebody else still uses the pool
   }
@@ -27,7 +45,7 @@ class TbbExecutor : public Executor {
   /// frame's file.
   void run(int count, Task task, void* context) override {
     const auto all = [&] { tbb::parallel_for(0, count, [&](int index) { task(context, index); }); };
-    arena_.execute([&] { tbb::this_task_arena::isolate(all); });
+    execute([&] { tbb::this_task_arena::isolate(all); });
   }
 
   void pipeline(int count, int in_flight, std::span<const Task> steps, void* context) override {
@@ -51,12 +69,26 @@ class TbbExecutor : public Executor {
     const auto whole =
         line & tbb::make_filter<int, void>(tbb::filter_mode::serial_in_order,
                                            [&](int index) { steps.back()(context, index); });
-    arena_.execute([&] { tbb::parallel_pipeline(static_cast<std::size_t>(in_flight), whole); });
+    execute([&] { tbb::parallel_pipeline(static_cast<std::size_t>(in_flight), whole); });
   }
 
  private:
+  /// oneTBB makes its threads when there is work for them.
+  template <class Work>
+  void execute(Work work) {
+    try {
+      arena_.execute(work);
+    } catch (const std::system_error& error) {
+      lacks_thread_ = true;
+      if (!has_memory(stack_bytes())) throw no_memory("the stack of a thread");
+      throw Error(error.what(), Fault::kRetry);
+    }
+  }
+
+  tbb::global_control stacks_{tbb::global_control::thread_stack_size, stack_bytes()};
   tbb::task_scheduler_handle pool_{tbb::attach{}};
   tbb::task_arena arena_;
+  std::atomic<bool> lacks_thread_ = false;
 };
 
 }  // namespace

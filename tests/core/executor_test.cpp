@@ -2,10 +2,15 @@
 
 #include <array>
 #include <atomic>
+#include <cstdlib>
 #include <mutex>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "memory_end.h"
+#include "sanitized.h"
 
 namespace limpid {
 namespace {
@@ -101,6 +106,21 @@ TEST(Pipeline, OfAHostThatKnowsTilesOnlyGoesItemByItem) {
   host.pipeline(5, 3, kSteps, &line);
   EXPECT_EQ(line.left, 5u);
   EXPECT_EQ(line.most, 1u);
+}
+
+/// Ends the process with what the tasks of an executor add up to.
+[[noreturn]] void count_without_threads() {
+  test::make_threads_impossible();
+  const tbb::global_control stacks(tbb::global_control::thread_stack_size, std::size_t{4} << 30);
+  std::atomic<int> sum = 0;
+  make_executor(2)->run(
+      8, [](void* context, int index) { *static_cast<std::atomic<int>*>(context) += index; }, &sum);
+  std::_Exit(sum);
+}
+
+TEST(Executor, HasFewerThreadsWhereNoMoreCanBeMade) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer has addresses of its own";
+  EXPECT_EXIT(count_without_threads(), ::testing::ExitedWithCode(28), "");
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ class Executor {
   virtual void pipeline(int count, int in_flight, std::span<const Task> steps, void* context);
 };
 
-/// oneTBB with that many threads, but no more than the machine has; 0 means all of them. Throws
-/// Error for a negative number.
+/// oneTBB with that many threads, but no more than the machine has; 0 means all of them. Where the
+/// system lets the process make fewer (`ulimit -u`, or no memory for their stacks) it has those.
+/// Throws Error for a negative number.
 std::unique_ptr<Executor> make_executor(int threads);
 
 }  // namespace limpid
