@@ -11,6 +11,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfThreading.h>
 
+#include "core/threads.h"
 #include "load/content_hash.h"
 #include "load/exr_deep.h"
 #include "load/exr_header.h"
@@ -18,6 +19,7 @@
 #include "load/exr_scanlines.h"
 #include "load/exr_unpack.h"
 #include "load/file_hash.h"
+#include "load/want_of_memory.h"
 
 namespace limpid {
 namespace {
@@ -60,8 +62,9 @@ void with_path(const std::filesystem::path& path, Work work) {
     const bool prefixed = text.starts_with(prefix);
     throw Error(prefix + printable(prefixed ? text.substr(prefix.size()) : text), error.fault());
   } catch (const std::bad_alloc&) {
-    throw Error(name + ": needs more memory than there is");
+    throw no_memory(name);
   } catch (const std::exception& error) {
+    if (is_for_want_of_memory(error)) throw no_memory(name);
     throw Error(name + ": truncated or damaged (" + printable(cause(error.what(), name)) + ")");
   } catch (...) {
     throw Error(name + ": truncated or damaged");
@@ -330,6 +333,9 @@ std::map<std::string, ExrFile::Attribute> ExrFile::attributes(int part) const {
   return passed;
 }
 
-void set_file_threads(int count) { Imf::setGlobalThreadCount(count > 1 ? count : 0); }
+void set_file_threads(int count) {
+  const int threads = count > 1 ? threads_to_be_had(count, usual_stack_bytes()) : 0;
+  Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+}
 
 }  // namespace limpid

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -110,6 +111,7 @@ void ExrUnpacker::unzip(std::size_t packed_bytes, std::size_t bytes) {
   const int result = ::uncompress(reinterpret_cast<Bytef*>(halves_.data()), &length,
                                   reinterpret_cast<const Bytef*>(packed_.data()),
                                   static_cast<uLong>(packed_bytes));
+  if (result == Z_MEM_ERROR) throw std::bad_alloc();
   if (result != Z_OK || length != bytes) refuse("a chunk cannot be decompressed");
   auto* const from = reinterpret_cast<unsigned char*>(halves_.data());
   unsigned sum = from[0];

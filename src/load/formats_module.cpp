@@ -43,7 +43,7 @@ int guarded(char* error, Work work) {
     work();
     return 0;
   } catch (const std::bad_alloc&) {
-    std::strncpy(error, "needs more memory than there is", kErrorSize - 1);
+    return kNoMemory;
   } catch (const std::exception& e) {
     std::strncpy(error, e.what(), kErrorSize - 1);
   } catch (...) {

@@ -67,6 +67,13 @@ std::string other_format(std::string_view bytes) {
   return "";
 }
 
+/// `what` is wrong with a picture, unless stb_image only had no memory.
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  const std::string_view reason = stbi_failure_reason();
+  if (reason == "outofmem") throw no_memory(name);
+  throw Error(name + ": " + what + ": " + std::string(reason));
+}
+
 }  // namespace
 
 ModelTexture decode_texture(std::string_view bytes, const std::string& name, const Limits& limits) {
@@ -79,7 +86,7 @@ ModelTexture decode_texture(std::string_view bytes, const std::string& name, con
   ModelTexture texture;
   int channels = 0;
   if (stbi_info_from_memory(data, size, &texture.width, &texture.height, &channels) == 0) {
-    throw Error(name + ": not a picture that can be read: " + stbi_failure_reason());
+    refuse(name, "not a picture that can be read");
   }
   check_size(texture.width, texture.height, name, limits);
   if (bytes.front() == '\x89') {
@@ -90,7 +97,7 @@ ModelTexture decode_texture(std::string_view bytes, const std::string& name, con
   const std::size_t count = static_cast<std::size_t>(texture.width) * texture.height;
   const auto decoded = [&](auto* pixels, int largest) {
     const std::unique_ptr<std::remove_pointer_t<decltype(pixels)>, Free> owner(pixels);
-    if (!pixels) throw Error(name + ": is damaged: " + stbi_failure_reason());
+    if (!pixels) refuse(name, "is damaged");
     texture.rgba = linear_texels(pixels, count, largest);
   };
   int width = 0, height = 0;

@@ -11,9 +11,11 @@
 
 #include "limpid/core/error.h"
 
+#include "core/memory.h"
 #include "load/file_stream.h"
 #include "load/formats.h"
 #include "load/png_text.h"
+#include "load/want_of_memory.h"
 #include "load/whole_file.h"
 #include "write/atomic_file.h"
 
@@ -84,6 +86,14 @@ int take(void* host, const void* bytes, std::size_t size) {
   }
 }
 
+// What a function of the format module has not done leaves as an Error.
+void check_done(const fs::path& path, int result, const std::string& error) {
+  if (result == 0) return;
+  // Its libraries give any reason when their memory ends.
+  if (result == formats::kNoMemory || !has_memory(kPlentyOfMemory)) throw no_memory(path.string());
+  throw Error(path.string() + ": " + error);
+}
+
 // The name by which the format module knows what the extension means.
 const char* format_of(const fs::path& path) {
   static const std::map<std::string, const char*> formats = {
@@ -118,12 +128,11 @@ ImageFile read_image(const fs::path& path, const Limits& limits) {
   const formats::FormatsLimits asked = {limits.max_pixels, limits.max_side, limits.max_channels,
                                         limits.max_memory};
   Reading reading;
-  std::array<char, formats::kErrorSize> error;
-  if (formats::module(path.string()).read(path.c_str(), &asked, allocate, &reading, error.data()) !=
-      0) {
-    if (reading.thrown) std::rethrow_exception(reading.thrown);
-    throw Error(path.string() + ": " + error.data());
-  }
+  std::array<char, formats::kErrorSize> error{};
+  const int result =
+      formats::module(path.string()).read(path.c_str(), &asked, allocate, &reading, error.data());
+  if (reading.thrown) std::rethrow_exception(reading.thrown);
+  check_done(path, result, error.data());
   return std::move(reading.image);
 }
 
@@ -141,14 +150,19 @@ void write_image8(const fs::path& path, const std::vector<View<const float>>& pl
   }
   const std::vector<std::uint8_t> pixels = interleaved(planes);
   std::vector<char> bytes;
-  std::array<char, formats::kErrorSize> error;
-  if (formats::module(path.string())
+  std::array<char, formats::kErrorSize> error{};
+  const int result =
+      formats::module(path.string())
           .write8(format, window.width(), window.height(), static_cast<int>(planes.size()),
-                  pixels.data(), take, &bytes, error.data()) != 0) {
-    throw Error(path.string() + ": " + error.data());
-  }
+                  pixels.data(), take, &bytes, error.data());
+  check_done(path, result, error.data());
   if (is_png(path)) add_png_texts(bytes, texts);
   write_whole(path, bytes);
+}
+
+void expect_image8(const fs::path& path) {
+  format_of(path);
+  formats::module(path.string());
 }
 
 std::map<std::string, std::string> read_image_texts(const fs::path& path) {

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
+#include <new>
 
 #include <zlib.h>
 
@@ -21,10 +21,10 @@ std::size_t number_at(std::string_view bytes, std::size_t at) {
 /// Counts what a zlib stream that comes in pieces inflates to, and keeps none of it.
 class Inflated {
  public:
-  Inflated() : ready_(inflateInit(&stream_) == Z_OK) {}
-  ~Inflated() {
-    if (ready_) inflateEnd(&stream_);
+  Inflated() {
+    if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
   }
+  ~Inflated() { inflateEnd(&stream_); }
   Inflated(const Inflated&) = delete;
   Inflated& operator=(const Inflated&) = delete;
 
@@ -37,6 +37,7 @@ class Inflated {
       stream_.next_out = scratch.data();
       stream_.avail_out = scratch.size();
       const int result = inflate(&stream_, Z_NO_FLUSH);
+      if (result == Z_MEM_ERROR) throw std::bad_alloc();
       const std::size_t made = scratch.size() - stream_.avail_out;
       count_ += static_cast<std::int64_t>(made);
       ended_ = result == Z_STREAM_END;
@@ -45,12 +46,12 @@ class Inflated {
     }
   }
 
-  bool good() const { return ready_ && !failed_; }
+  bool good() const { return !failed_; }
   std::int64_t count() const { return count_; }
 
  private:
   z_stream stream_{};
-  bool ready_, failed_ = false, ended_ = false;
+  bool failed_ = false, ended_ = false;
   std::int64_t count_ = 0;
 };
 

@@ -4,9 +4,11 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <stdexcept>
 
 #include "load/exr_header.h"
 #include "load/file_hash.h"
+#include "load/want_of_memory.h"
 #include "write/atomic_file.h"
 
 namespace limpid {
@@ -34,7 +36,7 @@ void finish(const std::filesystem::path& path) {
   const ExrHeader header = read_exr_headers(stream, unlimited)[0];
   const std::uint64_t header_end = stream.tellg();
   if (!has_all_chunks(stream, header))
-    throw Error("cannot be written (some lines could not be compressed)");
+    throw std::runtime_error("some lines could not be compressed");
   if (const auto hash = file_hash(*file, header_end)) put_hash(path, *hash);
 }
 
@@ -58,9 +60,11 @@ void write_whole_exr(const std::filesystem::path& path, const std::function<void
   } catch (const Error& error) {
     failure.emplace(name + ": " + error.what(), error.fault());
   } catch (const std::bad_alloc&) {
-    failure.emplace(name + ": needs more memory than there is", Fault::kRetry);
+    failure = no_memory(name);
   } catch (const std::exception& error) {
-    failure.emplace(name + ": cannot be written (" + error.what() + ")");
+    failure = is_for_want_of_memory(error)
+                  ? no_memory(name)
+                  : Error(name + ": cannot be written (" + error.what() + ")");
   }
   if (stream.error() != 0) {
     failure.emplace(name + ": cannot be written (" + describe(stream.error()) + ")",

@@ -118,7 +118,8 @@ class ExrFile {
 };
 
 /// How many threads OpenEXR decodes and encodes with, in the whole process; 0 and 1 mean the
-/// calling one alone, as at first. Files opened before keep the count they were opened with.
+/// calling one alone, as at first; fewer where the system lets the process make no more. Files
+/// opened before keep the count they were opened with.
 void set_file_threads(int count);
 
 }  // namespace limpid
