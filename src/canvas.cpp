@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "limpid/core/error.h"
+#include "limpid/load/image_file.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 #include "limpid/write/preview.h"
@@ -41,10 +42,15 @@ void expect_writable(const OutputChoice& choice) {
   expect_each_once(choice.aovs);
   expect_writable(choice.picture);
   if (!choice.deep.empty()) expect_writable(choice.deep);
-  if (!choice.preview.empty()) expect_writable(choice.preview);
+  if (!choice.preview.empty()) expect_preview_writable(choice.preview);
 }
 
 void expect_writable(const std::filesystem::path& file) { AtomicFile{file}; }
+
+void expect_preview_writable(const std::filesystem::path& file) {
+  expect_writable(file);
+  expect_image8(file);
+}
 
 Canvas::Canvas(Rect window, const OutputChoice& choice)
     : window_(window), made_{choice.aovs, computed_aovs(choice), choice.store_float} {

@@ -21,6 +21,7 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice);
 /// there or cannot be written to, and for AOVs that are named twice.
 void expect_writable(const OutputChoice& choice);
 void expect_writable(const std::filesystem::path& file);
+void expect_preview_writable(const std::filesystem::path& file);
 
 /// The picture and the wanted AOVs in memory, with their names in the file.
 class Canvas {

@@ -8,10 +8,10 @@
 #include "limpid/write/exr_writer.h"
 #include "limpid/write/preview.h"
 
+#include "canvas.h"
 #include "provenance.h"
 #include "shared_textures.h"
 #include "stopwatch.h"
-#include "write/atomic_file.h"
 
 namespace limpid {
 namespace {
@@ -98,8 +98,8 @@ TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
   report.size = job.size;
   expect_apart(files_of(model, job));
   // The Error that writing would end with, before the work is done.
-  AtomicFile{job.output.picture};
-  if (!job.output.preview.empty()) AtomicFile{job.output.preview};
+  expect_writable(job.output.picture);
+  if (!job.output.preview.empty()) expect_preview_writable(job.output.preview);
   const Scene scene = scene_of(model, job);
   const Textures textures = textures_of(model, scene, job);
   const TruthOptions options{job.size,

@@ -13,6 +13,9 @@
 
 #include "limpid/core/error.h"
 
+#include "memory_end.h"
+#include "sanitized.h"
+
 namespace limpid {
 namespace {
 
@@ -394,6 +397,19 @@ TEST(ImageFileDeathTest, SaysWhichModuleIsMissing) {
               "grey16.png: formats other than EXR need limpid_formats.so, which is not in .*");
   write_bytes(folder / "limpid_formats.so", "not a library");
   EXPECT_EXIT(try_without(), testing::ExitedWithCode(3), "cannot load the format module");
+}
+
+// Its libraries would crash as they are loaded.
+TEST(ImageFileDeathTest, SaysThatTheModuleHasNoMemory) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer has addresses of its own";
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto try_without = [] {
+    test::limit_addresses(std::size_t{256} << 20);
+    const std::string sentence = refusal([] { read_image(kData / "grey16.png"); });
+    std::fprintf(stderr, "%s", sentence.c_str());
+    std::exit(3);
+  };
+  EXPECT_EXIT(try_without(), testing::ExitedWithCode(3), "grey16.png: needs more memory than");
 }
 
 // A file that may not grow stands for a full disk; in a process of its own, for the limit stays.
