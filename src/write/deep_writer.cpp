@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <vector>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -178,6 +179,8 @@ void write_samples(Imf::DeepScanLineOutputFile& file, const DeepWater& water) {
     }
     file.setFrameBuffer(lines.frame(data.x0, y0, water.half));
     file.writePixels(y1 - y0);
+    // As for flat pixels: it comes back early when a thread of its own had no memory.
+    if (file.currentScanLine() != y1) throw std::bad_alloc();
   }
 }
 

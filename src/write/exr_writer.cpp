@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <set>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -97,6 +98,9 @@ void write_pixels(Imf::OutputFile& file, const ExrOutput& output) {
     }
     file.setFrameBuffer(frame);
     file.writePixels(block.height());
+    // It comes back early, without a word, when a thread of its own had no memory; the next lines
+    // would then be taken from where these were.
+    if (file.currentScanLine() != block.y1) throw std::bad_alloc();
   }
 }
 
