@@ -61,6 +61,8 @@ bool ranges_of(const Frame& frame, const Context& context, Ranges& ranges) {
     color = kNothing;
     widen(color, frame.plane(plane_after(planes.color, c)));
     widen(color, frame.plane(plane_after(PlaneId::kColorR, c)));
+    // Where nothing was hit no light is seen.
+    if (!std::isfinite(ranges.own.max) || !std::isfinite(ranges.looked_up.max)) widen(color, 0.0);
   }
   if (frame.plane(PlaneId::kShadow)) {
     ranges.shadow = kNothing;

@@ -38,7 +38,8 @@ inline Picture picture_of(const Plan& plan, const Frame& frame, const Scene& sce
 }
 
 /// The picture with every pixel run as the cells of this kind are. State that is made stays
-/// declared as made. An endless way is had from a scene that is infinitely far, without offset.
+/// declared as made. An endless way is had from a scene that is as far as can be without being
+/// "nothing hit", without offset.
 inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene, RunPlan run) {
   plan.max_error = 0;
   const Rect window = frame.plane(PlaneId::kDepth).window;
@@ -50,7 +51,7 @@ inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene
     far.set(PlaneId::kDepth, [&](int x, int y) {
       const RowRays<double> rays(context, y - context.corner.y + 0.5);
       const double water = surface ? surface.at(x, y) : rays.calm_depth(x - context.corner.x + 0.5);
-      return water < depth.at(x, y) ? kInf : depth.at(x, y);
+      return water < depth.at(x, y) && depth.at(x, y) < kInf ? 9e29f : depth.at(x, y);
     });
     frame.planes[index_of(PlaneId::kDepth)] = far.frame.plane(PlaneId::kDepth);
     for (PlaneId id :
@@ -64,10 +65,12 @@ inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene
     params.rejection = Refraction::Rejection::kNone;
     params.off_frame = Refraction::OffFrame::kClamp;
   } else if (kind.open) {
-    // What snap asks of the depths is no more than its test, but for rays that know theirs.
+    // What snap asks of the depths is no more than its test, but for rays that know theirs, and for
+    // layers below, whose empty places it leaves.
     Refraction::Params& params = plan.look.of<Refraction>();
     const bool knows = params.model == Refraction::Model::kSnell && params.steps != 0;
-    if (params.rejection == Refraction::Rejection::kSnap && !knows) {
+    const bool below = frame.present().covers(kBelowPlanes);
+    if (params.rejection == Refraction::Rejection::kSnap && !knows && !below) {
       params.rejection = Refraction::Rejection::kNone;
     }
   }

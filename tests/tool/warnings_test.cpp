@@ -28,6 +28,12 @@ class WarningsTest : public ToolTest {
     text.replace(text.find(old), old.size(), "height = " + height);
     write_text("scene.toml", text);
   }
+  /// Something is hit everywhere.
+  void close_plate(const std::string& file) const {
+    PlateOptions closed;
+    closed.depth_code = [](double z, double) { return z < 1e9 ? z : 60; };
+    write_plate(folder_ / file, closed);
+  }
   static long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 };
 
@@ -85,7 +91,8 @@ TEST_F(WarningsTest, ALayerThatNothingReads) {
 }
 
 TEST_F(WarningsTest, APictureWithoutAWetPixelOrADryOne) {
-  raise_water("-5");
+  close_plate("plate.exr");
+  raise_water("-500");
   const Ran dry = composite("dry.exr");
   EXPECT_EQ(dry.code, 0);
   EXPECT_THAT(dry.err, HasSubstr("limpid: warning: no pixel is wet"));
@@ -104,9 +111,9 @@ TEST_F(WarningsTest, APictureWithoutAWetPixelOrADryOne) {
 
 TEST_F(WarningsTest, AreToldOnceOfASequence) {
   for (int frame = 1; frame <= 3; ++frame) {
-    write_plate(folder_ / ("plate." + std::to_string(frame) + ".exr"));
+    close_plate("plate.000" + std::to_string(frame) + ".exr");
   }
-  raise_water("-5");
+  raise_water("-500");
   const Ran ran = limpid({"composite", "plate.#.exr", "--scene", "scene.toml", "--look",
                           "look.toml", "-o", "wet.#.exr", "--frames", "1-3"});
   EXPECT_EQ(ran.code, 0) << ran.err;
@@ -139,12 +146,12 @@ TEST_F(WarningsTest, TheTimeOfASceneCountsWhereNoneIsGiven) {
   EXPECT_TRUE(same("scene_time.exr", "given.exr"));
   EXPECT_FALSE(same("scene_time.exr", "other.exr"));
   // Frames of a sequence begin at it.
-  write_plate(folder_ / "plate.24.exr");
+  write_plate(folder_ / "plate.0024.exr");
   const Ran ran = limpid({"composite", "plate.#.exr", "--scene", "scene.toml", "--look",
                           "look.toml", "-o", "wet.#.exr", "--frames", "24", "-q"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   composed("later.exr", {"--time", "3.5"});
-  EXPECT_TRUE(same("wet.24.exr", "later.exr"));
+  EXPECT_TRUE(same("wet.0024.exr", "later.exr"));
 }
 
 TEST_F(WarningsTest, TheTimeOfARenderedSceneCountsToo) {
