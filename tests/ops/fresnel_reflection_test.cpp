@@ -1,5 +1,6 @@
 #include "limpid/ops/fresnel_reflection.h"
 
+#include <cmath>
 #include <utility>
 
 #include "ops/probe_strip.h"
@@ -161,7 +162,8 @@ TEST(FresnelReflection, IsABlend) {
     const double f = got.aov(Aov::kFresnel, x, y);
     EXPECT_GE(f, 0.0203);
     EXPECT_LE(f, 1);
-    const double under = noise.buffers.frame.plane(PlaneId::kColorB).at(x, y);
+    const bool hit = std::isfinite(noise.buffers.frame.plane(PlaneId::kDepth).at(x, y));
+    const double under = hit ? noise.buffers.frame.plane(PlaneId::kColorB).at(x, y) : 0;
     const double mirrored = noise.buffers.frame.plane(PlaneId::kReflectionB).at(x, y);
     EXPECT_NEAR(got.aov(Aov::kTransmitted, x, y, 2), (1 - f) * under, 1e-6);
     EXPECT_NEAR(got.aov(Aov::kReflected, x, y, 2), f * mirrored, 1e-6);
@@ -174,6 +176,7 @@ TEST(FresnelReflection, WhiteFurnace) {
   const Size size{40, 30};
   test::Noise noise(size);
   for (int c = 0; c < 3; ++c) noise.buffers.fill(plane_after(PlaneId::kColorR, c), 1);
+  noise.buffers.fill(PlaneId::kDepth, 1e6f);
   const float one = 1;
   for (View<const float>& view : noise.buffers.frame.environment.channels)
     view = {&one, 0, 0, {0, 0, 8, 4}};

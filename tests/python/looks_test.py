@@ -95,7 +95,7 @@ class Tables(unittest.TestCase):
         for operator in limpid.operators():
             self.assertIn(f"{operator['name']:19} {operator['about']}", shown)
             parameters = tool("operators", operator["name"])
-            lines = [line for line in parameters.splitlines() if line.startswith("  ") and " = " in line]
+            lines = [line for line in parameters.splitlines() if line.startswith("  ") and line[2] != " "]
             self.assertEqual([line.split()[0] for line in lines], [p["name"] for p in operator["parameters"]])
             for parameter in operator["parameters"]:
                 self.assertIn(parameter["about"], parameters)

@@ -59,7 +59,7 @@ TEST_F(GltfToolTest, DrawsWhatItCanWhereItIsAskedTo) {
   for (const std::string verb : {"water", "truth", "render"}) {
     const Ran ran = rendered(gltf, {"--draw-what-you-can"}, verb);
     EXPECT_EQ(ran.code, 0) << verb << ran.err;
-    const std::string file = "limpid: " + (folder_ / "thing.gltf").string() + ": ";
+    const std::string file = "limpid: warning: " + (folder_ / "thing.gltf").string() + ": ";
     EXPECT_THAT(ran.err, HasSubstr(file + "nodes[1] 'packed' is left out: meshes[1].primitives[0]: "
                                           "is packed by Draco (KHR_draco_mesh_compression)"));
     EXPECT_THAT(ran.err, HasSubstr(file + "nodes[2] is left out, with all below it: "));
