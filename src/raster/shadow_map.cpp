@@ -10,8 +10,8 @@
 #include <glm/matrix.hpp>
 
 #include "limpid/core/error.h"
-#include "limpid/raster/render_plate.h"
 #include "limpid/raster/rasterise.h"
+#include "limpid/raster/render_plate.h"
 
 namespace limpid {
 namespace {

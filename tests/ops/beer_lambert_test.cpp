@@ -258,7 +258,7 @@ TEST(BeerLambert, SkyUnderWaterIsGoneWhereThereIsWater) {
   const Picture got = tray.wet();
   expect_rgb(rgb_of(got, Aov::kTransmittance, 1, 1), {0, 1, 0});
   expect_rgb(rgb_of(got, Aov::kTransmitted, 1, 1), {0, 0, 0});  // clear, but nothing is there
-  const double deep = 1 + 0.9796267 / 8;  // b / b, and b / 4 / (b + b)
+  const double deep = 1 + 0.9796267 / 8;                        // b / b, and b / 4 / (b + b)
   expect_rgb(rgb_of(got, Aov::kInScatter, 1, 1), {deep, 0, deep});
 }
 
