@@ -37,7 +37,7 @@ json square_with(const char* material) {
     gltf["images"].push_back({{"uri", name}});
   }
   gltf["textures"] = json::parse(R"([{"source": 0}, {"source": 1}])");
-  gltf["materials"] = {json::parse(material)};
+  gltf["materials"] = json::array({json::parse(material)});
   gltf["meshes"][0]["primitives"][0]["material"] = 0;
   return gltf;
 }

@@ -34,7 +34,7 @@ class GltfToolTest : public ToolTest {
 
 TEST_F(GltfToolTest, TellsWhatItDoesNotDrawInALineEach) {
   json gltf = square_gltf();
-  gltf["animations"] = {json::object()};
+  gltf["animations"] = json::array({json::object()});
   gltf["materials"] = json::parse(R"([{"extensions": {"KHR_\nior": {}}}])");
   const Ran ran = rendered(gltf);
   EXPECT_EQ(ran.code, 0) << ran.err;
