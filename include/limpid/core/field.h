@@ -88,7 +88,7 @@ struct Field : FieldInfo {
     for (const std::string_view word : words) free.words[next++] = word;
     return field;
   }
-  /// The same; and who sets the parameter means that word, too.
+  /// The same; setting the parameter sets the other one to that word, too.
   constexpr Field brings(std::string_view key, std::string_view word) const {
     Field field = when(key, {word});
     for (Condition& condition : field.used_when) condition.follows |= condition.key == key;
