@@ -2,14 +2,15 @@
 
 #include <cmath>
 
+#include "limpid/complete/displaced_surface.h"
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
 #include "limpid/job_files.h"
 #include "limpid/write/exr_camera.h"
 
 #include "composite_frame.h"
+#include "picture_warnings.h"
 #include "stopwatch.h"
-#include "wet_warning.h"
 
 namespace limpid {
 namespace {
@@ -64,7 +65,8 @@ Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
                    {.planes = plate.planes(),
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
                     .sun = scene.sun.has_value(),
-                    .environment = has_environment(job.scene)},
+                    .environment = has_environment(job.scene),
+                    .waves = scene.has_waves()},
                    state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
 
@@ -128,10 +130,18 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   const Plan& plan = surveyed.plan;
   const LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
   loaded.frame.validate();
-  const Context context(scene, loaded.frame, plan.look.water.ior, plan.made);
-  surveyed.survey.make(plan, loaded.frame, context, executor, job.output.simd);
+  const Context context(scene, loaded.frame, plan.look.water.ior, plan.made, plan.swell());
+  Frame frame = loaded.frame;
+  DisplacedSurface surface;
+  if (plan.completed.has(PlaneId::kSurfaceDepth)) {
+    surface.make(frame, context, executor, &job.output.simd);
+    frame.planes[index_of(PlaneId::kSurfaceDepth)] = surface.depth().view();
+  }
+  const Context whole(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
   surveyed.warnings = warnings_of(job, plate, plan);
-  warn_of_wet(loaded.frame, scene, surveyed.warnings);
+  warn_of_picture(plan, frame, scene, surveyed.warnings);
+  refuse_warnings(job.output.strict, surveyed.warnings);
   return surveyed;
 }
 
@@ -179,7 +189,8 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool 
   report_.size = loaded_.frame.work().size();
   report_.replaced = loaded_.replaced;
   report_.warnings = warnings_of(job, plate, report_.plan);
-  warn_of_wet(loaded_.frame, scene_, report_.warnings);
+  warn_of_picture(report_.plan, loaded_.frame, scene_, report_.warnings);
+  refuse_warnings(job.output.strict, report_.warnings);
 
   file_.display = plate.display();
   file_.pixel_aspect = plate.pixel_aspect();

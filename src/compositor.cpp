@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limpid/core/error.h"
+#include "limpid/core/texture_levels.h"
 #include "limpid/run/fused.h"
 
 #include "enter/clip_direction.h"
@@ -85,7 +86,7 @@ HostOutputs outputs_of(const HostPicture& picture) {
 struct PlannedFor {
   PlaneSet planes;
   std::uint32_t aovs = 0;  ///< bit i: AOV i
-  bool sun = false;
+  bool sun = false, waves = false;
   friend bool operator==(const PlannedFor&, const PlannedFor&) = default;
 };
 static_assert(kAovCount <= 32);
@@ -97,6 +98,7 @@ PlannedFor planned_for(const HostFrame& host, const HostPicture& picture) {
   }
   for (int a = 0; a < kAovCount; ++a) wanted.aovs |= (picture.aovs[a][0] ? 1u : 0u) << a;
   wanted.sun = host.scene.sun.has_value();
+  wanted.waves = host.scene.has_waves();
   return wanted;
 }
 
@@ -120,6 +122,7 @@ struct Compositor::State {
 
   Frame frame;  ///< as entered; its textures are set from without
   std::vector<std::uint32_t> wave_map_bytes;
+  LevelMaker wave_map_levels;
   Scene scene;
   std::optional<Plan> plan;  ///< none: to be made
   PlannedFor made_for;
@@ -153,7 +156,8 @@ struct Compositor::State {
                              {.planes = wanted.planes,
                               .wave_map = static_cast<bool>(frame.wave_map),
                               .sun = wanted.sun,
-                              .environment = static_cast<bool>(frame.environment)},
+                              .environment = static_cast<bool>(frame.environment),
+                              .waves = wanted.waves},
                              shown_by(wanted.aovs), options.max_error);
     made_for = wanted;
   }
@@ -212,6 +216,8 @@ void Compositor::set_wave_map(const Texture& map) {
   s.wave_map_bytes = map ? pack_bytes(map) : std::vector<std::uint32_t>{};
   s.frame.wave_map = map;
   s.frame.wave_map.bytes = s.wave_map_bytes.empty() ? nullptr : s.wave_map_bytes.data();
+  if (map) s.wave_map_levels.make(s.frame.wave_map);
+  s.frame.wave_map.levels = map ? &s.wave_map_levels.levels() : nullptr;
   s.forget_plan();
 }
 

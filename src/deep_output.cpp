@@ -34,7 +34,7 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
                          const Target& target) {
   const Fog& fog = plan.look.of<DepthFog>();
   const std::optional<double> endless = endless_way(fog);
-  const Context context(scene, frame, plan.look.water.ior, plan.made);
+  const Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   const View<float>&path = target.of(Aov::kPath)[0], &surface = target.of(Aov::kSurfaceDepth)[0];
 
   const auto extent_at = [&](const RowRays<double>& rays, int x, int y) -> Extent {

@@ -7,9 +7,9 @@
 #include "limpid/job_files.h"
 #include "limpid/write/exr_camera.h"
 
+#include "picture_warnings.h"
 #include "stopwatch.h"
 #include "water_frame.h"
-#include "wet_warning.h"
 
 namespace limpid {
 namespace {
@@ -27,7 +27,8 @@ Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {
                    {.planes = renderable(model, scene),
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
                     .sun = scene.sun.has_value(),
-                    .environment = has_environment(job.render.scene)},
+                    .environment = has_environment(job.render.scene),
+                    .waves = scene.has_waves()},
                    state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
 
@@ -56,6 +57,9 @@ constexpr NamedPlane kPlaneChannels[] = {
     {PlaneId::kBelowB, "below.B"},
     {PlaneId::kBelowDepth, "below.Z"},
     {PlaneId::kSurfaceShadow, "surface_shadow.Y"},
+    {PlaneId::kSkyR, "sky.R"},
+    {PlaneId::kSkyG, "sky.G"},
+    {PlaneId::kSkyB, "sky.B"},
 };
 static_assert(std::size(kPlaneChannels) == kPlaneCount);
 
@@ -186,7 +190,8 @@ void WaterFrame::read(const WaterJob& job, Executor& executor) {
   plate_.frame.environment = texture_of(environment_);
   report_.size = job.render.render.size;
   report_.warnings = report_.plan.warnings;
-  warn_of_wet(plate_.frame, scene_, report_.warnings);
+  warn_of_picture(report_.plan, plate_.frame, scene_, report_.warnings);
+  refuse_warnings(job.output.strict, report_.warnings);
   report_.read_seconds = watch.lap();
 }
 

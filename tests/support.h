@@ -173,7 +173,7 @@ inline StateSet all_state() {
 
 inline Inputs inputs_of(const Frame& frame, const Scene& scene) {
   return {frame.present(), static_cast<bool>(frame.wave_map), scene.sun.has_value(),
-          static_cast<bool>(frame.environment)};
+          static_cast<bool>(frame.environment), scene.has_waves()};
 }
 
 /// Pure water, the light's way down and the surface left out: fog by one thing at a time.

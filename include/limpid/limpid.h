@@ -81,7 +81,10 @@ typedef enum limpid_plane {
   LIMPID_BELOW_G = 16,
   LIMPID_BELOW_B = 17,
   LIMPID_BELOW_DEPTH = 18,
-  LIMPID_SURFACE_SHADOW = 19
+  LIMPID_SURFACE_SHADOW = 19,
+  LIMPID_SKY_R = 20,
+  LIMPID_SKY_G = 21,
+  LIMPID_SKY_B = 22
 } limpid_plane;
 
 /** What is written. Channel i of an AOV (x y z, r g b, u v) is its value + i. */

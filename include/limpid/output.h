@@ -43,6 +43,9 @@ struct OutputChoice {
   /// 1): Plan::max_error.
   double max_error = 0;
 
+  /// Whether what would be a warning is an Error, before anything is written.
+  bool strict = false;
+
   std::filesystem::path picture;  ///< EXR
   std::filesystem::path preview;  ///< PNG, or empty for none
   /// Deep EXR of the water alone, or empty for none: a volume sample on each wet pixel, of color

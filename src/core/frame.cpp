@@ -32,6 +32,8 @@ constexpr Role kRoles[] = {
      "depth of what below_color shows"},
     {"surface_shadow", PlaneId::kSurfaceShadow, 1, 1, Sanitise::kShadow,
      "visibility of the sun at the water surface"},
+    {"sky", PlaneId::kSkyR, 3, 0, Sanitise::kColor,
+     "the sky as it would be seen if nothing stood before it"},
 };
 
 }  // namespace

@@ -61,6 +61,10 @@ void Scene::validate() const {
         throw Error(text);
       }
     }
+    if (!(sun->diameter >= 0.01 && sun->diameter <= 90)) {
+      throw Error("sun.diameter = " + std::to_string(sun->diameter) +
+                  " degrees, expected 0.01 ... 90");
+    }
   }
   if (!std::isfinite(time)) throw Error("time is not a finite number of seconds");
 }

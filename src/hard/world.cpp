@@ -106,7 +106,8 @@ HardPicture HardWorld::run(const std::string& runner, const Look& look, const Ha
   const Inputs inputs{.planes = whole.present(),
                       .wave_map = true,
                       .sun = scene.sun.has_value(),
-                      .environment = true};
+                      .environment = true,
+                      .waves = scene.has_waves()};
   const Plan plan = make_plan(look, inputs, all);
   HardPicture picture(whole.work());
   if (runner == kReference) {
@@ -153,7 +154,9 @@ Look calm_look(const HardWorld& world) {
   Look look = world.look("physical");
   look.of<WaveNormals>().strength = 0;
   look.of<PrismSplit>().gain = 0;
+  look.of<WaveNormals>().filter = WaveNormals::Filter::kNone;
   look.of<FresnelReflection>().source = FresnelReflection::Source::kConstant;
+  look.of<FresnelReflection>().facets = FresnelReflection::Facets::kMean;
   return look;
 }
 

@@ -78,6 +78,10 @@ LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limi
   LoadedTexture loaded = rgb_of(PlateFile::open(path, limits), "a normal map");
   loaded.bytes = pack_bytes(loaded.texture);
   if (!loaded.bytes.empty()) loaded.texture.bytes = loaded.bytes.data();
+  const auto levels = std::make_shared<LevelMaker>();
+  levels->make(loaded.texture);
+  loaded.texture.levels = &levels->levels();
+  loaded.levels = levels;
   return loaded;
 }
 

@@ -47,21 +47,25 @@ Bounds bounds_of(const Frame& frame, PlaneSet planes) {
 
 }  // namespace
 
-Context::Context(const Scene& scene, const Frame& frame, double index, StateSet parts)
+Context::Context(const Scene& scene, const Frame& frame, double index, StateSet parts,
+                 const Swell& swell)
     : sun(scene.sun.value_or(Sun{})),
       has_sun(scene.sun.has_value()),
       time(scene.time),
       ior(index),
       wave_map(frame.wave_map),
       environment(frame.environment),
+      wave_slopes(frame.wave_slopes),
       made(parts) {
   scene.validate();
   if (!scene.camera) throw Error("the scene has no camera, expected view and projection matrices");
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
   size = {frame.display.width(), frame.display.height()};
   corner = {frame.display.x0, frame.display.y0};
-  waves = scene.water->waves;
   planes = frame.present();
+  raised = swell.raises || planes.has(PlaneId::kSurfaceDepth);
+  waves = swell.waves.empty() ? std::span<const SineWave>(scene.water->waves) : swell.waves;
+  wave_scale = swell.scale;
   rays = rays_of(*scene.camera, size);
   eye = scene.camera->eye();
   up = scene.water->up;
@@ -92,8 +96,8 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   under_step = {glm::dot(up, rays.ray_dx) * size.x, glm::dot(up, rays.ray_dy) * size.y};
 
   double crest = 0;
-  if (planes.has(PlaneId::kSurfaceDepth)) {
-    for (const SineWave& wave : waves) crest += std::abs(wave.amplitude);
+  if (raised) {
+    for (const SineWave& wave : waves) crest += std::abs(wave_scale * wave.amplitude);
   }
   near = near_depth(*scene.camera);
   double lowest = HUGE_VAL;  // of the window's corners, over the calm surface

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "limpid/core/frame.h"
+#include "limpid/core/texture_levels.h"
 #include "limpid/core/vec.h"
 
 /// Bilinear lookups in textures, in double and as plain as can be: what the fast ones are judged
@@ -23,6 +24,37 @@ inline double tiled_at(const View<const float>& view, Vec2<double> periods) {
   return lerp(lerp(at(x0, y0), at(x0 + 1, y0), u), lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), u), v);
 }
 
+/// The mix of at(place) of four texels of a level, as bilinear filtering has it.
+template <class At>
+LIMPID_INLINE auto mixed_level(const LevelSizes& sizes, int level, Vec2<double> periods,
+                               const At& at) {
+  const int width = sizes.width[level], height = sizes.height[level];
+  const auto fraction = [](double p) { return max(p - std::floor(p), 0.0); };
+  const double x = fraction(periods.x) * width - 0.5, y = fraction(periods.y) * height - 0.5;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const double u = x - x0, v = y - y0;
+  const auto texel = [&](int i, int j) {
+    return at(sizes.place(level, (i + width) % width, (j + height) % height));
+  };
+  return (1 - v) * ((1 - u) * texel(x0, y0) + u * texel(x0 + 1, y0)) +
+         v * ((1 - u) * texel(x0, y0 + 1) + u * texel(x0 + 1, y0 + 1));
+}
+
+/// The mix of two levels, for a pixel that is as wide as `width` texels of the first one, at least
+/// 1: that of which a texel is 2^k of them, and the next one. From one to the other it goes over a
+/// quarter of the way between both.
+template <class At>
+LIMPID_INLINE auto between_levels(const LevelSizes& sizes, double width, Vec2<double> periods,
+                                  const At& at) {
+  int exponent = 0;
+  std::frexp(width, &exponent);
+  const int last = sizes.count - 1, level = std::min(exponent - 1, last);
+  const double between = std::ldexp(width, -level) - 1;
+  const double rest = level == last ? 0 : saturate(4 * between - 1.5);
+  return (1 - rest) * mixed_level(sizes, level, periods, at) +
+         rest * mixed_level(sizes, std::min(level + 1, last), periods, at);
+}
+
 /// Goes round in x and ends at the poles in y (optics/surroundings.h).
 inline double lat_long_at(const View<const float>& view, Vec2<double> place) {
   const int width = view.window.width(), height = view.window.height();
@@ -39,6 +71,32 @@ inline double lat_long_at(const View<const float>& view, Vec2<double> place) {
 inline Rgb<double> tiled_rgb_at(const Texture& texture, Vec2<double> periods) {
   return {tiled_at(texture.channels[0], periods), tiled_at(texture.channels[1], periods),
           tiled_at(texture.channels[2], periods)};
+}
+
+/// The map as a pixel that is `width` texels wide sees it. One texel wide or less, it is the map
+/// itself.
+inline Rgb<double> tiled_rgb_at(const Texture& texture, Vec2<double> periods, double width) {
+  const double share = saturate(4 * width - 5.5);  // as between two levels
+  if (!texture.levels || !(share > 0)) return tiled_rgb_at(texture, periods);
+  const TextureLevels& levels = *texture.levels;
+  const auto texel = [&](std::int32_t place) {
+    const std::uint32_t rgb = levels.texels[place];
+    return Rgb<double>{(rgb & 2047) / 2047.0, (rgb >> 11 & 2047) / 2047.0, (rgb >> 22) / 511.0};
+  };
+  const Rgb<double> far = between_levels(levels.sizes, max(width / 2, 1.0), periods, texel);
+  if (share >= 1) return far;
+  const Rgb<double> near = tiled_rgb_at(texture, periods);
+  return near + share * (far - near);
+}
+
+/// Of a pixel that is `width` texels of the first level wide.
+inline SlopeMoments<double> tiled_slopes_at(const SlopeLevels& levels, Vec2<double> periods,
+                                            double width) {
+  const auto texel = [&](std::int32_t place) {
+    const auto at = [&](int c) -> double { return levels.planes[c][place]; };
+    return SlopeMoments<double>{{at(0), at(1)}, {at(2), at(3), at(4)}};
+  };
+  return between_levels(levels.sizes, max(width, 1.0), periods, texel);
 }
 
 inline Rgb<double> lat_long_rgb_at(const Texture& texture, Vec2<double> place) {

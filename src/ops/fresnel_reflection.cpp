@@ -9,7 +9,8 @@ namespace {
 using P = FresnelReflection::Params;
 
 constexpr std::string_view kReflectances[] = {"rim", "linear", "inverse_power", "schlick", "exact"};
-constexpr std::string_view kSources[] = {"planar", "environment", "constant"};
+constexpr std::string_view kSources[] = {"planar", "environment", "constant", "auto"};
+constexpr std::string_view kFacets[] = {"mean", "spread"};
 constexpr std::string_view kLookups[] = {"offset", "ray"};
 
 constexpr Field<P> kFields[] = {
@@ -23,12 +24,14 @@ constexpr Field<P> kFields[] = {
         .when("reflectance", {"schlick"}),
     choice<&P::source, kSources>("source", "What is mirrored."),
     choice<&P::lookup, kLookups>("lookup", "Where in the planar source each pixel looks.")
-        .when("source", {"planar"}),
+        .when("source", {"planar", "auto"}),
+    choice<&P::facets, kFacets>("facets",
+                                "Waves too small for a pixel: the mean facet, or their spread."),
     real<&P::strength>("strength", "uv per unit tilt", {-10, 10}, "Size of the lookup offset.")
-        .when("source", {"planar"})
+        .when("source", {"planar", "auto"})
         .when("lookup", {"offset"}),
     color<&P::color>("color", "radiance", {0, 1e6}, "What the constant source mirrors.")
-        .when("source", {"constant"}),
+        .when("source", {"constant", "auto"}),
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 using P = SunHighlight::Params;
 
-constexpr std::string_view kModels[] = {"phong", "blinn_phong", "ggx"};
+constexpr std::string_view kModels[] = {"phong", "blinn_phong", "ggx", "slopes"};
 
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>("model", "How the lobe is measured."),
@@ -15,8 +15,8 @@ constexpr Field<P> kFields[] = {
         .when("model", {"phong", "blinn_phong"}),
     real<&P::strength>("strength", "", {0, 1e6}, "Scales the glint; 0 is none."),
     real<&P::roughness>("roughness", "", {0, 1},
-                        "Width of the lobe of ggx, its alpha: the root of the mean square slope.")
-        .when("model", {"ggx"}),
+                        "Root of the mean square slope of what is too fine for the normals.")
+        .when("model", {"ggx", "slopes"}),
 };
 
 }  // namespace
@@ -25,9 +25,15 @@ std::span<const Field<P>> SunHighlight::fields() { return kFields; }
 
 /// Phong's lobes reach 1, and no mirror is brighter than the sun's disc.
 double SunHighlight::bound(const P& params, const Context& c, const Ranges& ranges) {
-  const double lobe = params.model == Model::kGgx ? std::numbers::pi / kSunSolidAngle : 1;
+  const double radius = c.sun.radius();
+  const double lobe = params.model == Model::kSlopes
+                          ? std::numbers::pi * kBrightestLobe / (radius * radius)
+                      : params.model == Model::kGgx ? std::numbers::pi / kSunSolidAngle
+                                                    : 1;
+  const bool finds_shadow =
+      params.model == Model::kSlopes && !c.planes.has(PlaneId::kSurfaceShadow);
   const double light = std::max({c.sun.color.r, c.sun.color.g, c.sun.color.b});
-  return params.strength * lobe * light * std::max(ranges.own_shadow.max, 0.0);
+  return params.strength * lobe * light * (finds_shadow ? 1 : std::max(ranges.own_shadow.max, 0.0));
 }
 
 void SunHighlight::reckon(const P& params, const Context& c, Ranges& ranges) {

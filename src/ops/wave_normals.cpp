@@ -10,9 +10,14 @@ using P = WaveNormals::Params;
 constexpr std::string_view kModels[] = {"four_maps", "two_flows", "dudv",
                                         "sines",     "slopes",    "plate"};
 
+constexpr std::string_view kFilters[] = {"none", "mip", "variance"};
+
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>(
         "model", "Where normals come from; plate normals are taken whenever there are any."),
+    choice<&P::filter, kFilters>(
+        "filter",
+        "What becomes of waves too small for a pixel: nothing, their mean, or its variance."),
     real<&P::strength>("strength", "", {0, 4},
                        "Scales the waves, not the plate's; 0 is calm, 1 the waves as they are.")
         .when("model", {"four_maps", "two_flows", "dudv", "sines", "slopes"}),

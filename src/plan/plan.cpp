@@ -115,13 +115,56 @@ void drop_unread(Plan& plan, const Inputs&, StateSet outputs) {
 
 /// What the mirror did not see comes from the surroundings, where there is a picture of them.
 void fill_reflection(Plan& plan, const Inputs& inputs, StateSet) {
-  const PlannedOperator& mirror = planned<FresnelReflection>(plan);
-  const bool planar =
-      plan.look.of<FresnelReflection>().source == FresnelReflection::Source::kPlanar;
-  if (mirror.verdict != Verdict::kKept || !planar || !inputs.environment) return;
-  if (!inputs.planes.has(PlaneId::kReflectionValid)) return;
+  using Source = FresnelReflection::Source;
+  PlannedOperator& mirror = planned<FresnelReflection>(plan);
+  const Source source = plan.look.of<FresnelReflection>().source;
+  if (mirror.verdict != Verdict::kKept || !inputs.environment) return;
+  const bool planar = source == Source::kPlanar && inputs.planes.has(PlaneId::kReflectionValid);
+  if (!planar && source != Source::kAuto) return;
   plan.reads_environment = true;
-  planned<FresnelReflection>(plan).reason = "environment where the reflection is not valid";
+  mirror.reason = inputs.planes.covers(kReflectionPlanes)
+                      ? "environment where the reflection is not valid"
+                      : "environment where the picture does not show what is mirrored";
+}
+
+/// A ray over a reflection without a depth ends where things infinitely far are.
+void tell_depthless(Plan& plan, const Inputs& inputs, StateSet) {
+  using F = FresnelReflection;
+  const F::Params& params = plan.look.of<F>();
+  if (planned<F>(plan).verdict != Verdict::kKept || params.source != F::Source::kPlanar) return;
+  if (params.lookup != F::Lookup::kRay || inputs.planes.has(PlaneId::kReflectionDepth)) return;
+  plan.warnings.push_back(
+      "the reflection has no depth: all that it shows is taken to be infinitely far; expected a "
+      "reflection_depth, or fresnel_reflection.source = auto");
+}
+
+/// Water whose waves are known is met where they raise it. A plate knows its surface better; maps
+/// and the frame's normals say how it leans, not how high it is.
+void raise_water(Plan& plan, const Inputs& inputs, StateSet) {
+  const WaveNormals::Params& params = plan.look.of<WaveNormals>();
+  PlannedOperator& waves = planned<WaveNormals>(plan);
+  if (params.model != WaveNormals::Model::kSines || params.strength == 0) return;
+  if (params.waves.empty() && !inputs.waves) return;
+  if (inputs.planes.has(PlaneId::kSurfaceDepth)) return;
+  plan.completed = plan.completed | PlaneSet{PlaneId::kSurfaceDepth};
+  waves.reason += (waves.reason.empty() ? "" : "; ") + std::string("its waves raise the water");
+}
+
+/// What an operator that runs would like to have is made, where the plate lacks it.
+void complete_planes(Plan& plan, const Inputs& inputs, StateSet) {
+  PlaneSet wanted;
+  Chain::for_each([&]<class Op, int I>() {
+    if constexpr (requires { Op::wants(plan.look.of<Op>(), inputs.planes, inputs.environment); }) {
+      if (plan.keeps(I)) {
+        wanted = wanted | Op::wants(plan.look.of<Op>(), inputs.planes, inputs.environment);
+      }
+    }
+  });
+  wanted = wanted - inputs.planes;
+  for (const CompleterInfo& completer : completers()) {
+    if (!wanted.meets(completer.makes) || !inputs.planes.covers(completer.inputs)) continue;
+    plan.completed = plan.completed | (wanted & completer.makes);
+  }
 }
 
 using Rule = void (*)(Plan&, const Inputs&, StateSet outputs);
@@ -134,6 +177,10 @@ constexpr RuleInfo kRuleInfos[] = {
     {"drop_neutral", "What its parameters make the identity does not run."},
     {"drop_unread", "What nothing reads does not run."},
     {"fill_reflection", "The surroundings are seen where the reflection is not valid."},
+    {"tell_depthless", "A reflection without a depth is told of."},
+    {"raise_water",
+     "Without a plane of the surface the water stands where its sine waves raise it."},
+    {"complete_planes", "What nobody rendered is made, where an operator can use it."},
     {"copy_dry", "Cells without a wet pixel are copied."},
     {"skip_rejection", "Without foreground in reach refraction need not test for it."},
     {"skip_hidden", "Where fog hides the end of every way, nothing is refracted."},
@@ -141,7 +188,8 @@ constexpr RuleInfo kRuleInfos[] = {
     {"skip_unread", "What nothing that still runs in a cell reads does not run there."},
 };
 constexpr Rule kRules[] = {take_plate_normals, take_other_reflection, drop_absent_input,
-                           drop_neutral,       drop_unread,           fill_reflection};
+                           drop_neutral,       drop_unread,           fill_reflection,
+                           tell_depthless,     raise_water,           complete_planes};
 
 /// Says of each operator which rule spoke of it last.
 void apply_rules(Plan& plan, const Inputs& inputs, StateSet outputs) {
@@ -189,9 +237,18 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
     plan.reads_environment |= declared(plan.look, i).needs.environment;
     plan.needs_sun |= declared(plan.look, i).needs.sun;
   }
+  for (const CompleterInfo& completer : completers()) {
+    if (plan.completed.meets(completer.makes)) plan.planes = plan.planes | completer.inputs;
+  }
   plan.planes = plan.planes & inputs.planes;
   if (!plan.planes.covers(kBelowPlanes)) plan.planes = plan.planes - kBelowPlanes;  // half a layer
   return plan;
+}
+
+Swell Plan::swell() const {
+  if (!completed.has(PlaneId::kSurfaceDepth)) return {};
+  const WaveNormals::Params& params = look.of<WaveNormals>();
+  return {true, params.waves, params.strength};
 }
 
 std::string to_text(const PlannedOperator& op) {

@@ -100,7 +100,8 @@ Plan Subject::plan(const Look& look, double max_error, StateSet outputs) const {
   const Inputs inputs{.planes = frame_.present(),
                       .wave_map = !look.of<WaveNormals>().map.empty(),
                       .sun = scene_.sun.has_value(),
-                      .environment = static_cast<bool>(frame_.environment)};
+                      .environment = static_cast<bool>(frame_.environment),
+                      .waves = scene_.has_waves()};
   return make_plan(look, inputs, outputs, max_error);
 }
 

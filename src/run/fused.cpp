@@ -104,21 +104,24 @@ void FusedRunner::pair_cells() {
   }
 }
 
-void FusedRunner::run(const Plan& plan, const Frame& frame, const Scene& scene,
+void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
                       const Target& target, Executor& executor, const FusedOptions& options) {
   const FusedTarget& simd = *kTargets[simd_index(options.simd)];
-  check_run(plan, frame, scene, target);
-  for (const View<const float>& view : frame.planes) check_extent(view);
-  for (const View<const float>& view : frame.wave_map.channels) check_extent(view);
-  for (const View<const float>& view : frame.environment.channels) check_extent(view);
-  const Rect work = frame.work();
+  check_run(plan, plate, scene, target);
+  for (const View<const float>& view : plate.planes) check_extent(view);
+  for (const View<const float>& view : plate.wave_map.channels) check_extent(view);
+  for (const View<const float>& view : plate.environment.channels) check_extent(view);
+  const Rect work = plate.work();
   const Size tile{std::min(options.tile.width, work.width()),
                   std::min(options.tile.height, work.height())};
   if (tile.width < 1 || tile.height < 1) {
     throw Error("tile of " + std::to_string(tile.width) + "x" + std::to_string(tile.height) +
                 " pixels: expected at least 1x1");
   }
-  Context context(scene, frame, plan.look.water.ior, plan.made);
+  const Frame frame = completer_.complete(
+      plan, plate, Context(scene, plate, plan.look.water.ior, plan.made, plan.swell()), executor,
+      &options.simd);
+  Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   if (!plan.reads_environment) context.environment = {};  // nobody has checked it
   survey_.make(plan, frame, context, executor, options.simd);
   if (options.leaps) {

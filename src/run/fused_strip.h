@@ -50,6 +50,21 @@ class FusedStrip {
     }
   }
 
+  template <class Into>
+  LIMPID_LANES_INLINE void around3(PlaneId first, Into&& into) {
+    const Source x = source_of(first), y = source_of(plane_after(first, 1)),
+                 z = source_of(plane_after(first, 2));
+    for (const int v : wet()) {
+      Around<Lane> values;
+      for (int k = 0; k < 9; ++k) {
+        const int right = k % 3 - 1, down = k / 3 - 1;
+        values.at[k] = {beside(x, v, right, down), beside(y, v, right, down),
+                        beside(z, v, right, down)};
+      }
+      into(pixels_[v], values);
+    }
+  }
+
   template <class Where, class Into>
   LIMPID_LANES_INLINE void nearest(PlaneId plane, Where&& where, Into&& into) {
     for (const int v : wet()) into(pixels_[v], Tap{*this, v}.nearest(plane, where(pixels_[v])));
@@ -89,15 +104,56 @@ class FusedStrip {
 
   template <class Where, class Into>
   LIMPID_LANES_INLINE void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
-    if (!texture.bytes) {
-      for (const int v : wet()) into(pixels_[v], wrapped_rgb<true>(texture, where(pixels_[v])));
-      return;
+    tiled_rgb_of(texture, wet(), where, into);
+  }
+
+  template <class Wanted, class Where, class Into>
+  LIMPID_LANES_INLINE void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where,
+                                        Into&& into) {
+    int those[kStripVectors];
+    tiled_rgb_of(texture, some(wanted, those), where, into);
+  }
+
+  template <class Width, class Where, class Into>
+  LIMPID_LANES_INLINE void tiled_rgb(const Texture& texture, Width&& width, Where&& where,
+                                     Into&& into) {
+    int far[kStripVectors], near[kStripVectors];
+    const auto not_far = [&](const Pixel<Lane>& p) LIMPID_LANES_LAMBDA {
+      return !(share_of_levels(width(p)) >= Lane(1));
+    };
+    const auto not_near = [&](const Pixel<Lane>& p)
+                              LIMPID_LANES_LAMBDA { return share_of_levels(width(p)) > Lane(0); };
+    const Vectors with_far = texture.levels ? some(not_near, far) : Vectors{far, far};
+    if (with_far.begin() == with_far.end()) return tiled_rgb_of(texture, wet(), where, into);
+    Rgb<Lane> colors[kStripVectors];
+    bool all_far[kStripVectors];
+    for (const int v : with_far) {
+      const Lane halves = max(Lane(0.5) * width(pixels_[v]), Lane(1));
+      colors[v] = levels_rgb(*texture.levels, halves, where(pixels_[v]));
+      all_far[v] = !any(not_far(pixels_[v]));
     }
-    const Rect& window = texture.channels[0].window;
-    const int width = window.x1 - window.x0, height = window.y1 - window.y0;
-    BytesSpot spots[kStripVectors];
-    for (const int v : wet()) spots[v] = BytesSpot(width, height, where(pixels_[v]));
-    for (const int v : wet()) into(pixels_[v], bytes_rgb(texture.bytes, width, spots[v]));
+    tiled_rgb_of(texture, some(not_far, near), where,
+                 [&](Pixel<Lane>& p, Rgb<Lane> color) LIMPID_LANES_LAMBDA {
+                   const Lane share = share_of_levels(width(p));
+                   if (!any(share > Lane(0))) return into(p, color);
+                   const Rgb<Lane> coarse = colors[&p - pixels_];
+                   const Rgb<Lane> between = color + share * (coarse - color);
+                   const Rgb<Lane> blurred = select(share >= Lane(1), coarse, between);
+                   into(p, select(share > Lane(0), blurred, color));
+                 });
+    for (const int v : with_far) {
+      if (all_far[v]) into(pixels_[v], colors[v]);
+    }
+  }
+
+  template <class Wanted, class Width, class Where, class Into>
+  LIMPID_LANES_INLINE void tiled_slopes_if(const SlopeLevels& levels, Wanted&& wanted,
+                                           Width&& width, Where&& where, Into&& into) {
+    int those[kStripVectors];
+    for (const int v : some(wanted, those)) {
+      const Pixel<Lane>& p = pixels_[v];
+      into(pixels_[v], levels_slopes(levels, max(width(p), Lane(1)), where(p)));
+    }
   }
 
   /// What a probe may look up for the pixels of one vector.
@@ -207,6 +263,30 @@ class FusedStrip {
   /// Those with a wet pixel.
   LIMPID_LANES_INLINE Vectors wet() const { return {order_, order_ + wet_vectors_}; }
 
+  /// Those of them with such a pixel, noted in `room`.
+  template <class Such>
+  LIMPID_LANES_INLINE Vectors some(Such&& such, int* room) const {
+    int count = 0;
+    for (const int v : wet()) {
+      if (any(such(pixels_[v]))) room[count++] = v;
+    }
+    return {room, room + count};
+  }
+
+  template <class Where, class Into>
+  LIMPID_LANES_INLINE void tiled_rgb_of(const Texture& texture, Vectors vectors, Where&& where,
+                                        Into&& into) {
+    if (!texture.bytes) {
+      for (const int v : vectors) into(pixels_[v], wrapped_rgb<true>(texture, where(pixels_[v])));
+      return;
+    }
+    const Rect& window = texture.channels[0].window;
+    const int width = window.x1 - window.x0, height = window.y1 - window.y0;
+    BytesSpot spots[kStripVectors];
+    for (const int v : vectors) spots[v] = BytesSpot(width, height, where(pixels_[v]));
+    for (const int v : vectors) into(pixels_[v], bytes_rgb(texture.bytes, width, spots[v]));
+  }
+
   /// Bilinear lookups in N channels that are alike. All places first, then all texels.
   template <int N, class Where, class Into>
   LIMPID_LANES_INLINE void mixed(const Source* sources, Where&& where, Into&& into) {
@@ -260,6 +340,19 @@ class FusedStrip {
     const std::ptrdiff_t down = std::ptrdiff_t{y_ - s.window.y0} * s.y_stride;
     const std::ptrdiff_t across = std::ptrdiff_t{x0_ + vector * kLanes - s.window.x0} * s.x_stride;
     return load_row(s.data + down + across, s.x_stride, remaining(vector));
+  }
+  /// The same of pixels beside these, or the nearest ones in the window.
+  LIMPID_LANES_INLINE Lane beside(const Source& s, int vector, int right, int down) const {
+    if (!s.data) return Lane(s.missing);
+    const int y = std::clamp(y_ + down, s.window.y0, s.window.y1 - 1) - s.window.y0;
+    const float* row = s.data + std::ptrdiff_t{y} * s.y_stride;
+    const int x = x0_ + vector * kLanes + right - s.window.x0, last = s.width() - 1;
+    if (s.x_stride == 1 && x >= 0 && x + kLanes - 1 <= last) return Lane(hn::LoadU(kD, row + x));
+    alignas(64) float values[kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      values[i] = row[std::ptrdiff_t{std::clamp(x + i, 0, last)} * s.x_stride];
+    }
+    return Lane(hn::Load(kD, values));
   }
   LIMPID_LANES_INLINE Rgb<Lane> color_at(const Source* rgb, int vector) const {
     return {own_at(rgb[0], vector), own_at(rgb[1], vector), own_at(rgb[2], vector)};

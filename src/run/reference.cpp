@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "limpid/complete/completer.h"
 #include "limpid/op/context.h"
 
 #include "op/plain_texture.h"
@@ -41,6 +42,19 @@ class ReferenceStrip {
     });
   }
 
+  template <class Into>
+  void around3(PlaneId first, Into&& into) {
+    for_all([&](Pixel<double>& p, int x) {
+      Around<double> values;
+      for (int k = 0; k < 9; ++k) {
+        const int column = x + k % 3 - 1, row = y_ + k / 3 - 1;
+        values.at[k] = {texel(first, column, row), texel(plane_after(first, 1), column, row),
+                        texel(plane_after(first, 2), column, row)};
+      }
+      into(p, values);
+    });
+  }
+
   template <class Where, class Into>
   void nearest(PlaneId plane, Where&& where, Into&& into) {
     for_all([&](Pixel<double>& p, int x) {
@@ -67,6 +81,26 @@ class ReferenceStrip {
   void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
     for (Pixel<double>& p : pixels_) {
       into(p, tiled_rgb_at(texture, where(p)));
+    }
+  }
+
+  template <class Width, class Where, class Into>
+  void tiled_rgb(const Texture& texture, Width&& width, Where&& where, Into&& into) {
+    for (Pixel<double>& p : pixels_) into(p, tiled_rgb_at(texture, where(p), width(p)));
+  }
+
+  template <class Wanted, class Where, class Into>
+  void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where, Into&& into) {
+    for (Pixel<double>& p : pixels_) {
+      if (wanted(p)) into(p, tiled_rgb_at(texture, where(p)));
+    }
+  }
+
+  template <class Wanted, class Width, class Where, class Into>
+  void tiled_slopes_if(const SlopeLevels& levels, Wanted&& wanted, Width&& width, Where&& where,
+                       Into&& into) {
+    for (Pixel<double>& p : pixels_) {
+      if (wanted(p)) into(p, tiled_slopes_at(levels, where(p), width(p)));
     }
   }
 
@@ -209,9 +243,13 @@ void write_dry(const Frame& frame, const Pixel<double>& p, int x, int y, const T
 
 }  // namespace
 
-void run_reference(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target) {
-  check_run(plan, frame, scene, target);
-  Context context(scene, frame, plan.look.water.ior, plan.made);
+void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, const Target& target) {
+  check_run(plan, plate, scene, target);
+  const std::unique_ptr<Executor> serial = make_executor(1);
+  Completer completer;
+  const Frame frame = completer.complete(
+      plan, plate, Context(scene, plate, plan.look.water.ior, plan.made, plan.swell()), *serial);
+  Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   if (!plan.reads_environment) context.environment = {};  // nobody has checked it
   const Rect work = frame.work();
   ReferenceStrip strip(frame, work);

@@ -1,4 +1,6 @@
 #pragma once
+#include "limpid/core/texture_levels.h"
+
 #include "run/source.h"
 
 /// Bilinear filtering of textures, for lanes. For inclusion by lanes_target.cpp alone.
@@ -48,17 +50,18 @@ struct BytesSpot {
 
   BytesSpot() = default;
   LIMPID_LANES_INLINE BytesSpot(int width, int height, Vec2<Lane> periods) {
-    const VI x = along(width, periods.x, u), y = along(height, periods.y, v);
+    const VI x = along(hn::Set(kDI, width), periods.x, u);
+    const VI y = along(hn::Set(kDI, height), periods.y, v);
     upper_left = Places(hn::Add(hn::Mul(y, hn::Set(kDI, width + 1)), x));
   }
 
- private:
   /// From the middle of the last texel, which comes before the first one, on.
-  static LIMPID_LANES_INLINE VI along(int size, Lane periods, Lane& weight) {
-    const Lane at = fraction(periods) * Lane(size) - Lane(0.5), whole = floor(at);
+  static LIMPID_LANES_INLINE VI along(VI size, Lane periods, Lane& weight) {
+    const Lane texels(hn::ConvertTo(kD, size));
+    const Lane at = fraction(periods) * texels - Lane(0.5), whole = floor(at);
     weight = at - whole;
     const VI i = whole_of(whole);
-    return hn::Add(i, hn::And(hn::ShiftRight<31>(i), hn::Set(kDI, size)));
+    return hn::Add(i, hn::And(hn::ShiftRight<31>(i), size));
   }
 };
 
@@ -81,6 +84,133 @@ LIMPID_LANES_INLINE Rgb<Lane> bytes_rgb(const std::uint32_t* texels, int width,
   return {mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::And(c, byte); }),
           mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::And(hn::ShiftRight<8>(c), byte); }),
           mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::ShiftRight<16>(c); })};
+}
+
+/// Levels of a texture, of each lane its own. Neighbours mostly share one.
+struct LevelChoice {
+  VI width, height, first;
+
+  LIMPID_LANES_INLINE LevelChoice(const LevelSizes& sizes, Lane level) {
+    const int lowest = static_cast<int>(least(level));
+    if (lowest == static_cast<int>(greatest(level))) {
+      width = hn::Set(kDI, sizes.width[lowest]);
+      height = hn::Set(kDI, sizes.height[lowest]);
+      first = hn::Set(kDI, sizes.first[lowest]);
+    } else {
+      const Places at(whole_of(level));
+      width = entry(sizes.width, at);
+      height = entry(sizes.height, at);
+      first = entry(sizes.first, at);
+    }
+  }
+
+ private:
+  static LIMPID_LANES_INLINE VI entry(const std::int32_t* table, const Places& at) {
+    return hn::BitCast(kDI, fetch(reinterpret_cast<const float*>(table), at).v);
+  }
+};
+
+/// Where bilinear filtering looks in such levels.
+struct LevelSpot {
+  Places upper, lower;
+  Lane u, v;
+
+  LIMPID_LANES_INLINE LevelSpot(const LevelChoice& level, Vec2<Lane> periods) {
+    const VI pitch = hn::Add(level.width, hn::Set(kDI, 1));
+    const VI x = BytesSpot::along(level.width, periods.x, u);
+    const VI y = BytesSpot::along(level.height, periods.y, v);
+    const VI place = hn::Add(hn::Add(hn::Mul(y, pitch), x), level.first);
+    upper = Places(place);
+    lower = Places(hn::Add(place, pitch));
+  }
+};
+
+/// Of levels where the pixel is `width` texels of the map wide; the rest is of the map itself.
+LIMPID_LANES_INLINE Lane share_of_levels(Lane width) {
+  return saturate(Lane(4) * width - Lane(5.5));
+}
+
+/// The two levels that a pixel reads which is `width` texels of the first one wide, and the share
+/// of the second: 2^k texels of the first level are one of level k. The share goes from 0 to 1 over
+/// a quarter of the way from one level to the next, so that most pixels read one alone.
+struct LevelPair {
+  Lane level, next, rest;
+
+  LIMPID_LANES_INLINE LevelPair(const LevelSizes& sizes, Lane width) {
+    const VI bias = hn::Set(kDI, 127);
+    // The exponent of a float is what says which.
+    const VI exponent = hn::Sub(hn::ShiftRight<23>(hn::BitCast(kDI, width.v)), bias);
+    const VI whole = clamp(exponent, 0, sizes.count - 1);
+    const Lane part(hn::BitCast(kD, hn::ShiftLeft<23>(hn::Sub(bias, whole))));
+    const Lane last(sizes.count - 1);
+    level = Lane(hn::ConvertTo(kD, whole));
+    next = min(level + Lane(1), last);
+    const Lane between = width * part - Lane(1);
+    rest = select(level < last, saturate(Lane(4) * between - Lane(1.5)), Lane(0));
+  }
+  LIMPID_LANES_INLINE bool one_alone() const { return !any(rest > Lane(0) && rest < Lane(1)); }
+  LIMPID_LANES_INLINE Lane nearer() const { return select(rest < Lane(1), level, next); }
+  LIMPID_LANES_INLINE Lane mixed(Lane finer, Lane coarser) const {
+    return select(rest < Lane(1), lerp(finer, coarser, rest), coarser);
+  }
+};
+
+LIMPID_LANES_INLINE Rgb<Lane> level_rgb(const std::uint32_t* texels, const LevelSpot& spot) {
+  const float* data = reinterpret_cast<const float*>(texels);
+  const Pair upper = fetch_pairs(data, spot.upper), lower = fetch_pairs(data, spot.lower);
+  const VI corners[4] = {hn::BitCast(kDI, upper.left.v), hn::BitCast(kDI, upper.right.v),
+                         hn::BitCast(kDI, lower.left.v), hn::BitCast(kDI, lower.right.v)};
+  const VI low = hn::Set(kDI, 2047);
+  const auto mixed = [&](auto channel, double most) LIMPID_LANES_LAMBDA {
+    const auto at = [&](int k) LIMPID_LANES_LAMBDA {
+      return Lane(hn::ConvertTo(kD, channel(corners[k])));
+    };
+    const Lane value = lerp(lerp(at(0), at(1), spot.u), lerp(at(2), at(3), spot.u), spot.v);
+    return value * Lane(1 / most);
+  };
+  return {
+      mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::And(c, low); }, 2047),
+      mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::And(hn::ShiftRight<11>(c), low); }, 2047),
+      mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::ShiftRight<22>(c); }, 511)};
+}
+
+/// Of a pixel that is `width` texels of the first level wide.
+LIMPID_LANES_INLINE Rgb<Lane> levels_rgb(const TextureLevels& levels, Lane width,
+                                         Vec2<Lane> periods) {
+  const LevelPair pair(levels.sizes, width);
+  const auto look_up = [&](Lane level) LIMPID_LANES_LAMBDA {
+    return level_rgb(levels.texels, LevelSpot(LevelChoice(levels.sizes, level), periods));
+  };
+  if (pair.one_alone()) return look_up(pair.nearer());
+  const Rgb<Lane> finer = look_up(pair.level), coarser = look_up(pair.next);
+  return {pair.mixed(finer.r, coarser.r), pair.mixed(finer.g, coarser.g),
+          pair.mixed(finer.b, coarser.b)};
+}
+
+/// One of the moments.
+LIMPID_LANES_INLINE Lane level_moment(const float* plane, const LevelSpot& spot) {
+  const Pair upper = fetch_pairs(plane, spot.upper), lower = fetch_pairs(plane, spot.lower);
+  return lerp(lerp(upper.left, upper.right, spot.u), lerp(lower.left, lower.right, spot.u), spot.v);
+}
+
+LIMPID_LANES_INLINE SlopeMoments<Lane> levels_slopes(const SlopeLevels& levels, Lane width,
+                                                     Vec2<Lane> periods) {
+  const LevelPair pair(levels.sizes, width);
+  Lane value[TextureLevels::kMoments];
+  if (pair.one_alone()) {
+    const LevelSpot spot(LevelChoice(levels.sizes, pair.nearer()), periods);
+    for (int c = 0; c < TextureLevels::kMoments; ++c) {
+      value[c] = level_moment(levels.planes[c], spot);
+    }
+  } else {
+    const LevelSpot finer(LevelChoice(levels.sizes, pair.level), periods);
+    const LevelSpot coarser(LevelChoice(levels.sizes, pair.next), periods);
+    for (int c = 0; c < TextureLevels::kMoments; ++c) {
+      value[c] = pair.mixed(level_moment(levels.planes[c], finer),
+                            level_moment(levels.planes[c], coarser));
+    }
+  }
+  return {{value[0], value[1]}, {value[2], value[3], value[4]}};
 }
 
 template <bool kBoth>

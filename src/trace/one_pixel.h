@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "limpid/core/frame.h"
 #include "limpid/op/pixel.h"
 
@@ -27,9 +29,36 @@ struct OnePixel {
   void own3(PlaneId, Into&& into) {
     into(pixel, pixel.normal);
   }
+  template <class Into>
+  void around3(PlaneId, Into&& into) {
+    Around<double> same;
+    for (Vec3<double>& value : same.at) value = pixel.normal;
+    into(pixel, same);
+  }
+  /// A picture in which nothing was hit.
+  struct Tap {
+    static double nearest(PlaneId, Vec2<double>) { return HUGE_VAL; }
+  };
+  template <class Fn>
+  void probe(Fn&& fn) {
+    fn(pixel, Tap{});
+  }
   template <class Where, class Into>
   void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
     into(pixel, tiled_rgb_at(texture, where(std::as_const(pixel))));
+  }
+  template <class Width, class Where, class Into>
+  void tiled_rgb(const Texture& texture, Width&& width, Where&& where, Into&& into) {
+    into(pixel, tiled_rgb_at(texture, where(std::as_const(pixel)), width(pixel)));
+  }
+  template <class Wanted, class Where, class Into>
+  void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where, Into&& into) {
+    if (wanted(pixel)) tiled_rgb(texture, where, into);
+  }
+  template <class Wanted, class Width, class Where, class Into>
+  void tiled_slopes_if(const SlopeLevels& levels, Wanted&& wanted, Width&& width, Where&& where,
+                       Into&& into) {
+    if (wanted(pixel)) into(pixel, tiled_slopes_at(levels, where(pixel), width(pixel)));
   }
 };
 

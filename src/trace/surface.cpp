@@ -12,12 +12,18 @@ bool makes_waves(const WaveNormals::Params& waves, const Texture& wave_map) {
   return waves.strength != 0 && (wave_map || !WaveNormals::needs(waves).wave_map);
 }
 
+/// A ray meets a point of the waves: there is no footprint to filter them by.
+WaveNormals::Params unfiltered(WaveNormals::Params waves) {
+  waves.filter = WaveNormals::Filter::kNone;
+  return waves;
+}
+
 }  // namespace
 
 Surface::Surface(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map,
                  const Context& context)
     : context_(context),
-      waves_(look.of<WaveNormals>()),
+      waves_(unfiltered(look.of<WaveNormals>())),
       wavy_(makes_waves(waves_, wave_map)),
       has_mesh_(std::any_of(model.instances.begin(), model.instances.end(),
                             [](const Instance& i) { return i.water; })),

@@ -38,7 +38,7 @@ class Surface {
   glm::dvec3 mesh_normal_at(const Triangles::Hit& hit) const;
 
   const Context& context_;
-  const WaveNormals::Params& waves_;
+  const WaveNormals::Params waves_;
   bool wavy_;  ///< by the operator
   bool has_mesh_, raised_;
   double height_;                                 ///< of the calm plane over the eye

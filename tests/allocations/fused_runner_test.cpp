@@ -45,6 +45,30 @@ TEST(Allocations, NoneAfterTheFirstFrame) {
   }
 }
 
+/// Nor for the surface that is made where the frame has none.
+TEST(Allocations, NoneForWaterThatWavesRaise) {
+  const Size size{301, 77};
+  Buffers b = test::noisy_frame(rect_of(size));
+  b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
+  b.frame.planes[index_of(PlaneId::kSurfaceNormalX)] = {};
+  Scene scene = test::simple_scene(size);
+  scene.water->waves = {{0.05, 1, 0.5, 0, 2}, {0.03, 0.2, 2, 1, 3}};
+  Look look = test::article_look();
+  look.of<WaveNormals>().model = WaveNormals::Model::kSines;
+  const test::Picture picture(b.frame.work());
+  const Plan plan = make_plan(look, test::inputs_of(b.frame, scene));
+  ASSERT_TRUE(plan.completed.has(PlaneId::kSurfaceDepth));
+  const auto executor = make_executor(2);
+  FusedRunner runner;
+  runner.run(plan, b.frame, scene, picture.target, *executor);
+  const int before = test::allocations();
+  for (int frame = 0; frame < 3; ++frame) {
+    scene.time += 0.04;
+    runner.run(plan, b.frame, scene, picture.target, *executor);
+  }
+  EXPECT_EQ(test::allocations(), before);
+}
+
 /// A smaller frame fits into what a larger one has needed.
 TEST(Allocations, NoneForASmallerFrame) {
   FusedRunner runner;

@@ -58,6 +58,7 @@ not found
   below_color       the dry scene without all that is above the water
   below_depth       depth of what below_color shows
   surface_shadow    visibility of the sun at the water surface
+  sky               the sky as it would be seen if nothing stood before it
 )");
 }
 
@@ -102,6 +103,7 @@ not found
   below_color       the dry scene without all that is above the water
   below_depth       depth of what below_color shows
   surface_shadow    visibility of the sun at the water surface
+  sky               the sky as it would be seen if nothing stood before it
 not used
   reflection_shadow.exr
 )");

@@ -30,7 +30,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Of a frame that has every plane, or all but some.
-Context probe_context(StateSet made, PlaneSet absent = {}) {
+Context probe_context(StateSet made, PlaneSet absent = {}, bool has_sky = true) {
   static const Buffers buffers = test::noisy_frame(rect_of(test::kContractSize));
   static const test::NoiseMap map(16, 8), sky(12, 6);
   Frame frame = buffers.frame;
@@ -38,7 +38,7 @@ Context probe_context(StateSet made, PlaneSet absent = {}) {
     if (absent.has(static_cast<PlaneId>(i))) frame.planes[i] = {};
   }
   frame.wave_map = map.texture;
-  frame.environment = sky.texture;
+  if (has_sky) frame.environment = sky.texture;
   Scene scene = test::simple_scene(test::kContractSize);
   scene.time = 3.7;
   return Context(scene, frame, 1.333, made);
@@ -155,10 +155,10 @@ TEST(Contract, NeedsArePlanesThatAreRead) {
 /// Applies to 32 pixels whose state is random in all parts.
 template <class Op>
 ProbeStrip probed(const typename Op::Params& params, StateSet random, StateSet made,
-                  PlaneSet absent = {}) {
+                  PlaneSet absent = {}, bool has_sky = true) {
   ProbeStrip strip;
   for (int i = 0; i < 32; ++i) strip.pixels.push_back(test::random_pixel(i, random));
-  Op::apply(params, probe_context(made, absent), strip);
+  Op::apply(params, probe_context(made, absent, has_sky), strip);
   return strip;
 }
 
@@ -230,6 +230,11 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
         const ProbeStrip without = probed<Op>(params, everything(), everything(), optional);
         tapped = tapped | without.tapped;
         EXPECT_TRUE(Op::reads(params).covers(without.tapped)) << what;
+      }
+      const ProbeStrip bare =
+          probed<Op>(params, everything(), everything(), kReflectionPlanes, false);
+      if (!Op::needs(params).environment && !Op::needs(params).planes.meets(kReflectionPlanes)) {
+        tapped = tapped | bare.tapped;
       }
       EXPECT_TRUE(tapped.covers(Op::reads(params))) << what << " declares more than it taps";
       EXPECT_EQ(Op::needs(params).wave_map, strip.map_tapped) << what;

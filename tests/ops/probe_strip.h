@@ -40,6 +40,18 @@ class ProbeStrip {
                                    texel(i, plane_after(first, 2))});
     }
   }
+  template <class Into>
+  void around3(PlaneId first, Into&& into) {
+    tapped = tapped | three(first);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      Around<double> values;
+      for (std::size_t k = 0; k < 9; ++k) {
+        values.at[k] = {texel(i + k, first), texel(i + k, plane_after(first, 1)),
+                        texel(i + k, plane_after(first, 2))};
+      }
+      into(pixels[i], values);
+    }
+  }
   template <class Where, class Into>
   void nearest(PlaneId plane, Where&& where, Into&& into) {
     note(where);
@@ -63,6 +75,26 @@ class ProbeStrip {
       const auto wave = [&](int c) { return 0.5 + 0.4 * std::sin(7 * at.x + 5 * at.y + c); };
       into(pixels[i], Rgb<double>{wave(0), wave(1), wave(2)});
     }
+  }
+
+  template <class Width, class Where, class Into>
+  void tiled_rgb(const Texture& texture, Width&& width, Where&& where, Into&& into) {
+    for (const Pixel<double>& p : pixels) EXPECT_GE(width(p), 0);
+    tiled_rgb(texture, where, into);
+  }
+  template <class Wanted, class Where, class Into>
+  void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where, Into&& into) {
+    tiled_rgb(texture, where, [&](Pixel<double>& p, Rgb<double> color) {
+      if (wanted(p)) into(p, color);
+    });
+  }
+  template <class Wanted, class Width, class Where, class Into>
+  void tiled_slopes_if(const SlopeLevels&, Wanted&& wanted, Width&& width, Where&& where,
+                       Into&& into) {
+    tiled_rgb_if({}, wanted, where, [&](Pixel<double>& p, Rgb<double> color) {
+      EXPECT_GE(width(p), 0);
+      into(p, SlopeMoments<double>{{color.r, color.g}, {1, color.b, 1}});
+    });
   }
 
   struct Quad {
@@ -124,6 +156,9 @@ void each_number(P& a, Q& b, StatePart part, Fn&& fn) {
     case StatePart::kNormal:
       fn(a.normal.x, b.normal.x), fn(a.normal.y, b.normal.y), fn(a.normal.z, b.normal.z);
       return two(a.tilt, b.tilt);
+    case StatePart::kSlopeVariance:
+      fn(a.slope_variance.xx, b.slope_variance.xx), fn(a.slope_variance.xy, b.slope_variance.xy);
+      return fn(a.slope_variance.yy, b.slope_variance.yy);
     case StatePart::kPrism:
       two(a.prism_r, b.prism_r), two(a.prism_g, b.prism_g), two(a.prism_b, b.prism_b);
       return rgb(a.dispersion, b.dispersion);
@@ -163,10 +198,11 @@ inline void copy_part(const Pixel<double>& from, StatePart part, Pixel<double>& 
 }
 
 constexpr StatePart kStateParts[] = {
-    StatePart::kNormal,    StatePart::kPrism,         StatePart::kPosition,
-    StatePart::kPath,      StatePart::kTransmittance, StatePart::kTransmitted,
-    StatePart::kInScatter, StatePart::kSunScatter,    StatePart::kFresnel,
-    StatePart::kReflected, StatePart::kHighlight,     StatePart::kConfidence};
+    StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
+    StatePart::kPosition,    StatePart::kPath,          StatePart::kTransmittance,
+    StatePart::kTransmitted, StatePart::kInScatter,     StatePart::kSunScatter,
+    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kHighlight,
+    StatePart::kConfidence};
 
 /// What the fixed part of a pixel says, then random state in the given parts; elsewhere it is as
 /// before the first operator.
@@ -191,6 +227,10 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
   if (random.has(StatePart::kNormal)) {
     p.normal = normalize_or<double>({0.4 * number(), 1, 0.4 * number()}, up);
     p.tilt = {p.normal.x, p.normal.z};
+  }
+  if (random.has(StatePart::kSlopeVariance)) {
+    const double x = 0.3 * number(), y = 0.3 * number();
+    p.slope_variance = {x * x, 0.5 * x * y, y * y};
   }
   if (random.has(StatePart::kPrism)) {
     p.prism_r = {0.01 * number(), 0};

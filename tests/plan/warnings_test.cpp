@@ -38,7 +38,7 @@ TEST(PlanWarnings, OfTwoConditionsTheFirstThatFailsIsNamed) {
   look.set("fresnel_reflection", "source", "constant");
   EXPECT_THAT(warnings(look),
               ElementsAre("fresnel_reflection.strength = 0.5 changes nothing: source is constant, "
-                          "expected source = planar"));
+                          "expected source = planar or auto"));
 }
 
 TEST(PlanWarnings, AValueAtItsDefaultIsNotTold) {

@@ -42,13 +42,18 @@ glm::dvec3 ray_of(const Scene& scene, int x, int y) {
   return rays_of(*scene.camera, {kSize.width, kSize.height}).ray_at(x + 0.5, y + 0.5);
 }
 
-/// The window through which the view begins, at this pixel, over the wave there.
-double window_over_wave(const Scene& scene, int x, int y) {
-  const glm::dvec3 at = scene.camera->eye() + kNear * ray_of(scene, x, y);
+/// A point of the ray over the wave there.
+double height_over_wave(const Scene& scene, int x, int y, double depth) {
+  const glm::dvec3 at = scene.camera->eye() + depth * ray_of(scene, x, y);
   const PlaneAxes axes = plane_axes(scene.water->up);
   return at.y -
          wave_height(scene.water->waves, glm::dot(axes.x, at), glm::dot(axes.y, at), scene.time)
              .height;
+}
+
+/// The window through which the view begins, at this pixel, over the wave there.
+double window_over_wave(const Scene& scene, int x, int y) {
+  return height_over_wave(scene, x, y, kNear);
 }
 
 /// A wall that fills the picture at this eye depth, and no surface in front of it.
@@ -129,13 +134,16 @@ TEST_P(Underwater, APixelIsInTheWaterWhereItsWindowIsUnderTheWave) {
   }
 }
 
-/// Without a plane of the surface the calm one is met, by the same side that the view begins on.
+/// Without a plane of the surface and without known waves the calm one is met, by the same side
+/// that the view begins on.
 TEST_P(Underwater, TheCalmPlaneIsNotMetBeforeTheWindow) {
   Buffers b = wall_at(3);
   b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
+  Look look = calm_look();
+  look.of<WaveNormals>().strength = 0;
   for (double height : {0.02, -0.02}) {
     const Scene scene = scene_at(height, 0, {kWave});
-    const Picture p = run(calm_look(), b, scene);
+    const Picture p = run(look, b, scene);
     for_each_pixel([&](int x, int y) {
       const glm::dvec3 ray = ray_of(scene, x, y);
       const double over = height + kNear * ray.y, meets = -height / ray.y;
@@ -153,6 +161,36 @@ TEST_P(Underwater, TheCalmPlaneIsNotMetBeforeTheWindow) {
       }
     });
   }
+}
+
+/// With known waves it is they that are met, and that say on which side the view begins.
+TEST_P(Underwater, WavesAreNotMetBeforeTheWindow) {
+  constexpr float kWall = 3;
+  Buffers b = wall_at(kWall);
+  b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
+  Look look = calm_look();
+  look.of<WaveNormals>().strength = 1;
+  int in_water = 0, from_below = 0, from_above = 0;
+  for (const double height : {0.01, 0.04}) {
+    const Scene scene = scene_at(height, 0, {kWave});
+    const Picture p = run(look, b, scene);
+    for_each_pixel([&](int x, int y) {
+      const double over = window_over_wave(scene, x, y);
+      if (std::abs(over) < 1e-6) return;  // too close for float
+      const double depth = p.aov(Aov::kSurfaceDepth, x, y);
+      const bool met = std::isfinite(depth);
+      EXPECT_EQ(p.target.alpha.at(x, y), over < 0 || met ? 1 : 0.5f) << x << ", " << y;
+      in_water += over < 0 && !met;
+      (over < 0 ? from_below : from_above) += met;
+      if (!met) return;
+      EXPECT_GE(depth, kNear);
+      EXPECT_LT(depth, kWall);
+      EXPECT_NEAR(height_over_wave(scene, x, y, depth), 0, 1e-5);
+    });
+  }
+  EXPECT_GT(in_water, 100);
+  EXPECT_GT(from_below, 100);
+  EXPECT_GT(from_above, 100);
 }
 
 TEST_P(Underwater, PixelsInTheAirDoNotKnowThatOthersAreInTheWater) {

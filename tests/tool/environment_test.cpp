@@ -46,13 +46,15 @@ TEST_F(EnvironmentTest, IsToldOfWhereNothingReadsItNorAReflection) {
   const auto warned = [&](const Words& more) {
     Words words = {
         "composite", "plate.exr", "--scene", "sky.toml", "--look",
-        "look.toml", "-o",        "wet.exr", "--set",    "fresnel_reflection.lookup=ray"};
+        "look.toml", "-o",        "wet.exr", "--set",    "fresnel_reflection.lookup=offset"};
     words.insert(words.end(), more.begin(), more.end());
     return limpid(words).err;
   };
   EXPECT_EQ(warned({}), "") << "a reflection is better";
   EXPECT_EQ(
       warned({"--set", "fresnel_reflection.source=constant"}),
+      "limpid: warning: fresnel_reflection.lookup = offset changes nothing: source is constant, "
+      "expected source = planar or auto\n"
       "limpid: warning: the environment is named, and nothing that runs of the look look reads "
       "it\n");
 }

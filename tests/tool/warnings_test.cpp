@@ -58,7 +58,10 @@ TEST_F(WarningsTest, ASettingThatAnotherSwitchesOff) {
 
 TEST_F(WarningsTest, AnAbsorptionWinsOverTheTypeOfTheLook) {
   write_text("named.toml", "[depth_fog]\nwater_type = \"9C\"\n");
-  const Words plain = {"composite", "plate.exr", "--scene", "scene.toml", "--float", "-o"};
+  // The plate's reflection has no depth, of which a look that looks along the ray is told.
+  const Words plain = {"composite",  "plate.exr", "--scene",
+                       "scene.toml", "--set",     "fresnel_reflection.lookup=offset",
+                       "--float",    "-o"};
   const auto with = [&](const std::string& output, const Words& more) {
     Words words = plain;
     words.push_back(output);
@@ -120,6 +123,49 @@ TEST_F(WarningsTest, AreToldOnceOfASequence) {
   EXPECT_EQ(lines(ran.err), 1) << ran.err;
 }
 
+TEST_F(WarningsTest, AReflectionWithoutADepth) {
+  const Ran ran = composite("wet.exr", {"--set", "fresnel_reflection.lookup=ray"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("limpid: warning: the reflection has no depth"));
+  EXPECT_EQ(lines(ran.err), 1);
+  EXPECT_EQ(composite("wet.exr", {"--set", "fresnel_reflection.lookup=ray", "--set",
+                                  "fresnel_reflection.source=auto"})
+                .err,
+            "");
+}
+
+TEST_F(WarningsTest, ADepthThatIsNone) {
+  PlateOptions mist;
+  mist.depth_code = [](double z, double) { return z < 1e9 ? 0.5 : 0.9; };
+  write_plate(folder_ / "plate.exr", mist);
+  write_text("scene.toml",
+             "[camera]\nview = [[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, -2], [0, 0, 0, 1]]\n"
+             "fov_y = 20\n[water]\nheight = 1.3\n");
+  const Ran ran = composite("wet.exr");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("as that of a mist pass"));
+}
+
+TEST_F(WarningsTest, TilesSmallerThanAPixelAndWiderThanAllWater) {
+  EXPECT_THAT(composite("wet.exr", {"--set", "wave_normals.tile_size=0.001"}).err,
+              HasSubstr("wave_normals.tile_size = 0.001: a pixel of the nearest water is"));
+  EXPECT_THAT(composite("wet.exr", {"--set", "wave_normals.tile_size=1e6"}).err,
+              HasSubstr("wave_normals.tile_size = 1e+06: the nearest water in the picture is"));
+}
+
+TEST_F(WarningsTest, AreErrorsIfStrict) {
+  const Words setting = {"--set", "prism_split.gain=2", "--strict"};
+  const Ran ran = composite("strict.exr", setting);
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("limpid ERROR: prism_split.gain = 2 changes nothing"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "strict.exr"));
+  const Ran plan = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml",
+                           setting[0], setting[1], setting[2]});
+  EXPECT_EQ(plan.code, 1);
+  EXPECT_EQ(composite("strict.exr", {"--strict"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "strict.exr"));
+}
+
 TEST_F(WarningsTest, ShippedLooksHaveNone) {
   for (const std::string look : {"physical", "fast", "realistic", "monogame", "rito"}) {
     const Ran ran = limpid({"water", std::string(LIMPID_DATA) + "/scenes/pool.toml", "--look", look,
@@ -134,7 +180,7 @@ TEST_F(WarningsTest, TheTruthTellsOfItsLookToo) {
                           "-o", "truth.exr", "--set", "sun_highlight.power=7"});
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(ran.err,
-            "limpid: warning: sun_highlight.power = 7 changes nothing: model is ggx, expected "
+            "limpid: warning: sun_highlight.power = 7 changes nothing: model is slopes, expected "
             "model = phong or blinn_phong\n");
 }
 

@@ -94,6 +94,7 @@ void add_look(CLI::App& verb, WaterOptions& a) {
           "(default: 0, exact)")
       ->option_text("E")
       ->check(number_in(0, kInfinity, "white = 1"));
+  verb.add_flag("--strict", a.strict, "Fail instead of warning, before anything is written");
 }
 
 void add_file(CLI::App& verb, WaterOptions& a) {

@@ -20,6 +20,7 @@ struct WaterOptions {
   std::vector<std::string> settings, aovs;
   std::optional<double> time;
   double max_error = 0;
+  bool strict = false;
   std::string output, preview, deep, runner = "fused", simd, compression = "piz";
   bool store_float = false, dry_run = false;
 };

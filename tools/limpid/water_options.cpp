@@ -145,6 +145,7 @@ OutputChoice output_of(const WaterOptions& a) {
   output.runner = runner_named(a.runner);
   output.simd = simd_named(a.simd, output.runner);
   output.max_error = max_error_of(a, output.runner);
+  output.strict = a.strict;
   output.picture = exr_named("-o", a.output);
   output.preview = a.preview;
   output.deep = exr_named("--deep", a.deep);

@@ -34,8 +34,11 @@ enum class PlaneId : std::uint8_t {
   kBelowB,
   kBelowDepth,
   kSurfaceShadow,
+  kSkyR,
+  kSkyG,
+  kSkyB,
 };
-constexpr int kPlaneCount = 20;
+constexpr int kPlaneCount = 23;
 constexpr int index_of(PlaneId id) { return static_cast<int>(id); }
 /// The plane `step` places after `id`, as in plane_after(kColorR, 2) = kColorB.
 constexpr PlaneId plane_after(PlaneId id, int step) {
@@ -82,8 +85,13 @@ inline constexpr PlaneSet kReflectionPlanes{PlaneId::kReflectionR, PlaneId::kRef
 inline constexpr PlaneSet kSurfaceNormalPlanes{PlaneId::kSurfaceNormalX, PlaneId::kSurfaceNormalY,
                                                PlaneId::kSurfaceNormalZ};
 
+inline constexpr PlaneSet kSkyPlanes{PlaneId::kSkyR, PlaneId::kSkyG, PlaneId::kSkyB};
+
 inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, PlaneId::kBelowB,
                                        PlaneId::kBelowDepth};
+
+struct SlopeLevels;
+struct TextureLevels;
 
 /// A picture outside the screen (a map that tiles, an environment), three float channels r g b in
 /// memory that somebody else owns.
@@ -92,6 +100,9 @@ struct Texture {
   /// The same again as r | g << 8 | b << 16 where every value is k / 255, as pack_bytes() makes it;
   /// or null. A third of the fetches for maps that tile.
   const std::uint32_t* bytes = nullptr;
+  /// Of a tiling normal map, what LevelMaker makes of it, or null: a run whose waves ask for them
+  /// then makes them anew for each frame.
+  const TextureLevels* levels = nullptr;
   explicit operator bool() const { return static_cast<bool>(channels[0]); }
 };
 
@@ -111,6 +122,8 @@ struct Frame {
   /// The surroundings as a lat-long map of radiance: row 0 is straight up (the water's up), the
   /// middle column looks along PlaneAxes::x, columns run towards PlaneAxes::y.
   Texture environment;
+  /// Of wave_map's waves at the time of the frame; null, or made by complete/.
+  const SlopeLevels* wave_slopes = nullptr;
 
   const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
   PlaneSet present() const;

@@ -6,7 +6,8 @@
 /// The functions that formulas may call on a number. Formulas are templates over the number type:
 /// the reference runs them on `double` (this header), the fused pass on SIMD lanes, which bring
 /// functions of the same names in their own namespace. A comparison gives `bool` for `double` and a
-/// lane mask for lanes, so formulas choose with select() and never branch on a number.
+/// lane mask for lanes, so formulas choose with select() and branch on numbers only by if_any(),
+/// repeat() and steps(). Masks stay masks: a `bool` made of one would be that of all lanes.
 
 #define LIMPID_INLINE inline __attribute__((always_inline))
 
@@ -30,6 +31,53 @@ LIMPID_INLINE bool any(bool condition) { return condition; }
 /// Of all lanes.
 LIMPID_INLINE double least(double x) { return x; }
 LIMPID_INLINE double greatest(double x) { return x; }
+
+/// body() where the condition holds for any of the lanes. A body changes numbers that live outside
+/// of it and nothing else; lanes for which the condition does not hold keep theirs by select().
+template <class M, class Body>
+LIMPID_INLINE void if_any(M lanes, Body&& body) {
+  if (any(lanes)) body();
+}
+
+/// A loop over whole numbers as a number type has it. A type that records formulas brings its own.
+template <class F>
+struct Loop {
+  /// body() `count` times.
+  template <class Body>
+  static LIMPID_INLINE void repeat(int count, Body&& body) {
+    for (int i = 0; i < count; ++i) body();
+  }
+  /// body(i) for i = begin ... end - 1, as long as any lane of the mask that it returns goes on.
+  template <class Body>
+  static LIMPID_INLINE void steps(int begin, int end, Body&& body) {
+    for (int i = begin; i < end; ++i) {
+      if (!any(body(i))) break;
+    }
+  }
+  /// The same; leap(i) may say a later i to go on with.
+  template <class Leap, class Body>
+  static LIMPID_INLINE void steps(int begin, int end, Leap&& leap, Body&& body) {
+    for (int i = begin; i < end; ++i) {
+      i = leap(i);
+      if (!any(body(i))) break;
+    }
+  }
+  /// i / n, of an i that a body was given.
+  static LIMPID_INLINE F ratio(int i, int n) { return F(double(i) / n); }
+};
+
+template <class F, class Body>
+LIMPID_INLINE void repeat(int count, Body&& body) {
+  Loop<F>::repeat(count, body);
+}
+template <class F, class Body>
+LIMPID_INLINE void steps(int begin, int end, Body&& body) {
+  Loop<F>::steps(begin, end, body);
+}
+template <class F, class Leap, class Body>
+LIMPID_INLINE void steps(int begin, int end, Leap&& leap, Body&& body) {
+  Loop<F>::steps(begin, end, leap, body);
+}
 
 /// Clamped to 0 ... 1.
 template <class F>

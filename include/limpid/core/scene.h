@@ -1,4 +1,5 @@
 #pragma once
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -28,7 +29,8 @@ struct SineWave {
 };
 
 /// The calm surface: the points p with dot(up, p) = height. `up` is unit. `waves` raise and lower
-/// it where it is rendered as geometry; the chain takes its waves from normals.
+/// it where it is rendered as geometry, and for the chain where the waves are `sines`
+/// (ops/wave_normals.h).
 struct WaterPlane {
   glm::dvec3 up{0, 1, 0};
   double height = 0;
@@ -50,6 +52,9 @@ struct Sun {
 
   glm::dvec3 direction{0, 1, 0};
   Rgb<double> color{1, 1, 1};
+  double diameter = 0.533;  ///< of its disc, in degrees: 0.01 ... 90
+
+  double radius() const { return diameter * (std::numbers::pi / 360); }  ///< rad
 };
 
 /// What stands around a frame: where it was seen from, where the water is, where the light comes
@@ -59,6 +64,9 @@ struct Scene {
   std::optional<WaterPlane> water;
   std::optional<Sun> sun;
   double time = 0;  ///< seconds
+
+  /// Whether its water has waves of its own.
+  bool has_waves() const { return water && !water->waves.empty(); }
 
   /// Throws Error for a bad camera, a water or sun direction that is not unit, a sun color out of
   /// its range, and numbers that are not finite.

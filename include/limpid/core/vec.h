@@ -33,12 +33,48 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
+/// A symmetric matrix of two rows, as of a covariance.
+template <class F>
+struct Sym2 {
+  F xx, xy, yy;
+  friend LIMPID_INLINE Sym2 operator+(Sym2 a, Sym2 b) {
+    return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
+  }
+  friend LIMPID_INLINE Sym2 operator*(F s, Sym2 a) { return {s * a.xx, s * a.xy, s * a.yy}; }
+};
+
+/// a' C a: the variance along a, of its length squared.
+template <class F>
+LIMPID_INLINE F along(Sym2<F> c, Vec2<F> a) {
+  return a.x * a.x * c.xx + F(2) * a.x * a.y * c.xy + a.y * a.y * c.yy;
+}
+
+/// Means over waves: of their slope, and of its products with itself.
+template <class F>
+struct SlopeMoments {
+  Vec2<F> mean;
+  Sym2<F> square;
+  friend LIMPID_INLINE SlopeMoments operator+(SlopeMoments a, SlopeMoments b) {
+    return {a.mean + b.mean, a.square + b.square};
+  }
+  friend LIMPID_INLINE SlopeMoments operator*(F s, SlopeMoments a) {
+    return {s * a.mean, s * a.square};
+  }
+};
+
 /// One number for each of the four texels that bilinear filtering mixes: upper left, upper right,
 /// lower left, lower right.
 template <class F>
 struct Four {
   F at[4];
   LIMPID_INLINE F operator[](int k) const { return at[k]; }
+};
+
+/// Three numbers for each of nine pixels, row after row: [4] is the middle one.
+template <class F>
+struct Around {
+  Vec3<F> at[9];
+  LIMPID_INLINE Vec3<F> operator[](int k) const { return at[k]; }
 };
 
 template <class F>

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
+#include "limpid/core/texture_levels.h"
 #include "limpid/load/limits.h"
 
 namespace limpid {
@@ -13,7 +15,8 @@ namespace limpid {
 struct LoadedTexture {
   Texture texture;
   std::vector<Plane> planes;
-  std::vector<std::uint32_t> bytes;  ///< of a tiling texture of 8 bits
+  std::vector<std::uint32_t> bytes;          ///< of a tiling texture of 8 bits
+  std::shared_ptr<const LevelMaker> levels;  ///< of a tiling texture
 };
 
 /// The first three channels of a picture file as a tiling texture: R G B of an EXR, or any other

@@ -7,6 +7,7 @@
 #include "limpid/core/camera.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/core/texture_levels.h"
 #include "limpid/op/height_bound.h"
 #include "limpid/op/pixel.h"
 #include "limpid/optics/waves.h"
@@ -23,6 +24,13 @@ struct Bounds {
   glm::dvec2 low, high;
 };
 
+/// The waves that raise the water of a frame which has no depth of its surface.
+struct Swell {
+  bool raises = false;              ///< without, that water is calm
+  std::span<const SineWave> waves;  ///< those of the scene where there are none
+  double scale = 1;                 ///< of their heights
+};
+
 /// What all pixels of a frame have in common, in double, made once a frame.
 ///
 /// t, b: tangent frame of the calm surface as the camera sees it: t is the camera's right projected
@@ -30,8 +38,10 @@ struct Bounds {
 /// away from the camera. map_x, map_y: tangent frame that stays with the world, for tiling maps:
 /// world x (z, should x be parallel to up) projected on the plane, and cross(up, map_x).
 struct Context {
-  /// Throws Error unless the scene has a camera and a water plane, both valid.
-  Context(const Scene& scene, const Frame& frame, double ior, StateSet made);
+  /// Throws Error unless the scene has a camera and a water plane, both valid. The waves of `swell`
+  /// must live as long.
+  Context(const Scene& scene, const Frame& frame, double ior, StateSet made,
+          const Swell& swell = {});
 
   Rays rays;
   glm::dvec3 eye;
@@ -42,7 +52,9 @@ struct Context {
   /// the view begins in it. False when no pixel's does, as for orthographic cameras.
   bool submersible;
   double near;                      ///< eye depth of that window
-  std::span<const SineWave> waves;  ///< of the scene: what raises and lowers the water there
+  bool raised;                      ///< waves raise and lower the water; without it is calm
+  std::span<const SineWave> waves;  ///< those that do: of the scene, or of the look
+  double wave_scale;                ///< of their heights
   /// The screen, for directions d from the eye: uv = (dot(to_u, d), dot(to_v, d)) / w, and eye
   /// depth = dot(forward, d). A point at eye depth Z has w = w_origin + w_depth Z.
   glm::dvec3 to_u, to_v, forward;
@@ -60,6 +72,7 @@ struct Context {
   double time;
   double ior;
   Texture wave_map, environment;
+  const SlopeLevels* wave_slopes;  ///< of the wave map at this time, or null
   StateSet made;  ///< what the operators of the plan make: neutral or absent ones make nothing
   /// False where it is known that nothing stands before the water in any place that refraction may
   /// look up (plan/survey.h): an operator may leave out its test for that.
@@ -67,7 +80,7 @@ struct Context {
   /// False where it is known that something was hit in every place that refraction may look up: an
   /// operator may leave out its test for nothing().
   bool bottomless = true;
-  /// Of what a march of refraction may look up, where a runner has made it (plan/heights.h). It
+  /// Of what a march of refraction may look up, where a runner has made it (complete/heights.h). It
   /// saves looks and changes no result.
   HeightBound heights = {};
 
@@ -121,18 +134,17 @@ struct RowRays {
   }
 };
 
-/// 1 where the view of this pixel begins in the water, 0 where it begins in the air. Without a
-/// plane of the surface it is the calm one that is met, and so the calm one that counts here.
+/// 1 where the view of this pixel begins in the water, 0 where it begins in the air.
 template <class F>
 LIMPID_INLINE F begins_in_water(const Context& c, const RowRays<F>& row, F x) {
   if (!c.submersible) return F(0);
   const Vec3<F> start = F(c.near) * row.ray_at(x);  // relative to the eye
   F height = F(c.eye_above) + dot(vec3_of<F>(c.up), start);
   const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
-  if (!c.planes.has(PlaneId::kSurfaceDepth)) return select(height < F(0), F(1), F(0));
+  if (!c.raised) return select(height < F(0), F(1), F(0));
   for (const SineWave& wave : c.waves) {
     const F along = F(wave.k_x) * dot(start, map_x) + F(wave.k_y) * dot(start, map_y);
-    height = height - F(wave.amplitude) * sin(F(c.phase_at_eye(wave)) + along);
+    height = height - F(c.wave_scale * wave.amplitude) * sin(F(c.phase_at_eye(wave)) + along);
   }
   return select(height < F(0), F(1), F(0));
 }
@@ -167,6 +179,7 @@ LIMPID_INLINE void begin_state(StateSet parts, const Context& c, Rgb<F> dry_colo
     p.normal = vec3_of<F>(c.up);
     p.tilt = none;
   }
+  if (parts.has(StatePart::kSlopeVariance)) p.slope_variance = {F(0), F(0), F(0)};
   if (parts.has(StatePart::kPrism)) {
     p.prism_r = p.prism_g = p.prism_b = none;
     p.dispersion = black;

@@ -5,7 +5,7 @@ namespace limpid {
 
 /// For any box of texels a height over the calm surface above which nothing is seen there that lies
 /// under water, be it as high as `most`: blocks of texels, and a pyramid of them in which each
-/// holds the greatest of four of the level before. Made once a frame (plan/heights.h); tells a
+/// holds the greatest of four of the level before. Made once a frame (complete/heights.h); tells a
 /// march which steps need no look, as Uludag 2014, "Hi-Z Screen-Space Cone-Traced Reflections",
 /// does with depths. A view of somebody's memory.
 struct HeightBound {

@@ -27,14 +27,23 @@
 ///     strip.each([&](Pixel<F>& p) { ... });              // a formula on the state
 ///     strip.own(plane, [&](Pixel<F>& p, F value) {});     // the input at the pixel itself
 ///     strip.own3(first, [&](Pixel<F>& p, Vec3<F> v) {});  // three planes in a row (normals)
+///     strip.around3(first, [&](Pixel<F>& p, const Around<F>& v) {});  // and at its neighbours
 ///     strip.nearest(plane, where, [&](Pixel<F>& p, F value) {});
 ///     strip.bilinear(plane, where, [&](Pixel<F>& p, F value) {});
 ///     strip.bilinear_rgb(first, where, [&](Pixel<F>& p, Rgb<F> value) {});
 ///     strip.tiled_rgb(texture, where, [&](Pixel<F>& p, Rgb<F> value) {});  // in periods of it
+///     strip.tiled_rgb(texture, width, where, [&](Pixel<F>& p, Rgb<F> value) {});  // from levels
+///     strip.tiled_rgb_if(texture, wanted, where, [&](Pixel<F>& p, Rgb<F> value) {});
+///     strip.tiled_slopes_if(slopes, wanted, width, where, [&](Pixel<F>&, SlopeMoments<F>) {});
 ///     strip.probe([&](Pixel<F>& p, const auto& tap) { ... });  // what is seen says where to look
 ///
 /// with `where(const Pixel<F>&) -> Vec2<F>`, a shift in uv from the pixel's own centre. Taps are
 /// clamped to the plane's data window; a plane that is absent reads as its role's `missing` value.
+///
+/// `width(const Pixel<F>&) -> F` is how many texels wide the pixel is in the texture, or in the
+/// first level of SlopeLevels; at 1 or less the lookup is that without. `wanted(const Pixel<F>&)`
+/// is a mask: where it does not hold, nothing may have been looked up, or `into` may have been
+/// called as well, for other pixels of the vector, and keeps what it does there by select().
 ///
 /// A probe looks up as often as it likes, one pixel (or vector of pixels) at a time; the samplers
 /// above know all lookups of a strip beforehand and are faster. tap.nearest(plane, shift) is the

@@ -9,6 +9,7 @@ namespace limpid {
 /// The parts of a pixel's running state. Operators declare which they use and which they make.
 enum class StatePart : std::uint8_t {
   kNormal,         ///< wave normal and its tilt
+  kSlopeVariance,  ///< of the waves that the pixel cannot resolve
   kPrism,          ///< how far each color channel departs from the common path
   kPosition,       ///< where in the dry picture the refracted rays end
   kPath,           ///< length of the way through the water
@@ -25,10 +26,11 @@ enum class StatePart : std::uint8_t {
 using StateSet = EnumSet<StatePart>;
 
 inline constexpr StateSet kWholeState{
-    StatePart::kNormal,    StatePart::kPrism,         StatePart::kPosition,
-    StatePart::kPath,      StatePart::kTransmittance, StatePart::kTransmitted,
-    StatePart::kInScatter, StatePart::kSunScatter,    StatePart::kFresnel,
-    StatePart::kReflected, StatePart::kHighlight,     StatePart::kConfidence};
+    StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
+    StatePart::kPosition,    StatePart::kPath,          StatePart::kTransmittance,
+    StatePart::kTransmitted, StatePart::kInScatter,     StatePart::kSunScatter,
+    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kHighlight,
+    StatePart::kConfidence};
 
 /// The terms whose sum is the picture.
 inline constexpr StateSet kOutputTerms{StatePart::kTransmitted, StatePart::kInScatter,
@@ -52,8 +54,11 @@ struct Pixel {
   /// Context::submersible.
   F side;
 
-  Vec3<F> normal;                     ///< wave normal, unit, world; begins as the calm normal
-  Vec2<F> tilt;                       ///< (n.t, -n.b): x right, y down; begins as 0
+  Vec3<F> normal;  ///< wave normal, unit, world; begins as the calm normal
+  Vec2<F> tilt;    ///< (n.t, -n.b): x right, y down; begins as 0
+  /// Of the slopes along Context::map_x and map_y around those of `normal`: what waves too small
+  /// for the pixel do to it. Begins as 0.
+  Sym2<F> slope_variance;
   Vec2<F> prism_r, prism_g, prism_b;  ///< shift of each channel beyond `shift`; begin as 0
   Rgb<F> dispersion;  ///< index of refraction of each channel, beyond the common one; begins as 0
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "limpid/op/mirror_search.h"
 #include "limpid/op/operator.h"
 #include "limpid/op/screen_ray.h"
 #include "limpid/op/valid_lookup.h"
@@ -23,6 +24,19 @@ namespace limpid {
 /// ray goes. `constant`: `color`. Rays that the waves mirror below the horizon (above it, seen from
 /// below) see nothing of what the surroundings hold there: they are laid flat.
 ///
+/// `auto`: the reflection planes, where the frame has them, the environment or `color` for what
+/// they lack; else what the dry picture shows of the mirrored ray, marched over its depth
+/// (op/mirror_search.h), and beyond that the environment, the sky planes, or `color`. Its `ray` is
+/// marched over the depth of the mirrored scene, which is made where the plate has none
+/// (complete/mirror_depth.h). A ray that meets nothing there ends infinitely far; should something
+/// near stand at that place, 4 pixels or more from where the ray passes it, the lookup walks back
+/// to the last place with nothing.
+///
+/// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel
+/// cannot resolve (slope_variance): nodes -sqrt 3, 0, sqrt 3 deviations along the view, weights
+/// 1/6, 2/3, 1/6. A facet whose mirrored ray would go into the water is leaned until the ray goes
+/// along it. A variance along the view below 1e-4 counts as none. `mean`: the mean normal alone.
+///
 /// Where planar looks, by `lookup`: `offset` at uv + strength * tilt, clamped at the edge. `ray`:
 /// where the mirrored ray ends in the mirrored scene, which is where the planes show it. How far
 /// that is comes from the reflection's depth plane, read at the pixel and then three times where
@@ -37,8 +51,9 @@ namespace limpid {
 /// angles: there, what comes through stands for what is mirrored.
 struct FresnelReflection {
   enum class Reflectance { kRim, kLinear, kInversePower, kSchlick, kExact };
-  enum class Source { kPlanar, kEnvironment, kConstant };
+  enum class Source { kPlanar, kEnvironment, kConstant, kAuto };
   enum class Lookup { kOffset, kRay };
+  enum class Facets { kMean, kSpread };
   struct Params {
     Reflectance reflectance = Reflectance::kExact;
     double power = 3;
@@ -46,27 +61,43 @@ struct FresnelReflection {
     double f0 = 0.020373;
     Source source = Source::kPlanar;
     Lookup lookup = Lookup::kRay;
+    Facets facets = Facets::kMean;
     double strength = 0.02;
     Rgb<double> color{0, 0, 0};
   };
 
   static constexpr std::string_view kName = "fresnel_reflection";
   static constexpr std::string_view kAbout = "Mixes in the mirrored surroundings by angle.";
-  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kTransmittance,
-                                  StatePart::kTransmitted, StatePart::kInScatter};
+  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kSlopeVariance,
+                                  StatePart::kTransmittance, StatePart::kTransmitted,
+                                  StatePart::kInScatter};
   static constexpr StateSet kMakes{StatePart::kFresnel, StatePart::kReflected,
                                    StatePart::kTransmitted, StatePart::kInScatter};
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params& p) {
-    if (p.source != Source::kPlanar) return {};
-    const PlaneSet seen = kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid};
-    return p.lookup == Lookup::kRay ? seen | PlaneSet{PlaneId::kReflectionDepth} : seen;
+    PlaneSet planes;
+    if (p.source == Source::kAuto) planes = kColorPlanes | PlaneSet{PlaneId::kDepth} | kSkyPlanes;
+    if (p.source == Source::kAuto || p.source == Source::kPlanar) {
+      planes = planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid};
+      if (p.lookup == Lookup::kRay) planes = planes | PlaneSet{PlaneId::kReflectionDepth};
+    }
+    return planes;
+  }
+  /// What of reads() is to be made where a plate of these planes lacks it.
+  static PlaneSet wants(const Params& p, PlaneSet has, bool environment) {
+    if (p.source != Source::kAuto) return {};
+    if (has.covers(kReflectionPlanes)) {
+      if (p.lookup == Lookup::kOffset) return {};
+      return {PlaneId::kReflectionDepth, PlaneId::kReflectionValid};
+    }
+    return environment ? PlaneSet{} : kSkyPlanes;
   }
   static Needs needs(const Params& p) {
     return {.planes = p.source == Source::kPlanar ? kReflectionPlanes : PlaneSet{},
             .environment = p.source == Source::kEnvironment};
   }
   static double reach(const Params& p) {
+    if (p.source == Source::kAuto) return HUGE_VAL;
     if (p.source != Source::kPlanar) return 0;
     return p.lookup == Lookup::kRay ? HUGE_VAL : abs(p.strength);
   }
@@ -77,24 +108,33 @@ struct FresnelReflection {
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    strip.each([&](Pixel<F>& p) { p.fresnel = reflectance(params, c, p); });
-    switch (params.source) {
-      case Source::kPlanar:
-        return mirror_planes(params, c, strip);
-      case Source::kEnvironment:
-        return strip.probe(
-            [&](Pixel<F>& p, const auto& tap) { blend(c, surroundings(c, p, tap), p); });
-      case Source::kConstant: {
-        const Rgb<F> color{F(params.color.r), F(params.color.g), F(params.color.b)};
-        return strip.each([&](Pixel<F>& p) { blend(c, color, p); });
-      }
+    if (params.facets == Facets::kSpread && c.made.has(StatePart::kSlopeVariance)) {
+      return strip.probe([&](Pixel<F>& p, const auto& tap) { mirror_facets(params, c, p, tap); });
     }
+    strip.each([&](Pixel<F>& p) { p.fresnel = reflectance(params, c, p, p.normal); });
+    if (params.source == Source::kConstant) {
+      return strip.each([&](Pixel<F>& p) { blend(c, p.fresnel * constant<F>(params), p); });
+    }
+    if (looks_once(params, c)) {
+      return strip.bilinear_rgb(
+          PlaneId::kReflectionR,
+          [&](const Pixel<F>& p) {
+            return params.lookup == Lookup::kRay
+                       ? place_at(c, p, image_ray(c, p, p.normal), F(HUGE_VAL))
+                       : F(params.strength) * p.tilt;
+          },
+          [&](Pixel<F>& p, Rgb<F> mirrored) { blend(c, p.fresnel * mirrored, p); });
+    }
+    strip.probe([&](Pixel<F>& p, const auto& tap) {
+      blend(c, p.fresnel * mirrored(params, c, p, tap, p.normal, p.tilt), p);
+    });
   }
 
  private:
   template <class F>
-  static LIMPID_INLINE F from_above(const Params& params, const Context& c, const Pixel<F>& p) {
-    const F cosine = dot(p.to_viewer, p.normal);
+  static LIMPID_INLINE F from_above(const Params& params, const Context& c, const Pixel<F>& p,
+                                    Vec3<F> n) {
+    const F cosine = dot(p.to_viewer, n);
     switch (params.reflectance) {
       case Reflectance::kRim:
         return fresnel_rim(cosine, params.power);
@@ -111,18 +151,20 @@ struct FresnelReflection {
   }
 
   template <class F>
-  static LIMPID_INLINE F reflectance(const Params& params, const Context& c, const Pixel<F>& p) {
-    const F above = from_above(params, c, p);
+  static LIMPID_INLINE F reflectance(const Params& params, const Context& c, const Pixel<F>& p,
+                                     Vec3<F> n) {
+    const F above = from_above(params, c, p, n);
     if (!c.submersible) return above;
-    const F below = fresnel_exact(F(0) - dot(p.to_viewer, p.normal), F(1 / c.ior));
+    const F below = fresnel_exact(F(0) - dot(p.to_viewer, n), F(1 / c.ior));
     return select(p.side > F(0), above, select(p.side < F(0), below, F(0)));
   }
 
+  /// What is left of the light from below, and what is mirrored, the reflectance in it.
   template <class F>
-  static LIMPID_INLINE void blend(const Context& c, Rgb<F> mirrored, Pixel<F>& p) {
+  static LIMPID_INLINE void blend(const Context& c, Rgb<F> reflected, Pixel<F>& p) {
     const F through = F(1) - p.fresnel;
     p.transmitted = through * p.transmitted;
-    p.reflected = p.fresnel * mirrored;
+    p.reflected = reflected;
     const Rgb<F> dimmed = through * p.in_scatter;
     if (!c.submersible) {
       p.in_scatter = dimmed;
@@ -133,16 +175,90 @@ struct FresnelReflection {
     p.reflected = select(below, p.transmittance * p.reflected, p.reflected);
   }
 
+  // --- facets -----------------------------------------------------------------------------------
+
+  /// Reflectance times mirrored light, and the reflectance, of the mean facet or, where the pixel
+  /// cannot resolve the waves, averaged over three facets: Gauss and Hermite's nodes of a Gaussian
+  /// of slopes, along the view, which is where the mean changes most.
+  template <class F, class Tap>
+  static void mirror_facets(const Params& params, const Context& c, Pixel<F>& p, const Tap& tap) {
+    const Vec3<F> up = vec3_of<F>(c.up);
+    const Vec3<F> level = p.to_viewer - dot(up, p.to_viewer) * up;
+    const Vec3<F> away = normalize_or(level, vec3_of<F>(c.b));
+    const F variance = along(
+        p.slope_variance, Vec2<F>{dot(away, vec3_of<F>(c.map_x)), dot(away, vec3_of<F>(c.map_y))});
+    const auto seen = [&](Vec3<F> facet, F& fresnel) {
+      const Vec3<F> n = bent(c, p, facet);
+      fresnel = reflectance(params, c, p, n);
+      const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
+      return fresnel * mirrored(params, c, p, tap, n, tilt);
+    };
+    Rgb<F> light = seen(p.normal, p.fresnel);
+    const auto rough = variance > F(kLeastVariance);
+    if_any(rough, [&] {
+      const F lean = sqrt(F(3) * max(variance, F(0))) * dot(up, p.normal);
+      F fresnel_a, fresnel_b;
+      const Vec3<F> step = lean * away;
+      const Rgb<F> a = seen(normalize_or(p.normal + step, p.normal), fresnel_a);
+      const Rgb<F> b = seen(normalize_or(p.normal - step, p.normal), fresnel_b);
+      const F middle(2.0 / 3), side(1.0 / 6);
+      light = select(rough, middle * light + side * (a + b), light);
+      p.fresnel = select(rough, middle * p.fresnel + side * (fresnel_a + fresnel_b), p.fresnel);
+    });
+    blend(c, light, p);
+  }
+  static constexpr double kLeastVariance = 1e-4;
+
+  /// A facet whose mirrored ray would go into the water, leaned until it goes along it: no such
+  /// light comes from the waves of a flat plane. From below, as it is.
+  template <class F>
+  static LIMPID_INLINE Vec3<F> bent(const Context& c, const Pixel<F>& p, Vec3<F> facet) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, facet);
+    const auto sunk = dot(up, ray) < F(0) && p.side > F(0);
+    return select(sunk, normalize_or(p.to_viewer + lifted(ray, up), facet), facet);
+  }
+
+  // --- what is mirrored -------------------------------------------------------------------------
+
+  template <class F>
+  static LIMPID_INLINE Rgb<F> constant(const Params& params) {
+    return {F(params.color.r), F(params.color.g), F(params.color.b)};
+  }
+
+  static bool reads_planes(const Params& params, const Context& c) {
+    return params.source == Source::kPlanar ||
+           (params.source == Source::kAuto && c.planes.covers(kReflectionPlanes));
+  }
+  /// Whether the place of the lookup is known before any.
+  static bool looks_once(const Params& params, const Context& c) {
+    const bool depths = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
+    return reads_planes(params, c) && !depths && !c.planes.has(PlaneId::kReflectionValid) &&
+           !c.submersible;
+  }
+
+  /// By the facet n, whose tilt is that of the operator wave_normals.
+  template <class F, class Tap>
+  static Rgb<F> mirrored(const Params& params, const Context& c, const Pixel<F>& p, const Tap& tap,
+                         Vec3<F> n, Vec2<F> tilt) {
+    if (params.source == Source::kConstant) return constant<F>(params);
+    if (params.source == Source::kEnvironment) return surroundings(c, p, tap, n);
+    if (!reads_planes(params, c)) return seen_in_picture(params, c, p, tap, n);
+    const Vec2<F> shift =
+        params.lookup == Lookup::kRay ? follow(params, c, p, tap, n) : F(params.strength) * tilt;
+    return seen_at(c, p, tap, n, shift);
+  }
+
   /// The mirrored ray, unit, on the viewer's side of the surface.
   template <class F>
-  static LIMPID_INLINE Vec3<F> mirrored_ray(const Context& c, const Pixel<F>& p) {
-    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, p.normal);
+  static LIMPID_INLINE Vec3<F> mirrored_ray(const Context& c, const Pixel<F>& p, Vec3<F> n) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, n);
     return c.submersible ? lifted(ray, select(p.side < F(0), F(-1) * up, up)) : lifted(ray, up);
   }
 
   template <class F, class Tap>
-  static LIMPID_INLINE Rgb<F> surroundings(const Context& c, const Pixel<F>& p, const Tap& tap) {
-    const Vec3<F> ray = mirrored_ray(c, p);
+  static LIMPID_INLINE Rgb<F> surroundings(const Context& c, const Pixel<F>& p, const Tap& tap,
+                                           Vec3<F> n) {
+    const Vec3<F> ray = mirrored_ray(c, p, n);
     return tap.lat_long_rgb(c.environment,
                             lat_long(dot(vec3_of<F>(c.map_x), ray), dot(vec3_of<F>(c.map_y), ray),
                                      dot(vec3_of<F>(c.up), ray)));
@@ -150,30 +266,10 @@ struct FresnelReflection {
 
   // --- the reflection planes --------------------------------------------------------------------
 
-  template <class Strip>
-  static void mirror_planes(const Params& params, const Context& c, Strip& strip) {
-    using F = typename Strip::Number;
-    const F strength(params.strength);
-    const bool ray = params.lookup == Lookup::kRay;
-    const bool depths = ray && c.planes.has(PlaneId::kReflectionDepth);
-    if (!depths && !c.planes.has(PlaneId::kReflectionValid) && !c.submersible) {
-      return strip.bilinear_rgb(
-          PlaneId::kReflectionR,
-          [&](const Pixel<F>& p) {
-            return ray ? place_at(c, p, image_ray(c, p), F(HUGE_VAL)) : strength * p.tilt;
-          },
-          [&](Pixel<F>& p, Rgb<F> mirrored) { blend(c, mirrored, p); });
-    }
-    strip.probe([&](Pixel<F>& p, const auto& tap) {
-      const Vec2<F> shift = ray ? follow(c, p, tap, depths) : strength * p.tilt;
-      blend(c, seen_at(c, p, tap, shift), p);
-    });
-  }
-
   /// The mirrored ray as the planes show it: in the mirrored scene it goes down into the mirror.
   template <class F>
-  static LIMPID_INLINE ScreenRay<F> image_ray(const Context& c, const Pixel<F>& p) {
-    const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p);
+  static LIMPID_INLINE ScreenRay<F> image_ray(const Context& c, const Pixel<F>& p, Vec3<F> n) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, n);
     return ScreenRay<F>(c, p, ray - (F(2) * dot(up, ray)) * up);
   }
 
@@ -187,10 +283,13 @@ struct FresnelReflection {
 
   /// Where the mirrored ray ends.
   template <class F, class Tap>
-  static Vec2<F> follow(const Context& c, const Pixel<F>& p, const Tap& tap, bool depths) {
-    const ScreenRay<F> ray = image_ray(c, p);
+  static Vec2<F> follow(const Params& params, const Context& c, const Pixel<F>& p, const Tap& tap,
+                        Vec3<F> n) {
+    const ScreenRay<F> ray = image_ray(c, p, n);
     F way(HUGE_VAL);
-    if (!depths) return place_at(c, p, ray, way);
+    if (!c.planes.has(PlaneId::kReflectionDepth)) return place_at(c, p, ray, way);
+    // Beside the water's level a march over flat rays is decided by roundings.
+    if (params.source == Source::kAuto && !c.submersible) return march(c, p, tap, ray);
     constexpr int kSteps = 3;
     way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
     for (int i = 0; i < kSteps; ++i) way = distance_to(c, p, tap, place_at(c, p, ray, way), way);
@@ -215,6 +314,81 @@ struct FresnelReflection {
     return select(seen, length(way_to(c, p, shift, weight / max(inverse, F(1e-30)))), otherwise);
   }
 
+  /// The same by a march in the depth of the mirrored scene. A ray that meets nothing there ends
+  /// infinitely far, should the planes show something that far in its place. Else it is the last
+  /// such place on the way there that counts, or the pixel itself.
+  template <class F, class Tap>
+  static Vec2<F> march(const Context& c, const Pixel<F>& p, const Tap& tap,
+                       const ScreenRay<F>& ray) {
+    const auto all = [](Vec2<F>, F depth) { return depth > F(0); };
+    const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kReflectionDepth, c.reflection,
+                                                   F(c.eye_above), p, ray, kImageSteps, all);
+    const Vec2<F> far = place_at(c, p, ray, F(HUGE_VAL));
+    Vec2<F> landing = select(found.hit > F(0.5), place_at(c, p, ray, found.way), far);
+    const auto wrong = [&](Vec2<F> shift) {
+      const F seen = tap.nearest(PlaneId::kReflectionDepth, shift);
+      const F way = (seen - ray.depth) / ray.depth_step;
+      const Vec2<F> off = place_at(c, p, ray, max(way, F(0))) - shift;
+      const F x = F(c.size.x) * off.x, y = F(c.size.y) * off.y;
+      return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
+    };
+    const auto strays = found.hit < F(0.5) && wrong(far);
+    if_any(strays, [&] {
+      F open = select(strays, F(1), F(0));
+      steps<F>(0, 6, [&](auto i) {
+        const Vec2<F> at = (F(0.85) - F(0.15) * Loop<F>::ratio(i, 1)) * far;
+        const auto good = open > F(0.5) && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
+        landing = select(good, at, landing);
+        open = select(good, F(0), open);
+        return open > F(0.5);
+      });
+      landing = select(open > F(0.5), Vec2<F>{F(0), F(0)}, landing);
+    });
+    return landing;
+  }
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05, true},
+      kPictureSteps{48, 0.06, 0.03, false};
+  static constexpr double kWrong = 4;  ///< pixels
+
+  /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest.
+  template <class F, class Tap>
+  static Rgb<F> seen_in_picture(const Params& params, const Context& c, const Pixel<F>& p,
+                                const Tap& tap, Vec3<F> n) {
+    const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
+    const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
+    const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p,
+                                                   ray, kPictureSteps, above);
+    const Vec2<F> shift = select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
+    const auto quad = tap.quad(shift);
+    const auto mean = [&](PlaneId plane) {
+      const Four<F> texels = tap.read(plane, quad);
+      F sum = F(0);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * texels[k];
+      return sum;
+    };
+    const Rgb<F> seen{mean(PlaneId::kColorR), mean(PlaneId::kColorG), mean(PlaneId::kColorB)};
+    const Rgb<F> beyond = far_away(params, c, p, tap, n, ray);
+    return beyond + found.hit * (seen - beyond);
+  }
+
+  /// What the frame, or else the look, has of things infinitely far.
+  template <class F, class Tap>
+  static Rgb<F> far_away(const Params& params, const Context& c, const Pixel<F>& p, const Tap& tap,
+                         Vec3<F> n, const ScreenRay<F>& ray) {
+    if (c.environment) return surroundings(c, p, tap, n);
+    if (!c.planes.covers(kSkyPlanes)) {
+      return {F(params.color.r), F(params.color.g), F(params.color.b)};
+    }
+    const auto quad = tap.quad(ray.shift_at(F(HUGE_VAL)));
+    const auto mean = [&](PlaneId plane) {
+      const Four<F> texels = tap.read(plane, quad);
+      F sum = F(0);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * texels[k];
+      return sum;
+    };
+    return {mean(PlaneId::kSkyR), mean(PlaneId::kSkyG), mean(PlaneId::kSkyB)};
+  }
+
   template <class F, class Tap, class Quad>
   static LIMPID_INLINE Four<F> valid(const Context& c, const Tap& tap, const Quad& quad) {
     if (!c.planes.has(PlaneId::kReflectionValid)) return {F(1), F(1), F(1), F(1)};
@@ -224,7 +398,8 @@ struct FresnelReflection {
   }
 
   template <class F, class Tap>
-  static Rgb<F> seen_at(const Context& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift) {
+  static Rgb<F> seen_at(const Context& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                        Vec2<F> shift) {
     const auto taps =
         valid_taps(tap, shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
     Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
@@ -237,7 +412,7 @@ struct FresnelReflection {
     }
     const auto lacking = lacks > F(1e-5);
     if (!c.environment || !any(lacking)) return seen;
-    return seen + select(lacking, lacks, F(0)) * surroundings(c, p, tap);
+    return seen + select(lacking, lacks, F(0)) * surroundings(c, p, tap, n);
   }
 };
 

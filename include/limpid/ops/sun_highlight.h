@@ -1,6 +1,7 @@
 #pragma once
 #include <numbers>
 
+#include "limpid/op/mirror_search.h"
 #include "limpid/op/operator.h"
 #include "limpid/optics/highlight.h"
 
@@ -21,8 +22,14 @@ namespace limpid {
 /// its solid angle. `roughness` is alpha; alpha^2, the mean square slope of the waves too small to
 /// see, is 0.003 + 0.00512 wind / (m/s) for all waves of an open sea (Cox & Munk 1954). 0 is a
 /// mirror: the sun's disc itself, of 0.2665 degrees of radius.
+///
+/// `slopes` (Ross et al. 2005; optics/highlight.h): the density of the slopes that mirror the sun's
+/// disc, of those that the pixel cannot resolve (slope_variance), of `roughness`, as for ggx, and
+/// of the disc, Sun::diameter. The only model whose energy is that of the disc mirrored, whatever
+/// the pixel's size. Without a plane of the surface's shadow it looks for what stands before the
+/// sun in the depth of the dry scene, never for the shadow of the bottom.
 struct SunHighlight {
-  enum class Model { kPhong, kBlinnPhong, kGgx };
+  enum class Model { kPhong, kBlinnPhong, kGgx, kSlopes };
   struct Params {
     Model model = Model::kGgx;
     double power = 200;
@@ -32,12 +39,15 @@ struct SunHighlight {
 
   static constexpr std::string_view kName = "sun_highlight";
   static constexpr std::string_view kAbout = "Glint of the sun, masked by its shadow.";
-  static constexpr StateSet kUses{StatePart::kNormal};
+  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kSlopeVariance};
   static constexpr StateSet kMakes{StatePart::kHighlight};
   static std::span<const Field<Params>> fields();
-  static PlaneSet reads(const Params&) { return {PlaneId::kShadow, PlaneId::kSurfaceShadow}; }
+  static PlaneSet reads(const Params& p) {
+    const PlaneId other = p.model == Model::kSlopes ? PlaneId::kDepth : PlaneId::kShadow;
+    return {other, PlaneId::kSurfaceShadow};
+  }
   static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
-  static double reach(const Params&) { return 0; }
+  static double reach(const Params& p) { return p.model == Model::kSlopes ? HUGE_VAL : 0; }
   static bool neutral(const Params& p, StateSet) { return p.strength == 0; }
   static double bound(const Params& params, const Context& c, const Ranges& ranges);
   static void reckon(const Params& params, const Context& c, Ranges& ranges);
@@ -45,10 +55,17 @@ struct SunHighlight {
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    const bool ggx = params.model == Model::kGgx;
-    const double scale = params.strength * (ggx ? std::numbers::pi : 1);
+    const bool physical = params.model == Model::kGgx || params.model == Model::kSlopes;
+    const double scale = params.strength * (physical ? std::numbers::pi : 1);
     const Rgb<F> light{F(scale * c.sun.color.r), F(scale * c.sun.color.g),
                        F(scale * c.sun.color.b)};
+    if (params.model == Model::kSlopes && !c.planes.has(PlaneId::kSurfaceShadow)) {
+      return strip.probe([&](Pixel<F>& p, const auto& tap) {
+        F seen = select(p.side > F(0.5), lobe(params, c, p), F(0));
+        if_any(seen > F(0), [&] { seen = select(is_shadowed(c, p, tap), F(0), seen); });
+        p.highlight = seen * light;
+      });
+    }
     const PlaneId shadow =
         c.planes.has(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
     strip.own(shadow, [&](Pixel<F>& p, F visible) {
@@ -58,6 +75,17 @@ struct SunHighlight {
   }
 
  private:
+  /// Whether something that the picture shows stands between the surface point and the sun.
+  template <class F, class Tap>
+  static auto is_shadowed(const Context& c, const Pixel<F>& p, const Tap& tap) {
+    constexpr MirrorSteps kSteps{16, 0.06, 0.03, false};
+    const ScreenRay<F> ray(c, p, vec3_of<F>(c.sun.direction));
+    const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
+    return MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p, ray, kSteps,
+                                       above)
+               .hit > F(0.5);
+  }
+
   template <class F>
   static LIMPID_INLINE F lobe(const Params& params, const Context& c, const Pixel<F>& p) {
     const Vec3<F> n = p.normal, v = p.to_viewer, l = vec3_of<F>(c.sun.direction);
@@ -70,6 +98,12 @@ struct SunHighlight {
       case Model::kGgx:
         if (params.roughness == 0) return sun_disc_lobe(n, v, l, F(c.ior));
         return sun_glint_lobe(n, v, l, F(params.roughness), F(c.ior));
+      case Model::kSlopes: {
+        const F rough(0.5 * params.roughness * params.roughness);
+        const Sym2<F> spread = p.slope_variance + Sym2<F>{rough, F(0), rough};
+        return wave_glint_lobe(n, v, l, vec3_of<F>(c.up), vec3_of<F>(c.map_x), vec3_of<F>(c.map_y),
+                               spread, F(c.sun.radius()), F(c.ior));
+      }
     }
     return F(0);
   }

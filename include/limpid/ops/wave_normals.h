@@ -3,6 +3,7 @@
 #include <numbers>
 #include <string>
 
+#include "limpid/op/footprint.h"
 #include "limpid/op/operator.h"
 
 namespace limpid {
@@ -29,15 +30,33 @@ namespace limpid {
 /// model, to within -1 ... 1.
 ///
 /// `sines`: the true normals of a sum of sine waves: `waves`, or the scene's own where there are
-/// none. Calm when neither has any.
+/// none. Calm when neither has any. These waves have height, too, times `strength`: where the frame
+/// has no depth of the surface it is made (complete/displaced_surface.h), and all operators meet
+/// the water there. With all other models such a frame's water is flat, however its normals lean.
 ///
 /// `slopes`: the lookups of four_maps, but slopes are added: with h the mean of (-n_x, -n_y) / n_z
 /// times strength, n = normalize(-h_x, -h_y, 1). n_z below 0.05 counts as 0.05, so no slope passes
 /// 20. Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework".
+///
+/// `filter` says what becomes of waves that are too small for a pixel (op/footprint.h). `none`:
+/// each pixel takes the normal at its centre. `variance`: the normal is that of the mean slope in
+/// the pixel, and slope_variance the covariance around it. Of sines that is closed form, for a
+/// Gaussian footprint; of the frame's own normals half the variance of a pixel's nine neighbours by
+/// weights [1 2 1]^2, around the pixel's own (the normal itself is left as it is). `mip`: the mean
+/// alone; the frame's own normals stay as they are.
+///
+/// Lookups of a map with `mip` read the level, a mean of colors, whose texels are as wide as the
+/// pixel (at least a quarter of its length); `slopes` reads mean slopes instead, and with
+/// `variance` their covariance, too (Olano & Baker 2010, "LEAN Mapping"). four_maps, two_flows and
+/// dudv, whose vectors are no slopes, do the same with `variance` as with `mip`: their
+/// slope_variance is 0. Where a pixel is at most one texel wide, every filter gives the bits of
+/// `none`.
 struct WaveNormals {
   enum class Model { kFourMaps, kTwoFlows, kDudv, kSines, kSlopes, kPlate };
+  enum class Filter { kNone, kMip, kVariance };
   struct Params {
     Model model = Model::kSlopes;
+    Filter filter = Filter::kNone;
     double strength = 0.5;
     double tile_size = 4;
     double speed = 0.3;
@@ -49,7 +68,7 @@ struct WaveNormals {
   static constexpr std::string_view kName = "wave_normals";
   static constexpr std::string_view kAbout = "Normal of the wavy surface and its tilt on screen.";
   static constexpr StateSet kUses{};
-  static constexpr StateSet kMakes{StatePart::kNormal};
+  static constexpr StateSet kMakes{StatePart::kNormal, StatePart::kSlopeVariance};
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params& p) {
     return p.model == Model::kPlate ? kSurfaceNormalPlanes : PlaneSet{};
@@ -62,14 +81,30 @@ struct WaveNormals {
   static bool neutral(const Params& p, StateSet) {
     return p.model != Model::kPlate && p.strength == 0;
   }
+  /// Whether it reads Context::wave_slopes.
+  static bool needs_slope_map(const Params& p) {
+    return p.model == Model::kSlopes && p.filter != Filter::kNone;
+  }
+  /// How far maps have drifted at a time in s, in periods of tile_size.
+  LIMPID_INLINE static double drift(const Params& params, double time) {
+    return params.speed * time / params.tile_size;
+  }
   static double bound(const Params& params, const Context& c, const Ranges& ranges);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
+    const bool variance = params.filter == Filter::kVariance;
+    if (!variance || (params.model != Model::kPlate && params.model != Model::kSines)) {
+      strip.each([](Pixel<F>& p) { p.slope_variance = {F(0), F(0), F(0)}; });
+    }
     switch (params.model) {
       case Model::kPlate:
-        strip.own3(PlaneId::kSurfaceNormalX, [](Pixel<F>& p, Vec3<F> n) { p.normal = n; });
+        if (variance) {
+          plate_with_neighbours(c, strip);
+        } else {
+          strip.own3(PlaneId::kSurfaceNormalX, [](Pixel<F>& p, Vec3<F> n) { p.normal = n; });
+        }
         break;
       case Model::kFourMaps:
         four_maps(params, c, strip);
@@ -91,13 +126,41 @@ struct WaveNormals {
   }
 
  private:
+  /// A pixel's normal is one sample of the waves in it; how much its neighbours differ tells what
+  /// else is there. Half of their variance, for they are farther apart than what the pixel sees.
+  template <class Strip>
+  static void plate_with_neighbours(const Context& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const Vec3<F> up = vec3_of<F>(c.up), x = vec3_of<F>(c.map_x), y = vec3_of<F>(c.map_y);
+    strip.around3(PlaneId::kSurfaceNormalX, [&](Pixel<F>& p, const Around<F>& normals) {
+      p.normal = normals[4];
+      Vec2<F> mean{F(0), F(0)};
+      Sym2<F> square{F(0), F(0), F(0)};
+      for (int k = 0; k < 9; ++k) {
+        const Vec3<F> n = normals[k];
+        const F weight((k % 3 == 1 ? 2 : 1) * (k / 3 == 1 ? 2 : 1) / 16.0);
+        const F per_up = F(-1) / max(dot(n, up), F(kLeastUp));
+        const Vec2<F> slope{per_up * dot(n, x), per_up * dot(n, y)};
+        mean = mean + weight * slope;
+        square = square + weight * Sym2<F>{slope.x * slope.x, slope.x * slope.y, slope.y * slope.y};
+      }
+      const Sym2<F> of_mean{mean.x * mean.x, mean.x * mean.y, mean.y * mean.y};
+      const Sym2<F> spread = F(0.5) * (square + F(-1) * of_mean);
+      p.slope_variance = {max(spread.xx, F(0)), spread.xy, max(spread.yy, F(0))};
+    });
+  }
+  static constexpr double kLeastUp = 0.05;  ///< no slope passes 20
+
   // While the models gather, p.normal holds their sums, in the axes of the map.
 
   template <class Strip>
   static void four_maps(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    drifting_four(params, c, strip, [](Pixel<F>& p, Rgb<F> map) {
-      p.normal = p.normal + Vec3<F>{map.r, map.g, map.b};
+    measure(params.filter != Filter::kNone, params, c, strip);
+    drifting_four(params, c, strip, [&](const Place<F>& place) {
+      strip.tiled_rgb(c.wave_map, Wide<F>{}, place, [](Pixel<F>& p, Rgb<F> map) {
+        p.normal = p.normal + Vec3<F>{map.r, map.g, map.b};
+      });
     });
     strip.each([&](Pixel<F>& p) {  // four colors in 0 ... 1: their mean decodes as sum / 2 - 1
       p.normal = F(0.5) * p.normal - Vec3<F>{F(1), F(1), F(1)};
@@ -109,29 +172,38 @@ struct WaveNormals {
   static void two_flows(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
     const double angle = params.direction * (std::numbers::pi / 180);
-    const Vec2<double> flow = drift(params, c) * Vec2<double>{std::cos(angle), std::sin(angle)};
-    strip.tiled_rgb(c.wave_map, Place<F>(params, c, 1, flow), [](Pixel<F>& p, Rgb<F> map) {
-      p.normal = {map.r, map.g, map.b};
-    });
-    strip.tiled_rgb(c.wave_map, Place<F>(params, c, 0.5, -0.3 * flow), [](Pixel<F>& p, Rgb<F> map) {
-      // ((2 c1 - 1) + (2 c2 - 1) / 2) / 2
-      const Vec3<F> both = p.normal + F(0.5) * Vec3<F>{map.r, map.g, map.b};
-      p.normal = both - Vec3<F>{F(0.75), F(0.75), F(0.75)};
-    });
+    const Vec2<double> flow =
+        drift(params, c.time) * Vec2<double>{std::cos(angle), std::sin(angle)};
+    measure(params.filter != Filter::kNone, params, c, strip);
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, flow),
+                    [](Pixel<F>& p, Rgb<F> map) {
+                      p.normal = {map.r, map.g, map.b};
+                    });
+    strip.tiled_rgb(c.wave_map, Wide<F>{0.5}, Place<F>(params, c, 0.5, -0.3 * flow),
+                    [](Pixel<F>& p, Rgb<F> map) {
+                      // ((2 c1 - 1) + (2 c2 - 1) / 2) / 2
+                      const Vec3<F> both = p.normal + F(0.5) * Vec3<F>{map.r, map.g, map.b};
+                      p.normal = both - Vec3<F>{F(0.75), F(0.75), F(0.75)};
+                    });
     blend_from_calm(params, c, strip);
   }
 
   template <class Strip>
   static void dudv(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    const double move = drift(params, c);
-    strip.tiled_rgb(c.wave_map, Place<F>(params, c, 1, {move, 0}), [](Pixel<F>& p, Rgb<F> map) {
-      p.tilt = F(0.01) * Vec2<F>{map.r, map.g};
-    });
+    const double move = drift(params, c.time);
+    measure(params.filter != Filter::kNone, params, c, strip);
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, {move, 0}),
+                    [](Pixel<F>& p, Rgb<F> map) {
+                      p.normal = F(0.01) * Vec3<F>{map.r, map.g, F(0)};
+                    });
     const Place<F> place(params, c, 1, {0, move});
     const F strength(params.strength);
     strip.tiled_rgb(
-        c.wave_map, [&](const Pixel<F>& p) { return place(p) + p.tilt; },
+        c.wave_map, Wide<F>{},
+        [&](const Pixel<F>& p) {
+          return place(p) + Vec2<F>{p.normal.x, p.normal.y};
+        },
         [&](Pixel<F>& p, Rgb<F> map) {
           const F x = F(2) * map.r - F(1), y = F(2) * map.g - F(1);
           const auto scaled = [&](F v) { return min(max(lerp(F(0), v, strength), F(-1)), F(1)); };
@@ -146,7 +218,11 @@ struct WaveNormals {
     using F = typename Strip::Number;
     constexpr double kTurn = 2 * std::numbers::pi;
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
-    strip.each([&](Pixel<F>& p) { p.normal = {F(0), F(0), F(0)}; });
+    const bool variance = params.filter == Filter::kVariance;
+    strip.each([&](Pixel<F>& p) {
+      p.normal = {F(0), F(0), F(0)};
+      if (variance) p.slope_variance = {F(0), F(0), F(0)};
+    });
     for (const SineWave& wave : params.waves.empty() ? c.waves : params.waves) {
       // Phases in turns, those below the eye reduced in double.
       const F begin(c.phase_at_eye(wave) / kTurn);
@@ -155,39 +231,117 @@ struct WaveNormals {
         return F(min(max(wave.amplitude * k, -kSteepest), kSteepest));
       };
       const F slope_x = steepest(wave.k_x), slope_y = steepest(wave.k_y);
+      const Vec2<F> k{F(wave.k_x), F(wave.k_y)};
       strip.each([&](Pixel<F>& p) {
         const F turns = begin + dot(p.surface_point, step);
         // Too far for a float to tell crest from trough: they average out.
         const auto known = abs(turns) < F(1e6);
         const F within = select(known, turns - floor(turns), F(0));
-        const F rise = select(known, cos(F(kTurn) * within), F(0));
+        const F cosine = select(known, cos(F(kTurn) * within), F(0));
+        F rise = cosine;
+        if (variance) {
+          // Of a wave that is many radians wide in the pixel, e^-40 is left: nothing.
+          const F q = select(known, min(max(along(footprint(c, p), k), F(0)), F(40)), F(40));
+          if_any(q > F(kLeastRadians), [&] {
+            const F kept = exp(F(-0.5) * q), square = kept * kept;
+            const F twice = F(2) * cosine * cosine - F(1);
+            const F lost = F(0.5) * (F(1) + twice * square * square) - cosine * cosine * square;
+            const F unseen = select(q > F(kLeastRadians), max(lost, F(0)), F(0));
+            rise = select(q > F(kLeastRadians), kept * cosine, cosine);
+            p.slope_variance =
+                p.slope_variance +
+                unseen * Sym2<F>{slope_x * slope_x, slope_x * slope_y, slope_y * slope_y};
+          });
+        }
         p.normal = p.normal - Vec3<F>{rise * slope_x, rise * slope_y, F(0)};
       });
     }
+    if (variance) {
+      const F scale(params.strength * params.strength);
+      strip.each([&](Pixel<F>& p) { p.slope_variance = scale * p.slope_variance; });
+    }
     lean(params.strength, c, strip);
   }
+  /// Square of the radians of a wave in a pixel below which all of it is resolved.
+  static constexpr double kLeastRadians = 1e-3;
 
+  /// Where a pixel is 1 to 2 texels wide, the four lookups pass into one of the slope map.
   template <class Strip>
   static void slopes(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    drifting_four(params, c, strip, [](Pixel<F>& p, Rgb<F> map) {
-      const F per_z = F(1) / max(F(2) * map.b - F(1), F(0.05));
-      const Vec3<F> leans{(F(2) * map.r - F(1)) * per_z, (F(2) * map.g - F(1)) * per_z, F(0)};
-      p.normal = p.normal + leans;
+    const bool filtered = needs_slope_map(params) && c.wave_slopes;
+    measure(filtered, params, c, strip);
+    drifting_four(params, c, strip, [&](const Place<F>& place) {
+      const auto resolved = [](const Pixel<F>& p) { return p.tilt.x < F(2); };
+      strip.tiled_rgb_if(c.wave_map, resolved, place, [](Pixel<F>& p, Rgb<F> map) {
+        const F per_z = F(1) / max(F(2) * map.b - F(1), F(0.05));
+        const Vec3<F> leans{(F(2) * map.r - F(1)) * per_z, (F(2) * map.g - F(1)) * per_z, F(0)};
+        p.normal = p.normal + leans;
+      });
     });
+    if (filtered) far_slopes(params, c, strip);
     lean(0.25 * params.strength, c, strip);
   }
 
-  /// The four lookups of four_maps; gather(p, color of the map) adds each to p.normal.
-  template <class Strip, class Gather>
-  static void drifting_four(const Params& params, const Context& c, Strip& strip, Gather&& gather) {
+  template <class Strip>
+  static void far_slopes(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    const double move = drift(params, c);
+    const F per_map_texel(1 / c.wave_slopes->map_texels);
+    const F scale(params.filter == Filter::kVariance ? params.strength * params.strength : 0);
+    strip.tiled_slopes_if(
+        *c.wave_slopes, [](const Pixel<F>& p) { return p.tilt.x > F(1); },
+        [&](const Pixel<F>& p) { return per_map_texel * max(p.tilt.x, F(2)); },
+        Place<F>(params, c, 1, {0, 0}),
+        [&](Pixel<F>& p, SlopeMoments<F> far) {
+          const F width = p.tilt.x;
+          const F share = saturate(width - F(1));
+          const Vec2<F> near{F(0.25) * p.normal.x, F(0.25) * p.normal.y};
+          const auto all = width >= F(2), some = width > F(1);
+          const Vec2<F> mean = select(all, far.mean, near + share * (far.mean - near));
+          const auto variance = [&](F near_xy, F far_xy, F mean_xy) {
+            return scale * (select(all, far_xy, lerp(near_xy, far_xy, share)) - mean_xy);
+          };
+          const F xx = variance(near.x * near.x, far.square.xx, mean.x * mean.x);
+          const F xy = variance(near.x * near.y, far.square.xy, mean.x * mean.y);
+          const F yy = variance(near.y * near.y, far.square.yy, mean.y * mean.y);
+          p.normal.x = select(some, F(4) * mean.x, p.normal.x);
+          p.normal.y = select(some, F(4) * mean.y, p.normal.y);
+          p.slope_variance = {select(some, max(xx, F(0)), F(0)), select(some, xy, F(0)),
+                              select(some, max(yy, F(0)), F(0))};
+        });
+  }
+
+  /// While a model looks up a map, p.tilt.x says how many of its texels the pixel is wide: 0
+  /// without a filter.
+  template <class Strip>
+  static void measure(bool filtered, const Params& params, const Context& c, Strip& strip) {
+    using F = typename Strip::Number;
+    if (!filtered) return strip.each([](Pixel<F>& p) { p.tilt.x = F(0); });
+    const Rect& window = c.wave_map.channels[0].window;
+    const Vec2<double> texels{window.width() / params.tile_size,
+                              window.height() / params.tile_size};
+    strip.each([&](Pixel<F>& p) { p.tilt.x = texels_wide(footprint(c, p), texels, kNarrowest); });
+  }
+  /// Of a footprint's length that its width counts at least: four times as long as wide is what
+  /// engines' filters give a pixel with four lookups, and one lookup may not blur more.
+  static constexpr double kNarrowest = 0.25;
+
+  /// In texels of a map that is tiled so densely.
+  template <class F>
+  struct Wide {
+    double tiling = 1;
+    LIMPID_INLINE F operator()(const Pixel<F>& p) const { return F(tiling) * p.tilt.x; }
+  };
+
+  /// look_up(place) for the four places of four_maps, which add to p.normal.
+  template <class Strip, class LookUp>
+  static void drifting_four(const Params& params, const Context& c, Strip& strip,
+                            LookUp&& look_up) {
+    using F = typename Strip::Number;
+    const double move = drift(params, c.time);
     strip.each([&](Pixel<F>& p) { p.normal = {F(0), F(0), F(0)}; });
     constexpr Vec2<double> kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    for (const Vec2<double>& along : kDirections) {
-      strip.tiled_rgb(c.wave_map, Place<F>(params, c, 1, move * along), gather);
-    }
+    for (const Vec2<double>& along : kDirections) look_up(Place<F>(params, c, 1, move * along));
   }
 
   /// From a vector in the axes of the map to the normal: normalize(lerp(up, vector, strength)).
@@ -214,11 +368,6 @@ struct WaveNormals {
   }
 
   static constexpr double kSteepest = 1e9;  ///< slope of one wave; its square is finite in float
-
-  /// How far maps have drifted, in periods of tile_size.
-  LIMPID_INLINE static double drift(const Params& params, const Context& c) {
-    return params.speed * c.time / params.tile_size;
-  }
 
   /// Where a pixel lies in the map, in periods since the world's origin; kept small in double
   /// before it becomes a float.

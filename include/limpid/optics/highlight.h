@@ -89,6 +89,10 @@ LIMPID_INLINE F ggx_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, F alpha, F ior) {
 /// Solid angle of the sun's disc seen from the Earth, in sr: 0.2665 degrees of angular radius.
 inline constexpr double kSunSolidAngle = 6.794e-5;
 
+/// The kernel's peak over a disc's own radiance, 1 / (pi radius^2): nothing that is mirrored may be
+/// brighter than a disc that is spread by nothing.
+inline constexpr double kBrightestLobe = 1.6 / std::numbers::pi;
+
 /// ggx_lobe for the sun, times whose irradiance it is no brighter than the disc itself in a mirror
 /// of that reflectance: a point for a sun would blaze on smooth water without bounds.
 template <class F>
@@ -108,6 +112,62 @@ LIMPID_INLINE F sun_disc_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, F ior) {
   const Vec3<F> off = (F(2) * cosine) * n - v - l;
   const auto hits = dot(off, off) < F(kChord * kChord) && cosine > F(0);
   return select(hits, F(1 / kSunSolidAngle) * fresnel_exact(cosine, ior), F(0));
+}
+
+/// Density of slopes that are `off` from the mean ones, for the covariance c, positive definite:
+/// that of 0 beyond sqrt(10) standard deviations. Kernel (k + 1) / (pi R^2 sqrt(det c)) (1 - d^2 /
+/// R^2)^k of Mahalanobis' distance d, k = 3, R^2 = 2 (k + 2), which has that covariance. A
+/// Gaussian's tails would shine through a sun that is 1.5e4 times as bright as what it lights.
+template <class F>
+LIMPID_INLINE F slope_density(Sym2<F> c, Vec2<F> off) {
+  constexpr double kSquare = 10;
+  // Of a covariance as thin as a float can tell from a line.
+  const F det = max(c.xx * c.yy - c.xy * c.xy, F(1e-7) * c.xx * c.yy);
+  const F square =
+      (c.yy * off.x * off.x - F(2) * c.xy * off.x * off.y + c.xx * off.y * off.y) / det;
+  const F inside = saturate(F(1) - F(1 / kSquare) * square);
+  return F(4 / (std::numbers::pi * kSquare)) * inside * inside * inside / sqrt(det);
+}
+
+/// The sun's disc in water with waves, times whose irradiance it is seen: the density of the slopes
+/// that mirror it, over 4 h_z^4 and the projected area that is seen, times the reflectance (Ross et
+/// al. 2005, "Detailed analytical approach to the Gaussian surface bidirectional reflectance
+/// distribution function specular component applied to the sea surface"). In 1/sr. `up` is that of
+/// the calm plane, n the mean normal, `spread` the covariance of the slopes along x and y, two axes
+/// of the plane; `radius`, in rad, is that of the disc, which spreads the half vector's slope
+/// besides. The area seen of slopes with that spread is m Phi(m/s) + s phi(m/s) with m = v.n / n.up
+/// and s their deviation along the view (Bruneton et al. 2010, "Real-time Realistic Ocean Lighting
+/// using Seamless Transitions from Geometry to BRDF"), here (m + sqrt(m^2 + 2 s^2 / pi)) / 2, which
+/// is within 5 % of s of it. 0 where the light lies below the plane or the half vector does.
+template <class F>
+LIMPID_INLINE F wave_glint_lobe(Vec3<F> n, Vec3<F> v, Vec3<F> l, Vec3<F> up, Vec3<F> x, Vec3<F> y,
+                                Sym2<F> spread, F radius, F ior) {
+  const Vec3<F> zero{F(0), F(0), F(0)};
+  const Vec3<F> sum = l + v;
+  const F high = dot(sum, up);
+  const auto above = high > F(1e-4) && dot(l, up) > F(0);
+  const F per_high = F(-1) / select(above, high, F(1));
+  const Vec2<F> slope{per_high * dot(sum, x), per_high * dot(sum, y)};
+  const F lean = max(dot(n, up), F(0.05));
+  const Vec2<F> off{slope.x + dot(n, x) / lean, slope.y + dot(n, y) / lean};
+  // How the half vector's slope moves as the light moves over the disc.
+  const F level = dot(l, up);
+  const Vec2<F> turn{dot(l, x) + level * slope.x, dot(l, y) + level * slope.y};
+  const F disc = F(0.25) * radius * radius * per_high * per_high;
+  const Sym2<F> whole = spread + disc * Sym2<F>{F(1) + slope.x * slope.x - turn.x * turn.x,
+                                                slope.x * slope.y - turn.x * turn.y,
+                                                F(1) + slope.y * slope.y - turn.y * turn.y};
+  const F m = dot(v, n) / lean, across_x = dot(v, x), across_y = dot(v, y);
+  const F s_square = along(spread, Vec2<F>{across_x, across_y});
+  const F area =
+      F(0.5) * (m + sqrt(m * m + F(2 / std::numbers::pi) * max(s_square, F(0)) + F(1e-8)));
+  const Vec3<F> half = normalize_or(sum, zero);
+  const F cosine = dot(half, up);
+  const F square = cosine * cosine;
+  const F lobe = slope_density(whole, off) / (F(4) * max(square * square, F(1e-12)) * area);
+  return select(above,
+                min(lobe, F(kBrightestLobe) / (radius * radius)) * fresnel_exact(dot(l, half), ior),
+                F(0));
 }
 
 }  // namespace limpid

@@ -6,8 +6,10 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/op/context.h"
 #include "limpid/op/pixel.h"
 #include "limpid/ops/look.h"
+#include "limpid/plan/completers.h"
 
 namespace limpid {
 
@@ -17,6 +19,7 @@ struct Inputs {
   bool wave_map = false;  ///< a tiling normal map is at hand
   bool sun = false;
   bool environment = false;  ///< a picture of the surroundings is at hand
+  bool waves = false;        ///< the scene has waves of its own
 };
 
 /// Why an operator runs or does not.
@@ -50,6 +53,7 @@ struct Plan {
   std::vector<PlannedOperator> operators;  ///< one an operator, in chain order
   StateSet made;                           ///< by the operators that are kept
   PlaneSet planes;                         ///< that must be read from the plate
+  PlaneSet completed;                      ///< that are made from those, where they can be
   StateSet outputs;                        ///< that is written besides the picture
   /// What may be left out together changes no channel of a pixel by more than this (white = 1).
   double max_error = 0;
@@ -63,6 +67,10 @@ struct Plan {
   bool reads_environment = false;
   /// Whether one needs to know where the sun stands.
   bool needs_sun = false;
+
+  /// What raises the water: waves of this look or of the scene, where the surface is one of
+  /// `completed`. Refers to this plan.
+  Swell swell() const;
 
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
 };

@@ -4,11 +4,12 @@
 #include <string_view>
 #include <vector>
 
+#include "limpid/complete/completer.h"
+#include "limpid/complete/heights.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
 #include "limpid/core/simd.h"
-#include "limpid/plan/heights.h"
 #include "limpid/plan/plan.h"
 #include "limpid/plan/survey.h"
 #include "limpid/run/target.h"
@@ -52,6 +53,7 @@ class FusedRunner {
  private:
   void pair_cells();
 
+  Completer completer_;
   Survey survey_;
   Heights heights_;
   std::vector<CellNeeds> cells_;  ///< of the survey, as they are run

@@ -123,6 +123,7 @@ class Compositor:
             surface_normal: np.ndarray | None = None, reflection_valid: np.ndarray | None = None,
             reflection_depth: np.ndarray | None = None, below_color: np.ndarray | None = None,
             below_depth: np.ndarray | None = None, surface_shadow: np.ndarray | None = None,
+            sky: np.ndarray | None = None,
             display: Sequence[int] | None = None, out: np.ndarray | None = None, dtype: str = "float32",
             aovs: Sequence[str] | Mapping[str, np.ndarray | None] | None = None) -> Any:
         """The frame with water in it: an array with the channels of color. With aovs: (array, dict).
@@ -143,6 +144,7 @@ class Compositor:
         reflection_depth: (rows, columns), of the mirrored scene along the mirrored ray
         below_color, below_depth: the dry scene without all that is above the water
         surface_shadow: (rows, columns), shadow at the water surface
+        sky: (rows, columns, 3), the sky as it would be seen if nothing stood before it
         display: (x0, y0, x1, y1), the pixels of color that the camera's picture has; the rest is
             overscan, which is looked up, but not computed
         out: where to write, float32 or float16, 3 or 4 channels, any strides; may be color itself
@@ -155,7 +157,8 @@ class Compositor:
         planes = {"color": color, "depth": depth, "shadow": shadow, "reflection": reflection,
                   "surface_depth": surface_depth, "surface_normal": surface_normal,
                   "reflection_valid": reflection_valid, "reflection_depth": reflection_depth,
-                  "below_color": below_color, "below_depth": below_depth, "surface_shadow": surface_shadow}
+                  "below_color": below_color, "below_depth": below_depth, "surface_shadow": surface_shadow,
+                  "sky": sky}
         planes = {name: array for name, array in planes.items()
                   if array is not None or name in ("color", "depth")}
         try:

@@ -1,4 +1,4 @@
-#include "limpid/plan/heights.h"
+#include "limpid/complete/heights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+
+#include "limpid/complete/displaced_surface.h"
+#include "limpid/complete/mirror_depth.h"
+#include "limpid/complete/sky.h"
+#include "limpid/complete/slope_map.h"
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/texture_levels.h"
+#include "limpid/op/context.h"
+#include "limpid/plan/plan.h"
+
+namespace limpid {
+
+/// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
+/// the wave map what the plan's waves read where a pixel is wider than a texel. Once a frame,
+/// before its pixels; operators read them as they read the plate's. The result does not depend on
+/// the number of threads. Keeps its memory from frame to frame.
+class Completer {
+ public:
+  /// The frame with what was made; its views hold until the next call. `context` is that of the
+  /// frame as it is. Nothing but views is copied. `simd` as in FusedOptions; without it formulas
+  /// run in double.
+  Frame complete(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+                 const std::string* simd = nullptr);
+
+ private:
+  void complete_waves(const Plan& plan, const Context& context, Executor& executor, Frame& frame);
+
+  DisplacedSurface displaced_surface_;
+  MirrorDepth mirror_depth_;
+  Sky sky_;
+  LevelMaker level_maker_;
+  SlopeMap slope_map_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,31 @@
+#pragma once
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/plane.h"
+#include "limpid/op/context.h"
+
+namespace limpid {
+
+/// The depth of a reflection that came without one, and which of its pixels are real.
+///
+/// Each point of the dry scene on the eye's side of the calm water is put where its mirror image is
+/// seen; the nearest one wins. Small holes, between points that lie farther apart in the mirror
+/// than in the picture, get the greatest depth of their neighbours, and edges grow by up to two
+/// pixels. What the dry scene does not show remains infinitely far, as the sky is.
+///
+/// A renderer that cuts the scene at the water shows objects that stand in it from within. A pixel
+/// at which something dry stands before the water, and no mirror image is known, counts as such an
+/// inside: it is not real, and a ray that comes there has met that thing.
+class MirrorDepth {
+ public:
+  /// Looks at depth and at the window of the reflection.
+  void make(const Frame& frame, const Context& context, Executor& executor);
+
+  const Plane& depth() const { return depth_; }  ///< eye depth, +inf where nothing is known
+  const Plane& valid() const { return valid_; }  ///< 1 or 0
+
+ private:
+  Plane depth_, valid_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/texture_levels.h"
+
+namespace limpid {
+
+/// The slopes of all that WaveNormals::slopes adds of a map at one time: the mean of four lookups
+/// that have drifted apart is itself a map that repeats. With second moments, so that their mean in
+/// a pixel and their covariance there are one lookup (Olano & Baker 2010, "LEAN Mapping").
+class SlopeMap {
+ public:
+  /// `drift`: how far each of the four has gone, in periods. Where the map is larger than
+  /// TextureLevels::base, what varies within a texel of it counts as common to lookups that are in
+  /// the same place, and as independent where they are a texel apart. Makes no allocation after the
+  /// first map of a size.
+  void make(const TextureLevels& map, double drift, Executor& executor);
+
+  /// Of the last make(), until the next one.
+  const SlopeLevels& levels() const { return levels_; }
+
+ private:
+  SlopeLevels levels_;
+  std::vector<float> moments_;
+};
+
+}  // namespace limpid

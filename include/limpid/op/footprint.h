@@ -1,0 +1,46 @@
+#pragma once
+#include "limpid/op/context.h"
+
+namespace limpid {
+
+/// Covariance of the places on the calm water that one pixel sees, along Context::map_x and map_y,
+/// in scene units squared: of a pixel wide box, 1/12 of a pixel squared each way, through the
+/// derivatives of the view's rays (Igehy 1999, "Tracing Ray Differentials"). At the horizon, where
+/// it has no bounds, at most 1e12.
+template <class F>
+LIMPID_INLINE Sym2<F> footprint(const Context& c, const Pixel<F>& p) {
+  const Vec3<F> up = vec3_of<F>(c.up);
+  const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+  const F fall = dot(up, p.to_viewer);  // per unit of way
+  const F least = F(1e-6);
+  const F steep = select(fall < F(0), min(fall, F(0) - least), max(fall, least));
+  const auto moved = [&](const glm::dvec3& origin_step, const glm::dvec3& ray_step) {
+    const Vec3<F> step = vec3_of<F>(origin_step) + p.surface_depth * vec3_of<F>(ray_step);
+    const Vec3<F> on_plane = step - (dot(up, step) / steep) * p.to_viewer;
+    const auto kept = [](F x) { return min(max(x, F(-1e6)), F(1e6)); };
+    return Vec2<F>{kept(dot(map_x, on_plane)), kept(dot(map_y, on_plane))};
+  };
+  const Vec2<F> dx = moved(c.rays.origin_dx, c.rays.ray_dx);
+  const Vec2<F> dy = moved(c.rays.origin_dy, c.rays.ray_dy);
+  const F share(1.0 / 12);
+  return {share * (dx.x * dx.x + dy.x * dy.x), share * (dx.x * dx.y + dy.x * dy.y),
+          share * (dx.y * dx.y + dy.y * dy.y)};
+}
+
+/// How many texels of a tiling map with so many texels in a scene unit, along map_x and map_y, the
+/// pixel is wide: the wider side of the box that a footprint is, or this share of it where it is
+/// longer than that in one direction. At most 1e7.
+template <class F>
+LIMPID_INLINE F texels_wide(Sym2<F> footprint, Vec2<double> texels, double share) {
+  // Kept to what a float can square.
+  const auto kept = [](F x) { return min(max(x, F(-1e12)), F(1e12)); };
+  const F xx = kept(F(12 * texels.x * texels.x) * footprint.xx);
+  const F xy = kept(F(12 * texels.x * texels.y) * footprint.xy);
+  const F yy = kept(F(12 * texels.y * texels.y) * footprint.yy);
+  const F middle = F(0.5) * (xx + yy), half = F(0.5) * (xx - yy);
+  const F apart = sqrt(half * half + xy * xy);
+  const F least = max(middle - apart, F(0)), most = middle + apart;
+  return sqrt(max(least, F(share * share) * most));
+}
+
+}  // namespace limpid

@@ -1,0 +1,92 @@
+#pragma once
+#include "limpid/op/context.h"
+#include "limpid/op/screen_ray.h"
+
+/// @file
+/// Where a mirrored ray meets what a depth plane shows.
+
+namespace limpid {
+
+/// How a ray is followed over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
+/// Tracing", by `steps` that grow with the distance from the pixel, the last three times as long as
+/// the first, then bisection. What is seen is taken to be `thick` times its depth thick, and at
+/// most as much again, `thin` times the eye's height over the calm water: a ray farther behind it
+/// has passed it.
+struct MirrorSteps {
+  int steps;
+  double thin, thick;
+  /// Whether what the ray passes between two steps is looked for. In a picture of the mirrored
+  /// scene it was seen from where the ray comes from; in another one only its edge may be there.
+  bool between;
+};
+
+/// The search along the ray of one pixel, or of one vector of pixels.
+template <class F, class Tap>
+class MirrorSearch {
+ public:
+  struct Found {
+    F way;  ///< along the ray, +inf where it meets nothing
+    F hit;  ///< 1 or 0
+  };
+
+  /// `height` is that of the eye over the calm water. `accept(shift, depth)` says which of the
+  /// things that are seen may be hit.
+  template <class Accept>
+  static Found march(const Tap& tap, PlaneId plane, const Bounds& bounds, F height,
+                     const Pixel<F>& p, const ScreenRay<F>& ray, const MirrorSteps& how,
+                     Accept&& accept) {
+    const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
+    const Vec2<F> end = ray.shift_at(most);
+    // Its depth at a share t of the way on screen is ray.depth + t gain / (1 - t bend), which is
+    // compared with others without a division.
+    const F scale = F(1) / max(ray.w + most * ray.w_step, F(1e-6) * ray.w);
+    const F gain = (most * scale) * (ray.w * ray.depth_step), bend = (most * scale) * ray.w_step;
+    const auto is_behind = [&](F t, F depth) {
+      return t * gain >= (depth - ray.depth) * (F(1) - t * bend);
+    };
+    const auto seen_at = [&](F t) {
+      const Vec2<F> shift = t * end;
+      const F seen = min(tap.nearest(plane, shift), F(1e30));
+      return select(accept(shift, seen), seen, F(1e30));
+    };
+    const F thin = F(how.thin) * abs(height);
+    const auto back_of = [&](F seen) {
+      const F thick = F(how.thick) * seen;
+      return seen + (thick + min(thin, thick));
+    };
+    // Whether the ray lies between front and back of what is seen, or was last before its back.
+    const auto within = [&](F t, F earlier, F seen) {
+      return is_behind(t, seen) && !is_behind(earlier, back_of(seen)) && seen < F(1e29);
+    };
+    F before = F(0), met = F(0), found = F(0), last = F(0);
+    steps<F>(1, how.steps + 1, [&](auto i) {
+      const F even = Loop<F>::ratio(i, how.steps);
+      const F t = F(0.5) * (even + even * even);
+      const F seen = seen_at(t);
+      const auto open = found < F(0.5);
+      const auto hit = open && within(t, how.between ? last : t, seen);
+      met = select(hit, t, met);
+      found = select(hit, F(1), found);
+      before = select(open && !hit, t, before);
+      last = t;
+      return found < F(0.5);
+    });
+    if_any(found > F(0.5), [&] {
+      repeat<F>(kHalvings, [&] {
+        const F t = F(0.5) * (before + met);
+        const F seen = seen_at(t);
+        const auto behind = how.between ? is_behind(t, seen) : within(t, t, seen);
+        met = select(behind, t, met);
+        before = select(behind, before, t);
+      });
+      // The step may have leapt over something thin that the ray passes behind.
+      found = select(within(met, met, seen_at(met)), found, F(0));
+    });
+    return {select(found > F(0.5), ray.at_share(met, most), F(HUGE_VAL)), found};
+  }
+
+ private:
+  static constexpr int kHalvings = 5;
+};
+
+}  // namespace limpid

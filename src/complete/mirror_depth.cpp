@@ -1,0 +1,133 @@
+#include "limpid/complete/mirror_depth.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "complete/rows.h"
+
+namespace limpid {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+
+/// The nearest of all that is seen at one pixel, whatever the order: depths above 0 and their bits
+/// are ordered alike.
+void keep_nearest(float& at, float depth) {
+  static_assert(std::numeric_limits<float>::is_iec559);
+  const std::uint32_t mine = std::bit_cast<std::uint32_t>(depth);
+  std::atomic_ref<std::uint32_t> bits(reinterpret_cast<std::uint32_t&>(at));
+  std::uint32_t there = bits.load(std::memory_order_relaxed);
+  while (mine < there && !bits.compare_exchange_weak(there, mine, std::memory_order_relaxed)) {
+  }
+}
+
+/// Heights over the calm water of what lies on the rays of one row: over + depth under, each linear
+/// in the column.
+struct RowHeights {
+  double over, over_step, under, under_step;
+
+  RowHeights(const Context& c, int y)
+      : over(c.eye_above + glm::dot(c.up, c.rays.origin_at(first(c), row(c, y)))),
+        over_step(glm::dot(c.up, c.rays.origin_dx)),
+        under(glm::dot(c.up, c.rays.ray_at(first(c), row(c, y)))),
+        under_step(glm::dot(c.up, c.rays.ray_dx)) {}
+
+  double at(int x, double depth) const {
+    return over + x * over_step + depth * (under + x * under_step);
+  }
+
+ private:
+  static double first(const Context& c) { return 0.5 - c.corner.x; }
+  static double row(const Context& c, int y) { return y - c.corner.y + 0.5; }
+};
+
+/// From a point to its mirror image the way is straight down, which crosses the screen as a
+/// ScreenRay does.
+void scatter_row(const Context& c, const View<const float>& dry, int y, const View<float>& to) {
+  const double down_depth = -glm::dot(c.forward, c.up), w_step = c.w_depth * down_depth;
+  const double down_u = -glm::dot(c.to_u, c.up), down_v = -glm::dot(c.to_v, c.up);
+  const double v = (y - c.corner.y + 0.5) / c.size.y;
+  const RowHeights heights(c, y);
+  for (int x = dry.window.x0; x < dry.window.x1; ++x) {
+    const double depth = dry.at(x, y);
+    const double way = 2 * heights.at(x, depth);
+    if (!(way * c.eye_above > 0 && depth > 0 && depth < 1e30)) continue;
+    const double u = (x - c.corner.x + 0.5) / c.size.x;
+    const double image_depth = depth + way * down_depth;
+    const double w = c.w_origin + c.w_depth * depth + way * w_step;
+    if (!(w > 0 && image_depth > 0)) continue;
+    const double image_u = u + way * (down_u - u * w_step) / w;
+    const double image_v = v + way * (down_v - v * w_step) / w;
+    const double px = std::floor(image_u * c.size.x + c.corner.x);
+    const double py = std::floor(image_v * c.size.y + c.corner.y);
+    const Rect& window = to.window;
+    if (!(px >= window.x0 && px < window.x1 && py >= window.y0 && py < window.y1)) continue;
+    keep_nearest(to.at(static_cast<int>(px), static_cast<int>(py)),
+                 static_cast<float>(image_depth));
+  }
+}
+
+/// A hole with that many neighbours is one between points, or a pixel beside an edge, which gains
+/// what a row of points between two pixels has lost.
+constexpr int kLeastNeighbours = 3;
+
+void close_holes(const View<const float>& from, int y, const View<float>& to) {
+  const Rect& window = from.window;
+  const int width = window.width();
+  const float* rows[3];
+  for (int i = 0; i < 3; ++i) rows[i] = from.row(std::clamp(y + i - 1, window.y0, window.y1 - 1));
+  float* out = to.row(y);
+  std::copy_n(rows[1], width, out);
+  // Without branches, for most pixels of most pictures are such holes.
+  for (int x = 1; x + 1 < width; ++x) {
+    float greatest = 0, known = 0;
+    for (const float* row : rows) {
+      for (int i = -1; i <= 1; ++i) {
+        const float depth = row[x + i];
+        known += depth < kNothing ? 1.0f : 0.0f;
+        greatest = std::max(greatest, depth < kNothing ? depth : 0.0f);
+      }
+    }
+    const bool hole = !(rows[1][x] < kNothing) && known >= kLeastNeighbours;
+    out[x] = hole ? greatest : rows[1][x];
+  }
+}
+
+void tell_real(const Context& c, const View<const float>& dry, const View<float>& image, int y,
+               const View<float>& to) {
+  const int at_y = std::clamp(y, dry.window.y0, dry.window.y1 - 1);
+  const RowHeights heights(c, at_y);
+  for (int x = to.window.x0; x < to.window.x1; ++x) {
+    const int at_x = std::clamp(x, dry.window.x0, dry.window.x1 - 1);
+    const float stands = dry.at(at_x, at_y);
+    const bool unknown = !(image.at(x, y) < kNothing) && stands < 1e30f;
+    const bool inside = unknown && heights.at(at_x, stands) * c.eye_above > 0;
+    if (inside) image.at(x, y) = stands;
+    to.at(x, y) = inside ? 0.0f : 1.0f;
+  }
+}
+
+}  // namespace
+
+void MirrorDepth::make(const Frame& frame, const Context& context, Executor& executor) {
+  const View<const float>& dry = frame.plane(PlaneId::kDepth);
+  const Rect& window = frame.plane(PlaneId::kReflectionR).window;
+  for (Plane* plane : {&depth_, &valid_}) {
+    if (!*plane || plane->view().window != window) *plane = Plane(window);
+  }
+  const View<float> depth = depth_.view(), valid = valid_.view();
+  each_row(executor, window, [&](int y) { std::fill_n(depth.row(y), window.width(), kNothing); });
+  each_row(executor, dry.window, [&](int y) { scatter_row(context, dry, y, depth); });
+  // The other plane is room for the depths until it is made.
+  each_row(executor, window, [&](int y) { close_holes(depth, y, valid); });
+  each_row(executor, window, [&](int y) { close_holes(valid, y, depth); });
+  each_row(executor, window, [&](int y) { tell_real(context, dry, depth, y, valid); });
+}
+
+}  // namespace limpid

@@ -1,0 +1,37 @@
+// Compiled once for each instruction set, as run/lanes_target.cpp is; the same holds here.
+#include "complete/surface_target.h"
+
+#include "core/lanes.h"
+
+namespace limpid::HWY_NAMESPACE {
+namespace {
+
+void row(const Context& context, const RaisedWater<float>& water, int y, const View<float>& depth) {
+  const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
+  const Rect& window = depth.window;
+  float* to = depth.data + std::ptrdiff_t{y - window.y0} * depth.y_stride;
+  for (int x = window.x0; x < window.x1; x += kLanes) {
+    const Lane at = Lane(hn::ConvertTo(kD, count_from(x))) + Lane(0.5 - context.corner.x);
+    const Lane met = RaisedRay<Lane, float>(context, water, rays, at).first_meeting();
+    if (window.x1 - x >= kLanes) {
+      hn::StoreU(met.v, kD, to + (x - window.x0));
+      continue;
+    }
+    alignas(64) float lanes[kLanes];
+    hn::Store(met.v, kD, lanes);
+    for (int i = 0; i < window.x1 - x; ++i) to[x - window.x0 + i] = lanes[i];
+  }
+}
+
+}  // namespace
+}  // namespace limpid::HWY_NAMESPACE
+
+namespace limpid {
+
+#define LIMPID_JOIN_(a, b) a##b
+#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
+
+extern const SurfaceTarget LIMPID_JOIN(kSurface_, LIMPID_LANES_TARGET);
+const SurfaceTarget LIMPID_JOIN(kSurface_, LIMPID_LANES_TARGET) = {HWY_NAMESPACE::row};
+
+}  // namespace limpid

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "limpid/core/plane.h"
+#include "limpid/op/raised_water.h"
+
+namespace limpid {
+
+/// DisplacedSurface as compiled for one instruction set: one row of it.
+struct SurfaceTarget {
+  void (*row)(const Context& context, const RaisedWater<float>& water, int y,
+              const View<float>& depth);
+};
+
+/// For `simd` as in FusedOptions.
+const SurfaceTarget& surface_target(const std::string& simd);
+
+}  // namespace limpid

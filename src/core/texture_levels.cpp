@@ -1,0 +1,106 @@
+#include "limpid/core/texture_levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/box_mean.h"
+
+namespace limpid {
+namespace {
+
+using Color = std::array<float, 3>;
+using Moments = std::array<float, TextureLevels::kMoments>;
+
+Color color_at(const Texture& map, int x, int y) {
+  const Rect& window = map.channels[0].window;
+  Color color;
+  if (map.bytes) {  // k / 255, whatever their reader has made of it
+    const std::uint32_t texel = map.bytes[std::ptrdiff_t{y} * (window.width() + 1) + x];
+    for (int c = 0; c < 3; ++c) {
+      color[static_cast<std::size_t>(c)] = static_cast<float>(texel >> (8 * c) & 255) / 255.0f;
+    }
+    return color;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float value = map.channels[c].at(window.x0 + x, window.y0 + y);
+    color[c] = value >= 0 ? std::min(value, 1.0f) : 0.0f;
+  }
+  return color;
+}
+
+std::uint32_t packed(const Color& color) {
+  const auto part = [](float value, float most) {
+    return static_cast<std::uint32_t>(value * most + 0.5f);
+  };
+  return part(color[0], 2047) | part(color[1], 2047) << 11 | part(color[2], 511) << 22;
+}
+
+Color unpacked(std::uint32_t texel) {
+  const auto part = [](std::uint32_t value, float most) {
+    return static_cast<float>(value) / most;
+  };
+  return {part(texel & 2047, 2047), part(texel >> 11 & 2047, 2047), part(texel >> 22, 511)};
+}
+
+/// As WaveNormals::slopes() has it.
+Moments moments_of(const Color& color) {
+  const float per_z = 1 / std::max(2 * color[2] - 1, 0.05f);
+  const float x = (2 * color[0] - 1) * per_z, y = (2 * color[1] - 1) * per_z;
+  return {x, y, x * x, x * y, y * y};
+}
+
+}  // namespace
+
+Size halved(Size size) { return {std::max(size.width / 2, 1), std::max(size.height / 2, 1)}; }
+
+LevelSizes levels_from(Size size) {
+  LevelSizes sizes;
+  for (;; size = halved(size)) {
+    const int level = sizes.count++;
+    sizes.width[level] = size.width;
+    sizes.height[level] = size.height;
+    sizes.first[level] = static_cast<std::int32_t>(sizes.texels);
+    sizes.texels += rect_of({size.width + 1, size.height + 1}).area();
+    if (size.width == 1 && size.height == 1) return sizes;
+  }
+}
+
+void LevelMaker::make(const Texture& map) {
+  const Size whole = map.channels[0].window.size();
+  const LevelSizes sizes = levels_from(halved(whole));
+  texels_.resize(static_cast<std::size_t>(sizes.texels));
+  const auto texel = [&](int level, int x, int y) -> std::uint32_t& {
+    return texels_[static_cast<std::size_t>(sizes.place(level, x, y))];
+  };
+  for (int level = 0; level < sizes.count; ++level) {
+    const Size to = sizes.size(level), from = level == 0 ? whole : sizes.size(level - 1);
+    for (int y = 0; y <= to.height; ++y) {
+      for (int x = 0; x <= to.width; ++x) {
+        texel(level, x, y) =
+            y == to.height || x == to.width
+                ? texel(level, x % to.width, y % to.height)
+                : packed(box_mean<3>(from, to, x, y, [&](int i, int j) {
+                    return level == 0 ? color_at(map, i, j) : unpacked(texel(level - 1, i, j));
+                  }));
+      }
+    }
+  }
+  Size base = whole;
+  int halvings = 0;
+  for (; std::max(base.width, base.height) > TextureLevels::kMostBase; ++halvings) {
+    base = halved(base);
+  }
+  const std::size_t plane = static_cast<std::size_t>(rect_of(base).area());
+  moments_.resize(plane * TextureLevels::kMoments);
+  for (int y = 0; y < base.height; ++y) {
+    for (int x = 0; x < base.width; ++x) {
+      const Moments mean = box_mean<TextureLevels::kMoments>(
+          whole, base, x, y, [&](int i, int j) { return moments_of(color_at(map, i, j)); });
+      const std::size_t at = static_cast<std::size_t>(y) * base.width + x;
+      for (std::size_t c = 0; c < mean.size(); ++c) moments_[c * plane + at] = mean[c];
+    }
+  }
+  levels_ = {sizes, texels_.data(), base, halvings, moments_.data()};
+}
+
+}  // namespace limpid

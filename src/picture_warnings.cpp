@@ -1,0 +1,176 @@
+#include "picture_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "limpid/core/error.h"
+#include "limpid/core/toml_text.h"
+#include "limpid/op/raised_water.h"
+
+namespace limpid {
+namespace {
+
+/// What there is among the pixels that were looked at.
+struct Found {
+  bool wet = false, dry = false, in_water = false;
+  bool both() const { return wet && dry; }
+};
+
+/// Every `step`-th pixel of every `step`-th row, until both kinds are found.
+Found look_at(const Frame& frame, const Context& context, int step) {
+  Found found;
+  RaisedWater<double> raised;
+  raised.make(context);
+  const auto water_at = [&](const RowRays<double>& rays, double x) {
+    if (!context.raised) return rays.calm_depth(x);
+    return RaisedRay<double, double>(context, raised, rays, x).first_meeting();
+  };
+  const Rect work = frame.work();
+  const View<const float>& depth = frame.plane(PlaneId::kDepth);
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  for (int y = work.y0; y < work.y1 && !found.both(); y += step) {
+    const RowRays<double> rays(context, y - context.corner.y + 0.5);
+    for (int x = work.x0; x < work.x1 && !found.both(); x += step) {
+      const double pixel_x = x - context.corner.x + 0.5;
+      const double water = surface ? surface.at(x, y) : water_at(rays, pixel_x);
+      const bool in_water = begins_in_water(context, rays, pixel_x) > 0;
+      const bool wet = in_water || water < depth.at(x, y);
+      found.wet |= wet;
+      found.dry |= !wet;
+      found.in_water |= in_water;
+    }
+  }
+  return found;
+}
+
+constexpr int kCoarse = 16;
+
+/// Whether there are pixels of both kinds, as in a picture that was meant.
+bool warn_of_wet(const Frame& frame, const Context& context, std::vector<std::string>& warnings) {
+  if (look_at(frame, context, kCoarse).both()) return true;
+  const Found found = look_at(frame, context, 1);
+  const std::string expected =
+      "; expected another height or direction of the water, another camera or kind of depth, if "
+      "that is not meant";
+  if (!found.wet) warnings.push_back("no pixel is wet, the picture is the dry one" + expected);
+  if (!found.dry && !found.in_water) {
+    warnings.push_back("every pixel is wet, nothing stands before the water" + expected);
+  }
+  return found.wet && (found.dry || found.in_water);
+}
+
+void warn_of_depth(const Frame& frame, std::vector<std::string>& warnings) {
+  const Rect work = frame.work();
+  float least = HUGE_VALF, most = 0;
+  int seen = 0;
+  const int step = std::clamp(std::min(work.width(), work.height()) / 8, 1, kCoarse);
+  for (int y = work.y0; y < work.y1; y += step) {
+    for (int x = work.x0; x < work.x1; x += step) {
+      const float depth = frame.plane(PlaneId::kDepth).at(x, y);
+      if (!(depth < HUGE_VALF)) continue;
+      least = std::min(least, depth);
+      most = std::max(most, depth);
+      ++seen;
+    }
+  }
+  constexpr int kEnough = 16;
+  if (seen < kEnough) return;
+  const std::string range = " in " + toml_text(least) + " ... " + toml_text(most);
+  if (most <= 1) {
+    warnings.push_back("the depth lies" + range +
+                       " everywhere, as that of a mist pass or a normalised depth does; expected "
+                       "distances in scene units, or the kind of depth said");
+  } else if (most - least < 1e-4f * most) {
+    warnings.push_back("the depth is nearly the same everywhere," + range +
+                       "; expected that of a scene, if that is not meant");
+  }
+}
+
+/// Looks where a mirror shows the sun, which is infinitely far away.
+void warn_of_sun(const Plan& plan, const Frame& frame, const Context& c,
+                 std::vector<std::string>& warnings) {
+  const View<const float>& red = frame.plane(PlaneId::kReflectionR);
+  const bool read = plan.planes.covers(kReflectionPlanes) && plan.needs_sun && red;
+  const glm::dvec3 image = c.sun.direction - 2 * glm::dot(c.sun.direction, c.up) * c.up;
+  const double w = c.w_depth * glm::dot(c.forward, image);
+  if (!read || !(w > 0)) return;
+  const double x = glm::dot(c.to_u, image) / w * c.size.x + c.corner.x;
+  const double y = glm::dot(c.to_v, image) / w * c.size.y + c.corner.y;
+  constexpr int kAround = 4;
+  const Rect& window = red.window;
+  if (!(x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1)) return;
+  const Rect near = intersection({static_cast<int>(x) - kAround, static_cast<int>(y) - kAround,
+                                  static_cast<int>(x) + kAround, static_cast<int>(y) + kAround},
+                                 window);
+  float brightest = 0;
+  for (int row = near.y0; row < near.y1; ++row) {
+    for (int column = near.x0; column < near.x1; ++column) {
+      brightest = std::max(brightest, red.at(column, row));
+    }
+  }
+  // A disc is thousands of times as bright as what it lights; a sky around it is tens at most.
+  if (brightest < 200 * std::max(c.sun.color.r, 0.01)) return;
+  warnings.push_back("the reflection shows the sun's disc (" + toml_text(brightest) +
+                     "), and sun_highlight adds it again; expected a reflection rendered without "
+                     "the disc, or sun_highlight.strength = 0");
+}
+
+void warn_of_scale(const Plan& plan, const Frame& frame, const Context& c,
+                   std::vector<std::string>& warnings) {
+  const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+  if (!plan.made.has(StatePart::kNormal)) return;
+  if (waves.model == WaveNormals::Model::kSines) {
+    double crest = 0;
+    for (const SineWave& wave : waves.waves.empty() ? c.waves : waves.waves) {
+      crest += waves.strength * std::abs(wave.amplitude);
+    }
+    if (c.eye_above > 0 && crest > c.eye_above) {
+      warnings.push_back("the waves reach " + toml_text(crest) +
+                         " scene units over the calm water, and the camera is " +
+                         toml_text(c.eye_above) + " above it; expected lower waves");
+    }
+  }
+  if (!plan.reads_wave_map) return;
+  // The nearest water's pixels lie at the bottom of most pictures, at the top of a few.
+  const Rect work = frame.work();
+  double nearest = HUGE_VAL;
+  for (const int y : {work.y0, work.y1 - 1}) {
+    const double pixel_y = y - c.corner.y + 0.5;
+    nearest = std::min(nearest, RowRays<double>(c, pixel_y).calm_depth(0.5 * c.size.x));
+  }
+  const double pixel = glm::length(c.rays.origin_dx + std::min(nearest, 1e30) * c.rays.ray_dx);
+  if (!(nearest < HUGE_VAL && pixel > 0)) return;
+  const std::string tile = "wave_normals.tile_size = " + toml_text(waves.tile_size);
+  if (waves.tile_size < 2 * pixel) {
+    warnings.push_back(tile + ": a pixel of the nearest water is " + toml_text(pixel) +
+                       " wide, and no wave of the map can be seen; expected larger tiles");
+  } else if (waves.tile_size > 100 * pixel * c.size.x) {
+    warnings.push_back(tile + ": the nearest water in the picture is " +
+                       toml_text(pixel * c.size.x) +
+                       " wide, and the waves of the map look flat; expected smaller tiles");
+  }
+}
+
+}  // namespace
+
+void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
+                     std::vector<std::string>& warnings) {
+  const Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  // What is to be said of the rest would be of another picture than the one that was meant.
+  if (!warn_of_wet(frame, context, warnings)) return;
+  warn_of_depth(frame, warnings);
+  warn_of_sun(plan, frame, context, warnings);
+  warn_of_scale(plan, frame, context, warnings);
+}
+
+void refuse_warnings(bool strict, const std::vector<std::string>& warnings) {
+  if (!strict || warnings.empty()) return;
+  throw Error(warnings.front() +
+              (warnings.size() > 1
+                   ? " (and " + std::to_string(warnings.size() - 1) + " warnings more)"
+                   : ""));
+}
+
+}  // namespace limpid

@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/plan/plan.h"
+
+namespace limpid {
+
+/// Adds a sentence for each of these, which hardly anybody means. The frame has been checked.
+///
+/// - No pixel of Frame::work() is wet, or all are, seen from the air: then water, camera and depth
+///   do not fit together.
+/// - The depth is nearly the same everywhere, or in 0 ... 1 everywhere, as that of a mist pass is.
+/// - The reflection shows the sun's disc, which the highlight adds, too.
+/// - A period of the tiling waves is smaller than two of the nearest water's pixels, or so large
+///   that the whole picture shows a hundredth of it; or waves are higher than the camera.
+///
+/// Looks at few pixels, unless it is all wet or all dry.
+void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
+                     std::vector<std::string>& warnings);
+
+/// Throws the first of them as an Error, if `strict`.
+void refuse_warnings(bool strict, const std::vector<std::string>& warnings);
+
+}  // namespace limpid

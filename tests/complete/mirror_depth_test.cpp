@@ -1,0 +1,147 @@
+#include "limpid/complete/mirror_depth.h"
+
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+// The depth of a mirror that nobody rendered.
+
+namespace limpid {
+namespace {
+
+using test::kInf;
+
+constexpr Size kSize{64, 48};
+constexpr glm::dvec3 kUp{0, 1, 0};
+
+/// Two metres above the water, level, looking along -z: the horizon is in the middle.
+Scene shore_scene() {
+  Scene scene;
+  Camera camera;
+  camera.view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), kUp);
+  camera.projection = perspective(1, 4.0 / 3, 0.1, 1e3, ClipSpace::kGl);
+  scene.camera = camera;
+  scene.water = WaterPlane{};
+  return scene;
+}
+
+/// A wall across the view, `far` away and `top` high, on a bottom `deep` under the water, before an
+/// open sky.
+struct Shore {
+  double far = 20, top = 6, deep = 3;
+  Scene scene = shore_scene();
+  test::Buffers buffers{rect_of(kSize)};
+
+  Shore() {
+    buffers.set(PlaneId::kDepth, [&](int x, int y) { return dry_depth(x, y); });
+    for (PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB, PlaneId::kReflectionR,
+                       PlaneId::kReflectionG, PlaneId::kReflectionB}) {
+      buffers.fill(id, 0.5f);
+    }
+  }
+  glm::dvec3 ray(int x, int y) const {
+    return rays_of(*scene.camera, {kSize.width, kSize.height}).ray_at(x + 0.5, y + 0.5);
+  }
+  float dry_depth(int x, int y) const {
+    const double sinks = ray(x, y).y;
+    if (2 + far * sinks > top) return kInf;
+    return static_cast<float>(sinks < 0 ? std::min(far, -(2 + deep) / sinks) : far);
+  }
+  /// What a mirror at the water shows: the wall, upside down.
+  double mirrored_depth(int x, int y) const {
+    const double height = -(2 + far * ray(x, y).y);
+    return height > 0 && height < top ? far : HUGE_VAL;
+  }
+  const MirrorDepth& made(Executor& executor) {
+    const Context context(scene, buffers.frame, 1.333, kWholeState);
+    mirror.make(buffers.frame, context, executor);
+    return mirror;
+  }
+  MirrorDepth mirror;
+};
+
+TEST(MirrorDepth, AWallIsSeenUpsideDown) {
+  Shore shore;
+  const auto executor = make_executor(1);
+  const View<const float> depth = shore.made(*executor).depth().view();
+  int known = 0;
+  for (int y = kSize.height / 2; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      // Edges grow by two pixels, and rounding decides of one more.
+      const double expected = shore.mirrored_depth(x, y);
+      bool edge = shore.dry_depth(x, y) == 20;
+      for (int off = -3; off <= 3; ++off) {
+        const int row = std::clamp(y + off, 0, kSize.height - 1);
+        edge = edge || shore.mirrored_depth(x, row) != expected;
+      }
+      if (edge) continue;
+      if (std::isinf(expected)) {
+        EXPECT_EQ(depth.at(x, y), kInf) << x << ", " << y;
+      } else {
+        EXPECT_NEAR(depth.at(x, y), expected, 1e-4) << x << ", " << y;
+        ++known;
+      }
+    }
+  }
+  EXPECT_GT(known, 100);
+}
+
+// Where the wall stands before the water, the mirror's camera looked into it from below.
+TEST(MirrorDepth, InsidesAreNotReal) {
+  Shore shore;
+  const auto executor = make_executor(1);
+  const MirrorDepth& made = shore.made(*executor);
+  int insides = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const bool wall = shore.dry_depth(x, y) == 20 && 2 + 20 * shore.ray(x, y).y > 0;
+      const bool imaged = made.depth().view().at(x, y) != 20;
+      EXPECT_EQ(made.valid().view().at(x, y), wall && imaged ? 0
+                                              : wall         ? made.valid().view().at(x, y)
+                                                             : 1)
+          << x << ", " << y;
+      if (!wall || 2 + 20 * shore.ray(x, y).y < 0.5) continue;
+      EXPECT_EQ(made.valid().view().at(x, y), 0) << x << ", " << y;
+      EXPECT_EQ(made.depth().view().at(x, y), 20) << "a ray that comes there has met the wall";
+      ++insides;
+    }
+  }
+  EXPECT_GT(insides, 300);
+}
+
+TEST(MirrorDepth, NothingStandsInTheOpenSea) {
+  Shore shore;
+  shore.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    const double sinks = shore.ray(x, y).y;
+    return sinks < 0 ? static_cast<float>(-5 / sinks) : kInf;
+  });
+  const auto executor = make_executor(1);
+  const MirrorDepth& made = shore.made(*executor);
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      EXPECT_EQ(made.depth().view().at(x, y), kInf);
+      EXPECT_EQ(made.valid().view().at(x, y), 1);
+    }
+  }
+}
+
+// The nearest wins whoever comes first.
+TEST(MirrorDepth, ThreadsDoNotMatter) {
+  Shore alone, crowd;
+  for (Shore* shore : {&alone, &crowd}) {
+    shore->buffers.set(PlaneId::kDepth, [](int x, int y) {
+      return y < 24 ? 4 + 30 * test::noise(x, y, 1) : 3 + test::noise(x, y, 2);
+    });
+  }
+  const auto one = make_executor(1), four = make_executor(4);
+  const MirrorDepth &a = alone.made(*one), &b = crowd.made(*four);
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      EXPECT_EQ(a.depth().view().at(x, y), b.depth().view().at(x, y));
+      EXPECT_EQ(a.valid().view().at(x, y), b.valid().view().at(x, y));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace limpid

@@ -1,0 +1,85 @@
+#include "limpid/complete/sky.h"
+
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+// The sky behind what hides it.
+
+namespace limpid {
+namespace {
+
+using test::kInf;
+
+constexpr Rect kWindow{-3, 2, 30, 25};
+
+/// A sky that brightens to the right, before which a block stands.
+struct Horizon {
+  test::Buffers buffers{kWindow};
+  Sky sky;
+
+  explicit Horizon(Rect block = {8, 8, 20, 25}) {
+    const auto hides = [=](int x, int y) {
+      return x >= block.x0 && x < block.x1 && y >= block.y0 && y < block.y1;
+    };
+    for (int c = 0; c < 3; ++c) {
+      buffers.set(plane_after(PlaneId::kColorR, c), [=](int x, int y) {
+        return hides(x, y) ? 100.0f : 1 + 0.1f * static_cast<float>(c) + 0.02f * float(x);
+      });
+    }
+    buffers.set(PlaneId::kDepth, [=](int x, int y) { return hides(x, y) ? 7.0f : kInf; });
+  }
+  float at(int c, int x, int y) const { return sky.color(c).view().at(x, y); }
+};
+
+TEST(Sky, IsThePictureWhereThatShowsIt) {
+  Horizon horizon;
+  const auto executor = make_executor(1);
+  ASSERT_TRUE(horizon.sky.make(horizon.buffers.frame, *executor));
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(horizon.at(c, 3, 20), 1 + 0.1f * float(c) + 0.02f * 3);
+  EXPECT_EQ(horizon.at(0, -3, 2), 1 + 0.02f * -3);
+}
+
+TEST(Sky, GoesOnBehindThings) {
+  Horizon horizon;
+  const auto executor = make_executor(1);
+  ASSERT_TRUE(horizon.sky.make(horizon.buffers.frame, *executor));
+  for (int y = 8; y < 25; ++y) {
+    for (int x = 8; x < 20; ++x) {
+      // Between the least and the greatest sky, and nothing of the block in it.
+      EXPECT_GT(horizon.at(0, x, y), 0.9f);
+      EXPECT_LT(horizon.at(0, x, y), 1.7f);
+    }
+  }
+  EXPECT_NEAR(horizon.at(0, 13, 9), 1.26f, 0.1f);
+}
+
+TEST(Sky, IsNotMadeUpWhereThereIsNone) {
+  Horizon horizon(kWindow);
+  const auto executor = make_executor(1);
+  EXPECT_FALSE(horizon.sky.make(horizon.buffers.frame, *executor));
+}
+
+// A film that is transparent shows no sky, but what stands for one.
+TEST(Sky, IsNotWhereTheFilmIsTransparent) {
+  Horizon horizon;
+  horizon.buffers.fill(PlaneId::kColorA, 0);
+  const auto executor = make_executor(1);
+  EXPECT_FALSE(horizon.sky.make(horizon.buffers.frame, *executor));
+  horizon.buffers.set(PlaneId::kColorA, [](int x, int) { return x < 4 ? 1.0f : 0.0f; });
+  ASSERT_TRUE(horizon.sky.make(horizon.buffers.frame, *executor));
+  EXPECT_LT(horizon.at(0, 29, 3), 1.2f);
+}
+
+TEST(Sky, ThreadsDoNotMatter) {
+  Horizon alone, crowd;
+  const auto one = make_executor(1), four = make_executor(4);
+  ASSERT_TRUE(alone.sky.make(alone.buffers.frame, *one));
+  ASSERT_TRUE(crowd.sky.make(crowd.buffers.frame, *four));
+  for (int y = kWindow.y0; y < kWindow.y1; ++y) {
+    for (int x = kWindow.x0; x < kWindow.x1; ++x) EXPECT_EQ(alone.at(1, x, y), crowd.at(1, x, y));
+  }
+}
+
+}  // namespace
+}  // namespace limpid

@@ -1,0 +1,135 @@
+#include "limpid/op/footprint.h"
+
+#include <gtest/gtest.h>
+
+#include "limpid/ops/wave_normals.h"
+
+#include "ops/probe_strip.h"
+
+// What one pixel sees of the water, and what becomes of waves in it.
+
+namespace limpid {
+namespace {
+
+constexpr Size kSize{64, 48};
+
+/// The pixel at x, y of a frame without waves.
+Pixel<double> calm_pixel(const Context& c, double x, double y) {
+  const RowRays<double> row(c, y);
+  Pixel<double> p{};
+  begin_pixel(c, row, x, 1.0, row.calm_depth(x), 1e9, p);
+  begin_state(kWholeState, c, Rgb<double>{0, 0, 0}, p);
+  return p;
+}
+
+Context context_of(const Scene& scene) {
+  static const test::Buffers buffers = [] {
+    test::Buffers b(rect_of(kSize));
+    for (const PlaneId id :
+         {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB, PlaneId::kDepth}) {
+      b.fill(id, 1);
+    }
+    return b;
+  }();
+  return Context(scene, buffers.frame, 1.333, kWholeState);
+}
+
+Vec2<double> on_map(const Context& c, const Pixel<double>& p) {
+  return {dot(vec3_of<double>(c.map_x), p.surface_point),
+          dot(vec3_of<double>(c.map_y), p.surface_point)};
+}
+
+TEST(Footprint, IsThatOfNeighbouringRays) {
+  for (const bool orthographic : {false, true}) {
+    Scene scene = test::simple_scene(kSize);
+    if (orthographic) {
+      scene.camera->projection = limpid::orthographic(2.4, 1.8, 0.1, 100, ClipSpace::kGl);
+    }
+    const Context c = context_of(scene);
+    for (const double y : {20.5, 30.5, 47.5}) {
+      const Sym2<double> got = footprint(c, calm_pixel(c, 13.5, y));
+      const auto across = [&](double dx, double dy) {
+        const Vec2<double> to = on_map(c, calm_pixel(c, 13.5 + dx, y + dy));
+        const Vec2<double> from = on_map(c, calm_pixel(c, 13.5 - dx, y - dy));
+        return Vec2<double>{(to.x - from.x) / (2 * (dx + dy)), (to.y - from.y) / (2 * (dx + dy))};
+      };
+      const Vec2<double> x = across(1e-3, 0), down = across(0, 1e-3);
+      EXPECT_NEAR(12 * got.xx, x.x * x.x + down.x * down.x, 1e-5);
+      EXPECT_NEAR(12 * got.xy, x.x * x.y + down.x * down.y, 1e-5);
+      EXPECT_NEAR(12 * got.yy, x.y * x.y + down.y * down.y, 1e-5);
+    }
+  }
+}
+
+TEST(Footprint, HasBoundsAtTheHorizon) {
+  const Scene scene = test::simple_scene(kSize);
+  const Context c = context_of(scene);
+  Pixel<double> p = calm_pixel(c, 13.5, 30.5);
+  for (const double rise : {0.0, 1e-9, -1e-9, 1e-300}) {
+    p.to_viewer = normalize_or<double>({0.3, rise, 1}, {0, 0, 1});
+    p.surface_depth = 1e30;
+    const Sym2<double> got = footprint(c, p);
+    EXPECT_TRUE(std::isfinite(got.xx) && std::isfinite(got.xy) && std::isfinite(got.yy));
+    EXPECT_LE(got.yy, 1e12);
+  }
+}
+
+/// Mean and covariance of the slopes of a wave over a Gaussian footprint, by many samples.
+struct Seen {
+  Vec2<double> mean{0, 0};
+  Sym2<double> spread{0, 0, 0};
+};
+Seen sampled(const SineWave& wave, Vec2<double> at, Sym2<double> footprint) {
+  Seen seen;
+  const double a = std::sqrt(footprint.xx), b = footprint.xy / a;
+  const double rest = std::sqrt(std::max(footprint.yy - b * b, 0.0));
+  double weights = 0;
+  for (double u = -5; u <= 5; u += 0.05) {
+    for (double v = -5; v <= 5; v += 0.05) {
+      const double weight = std::exp(-0.5 * (u * u + v * v));
+      const double x = at.x + a * u, y = at.y + b * u + rest * v;
+      const double rise = wave.amplitude * std::cos(wave.k_x * x + wave.k_y * y + wave.phase);
+      const Vec2<double> slope{wave.k_x * rise, wave.k_y * rise};
+      seen.mean = seen.mean + weight * slope;
+      seen.spread = seen.spread +
+                    weight * Sym2<double>{slope.x * slope.x, slope.x * slope.y, slope.y * slope.y};
+      weights += weight;
+    }
+  }
+  seen.mean = (1 / weights) * seen.mean;
+  const Sym2<double> square{seen.mean.x * seen.mean.x, seen.mean.x * seen.mean.y,
+                            seen.mean.y * seen.mean.y};
+  seen.spread = (1 / weights) * seen.spread + -1.0 * square;
+  return seen;
+}
+
+TEST(Sines, WhatAPixelCannotResolveBecomesVariance) {
+  Scene scene = test::simple_scene(kSize);
+  const Context c = context_of(scene);
+  const SineWave wave{0.02, 3, 5, 0.7, 0};
+  WaveNormals::Params params;
+  params.model = WaveNormals::Model::kSines;
+  params.filter = WaveNormals::Filter::kVariance;
+  params.strength = 1;
+  params.waves = {wave};
+  for (const double y : {18.5, 22.5, 30.5, 47.5}) {
+    test::ProbeStrip strip;
+    strip.pixels.push_back(calm_pixel(c, 20.5, y));
+    const Vec2<double> at = on_map(c, strip.pixels[0]);
+    const Seen seen = sampled(wave,
+                              {at.x + dot(vec3_of<double>(c.map_x), vec3_of<double>(c.eye)),
+                               at.y + dot(vec3_of<double>(c.map_y), vec3_of<double>(c.eye))},
+                              footprint(c, strip.pixels[0]));
+    WaveNormals::apply(params, c, strip);
+    const Pixel<double>& p = strip.pixels[0];
+    const double up = dot(p.normal, vec3_of<double>(c.up));
+    EXPECT_NEAR(-dot(p.normal, vec3_of<double>(c.map_x)) / up, seen.mean.x, 2e-5) << y;
+    EXPECT_NEAR(-dot(p.normal, vec3_of<double>(c.map_y)) / up, seen.mean.y, 2e-5) << y;
+    EXPECT_NEAR(p.slope_variance.xx, seen.spread.xx, 1e-6) << y;
+    EXPECT_NEAR(p.slope_variance.xy, seen.spread.xy, 1e-6) << y;
+    EXPECT_NEAR(p.slope_variance.yy, seen.spread.yy, 1e-6) << y;
+  }
+}
+
+}  // namespace
+}  // namespace limpid
