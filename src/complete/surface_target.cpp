@@ -2,6 +2,7 @@
 #include "complete/surface_target.h"
 
 #include "core/lanes.h"
+#include "core/target_name.h"
 
 namespace limpid::HWY_NAMESPACE {
 namespace {
@@ -28,10 +29,7 @@ void row(const Context& context, const RaisedWater<float>& water, int y, const V
 
 namespace limpid {
 
-#define LIMPID_JOIN_(a, b) a##b
-#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
-
-extern const SurfaceTarget LIMPID_JOIN(kSurface_, LIMPID_LANES_TARGET);
-const SurfaceTarget LIMPID_JOIN(kSurface_, LIMPID_LANES_TARGET) = {HWY_NAMESPACE::row};
+extern const SurfaceTarget LIMPID_OF_TARGET(kSurface_);
+const SurfaceTarget LIMPID_OF_TARGET(kSurface_) = {HWY_NAMESPACE::row};
 
 }  // namespace limpid

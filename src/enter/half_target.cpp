@@ -8,6 +8,7 @@
 #include <Imath/half.h>
 #include <hwy/highway.h>
 
+#include "core/target_name.h"
 #include "enter/half.h"
 
 namespace limpid::HWY_NAMESPACE {
@@ -38,11 +39,7 @@ void narrow(const float* floats, std::byte* halves, std::ptrdiff_t stride, int c
 
 namespace limpid {
 
-#define LIMPID_JOIN_(a, b) a##b
-#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
-
-extern const HalfTarget LIMPID_JOIN(kHalf_, LIMPID_LANES_TARGET);
-const HalfTarget LIMPID_JOIN(kHalf_, LIMPID_LANES_TARGET) = {HWY_NAMESPACE::widen,
-                                                             HWY_NAMESPACE::narrow};
+extern const HalfTarget LIMPID_OF_TARGET(kHalf_);
+const HalfTarget LIMPID_OF_TARGET(kHalf_) = {HWY_NAMESPACE::widen, HWY_NAMESPACE::narrow};
 
 }  // namespace limpid

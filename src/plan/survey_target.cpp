@@ -1,5 +1,6 @@
 // Compiled once for each instruction set, as run/lanes_target.cpp is; the same holds here.
 #include "core/lanes.h"
+#include "core/target_name.h"
 #include "plan/survey_scan.h"
 
 namespace limpid::HWY_NAMESPACE {
@@ -259,12 +260,8 @@ void wet(const Context& context, const HeightError& error, const View<const floa
 
 namespace limpid {
 
-#define LIMPID_JOIN_(a, b) a##b
-#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
-
-extern const ScanTarget LIMPID_JOIN(kScan_, LIMPID_LANES_TARGET);
-const ScanTarget LIMPID_JOIN(kScan_, LIMPID_LANES_TARGET) = {
-    HWY_NAMESPACE::range, HWY_NAMESPACE::highest_water, HWY_NAMESPACE::highest_seen,
-    HWY_NAMESPACE::wet};
+extern const ScanTarget LIMPID_OF_TARGET(kScan_);
+const ScanTarget LIMPID_OF_TARGET(kScan_) = {HWY_NAMESPACE::range, HWY_NAMESPACE::highest_water,
+                                             HWY_NAMESPACE::highest_seen, HWY_NAMESPACE::wet};
 
 }  // namespace limpid

@@ -1,5 +1,6 @@
 // Compiled once for each instruction set, like run/lanes_target.cpp: all that is instantiated here
 // lives in the namespace of the set.
+#include "core/target_name.h"
 #include "raster/blend.h"
 #include "raster/cull_stage.h"
 #include "raster/vertex_stage.h"
@@ -86,11 +87,8 @@ void draw_tile(const ShadeJob& job, int index) {
 
 namespace limpid::raster {
 
-#define LIMPID_JOIN_(a, b) a##b
-#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
-
-extern const RasterTarget LIMPID_JOIN(kRaster_, LIMPID_LANES_TARGET);
-const RasterTarget LIMPID_JOIN(kRaster_, LIMPID_LANES_TARGET) = {
-    HWY_NAMESPACE::transform, HWY_NAMESPACE::cull, HWY_NAMESPACE::set_up, HWY_NAMESPACE::draw_tile};
+extern const RasterTarget LIMPID_OF_TARGET(kRaster_);
+const RasterTarget LIMPID_OF_TARGET(kRaster_) = {HWY_NAMESPACE::transform, HWY_NAMESPACE::cull,
+                                                 HWY_NAMESPACE::set_up, HWY_NAMESPACE::draw_tile};
 
 }  // namespace limpid::raster

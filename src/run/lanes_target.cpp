@@ -1,6 +1,7 @@
 // Compiled once for each instruction set, with that set's flags and LIMPID_LANES_TARGET naming it.
 // All that is instantiated here depends on the Lane type of the set, so that no function compiled
 // for one machine can be linked into the path of another.
+#include "core/target_name.h"
 #include "run/flush_denormals.h"
 #include "run/fused_strip.h"
 
@@ -100,13 +101,11 @@ void run_tile(const FusedJob& job, const Rect& tile) {
 
 namespace limpid {
 
-#define LIMPID_JOIN_(a, b) a##b
-#define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)
 #define LIMPID_TEXT_(a) #a
 #define LIMPID_TEXT(a) LIMPID_TEXT_(a)
 
-extern const FusedTarget LIMPID_JOIN(kFused_, LIMPID_LANES_TARGET);
-const FusedTarget LIMPID_JOIN(kFused_, LIMPID_LANES_TARGET) = {
-    LIMPID_TEXT(LIMPID_LANES_TARGET), HWY_NAMESPACE::kLanes, HWY_NAMESPACE::run_tile};
+extern const FusedTarget LIMPID_OF_TARGET(kFused_);
+const FusedTarget LIMPID_OF_TARGET(kFused_) = {LIMPID_TEXT(LIMPID_LANES_TARGET),
+                                               HWY_NAMESPACE::kLanes, HWY_NAMESPACE::run_tile};
 
 }  // namespace limpid
