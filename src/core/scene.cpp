@@ -61,7 +61,7 @@ void Scene::validate() const {
         throw Error(text);
       }
     }
-    if (!(sun->diameter >= 0.01 && sun->diameter <= 90)) {
+    if (!(sun->diameter >= Sun::kNarrowest && sun->diameter <= Sun::kWidest)) {
       throw Error("sun.diameter = " + std::to_string(sun->diameter) +
                   " degrees, expected 0.01 ... 90");
     }

@@ -73,7 +73,7 @@ WaterPlane water_of(const TomlNode& table) {
 }
 
 Sun sun_of(const TomlNode& table) {
-  table.expect_keys(Names{"direction", "color"});
+  table.expect_keys(Names{"direction", "color", "diameter"});
   Sun sun;
   const TomlNode* direction = table.find("direction");
   if (!direction) throw Error(table.place + "sun: expected a direction towards the sun");
@@ -83,6 +83,12 @@ Sun sun_of(const TomlNode& table) {
     const auto in_range = [](double x) { return x >= 0 && x <= Sun::kBrightest; };
     if (!std::all_of(c.begin(), c.end(), in_range)) color->refuse("three numbers of 0 ... 1e9");
     sun.color = {c[0], c[1], c[2]};
+  }
+  if (const TomlNode* diameter = table.find("diameter")) {
+    sun.diameter = diameter->finite_number();
+    if (!(sun.diameter >= Sun::kNarrowest && sun.diameter <= Sun::kWidest)) {
+      diameter->refuse("a number of degrees, 0.01 ... 90");
+    }
   }
   return sun;
 }
@@ -293,7 +299,8 @@ std::string to_toml(const Scene& scene) {
     const glm::dvec3& d = scene.sun->direction;
     const Rgb<double>& c = scene.sun->color;
     text += "[sun]\ndirection = " + list_text({d.x, d.y, d.z}) +
-            "\ncolor = " + list_text({c.r, c.g, c.b}) + "\n";
+            "\ncolor = " + list_text({c.r, c.g, c.b}) +
+            "\ndiameter = " + toml_text(scene.sun->diameter) + "\n";
   }
   return text;
 }

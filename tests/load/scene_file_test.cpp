@@ -82,6 +82,8 @@ TEST(SceneFile, DirectionsAreMadeUnit) {
   EXPECT_EQ(file.scene.water->height, 1.5);
   EXPECT_NEAR(glm::distance(file.scene.sun->direction, glm::dvec3(0.6, 0, 0.8)), 0, 1e-15);
   EXPECT_EQ(file.scene.sun->color, (Rgb<double>{1, 1, 1}));
+  EXPECT_EQ(file.scene.sun->diameter, 0.533);
+  EXPECT_EQ(scene_of("[sun]\ndirection = [0, 1, 0]\ndiameter = 2.5\n").scene.sun->diameter, 2.5);
   EXPECT_EQ(scene_of("[water]\n").scene.water->up, glm::dvec3(0, 1, 0));
 }
 
@@ -221,6 +223,8 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[water]\nup = \"y\"\n", ":2:6: ", "water.up = \"y\": expected a list of 3 numbers"},
       {"[water]\nheight = inf\n", ":2:10: ", "water.height = inf: expected a finite number"},
       {"[sun]\ncolor = [1, 1, 1]\n", ":1:", "sun: expected a direction"},
+      {"[sun]\ndirection = [0, 1, 0]\ndiameter = 0\n",
+       ":3:12: ", "expected a number of degrees, 0.01 ... 90"},
       {"[sun]\ndirection = [0, inf, 0]\n", ":2:17: ", "expected a finite number"},
       {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, -1, 1]\n",
        ":3:9: ", "three numbers of 0 ... 1e9"},

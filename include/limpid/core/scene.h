@@ -52,7 +52,8 @@ struct Sun {
 
   glm::dvec3 direction{0, 1, 0};
   Rgb<double> color{1, 1, 1};
-  double diameter = 0.533;  ///< of its disc, in degrees: 0.01 ... 90
+  static constexpr double kNarrowest = 0.01, kWidest = 90;
+  double diameter = 0.533;  ///< of its disc, in degrees: kNarrowest ... kWidest
 
   double radius() const { return diameter * (std::numbers::pi / 360); }  ///< rad
 };
@@ -68,8 +69,8 @@ struct Scene {
   /// Whether its water has waves of its own.
   bool has_waves() const { return water && !water->waves.empty(); }
 
-  /// Throws Error for a bad camera, a water or sun direction that is not unit, a sun color out of
-  /// its range, and numbers that are not finite.
+  /// Throws Error for a bad camera, a water or sun direction that is not unit, a sun color or
+  /// diameter out of its range, and numbers that are not finite.
   void validate() const;
 };
 

@@ -48,7 +48,7 @@ Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1)
 ///                depth_nothing: what depth planes hold where nothing was hit, if not a number that
 ///                always means so (1e9 and above, inf, the far plane): 0, as a rule
 ///     [water]    up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
-///     [sun]      direction, color (0 ... 1e9)
+///     [sun]      direction, color (0 ... 1e9), diameter (0.01 ... 90 degrees)
 ///     [scene]    time, in seconds: that of the picture, unless another one is asked for
 ///
 /// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
