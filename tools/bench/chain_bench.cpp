@@ -29,19 +29,29 @@ void spoil(const Target& target) {
   }
 }
 
+Look look_named(const char* name) {
+  return load_look(LIMPID_DATA "/looks/" + std::string(name) + ".toml");
+}
+
+/// The work of the rivals, which look up the map itself at every distance.
+Look unfiltered(Look look) {
+  look.of<WaveNormals>().filter = WaveNormals::Filter::kNone;
+  return look;
+}
+
 }  // namespace
 
-JudgedLook::JudgedLook(const char* name, const MadePlate& plate)
-    : look(load_look(LIMPID_DATA "/looks/" + std::string(name) + ".toml")),
+JudgedLook::JudgedLook(const Look& a_look, const MadePlate& plate)
+    : look(a_look),
       plan(make_plan(look, {.planes = plate.frame.present(), .wave_map = true, .sun = true})),
       judge(plate.frame.display) {}
 
 ChainBench::ChainBench(const std::string& label, const Arguments& arguments)
     : arguments_(arguments),
       plate_(size_of(label)),
-      realistic_("realistic", plate_),
-      physical_("physical", plate_),
-      fast_("fast", plate_),
+      realistic_(unfiltered(look_named("realistic")), plate_),
+      physical_(look_named("physical"), plate_),
+      fast_(look_named("fast"), plate_),
       numbers_(realistic_.look, plate_.frame, plate_.scene),
       scalar_{numbers_, plate_.frame, plate_.frame.wave_map.channels[0].window.size(),
               interleaved(plate_.frame.wave_map.channels)},
@@ -168,7 +178,7 @@ Size size_of(const std::string& label) {
 
 std::unique_ptr<GlDrawing> llvmpipe_chain(const std::string& label) {
   const MadePlate plate(size_of(label));
-  const Look look = load_look(LIMPID_DATA "/looks/realistic.toml");
+  const Look look = unfiltered(look_named("realistic"));
   return std::make_unique<LlvmpipeChain>(RealisticNumbers(look, plate.frame, plate.scene),
                                          plate.frame);
 }

@@ -21,7 +21,7 @@ namespace limpid::bench {
 
 /// A look on the plate, and its picture by the reference, should it be needed.
 struct JudgedLook {
-  JudgedLook(const char* name, const MadePlate& plate);
+  JudgedLook(const Look& a_look, const MadePlate& plate);
 
   Look look;
   Plan plan;

@@ -109,6 +109,8 @@ void MadePlate::make_map() {
   }
   map_bytes_ = pack_bytes(frame.wave_map);
   frame.wave_map.bytes = map_bytes_.data();
+  map_levels_.make(frame.wave_map);
+  frame.wave_map.levels = &map_levels_.levels();
 }
 
 double MadePlate::wet_share() const {

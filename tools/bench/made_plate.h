@@ -3,6 +3,7 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/core/texture_levels.h"
 
 namespace limpid::bench {
 
@@ -24,6 +25,7 @@ struct MadePlate {
   std::array<Plane, kPlaneCount> planes_;
   std::array<Plane, 3> map_;
   std::vector<std::uint32_t> map_bytes_;
+  LevelMaker map_levels_;
 };
 
 }  // namespace limpid::bench
