@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "limpid/complete/displaced_surface.h"
+#include "limpid/complete/completer.h"
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
 #include "limpid/job_files.h"
@@ -131,12 +131,8 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   const LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
   loaded.frame.validate();
   const Context context(scene, loaded.frame, plan.look.water.ior, plan.made, plan.swell());
-  Frame frame = loaded.frame;
-  DisplacedSurface surface;
-  if (plan.completed.has(PlaneId::kSurfaceDepth)) {
-    surface.make(frame, context, executor, &job.output.simd);
-    frame.planes[index_of(PlaneId::kSurfaceDepth)] = surface.depth().view();
-  }
+  Completer completer;
+  const Frame frame = completer.complete(plan, loaded.frame, context, executor, &job.output.simd);
   const Context whole(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
   surveyed.warnings = warnings_of(job, plate, plan);

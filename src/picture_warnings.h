@@ -8,7 +8,7 @@
 
 namespace limpid {
 
-/// Adds a sentence for each of these, which hardly anybody means. The frame has been checked.
+/// Adds a sentence for each of these probable mistakes. The frame has been checked.
 ///
 /// - No pixel of Frame::work() is wet, or all are, seen from the air: then water, camera and depth
 ///   do not fit together.

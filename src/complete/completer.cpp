@@ -1,27 +1,34 @@
 #include "limpid/complete/completer.h"
 
+#include <string_view>
+
 namespace limpid {
 
 Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& context,
                           Executor& executor, const std::string* simd) {
   Frame whole = frame;
-  const auto lacks = [&](PlaneId plane) {
-    return plan.completed.has(plane) && !frame.plane(plane);
+  // What a completer is to make of a plane that is there is a mended one.
+  const auto made_by = [&](std::string_view name) {
+    for (const CompleterInfo& completer : completers()) {
+      if (completer.name != name || !frame.present().covers(completer.inputs)) continue;
+      return plan.completed & ((completer.makes - frame.present()) | completer.mends);
+    }
+    return PlaneSet{};
   };
-  const auto take = [&](PlaneId plane, const Plane& made) {
-    if (lacks(plane)) whole.planes[index_of(plane)] = made.view();
+  const auto take = [&](PlaneSet made, PlaneId plane, const Plane& with) {
+    if (made.has(plane)) whole.planes[index_of(plane)] = with.view();
   };
-  if (lacks(PlaneId::kSurfaceDepth)) {
+  if (const PlaneSet made = made_by("displaced_surface"); !made.empty()) {
     displaced_surface_.make(frame, context, executor, simd);
-    take(PlaneId::kSurfaceDepth, displaced_surface_.depth());
+    take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth());
   }
-  if (lacks(PlaneId::kReflectionDepth) || lacks(PlaneId::kReflectionValid)) {
+  if (const PlaneSet made = made_by("mirror_depth"); !made.empty()) {
     mirror_depth_.make(frame, context, executor);
-    take(PlaneId::kReflectionDepth, mirror_depth_.depth());
-    take(PlaneId::kReflectionValid, mirror_depth_.valid());
+    take(made, PlaneId::kReflectionDepth, mirror_depth_.depth());
+    take(made, PlaneId::kReflectionValid, mirror_depth_.valid());
   }
-  if (lacks(PlaneId::kSkyR) && sky_.make(frame, executor)) {
-    for (int i = 0; i < 3; ++i) take(plane_after(PlaneId::kSkyR, i), sky_.color(i));
+  if (const PlaneSet made = made_by("sky"); !made.empty() && sky_.make(frame, executor)) {
+    for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i));
   }
   complete_waves(plan, context, executor, whole);
   return whole;

@@ -77,6 +77,7 @@ void scatter_row(const Context& c, const View<const float>& dry, int y, const Vi
 /// what a row of points between two pixels has lost.
 constexpr int kLeastNeighbours = 3;
 
+/// What closes a hole is negative, until tell_real() has seen that it was one.
 void close_holes(const View<const float>& from, int y, const View<float>& to) {
   const Rect& window = from.window;
   const int width = window.width();
@@ -89,27 +90,27 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
     float greatest = 0, known = 0;
     for (const float* row : rows) {
       for (int i = -1; i <= 1; ++i) {
-        const float depth = row[x + i];
+        const float depth = std::abs(row[x + i]);
         known += depth < kNothing ? 1.0f : 0.0f;
         greatest = std::max(greatest, depth < kNothing ? depth : 0.0f);
       }
     }
     const bool hole = !(rows[1][x] < kNothing) && known >= kLeastNeighbours;
-    out[x] = hole ? greatest : rows[1][x];
+    out[x] = hole ? -greatest : rows[1][x];
   }
 }
 
-void tell_real(const Context& c, const View<const float>& dry, const View<float>& image, int y,
-               const View<float>& to) {
+void tell_real(const Context& c, const View<const float>& dry, const View<const float>& given,
+               const View<float>& image, int y, const View<float>& to) {
   const int at_y = std::clamp(y, dry.window.y0, dry.window.y1 - 1);
   const RowHeights heights(c, at_y);
   for (int x = to.window.x0; x < to.window.x1; ++x) {
     const int at_x = std::clamp(x, dry.window.x0, dry.window.x1 - 1);
-    const float stands = dry.at(at_x, at_y);
-    const bool unknown = !(image.at(x, y) < kNothing) && stands < 1e30f;
+    const float stands = dry.at(at_x, at_y), seen = image.at(x, y);
+    const bool unknown = !(seen > 0 && seen < kNothing) && stands < 1e30f;
     const bool inside = unknown && heights.at(at_x, stands) * c.eye_above > 0;
-    if (inside) image.at(x, y) = stands;
-    to.at(x, y) = inside ? 0.0f : 1.0f;
+    image.at(x, y) = inside ? stands : std::abs(seen);
+    to.at(x, y) = inside ? 0.0f : given ? given.at(x, y) : 1.0f;
   }
 }
 
@@ -117,17 +118,26 @@ void tell_real(const Context& c, const View<const float>& dry, const View<float>
 
 void MirrorDepth::make(const Frame& frame, const Context& context, Executor& executor) {
   const View<const float>& dry = frame.plane(PlaneId::kDepth);
-  const Rect& window = frame.plane(PlaneId::kReflectionR).window;
+  Rect window = frame.plane(PlaneId::kReflectionR).window;
+  for (const PlaneId plane : {PlaneId::kReflectionDepth, PlaneId::kReflectionValid}) {
+    if (frame.plane(plane)) window = intersection(window, frame.plane(plane).window);
+  }
   for (Plane* plane : {&depth_, &valid_}) {
     if (!*plane || plane->view().window != window) *plane = Plane(window);
   }
   const View<float> depth = depth_.view(), valid = valid_.view();
-  each_row(executor, window, [&](int y) { std::fill_n(depth.row(y), window.width(), kNothing); });
-  each_row(executor, dry.window, [&](int y) { scatter_row(context, dry, y, depth); });
-  // The other plane is room for the depths until it is made.
-  each_row(executor, window, [&](int y) { close_holes(depth, y, valid); });
-  each_row(executor, window, [&](int y) { close_holes(valid, y, depth); });
-  each_row(executor, window, [&](int y) { tell_real(context, dry, depth, y, valid); });
+  if (const View<const float>& given = frame.plane(PlaneId::kReflectionDepth)) {
+    each_row(executor, window,
+             [&](int y) { std::copy_n(&given.at(window.x0, y), window.width(), depth.row(y)); });
+  } else {
+    each_row(executor, window, [&](int y) { std::fill_n(depth.row(y), window.width(), kNothing); });
+    each_row(executor, dry.window, [&](int y) { scatter_row(context, dry, y, depth); });
+    // The other plane is room for the depths until it is made.
+    each_row(executor, window, [&](int y) { close_holes(depth, y, valid); });
+    each_row(executor, window, [&](int y) { close_holes(valid, y, depth); });
+  }
+  const View<const float>& given = frame.plane(PlaneId::kReflectionValid);
+  each_row(executor, window, [&](int y) { tell_real(context, dry, given, depth, y, valid); });
 }
 
 }  // namespace limpid

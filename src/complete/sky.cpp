@@ -54,42 +54,29 @@ struct Picture {
   bool is_sky(int x, int y) const {
     return !(depth.at(x, y) < 1e30f) && !(alpha && alpha.at(x, y) < 0.5f);
   }
+  Texel sky_at(int x, int y) const {
+    if (!is_sky(x, y)) return {};
+    return {color[0].at(x, y), color[1].at(x, y), color[2].at(x, y), 1};
+  }
 };
 
-/// Adds a texel to a sum.
-void add(Texel& sum, const Texel& texel) {
-  for (std::size_t i = 0; i < 3; ++i) sum[i] += texel[3] * texel[i];
-  sum[3] += texel[3];
-}
-
-Texel mean(const Texel& sum) {
+/// The mean of four texels of a picture of that size, by their shares of sky: those at (2 x, 2 y)
+/// and after.
+template <class At>
+Texel mean_of_four(Size size, int x, int y, At&& at) {
+  Texel sum{};
+  for (int k = 0; k < 4; ++k) {
+    const int column = 2 * x + (k & 1), row = 2 * y + (k >> 1);
+    if (column >= size.width || row >= size.height) continue;
+    const Texel texel = at(column, row);
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += texel[3] * texel[i];
+    sum[3] += texel[3];
+  }
   if (!(sum[3] > 0)) return {};
   return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3], std::min(sum[3], 1.0f)};
 }
 
 }  // namespace
-
-/// The first level, from the picture itself.
-void Sky::mean_of_picture(const Frame& frame, Executor& executor) {
-  const Picture picture(frame);
-  Level& level = levels_[0];
-  level.window = half_of(picture.window);
-  level.texels.resize(static_cast<std::size_t>(level.window.area()));
-  each_row(executor, level.window, [&](int y) {
-    for (int x = 0; x < level.window.width(); ++x) {
-      Texel sum{};
-      for (int k = 0; k < 4; ++k) {
-        const int column = picture.window.x0 + 2 * x + (k & 1);
-        const int row = picture.window.y0 + 2 * y + (k >> 1);
-        if (column >= picture.window.x1 || row >= picture.window.y1) continue;
-        if (!picture.is_sky(column, row)) continue;
-        add(sum, {picture.color[0].at(column, row), picture.color[1].at(column, row),
-                  picture.color[2].at(column, row), 1});
-      }
-      level.at(x, y) = mean(sum);
-    }
-  });
-}
 
 /// What a level lacks, from the coarser one.
 void Sky::fill(Level& finer, Level& coarser, Executor& executor) const {
@@ -108,22 +95,21 @@ bool Sky::make(const Frame& frame, Executor& executor) {
   std::size_t count = 1;
   for (Rect w = half_of(picture.window); w.width() > 1 || w.height() > 1; w = half_of(w)) ++count;
   levels_.resize(count);
-  mean_of_picture(frame, executor);
-  for (std::size_t i = 1; i < count; ++i) {
-    Level &finer = levels_[i - 1], &level = levels_[i];
-    level.window = half_of(finer.window);
+  const auto reduce = [&](Level& level, const Rect& finer, auto&& at) {
+    level.window = half_of(finer);
     level.texels.resize(static_cast<std::size_t>(level.window.area()));
     each_row(executor, level.window, [&](int y) {
       for (int x = 0; x < level.window.width(); ++x) {
-        Texel sum{};
-        for (int k = 0; k < 4; ++k) {
-          const int column = 2 * x + (k & 1), row = 2 * y + (k >> 1);
-          if (column >= finer.window.width() || row >= finer.window.height()) continue;
-          add(sum, finer.at(column, row));
-        }
-        level.at(x, y) = mean(sum);
+        level.at(x, y) = mean_of_four(finer.size(), x, y, at);
       }
     });
+  };
+  reduce(levels_[0], picture.window, [&](int x, int y) {
+    return picture.sky_at(picture.window.x0 + x, picture.window.y0 + y);
+  });
+  for (std::size_t i = 1; i < count; ++i) {
+    Level& finer = levels_[i - 1];
+    reduce(levels_[i], finer.window, [&](int x, int y) { return finer.at(x, y); });
   }
   if (!(levels_.back().at(0, 0)[3] > 0)) return false;
   for (std::size_t i = count - 1; i > 0; --i) fill(levels_[i - 1], levels_[i], executor);

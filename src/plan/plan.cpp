@@ -138,33 +138,23 @@ void tell_depthless(Plan& plan, const Inputs& inputs, StateSet) {
       "reflection_depth, or fresnel_reflection.source = auto");
 }
 
-/// Water whose waves are known is met where they raise it. A plate knows its surface better; maps
-/// and the frame's normals say how it leans, not how high it is.
-void raise_water(Plan& plan, const Inputs& inputs, StateSet) {
-  const WaveNormals::Params& params = plan.look.of<WaveNormals>();
-  PlannedOperator& waves = planned<WaveNormals>(plan);
-  if (params.model != WaveNormals::Model::kSines || params.strength == 0) return;
-  if (params.waves.empty() && !inputs.waves) return;
-  if (inputs.planes.has(PlaneId::kSurfaceDepth)) return;
-  plan.completed = plan.completed | PlaneSet{PlaneId::kSurfaceDepth};
-  waves.reason += (waves.reason.empty() ? "" : "; ") + std::string("its waves raise the water");
-}
-
-/// What an operator that runs would like to have is made, where the plate lacks it.
+/// Planes that an operator which runs can use are made, where the plate lacks them.
 void complete_planes(Plan& plan, const Inputs& inputs, StateSet) {
-  PlaneSet wanted;
+  const AtHand has{inputs.planes, inputs.environment, inputs.waves};
   Chain::for_each([&]<class Op, int I>() {
-    if constexpr (requires { Op::wants(plan.look.of<Op>(), inputs.planes, inputs.environment); }) {
-      if (plan.keeps(I)) {
-        wanted = wanted | Op::wants(plan.look.of<Op>(), inputs.planes, inputs.environment);
+    if constexpr (requires { Op::wants(plan.look.of<Op>(), has); }) {
+      if (!plan.keeps(I)) return;
+      const PlaneSet wanted = Op::wants(plan.look.of<Op>(), has);
+      for (const CompleterInfo& completer : completers()) {
+        const PlaneSet makes = wanted & completer.makes;
+        const PlaneSet made = (makes - inputs.planes) | (makes & completer.mends);
+        if (made.empty() || !inputs.planes.covers(completer.inputs)) continue;
+        plan.completed = plan.completed | made;
+        std::string& reason = plan.operators[I].reason;
+        reason += (reason.empty() ? "" : "; ") + std::string(completer.name) + " is made";
       }
     }
   });
-  wanted = wanted - inputs.planes;
-  for (const CompleterInfo& completer : completers()) {
-    if (!wanted.meets(completer.makes) || !inputs.planes.covers(completer.inputs)) continue;
-    plan.completed = plan.completed | (wanted & completer.makes);
-  }
 }
 
 using Rule = void (*)(Plan&, const Inputs&, StateSet outputs);
@@ -177,10 +167,8 @@ constexpr RuleInfo kRuleInfos[] = {
     {"drop_neutral", "What its parameters make the identity does not run."},
     {"drop_unread", "What nothing reads does not run."},
     {"fill_reflection", "The surroundings are seen where the reflection is not valid."},
-    {"tell_depthless", "A reflection without a depth is told of."},
-    {"raise_water",
-     "Without a plane of the surface the water stands where its sine waves raise it."},
-    {"complete_planes", "What nobody rendered is made, where an operator can use it."},
+    {"tell_depthless", "A warning tells of a reflection without a depth."},
+    {"complete_planes", "Planes that nobody rendered are made, where an operator can use them."},
     {"copy_dry", "Cells without a wet pixel are copied."},
     {"skip_rejection", "Without foreground in reach refraction need not test for it."},
     {"skip_hidden", "Where fog hides the end of every way, nothing is refracted."},
@@ -189,7 +177,7 @@ constexpr RuleInfo kRuleInfos[] = {
 };
 constexpr Rule kRules[] = {take_plate_normals, take_other_reflection, drop_absent_input,
                            drop_neutral,       drop_unread,           fill_reflection,
-                           tell_depthless,     raise_water,           complete_planes};
+                           tell_depthless,     complete_planes};
 
 /// Says of each operator which rule spoke of it last.
 void apply_rules(Plan& plan, const Inputs& inputs, StateSet outputs) {

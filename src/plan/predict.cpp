@@ -14,11 +14,12 @@ double ns_of(const Params&, const Plan&) {
 
 double ns_of(const WaveNormals::Params& p, const Plan&) {
   using Model = WaveNormals::Model;
+  const bool variance = p.filter == WaveNormals::Filter::kVariance;
   switch (p.model) {
     case Model::kPlate:
-      return 0.5;
+      return variance ? 6 : 0.5;
     case Model::kSines:
-      return 0.5 + 2.0 * static_cast<double>(p.waves.size());
+      return 0.5 + (variance ? 4.0 : 2.0) * static_cast<double>(p.waves.size());
     case Model::kTwoFlows:
     case Model::kDudv:
       return 6;
@@ -57,14 +58,24 @@ double ns_of(const FresnelReflection::Params& p, const Plan& plan) {
       p.reflectance == F::Reflectance::kRim || p.reflectance == F::Reflectance::kInversePower ? 1.5
                                                                                               : 0.6;
   if (p.source == F::Source::kConstant) return formula;
-  if (p.source == F::Source::kEnvironment) return formula + 8;
+  const double facets = p.facets == F::Facets::kSpread ? 1.6 : 1;
+  if (p.source == F::Source::kEnvironment) return formula + 8 * facets;
+  if (p.source == F::Source::kAuto && !plan.planes.covers(kReflectionPlanes)) {
+    return formula + 150 * facets;
+  }
+  const PlaneSet seen = plan.planes | plan.completed;
+  if (p.source == F::Source::kAuto && seen.has(PlaneId::kReflectionDepth)) {
+    return formula + 55 * facets;
+  }
   const bool probes = plan.planes.has(PlaneId::kReflectionValid);
   if (p.lookup == F::Lookup::kOffset) return formula + (probes ? 12 : 3);
   return formula + (plan.planes.has(PlaneId::kReflectionDepth) ? 30 : probes ? 16 : 4);
 }
 
 double ns_of(const SunHighlight::Params& p, const Plan&) {
-  return p.model == SunHighlight::Model::kGgx ? 2.5 : 2;
+  return p.model == SunHighlight::Model::kGgx      ? 2.5
+         : p.model == SunHighlight::Model::kSlopes ? 4
+                                                   : 2;
 }
 
 double ns_of(const Penetration::Params&, const Plan&) { return 1.5; }

@@ -34,7 +34,9 @@ int count_of(int pixels, int part) { return (pixels + part - 1) / part; }
 double reach_of(const Plan& plan, const Context& context) {
   double reach = 0, stretch = 1;
   Chain::for_each([&]<class Op, int I>() {
-    if (!plan.keeps(I) || std::is_same_v<Op, FresnelReflection>) return;  // it follows another ray
+    // These follow other rays.
+    if (std::is_same_v<Op, FresnelReflection> || std::is_same_v<Op, SunHighlight>) return;
+    if (!plan.keeps(I)) return;
     const auto& params = plan.look.of<Op>();
     reach += Op::reach(params);
     if constexpr (std::is_same_v<Op, PrismSplit>) stretch = PrismSplit::stretch(params, context);

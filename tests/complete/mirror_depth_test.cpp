@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support.h"
+#include "complete/shore.h"
 
 // The depth of a mirror that nobody rendered.
 
@@ -11,54 +11,9 @@ namespace {
 
 using test::kInf;
 
-constexpr Size kSize{64, 48};
-constexpr glm::dvec3 kUp{0, 1, 0};
+using test::Shore;
 
-/// Two metres above the water, level, looking along -z: the horizon is in the middle.
-Scene shore_scene() {
-  Scene scene;
-  Camera camera;
-  camera.view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), kUp);
-  camera.projection = perspective(1, 4.0 / 3, 0.1, 1e3, ClipSpace::kGl);
-  scene.camera = camera;
-  scene.water = WaterPlane{};
-  return scene;
-}
-
-/// A wall across the view, `far` away and `top` high, on a bottom `deep` under the water, before an
-/// open sky.
-struct Shore {
-  double far = 20, top = 6, deep = 3;
-  Scene scene = shore_scene();
-  test::Buffers buffers{rect_of(kSize)};
-
-  Shore() {
-    buffers.set(PlaneId::kDepth, [&](int x, int y) { return dry_depth(x, y); });
-    for (PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB, PlaneId::kReflectionR,
-                       PlaneId::kReflectionG, PlaneId::kReflectionB}) {
-      buffers.fill(id, 0.5f);
-    }
-  }
-  glm::dvec3 ray(int x, int y) const {
-    return rays_of(*scene.camera, {kSize.width, kSize.height}).ray_at(x + 0.5, y + 0.5);
-  }
-  float dry_depth(int x, int y) const {
-    const double sinks = ray(x, y).y;
-    if (2 + far * sinks > top) return kInf;
-    return static_cast<float>(sinks < 0 ? std::min(far, -(2 + deep) / sinks) : far);
-  }
-  /// What a mirror at the water shows: the wall, upside down.
-  double mirrored_depth(int x, int y) const {
-    const double height = -(2 + far * ray(x, y).y);
-    return height > 0 && height < top ? far : HUGE_VAL;
-  }
-  const MirrorDepth& made(Executor& executor) {
-    const Context context(scene, buffers.frame, 1.333, kWholeState);
-    mirror.make(buffers.frame, context, executor);
-    return mirror;
-  }
-  MirrorDepth mirror;
-};
+constexpr Size kSize = Shore::kSize;
 
 TEST(MirrorDepth, AWallIsSeenUpsideDown) {
   Shore shore;
@@ -104,6 +59,30 @@ TEST(MirrorDepth, InsidesAreNotReal) {
       EXPECT_EQ(made.valid().view().at(x, y), 0) << x << ", " << y;
       EXPECT_EQ(made.depth().view().at(x, y), 20) << "a ray that comes there has met the wall";
       ++insides;
+    }
+  }
+  EXPECT_GT(insides, 300);
+}
+
+// A renderer that draws no backfaces sees through the wall, infinitely far.
+TEST(MirrorDepth, AGivenDepthIsMendedOnlyInside) {
+  Shore shore;
+  const auto wall_before_water = [&](int x, int y) {
+    return shore.dry_depth(x, y) == 20 && 2 + 20 * shore.ray(x, y).y > 0;
+  };
+  shore.buffers.set(PlaneId::kReflectionDepth, [&](int x, int y) {
+    return wall_before_water(x, y) ? kInf : 30 + test::noise(x, y, 1);
+  });
+  shore.buffers.set(PlaneId::kReflectionValid, [](int x, int y) { return test::noise(x, y, 2); });
+  const auto executor = make_executor(1);
+  const MirrorDepth& made = shore.made(*executor);
+  int insides = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const bool wall = wall_before_water(x, y);
+      insides += wall ? 1 : 0;
+      EXPECT_EQ(made.depth().view().at(x, y), wall ? 20 : 30 + test::noise(x, y, 1));
+      EXPECT_EQ(made.valid().view().at(x, y), wall ? 0 : test::noise(x, y, 2));
     }
   }
   EXPECT_GT(insides, 300);

@@ -20,8 +20,8 @@ namespace limpid {
 class Completer {
  public:
   /// The frame with what was made; its views hold until the next call. `context` is that of the
-  /// frame as it is. Nothing but views is copied. `simd` as in FusedOptions; without it formulas
-  /// run in double.
+  /// frame as it is. A plane whose inputs the frame lacks is not made. Nothing but views is copied.
+  /// `simd` as in FusedOptions; without it formulas run in double.
   Frame complete(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
                  const std::string* simd = nullptr);
 

@@ -6,7 +6,8 @@
 
 namespace limpid {
 
-/// The depth of a reflection that came without one, and which of its pixels are real.
+/// The depth of a reflection that came without one, and which of its pixels are real. Of a
+/// reflection that has its depth, or says which pixels are real, that is kept; the rest holds.
 ///
 /// Each point of the dry scene on the eye's side of the calm water is put where its mirror image is
 /// seen; the nearest one wins. Small holes, between points that lie farther apart in the mirror
@@ -18,7 +19,8 @@ namespace limpid {
 /// inside: it is not real, and a ray that comes there has met that thing.
 class MirrorDepth {
  public:
-  /// Looks at depth and at the window of the reflection.
+  /// Looks at depth, at the window of the reflection, and at reflection_depth and reflection_valid
+  /// where they are there.
   void make(const Frame& frame, const Context& context, Executor& executor);
 
   const Plane& depth() const { return depth_; }  ///< eye depth, +inf where nothing is known

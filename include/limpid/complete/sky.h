@@ -28,7 +28,6 @@ class Sky {
     }
   };
 
-  void mean_of_picture(const Frame& frame, Executor& executor);
   void fill(Level& finer, Level& coarser, Executor& executor) const;
 
   std::array<Plane, 3> color_;

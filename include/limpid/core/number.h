@@ -54,14 +54,6 @@ struct Loop {
       if (!any(body(i))) break;
     }
   }
-  /// The same; leap(i) may say a later i to go on with.
-  template <class Leap, class Body>
-  static LIMPID_INLINE void steps(int begin, int end, Leap&& leap, Body&& body) {
-    for (int i = begin; i < end; ++i) {
-      i = leap(i);
-      if (!any(body(i))) break;
-    }
-  }
   /// i / n, of an i that a body was given.
   static LIMPID_INLINE F ratio(int i, int n) { return F(double(i) / n); }
 };
@@ -73,10 +65,6 @@ LIMPID_INLINE void repeat(int count, Body&& body) {
 template <class F, class Body>
 LIMPID_INLINE void steps(int begin, int end, Body&& body) {
   Loop<F>::steps(begin, end, body);
-}
-template <class F, class Leap, class Body>
-LIMPID_INLINE void steps(int begin, int end, Leap&& leap, Body&& body) {
-  Loop<F>::steps(begin, end, leap, body);
 }
 
 /// Clamped to 0 ... 1.

@@ -15,9 +15,6 @@ namespace limpid {
 struct MirrorSteps {
   int steps;
   double thin, thick;
-  /// Whether what the ray passes between two steps is looked for. In a picture of the mirrored
-  /// scene it was seen from where the ray comes from; in another one only its edge may be there.
-  bool between;
 };
 
 /// The search along the ray of one pixel, or of one vector of pixels.
@@ -49,14 +46,24 @@ class MirrorSearch {
       const F seen = min(tap.nearest(plane, shift), F(1e30));
       return select(accept(shift, seen), seen, F(1e30));
     };
+    // Whether the ray lies between front and back of what is seen.
     const F thin = F(how.thin) * abs(height);
     const auto back_of = [&](F seen) {
       const F thick = F(how.thick) * seen;
       return seen + (thick + min(thin, thick));
     };
-    // Whether the ray lies between front and back of what is seen, or was last before its back.
-    const auto within = [&](F t, F earlier, F seen) {
-      return is_behind(t, seen) && !is_behind(earlier, back_of(seen)) && seen < F(1e29);
+    const auto within = [&](F t, F seen) {
+      return is_behind(t, seen) && !is_behind(t, back_of(seen)) && seen < F(1e29);
+    };
+    // Where `hits` changes between two shares of the way.
+    const auto edge = [&](F low, F high, auto&& hits) {
+      repeat<F>(kHalvings, [&] {
+        const F t = F(0.5) * (low + high);
+        const auto hit = hits(t, seen_at(t));
+        high = select(hit, t, high);
+        low = select(hit, low, t);
+      });
+      return high;
     };
     F before = F(0), met = F(0), found = F(0), last = F(0);
     steps<F>(1, how.steps + 1, [&](auto i) {
@@ -64,24 +71,24 @@ class MirrorSearch {
       const F t = F(0.5) * (even + even * even);
       const F seen = seen_at(t);
       const auto open = found < F(0.5);
-      const auto hit = open && within(t, how.between ? last : t, seen);
+      const auto hit = open && within(t, seen);
+      // A long step may lead through all of a thing.
+      const auto leaps =
+          open && !hit && is_behind(t, seen) && !is_behind(last, back_of(seen)) && seen < F(1e29);
       met = select(hit, t, met);
+      before = select(hit, last, before);
       found = select(hit, F(1), found);
-      before = select(open && !hit, t, before);
+      if_any(leaps, [&] {
+        const F front = edge(last, t, is_behind);
+        const auto enters = leaps && within(front, seen_at(front));
+        met = select(enters, front, met);
+        before = select(enters, front, before);
+        found = select(enters, F(1), found);
+      });
       last = t;
       return found < F(0.5);
     });
-    if_any(found > F(0.5), [&] {
-      repeat<F>(kHalvings, [&] {
-        const F t = F(0.5) * (before + met);
-        const F seen = seen_at(t);
-        const auto behind = how.between ? is_behind(t, seen) : within(t, t, seen);
-        met = select(behind, t, met);
-        before = select(behind, before, t);
-      });
-      // The step may have leapt over something thin that the ray passes behind.
-      found = select(within(met, met, seen_at(met)), found, F(0));
-    });
+    if_any(found > F(0.5), [&] { met = edge(before, met, within); });
     return {select(found > F(0.5), ray.at_share(met, most), F(HUGE_VAL)), found};
   }
 

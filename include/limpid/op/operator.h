@@ -65,6 +65,13 @@ struct Needs {
   bool environment = false;
 };
 
+/// What a job has, from which more can be made (plan/completers.h).
+struct AtHand {
+  PlaneSet planes;
+  bool environment = false;
+  bool waves = false;  ///< the scene's own
+};
+
 /// What an operator must tell of itself. `bound` is a promise: left out, whichever of the other
 /// operators run, it changes no channel of the picture by more than this where `ranges` hold (0:
 /// not a bit of it, and what makes nothing but kOutputTerms leaves those as they are). HUGE_VAL
@@ -73,7 +80,10 @@ struct Needs {
 ///
 ///     static void reckon(const Params&, const Context&, Ranges& ranges);
 ///
-/// which widens or narrows `ranges` to what holds after it, be it left out or not.
+/// which widens or narrows `ranges` to what holds after it, be it left out or not. One that can use
+/// planes which are made where the plate lacks them names those in
+///
+///     static PlaneSet wants(const Params&, const AtHand&);
 template <class T>
 concept Operator = requires(const typename T::Params& params, StateSet made, const Context& context,
                             const Ranges& ranges) {

@@ -83,14 +83,13 @@ struct FresnelReflection {
     }
     return planes;
   }
-  /// What of reads() is to be made where a plate of these planes lacks it.
-  static PlaneSet wants(const Params& p, PlaneSet has, bool environment) {
+  static PlaneSet wants(const Params& p, const AtHand& has) {
     if (p.source != Source::kAuto) return {};
-    if (has.covers(kReflectionPlanes)) {
+    if (has.planes.covers(kReflectionPlanes)) {
       if (p.lookup == Lookup::kOffset) return {};
       return {PlaneId::kReflectionDepth, PlaneId::kReflectionValid};
     }
-    return environment ? PlaneSet{} : kSkyPlanes;
+    return has.environment ? PlaneSet{} : kSkyPlanes;
   }
   static Needs needs(const Params& p) {
     return {.planes = p.source == Source::kPlanar ? kReflectionPlanes : PlaneSet{},
@@ -346,8 +345,7 @@ struct FresnelReflection {
     });
     return landing;
   }
-  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05, true},
-      kPictureSteps{48, 0.06, 0.03, false};
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03};
   static constexpr double kWrong = 4;  ///< pixels
 
   /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest.
@@ -359,14 +357,7 @@ struct FresnelReflection {
     const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p,
                                                    ray, kPictureSteps, above);
     const Vec2<F> shift = select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
-    const auto quad = tap.quad(shift);
-    const auto mean = [&](PlaneId plane) {
-      const Four<F> texels = tap.read(plane, quad);
-      F sum = F(0);
-      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * texels[k];
-      return sum;
-    };
-    const Rgb<F> seen{mean(PlaneId::kColorR), mean(PlaneId::kColorG), mean(PlaneId::kColorB)};
+    const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
     const Rgb<F> beyond = far_away(params, c, p, tap, n, ray);
     return beyond + found.hit * (seen - beyond);
   }
@@ -376,17 +367,20 @@ struct FresnelReflection {
   static Rgb<F> far_away(const Params& params, const Context& c, const Pixel<F>& p, const Tap& tap,
                          Vec3<F> n, const ScreenRay<F>& ray) {
     if (c.environment) return surroundings(c, p, tap, n);
-    if (!c.planes.covers(kSkyPlanes)) {
-      return {F(params.color.r), F(params.color.g), F(params.color.b)};
-    }
-    const auto quad = tap.quad(ray.shift_at(F(HUGE_VAL)));
-    const auto mean = [&](PlaneId plane) {
-      const Four<F> texels = tap.read(plane, quad);
+    if (!c.planes.covers(kSkyPlanes)) return constant<F>(params);
+    return bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)));
+  }
+
+  template <class F, class Tap>
+  static Rgb<F> bilinear_rgb(const Tap& tap, PlaneId first, Vec2<F> shift) {
+    const auto quad = tap.quad(shift);
+    const auto mean = [&](int channel) {
+      const Four<F> texels = tap.read(plane_after(first, channel), quad);
       F sum = F(0);
       for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * texels[k];
       return sum;
     };
-    return {mean(PlaneId::kSkyR), mean(PlaneId::kSkyG), mean(PlaneId::kSkyB)};
+    return {mean(0), mean(1), mean(2)};
   }
 
   template <class F, class Tap, class Quad>

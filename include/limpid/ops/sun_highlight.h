@@ -78,7 +78,7 @@ struct SunHighlight {
   /// Whether something that the picture shows stands between the surface point and the sun.
   template <class F, class Tap>
   static auto is_shadowed(const Context& c, const Pixel<F>& p, const Tap& tap) {
-    constexpr MirrorSteps kSteps{16, 0.06, 0.03, false};
+    constexpr MirrorSteps kSteps{16, 0.06, 0.03};
     const ScreenRay<F> ray(c, p, vec3_of<F>(c.sun.direction));
     const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
     return MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p, ray, kSteps,

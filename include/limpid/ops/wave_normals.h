@@ -77,6 +77,12 @@ struct WaveNormals {
     const bool from_map = p.model != Model::kPlate && p.model != Model::kSines;
     return {.planes = reads(p), .wave_map = from_map};
   }
+  /// Waves that are known raise the water. A plate knows its surface better; maps and the frame's
+  /// normals say how it leans, not how high it is.
+  static PlaneSet wants(const Params& p, const AtHand& has) {
+    const bool known = p.model == Model::kSines && (!p.waves.empty() || has.waves);
+    return known && p.strength != 0 ? PlaneSet{PlaneId::kSurfaceDepth} : PlaneSet{};
+  }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet) {
     return p.model != Model::kPlate && p.strength == 0;

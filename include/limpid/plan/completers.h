@@ -10,7 +10,8 @@ namespace limpid {
 struct CompleterInfo {
   std::string_view name;
   PlaneSet inputs;  ///< without all of these it is not made
-  PlaneSet makes;   ///< those of them that the frame lacks and an operator asks for
+  PlaneSet makes;   ///< those of them that an operator asks for and the frame lacks
+  PlaneSet mends;   ///< and these where it has them, too: they stay where they tell something
   std::string_view about;
 };
 

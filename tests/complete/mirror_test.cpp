@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include "limpid/ops/fresnel_reflection.h"
+
+#include "complete/shore.h"
+
+// What a mirror shows of plates that lack what it needs.
+
+namespace limpid {
+namespace {
+
+using test::kInf;
+using test::Shore;
+
+constexpr float kWall = 3, kSky = 7, kInside = 90;
+
+/// A mirror that is nothing else, over calm water, in both runners.
+struct Mirror : Shore {
+  Look look = test::still_look();
+
+  Mirror() {
+    FresnelReflection::Params& params = look.of<FresnelReflection>();
+    params.source = FresnelReflection::Source::kAuto;
+    params.lookup = FresnelReflection::Lookup::kRay;
+    params.reflectance = FresnelReflection::Reflectance::kRim;
+    params.power = 0;
+    params.color = {0.25, 0.25, 0.25};
+    scene.water = WaterPlane{};
+    for (const PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB}) {
+      buffers.set(id, [&](int x, int y) {
+        const float depth = dry_depth(x, y);
+        return depth == kInf ? kSky : depth == 20 ? kWall : 1.0f;
+      });
+    }
+    for (const PlaneId id : {PlaneId::kReflectionR, PlaneId::kReflectionG, PlaneId::kReflectionB}) {
+      buffers.frame.planes[index_of(id)] = {};
+    }
+  }
+  void give_reflection() {
+    for (const PlaneId id : {PlaneId::kReflectionR, PlaneId::kReflectionG, PlaneId::kReflectionB}) {
+      buffers.set(id, [&](int x, int y) {
+        const bool inside = dry_depth(x, y) == 20 && 2 + 20 * ray(x, y).y > 0;
+        return inside ? kInside : mirrored_depth(x, y) == 20 ? kWall : kSky;
+      });
+    }
+  }
+  /// By the reference, to which the fused runner is near.
+  test::Picture pictures() {
+    test::Picture exact = test::reference(look, buffers.frame, scene);
+    const test::Picture fast = test::fused(look, buffers.frame, scene);
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        EXPECT_NEAR(exact.color(x, y).r, fast.color(x, y).r, 1e-3) << x << ", " << y;
+      }
+    }
+    return exact;
+  }
+  bool wet(int x, int y) const {
+    const double sinks = ray(x, y).y;
+    return sinks < 0 && -2 / sinks < dry_depth(x, y);
+  }
+  /// What a mirror shows there, 0 near an end of the wall.
+  float expected(int x, int y) const {
+    const double at = mirrored_depth(x, y);
+    for (int off = -4; off <= 4; ++off) {
+      const int row = std::clamp(y + off, 0, kSize.height - 1);
+      if (mirrored_depth(x, row) != at || !wet(x, row)) return 0;
+    }
+    return at == 20 ? kWall : kSky;
+  }
+  /// The number of pixels that show the wall, once all that show anything are looked at.
+  int check(const test::Picture& picture, float sky = kSky) const {
+    int walls = 0, skies = 0;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 2; x < kSize.width - 2; ++x) {
+        const float wanted = wet(x, y) ? expected(x, y) : 0;
+        if (wanted == 0) continue;
+        const float shown = wanted == kSky ? sky : wanted;
+        EXPECT_NEAR(picture.color(x, y).r, shown, 1e-4) << x << ", " << y;
+        (wanted == kWall ? walls : skies) += 1;
+      }
+    }
+    EXPECT_GT(skies, 50);
+    return walls;
+  }
+};
+
+TEST(AutoMirror, ShowsThePictureItselfWithoutAReflection) {
+  Mirror mirror;
+  EXPECT_GT(mirror.check(mirror.pictures()), 100);
+}
+
+// A film that is transparent shows no sky.
+TEST(AutoMirror, ShowsTheColorOfTheLookWhereThereIsNoSky) {
+  Mirror mirror;
+  mirror.buffers.fill(PlaneId::kColorA, 0);
+  EXPECT_GT(mirror.check(mirror.pictures(), 0.25f), 100);
+}
+
+TEST(AutoMirror, ShowsTheReflectionAndNeverItsInsides) {
+  Mirror mirror;
+  mirror.give_reflection();
+  EXPECT_GT(mirror.check(mirror.pictures()), 100);
+  // Waves that lean away and back look where insides are, and do not show them.
+  mirror.buffers.set(PlaneId::kSurfaceNormalX, [](int, int) { return 0.0f; });
+  mirror.buffers.set(PlaneId::kSurfaceNormalY, [](int, int) { return 1.0f; });
+  mirror.buffers.set(PlaneId::kSurfaceNormalZ,
+                     [](int x, int y) { return 0.2f * (test::noise(x, y, 3) - 0.5f); });
+  const test::Picture wavy = test::fused(mirror.look, mirror.buffers.frame, mirror.scene);
+  int changed = 0;
+  for (int y = 0; y < Shore::kSize.height; ++y) {
+    for (int x = 0; x < Shore::kSize.width; ++x) {
+      if (!mirror.wet(x, y)) continue;
+      EXPECT_LE(wavy.color(x, y).r, kSky + 1e-3f) << x << ", " << y;
+      changed += std::abs(wavy.color(x, y).r - mirror.expected(x, y)) > 1e-3;
+    }
+  }
+  EXPECT_GT(changed, 50);
+  // The same without the completed planes does.
+  mirror.look.of<FresnelReflection>().source = FresnelReflection::Source::kPlanar;
+  const test::Picture planar = test::fused(mirror.look, mirror.buffers.frame, mirror.scene);
+  float most = 0;
+  for (int y = 0; y < Shore::kSize.height; ++y) {
+    for (int x = 0; x < Shore::kSize.width; ++x) {
+      if (mirror.wet(x, y)) most = std::max(most, float(planar.color(x, y).r));
+    }
+  }
+  EXPECT_GT(most, 2 * kSky);
+}
+
+}  // namespace
+}  // namespace limpid

@@ -1,0 +1,76 @@
+#include "picture_warnings.h"
+
+#include <gmock/gmock.h>
+
+#include "support.h"
+
+// Probable mistakes that take more than a plate of the tool's tests to make.
+
+namespace limpid {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr Size kSize{64, 48};
+
+/// A level view over a bottom, towards a sun 10 degrees high, with a reflection.
+struct Evening {
+  test::Buffers buffers{rect_of(kSize)};
+  Scene scene;
+  Look look;
+
+  Evening() {
+    Camera camera;
+    camera.view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), glm::dvec3(0, 1, 0));
+    camera.projection = perspective(1, 4.0 / 3, 0.1, 1e3, ClipSpace::kGl);
+    scene.camera = camera;
+    scene.water = WaterPlane{};
+    const double high = 10 * std::numbers::pi / 180;
+    scene.sun = Sun{{0, std::sin(high), -std::cos(high)}, {3, 3, 3}};
+    for (int i = 0; i < 3; ++i) {
+      buffers.fill(plane_after(PlaneId::kColorR, i), 0.5f);
+      buffers.fill(plane_after(PlaneId::kReflectionR, i), 2);
+    }
+    buffers.set(PlaneId::kDepth, [&](int x, int y) {
+      const glm::dvec3 ray = rays_of(camera, {kSize.width, kSize.height}).ray_at(x + 0.5, y + 0.5);
+      return ray.y < 0 ? static_cast<float>(-3 / ray.y) : test::kInf;
+    });
+    look.of<WaveNormals>().model = WaveNormals::Model::kSines;
+    look.of<FresnelReflection>().source = FresnelReflection::Source::kAuto;
+  }
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> sentences;
+    const Plan plan = make_plan(look, {.planes = buffers.frame.present(), .sun = true});
+    warn_of_picture(plan, buffers.frame, scene, sentences);
+    return sentences;
+  }
+};
+
+TEST(PictureWarnings, TheSunsDiscIsSeenTwice) {
+  Evening evening;
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+  // As far below the horizon as the sun is above it.
+  const int row = static_cast<int>(24 + 24 * std::tan(10 * std::numbers::pi / 180) / std::tan(0.5));
+  const auto disc_at = [&](int y0) {
+    evening.buffers.set(PlaneId::kReflectionR,
+                        [=](int x, int y) { return x == 32 && y == y0 ? 4e4f : 2.0f; });
+  };
+  disc_at(row);
+  EXPECT_THAT(evening.warnings(), ElementsAre(HasSubstr("the reflection shows the sun's disc")));
+  disc_at(row + 12);
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+}
+
+TEST(PictureWarnings, WavesOverTheCamera) {
+  Evening evening;
+  evening.look.of<WaveNormals>().strength = 1;
+  evening.look.of<WaveNormals>().waves = {{1.5, 0.1, 0, 0, 0}};
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+  evening.look.of<WaveNormals>().waves.push_back({1.5, 0, 0.1, 0, 0});
+  EXPECT_THAT(evening.warnings(), testing::Contains(HasSubstr("the waves reach 3")));
+}
+
+}  // namespace
+}  // namespace limpid
