@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "complete/row_heights.h"
 #include "complete/rows.h"
 
 namespace limpid {
@@ -26,26 +27,6 @@ void keep_nearest(float& at, float depth) {
   while (mine < there && !bits.compare_exchange_weak(there, mine, std::memory_order_relaxed)) {
   }
 }
-
-/// Heights over the calm water of what lies on the rays of one row: over + depth under, each linear
-/// in the column.
-struct RowHeights {
-  double over, over_step, under, under_step;
-
-  RowHeights(const Context& c, int y)
-      : over(c.eye_above + glm::dot(c.up, c.rays.origin_at(first(c), row(c, y)))),
-        over_step(glm::dot(c.up, c.rays.origin_dx)),
-        under(glm::dot(c.up, c.rays.ray_at(first(c), row(c, y)))),
-        under_step(glm::dot(c.up, c.rays.ray_dx)) {}
-
-  double at(int x, double depth) const {
-    return over + x * over_step + depth * (under + x * under_step);
-  }
-
- private:
-  static double first(const Context& c) { return 0.5 - c.corner.x; }
-  static double row(const Context& c, int y) { return y - c.corner.y + 0.5; }
-};
 
 /// From a point to its mirror image the way is straight down, which crosses the screen as a
 /// ScreenRay does.
@@ -100,6 +81,10 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
   }
 }
 
+/// So many times its depth a thing that stands in the water is taken to be thick at its foot: there
+/// the mirror saw into it, whatever else would be seen through it.
+constexpr float kFoot = 0.15f;
+
 void tell_real(const Context& c, const View<const float>& dry, const View<const float>& given,
                const View<float>& image, int y, const View<float>& to) {
   const int at_y = std::clamp(y, dry.window.y0, dry.window.y1 - 1);
@@ -107,8 +92,12 @@ void tell_real(const Context& c, const View<const float>& dry, const View<const 
   for (int x = to.window.x0; x < to.window.x1; ++x) {
     const int at_x = std::clamp(x, dry.window.x0, dry.window.x1 - 1);
     const float stands = dry.at(at_x, at_y), seen = image.at(x, y);
-    const bool unknown = !(seen > 0 && seen < kNothing) && stands < 1e30f;
-    const bool inside = unknown && heights.at(at_x, stands) * c.eye_above > 0;
+    const bool unknown = !(seen > 0 && seen < kNothing);
+    const bool told_real = given && given.at(x, y) >= 0.5f;
+    const float behind = (1 + kFoot) * stands;
+    const bool foot = heights.at(at_x, behind) * c.eye_above <= 0 && std::abs(seen) > behind;
+    const bool inside = (unknown || (foot && !told_real)) && stands < 1e30f &&
+                        heights.at(at_x, stands) * c.eye_above > 0;
     image.at(x, y) = inside ? stands : std::abs(seen);
     to.at(x, y) = inside ? 0.0f : given ? given.at(x, y) : 1.0f;
   }

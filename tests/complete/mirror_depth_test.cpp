@@ -64,6 +64,36 @@ TEST(MirrorDepth, InsidesAreNotReal) {
   EXPECT_GT(insides, 300);
 }
 
+// A wall behind a low bank would be mirrored in the bank's foot.
+TEST(MirrorDepth, NothingIsSeenThroughAFoot) {
+  Shore shore;
+  shore.far = 17;
+  shore.top = 0.3;
+  const double wall = 30, bottom = shore.deep + 2;
+  shore.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    const double sinks = shore.ray(x, y).y, bank = shore.dry_depth(x, y);
+    if (!std::isinf(bank)) return static_cast<float>(bank);
+    return static_cast<float>(sinks < 0              ? std::min(wall, -bottom / sinks)
+                              : 2 + wall * sinks < 9 ? wall
+                                                     : HUGE_VAL);
+  });
+  const auto executor = make_executor(1);
+  const MirrorDepth& made = shore.made(*executor);
+  int feet = 0, walls = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const double water = -2 / shore.ray(x, y).y, depth = made.depth().view().at(x, y);
+      const bool foot = shore.dry_depth(x, y) == 17 && water > 17 && water < 1.15 * 17;
+      walls += std::abs(depth - wall) < 0.01 ? 1 : 0;
+      if (!foot) continue;
+      EXPECT_LT(depth, 1.16 * 17) << x << ", " << y;
+      ++feet;
+    }
+  }
+  EXPECT_GT(feet, 30);
+  EXPECT_GT(walls, 30);
+}
+
 // A renderer that draws no backfaces sees through the wall, infinitely far.
 TEST(MirrorDepth, AGivenDepthIsMendedOnlyInside) {
   Shore shore;
