@@ -8,6 +8,7 @@
 #include "limpid/run/reference.h"
 #include "limpid/write/preview.h"
 
+#include "complete/rows.h"
 #include "run/each_once.h"
 #include "write/atomic_file.h"
 
@@ -30,6 +31,18 @@ float block_mean(const View<float>& from, int x, int y, int n) {
   return static_cast<float>(sum / (n * n));
 }
 
+void expect_samples(const OutputChoice& choice) {
+  const std::string said = "wave_samples = " + std::to_string(choice.wave_samples);
+  if (choice.wave_samples < 1 || choice.wave_samples > OutputChoice::kMostWaveSamples) {
+    throw Error(said + ": expected 1 ... " + std::to_string(OutputChoice::kMostWaveSamples),
+                Fault::kUsage);
+  }
+  if (choice.wave_samples > 1 && !choice.deep.empty()) {
+    throw Error(said + " and a deep file: expected 1, for depths of several samples have no mean",
+                Fault::kUsage);
+  }
+}
+
 }  // namespace
 
 std::vector<Aov> computed_aovs(const OutputChoice& choice) {
@@ -39,6 +52,7 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice) {
 }
 
 void expect_writable(const OutputChoice& choice) {
+  expect_samples(choice);
   expect_each_once(choice.aovs);
   expect_writable(choice.picture);
   if (!choice.deep.empty()) expect_writable(choice.deep);
@@ -98,12 +112,44 @@ View<float> Canvas::add(const std::string& name, bool half) {
 
 void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
                    const OutputChoice& choice, Executor& executor, RunTimes* times) {
-  if (choice.runner == Runner::kReference) {
-    run_reference(plan, frame, scene, target_);
-  } else {
-    runner_.run(plan, frame, scene, target_, executor, {.simd = choice.simd, .times = times});
+  const int middle = (choice.wave_samples - 1) / 2;
+  Scene seen = scene;
+  for (int i = 1; i <= choice.wave_samples; ++i) {
+    seen.part = {(middle + i) % choice.wave_samples,
+                 choice.wave_samples};  // the middle one comes last
+    if (choice.runner == Runner::kReference) {
+      run_reference(plan, frame, seen, target_);
+    } else {
+      runner_.run(plan, frame, seen, target_, executor, {.simd = choice.simd, .times = times});
+    }
+    if (choice.wave_samples > 1) take_mean(i, executor);
   }
   if (!choice.deep.empty()) extent_ = water_extent(plan, frame, scene, target_);
+}
+
+void Canvas::take_mean(int count, Executor& executor) {
+  std::vector<View<float>> mixed(std::begin(target_.color), std::end(target_.color));
+  mixed.push_back(target_.alpha);
+  for (Aov aov : made_.computed) {
+    if (is_geometry(aov)) continue;
+    for (const View<float>& view : target_.of(aov)) {
+      if (view) mixed.push_back(view);
+    }
+  }
+  means_.resize(mixed.size());
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    if (!means_[i]) means_[i] = Plane(window_);
+    const View<float> mean = means_[i].view();
+    // So written that equal parts have their own bits for a mean.
+    const float share = 1 / static_cast<float>(count);
+    each_row(executor, window_, [&](int y) {
+      float *so_far = mean.row(y), *last = mixed[i].row(y);
+      for (int x = 0; x < window_.width(); ++x) {
+        so_far[x] = count == 1 ? last[x] : so_far[x] + share * (last[x] - so_far[x]);
+        last[x] = so_far[x];
+      }
+    });
+  }
 }
 
 Canvas Canvas::filtered(int n, const OutputChoice& choice) const {

@@ -18,7 +18,7 @@ namespace limpid {
 std::vector<Aov> computed_aovs(const OutputChoice& choice);
 
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not
-/// there or cannot be written to, and for AOVs that are named twice.
+/// there or cannot be written to, for AOVs that are named twice, and for samples that cannot be.
 void expect_writable(const OutputChoice& choice);
 void expect_writable(const std::filesystem::path& file);
 void expect_preview_writable(const std::filesystem::path& file);
@@ -53,6 +53,8 @@ class Canvas {
   const Target& target() const { return target_; }
 
  private:
+  /// Takes the picture as the last of `count` parts that are mixed, and shows their mean.
+  void take_mean(int count, Executor& executor);
   View<float> add();
   View<float> add(const std::string& name, bool half);
   DeepWater deep_water(const ExrHeading& heading, const OutputChoice& choice) const;
@@ -67,6 +69,7 @@ class Canvas {
   Made made_;
   std::vector<Plane> planes_;
   std::vector<ExrOutputChannel> channels_;
+  std::vector<Plane> means_;  ///< of parts of pixels
   Target target_;
   FusedRunner runner_;
   WaterExtent extent_;  ///< of what is painted, if a deep file is to be written

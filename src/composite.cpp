@@ -98,6 +98,11 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
     const bool named = plate.named_planes().meets(role.planes());
     if (named && !plan.planes.meets(role.planes())) unread("the layer " + std::string(role.name));
   }
+  const bool own_normals = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
+  if (job.output.wave_samples > 1 && own_normals) {
+    warnings.push_back("wave_samples = " + std::to_string(job.output.wave_samples) +
+                       " sample no waves: they are the frame's own normals, one a pixel");
+  }
   // It may stand by for a reflection.
   const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);
   if (has_environment(job.scene) && !mirrors) unread("the environment");

@@ -43,6 +43,14 @@ struct OutputChoice {
   /// 1): Plan::max_error.
   double max_error = 0;
 
+  /// In so many parts of each pixel the water is met and its waves are filtered (PixelPart), 1 ...
+  /// kMostWaveSamples; the frame's planes are read at the pixel. It takes as many times as long.
+  /// Colors and shares are the means of all parts, depths, normals and maps those of the middle
+  /// part (the one before the middle, of an even number). Without a deep file: its samples have no
+  /// mean.
+  int wave_samples = 1;
+  static constexpr int kMostWaveSamples = 64;
+
   /// Whether what would be a warning is an Error, before anything is written.
   bool strict = false;
 

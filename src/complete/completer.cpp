@@ -7,6 +7,7 @@ namespace limpid {
 Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& context,
                           Executor& executor, const std::string* simd) {
   Frame whole = frame;
+  if (context.off_centre != glm::dvec2(0, 0)) part_depths_.move(whole, context, executor);
   // What a completer is to make of a plane that is there is a mended one.
   const auto made_by = [&](std::string_view name) {
     for (const CompleterInfo& completer : completers()) {
@@ -19,15 +20,15 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& c
     if (made.has(plane)) whole.planes[index_of(plane)] = with.view();
   };
   if (const PlaneSet made = made_by("displaced_surface"); !made.empty()) {
-    displaced_surface_.make(frame, context, executor, simd);
+    displaced_surface_.make(whole, context, executor, simd);
     take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth());
   }
   if (const PlaneSet made = made_by("mirror_depth"); !made.empty()) {
-    mirror_depth_.make(frame, context, executor);
+    mirror_depth_.make(whole, context, executor);
     take(made, PlaneId::kReflectionDepth, mirror_depth_.depth());
     take(made, PlaneId::kReflectionValid, mirror_depth_.valid());
   }
-  if (const PlaneSet made = made_by("sky"); !made.empty() && sky_.make(frame, executor)) {
+  if (const PlaneSet made = made_by("sky"); !made.empty() && sky_.make(whole, executor)) {
     for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i));
   }
   complete_waves(plan, context, executor, whole);

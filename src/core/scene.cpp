@@ -66,6 +66,10 @@ void Scene::validate() const {
                   " degrees, expected 0.01 ... 90");
     }
   }
+  if (!(part.index >= 0 && part.index < part.count)) {
+    throw Error("part " + std::to_string(part.index) + " of " + std::to_string(part.count) +
+                " of a pixel, expected 0 ... count - 1");
+  }
   if (!std::isfinite(time)) throw Error("time is not a finite number of seconds");
 }
 

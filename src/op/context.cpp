@@ -31,6 +31,39 @@ double near_depth(const Camera& camera) {
   return eye_depth_from_device(at_near, device_depth_of(camera));
 }
 
+/// The direction on screen, unit, in pixels to the right and down, in which the calm water recedes:
+/// the heights of equally deep points change fastest along it. Down, where they do not.
+glm::dvec2 receding(const Rays& rays, const glm::dvec3& up) {
+  const glm::dvec2 near(glm::dot(up, rays.origin_dx), glm::dot(up, rays.origin_dy));
+  const glm::dvec2 far(glm::dot(up, rays.ray_dx), glm::dot(up, rays.ray_dy));
+  const glm::dvec2 falls = near + far;  // one of them is 0
+  const double steep = glm::length(falls);
+  return steep > 1e-12 ? falls / steep : glm::dvec2(0, 1);
+}
+
+/// The camera whose pixels are looked through that far from their centres, in pixels.
+Camera moved(Camera camera, glm::dvec2 pixels, glm::dvec2 size) {
+  const glm::dvec2 by = 2.0 * pixels / size;
+  for (int column = 0; column < 4; ++column) {
+    glm::dvec4& p = camera.projection[column];
+    p.x -= by.x * p.w;
+    p.y += by.y * p.w;
+  }
+  return camera;
+}
+
+/// Rays whose steps are as many times narrower along a direction on screen.
+Rays narrower(Rays rays, glm::dvec2 along, int times) {
+  const auto narrow = [&](glm::dvec3& dx, glm::dvec3& dy) {
+    const glm::dvec3 lost = (1 - 1.0 / times) * (along.x * dx + along.y * dy);
+    dx -= along.x * lost;
+    dy -= along.y * lost;
+  };
+  narrow(rays.origin_dx, rays.origin_dy);
+  narrow(rays.ray_dx, rays.ray_dy);
+  return rays;
+}
+
 Bounds bounds_of(const Frame& frame, PlaneSet planes) {
   Rect window;
   for (int i = 0; i < kPlaneCount; ++i) {
@@ -66,18 +99,27 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   raised = swell.raises || planes.has(PlaneId::kSurfaceDepth);
   waves = swell.waves.empty() ? std::span<const SineWave>(scene.water->waves) : swell.waves;
   wave_scale = swell.scale;
-  rays = rays_of(*scene.camera, size);
-  eye = scene.camera->eye();
+  Camera camera = *scene.camera;
   up = scene.water->up;
-  t = on_plane(up, scene.camera->right(), scene.camera->up());
+  rays = part = rays_of(camera, size);
+  off_centre = {0, 0};
+  if (scene.part.count > 1) {
+    const glm::dvec2 along = receding(rays, up);
+    off_centre = ((scene.part.index + 0.5) / scene.part.count - 0.5) * along;
+    camera = moved(camera, off_centre, glm::dvec2(size));
+    rays = rays_of(camera, size);
+    part = narrower(rays, along, scene.part.count);
+  }
+  eye = camera.eye();
+  t = on_plane(up, camera.right(), camera.up());
   b = glm::cross(up, t);
   const PlaneAxes axes = plane_axes(up);
   map_x = axes.x;
   map_y = axes.y;
   eye_above = glm::dot(up, eye) - scene.water->height;
 
-  const glm::dmat4& p = scene.camera->projection;
-  const glm::dmat3 to_view(scene.camera->view);
+  const glm::dmat4& p = camera.projection;
+  const glm::dmat3 to_view(camera.view);
   const auto row = [&](int r) { return glm::dvec3(p[0][r], p[1][r], p[2][r]) * to_view; };
   to_u = 0.5 * (row(0) + row(3));
   to_v = 0.5 * (row(3) - row(1));
@@ -87,9 +129,9 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   // z / w in 0 ... 1, whatever range the projection has: GL's is twice as long, reversed ones run
   // backwards.
   const glm::dvec2 z(p[3][2], -p[2][2]), one(w_origin, w_depth);
-  const glm::dvec2 device = scene.camera->clip == ClipSpace::kGl    ? 0.5 * (z + one)
-                            : scene.camera->clip == ClipSpace::kD3d ? z
-                                                                    : one - z;
+  const glm::dvec2 device = camera.clip == ClipSpace::kGl    ? 0.5 * (z + one)
+                            : camera.clip == ClipSpace::kD3d ? z
+                                                             : one - z;
   device_offset = device.x;
   device_scale = device.y;
   over_step = {glm::dot(up, rays.origin_dx) * size.x, glm::dot(up, rays.origin_dy) * size.y};
@@ -99,14 +141,14 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   if (raised) {
     for (const SineWave& wave : waves) crest += std::abs(wave_scale * wave.amplitude);
   }
-  near = near_depth(*scene.camera);
+  near = near_depth(camera);
   double lowest = HUGE_VAL;  // of the window's corners, over the calm surface
   for (const int x : {0, size.x}) {
     for (const int y : {0, size.y}) {
       lowest = std::min(lowest, eye_above + near * glm::dot(up, rays.ray_at(x, y)));
     }
   }
-  submersible = !scene.camera->orthographic() && lowest < crest;
+  submersible = !camera.orthographic() && lowest < crest;
 
   dry = bounds_of(frame, kColorPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kSurfaceDepth});
   below = bounds_of(frame, kBelowPlanes);

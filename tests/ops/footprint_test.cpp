@@ -1,5 +1,8 @@
 #include "limpid/op/footprint.h"
 
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "limpid/ops/wave_normals.h"
@@ -59,6 +62,56 @@ TEST(Footprint, IsThatOfNeighbouringRays) {
       EXPECT_NEAR(12 * got.yy, x.y * x.y + down.y * down.y, 1e-5);
     }
   }
+}
+
+// Four parts of a pixel lie one behind the other on the water, each a quarter as long; a rolled
+// camera has them beside one another on the screen.
+TEST(Footprint, OfAPartIsShorterTheWayTheWaterRecedes) {
+  for (const double roll : {0.0, 0.5 * std::numbers::pi}) {
+    Scene scene = test::simple_scene(kSize);
+    scene.camera->view =
+        glm::dmat4(glm::rotate(glm::dmat4(1), roll, glm::dvec3(0, 0, 1))) * scene.camera->view;
+    const Context whole = context_of(scene);
+    const Pixel<double> centre = calm_pixel(whole, 32.5, 24.5);
+    const Sym2<double> all = footprint(whole, centre);
+    double mean = 0;
+    for (int i = 0; i < 4; ++i) {
+      scene.part = {i, 4};
+      const Context c = context_of(scene);
+      const Pixel<double> p = calm_pixel(c, 32.5, 24.5);
+      const Sym2<double> part = footprint(c, p);
+      // The view is along map y there.
+      EXPECT_NEAR(part.yy / all.yy, 1. / 16, 0.01);
+      EXPECT_NEAR(part.xx / all.xx, 1, 0.05);
+      const double off = on_map(c, p).y - on_map(whole, centre).y;
+      const double length = std::sqrt(12 * all.yy);
+      EXPECT_NEAR(std::abs(off) / length, i == 0 || i == 3 ? 0.375 : 0.125, 0.03);
+      mean += off / 4;
+      EXPECT_DOUBLE_EQ(p.uv.x, centre.uv.x);
+    }
+    EXPECT_NEAR(mean / std::sqrt(12 * all.yy), 0, 0.01);
+  }
+}
+
+// Straight down the water recedes nowhere.
+TEST(Footprint, PartsLieBelowOneAnotherStraightDown) {
+  Scene scene = test::simple_scene(kSize);
+  scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -1));
+  scene.part = {0, 2};
+  const Context c = context_of(scene);
+  EXPECT_NEAR(c.off_centre.x, 0, 1e-12);
+  EXPECT_NEAR(c.off_centre.y, -0.25, 1e-12);
+}
+
+TEST(Footprint, OfAllOfAPixelHasTheBitsOfThePixel) {
+  Scene scene = test::simple_scene(kSize);
+  const Context plain = context_of(scene);
+  scene.part = {0, 1};
+  const Context c = context_of(scene);
+  EXPECT_EQ(c.rays.ray, plain.rays.ray);
+  EXPECT_EQ(c.part.ray_dy, plain.rays.ray_dy);
+  scene.part = {1, 1};
+  EXPECT_THROW(context_of(scene), Error);
 }
 
 TEST(Footprint, HasBoundsAtTheHorizon) {

@@ -125,8 +125,8 @@ struct Striped {
     params.speed = drift * params.tile_size;
     tray.scene.time = 1;
     Context context(tray.scene, frame, 1.33, kWholeState);
-    context.rays.origin_dx = width * context.rays.origin_dx;
-    context.rays.origin_dy = width * context.rays.origin_dy;
+    context.part.origin_dx = width * context.rays.origin_dx;
+    context.part.origin_dy = width * context.rays.origin_dy;
     Pixel<double> pixel{};
     const RowRays<double> rays(context, 4.5);
     begin_pixel(context, rays, 4.5, 1.0, 10.0, 14.0, pixel);

@@ -345,6 +345,12 @@ Parsed parse(int argc, char** argv) {
                   "output), or hold (the nearest before stands in)")
       ->option_text("error|skip|hold");
   add_picture(composite, a.composite.water);
+  composite
+      .add_option("--samples", a.composite.samples,
+                  "Samples a pixel of the water and its waves, of plates one; takes N times as "
+                  "long (default: 1)")
+      ->option_text("N")
+      ->check(whole_number_in(1, OutputChoice::kMostWaveSamples));
 
   CLI::App& water =
       *app.add_subcommand("water", "Render a scene and put water into it: SCENE.toml -o OUT.exr");

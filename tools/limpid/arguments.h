@@ -39,6 +39,7 @@ struct CompositeArguments {
   bool measure = false;  ///< `plan` runs it, too
   std::string scene, view, depth_kind;
   std::optional<double> depth_nothing;
+  int samples = 1;
   FrameOptions frames;
   WaterOptions water;
 };

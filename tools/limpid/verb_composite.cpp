@@ -63,6 +63,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   job.look = look_of(a.water);
   job.time = a.water.time;
   job.output = output_of(a.water);
+  job.output.wave_samples = a.samples;
   return job;
 }
 

@@ -3,6 +3,7 @@
 
 #include "limpid/complete/displaced_surface.h"
 #include "limpid/complete/mirror_depth.h"
+#include "limpid/complete/part_depths.h"
 #include "limpid/complete/sky.h"
 #include "limpid/complete/slope_map.h"
 #include "limpid/core/executor.h"
@@ -14,7 +15,8 @@
 namespace limpid {
 
 /// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
-/// the wave map what the plan's waves read where a pixel is wider than a texel. Once a frame,
+/// the wave map what the plan's waves read where a pixel is wider than a texel; and moves
+/// depths to the part of each pixel that is seen. Once a frame,
 /// before its pixels; operators read them as they read the plate's. The result does not depend on
 /// the number of threads. Keeps its memory from frame to frame.
 class Completer {
@@ -29,6 +31,7 @@ class Completer {
   void complete_waves(const Plan& plan, const Context& context, Executor& executor, Frame& frame);
 
   DisplacedSurface displaced_surface_;
+  PartDepths part_depths_;
   MirrorDepth mirror_depth_;
   Sky sky_;
   LevelMaker level_maker_;

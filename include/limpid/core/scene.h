@@ -58,6 +58,14 @@ struct Sun {
   double radius() const { return diameter * (std::numbers::pi / 360); }  ///< rad
 };
 
+/// The part of each pixel that is seen: of `count` strips side by side, in the direction in which
+/// the calm water recedes on screen (down, where it does not), the one `index`. The water is met in
+/// the middle of the strip, and waves are filtered over it; the planes of a frame remain those of
+/// whole pixels. The mean of all strips resolves waves, and the waterline, better than a pixel.
+struct PixelPart {
+  int index = 0, count = 1;  ///< 0 <= index < count
+};
+
 /// What stands around a frame: where it was seen from, where the water is, where the light comes
 /// from.
 struct Scene {
@@ -65,12 +73,13 @@ struct Scene {
   std::optional<WaterPlane> water;
   std::optional<Sun> sun;
   double time = 0;  ///< seconds
+  PixelPart part;   ///< all of the pixel
 
   /// Whether its water has waves of its own.
   bool has_waves() const { return water && !water->waves.empty(); }
 
   /// Throws Error for a bad camera, a water or sun direction that is not unit, a sun color or
-  /// diameter out of its range, and numbers that are not finite.
+  /// diameter or a part of a pixel out of its range, and numbers that are not finite.
   void validate() const;
 };
 

@@ -44,6 +44,8 @@ struct Context {
           const Swell& swell = {});
 
   Rays rays;
+  Rays part;  ///< `rays` with the steps of the part of a pixel that is seen (Scene::part)
+  glm::dvec2 off_centre;  ///< where the middle of that part is, in pixels from the pixel's centre
   glm::dvec3 eye;
   glm::dvec3 up, t, b;
   glm::dvec3 map_x, map_y;

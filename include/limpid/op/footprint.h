@@ -3,10 +3,10 @@
 
 namespace limpid {
 
-/// Covariance of the places on the calm water that one pixel sees, along Context::map_x and map_y,
-/// in scene units squared: of a pixel wide box, 1/12 of a pixel squared each way, through the
-/// derivatives of the view's rays (Igehy 1999, "Tracing Ray Differentials"). At the horizon, where
-/// it has no bounds, at most 1e12.
+/// Covariance of the places on the calm water that one pixel, or the part of it that is seen, sees,
+/// along Context::map_x and map_y, in scene units squared: of a pixel wide box, 1/12 of a pixel
+/// squared each way, through the derivatives of the view's rays (Igehy 1999, "Tracing Ray
+/// Differentials"). At the horizon, where it has no bounds, at most 1e12.
 template <class F>
 LIMPID_INLINE Sym2<F> footprint(const Context& c, const Pixel<F>& p) {
   const Vec3<F> up = vec3_of<F>(c.up);
@@ -20,8 +20,8 @@ LIMPID_INLINE Sym2<F> footprint(const Context& c, const Pixel<F>& p) {
     const auto kept = [](F x) { return min(max(x, F(-1e6)), F(1e6)); };
     return Vec2<F>{kept(dot(map_x, on_plane)), kept(dot(map_y, on_plane))};
   };
-  const Vec2<F> dx = moved(c.rays.origin_dx, c.rays.ray_dx);
-  const Vec2<F> dy = moved(c.rays.origin_dy, c.rays.ray_dy);
+  const Vec2<F> dx = moved(c.part.origin_dx, c.part.ray_dx);
+  const Vec2<F> dy = moved(c.part.origin_dy, c.part.ray_dy);
   const F share(1.0 / 12);
   return {share * (dx.x * dx.x + dy.x * dy.x), share * (dx.x * dx.y + dy.x * dy.y),
           share * (dx.y * dx.y + dy.y * dy.y)};
