@@ -44,7 +44,7 @@ void Completer::complete_waves(const Plan& plan, const Context& context, Executo
     frame.wave_map.levels = &level_maker_.levels();
   }
   if (!WaveNormals::needs_slope_map(waves)) return;
-  slope_map_.make(*frame.wave_map.levels, WaveNormals::drift(waves, context.time), executor);
+  slope_map_.make(*frame.wave_map.levels, WaveNormals::four_shifts(waves, context.time), executor);
   frame.wave_slopes = &slope_map_.levels();
 }
 

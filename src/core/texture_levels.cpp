@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/box_mean.h"
+#include "core/mean_of_four.h"
 
 namespace limpid {
 namespace {
@@ -101,6 +102,36 @@ void LevelMaker::make(const Texture& map) {
     }
   }
   levels_ = {sizes, texels_.data(), base, halvings, moments_.data()};
+}
+
+Sym2<double> slope_variance(const TextureLevels& map, const FourShifts& shifts) {
+  const Size base = map.base;
+  const std::int64_t area = rect_of(base).area();
+  const double within = map.halvings > 0 ? kept_within(shifts, base) : 0;
+  std::vector<float> h_x(static_cast<std::size_t>(base.width)), h_y(h_x.size());
+  const auto moment = [&](int c, std::ptrdiff_t at) -> double {
+    return map.moments[c * area + at];
+  };
+  Vec2<double> mean{0, 0};
+  Sym2<double> square{0, 0, 0};
+  for (int y = 0; y < base.height; ++y) {
+    mean_of_four(map.moments, base, shifts, y, h_x.data());
+    mean_of_four(map.moments + area, base, shifts, y, h_y.data());
+    for (std::size_t x = 0; x < h_x.size(); ++x) {
+      const double u = h_x[x], v = h_y[x];
+      mean = mean + Vec2<double>{u, v};
+      square = square + Sym2<double>{u * u, u * v, v * v};
+    }
+    for (int x = 0; x < base.width && within > 0; ++x) {
+      const std::ptrdiff_t at = std::ptrdiff_t{y} * base.width + x;
+      const double u = moment(0, at), v = moment(1, at);
+      square = square + within * Sym2<double>{moment(2, at) - u * u, moment(3, at) - u * v,
+                                              moment(4, at) - v * v};
+    }
+  }
+  const double share = 1.0 / static_cast<double>(area);
+  mean = share * mean;
+  return share * square + -1.0 * Sym2<double>{mean.x * mean.x, mean.x * mean.y, mean.y * mean.y};
 }
 
 }  // namespace limpid

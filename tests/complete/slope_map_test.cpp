@@ -11,7 +11,7 @@ namespace {
 struct Sloped {
   Sloped(const Texture& map, double drift, int threads = 1) {
     maker.make(map);
-    slopes.make(maker.levels(), drift, *make_executor(threads));
+    slopes.make(maker.levels(), test::along_axes(drift), *make_executor(threads));
   }
   double at(int plane, int level, int x, int y) const {
     return slopes.levels().planes[plane][slopes.levels().sizes.place(level, x, y)];

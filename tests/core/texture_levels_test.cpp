@@ -116,5 +116,74 @@ TEST(TextureLevels, WhatIsNoColorCountsAsOne) {
   EXPECT_EQ(color_of(maker.levels().texels[0]), (Rgb<double>{0, 0, 1}));
 }
 
+/// Covariance of the slopes of a map under four lookups.
+Sym2<double> variance_of(const Texture& map, const FourShifts& shifts) {
+  LevelMaker maker;
+  maker.make(map);
+  return slope_variance(maker.levels(), shifts);
+}
+
+/// Lookups that are together are one: its slopes over all texels, by hand.
+TEST(SlopeVariance, OfOneLookupIsThatOfTheMap) {
+  const test::NoiseMap map(8, 5);
+  Vec2<double> mean{0, 0};
+  Sym2<double> square{0, 0, 0};
+  for (int i = 0; i < 40; ++i) {
+    const auto slope = [&](int c) {
+      return (2.0 * map.texture.channels[c].at(i % 8, i / 8) - 1) / 0.8;
+    };
+    const double x = slope(0), y = slope(1);
+    mean = mean + Vec2<double>{x / 40, y / 40};
+    square = square + (1.0 / 40) * Sym2<double>{x * x, x * y, y * y};
+  }
+  const FourShifts together{{{0.25, 0.4}, {0.25, 0.4}, {-0.75, 3.4}, {0.25, -0.6}}};
+  for (const FourShifts& shifts : {FourShifts{}, together}) {
+    const Sym2<double> got = variance_of(map.texture, shifts);
+    EXPECT_NEAR(got.xx, square.xx - mean.x * mean.x, 1e-6);
+    EXPECT_NEAR(got.xy, square.xy - mean.x * mean.y, 1e-6);
+    EXPECT_NEAR(got.yy, square.yy - mean.y * mean.y, 1e-6);
+  }
+}
+
+/// Half of the lookups a quarter of a period on, where this wave is at its other phase.
+TEST(SlopeVariance, OfWavesThatCancelIsNone) {
+  std::array<Plane, 3> planes;
+  Texture map;
+  for (std::size_t c = 0; c < 3; ++c) {
+    planes[c] = Plane(Rect{0, 0, 8, 2});
+    for (int i = 0; i < 16; ++i) {  // slope along x: 1, 1, 0, 0 by turns
+      const float red = i % 4 < 2 ? 0.6f : 0.5f;
+      planes[c].view().at(i % 8, i / 8) = c == 0 ? red : c == 1 ? 0.5f : 0.6f;
+    }
+    map.channels[c] = planes[c].view();
+  }
+  EXPECT_NEAR(variance_of(map, FourShifts{}).xx, 0.25, 1e-5);
+  EXPECT_NEAR(variance_of(map, {{{0.25, 0}, {0, 0}, {0, 0.5}, {-0.25, 0}}}).xx, 0, 1e-5);
+  EXPECT_NEAR(variance_of(map, {{{0.25, 0}, {0, 0}, {0, 0.5}, {0, 0}}}).xx, 0.25 / 4, 1e-5);
+}
+
+/// Maps larger than their base keep what varies within a texel of it, as SlopeMap does.
+TEST(SlopeVariance, OfALargeMapIsThatOfItsTexels) {
+  std::array<Plane, 3> planes;
+  Texture map;
+  for (std::size_t c = 0; c < 3; ++c) {
+    planes[c] = Plane(Rect{0, 0, 2048, 1});
+    for (int i = 0; i < 2048; ++i) {
+      planes[c].view().at(i, 0) = c == 1 && i % 2 ? 0.6f : c == 2 ? 0.6f : 0.5f;
+    }
+    map.channels[c] = planes[c].view();
+  }
+  EXPECT_NEAR(variance_of(map, FourShifts{}).yy, 0.25, 1e-4);
+  EXPECT_NEAR(variance_of(map, {{{0.1, 0}, {0.3, 0}, {0.6, 0}, {0.8, 0}}}).yy, 0.25 / 4, 1e-4);
+}
+
+TEST(SlopeVariance, PlacesThatAreNoNumbersMoveNothing) {
+  const test::NoiseMap map(4, 4);
+  const double inf = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const FourShifts shifts{{{inf, 0}, {0, -inf}, {nan, nan}, {0, 0}}};
+  EXPECT_EQ(variance_of(map.texture, shifts).xx, variance_of(map.texture, FourShifts{}).xx);
+}
+
 }  // namespace
 }  // namespace limpid

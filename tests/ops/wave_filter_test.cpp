@@ -119,7 +119,7 @@ struct Striped {
     LevelMaker maker;
     maker.make(tray.buffers.frame.wave_map);
     SlopeMap slopes;
-    slopes.make(maker.levels(), drift, *make_executor(1));
+    slopes.make(maker.levels(), test::along_axes(drift), *make_executor(1));
     Frame frame = tray.buffers.frame;
     frame.wave_slopes = &slopes.levels();
     params.speed = drift * params.tile_size;

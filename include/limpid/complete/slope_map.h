@@ -11,11 +11,10 @@ namespace limpid {
 /// a pixel and their covariance there are one lookup (Olano & Baker 2010, "LEAN Mapping").
 class SlopeMap {
  public:
-  /// `drift`: how far each of the four has gone, in periods. Where the map is larger than
-  /// TextureLevels::base, what varies within a texel of it counts as common to lookups that are in
-  /// the same place, and as independent where they are a texel apart. Makes no allocation after the
-  /// first map of a size.
-  void make(const TextureLevels& map, double drift, Executor& executor);
+  /// Where the map is larger than TextureLevels::base, what varies within a texel of it counts as
+  /// common to lookups that are in the same place, and as independent where they are a texel apart.
+  /// Makes no allocation after the first map of a size.
+  void make(const TextureLevels& map, const FourShifts& shifts, Executor& executor);
 
   /// Of the last make(), until the next one.
   const SlopeLevels& levels() const { return levels_; }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "limpid/core/frame.h"
+#include "limpid/core/vec.h"
 
 namespace limpid {
 
@@ -58,6 +59,15 @@ class LevelMaker {
   std::vector<std::uint32_t> texels_;
   std::vector<float> moments_;
 };
+
+/// How far each of four lookups of a tiling map has gone along its x and y, in periods.
+struct FourShifts {
+  Vec2<double> of[4];
+};
+
+/// How much the mean of four such lookups varies over a period: the covariance of its slopes. To
+/// within what bilinear lookups between texels flatten; what is not a number moves nothing.
+Sym2<double> slope_variance(const TextureLevels& map, const FourShifts& shifts);
 
 /// Moments of the slopes of all waves of a map at one time, from TextureLevels::base on, in planes
 /// of sizes.texels floats: the mean along x and y, then xx, xy, yy.

@@ -95,6 +95,11 @@ struct WaveNormals {
   LIMPID_INLINE static double drift(const Params& params, double time) {
     return params.speed * time / params.tile_size;
   }
+  /// Where the lookups of four_maps and slopes are then.
+  LIMPID_INLINE static FourShifts four_shifts(const Params& params, double time) {
+    const double move = drift(params, time);
+    return {{{move, 0}, {-move, 0}, {0, move}, {0, -move}}};
+  }
   static double bound(const Params& params, const Context& c, const Ranges& ranges);
 
   template <class Strip>
@@ -344,10 +349,9 @@ struct WaveNormals {
   static void drifting_four(const Params& params, const Context& c, Strip& strip,
                             LookUp&& look_up) {
     using F = typename Strip::Number;
-    const double move = drift(params, c.time);
     strip.each([&](Pixel<F>& p) { p.normal = {F(0), F(0), F(0)}; });
-    constexpr Vec2<double> kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    for (const Vec2<double>& along : kDirections) look_up(Place<F>(params, c, 1, move * along));
+    const FourShifts shifts = four_shifts(params, c.time);
+    for (const Vec2<double>& shift : shifts.of) look_up(Place<F>(params, c, 1, shift));
   }
 
   /// From a vector in the axes of the map to the normal: normalize(lerp(up, vector, strength)).
