@@ -42,14 +42,19 @@ std::string to_string(const Value& value) {
   return "[" + join(rows) + "]";
 }
 
-bool Condition::holds(std::string_view value) const {
-  return key.empty() || std::find(words.begin(), words.end(), value) != words.end();
+bool Condition::holds(std::string_view value, double number) const {
+  if (key.empty() || (!or_above_zero.empty() && number > 0)) return true;
+  return std::find(words.begin(), words.end(), value) != words.end();
 }
 
 std::string to_string(const Condition& condition) {
   std::vector<std::string> words;
   for (const std::string_view word : condition.words) {
     if (!word.empty()) words.emplace_back(word);
+  }
+  if (!condition.or_above_zero.empty()) {
+    return std::string(condition.key) + " = " + join(words, " or ") + " or " +
+           std::string(condition.or_above_zero) + " above 0";
   }
   return std::string(condition.key) + " = " + join(words, " or ");
 }

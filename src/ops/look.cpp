@@ -37,12 +37,20 @@ void follow(std::span<const Field<P>> fields, const Field<P>& field, P& params) 
   }
 }
 
+/// Another parameter of the table, or null.
 const Parameter* beside(const std::vector<Parameter>& all, const Parameter& p,
                         std::string_view key) {
   for (const Parameter& other : all) {
     if (other.table == p.table && other.name == key) return &other;
   }
   return nullptr;
+}
+
+bool holds(const Condition& condition, const std::vector<Parameter>& all, const Parameter& p) {
+  const Parameter* other = beside(all, p, condition.key);
+  const Parameter* number = beside(all, p, condition.or_above_zero);
+  return !other ||
+         condition.holds(to_string(other->value), number ? std::get<double>(number->value) : 0);
 }
 
 std::string value_text(const Value& value) {
@@ -106,8 +114,8 @@ std::vector<std::string> unread_settings(const Look& look) {
     const Parameter& p = all[i];
     if (p.value == defaults[i].value) continue;
     for (const Condition& condition : p.used_when) {
+      if (holds(condition, all, p)) continue;
       const Parameter* other = beside(all, p, condition.key);
-      if (!other || condition.holds(to_string(other->value))) continue;
       sentences.push_back(std::string(p.table) + "." + std::string(p.name) + " = " +
                           to_string(p.value) + " changes nothing: " + std::string(other->name) +
                           " is " + to_string(other->value) + ", expected " + to_string(condition));

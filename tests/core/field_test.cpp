@@ -104,6 +104,20 @@ TEST(Field, CountsAndWordsShareAnInt) {
   EXPECT_THROW(validate("thing", kAll, params), Error);
 }
 
+TEST(Field, AConditionMayHoldForANumberAboveZeroAsWell) {
+  const Field<Params> field = real<&Params::size>("size", "m", {0, 10}, "Its size.")
+                                  .when("steps", {"3"})
+                                  .when("shape", {"round"})
+                                  .or_above_zero("height");
+  EXPECT_EQ(to_string(field.used_when[0]), "steps = 3");
+  EXPECT_EQ(to_string(field.used_when[1]), "shape = round or height above 0");
+  EXPECT_FALSE(field.used_when[0].holds("4", 1));
+  EXPECT_TRUE(field.used_when[0].holds("3"));
+  EXPECT_TRUE(field.used_when[1].holds("round", 0));
+  EXPECT_TRUE(field.used_when[1].holds("flat", 0.1));
+  EXPECT_FALSE(field.used_when[1].holds("flat", 0));
+}
+
 // omega of deep water: sqrt(9.81 * |(3, 4)|) = sqrt(49.05).
 TEST(Field, RowsOfATableMayLeaveOutTheLastColumn) {
   Params params;

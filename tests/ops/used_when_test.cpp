@@ -38,8 +38,18 @@ TEST(UsedWhen, ConditionsNameWordsOfTheSameOperator) {
         ASSERT_NE(other, nullptr) << label<Op>(field.name);
         EXPECT_NE(other->name, field.name);
         EXPECT_FALSE(condition.words.front().empty()) << label<Op>(field.name);
+        if (!condition.or_above_zero.empty()) {
+          const auto* number = field_named<Op>(condition.or_above_zero);
+          ASSERT_NE(number, nullptr) << label<Op>(field.name);
+          EXPECT_EQ(number->kind, FieldKind::kReal) << label<Op>(field.name);
+        }
         for (const std::string_view word : condition.words) {
           if (word.empty()) continue;
+          if (other->kind == FieldKind::kReal) {
+            EXPECT_EQ(word, "0") << label<Op>(field.name);
+            EXPECT_TRUE(other->range.min <= 0 && 0 <= other->range.max);
+            continue;
+          }
           EXPECT_EQ(std::count(other->choices.begin(), other->choices.end(), word), 1)
               << label<Op>(field.name) << ": " << word;
         }
@@ -68,8 +78,24 @@ template <class Op>
 bool read(const Field<typename Op::Params>& field, const typename Op::Params& params) {
   return std::all_of(field.used_when.begin(), field.used_when.end(), [&](const Condition& c) {
     const auto* other = field_named<Op>(c.key);
-    return !other || c.holds(to_string(other->get(params)));
+    const auto* number = field_named<Op>(c.or_above_zero);
+    return !other || c.holds(to_string(other->get(params)),
+                             number ? std::get<double>(number->get(params)) : 0);
   });
+}
+
+/// Parameters in range, in which numbers that something hangs on are 0 by turns.
+template <class Op>
+typename Op::Params some_params(int seed) {
+  typename Op::Params params = test::random_params<Op>(seed);
+  if (seed % 2 == 0) return params;
+  for (const auto& field : Op::fields()) {
+    for (const Condition& condition : field.used_when) {
+      const auto* other = field_named<Op>(condition.key);
+      if (other && other->kind == FieldKind::kReal) assign(Op::kName, *other, params, 0.0);
+    }
+  }
+  return params;
 }
 
 TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
@@ -80,7 +106,7 @@ TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
     for (const auto& field : Op::fields()) {
       bool matters = field.kind == FieldKind::kText;  // a file's name
       for (int seed = 0; seed < 60; ++seed) {
-        const typename Op::Params params = test::random_params<Op>(seed);
+        const typename Op::Params params = some_params<Op>(seed);
         const std::vector<double> before = made_by<Op>(params, context);
         for (const Value& value : candidates(field)) {
           typename Op::Params other = params;

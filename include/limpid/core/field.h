@@ -44,16 +44,18 @@ struct Range {
 };
 
 /// When a parameter matters: where another one of the same struct holds one of some words. (That
-/// one may be a number, too, as no word can be.)
+/// one may be a number, too: one that no word can be, or one whose text is among the words.)
 struct Condition {
   static constexpr std::size_t kMost = 5;
   std::string_view key;  ///< "" for none
   std::array<std::string_view, kMost> words{};
   bool follows = false;  ///< where it is none of the words, it becomes the first with the parameter
+  std::string_view or_above_zero{};  ///< or where this number is above 0; "" for none
 
-  bool holds(std::string_view value) const;
+  /// `number`: that of or_above_zero.
+  bool holds(std::string_view value, double number = 0) const;
 };
-/// "model = four_maps or slopes".
+/// "model = four_maps or slopes", "model = two_flows or wind above 0".
 std::string to_string(const Condition& condition);
 
 enum class FieldKind { kReal, kChoice, kColor, kText, kCountOrWord, kTable };
@@ -86,6 +88,12 @@ struct Field : FieldInfo {
     free.key = key;
     std::size_t next = 0;
     for (const std::string_view word : words) free.words[next++] = word;
+    return field;
+  }
+  /// The same, but the last condition holds as well where the number `key` is above 0.
+  constexpr Field or_above_zero(std::string_view key) const {
+    Field field = *this;
+    field.used_when[field.used_when[1].key.empty() ? 0 : 1].or_above_zero = key;
     return field;
   }
   /// The same; setting the parameter sets the other one to that word, too.
