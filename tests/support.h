@@ -11,7 +11,6 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
-#include "limpid/core/texture_levels.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
@@ -126,11 +125,6 @@ class NoiseMap {
  private:
   std::array<Plane, 3> planes_;
 };
-
-/// As far along each direction of the map's axes.
-inline FourShifts along_axes(double drift) {
-  return {{{drift, 0}, {-drift, 0}, {0, drift}, {0, -drift}}};
-}
 
 /// A target that owns its planes: color, alpha and all AOVs.
 class Picture {

@@ -38,10 +38,15 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& c
 void Completer::complete_waves(const Plan& plan, const Context& context, Executor& executor,
                                Frame& frame) {
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
-  if (!plan.reads_wave_map || !frame.wave_map || waves.filter == WaveNormals::Filter::kNone) return;
+  const bool windy = WaveNormals::needs_wave_variance(waves);
+  if (!plan.reads_wave_map || !frame.wave_map) return;
+  if (waves.filter == WaveNormals::Filter::kNone && !windy) return;
   if (!frame.wave_map.levels) {
     level_maker_.make(frame.wave_map);
     frame.wave_map.levels = &level_maker_.levels();
+  }
+  if (windy) {
+    frame.wave_variance = WaveNormals::wave_variance(waves, *frame.wave_map.levels, context.time);
   }
   if (!WaveNormals::needs_slope_map(waves)) return;
   slope_map_.make(*frame.wave_map.levels, WaveNormals::four_shifts(waves, context.time), executor);

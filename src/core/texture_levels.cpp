@@ -108,16 +108,16 @@ Sym2<double> slope_variance(const TextureLevels& map, const FourShifts& shifts) 
   const Size base = map.base;
   const std::int64_t area = rect_of(base).area();
   const double within = map.halvings > 0 ? kept_within(shifts, base) : 0;
-  std::vector<float> h_x(static_cast<std::size_t>(base.width)), h_y(h_x.size());
+  float h_x[TextureLevels::kMostBase], h_y[TextureLevels::kMostBase];
   const auto moment = [&](int c, std::ptrdiff_t at) -> double {
     return map.moments[c * area + at];
   };
   Vec2<double> mean{0, 0};
   Sym2<double> square{0, 0, 0};
   for (int y = 0; y < base.height; ++y) {
-    mean_of_four(map.moments, base, shifts, y, h_x.data());
-    mean_of_four(map.moments + area, base, shifts, y, h_y.data());
-    for (std::size_t x = 0; x < h_x.size(); ++x) {
+    mean_of_four(map.moments, base, shifts, y, h_x);
+    mean_of_four(map.moments + area, base, shifts, y, h_y);
+    for (int x = 0; x < base.width; ++x) {
       const double u = h_x[x], v = h_y[x];
       mean = mean + Vec2<double>{u, v};
       square = square + Sym2<double>{u * u, u * v, v * v};

@@ -89,6 +89,7 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
       wave_map(frame.wave_map),
       environment(frame.environment),
       wave_slopes(frame.wave_slopes),
+      wave_variance(frame.wave_variance),
       made(parts) {
   scene.validate();
   if (!scene.camera) throw Error("the scene has no camera, expected view and projection matrices");

@@ -18,16 +18,24 @@ constexpr Field<P> kFields[] = {
     choice<&P::filter, kFilters>(
         "filter",
         "What becomes of waves too small for a pixel: nothing, their mean, or its variance."),
-    real<&P::strength>("strength", "", {0, 4},
-                       "Scales the waves, not the plate's; 0 is calm, 1 the waves as they are.")
+    real<&P::strength>(
+        "strength", "", {0, 4},
+        "Scales the waves, not the plate's; 0 is calm, 1 the waves as they are, or the wind's.")
         .when("model", {"four_maps", "two_flows", "dudv", "sines", "slopes"}),
     real<&P::tile_size>("tile_size", "scene units", {1e-6, 1e9}, "Length of one period of the map.")
         .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
     real<&P::speed>("speed", "scene units/s", {-1e6, 1e6}, "Drift of the map.")
-        .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
+        .when("model", {"four_maps", "two_flows", "dudv", "slopes"})
+        .when("wind", {"0"}),
     real<&P::direction>("direction", "deg", {-360, 360},
-                        "Where two_flows drifts: 0 is map x, 90 map y.")
-        .when("model", {"two_flows"}),
+                        "Where the wind blows to, or two_flows drifts: 0 is map x, 90 map y.")
+        .when("model", {"four_maps", "two_flows", "dudv", "slopes"})
+        .when("model", {"two_flows"})
+        .or_above_zero("wind"),
+    real<&P::wind>("wind", "m/s", {0, 30},
+                   "Drift and slopes are a sea's under that wind, slopes times strength; 0: the "
+                   "map's own.")
+        .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
     text<&P::map>("map", "File of the tiling normal map, blue up; relative to the look file.")
         .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
     table<&P::waves>("waves", "", {-1e6, 1e6},
@@ -39,6 +47,25 @@ constexpr Field<P> kFields[] = {
 }  // namespace
 
 std::span<const Field<P>> WaveNormals::fields() { return kFields; }
+
+Sym2<double> WaveNormals::wave_variance(const P& params, const TextureLevels& map, double time) {
+  switch (params.model) {
+    case Model::kFourMaps:
+    case Model::kSlopes:
+      return slope_variance(map, four_shifts(params, time));
+    case Model::kTwoFlows:  // (h1 + h2 / 2) / (3 / 2), as if h1 and h2 had nothing in common
+      return 1.25 / 2.25 * slope_variance(map, {});
+    case Model::kDudv: {  // z / ((1 + z) / 2), for blue is not decoded; z of the mean slope
+      const Sym2<double> whole = slope_variance(map, {});
+      const double z = 1 / std::sqrt(1 + whole.xx + whole.yy), flatter = 2 * z / (1 + z);
+      return flatter * flatter * whole;
+    }
+    case Model::kSines:
+    case Model::kPlate:
+      break;
+  }
+  return {0, 0, 0};
+}
 
 /// All that comes after hangs on them.
 double WaveNormals::bound(const P&, const Context&, const Ranges&) { return HUGE_VAL; }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "limpid/core/error.h"
+#include "limpid/core/texture_levels.h"
 #include "limpid/raster/render_plate.h"
 
 #include "raster/check_rendered.h"
@@ -40,11 +41,19 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
 
 /// What the chain's formulas want to know of the frame: its size, and whether the surface has
 /// planes of its own.
-Frame frame_of(const Model& model, const Scene& scene, const TruthOptions& options,
-               const float& anything) {
+Frame frame_of(const Model& model, const Scene& scene, const Look& look,
+               const TruthOptions& options, const float& anything) {
   Frame frame;
   frame.display = rect_of(options.size);
   frame.wave_map = options.wave_map;
+  const WaveNormals::Params& waves = look.of<WaveNormals>();
+  if (frame.wave_map && WaveNormals::needs_wave_variance(waves)) {
+    LevelMaker maker;
+    if (!frame.wave_map.levels) maker.make(frame.wave_map);
+    const TextureLevels* levels = frame.wave_map.levels;
+    frame.wave_variance =
+        WaveNormals::wave_variance(waves, levels ? *levels : maker.levels(), scene.time);
+  }
   for (PlaneId id : {PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow}) {
     const bool there = renderable(model, scene).has(id);
     if (there) frame.planes[index_of(id)] = {&anything, 0, 0, frame.display};
@@ -101,7 +110,7 @@ class Painter {
           TruthPicture& picture)
       : options_(options),
         picture_(picture),
-        context_(scene, frame_of(model, scene, options, anything_), look.water.ior, {}),
+        context_(scene, frame_of(model, scene, look, options, anything_), look.water.ior, {}),
         eye_(*scene.camera, options.size),
         tracer_(model, scene, look, options, context_),
         steps_(std::max(4, 32 / (options.samples * options.samples))) {}

@@ -7,11 +7,16 @@
 namespace limpid {
 namespace {
 
+/// As far along each direction of the map's axes.
+FourShifts along_axes(double drift) {
+  return {{{drift, 0}, {-drift, 0}, {0, drift}, {0, -drift}}};
+}
+
 /// The slopes of a map at one time.
 struct Sloped {
   Sloped(const Texture& map, double drift, int threads = 1) {
     maker.make(map);
-    slopes.make(maker.levels(), test::along_axes(drift), *make_executor(threads));
+    slopes.make(maker.levels(), along_axes(drift), *make_executor(threads));
   }
   double at(int plane, int level, int x, int y) const {
     return slopes.levels().planes[plane][slopes.levels().sizes.place(level, x, y)];

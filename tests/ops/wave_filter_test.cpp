@@ -116,14 +116,15 @@ struct Striped {
 
   /// What the waves are where a pixel is so many units wide, after this drift in periods.
   Pixel<double> wave(double width, double drift = 0) {
+    params.speed = drift * params.tile_size;
+    tray.scene.time = 1;
     LevelMaker maker;
     maker.make(tray.buffers.frame.wave_map);
     SlopeMap slopes;
-    slopes.make(maker.levels(), test::along_axes(drift), *make_executor(1));
+    slopes.make(maker.levels(), WaveNormals::four_shifts(params, 1), *make_executor(1));
     Frame frame = tray.buffers.frame;
     frame.wave_slopes = &slopes.levels();
-    params.speed = drift * params.tile_size;
-    tray.scene.time = 1;
+    frame.wave_variance = WaveNormals::wave_variance(params, maker.levels(), 1);
     Context context(tray.scene, frame, 1.33, kWholeState);
     context.part.origin_dx = width * context.rays.origin_dx;
     context.part.origin_dy = width * context.rays.origin_dy;
@@ -159,6 +160,23 @@ TEST(WaveFilter, KnowsHowFarTheLookupsHaveDrifted) {
   Striped striped;
   EXPECT_NEAR(striped.wave(2, 0.25).slope_variance.xx, 0.0625, 1e-5);
   EXPECT_NEAR(striped.wave(2, 0.125).slope_variance.xx, 0, 1e-5);
+}
+
+/// Stripes lean along x alone: across a wind along x nothing can be scaled.
+TEST(WaveFilter, AWindScalesWhatAPixelCannotResolve) {
+  Striped striped;
+  striped.params.wind = 8;
+  const WindSlopes wanted = wind_slopes(8);
+  for (const double degrees : {0.0, 90.0, 30.0, 200.0}) {
+    striped.params.direction = degrees;
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec2<double> ahead{std::cos(angle), std::sin(angle)}, aside{-ahead.y, ahead.x};
+    const Sym2<double> got = striped.wave(8e3).slope_variance;
+    const double strength = 0.5, of_x = std::abs(ahead.x), of_y = std::abs(ahead.y);
+    const double square = strength * strength;
+    EXPECT_NEAR(along(got, ahead), of_x > 1e-9 ? square * wanted.along : 0, 1e-5) << degrees;
+    EXPECT_NEAR(along(got, aside), of_y > 1e-9 ? square * wanted.across : 0, 1e-5) << degrees;
+  }
 }
 
 TEST(WaveFilter, MipHasNoVariance) {

@@ -389,11 +389,17 @@ TEST(WaveNormals, PositionsTooFarForANumberStayInTheMap) {
   late.look.of<WaveNormals>().tile_size = 1e-6;
   late.look.of<WaveNormals>().speed = 1e6;
   late.scene.time = 1e300;
+  Tray blown = mapped_tray(map, 1);
+  blown.look.of<WaveNormals>().tile_size = 1e-6;
+  blown.look.of<WaveNormals>().wind = 30;
+  blown.scene.time = 1e300;
   for (const auto& [tray, model] :
        {std::pair(&far_off, Model::kFourMaps), std::pair(&late, Model::kFourMaps),
         std::pair(&far_off, Model::kTwoFlows), std::pair(&late, Model::kTwoFlows),
         std::pair(&far_off, Model::kDudv), std::pair(&late, Model::kDudv),
-        std::pair(&far_off, Model::kSlopes), std::pair(&late, Model::kSlopes)}) {
+        std::pair(&far_off, Model::kSlopes), std::pair(&late, Model::kSlopes),
+        std::pair(&blown, Model::kFourMaps), std::pair(&blown, Model::kTwoFlows),
+        std::pair(&blown, Model::kDudv), std::pair(&blown, Model::kSlopes)}) {
     tray->look.of<WaveNormals>().model = model;
     std::vector<test::Picture> pictures;
     pictures.push_back(tray->wet());

@@ -60,6 +60,23 @@ TEST(PlanWarnings, AnAbsorptionIsThatOfCustomWater) {
                           "II, expected water_type = custom"));
 }
 
+TEST(PlanWarnings, WhatAWindTakesThePlaceOfIsTold) {
+  Look look;
+  look.set("wave_normals", "speed", 0.2);
+  look.set("wave_normals", "direction", 20.0);
+  EXPECT_THAT(warnings(look), ElementsAre("wave_normals.direction = 20 changes nothing: model is "
+                                          "slopes, expected model = two_flows or wind above 0"));
+  look.set("wave_normals", "wind", 5.0);
+  EXPECT_THAT(warnings(look), ElementsAre("wave_normals.speed = 0.2 changes nothing: wind is 5, "
+                                          "expected wind = 0"));
+  look.set("wave_normals", "model", "sines");
+  look.set("wave_normals", "speed", 0.3);
+  look.set("wave_normals", "direction", 135.0);
+  EXPECT_THAT(warnings(look),
+              ElementsAre("wave_normals.wind = 5 changes nothing: model is sines, expected model "
+                          "= four_maps or two_flows or dudv or slopes"));
+}
+
 TEST(PlanWarnings, HalfALayerBelowIsNotRead) {
   const PlaneSet half = kBare | PlaneSet{PlaneId::kBelowDepth};
   EXPECT_FALSE(make_plan(Look{}, {.planes = half}).planes.has(PlaneId::kBelowDepth));

@@ -82,6 +82,34 @@ TEST(ChainBesideTruth, AgreesOnCalmWaterOverALevelFloor) {
   }
 }
 
+TEST(ChainBesideTruth, AgreesOnTheWavesOfAWind) {
+  const NoiseMap map(8, 8);
+  for (const WaveNormals::Model model :
+       {WaveNormals::Model::kSlopes, WaveNormals::Model::kFourMaps, WaveNormals::Model::kTwoFlows,
+        WaveNormals::Model::kDudv}) {
+    Look look = physical();
+    look.of<WaveNormals>().model = model;
+    look.of<WaveNormals>().strength = 1;
+    look.of<WaveNormals>().wind = 3;
+    Scene scene = sunny(50);
+    scene.time = 2.7;
+    const Both b = both(sunny_pool(), scene, look, map.texture);
+    double steepest = 0;
+    int judged = 0;
+    for_each_pixel(kSize, [&](int x, int y) {
+      if (b.chain.aov(Aov::kConfidence, x, y) < 1) return;
+      ++judged;
+      for (int c = 0; c < 3; ++c) {
+        const double right = value(b.truth, Aov::kNormal, x, y, c);
+        EXPECT_NEAR(b.chain.aov(Aov::kNormal, x, y, c), right, 1e-6);
+        if (c == 0) steepest = std::max(steepest, std::abs(right));
+      }
+    });
+    EXPECT_GT(judged, 500);
+    EXPECT_GT(steepest, 0.1);
+  }
+}
+
 TEST(ChainBesideTruth, AgreesOnWhichWayAMapsWavesBendTheView) {
   const NoiseMap map(8, 8);
   Look look = physical();

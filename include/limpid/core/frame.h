@@ -9,6 +9,7 @@
 
 #include "limpid/core/enum_set.h"
 #include "limpid/core/plane.h"
+#include "limpid/core/vec.h"
 
 namespace limpid {
 
@@ -124,6 +125,9 @@ struct Frame {
   Texture environment;
   /// Of wave_map's waves at the time of the frame; null, or made by complete/.
   const SlopeLevels* wave_slopes = nullptr;
+  /// How much those waves lean, for a wind that scales them: the covariance of their slopes, along
+  /// the map's axes. 0 where nobody has made it: the waves then stay as the map has them.
+  Sym2<double> wave_variance{0, 0, 0};
 
   const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
   PlaneSet present() const;

@@ -75,6 +75,7 @@ struct Context {
   double ior;
   Texture wave_map, environment;
   const SlopeLevels* wave_slopes;  ///< of the wave map at this time, or null
+  Sym2<double> wave_variance;      ///< likewise, or 0
   StateSet made;  ///< what the operators of the plan make: neutral or absent ones make nothing
   /// False where it is known that nothing stands before the water in any place that refraction may
   /// look up (plan/survey.h): an operator may leave out its test for that.

@@ -5,6 +5,7 @@
 
 #include "limpid/op/footprint.h"
 #include "limpid/op/operator.h"
+#include "limpid/optics/wind.h"
 
 namespace limpid {
 
@@ -38,6 +39,24 @@ namespace limpid {
 /// times strength, n = normalize(-h_x, -h_y, 1). n_z below 0.05 counts as 0.05, so no slope passes
 /// 20. Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework".
 ///
+/// `wind`, in m/s, 12.5 m over the water, takes the place of `speed` for all models of a map, and
+/// blows towards `direction`: 0 is map x, 90 map y. A scene unit is a metre then.
+///  - Lookups run with the wind, each as fast as deep-water waves of its own length do (Lamb 1932,
+///    "Hydrodynamics"), on water whose skin the wind drags along (Wu 1975, "Wind-Induced Drift
+///    Currents"). An eighth of a tile counts as the length of the map's waves. The four lookups of
+///    four_maps and slopes stand for waves of 2, 1.4, 1 and 0.7 times that length, which run 15,
+///    -25, 40 and -40 degrees off the wind, and begin apart. The first of two_flows runs straight,
+///    the second, of waves twice as long, at 15 degrees; the second of dudv straight.
+///  - Slopes are scaled along the wind and across it, until the mean square of each over the map,
+///    at this time, is that of a clean sea (Cox & Munk 1954; optics/wind.h), times strength
+///    squared. That is so to 2 % of it for `slopes`, at strength 1 to 4 % for four_maps and dudv
+///    and to 10 % for two_flows, whose lookups count as two maps. The tilt of dudv knows no
+///    direction of the world: it has the root mean square of both factors. A map flatter than the
+///    rounding of its bytes stays as it is. Cox & Munk's slopes are those of all waves down to
+///    ripples: roughness elsewhere adds to them.
+/// Without wind two_flows' `direction` is where its first lookup goes, as the article has it: its
+/// waves go the other way.
+///
 /// `filter` says what becomes of waves that are too small for a pixel (op/footprint.h). `none`:
 /// each pixel takes the normal at its centre. `variance`: the normal is that of the mean slope in
 /// the pixel, and slope_variance the covariance around it. Of sines that is closed form, for a
@@ -61,6 +80,7 @@ struct WaveNormals {
     double tile_size = 4;
     double speed = 0.3;
     double direction = 135;
+    double wind = 0;
     std::string map;
     std::vector<SineWave> waves;
   };
@@ -97,9 +117,20 @@ struct WaveNormals {
   }
   /// Where the lookups of four_maps and slopes are then.
   LIMPID_INLINE static FourShifts four_shifts(const Params& params, double time) {
+    if (params.wind > 0) {
+      FourShifts shifts;
+      for (int i = 0; i < 4; ++i) {
+        shifts.of[i] = kTrains[i].begin - run(params, kTrains[i], time);
+      }
+      return shifts;
+    }
     const double move = drift(params, time);
     return {{{move, 0}, {-move, 0}, {0, move}, {0, -move}}};
   }
+  /// Whether it reads Context::wave_variance.
+  static bool needs_wave_variance(const Params& p) { return p.wind > 0 && needs(p).wave_map; }
+  /// Of these waves at strength 1 without the wind's scale, at a time in s.
+  static Sym2<double> wave_variance(const Params& params, const TextureLevels& map, double time);
   static double bound(const Params& params, const Context& c, const Ranges& ranges);
 
   template <class Strip>
@@ -137,6 +168,66 @@ struct WaveNormals {
   }
 
  private:
+  /// Waves of one length, in tiles, that run along `course`: ahead of the wind and aside. Their
+  /// lookup begins so many periods on, so that no two see the same.
+  struct Train {
+    double length;
+    Vec2<double> course, begin;
+  };
+  static constexpr Train kAhead{0.125, {1, 0}, {0, 0}};
+  static constexpr Train kTrains[4] = {{0.25, {0.965926, 0.258819}, {0, 0}},
+                                       {0.176777, {0.906308, -0.422618}, {0.7549, 0.5698}},
+                                       {0.125, {0.766044, 0.642788}, {0.5098, 0.1397}},
+                                       {0.088388, {0.766044, -0.642788}, {0.2647, 0.7095}}};
+
+  /// Unit, along the axes of the map.
+  LIMPID_INLINE static Vec2<double> downwind(const Params& params) {
+    const double angle = params.direction * (std::numbers::pi / 180);
+    return {std::cos(angle), std::sin(angle)};
+  }
+  /// How far waves have run at a time in s, in periods of tile_size.
+  LIMPID_INLINE static Vec2<double> run(const Params& params, const Train& train, double time) {
+    const Vec2<double> ahead = downwind(params), aside{-ahead.y, ahead.x};
+    const double speed = phase_speed(train.length * params.tile_size);
+    const Vec2<double> of_skin = skin_drift(params.wind) * ahead;
+    return time / params.tile_size *
+           (of_skin + speed * (train.course.x * ahead + train.course.y * aside));
+  }
+  /// What the wind multiplies slopes by, along it and across it.
+  LIMPID_INLINE static Vec2<double> wind_factors(const Params& params, const Context& c) {
+    const Vec2<double> ahead = downwind(params);
+    const WindSlopes wanted = wind_slopes(params.wind);
+    const auto factor = [&](Vec2<double> axis, double square) {
+      const double is = along(c.wave_variance, axis);
+      return is > kFlattest ? std::sqrt(square / is) : 1.0;
+    };
+    return {factor(ahead, wanted.along), factor({-ahead.y, ahead.x}, wanted.across)};
+  }
+  static constexpr double kFlattest = 4e-5;  ///< bytes one step apart vary by 3e-5
+
+  /// Vectors in the axes of the map, and what they vary, to what they are under the wind.
+  template <class Strip>
+  static void stretch(const Params& params, const Context& c, Strip& strip) {
+    using F = typename Strip::Number;
+    if (!(params.wind > 0)) return;
+    const Vec2<double> ahead = downwind(params), factors = wind_factors(params, c);
+    const double more = factors.x - factors.y;  // factors.y everywhere, and more ahead
+    const F xx(factors.y + more * ahead.x * ahead.x), xy(more * ahead.x * ahead.y);
+    const F yy(factors.y + more * ahead.y * ahead.y);
+    strip.each([&](Pixel<F>& p) {
+      const F x = p.normal.x, y = p.normal.y;
+      p.normal.x = xx * x + xy * y;
+      p.normal.y = xy * x + yy * y;
+    });
+    if (params.model != Model::kSlopes || params.filter != Filter::kVariance) return;
+    strip.each([&](Pixel<F>& p) {
+      const Sym2<F> v = p.slope_variance;
+      const F mixed = xx * (xy * v.xx + yy * v.xy) + xy * (xy * v.xy + yy * v.yy);
+      p.slope_variance = {max(along(v, Vec2<F>{xx, xy}), F(0)), mixed,
+                          max(along(v, Vec2<F>{xy, yy}), F(0))};
+    });
+  }
+
   /// A pixel's normal is one sample of the waves in it; how much its neighbours differ tells what
   /// else is there. Half of their variance, for they are farther apart than what the pixel sees.
   template <class Strip>
@@ -182,15 +273,16 @@ struct WaveNormals {
   template <class Strip>
   static void two_flows(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
-    const double angle = params.direction * (std::numbers::pi / 180);
-    const Vec2<double> flow =
-        drift(params, c.time) * Vec2<double>{std::cos(angle), std::sin(angle)};
+    const Vec2<double> flow = drift(params, c.time) * downwind(params);
+    const bool windy = params.wind > 0;
+    const Vec2<double> first = windy ? -1.0 * run(params, kAhead, c.time) : flow;
+    const Vec2<double> second = windy ? -0.5 * run(params, kTrains[0], c.time) : -0.3 * flow;
     measure(params.filter != Filter::kNone, params, c, strip);
-    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, flow),
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, first),
                     [](Pixel<F>& p, Rgb<F> map) {
                       p.normal = {map.r, map.g, map.b};
                     });
-    strip.tiled_rgb(c.wave_map, Wide<F>{0.5}, Place<F>(params, c, 0.5, -0.3 * flow),
+    strip.tiled_rgb(c.wave_map, Wide<F>{0.5}, Place<F>(params, c, 0.5, second),
                     [](Pixel<F>& p, Rgb<F> map) {
                       // ((2 c1 - 1) + (2 c2 - 1) / 2) / 2
                       const Vec3<F> both = p.normal + F(0.5) * Vec3<F>{map.r, map.g, map.b};
@@ -203,13 +295,19 @@ struct WaveNormals {
   static void dudv(const Params& params, const Context& c, Strip& strip) {
     using F = typename Strip::Number;
     const double move = drift(params, c.time);
+    const bool windy = params.wind > 0;
+    const Vec2<double> first =
+        windy ? -1.0 * run(params, kTrains[2], c.time) : Vec2<double>{move, 0};
+    const Vec2<double> second = windy ? -1.0 * run(params, kAhead, c.time) : Vec2<double>{0, move};
     measure(params.filter != Filter::kNone, params, c, strip);
-    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, {move, 0}),
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, first),
                     [](Pixel<F>& p, Rgb<F> map) {
                       p.normal = F(0.01) * Vec3<F>{map.r, map.g, F(0)};
                     });
-    const Place<F> place(params, c, 1, {0, move});
-    const F strength(params.strength);
+    const Place<F> place(params, c, 1, second);
+    const Vec2<double> factors = windy ? wind_factors(params, c) : Vec2<double>{1, 1};
+    const double steeper = windy ? std::hypot(factors.x, factors.y) / std::numbers::sqrt2 : 1;
+    const F strength(params.strength * steeper);
     strip.tiled_rgb(
         c.wave_map, Wide<F>{},
         [&](const Pixel<F>& p) {
@@ -291,6 +389,7 @@ struct WaveNormals {
       });
     });
     if (filtered) far_slopes(params, c, strip);
+    stretch(params, c, strip);
     lean(0.25 * params.strength, c, strip);
   }
 
@@ -360,6 +459,7 @@ struct WaveNormals {
     using F = typename Strip::Number;
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y), up = vec3_of<F>(c.up);
     const F strength(params.strength);
+    stretch(params, c, strip);
     strip.each([&](Pixel<F>& p) {
       const Vec3<F> n = p.normal.x * map_x + p.normal.y * map_y + p.normal.z * up;
       p.normal = normalize_or(up + strength * (n - up), up);
