@@ -8,9 +8,7 @@ namespace limpid {
 namespace {
 
 /// As far along each direction of the map's axes.
-FourShifts along_axes(double drift) {
-  return {{{drift, 0}, {-drift, 0}, {0, drift}, {0, -drift}}};
-}
+FourShifts along_axes(double drift) { return {{{drift, 0}, {-drift, 0}, {0, drift}, {0, -drift}}}; }
 
 /// The slopes of a map at one time.
 struct Sloped {
