@@ -42,10 +42,21 @@ Lagoon::Lagoon(const std::filesystem::path& folder) {
   run(plan(truth_look(), StateSet{StatePart::kConfidence}), picture.target, *make_executor(1));
 }
 
-Look Lagoon::truth_look() {
-  Look look;
+Look Lagoon::with_its_water(Look look) {
   look.water.ior = 1.333;
   look.of<PrismSplit>().gain = 0;
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.water_type = WaterType::kCustom;
+  fog.absorption = {0.42, 0.085, 0.055};
+  fog.scattering = fog.ambient = {0, 0, 0};
+  fog.sunlight = DepthFog::Sunlight::kStraight;
+  fog.crossing = DepthFog::Crossing::kNone;
+  look.of<SunHighlight>().roughness = 0;  // the sea mirrors the sun's disc
+  return look;
+}
+
+Look Lagoon::truth_look() {
+  Look look = with_its_water({});
   Refraction::Params& refraction = look.of<Refraction>();
   refraction.model = Refraction::Model::kSnell;
   refraction.steps = Refraction::kMarch;
@@ -53,18 +64,20 @@ Look Lagoon::truth_look() {
   DepthFog::Params& fog = look.of<DepthFog>();
   fog.model = DepthFog::Model::kBeerLambert;
   fog.distance = DepthFog::Distance::kRefracted;
-  fog.water_type = WaterType::kCustom;
-  fog.absorption = {0.42, 0.085, 0.055};
-  fog.scattering = fog.ambient = {0, 0, 0};
-  fog.sunlight = DepthFog::Sunlight::kStraight;
-  fog.crossing = DepthFog::Crossing::kNone;
   FresnelReflection::Params& mirror = look.of<FresnelReflection>();
   mirror.reflectance = FresnelReflection::Reflectance::kExact;
   mirror.source = FresnelReflection::Source::kPlanar;
   mirror.lookup = FresnelReflection::Lookup::kRay;
   look.of<SunHighlight>().model = SunHighlight::Model::kGgx;
-  look.of<SunHighlight>().roughness = 0;  // a calm sea mirrors the sun's disc
   return look;
+}
+
+std::vector<SineWave> Lagoon::waves() {
+  return {{0.00139261, 17.0053, 5.7527, 2.7692},    {0.00178933, -7.8484, 11.559, 5.72383},
+          {0.00229908, 10.1047, 4.01714, 3.65824},  {0.00295405, 5.31121, 6.58884, 0.527399},
+          {0.0037956, 4.99447, 4.29397, 1.48792},   {0.0048769, -2.68686, 4.36564, 4.95601},
+          {0.00626624, 0.213654, 3.98391, 3.91619}, {0.00805138, 1.67929, 2.61178, 0.933396},
+          {0.0103451, -0.61976, 2.33579, 0.718878}};
 }
 
 std::vector<Lagoon::Refracted> Lagoon::ways_to_refract() {

@@ -53,6 +53,11 @@ void measure_choices(const Measuring& m, Subject& subject);
 /// All looks on a scene beside its ray-traced truth, and with `choices` physical with one changed.
 void measure_models(const Measuring& m, const std::filesystem::path& scene_file, bool choices);
 
+/// The looks physical and fast by what one brings: on the path-traced lagoon with its waves, and on
+/// a scene beside its ray-traced truth.
+void measure_brought_lagoon(const Measuring& m);
+void measure_brought_scene(const Measuring& m, const std::filesystem::path& scene_file);
+
 /// Errors that are allowed, in clear water and in murky.
 void measure_budgets(const Measuring& m, Subject& subject);
 

@@ -72,6 +72,10 @@ void measure(const Measuring& m) {
   for (const fs::path& file : files_in(options.data / "scenes", false)) {
     measure_models(m, file, file.stem() == kChoicesScene);
   }
+  measure_brought_lagoon(m);
+  for (const fs::path& file : files_in(options.data / "scenes", false)) {
+    measure_brought_scene(m, file);
+  }
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ constexpr Link kLinks[] = {
     {"looks", "Looks"},
     {"truth", "Truth"},
     {"traced", "Traced light"},
+    {"brought", "Buffers"},
     {"choices", "Choices"},
     {"budgets", "Error budgets"},
     {"method", "Method"},
@@ -37,8 +38,8 @@ std::string navigation(const std::string& body) {
 std::string to_html(const Report& report) {
   const std::string body = subjects_section(report) + runners_section(report) +
                            looks_section(report) + truth_section(report) + traced_section(report) +
-                           choices_section(report) + budgets_section(report) +
-                           method_section(report) + facts_section(report);
+                           brought_section(report) + choices_section(report) +
+                           budgets_section(report) + method_section(report) + facts_section(report);
   return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n") +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
          "<title>limpid report</title>\n<style>" + kPageStyle + "</style>\n</head>\n<body>\n" +

@@ -15,6 +15,7 @@ std::string runners_section(const Report& report);
 std::string looks_section(const Report& report);
 std::string truth_section(const Report& report);
 std::string traced_section(const Report& report);
+std::string brought_section(const Report& report);
 std::string choices_section(const Report& report);
 std::string budgets_section(const Report& report);
 std::string method_section(const Report& report);

@@ -77,6 +77,20 @@ Json json_of(const ModelRow& row) {
           {"wrongly_accepted", row.wrongly_accepted}};
 }
 
+Json json_of(const BroughtSubject& s) {
+  return {{"subject", s.subject},
+          {"wave_length", s.wave_length},
+          {"wet_share", s.wet_share},
+          {"near_share_of_wet", s.near_share}};
+}
+
+Json json_of(const BroughtRow& row) {
+  return {{"subject", row.subject},        {"look", row.look},
+          {"brought", row.brought},        {"ns_per_pixel", row.ns_per_pixel},
+          {"relative_error_wet", row.wet}, {"relative_error_near", row.near},
+          {"relative_error_far", row.far}, {"flip_wet", row.flip}};
+}
+
 Json json_of(const ChoiceRow& row) {
   return {{"parameter", row.parameter.empty() ? Json() : Json(row.parameter)},
           {"value", row.parameter.empty() ? Json() : Json(row.value)},
@@ -123,6 +137,10 @@ std::string to_json(const Report& report) {
                     {"in_frame_share", report.truth_in_frame_share},
                     {"rows", rows(report.truth)}}},
                   {"models_beside_traced_light", rows(report.models)},
+                  {"looks_by_what_is_brought",
+                   {{"samples_a_pixel", kBroughtSamples * kBroughtSamples},
+                    {"subjects", rows(report.brought_subjects)},
+                    {"rows", rows(report.brought)}}},
                   {"choices_of_physical",
                    {{"subject", report.choices_subject}, {"rows", rows(report.choices)}}},
                   {"error_budgets", rows(report.budgets)}};

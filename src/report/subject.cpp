@@ -71,8 +71,13 @@ Subject Subject::of_plate(const std::filesystem::path& scene_file, Size size) {
 
 Subject Subject::of_scene(const std::filesystem::path& scene_file, Size size,
                           const std::filesystem::path& sky, Executor& executor, double time) {
+  return of_model(scene_file, load_gltf(load_scene(scene_file).geometry), size, sky, executor,
+                  time);
+}
+
+Subject Subject::of_model(const std::filesystem::path& scene_file, const Model& model, Size size,
+                          const std::filesystem::path& sky, Executor& executor, double time) {
   const SceneFile file = load_scene(scene_file);
-  const Model model = load_gltf(file.geometry);
   Subject subject;
   subject.scene_ = file.scene;
   if (file.camera) subject.scene_.camera = camera_for(*file.camera, size);
@@ -83,9 +88,11 @@ Subject Subject::of_scene(const std::filesystem::path& scene_file, Size size,
   sanitise_planes(plate.planes, subject.scene_.water->up);
   subject.frame_ = plate.frame;
   subject.planes_ = std::move(plate.planes);
-  subject.environment_ = file.environment.empty()
-                             ? load_environment(sky, 0)
-                             : load_environment(file.environment, file.environment_rotation);
+  if (!file.environment.empty()) {
+    subject.environment_ = load_environment(file.environment, file.environment_rotation);
+  } else if (!sky.empty()) {
+    subject.environment_ = load_environment(sky, 0);
+  }
   subject.describe(scene_file, "scene");
   return subject;
 }
@@ -94,6 +101,14 @@ void Subject::describe(const std::filesystem::path& scene_file, std::string kind
   frame_.environment = environment_.texture;
   facts_ = {scene_file.stem().string(), std::move(kind), scene_file.filename().string(),
             window().size(), 0};
+}
+
+void Subject::bring(PlaneSet planes) {
+  for (int i = 0; i < kPlaneCount; ++i) {
+    const bool brought = planes.has(static_cast<PlaneId>(i)) && planes_[i];
+    frame_.planes[i] = brought ? std::as_const(planes_[i]).view() : View<const float>{};
+  }
+  frame_.environment = {};
 }
 
 Plan Subject::plan(const Look& look, double max_error, StateSet outputs) const {

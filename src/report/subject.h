@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limpid/core/executor.h"
@@ -9,6 +10,7 @@
 #include "limpid/core/scene.h"
 #include "limpid/load/texture.h"
 #include "limpid/plan/plan.h"
+#include "limpid/raster/model.h"
 #include "limpid/report/report.h"
 
 namespace limpid {
@@ -20,8 +22,13 @@ class Subject {
   static Subject of_plate(const std::filesystem::path& scene_file, Size size);
   /// The moment that all pictures of the project show, in seconds.
   static constexpr double kMoment = 2;
-  /// The geometry that a scene file names, rendered. `sky` is its surroundings where it names none.
+  /// The geometry that a scene file names, rendered. `sky` is its surroundings where it names
+  /// none; empty for none.
   static Subject of_scene(const std::filesystem::path& scene_file, Size size,
+                          const std::filesystem::path& sky, Executor& executor,
+                          double time = kMoment);
+  /// The same with this model for the geometry.
+  static Subject of_model(const std::filesystem::path& scene_file, const Model& model, Size size,
                           const std::filesystem::path& sky, Executor& executor,
                           double time = kMoment);
 
@@ -29,6 +36,12 @@ class Subject {
   Rect window() const { return frame_.work(); }
   double pixels() const { return static_cast<double>(window().area()); }
   const Scene& scene() const { return scene_; }
+
+  PlaneSet planes() const { return frame_.present(); }
+  /// From now on it has these of its planes alone, and no surroundings.
+  void bring(PlaneSet planes);
+  /// From now on its scene has these waves.
+  void make_waves(std::vector<SineWave> waves) { scene_.water->waves = std::move(waves); }
 
   Plan plan(const Look& look, double max_error = 0, StateSet outputs = {}) const;
   /// The frame with the maps that the plan looks up, which stay loaded.

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "limpid/report/report.h"
 
 namespace limpid::test {
@@ -65,6 +67,12 @@ inline Report made_report(const std::string& name = "pond") {
                            3.5,
                            0.04,
                            0.02});
+  report.brought_subjects = {{name, 0.66, 0.5, 0.9}};
+  for (const std::string& look : report.looks) {
+    report.brought.push_back({name, look, "color, depth", 90, 0.23, 0.21, 0.41, 0.3});
+    report.brought.push_back({name, look, "shadow", 88, 0.22, 0.2, std::nan(""), 0.29});
+    report.brought.push_back({name, look, "reflection", 60, 0.15, 0.12, 0.4, 0.15});
+  }
   report.choices_subject = name;
   report.choices = {{"", "", 100, {}}, {"refraction.steps", "0", 60, {0.006, 0.1, 0.2, 0.3}}};
   report.budgets = {{name, "physical", 0, 100, {}, 0, 0.4, 0, 0.5},

@@ -77,6 +77,16 @@ TEST(ReportJson, HoldsEveryRow) {
   EXPECT_TRUE(traced[1]["parameter"].is_null());
   EXPECT_EQ(traced[2]["parameter"], "refraction.rejection");
   EXPECT_EQ(traced[2]["offset_pixels"]["p95"], 3.5);
+  const json brought = j["looks_by_what_is_brought"];
+  EXPECT_EQ(brought["samples_a_pixel"], 16);
+  EXPECT_EQ(brought["subjects"][0]["wave_length"], 0.66);
+  EXPECT_EQ(brought["subjects"][0]["near_share_of_wet"], 0.9);
+  ASSERT_EQ(brought["rows"].size(), 6);
+  EXPECT_EQ(brought["rows"][0]["brought"], "color, depth");
+  EXPECT_EQ(brought["rows"][2]["relative_error_near"], 0.12);
+  EXPECT_TRUE(brought["rows"][1]["relative_error_far"].is_null());  // no pixel is far
+  EXPECT_EQ(brought["rows"][5]["look"], "fast");
+  EXPECT_EQ(brought["rows"][5]["flip_wet"], 0.15);
   const json choices = j["choices_of_physical"]["rows"];
   ASSERT_EQ(choices.size(), 2);
   EXPECT_TRUE(choices[0]["parameter"].is_null());
@@ -104,12 +114,12 @@ TEST(ReportPage, NamesNothingOutsideItself) {
   EXPECT_EQ(count(html, "src="), count(html, "src=\"data:image/jpeg;base64,"));
   EXPECT_EQ(count(html, "href="), count(html, "href=\"#"));
   EXPECT_EQ(count(html, "url("), count(html, "url(#"));
-  for (const char* id :
-       {"subjects", "runners", "looks", "truth", "choices", "budgets", "method", "machine"}) {
+  for (const char* id : {"subjects", "runners", "looks", "truth", "brought", "choices", "budgets",
+                         "method", "machine"}) {
     EXPECT_THAT(html, HasSubstr("<section id=\"" + std::string(id) + "\">"));
     EXPECT_THAT(html, HasSubstr("href=\"#" + std::string(id) + "\""));
   }
-  EXPECT_EQ(count(html, "<svg class=\"plot\""), 7);
+  EXPECT_EQ(count(html, "<svg class=\"plot\""), 8);
 }
 
 TEST(ReportPage, NamesAreTextAndNotMarkup) {
@@ -123,17 +133,28 @@ TEST(ReportPage, WhatWasNotMeasuredHasNoSection) {
   Report report = made_report();
   report.truth.clear();
   report.choices.clear();
+  report.brought.clear();
   const std::string html = to_html(report);
   EXPECT_THAT(html, Not(HasSubstr("id=\"truth\"")));
   EXPECT_THAT(html, Not(HasSubstr("href=\"#truth\"")));
   EXPECT_THAT(html, Not(HasSubstr("id=\"choices\"")));
+  EXPECT_THAT(html, Not(HasSubstr("id=\"brought\"")));
+}
+
+TEST(ReportPage, EachRowHasABufferMore) {
+  const std::string html = to_html(made_report());
+  const std::string rows = html.substr(html.find("<section id=\"brought\">"));
+  EXPECT_THAT(rows, HasSubstr("<td class=\"wrap\">color, depth</td>"));
+  EXPECT_THAT(rows, HasSubstr("<td class=\"wrap\">and shadow</td>"));
+  EXPECT_EQ(count(rows, "<td class=\"wrap\">and "), 4);    // of two looks
+  EXPECT_THAT(rows, HasSubstr("<td class=\"n\">-</td>"));  // no pixel is far
 }
 
 TEST(ReportPage, BudgetsThatChangeNothingAreSaidAndNotDrawn) {
   Report report = made_report();
   report.budgets[1].error = {};
   const std::string html = to_html(report);
-  EXPECT_EQ(count(html, "<svg class=\"plot\""), 6);
+  EXPECT_EQ(count(html, "<svg class=\"plot\""), 7);
   EXPECT_THAT(html, HasSubstr("physical: no error that was allowed changed a pixel."));
 }
 

@@ -48,6 +48,23 @@ void expect_budgets_kept(const json& rows, std::size_t subjects) {
   }
 }
 
+/// For two looks each: a row a buffer, from color and depth on.
+void expect_what_is_brought(const json& section, std::size_t subjects) {
+  EXPECT_EQ(section["samples_a_pixel"], 16);
+  EXPECT_EQ(section["subjects"].size(), subjects);
+  std::size_t begun = 0;
+  for (const json& row : section["rows"]) {
+    begun += row["brought"] == "color, depth" ? 1 : 0;
+    EXPECT_GT(row["ns_per_pixel"], 0) << row;
+    EXPECT_GT(row["relative_error_wet"], 0) << row;
+    EXPECT_LT(row["relative_error_wet"], 0.6) << row;
+    EXPECT_GT(row["flip_wet"], 0) << row;
+  }
+  EXPECT_EQ(begun, 2 * subjects);
+  // The lagoon's reflection has neither depth nor validity.
+  EXPECT_EQ(section["rows"].size(), 2 * (5 * subjects - 1));
+}
+
 void ReportTest::expect_rows(const json& report) const {
   std::vector<std::string> subjects = names_in(LIMPID_DATA "/plates", true);
   for (const std::string& scene : names_in(LIMPID_DATA "/scenes", false)) subjects.push_back(scene);
@@ -107,6 +124,7 @@ void ReportTest::expect_rows(const json& report) const {
                            "fresnel_reflection.reflectance", "sun_highlight.model"}) {
     EXPECT_TRUE(parameters.contains(name)) << name;
   }
+  expect_what_is_brought(report["looks_by_what_is_brought"], subjects.size());
   expect_budgets_kept(report["error_budgets"], subjects.size());
 }
 

@@ -6,6 +6,7 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/core/plane.h"
+#include "limpid/core/scene.h"
 #include "limpid/load/plate.h"
 #include "limpid/ops/look.h"
 #include "limpid/plan/plan.h"
@@ -30,8 +31,13 @@ class Lagoon {
   /// `folder` is data/plates/lagoon. Throws Error as Plate does.
   explicit Lagoon(const std::filesystem::path& folder);
 
-  /// The water as the truth has it (see the README of the plate), marched, rejection shorten.
+  /// The look with the water as the truth has it (see the README of the plate).
+  static Look with_its_water(Look look);
+  /// That water, marched, rejection shorten.
   static Look truth_look();
+  /// The waves of the plate's normals and of `truth_waves` (see the README of the plate), which do
+  /// not move.
+  static std::vector<SineWave> waves();
 
   /// A way to refract, everything else being as in truth_look().
   struct Refracted {

@@ -78,6 +78,28 @@ struct ModelRow {
   double wrongly_rejected = 0, wrongly_accepted = 0;
 };
 
+/// A plate or a scene whose picture with water is known, waves and all: path-traced, or traced
+/// through the scene (trace/truth.h) with kBroughtSamples squared samples a pixel. A wet pixel is
+/// near where its footprint on the calm water is shorter than the waves are long.
+struct BroughtSubject {
+  std::string subject;
+  double wave_length = 0;  ///< scene units: 2 pi sqrt(mean square slope / mean square curvature)
+  double wet_share = 0;    ///< of all pixels
+  double near_share = 0;   ///< of the wet pixels
+};
+inline constexpr int kBroughtSamples = 4;
+
+/// A look with some of the buffers that a plate may have, and no surroundings; judged by that
+/// picture. Errors are mean |picture - truth| over mean truth, values above 4 counted as 4; NaN
+/// where there is no pixel to judge.
+struct BroughtRow {
+  std::string subject, look;
+  std::string brought;  ///< beside what the rows before it have: "color, depth", then "shadow" ...
+  double ns_per_pixel = 0;
+  double wet = 0, near = 0, far = 0;
+  double flip = 0;  ///< mean of the wet pixels
+};
+
 /// The look `physical` with one parameter changed; judged by itself. Values above 4 count as 4.
 struct ChoiceRow {
   std::string parameter, value;  ///< both "" for the look as it is
@@ -132,14 +154,17 @@ struct Report {
   double truth_in_frame_share = 0;
   Size truth_size;
   std::vector<ModelRow> models;
+  std::vector<BroughtSubject> brought_subjects;
+  std::vector<BroughtRow> brought;
   std::string choices_subject;  ///< what ChoiceRows were measured on
   std::vector<ChoiceRow> choices;
   std::vector<BudgetRow> budgets;
   /// The subjects with the look physical; every look on the first subject, and its difference from
   /// physical; the truth plate dry, path-traced and by the best look, and differences from truth;
-  /// the scenes traced, and the difference of physical from that.
+  /// the scenes traced, and the difference of physical from that; the truth plate with waves,
+  /// path-traced and by physical, a buffer more each.
   std::vector<Figure> subject_figures, look_figures, look_errors, truth_figures, truth_errors,
-      model_figures, model_errors;
+      model_figures, model_errors, brought_figures;
 };
 
 /// Measures. Throws Error for a folder that lacks what is to be measured, and for options that mean

@@ -1,0 +1,197 @@
+#include "report/brought.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "limpid/load/look_file.h"
+#include "limpid/load/texture.h"
+
+#include "report/finer_water.h"
+#include "report/measure.h"
+
+/// What one brings, where it is judged, and that each buffer is of use.
+
+namespace limpid {
+namespace {
+
+using ::testing::ElementsAre;
+
+std::vector<std::string> added(PlaneSet planes) {
+  std::vector<std::string> names;
+  for (const Brought& step : brought_one_by_one(planes)) names.push_back(roles_text(step.added));
+  return names;
+}
+
+TEST(Brought, OneBufferAfterTheOther) {
+  PlaneSet all;
+  for (const Role& role : roles()) all = all | role.planes();
+  EXPECT_THAT(
+      added(all),
+      ElementsAre("color, depth", "shadow", "reflection", "reflection_valid, reflection_depth",
+                  "surface_depth, surface_normal, below_color, below_depth, surface_shadow"));
+  PlaneSet before;
+  for (const Brought& step : brought_one_by_one(all)) {
+    EXPECT_EQ(step.all, before | step.added);
+    EXPECT_FALSE(before.meets(step.added));
+    before = step.all;
+  }
+  EXPECT_EQ(before, all - kSkyPlanes);  // which is made, and never brought
+}
+
+TEST(Brought, WhatAPlateLacksIsNoStep) {
+  const PlaneSet few = kColorPlanes | kReflectionPlanes | PlaneSet{PlaneId::kDepth};
+  EXPECT_THAT(added(few), ElementsAre("color, depth", "reflection"));
+}
+
+TEST(Brought, WavesAreAsLongAsTheirSine) {
+  const SineWave one{0.1, 3, 4, 0.5, 0};
+  EXPECT_DOUBLE_EQ(wave_length(std::span(&one, 1)), 2 * std::numbers::pi / 5);
+  // Slopes alike: the mean of the squares of 3 and 4.
+  const SineWave two[] = {{1.0 / 3, 3, 0, 0, 0}, {1.0 / 4, 0, 4, 0, 0}};
+  EXPECT_DOUBLE_EQ(wave_length(two), 2 * std::numbers::pi / std::sqrt(12.5));
+  EXPECT_TRUE(std::isnan(wave_length(std::span<const SineWave>{})));
+}
+
+TEST(Brought, AMapIsMeasuredAsItTiles) {
+  // Four waves across the map, one along it.
+  Plane red({0, 0, 128, 32}), green({0, 0, 128, 32}), blue({0, 0, 128, 32});
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      const double slope = 0.01 * std::cos(2 * std::numbers::pi * 4 * x / 128.0);
+      red.view().at(x, y) = static_cast<float>((slope + 1) / 2);
+      green.view().at(x, y) = 0.5f;
+      blue.view().at(x, y) = 1;
+    }
+  }
+  const Texture map{.channels = {red.view(), green.view(), blue.view()}};
+  EXPECT_NEAR(wave_length(map, 6), 6.0 / 4, 0.01);
+}
+
+TEST(Brought, NearIsWhereAPixelCoversLessThanAWave) {
+  // 10 above the water, looking straight down: a pixel is 20 / 8 = 2.5 wide in the middle.
+  Scene scene;
+  scene.camera =
+      Camera{glm::lookAt(glm::dvec3(0, 10, 0), glm::dvec3(0), glm::dvec3(0, 0, -1)),
+             perspective(std::numbers::pi / 2, 1, 0.1, 100, ClipSpace::kGl), ClipSpace::kGl};
+  scene.water = WaterPlane{};
+  Plane color({0, 0, 8, 8});
+  Frame frame;
+  frame.display = {0, 0, 8, 8};
+  for (int c = 0; c < 3; ++c) frame.planes[c] = color.view();
+  const auto places = [&](double near) {
+    return places_of(scene, frame, near, [](int, int y) { return y > 0; });
+  };
+  const auto share = [](const std::vector<Place>& list, Place place) {
+    return static_cast<double>(std::count(list.begin(), list.end(), place)) / 64;
+  };
+  EXPECT_EQ(share(places(2.6), Place::kNear), 56 / 64.0);
+  EXPECT_EQ(share(places(2.4), Place::kFar), 56 / 64.0);
+  EXPECT_EQ(share(places(2.4), Place::kDry), 8 / 64.0);
+  EXPECT_EQ(places(2.4).front(), Place::kDry);
+  EXPECT_EQ(share(places(std::nan("")), Place::kNear), 56 / 64.0);  // calm: nothing to resolve
+}
+
+TEST(Brought, TowardsTheHorizonPixelsAreFar) {
+  Scene scene;
+  scene.camera = Camera{glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), glm::dvec3(0, 1, 0)),
+                        perspective(1, 1, 0.1, 1000, ClipSpace::kGl), ClipSpace::kGl};
+  scene.water = WaterPlane{};
+  Plane color({0, 0, 4, 64});
+  Frame frame;
+  frame.display = {0, 0, 4, 64};
+  for (int c = 0; c < 3; ++c) frame.planes[c] = color.view();
+  const std::vector<Place> places = places_of(scene, frame, 3, [](int, int y) { return y >= 31; });
+  EXPECT_EQ(places[31 * 4], Place::kFar);  // above the horizon, as a crest may be
+  EXPECT_EQ(places[32 * 4], Place::kFar);
+  EXPECT_EQ(places[63 * 4], Place::kNear);
+}
+
+TEST(FinerWater, PartsTheWaterAlone) {
+  Model model;
+  model.materials.emplace_back();
+  model.meshes.resize(2);
+  model.meshes[0].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  model.meshes[0].indices = {0, 1, 2};
+  model.meshes[1].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  model.meshes[1].indices = {0, 1, 2, 2, 1, 3};
+  model.instances = {{.mesh = 0}, {.mesh = 1, .water = true}};
+  const Model finer = with_finer_water(model, 2);
+  EXPECT_EQ(finer.meshes[0].positions.size(), 3);
+  EXPECT_EQ(finer.meshes[1].indices.size(), 3 * 2 * 16);
+  EXPECT_EQ(finer.meshes[1].positions.size(), 25);  // edges are shared
+  double area = 0;
+  for (std::size_t t = 0; t < finer.meshes[1].indices.size(); t += 3) {
+    const auto at = [&](std::size_t k) {
+      return finer.meshes[1].positions[finer.meshes[1].indices[t + k]];
+    };
+    area += glm::cross(at(1) - at(0), at(2) - at(0)).z / 2;
+  }
+  EXPECT_NEAR(area, 1, 1e-6);  // all wound as before
+}
+
+// ---- measured, small
+
+class MeasureBrought : public ::testing::Test {
+ protected:
+  static Look look(const std::string& name) {
+    return load_look(LIMPID_DATA "/looks/" + name + ".toml");
+  }
+  const BroughtRow& first(const std::string& name) const { return *row(name, false); }
+  const BroughtRow& last(const std::string& name) const { return *row(name, true); }
+
+  ReportOptions options_{.data = LIMPID_DATA, .size = {96, 54}, .rounds = 1};
+  std::unique_ptr<Executor> one_ = make_executor(1), many_ = make_executor(2);
+  Report report_;
+  Measuring measuring_{
+      options_, {look("physical"), look("fast")}, look("physical"), *one_, *many_, 2, "", report_};
+
+ private:
+  const BroughtRow* row(const std::string& name, bool is_last) const {
+    const BroughtRow* found = nullptr;
+    for (const BroughtRow& row : report_.brought) {
+      if (row.look == name && (is_last || !found)) found = &row;
+    }
+    return found;
+  }
+};
+
+TEST_F(MeasureBrought, AllBuffersBeatColorAndDepthOnAScene) {
+  for (const char* scene : {"pool", "river"}) {
+    report_ = {};
+    measure_brought_scene(measuring_, std::string(LIMPID_DATA "/scenes/") + scene + ".toml");
+    ASSERT_EQ(report_.brought.size(), 10) << scene;
+    EXPECT_EQ(first("physical").brought, "color, depth");
+    EXPECT_LT(last("physical").wet, 0.9 * first("physical").wet) << scene;
+    EXPECT_LT(last("physical").flip, first("physical").flip) << scene;
+    EXPECT_LT(last("fast").wet, first("fast").wet) << scene;
+    EXPECT_LT(last("physical").wet, last("fast").wet) << scene;
+    for (const BroughtRow& row : report_.brought) {
+      EXPECT_GT(row.wet, 0) << scene << ", " << row.brought;
+      EXPECT_LT(row.wet, 0.5) << scene << ", " << row.brought;
+    }
+    ASSERT_EQ(report_.brought_subjects.size(), 1);
+    EXPECT_GT(report_.brought_subjects[0].wet_share, 0.2);
+    EXPECT_GT(report_.brought_subjects[0].near_share, 0.5);
+  }
+}
+
+TEST_F(MeasureBrought, TheLagoonIsThePathTracedOneWithItsWaves) {
+  measure_brought_lagoon(measuring_);
+  ASSERT_EQ(report_.brought.size(), 8);  // its reflection has neither depth nor validity
+  EXPECT_LT(first("physical").wet, 0.26);
+  EXPECT_LT(last("physical").wet, 0.15);
+  EXPECT_LT(last("physical").near, 0.11);
+  EXPECT_GT(last("physical").far, last("physical").near);
+  ASSERT_EQ(report_.brought_figures.size(), 5);  // the truth, and each row of physical
+  EXPECT_NEAR(report_.brought_subjects[0].wave_length, 0.66, 0.01);
+  EXPECT_NEAR(report_.brought_subjects[0].wet_share, 0.61, 0.01);
+}
+
+}  // namespace
+}  // namespace limpid
