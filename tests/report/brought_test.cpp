@@ -181,6 +181,13 @@ TEST_F(MeasureBrought, AllBuffersBeatColorAndDepthOnAScene) {
   }
 }
 
+TEST_F(MeasureBrought, TheTruthHasTheWavesThatTheLookIsGiven) {
+  options_.size = {240, 135};
+  measure_brought_scene(measuring_, LIMPID_DATA "/scenes/horizon.toml");
+  // Beside water on the grid of the scene itself it is off by .09.
+  EXPECT_LT(first("physical").wet, 0.07);
+}
+
 TEST_F(MeasureBrought, TheLagoonIsThePathTracedOneWithItsWaves) {
   measure_brought_lagoon(measuring_);
   ASSERT_EQ(report_.brought.size(), 8);  // its reflection has neither depth nor validity
