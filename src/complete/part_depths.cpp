@@ -9,14 +9,15 @@
 namespace limpid {
 namespace {
 
-void move_row(const Context& c, const View<const float>& from, int y, const View<float>& to) {
+void move_row(const Context& c, const View<const float>& from, int y, const View<float>& to,
+              bool may_be_dry) {
   const RowHeights centre(c, y, -c.off_centre), part(c, y);
   for (int x = from.window.x0; x < from.window.x1; ++x) {
     const float depth = from.at(x, y);
     const double height = centre.at(x, depth), there = part.depth_at(x, height);
     const bool reached = std::isfinite(depth) && there > 0 && there < 1e30;
     const float moved = reached ? static_cast<float>(there) : depth;
-    to.at(x, y) = height * c.eye_above > 0 ? std::min(moved, depth) : moved;
+    to.at(x, y) = may_be_dry && height * c.eye_above > 0 ? std::min(moved, depth) : moved;
   }
 }
 
@@ -28,7 +29,8 @@ void PartDepths::move(Frame& frame, const Context& context, Executor& executor) 
     if (!view) continue;
     if (!depths_[i] || depths_[i].view().window != view.window) depths_[i] = Plane(view.window);
     const View<float> to = depths_[i].view();
-    each_row(executor, view.window, [&](int y) { move_row(context, view, y, to); });
+    const bool may_be_dry = kPlanes[i] == PlaneId::kDepth;
+    each_row(executor, view.window, [&](int y) { move_row(context, view, y, to, may_be_dry); });
     view = to;
   }
 }
