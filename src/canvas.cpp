@@ -20,7 +20,8 @@ bool is_map(Aov aov) { return aovs()[static_cast<std::size_t>(aov)].suffixes == 
 
 /// Whether a channel is a length, a place or a direction, which no mean can be taken of.
 bool is_geometry(Aov aov) {
-  return aov == Aov::kNormal || aov == Aov::kSurfaceDepth || aov == Aov::kPath || is_map(aov);
+  const std::string_view suffixes = aovs()[static_cast<std::size_t>(aov)].suffixes;
+  return suffixes == "Z" || suffixes == "XYZ" || is_map(aov);
 }
 
 float block_mean(const View<float>& from, int x, int y, int n) {

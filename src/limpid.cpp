@@ -22,7 +22,7 @@ namespace limpid {
 namespace {
 
 static_assert(LIMPID_SKY_B + 1 == kPlaneCount);
-static_assert(LIMPID_OUT_STMAP_B + 3 == 4 + 3 * kAovCount);
+static_assert(LIMPID_OUT_SKY + 3 == 4 + 3 * kAovCount);
 
 /// Only looks at `size` of it, the rest being 0.
 template <class Struct>
@@ -337,7 +337,7 @@ limpid_status limpid_run(limpid_compositor* compositor, const limpid_frame* fram
     compositor->enter(host);
     HostPicture target;
     for_each_channel(
-        out.outputs, out.output_count, LIMPID_OUT_STMAP_B + 3, {host.width, host.height},
+        out.outputs, out.output_count, LIMPID_OUT_SKY + 3, {host.width, host.height},
         "limpid_picture.outputs", [&](std::size_t what, const HostOutput& view) {
           HostOutput& place = what < 3    ? target.color[what]
                               : what == 3 ? target.alpha

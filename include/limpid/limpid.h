@@ -105,7 +105,11 @@ typedef enum limpid_output {
   LIMPID_OUT_SURFACE_DEPTH = 31,
   LIMPID_OUT_STMAP_R = 34,
   LIMPID_OUT_STMAP_G = 37,
-  LIMPID_OUT_STMAP_B = 40
+  LIMPID_OUT_STMAP_B = 40,
+  LIMPID_OUT_MIRROR_SOURCES = 43,
+  LIMPID_OUT_REFLECTION_DEPTH = 46,
+  LIMPID_OUT_REFLECTION_VALID = 49,
+  LIMPID_OUT_SKY = 52
 } limpid_output;
 
 /** One channel in the host's memory. `data` points at its sample of the first pixel of the window;

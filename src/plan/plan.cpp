@@ -225,6 +225,10 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
     plan.reads_environment |= declared(plan.look, i).needs.environment;
     plan.needs_sun |= declared(plan.look, i).needs.sun;
   }
+  // No operator reads it.
+  if (!outputs.has(StatePart::kMirrorSources)) {
+    plan.made = plan.made - StateSet{StatePart::kMirrorSources};
+  }
   for (const CompleterInfo& completer : completers()) {
     if (plan.completed.meets(completer.makes)) plan.planes = plan.planes | completer.inputs;
   }

@@ -10,6 +10,7 @@
 
 #include "run/checks.h"
 #include "run/fused_tile.h"
+#include "run/show_planes.h"
 
 namespace limpid {
 
@@ -161,6 +162,7 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   const int down = (work.height() + tile.height - 1) / tile.height;
   Tiles tiles{job, simd, work, tile, across};
   executor.run(across * down, Tiles::run, &tiles);
+  show_planes(plan, frame, target, executor);
   if (options.times) *options.times = clock.times();
 }
 

@@ -8,6 +8,7 @@
 
 #include "op/plain_texture.h"
 #include "run/checks.h"
+#include "run/show_planes.h"
 
 namespace limpid {
 namespace {
@@ -269,6 +270,7 @@ void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, con
       }
     }
   }
+  show_planes(plan, frame, target, *serial);
 }
 
 }  // namespace limpid

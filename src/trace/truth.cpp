@@ -27,10 +27,12 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
                 Fault::kUsage);
   }
   for (Aov aov : options.aovs) {
-    if (aov == Aov::kConfidence) {
-      throw Error("'confidence' is no AOV of the truth, which guesses nothing: expected visible",
-                  Fault::kUsage);
-    }
+    const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
+    if (!info.of_buffers) continue;
+    throw Error("'" + std::string(info.name) +
+                    "' is no AOV of the truth, which guesses nothing and has no buffers: expected "
+                    "visible",
+                Fault::kUsage);
   }
   expect_each_once(options.aovs);
   const double above = glm::dot(scene.camera->eye(), scene.water->up) - scene.water->height;

@@ -179,6 +179,8 @@ void each_number(P& a, Q& b, StatePart part, Fn&& fn) {
       return fn(a.fresnel, b.fresnel);
     case StatePart::kReflected:
       return rgb(a.reflected, b.reflected);
+    case StatePart::kMirrorSources:
+      return rgb(a.mirror_sources, b.mirror_sources);
     case StatePart::kHighlight:
       return rgb(a.highlight, b.highlight);
     case StatePart::kConfidence:
@@ -201,8 +203,8 @@ constexpr StatePart kStateParts[] = {
     StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
     StatePart::kPosition,    StatePart::kPath,          StatePart::kTransmittance,
     StatePart::kTransmitted, StatePart::kInScatter,     StatePart::kSunScatter,
-    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kHighlight,
-    StatePart::kConfidence};
+    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kMirrorSources,
+    StatePart::kHighlight,   StatePart::kConfidence};
 
 /// What the fixed part of a pixel says, then random state in the given parts; elsewhere it is as
 /// before the first operator.
@@ -251,6 +253,7 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
   if (random.has(StatePart::kInScatter)) p.in_scatter = rgb();
   if (random.has(StatePart::kFresnel)) p.fresnel = 0.5 + 0.5 * number();
   if (random.has(StatePart::kReflected)) p.reflected = rgb();
+  if (random.has(StatePart::kMirrorSources)) p.mirror_sources = rgb();
   if (random.has(StatePart::kHighlight)) p.highlight = rgb();
   if (random.has(StatePart::kConfidence)) p.confidence = 0.5 + 0.5 * number();
   return p;

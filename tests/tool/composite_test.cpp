@@ -85,15 +85,19 @@ TEST_F(CompositeTest, AllAovsAreThereInTheirTypes) {
   composed("aovs.exr", {"--aov", "all"});
   EXPECT_THAT(
       iinfo("aovs.exr"),
-      HasSubstr("channel list: R (half), G (half), B (half), A (half), confidence.Y (half), "
-                "fresnel.Y (half), highlight.R (half), highlight.G (half), highlight.B (half), "
-                "in_scatter.R (half), in_scatter.G (half), in_scatter.B (half), normal.X (half), "
-                "normal.Y (half), normal.Z (half), path.Z (float), reflected.R (half), "
-                "reflected.G (half), reflected.B (half), stmap.b.U (float), stmap.b.V (float), "
-                "stmap.g.U (float), stmap.g.V (float), stmap.r.U (float), stmap.r.V (float), "
-                "surface_depth.Z (float), transmittance.R (half), transmittance.G (half), "
-                "transmittance.B (half), transmitted.R (half), transmitted.G (half), transmitted.B "
-                "(half)\n"));
+      HasSubstr(
+          "channel list: R (half), G (half), B (half), A (half), confidence.Y (half), "
+          "fresnel.Y (half), highlight.R (half), highlight.G (half), highlight.B (half), "
+          "in_scatter.R (half), in_scatter.G (half), in_scatter.B (half), "
+          "mirror_sources.R (half), mirror_sources.G (half), mirror_sources.B (half), normal.X "
+          "(half), "
+          "normal.Y (half), normal.Z (half), path.Z (float), reflected.R (half), "
+          "reflected.G (half), reflected.B (half), reflection_depth.Z (float), reflection_valid.Y "
+          "(half), sky.R (half), sky.G (half), sky.B (half), stmap.b.U (float), stmap.b.V (float), "
+          "stmap.g.U (float), stmap.g.V (float), stmap.r.U (float), stmap.r.V (float), "
+          "surface_depth.Z (float), transmittance.R (half), transmittance.G (half), "
+          "transmittance.B (half), transmitted.R (half), transmitted.G (half), transmitted.B "
+          "(half)\n"));
   composed("two.exr", {"--aov", "path,fresnel"});
   EXPECT_THAT(iinfo("two.exr"), HasSubstr("channel list: R (half), G (half), B (half), A (half), "
                                           "fresnel.Y (half), path.Z (float)\n"));

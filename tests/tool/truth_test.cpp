@@ -77,6 +77,7 @@ TEST_F(TruthTest, RefusesInOneSentence) {
   refused({"--aov", "visibl"}, {"'visibl' is no AOV"}, 2);
   refused({"--aov", "all,visibl"}, {"'visibl' is no AOV", "did you mean 'visible'?"}, 2);
   refused({"--aov", "all,confidence"}, {"'confidence' is no AOV"}, 2);
+  refused({"--aov", "mirror_sources"}, {"'mirror_sources' is no AOV", "visible"}, 2);
   refused({"--samples", "17"}, {"--samples 17", "1 ... 16"}, 2);
   refused({"--overscan", "4"}, {"has no option '--overscan'"}, 2);
   refused({"--preview", "no/such/folder/x.png"}, {"no/such/folder"}, 1);

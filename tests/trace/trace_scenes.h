@@ -58,7 +58,8 @@ inline Look calm_look() {
 inline std::vector<Aov> truth_aovs() {
   std::vector<Aov> list;
   for (int i = 0; i < kAovCount; ++i) {
-    if (static_cast<Aov>(i) != Aov::kConfidence) list.push_back(static_cast<Aov>(i));
+    const bool traced = !aovs()[static_cast<std::size_t>(i)].of_buffers;
+    if (traced) list.push_back(static_cast<Aov>(i));
   }
   return list;
 }

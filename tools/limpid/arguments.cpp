@@ -179,8 +179,9 @@ CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
   add_frame_numbers(verb, a.frames, kRenderedFrames);
   add_settings(verb, a.water);
   verb.add_option("--aov", a.water.aovs,
-                  "Also write these: all, or a list of the AOVs of water but confidence, and "
-                  "visible, where the dry picture shows what the refracted ray meets, with "
+                  "Also write these: all, or a list of the AOVs of water but confidence "
+                  "and those of buffers, and visible, where the dry picture shows what the "
+                  "refracted ray meets, with "
                   "visible_below, where that of what lies below the water alone does")
       ->option_text("all|NAME,...")
       ->delimiter(',')

@@ -11,11 +11,11 @@
 namespace limpid::tool {
 namespace {
 
-/// Those of water, but the truth guesses nothing, and `visible`.
+/// Those of water, but the truth guesses nothing and has no buffers, and `visible`.
 void choose_aovs(const std::vector<std::string>& names, TruthOutput& output) {
   std::vector<std::string> known;
   for (const AovInfo& info : aovs()) {
-    if (info.name != "confidence") known.emplace_back(info.name);
+    if (!info.of_buffers) known.emplace_back(info.name);
   }
   known.emplace_back("visible");
   for (const std::string& name : aov_names(names, known)) {

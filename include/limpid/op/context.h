@@ -199,6 +199,7 @@ LIMPID_INLINE void begin_state(StateSet parts, const Context& c, Rgb<F> dry_colo
   if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = black;
   if (parts.has(StatePart::kFresnel)) p.fresnel = F(0);
   if (parts.has(StatePart::kReflected)) p.reflected = black;
+  if (parts.has(StatePart::kMirrorSources)) p.mirror_sources = black;
   if (parts.has(StatePart::kHighlight)) p.highlight = black;
 }
 

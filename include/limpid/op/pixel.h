@@ -19,6 +19,7 @@ enum class StatePart : std::uint8_t {
   kSunScatter,     ///< the sun's share of it
   kFresnel,        ///< reflectance
   kReflected,      ///< light mirrored by the surface
+  kMirrorSources,  ///< what the mirrored light was taken from
   kHighlight,      ///< the sun's glint
   kConfidence,     ///< 1 where the lookup is real, 0 where it is invented
 };
@@ -29,8 +30,8 @@ inline constexpr StateSet kWholeState{
     StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
     StatePart::kPosition,    StatePart::kPath,          StatePart::kTransmittance,
     StatePart::kTransmitted, StatePart::kInScatter,     StatePart::kSunScatter,
-    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kHighlight,
-    StatePart::kConfidence};
+    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kMirrorSources,
+    StatePart::kHighlight,   StatePart::kConfidence};
 
 /// The terms whose sum is the picture.
 inline constexpr StateSet kOutputTerms{StatePart::kTransmitted, StatePart::kInScatter,
@@ -78,6 +79,9 @@ struct Pixel {
   Rgb<F> sun_near, sun_far;
   F fresnel;
   Rgb<F> reflected;
+  /// Shares of what is mirrored, whose sum is 1: r from the reflection, g from the picture itself,
+  /// b from what is infinitely far (surroundings, sky, or a constant). Made for an AOV alone.
+  Rgb<F> mirror_sources;
   Rgb<F> highlight;
 
   LIMPID_INLINE Rgb<F> beauty() const { return transmitted + in_scatter + reflected + highlight; }

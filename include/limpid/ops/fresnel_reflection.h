@@ -72,7 +72,8 @@ struct FresnelReflection {
                                   StatePart::kTransmittance, StatePart::kTransmitted,
                                   StatePart::kInScatter};
   static constexpr StateSet kMakes{StatePart::kFresnel, StatePart::kReflected,
-                                   StatePart::kTransmitted, StatePart::kInScatter};
+                                   StatePart::kMirrorSources, StatePart::kTransmitted,
+                                   StatePart::kInScatter};
   static std::span<const Field<Params>> fields();
   static PlaneSet reads(const Params& p) {
     PlaneSet planes;
@@ -112,7 +113,10 @@ struct FresnelReflection {
     }
     strip.each([&](Pixel<F>& p) { p.fresnel = reflectance(params, c, p, p.normal); });
     if (params.source == Source::kConstant) {
-      return strip.each([&](Pixel<F>& p) { blend(c, p.fresnel * constant<F>(params), p); });
+      return strip.each([&](Pixel<F>& p) {
+        tell(c, from_far<F>(), p);
+        blend(c, p.fresnel * constant<F>(params), p);
+      });
     }
     if (looks_once(params, c)) {
       return strip.bilinear_rgb(
@@ -122,10 +126,15 @@ struct FresnelReflection {
                        ? place_at(c, p, image_ray(c, p, p.normal), F(HUGE_VAL))
                        : F(params.strength) * p.tilt;
           },
-          [&](Pixel<F>& p, Rgb<F> mirrored) { blend(c, p.fresnel * mirrored, p); });
+          [&](Pixel<F>& p, Rgb<F> mirrored) {
+            tell(c, from_reflection<F>(), p);
+            blend(c, p.fresnel * mirrored, p);
+          });
     }
     strip.probe([&](Pixel<F>& p, const auto& tap) {
-      blend(c, p.fresnel * mirrored(params, c, p, tap, p.normal, p.tilt), p);
+      const Mirrored<F> seen = mirrored(params, c, p, tap, p.normal, p.tilt);
+      tell(c, seen.sources, p);
+      blend(c, p.fresnel * seen.light, p);
     });
   }
 
@@ -156,6 +165,24 @@ struct FresnelReflection {
     if (!c.submersible) return above;
     const F below = fresnel_exact(F(0) - dot(p.to_viewer, n), F(1 / c.ior));
     return select(p.side > F(0), above, select(p.side < F(0), below, F(0)));
+  }
+
+  /// Light, and where it was taken from: Pixel::mirror_sources.
+  template <class F>
+  struct Mirrored {
+    Rgb<F> light, sources;
+  };
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_reflection() {
+    return {F(1), F(0), F(0)};
+  }
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_far() {
+    return {F(0), F(0), F(1)};
+  }
+  template <class F>
+  static LIMPID_INLINE void tell(const Context& c, Rgb<F> sources, Pixel<F>& p) {
+    if (c.made.has(StatePart::kMirrorSources)) p.mirror_sources = sources;
   }
 
   /// What is left of the light from below, and what is mirrored, the reflectance in it.
@@ -190,20 +217,24 @@ struct FresnelReflection {
       const Vec3<F> n = bent(c, p, facet);
       fresnel = reflectance(params, c, p, n);
       const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
-      return fresnel * mirrored(params, c, p, tap, n, tilt);
+      return mirrored(params, c, p, tap, n, tilt);
     };
-    Rgb<F> light = seen(p.normal, p.fresnel);
+    const Mirrored<F> mean = seen(p.normal, p.fresnel);
+    Rgb<F> light = p.fresnel * mean.light, sources = mean.sources;
     const auto rough = variance > F(kLeastVariance);
     if_any(rough, [&] {
       const F lean = sqrt(F(3) * max(variance, F(0))) * dot(up, p.normal);
       F fresnel_a, fresnel_b;
       const Vec3<F> step = lean * away;
-      const Rgb<F> a = seen(normalize_or(p.normal + step, p.normal), fresnel_a);
-      const Rgb<F> b = seen(normalize_or(p.normal - step, p.normal), fresnel_b);
+      const Mirrored<F> a = seen(normalize_or(p.normal + step, p.normal), fresnel_a);
+      const Mirrored<F> b = seen(normalize_or(p.normal - step, p.normal), fresnel_b);
       const F middle(2.0 / 3), side(1.0 / 6);
-      light = select(rough, middle * light + side * (a + b), light);
+      const Rgb<F> sides = fresnel_a * a.light + fresnel_b * b.light;
+      light = select(rough, middle * light + side * sides, light);
+      sources = select(rough, middle * sources + side * (a.sources + b.sources), sources);
       p.fresnel = select(rough, middle * p.fresnel + side * (fresnel_a + fresnel_b), p.fresnel);
     });
+    tell(c, sources, p);
     blend(c, light, p);
   }
   static constexpr double kLeastVariance = 1e-4;
@@ -237,10 +268,10 @@ struct FresnelReflection {
 
   /// By the facet n, whose tilt is that of the operator wave_normals.
   template <class F, class Tap>
-  static Rgb<F> mirrored(const Params& params, const Context& c, const Pixel<F>& p, const Tap& tap,
-                         Vec3<F> n, Vec2<F> tilt) {
-    if (params.source == Source::kConstant) return constant<F>(params);
-    if (params.source == Source::kEnvironment) return surroundings(c, p, tap, n);
+  static Mirrored<F> mirrored(const Params& params, const Context& c, const Pixel<F>& p,
+                              const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
+    if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
+    if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
     if (!reads_planes(params, c)) return seen_in_picture(params, c, p, tap, n);
     const Vec2<F> shift =
         params.lookup == Lookup::kRay ? follow(params, c, p, tap, n) : F(params.strength) * tilt;
@@ -350,8 +381,8 @@ struct FresnelReflection {
 
   /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest.
   template <class F, class Tap>
-  static Rgb<F> seen_in_picture(const Params& params, const Context& c, const Pixel<F>& p,
-                                const Tap& tap, Vec3<F> n) {
+  static Mirrored<F> seen_in_picture(const Params& params, const Context& c, const Pixel<F>& p,
+                                     const Tap& tap, Vec3<F> n) {
     const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
     const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
     const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p,
@@ -359,7 +390,7 @@ struct FresnelReflection {
     const Vec2<F> shift = select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
     const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
     const Rgb<F> beyond = far_away(params, c, p, tap, n, ray);
-    return beyond + found.hit * (seen - beyond);
+    return {beyond + found.hit * (seen - beyond), {F(0), found.hit, F(1) - found.hit}};
   }
 
   /// What the frame, or else the look, has of things infinitely far.
@@ -392,21 +423,24 @@ struct FresnelReflection {
   }
 
   template <class F, class Tap>
-  static Rgb<F> seen_at(const Context& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
-                        Vec2<F> shift) {
+  static Mirrored<F> seen_at(const Context& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                             Vec2<F> shift) {
     const auto taps =
         valid_taps(tap, shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
     Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
                 taps.read(tap, PlaneId::kReflectionB)};
     F lacks = taps.some_made_up ? F(1) - taps.weight() : F(0);
+    Rgb<F> sources = from_reflection<F>();
     if (c.submersible) {
       const auto other_side = p.side * F(c.eye_above) < F(0);
       seen = select(other_side, p.transmitted, seen);
+      sources = select(other_side, {F(0), F(1), F(0)}, sources);
       lacks = select(other_side, F(0), lacks);
     }
     const auto lacking = lacks > F(1e-5);
-    if (!c.environment || !any(lacking)) return seen;
-    return seen + select(lacking, lacks, F(0)) * surroundings(c, p, tap, n);
+    if (!c.environment || !any(lacking)) return {seen, sources};
+    const F far = select(lacking, lacks, F(0));
+    return {seen + far * surroundings(c, p, tap, n), {sources.r - far, sources.g, far}};
   }
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 #include "limpid/op/pixel.h"
 
@@ -25,8 +26,12 @@ enum class Aov {
   kStmapR,
   kStmapG,
   kStmapB,
+  kMirrorSources,
+  kReflectionDepth,
+  kReflectionValid,
+  kSky,
 };
-constexpr int kAovCount = 13;
+constexpr int kAovCount = 17;
 
 struct AovInfo {
   std::string_view name;      ///< of the layer
@@ -36,6 +41,11 @@ struct AovInfo {
   /// own place.
   float dry;
   std::string_view about;
+  /// Of the frame, as operators read them, of the plate or made (complete/completer.h), on all
+  /// pixels; Role::missing where there are none.
+  PlaneSet planes = {};
+  /// Whether it tells of buffers or guesses, of which the ray-traced truth has none.
+  bool of_buffers = false;
 };
 /// In the order of Aov. The first four sum to the picture on every pixel.
 std::span<const AovInfo> aovs();
@@ -93,6 +103,12 @@ LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
       return map(p.shift_g);
     case Aov::kStmapB:
       return map(p.shift_b);
+    case Aov::kMirrorSources:
+      return rgb(p.mirror_sources);
+    case Aov::kReflectionDepth:
+    case Aov::kReflectionValid:
+    case Aov::kSky:
+      break;  // show_planes()
   }
   return {F(0), F(0), F(0)};
 }

@@ -52,7 +52,7 @@ struct TruthOptions {
   /// the pixel's centre, as in the chain.
   int samples = 1;
   std::uint64_t seed = 0;  ///< of where in its stratum each sample lies
-  std::vector<Aov> aovs;   ///< all but confidence, for nothing is guessed
+  std::vector<Aov> aovs;   ///< all but AovInfo::of_buffers, for nothing is guessed
   bool visible = false;    ///< TruthPicture::visible and visible_below
   Texture wave_map;        ///< for a look that reads one
   Texture environment;     ///< for a look whose mirror shows it
@@ -83,7 +83,7 @@ struct TruthPicture {
 };
 
 /// The same bits for any number of threads. Throws Error for what render_plate() refuses, an
-/// orthographic camera below the water, samples out of range, the AOV confidence, AOVs that are
+/// orthographic camera below the water, samples out of range, AOVs of buffers, AOVs that are
 /// named twice, and where Embree finds no memory.
 TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& look,
                          const TruthOptions& options, Executor& executor);
