@@ -336,14 +336,14 @@ limpid_status limpid_run(limpid_compositor* compositor, const limpid_frame* fram
     const limpid_picture out = known(picture, "limpid_picture");
     compositor->enter(host);
     HostPicture target;
-    for_each_channel(
-        out.outputs, out.output_count, LIMPID_OUT_SKY + 3, {host.width, host.height},
-        "limpid_picture.outputs", [&](std::size_t what, const HostOutput& view) {
-          HostOutput& place = what < 3    ? target.color[what]
-                              : what == 3 ? target.alpha
-                                          : target.aovs[(what - 4) / 3][(what - 4) % 3];
-          place = view;
-        });
+    for_each_channel(out.outputs, out.output_count, LIMPID_OUT_SKY + 3, {host.width, host.height},
+                     "limpid_picture.outputs", [&](std::size_t what, const HostOutput& view) {
+                       HostOutput& place = what < 3 ? target.color[what]
+                                           : what == 3
+                                               ? target.alpha
+                                               : target.aovs[(what - 4) / 3][(what - 4) % 3];
+                       place = view;
+                     });
     compositor->compositor.run(compositor->frame, target);
   });
 }

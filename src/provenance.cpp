@@ -149,7 +149,8 @@ std::string picture_options(const OutputChoice& choice) {
   return line("runner", toml_text(std::string(fused ? "fused" : "reference"))) +
          (fused ? simd_line("simd", choice.simd) : "") +
          line("max_error", toml_text(choice.max_error)) +
-         (choice.wave_samples > 1 ? line("wave_samples", std::to_string(choice.wave_samples)) : "") +
+         (choice.wave_samples > 1 ? line("wave_samples", std::to_string(choice.wave_samples))
+                                  : "") +
          line("aovs", "[" + join(names_of(choice.aovs)) + "]") +
          file_options(choice.compression, choice.store_float);
 }
