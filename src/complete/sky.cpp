@@ -63,7 +63,7 @@ struct Picture {
 /// The mean of four texels of a picture of that size, by their shares of sky: those at (2 x, 2 y)
 /// and after.
 template <class At>
-Texel mean_of_four(Size size, int x, int y, At&& at) {
+Texel mean_of_quad(Size size, int x, int y, At&& at) {
   Texel sum{};
   for (int k = 0; k < 4; ++k) {
     const int column = 2 * x + (k & 1), row = 2 * y + (k >> 1);
@@ -100,7 +100,7 @@ bool Sky::make(const Frame& frame, Executor& executor) {
     level.texels.resize(static_cast<std::size_t>(level.window.area()));
     each_row(executor, level.window, [&](int y) {
       for (int x = 0; x < level.window.width(); ++x) {
-        level.at(x, y) = mean_of_four(finer.size(), x, y, at);
+        level.at(x, y) = mean_of_quad(finer.size(), x, y, at);
       }
     });
   };

@@ -1,7 +1,5 @@
 #include "run/show_planes.h"
 
-#include <algorithm>
-
 #include "complete/rows.h"
 #include "run/checks.h"
 

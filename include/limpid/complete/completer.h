@@ -15,10 +15,10 @@
 namespace limpid {
 
 /// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
-/// the wave map what the plan's waves read where a pixel is wider than a texel; and moves
-/// depths to the part of each pixel that is seen. Once a frame,
-/// before its pixels; operators read them as they read the plate's. The result does not depend on
-/// the number of threads. Keeps its memory from frame to frame.
+/// the wave map what the plan's waves read where a pixel is wider than a texel; and moves depths to
+/// the part of each pixel that is seen. Once a frame, before its pixels; operators read the result
+/// as they read the plate's planes. The result does not depend on the number of threads. Keeps its
+/// memory from frame to frame.
 class Completer {
  public:
   /// The frame with what was made; its views hold until the next call. `context` is that of the

@@ -6,8 +6,8 @@
 
 namespace limpid {
 
-/// The depth of a reflection that came without one, and which of its pixels are real. Of a
-/// reflection that has its depth, or says which pixels are real, that is kept; the rest holds.
+/// The depth of a reflection that came without one, and which of its pixels are real. A depth and a
+/// validity that the reflection has are kept, but for the insides of things.
 ///
 /// Each point of the dry scene on the eye's side of the calm water is put where its mirror image is
 /// seen; the nearest one wins. Small holes, between points that lie farther apart in the mirror

@@ -60,8 +60,8 @@ struct Sun {
 
 /// The part of each pixel that is seen: of `count` strips side by side, in the direction in which
 /// the calm water recedes on screen (down, where it does not), the one `index`. The water is met in
-/// the middle of the strip, and waves are filtered over it; the planes of a frame remain those of
-/// whole pixels. The mean of all strips resolves waves, and the waterline, better than a pixel.
+/// the middle of the strip, and waves are filtered over it; planes of a frame remain those of whole
+/// pixels, depths at their heights (complete/part_depths.h). The mean of all strips resolves waves.
 struct PixelPart {
   int index = 0, count = 1;  ///< 0 <= index < count
 };
