@@ -23,6 +23,7 @@ Scene scene_of(const CompositeJob& job, const Plate& plate) {
   Scene scene = job.scene.scene;
   if (!scene.water) scene.water = carried.scene.water;
   if (!scene.sun) scene.sun = carried.scene.sun;
+  if (!scene.sky) scene.sky = carried.scene.sky;
   const auto& lens = job.scene.camera ? job.scene.camera : carried.camera;
   scene.camera =
       lens ? camera_for(*lens, plate.display().size(), plate.pixel_aspect()) : plate.camera();

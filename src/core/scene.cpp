@@ -19,6 +19,16 @@ void expect_unit(const char* what, const glm::dvec3& v) {
   }
 }
 
+void expect_light(const char* name, const Rgb<double>& light) {
+  for (double c : {light.r, light.g, light.b}) {
+    if (c >= 0 && c <= Sun::kBrightest) continue;
+    char text[96];
+    std::snprintf(text, sizeof text, "%s has a channel %g, expected 0 ... %g", name, c,
+                  Sun::kBrightest);
+    throw Error(text);
+  }
+}
+
 /// sqrt(9.81 |k|), of |k| / 256: the product stays finite for every finite k, and the powers of two
 /// are exact.
 double deep_water_omega(double k_x, double k_y) {
@@ -53,19 +63,13 @@ void Scene::validate() const {
   }
   if (sun) {
     expect_unit("sun.direction", sun->direction);
-    for (double c : {sun->color.r, sun->color.g, sun->color.b}) {
-      if (!(c >= 0 && c <= Sun::kBrightest)) {
-        char text[96];
-        std::snprintf(text, sizeof text, "sun.color has a channel %g, expected 0 ... %g", c,
-                      Sun::kBrightest);
-        throw Error(text);
-      }
-    }
+    expect_light("sun.color", sun->color);
     if (!(sun->diameter >= Sun::kNarrowest && sun->diameter <= Sun::kWidest)) {
       throw Error("sun.diameter = " + std::to_string(sun->diameter) +
                   " degrees, expected 0.01 ... 90");
     }
   }
+  if (sky) expect_light("sky.radiance", sky->radiance);
   if (!(part.index >= 0 && part.index < part.count)) {
     throw Error("part " + std::to_string(part.index) + " of " + std::to_string(part.count) +
                 " of a pixel, expected 0 ... count - 1");

@@ -72,18 +72,27 @@ WaterPlane water_of(const TomlNode& table) {
   return water;
 }
 
+Rgb<double> light_of(const TomlNode& node) {
+  const std::vector<double> c = node.finite_numbers(3);
+  const auto in_range = [](double x) { return x >= 0 && x <= Sun::kBrightest; };
+  if (!std::all_of(c.begin(), c.end(), in_range)) node.refuse("three numbers of 0 ... 1e9");
+  return {c[0], c[1], c[2]};
+}
+
+SkyLight sky_of(const TomlNode& table) {
+  table.expect_keys(Names{"radiance"});
+  const TomlNode* radiance = table.find("radiance");
+  if (!radiance) throw Error(table.place + "sky: expected its radiance, three numbers");
+  return {light_of(*radiance)};
+}
+
 Sun sun_of(const TomlNode& table) {
   table.expect_keys(Names{"direction", "color", "diameter"});
   Sun sun;
   const TomlNode* direction = table.find("direction");
   if (!direction) throw Error(table.place + "sun: expected a direction towards the sun");
   sun.direction = direction_of(*direction);
-  if (const TomlNode* color = table.find("color")) {
-    const std::vector<double> c = color->finite_numbers(3);
-    const auto in_range = [](double x) { return x >= 0 && x <= Sun::kBrightest; };
-    if (!std::all_of(c.begin(), c.end(), in_range)) color->refuse("three numbers of 0 ... 1e9");
-    sun.color = {c[0], c[1], c[2]};
-  }
+  if (const TomlNode* color = table.find("color")) sun.color = light_of(*color);
   if (const TomlNode* diameter = table.find("diameter")) {
     sun.diameter = diameter->finite_number();
     if (!(sun.diameter >= Sun::kNarrowest && sun.diameter <= Sun::kWidest)) {
@@ -237,7 +246,7 @@ void read_camera(const TomlNode& table, SceneFile& file) {
 }
 
 SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
-  root.expect_keys(Names{"geometry", "plates", "camera", "water", "sun", "scene"});
+  root.expect_keys(Names{"geometry", "plates", "camera", "water", "sun", "sky", "scene"});
   SceneFile file;
   for (const TomlNode& table : root.items) {
     if (table.key == "geometry") file.geometry = geometry_of(table, folder);
@@ -245,6 +254,7 @@ SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
     if (table.key == "camera") read_camera(table, file);
     if (table.key == "water") file.scene.water = water_of(table);
     if (table.key == "sun") file.scene.sun = sun_of(table);
+    if (table.key == "sky") file.scene.sky = sky_of(table);
     if (table.key == "scene") {
       table.expect_keys(Names{"time"});
       if (const TomlNode* time = table.find("time")) {
@@ -301,6 +311,10 @@ std::string to_toml(const Scene& scene) {
     text += "[sun]\ndirection = " + list_text({d.x, d.y, d.z}) +
             "\ncolor = " + list_text({c.r, c.g, c.b}) +
             "\ndiameter = " + toml_text(scene.sun->diameter) + "\n";
+  }
+  if (scene.sky) {
+    const Rgb<double>& c = scene.sky->radiance;
+    text += "[sky]\nradiance = " + list_text({c.r, c.g, c.b}) + "\n";
   }
   return text;
 }

@@ -87,6 +87,13 @@ TEST(SceneFile, DirectionsAreMadeUnit) {
   EXPECT_EQ(scene_of("[water]\n").scene.water->up, glm::dvec3(0, 1, 0));
 }
 
+TEST(SceneFile, SkyIsEvenLight) {
+  EXPECT_FALSE(scene_of("").scene.sky);
+  const SceneFile file = scene_of("[sky]\nradiance = [0.2, 0.3, 0.5]\n");
+  EXPECT_EQ(file.scene.sky->radiance, (Rgb<double>{0.2, 0.3, 0.5}));
+  EXPECT_EQ(scene_of(to_toml(file.scene)).scene.sky->radiance, file.scene.sky->radiance);
+}
+
 TEST(SceneFile, PlatesAreRelativeToTheFile) {
   const SceneFile file = scene_of(
       "[plates]\ncolor = \"../in/beauty.%04d.exr\"\ndepth = \"/a:b/depth.exr\"\n"
@@ -225,6 +232,8 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[sun]\ncolor = [1, 1, 1]\n", ":1:", "sun: expected a direction"},
       {"[sun]\ndirection = [0, 1, 0]\ndiameter = 0\n",
        ":3:12: ", "expected a number of degrees, 0.01 ... 90"},
+      {"[sky]\n", ":1:", "sky: expected its radiance"},
+      {"[sky]\nradiance = [1, 1, -1]\n", ":2:12: ", "three numbers of 0 ... 1e9"},
       {"[sun]\ndirection = [0, inf, 0]\n", ":2:17: ", "expected a finite number"},
       {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, -1, 1]\n",
        ":3:9: ", "three numbers of 0 ... 1e9"},

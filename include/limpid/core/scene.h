@@ -58,6 +58,11 @@ struct Sun {
   double radius() const { return diameter * (std::numbers::pi / 360); }  ///< rad
 };
 
+/// An even sky: what the water is lit by besides the sun.
+struct SkyLight {
+  Rgb<double> radiance{0, 0, 0};  ///< 0 ... Sun::kBrightest
+};
+
 /// The part of each pixel that is seen: of `count` strips side by side, in the direction in which
 /// the calm water recedes on screen (down, where it does not), the one `index`. The water is met in
 /// the middle of the strip, and waves are filtered over it; planes of a frame remain those of whole
@@ -72,14 +77,16 @@ struct Scene {
   std::optional<Camera> camera;
   std::optional<WaterPlane> water;
   std::optional<Sun> sun;
-  double time = 0;  ///< seconds
-  PixelPart part;   ///< all of the pixel
+  std::optional<SkyLight> sky;  ///< of a frame whose surroundings nobody has a picture of
+  double time = 0;              ///< seconds
+  PixelPart part;               ///< all of the pixel
 
   /// Whether its water has waves of its own.
   bool has_waves() const { return water && !water->waves.empty(); }
 
-  /// Throws Error for a bad camera, a water or sun direction that is not unit, a sun color or
-  /// diameter or a part of a pixel out of its range, and numbers that are not finite.
+  /// Throws Error for a bad camera, a water or sun direction that is not unit, a color or
+  /// diameter of the sun, a radiance of the sky or a part of a pixel out of its range, and numbers
+  /// that are not finite.
   void validate() const;
 };
 

@@ -49,6 +49,8 @@ Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1)
 ///                always means so (1e9 and above, inf, the far plane): 0, as a rule
 ///     [water]    up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
 ///     [sun]      direction, color (0 ... 1e9), diameter (0.01 ... 90 degrees)
+///     [sky]      radiance (0 ... 1e9): of an even sky, which lights the water where there is no
+///                environment
 ///     [scene]    time, in seconds: that of the picture, unless another one is asked for
 ///
 /// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
