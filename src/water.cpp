@@ -60,6 +60,9 @@ constexpr NamedPlane kPlaneChannels[] = {
     {PlaneId::kSkyR, "sky.R"},
     {PlaneId::kSkyG, "sky.G"},
     {PlaneId::kSkyB, "sky.B"},
+    {PlaneId::kAlbedoR, "albedo.R"},
+    {PlaneId::kAlbedoG, "albedo.G"},
+    {PlaneId::kAlbedoB, "albedo.B"},
 };
 static_assert(std::size(kPlaneChannels) == kPlaneCount);
 

@@ -84,7 +84,10 @@ typedef enum limpid_plane {
   LIMPID_SURFACE_SHADOW = 19,
   LIMPID_SKY_R = 20,
   LIMPID_SKY_G = 21,
-  LIMPID_SKY_B = 22
+  LIMPID_SKY_B = 22,
+  LIMPID_ALBEDO_R = 23,
+  LIMPID_ALBEDO_G = 24,
+  LIMPID_ALBEDO_B = 25
 } limpid_plane;
 
 /** What is written. Channel i of an AOV (x y z, r g b, u v) is its value + i. */

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "complete/sky_radiance.h"
+
 namespace limpid {
 
 Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& context,
@@ -32,6 +34,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& c
     for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i));
   }
   complete_waves(plan, context, executor, whole);
+  complete_water(plan, made_by("bottom_albedo"), context, executor, whole);
   return whole;
 }
 
@@ -51,6 +54,22 @@ void Completer::complete_waves(const Plan& plan, const Context& context, Executo
   if (!WaveNormals::needs_slope_map(waves)) return;
   slope_map_.make(*frame.wave_map.levels, WaveNormals::four_shifts(waves, context.time), executor);
   frame.wave_slopes = &slope_map_.levels();
+}
+
+void Completer::complete_water(const Plan& plan, PlaneSet made, const Context& context,
+                               Executor& executor, Frame& frame) {
+  const DepthFog::Params& water = plan.look.of<DepthFog>();
+  if (!DepthFog::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter)) return;
+  frame.scattered_light = scattered_light_.make(DepthFog::scattering_water(water, context)).data();
+  if (frame.environment) frame.sky_radiance = sky_radiance(frame.environment);
+  if (made.empty()) return;
+  const Rgb<double> sky =
+      frame.sky_radiance.value_or(context.has_sky ? context.sky : water.ambient);
+  bottom_albedo_.make(frame, context, sky, executor);
+  for (int i = 0; i < 3; ++i) {
+    const PlaneId plane = plane_after(PlaneId::kAlbedoR, i);
+    if (made.has(plane)) frame.planes[index_of(plane)] = bottom_albedo_.channel(i).view();
+  }
 }
 
 }  // namespace limpid

@@ -34,6 +34,8 @@ constexpr Role kRoles[] = {
      "visibility of the sun at the water surface"},
     {"sky", PlaneId::kSkyR, 3, 0, Sanitise::kColor,
      "the sky as it would be seen if nothing stood before it"},
+    {"albedo", PlaneId::kAlbedoR, 3, 0, Sanitise::kColor,
+     "share of the light that the bottom throws back, around each pixel"},
 };
 
 }  // namespace

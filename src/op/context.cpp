@@ -90,8 +90,11 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
       environment(frame.environment),
       wave_slopes(frame.wave_slopes),
       wave_variance(frame.wave_variance),
+      scattered_light(frame.scattered_light),
       made(parts) {
   scene.validate();
+  has_sky = frame.sky_radiance || scene.sky;
+  sky = frame.sky_radiance.value_or(scene.sky.value_or(SkyLight{}).radiance);
   if (!scene.camera) throw Error("the scene has no camera, expected view and projection matrices");
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
   size = {frame.display.width(), frame.display.height()};

@@ -12,7 +12,7 @@ namespace {
 
 using P = DepthFog::Params;
 
-constexpr std::string_view kModels[] = {"linear", "beer_lambert"};
+constexpr std::string_view kModels[] = {"linear", "beer_lambert", "radiative_transfer"};
 constexpr std::string_view kDistances[] = {"eye", "ray", "refracted"};
 constexpr std::string_view kSunlights[] = {"none", "straight", "refracted"};
 constexpr std::string_view kCrossings[] = {"none", "radiance"};
@@ -31,33 +31,28 @@ constexpr Field<P> kFields[] = {
         .when("model", {"linear"}),
     color<&P::absorption>("absorption", "1/scene unit", {0, 1e6},
                           "What the water swallows of the light; pure water by default.")
-        .when("model", {"beer_lambert"})
+        .when("model", {"beer_lambert", "radiative_transfer"})
         .brings("water_type", "custom"),
     color<&P::scattering>("scattering", "1/scene unit", {0, 1e6},
                           "What it throws elsewhere: murky water glows in the sun.")
-        .when("model", {"beer_lambert"}),
+        .when("model", {"beer_lambert", "radiative_transfer"}),
     choice<&P::water_type, kWaterTypes>(
         "water_type", "Water by name: Jerlov's types replace absorption and the loss downwards.")
-        .when("model", {"beer_lambert"}),
+        .when("model", {"beer_lambert", "radiative_transfer"}),
     real<&P::anisotropy>("anisotropy", "", {-0.99, 0.99},
                          "Mean cosine of the angle by which scattered light turns; 0 is evenly.")
-        .when("model", {"beer_lambert"}),
+        .when("model", {"beer_lambert", "radiative_transfer"}),
     color<&P::ambient>("ambient", "radiance", {0, 1e6},
                        "Light from all around that is scattered besides the sun's.")
-        .when("model", {"beer_lambert"}),
+        .when("model", {"beer_lambert", "radiative_transfer"}),
     choice<&P::sunlight, kSunlights>("sunlight", "The light's own way down to where it scatters.")
-        .when("model", {"beer_lambert"}),
+        .when("model", {"beer_lambert", "radiative_transfer"}),
     choice<&P::crossing, kCrossings>("crossing",
                                      "What passing the surface does to light from below.")
-        .when("model", {"beer_lambert"}),
+        .when("model", {"beer_lambert", "radiative_transfer"}),
 };
 
 constexpr Rgb<double> kBlack{0, 0, 0};
-
-Rgb<double> absorption_of(const P& params) {
-  if (params.water_type == WaterType::kCustom) return params.absorption;
-  return water_optics(params.water_type).absorption;
-}
 
 double largest(const Rgb<double>& c) { return std::max({c.r, c.g, c.b}); }
 
@@ -101,8 +96,30 @@ bool DepthFog::neutral(const Params& p, StateSet) {
          p.crossing == Crossing::kNone;
 }
 
+Rgb<double> DepthFog::absorption(const Params& params) {
+  if (params.water_type == WaterType::kCustom) return params.absorption;
+  return water_optics(params.water_type).absorption;
+}
+
 Rgb<double> DepthFog::extinction(const Params& params) {
-  return absorption_of(params) + params.scattering;
+  const bool transfers = params.model == Model::kRadiativeTransfer;
+  const double wide = transfers ? 1 - narrow_share(params.anisotropy) : 1;
+  return absorption(params) + wide * params.scattering;
+}
+
+bool DepthFog::wants_scattered_light(const P& params) {
+  return params.model == Model::kRadiativeTransfer &&
+         (params.scattering != kBlack || params.crossing == Crossing::kRadiance);
+}
+
+ScatteringWater DepthFog::scattering_water(const P& params, const Context& c) {
+  const WaterLight light = water_light(params, c, c.ior);
+  return {.absorption = absorption(params),
+          .scattering = params.scattering,
+          .anisotropy = params.anisotropy,
+          .beam = light.day ? glm::dot(light.to_sun, c.up) : 1,
+          .ior = c.ior,
+          .surface = params.crossing == Crossing::kRadiance};
 }
 
 double DepthFog::bound(const P& params, const Context& c, const Ranges& ranges) {
@@ -113,10 +130,11 @@ double DepthFog::bound(const P& params, const Context& c, const Ranges& ranges) 
   const Medium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   return largest_of([&](auto part) {
-    const double taken = 1 - m.bottom * survives(part(m.rate) + part(m.down), way);
-    return bound_product(taken, bright) +
-           bound_product(part(m.ambient) + sun * part(m.sun), column(part(m.rate), way));
-  });
+           const double taken = 1 - m.bottom * survives(part(m.rate) + part(m.down), way);
+           return bound_product(taken, bright) +
+                  bound_product(part(m.ambient) + sun * part(m.sun), column(part(m.rate), way));
+         }) +
+         m.most_often(way);
 }
 
 void DepthFog::reckon(const P& params, const Context& c, Ranges& ranges) {
@@ -149,16 +167,19 @@ void DepthFog::reckon(const P& params, const Context& c, Ranges& ranges) {
   };
   ranges.through =
       largest_of([&](auto part) { return m.bottom * survives(part(m.rate), ranges.way.min); });
-  ranges.sun_light = largest_of(sun_of);
+  const double often = m.most_often(ranges.way.max);
+  ranges.sun_light = largest_of(sun_of) + often;
   ranges.sun_far = largest_of([&](auto part) {
     const double tau = bound_product(part(m.rate), ranges.way.min);
     return bound_product(sun_of(part), tau > 2 ? 1 / tau : 0.5);
   });
+  ranges.sun_far += often;
   ranges.light = std::max(
       ranges.light, largest_of([&](auto part) {
-        return bright + bound_product(part(m.ambient), column(part(m.rate), ranges.way.max)) +
-               sun_of(part);
-      }));
+                      return bright +
+                             bound_product(part(m.ambient), column(part(m.rate), ranges.way.max)) +
+                             sun_of(part);
+                    }) + often);
 }
 
 double DepthFog::beyond(const P& params, const Context& c, const Ranges& ranges) {
@@ -171,12 +192,43 @@ double DepthFog::beyond(const P& params, const Context& c, const Ranges& ranges)
   const Medium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   return largest_of([&](auto part) {
-    const double rate = part(m.rate);
-    if (survives(rate, 3e38) > 0) return HUGE_VAL;  // there is no endless way in float
-    const double left = survives(rate, way);
-    return bound_product(left, m.bottom * bright) +
-           left / rate * (part(m.ambient) + sun * part(m.sun));
-  });
+           const double rate = part(m.rate);
+           if (survives(rate, 3e38) > 0) return HUGE_VAL;  // there is no endless way in float
+           const double left = survives(rate, way);
+           return bound_product(left, m.bottom * bright) +
+                  left / rate * (part(m.ambient) + sun * part(m.sun));
+         }) +
+         m.beyond_often(way * refracted_cosine(0.0, 1 / c.ior));
+}
+
+/// Each layer stands for all that are deeper.
+double DepthFog::Medium::beyond_often(double depth) const {
+  if (!often) return 0;
+  double most = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double layers = std::log2(rates()[i] * depth / ScatteredLight::kFirstLayer);
+    if (!(layers >= 0)) return HUGE_VAL;
+    const auto layer = static_cast<std::size_t>(std::min(layers, ScatteredLight::kLayers - 1.0));
+    most = std::max(most, water * (beams()[i] * often[i].beyond_sun[layer] +
+                                   skies()[i] * often[i].beyond_sky[layer]));
+  }
+  return most;
+}
+
+double DepthFog::Medium::most_often(double way) const {
+  if (!often) return 0;
+  double most = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ScatteredLight& light = often[i];
+    const double depth = bound_product(rates()[i], way);
+    const auto up_to = [&](double slope, double all) {
+      return std::min(bound_product(slope, depth), all);
+    };
+    const double of_sun = up_to(light.slope_sun, light.most_sun) + light.most_bottom_sun;
+    const double of_sky = up_to(light.slope_sky, light.most_sky) + light.most_bottom_sky;
+    most = std::max(most, water * (beams()[i] * of_sun + skies()[i] * of_sky));
+  }
+  return 1.05 * most;  // for the fits
 }
 
 /// The largest value of the phase function: views go down into the water at least as steeply as
@@ -196,6 +248,21 @@ DepthFog::Medium DepthFog::medium_of(const Params& params, const Context& c) {
   m.rate = extinction(params);
   m.down = light.down;
   m.ambient = params.scattering * params.ambient;
+  m.cosine = light.day ? std::clamp(glm::dot(light.to_sun, c.up), 0.0, 1.0) : 1;
+  if (wants_scattered_light(params) && c.scattered_light) {
+    const double above = glm::dot(c.sun.direction, c.up);
+    m.often = c.scattered_light;
+    m.ambient = kBlack;
+    m.beam = light.beam;
+    // What the surface lets in keeps its radiance over the square of the index.
+    m.sky = (params.crossing == Crossing::kRadiance ? c.ior * c.ior : 1) *
+            (c.has_sky ? c.sky : params.ambient);
+    m.dry_sun = (light.bottom * (light.day ? above : 0)) * c.sun.color;
+    m.dry_sky = light.bottom * (c.has_sky ? c.sky : params.ambient);
+    m.square = params.anisotropy * params.anisotropy;
+    m.scatters = params.scattering != kBlack;
+    m.turns = params.anisotropy != 0;
+  }
   m.sun = light.sun;
   m.to_sun = light.to_sun;
   m.bottom = light.bottom;

@@ -13,14 +13,12 @@ namespace {
 
 /// K: what light from above loses for each length of its way down.
 Rgb<double> falling_loss(const DepthFog::Params& params) {
+  if (params.model == DepthFog::Model::kRadiativeTransfer) return DepthFog::extinction(params);
   const bool typed =
       params.water_type != WaterType::kCustom && params.water_type != WaterType::kPure;
   if (typed) return water_optics(params.water_type).down_attenuation;
-  const Rgb<double> absorption = params.water_type == WaterType::kCustom
-                                     ? params.absorption
-                                     : water_optics(params.water_type).absorption;
   // What is scattered goes on forwards, mostly.
-  return absorption + (1 - params.anisotropy) * params.scattering;
+  return DepthFog::absorption(params) + (1 - params.anisotropy) * params.scattering;
 }
 
 }  // namespace
@@ -39,8 +37,7 @@ WaterLight water_light(const DepthFog::Params& params, const Context& c, double 
   }
   if (!light.day) return light;
 
-  const Rgb<double> facing = std::numbers::pi * params.scattering * c.sun.color;
-  light.sun = facing;
+  light.beam = c.sun.color;
   if (params.sunlight == Sunlight::kStraight) light.down = (1 / cosine) * falling_loss(params);
   if (params.sunlight == Sunlight::kRefracted) {
     const double inside = refracted_cosine(cosine, 1 / ior);
@@ -48,9 +45,10 @@ WaterLight water_light(const DepthFog::Params& params, const Context& c, double 
     // Along the surface the way down has no end.
     light.down = (1 / std::max(inside, 1e-30)) * falling_loss(params);
     light.spread = enters ? cosine / inside : 0;
-    light.sun = (enters ? (1 - lost) * cosine / inside : 0) * facing;
+    light.beam = (enters ? (1 - lost) * cosine / inside : 0) * c.sun.color;
     light.to_sun = enters ? (c.sun.direction - cosine * c.up) / ior + inside * c.up : c.up;
   }
+  light.sun = std::numbers::pi * params.scattering * light.beam;
   return light;
 }
 

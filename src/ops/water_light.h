@@ -13,6 +13,7 @@ struct WaterLight {
   glm::dvec3 to_sun{0, 1, 0};  ///< unit, in the water
   double spread = 1;           ///< of the sunlight, which the surface makes a wider beam
   Rgb<double> down{0, 0, 0};   ///< K / cos_sun: what it loses for each depth
+  Rgb<double> beam{0, 0, 0};   ///< E' / pi: what a white Lambert surface shows that faces it
   Rgb<double> sun{0, 0, 0};    ///< b E', scattered for each length
   /// What leaving the water makes of light: of that of the bottom, lit through the surface, and of
   /// that of the water.

@@ -16,6 +16,8 @@ constexpr CompleterInfo kCompleters[] = {
      PlaneSet{PlaneId::kReflectionDepth, PlaneId::kReflectionValid},
      "The depth of the reflection from that of the dry scene, and where objects cut at the water "
      "show their insides."},
+    {"bottom_albedo", kDryPlanes, kAlbedoPlanes, {},
+     "How much of the light the bottom throws back, from the dry picture of it."},
     {"sky", kDryPlanes, kSkyPlanes, {}, "The sky of the frame, drawn on behind what hides it."},
 };
 

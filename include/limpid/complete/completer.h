@@ -1,9 +1,11 @@
 #pragma once
 #include <string>
 
+#include "limpid/complete/bottom_albedo.h"
 #include "limpid/complete/displaced_surface.h"
 #include "limpid/complete/mirror_depth.h"
 #include "limpid/complete/part_depths.h"
+#include "limpid/complete/scattered_light.h"
 #include "limpid/complete/sky.h"
 #include "limpid/complete/slope_map.h"
 #include "limpid/core/executor.h"
@@ -29,6 +31,8 @@ class Completer {
 
  private:
   void complete_waves(const Plan& plan, const Context& context, Executor& executor, Frame& frame);
+  void complete_water(const Plan& plan, PlaneSet made, const Context& context, Executor& executor,
+                      Frame& frame);
 
   DisplacedSurface displaced_surface_;
   PartDepths part_depths_;
@@ -36,6 +40,8 @@ class Completer {
   Sky sky_;
   LevelMaker level_maker_;
   SlopeMap slope_map_;
+  ScatteredLightMaker scattered_light_;
+  BottomAlbedo bottom_albedo_;
 };
 
 }  // namespace limpid

@@ -38,8 +38,11 @@ enum class PlaneId : std::uint8_t {
   kSkyR,
   kSkyG,
   kSkyB,
+  kAlbedoR,
+  kAlbedoG,
+  kAlbedoB,
 };
-constexpr int kPlaneCount = 23;
+constexpr int kPlaneCount = 26;
 constexpr int index_of(PlaneId id) { return static_cast<int>(id); }
 /// The plane `step` places after `id`, as in plane_after(kColorR, 2) = kColorB.
 constexpr PlaneId plane_after(PlaneId id, int step) {
@@ -88,9 +91,12 @@ inline constexpr PlaneSet kSurfaceNormalPlanes{PlaneId::kSurfaceNormalX, PlaneId
 
 inline constexpr PlaneSet kSkyPlanes{PlaneId::kSkyR, PlaneId::kSkyG, PlaneId::kSkyB};
 
+inline constexpr PlaneSet kAlbedoPlanes{PlaneId::kAlbedoR, PlaneId::kAlbedoG, PlaneId::kAlbedoB};
+
 inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, PlaneId::kBelowB,
                                        PlaneId::kBelowDepth};
 
+struct ScatteredLight;
 struct SlopeLevels;
 struct TextureLevels;
 
@@ -128,6 +134,12 @@ struct Frame {
   /// How much those waves lean, for a wind that scales them: the covariance of their slopes, along
   /// the map's axes. 0 where nobody has made it: the waves then stay as the map has them.
   Sym2<double> wave_variance{0, 0, 0};
+  /// What the water makes of light that it scatters more than once: of red, green, blue; null, or
+  /// made by complete/.
+  const ScatteredLight* scattered_light = nullptr;
+  /// The mean radiance of the environment above, by the cosine with the water's up, where it is
+  /// asked for.
+  std::optional<Rgb<double>> sky_radiance;
 
   const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
   PlaneSet present() const;

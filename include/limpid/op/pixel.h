@@ -77,6 +77,11 @@ struct Pixel {
   /// Parts of in_scatter that the sun lights: the first in the shadow of the surface point, the
   /// second in that of the point where the ray ends.
   Rgb<F> sun_near, sun_far;
+  /// Of in_scatter, too: what of the sun was scattered more than once, or came from the bottom.
+  Rgb<F> sun_often;
+  /// How the place on the surface at which sunlight enters moves with a unit of the way.
+  Vec3<F> sun_entry;
+  F sun_way;  ///< after which it is scattered once on average, of the way
   F fresnel;
   Rgb<F> reflected;
   /// Shares of what is mirrored, whose sum is 1: r from the reflection, g from the picture itself,

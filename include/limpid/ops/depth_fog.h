@@ -2,6 +2,7 @@
 #include "limpid/op/operator.h"
 #include "limpid/optics/fog.h"
 #include "limpid/optics/refract.h"
+#include "limpid/optics/scattered_light.h"
 #include "limpid/optics/scattering.h"
 #include "limpid/optics/water_types.h"
 
@@ -38,9 +39,24 @@ namespace limpid {
 /// in-scatter; (1 - F) of the view is fresnel_reflection's. `ambient` is radiance as the viewer in
 /// the air sees it and loses nothing. A view that begins in the water crosses nothing, and what it
 /// sees through the surface from below is not lit through water. A sun at the horizon or under it
-/// counts as none. Light is scattered once: very murky water comes out too dark.
+/// counts as none. Light is scattered once: murky water comes out too dark.
+///
+/// `radiative_transfer`: light is scattered as often as it may be, and what bottom and surface
+/// throw back goes on. Of the scattering b the narrow peak of p counts as not scattered
+/// (narrow_share()), for the way to the viewer and for K alike; scattered once it is as above, with
+/// that extinction. Beyond that, from the layer that is as deep as the end of the way
+/// (optics/scattered_light.h: A is the albedo of the bottom, I what lights it, G the share of its
+/// light that passes up, B the share that comes back to it), for views from the air:
+///
+///     in_scatter += sun's and sky's light scattered more than once, by depth, view and angle
+///                 + A I G / (1 - A B), less what `transmitted` has of a level Lambert floor
+///
+/// With `crossing` radiance the surface reflects from below what Fresnel's equations say. The sky's
+/// radiance is that of the environment, else the scene's, else `ambient`. Views that begin in the
+/// water take it as endlessly deep. Without what complete/ makes for a frame light is scattered
+/// once.
 struct DepthFog {
-  enum class Model { kLinear, kBeerLambert };
+  enum class Model { kLinear, kBeerLambert, kRadiativeTransfer };
   enum class Distance { kEye, kRay, kRefracted };
   enum class Sunlight { kNone, kStraight, kRefracted };
   enum class Crossing { kNone, kRadiance };
@@ -67,7 +83,10 @@ struct DepthFog {
                                    StatePart::kTransmitted, StatePart::kInScatter,
                                    StatePart::kSunScatter};
   static std::span<const Field<Params>> fields();
-  static PlaneSet reads(const Params&) { return {}; }
+  static PlaneSet reads(const Params& p) {
+    return wants_scattered_light(p) ? kAlbedoPlanes : PlaneSet{};
+  }
+  static PlaneSet wants(const Params& p, const AtHand&) { return reads(p); }
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
@@ -76,8 +95,13 @@ struct DepthFog {
   /// How much the picture changes at most when the way through the water counts as endless and the
   /// light at its end as the pixel's own, for refraction is left out. 0 where no bit of it is left.
   static double beyond(const Params& params, const Context& c, const Ranges& ranges);
-  /// a + b of the model beer_lambert: what a unit of the way takes from the light.
+  /// What a unit of the way takes from the light: a + b of beer_lambert, less the narrow peak of
+  /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
+  static Rgb<double> absorption(const Params& params);
+  /// Whether light that is scattered more than once is to be made for a frame, and of what water.
+  static bool wants_scattered_light(const Params& params);
+  static ScatteringWater scattering_water(const Params& params, const Context& c);
 
   template <class Strip>
   static void apply(const Params& params, const Context& c, Strip& strip) {
@@ -100,6 +124,25 @@ struct DepthFog {
     glm::dvec3 to_sun;     ///< unit, in the water
     double bottom, water;  ///< crossing, of the bottom's light and of the sun's in-scatter
     bool glows, sunlit;    ///< whether there is in-scatter of each kind
+    /// Of light that is scattered more than once, of red, green, blue; null without.
+    const ScatteredLight* often;
+    Rgb<double> beam, sky;         ///< E' / pi, and the sky's radiance in the water
+    double cosine;                 ///< of the beam with the vertical
+    Rgb<double> dry_sun, dry_sky;  ///< what `transmitted` has of a white level floor
+    double square;                 ///< of the anisotropy
+    bool scatters, turns;          ///< whether light is scattered, and unevenly
+
+    static std::array<double, 3> channels(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
+    std::array<double, 3> rates() const { return channels(rate); }
+    std::array<double, 3> downs() const { return channels(down); }
+    std::array<double, 3> beams() const { return channels(beam); }
+    std::array<double, 3> skies() const { return channels(sky); }
+    std::array<double, 3> dry_suns() const { return channels(dry_sun); }
+    std::array<double, 3> dry_skies() const { return channels(dry_sky); }
+    /// The largest radiance that ways up to a length show of it; and how far it is at most from
+    /// that of endless water, from a depth on.
+    double most_often(double way) const;
+    double beyond_often(double depth) const;
   };
   static Medium medium_of(const Params& params, const Context& c);
   static double brightest_phase(const Params& params, const Context& c, const Medium& medium);
@@ -134,7 +177,9 @@ struct DepthFog {
       p.transmittance = {clear, clear, clear};
       p.transmitted = clear * p.transmitted;
       p.in_scatter = veil * color;
-      p.sun_near = p.sun_far = {F(0), F(0), F(0)};
+      p.sun_near = p.sun_far = p.sun_often = {F(0), F(0), F(0)};
+      p.sun_entry = {F(0), F(0), F(0)};
+      p.sun_way = F(0);
     });
   }
 
@@ -146,9 +191,9 @@ struct DepthFog {
     const Rgb<F> ambient = rgb_of<F>(medium.ambient), sun = rgb_of<F>(medium.sun);
     const Vec3<F> up = vec3_of<F>(c.up), to_sun = vec3_of<F>(medium.to_sun);
     const F eta(1 / c.ior), anisotropy(params.anisotropy), bottom(medium.bottom),
-        water(medium.water);
+        water(medium.water), per_rise(medium.sunlit ? 1 / std::max(medium.cosine, 0.02) : 0);
     const F eye_depth(c.eye_above < 0 ? -c.eye_above : 0);
-    strip.each([&](Pixel<F>& p) {
+    const auto make = [&](Pixel<F>& p, const Vec3<F>& albedo) {
       // Of the view in the water: away from the viewer.
       const auto from_air = p.side > F(0);
       const Vec3<F> view =
@@ -165,16 +210,18 @@ struct DepthFog {
       const Rgb<F> lit = select(from_air, bottom, F(1)) * fallen;
       p.transmitted = lit * p.transmittance * p.transmitted;
 
-      p.in_scatter = p.sun_near = p.sun_far = {F(0), F(0), F(0)};
+      p.in_scatter = p.sun_near = p.sun_far = p.sun_often = {F(0), F(0), F(0)};
       if (medium.glows) {
         const Rgb<F>& left = p.transmittance;
         p.in_scatter = ambient * Rgb<F>{column_light(rate.r, length, left.r),
                                         column_light(rate.g, length, left.g),
                                         column_light(rate.b, length, left.b)};
       }
+      const F turned = dot(to_sun, view);
+      p.sun_entry = select(from_air, view + (sink * per_rise) * to_sun, {F(0), F(0), F(0)});
+      p.sun_way = F(0);
       if (medium.sunlit) {
-        const F turned = henyey_greenstein(dot(to_sun, view), anisotropy);
-        const F seen = select(from_air, water, F(1)) * turned;
+        const F seen = select(from_air, water, F(1)) * henyey_greenstein(turned, anisotropy);
         // sun_left() of ways that begin at the surface and go down, as all from the air do: what
         // the light of their end loses, to it and from it.
         Rgb<F> left = p.transmittance * fallen;
@@ -189,9 +236,87 @@ struct DepthFog {
         const Rgb<F> light = seen * (sun * Rgb<F>{red.light, green.light, blue.light});
         p.sun_far = light * Rgb<F>{red.far_share, green.far_share, blue.far_share};
         p.sun_near = light - p.sun_far;
+        // Of endless ways the share is no number of a float any more.
+        const F fading = max(rate.g + down.g * sink, F(1e-30));
+        p.sun_way = min(green.far_share * length, F(1) / fading);
         p.in_scatter = p.in_scatter + light;
       }
-    });
+      if (medium.often) add_often(medium, way, turned, fallen, albedo, p);
+    };
+    if (medium.often && c.planes.covers(kAlbedoPlanes)) {
+      strip.own3(PlaneId::kAlbedoR, make);
+    } else {
+      strip.each([&](Pixel<F>& p) { make(p, {F(0), F(0), F(0)}); });
+    }
+  }
+
+  /// Sun and sky, of one channel.
+  template <class F>
+  struct Often {
+    F sun, sky;
+  };
+
+  /// Light that is scattered more than once, and of the bottom what `transmitted` lacks.
+  template <class F>
+  static LIMPID_INLINE void add_often(const Medium& m, const Way<F>& way, F turned,
+                                      const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
+    const auto from_air = p.side > F(0);
+    const F doubly = m.turns ? henyey_greenstein(turned, F(m.square)) : F(0);
+    const std::array<F, 4> shapes{F(1), way.sink, turned, doubly};
+    const Rgb<F>& left = p.transmittance;
+    Often<F> red = often_down(m, 0, way, shapes, fallen.r, left.r, albedo.x);
+    Often<F> green = often_down(m, 1, way, shapes, fallen.g, left.g, albedo.y);
+    Often<F> blue = often_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
+    if (any(!from_air)) {
+      const auto choose = [&](Often<F>& down, const Often<F>& inside) {
+        down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
+      };
+      choose(red, often_inside(m, 0, way));
+      choose(green, often_inside(m, 1, way));
+      choose(blue, often_inside(m, 2, way));
+    }
+    p.sun_often = {red.sun, green.sun, blue.sun};
+    p.in_scatter = p.in_scatter + p.sun_often + Rgb<F>{red.sky, green.sky, blue.sky};
+  }
+
+  /// Of a view from the air. `fallen` and `left`: what is left of the beam at the end of the way,
+  /// and of its light at the viewer.
+  template <class F>
+  static LIMPID_INLINE Often<F> often_down(const Medium& m, std::size_t channel, const Way<F>& way,
+                                           const std::array<F, 4>& shapes, F fallen, F left,
+                                           F albedo) {
+    const ScatteredLight& light = m.often[channel];
+    const std::array<F, 2> even{shapes[0], shapes[1]};
+    const F x = layer_variable(min(F(m.rates()[channel]) * way.end, F(1e6)));
+    const F beam(m.beams()[channel]), sky(m.skies()[channel]), water(m.water);
+    Often<F> up{F(0), F(0)};
+    if (m.scatters) {
+      const F many = m.turns ? layer_power(light.sun, shapes, x)
+                             : layer_power(std::array{light.sun[0], light.sun[1]}, even, x);
+      up = {beam * (F(1) - fallen * left) * many, sky * layer_power(light.sky, even, x)};
+    }
+    const F reflects = min(max(albedo, F(0)), F(ScatteredLight::kMostAlbedo));
+    const F passing = left + layer_power(light.passing, even, x);
+    const F back = F(light.back_at_once) + layer_power(light.back, x);
+    const F seen = reflects * passing / (F(1) - reflects * back);
+    const F sunlit = F(m.cosine) * fallen + layer_power(light.sun_below, x);
+    const F skylit = F(light.sky_at_once) + layer_power(light.sky_below, x);
+    const F had = reflects * fallen * left;
+    const auto beyond = [&](F all, double floor) { return max(all - had * F(floor), F(0)); };
+    return {water * up.sun + beyond(water * (seen * beam * sunlit), m.dry_suns()[channel]),
+            water * up.sky + beyond(water * (seen * sky * skylit), m.dry_skies()[channel])};
+  }
+
+  /// Of a view that begins in the water.
+  template <class F>
+  static LIMPID_INLINE Often<F> often_inside(const Medium& m, std::size_t channel,
+                                             const Way<F>& way) {
+    const ScatteredLight& light = m.often[channel];
+    const F rate(m.rates()[channel]);
+    const F even = sun_column(way, rate, F(light.even_rate)).light;
+    const F falling = sun_column(way, rate, F(m.downs()[channel])).light;
+    return {F(m.beams()[channel]) * max(F(light.even_sun) * even + F(light.beam) * falling, F(0)),
+            F(m.skies()[channel] * light.even_sky) * even};
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "limpid/op/operator.h"
+#include "limpid/op/screen_ray.h"
 
 namespace limpid {
 
@@ -10,10 +11,16 @@ namespace limpid {
 /// down to black as if the sky gave no light.
 ///
 /// `scatter`: takes the sun's share of what the water sends where the sun does not reach the water:
-/// in_scatter -= strength ((1 - v_near) sun_near + (1 - v_far) sun_far), never below 0. v_near is
-/// the shadow on the surface at this pixel (that of what lies below it, should the frame have no
-/// other), v_far that at uv'. Clear water shows no shadow of its own, the bottom's is in the dry
-/// picture already.
+/// in_scatter -= strength ((1 - v_near) sun_near + (1 - v_far) sun_far + (1 - v_often) sun_often),
+/// never below 0. Clear water shows no shadow of its own, the bottom's is in the dry picture
+/// already.
+///
+/// Where the frame has a shadow on the surface, it is looked up where the sunlight entered that is
+/// scattered on the way to the viewer: at kParts places of the way that send as much each, on the
+/// line in the calm surface from the pixel to where the sunlight of the way's end comes in. v_near
+/// and v_far are means of these, by how far they lie from its two ends; v_often is the mean of
+/// kAround places, one free path around the middle one. Else v_near is the shadow at the pixel
+/// itself, and v_far, as v_often, that at uv'.
 struct WaterShadow {
   enum class Model { kDarken, kScatter };
   struct Params {
@@ -58,11 +65,54 @@ struct WaterShadow {
       const Rgb<F> left = p.in_scatter - strength * (F(1) - shadow) * lit;
       p.in_scatter = {max(left.r, F(0)), max(left.g, F(0)), max(left.b, F(0))};
     };
-    const bool on_surface = c.planes.has(PlaneId::kSurfaceShadow);
-    strip.own(on_surface ? PlaneId::kSurfaceShadow : PlaneId::kShadow,
-              [&](Pixel<F>& p, F shadow) { take(p, shadow, p.sun_near); });
+    if (c.planes.has(PlaneId::kSurfaceShadow)) {
+      strip.probe([&](Pixel<F>& p, const auto& tap) { scatter(c, p, tap, take); });
+      return;
+    }
+    strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, shadow, p.sun_near); });
     strip.bilinear(PlaneId::kShadow, where,
-                   [&](Pixel<F>& p, F shadow) { take(p, shadow, p.sun_far); });
+                   [&](Pixel<F>& p, F shadow) { take(p, shadow, p.sun_far + p.sun_often); });
+  }
+
+ private:
+  static constexpr int kParts = 4, kAround = 4;
+
+  template <class F, class Tap, class Take>
+  static LIMPID_INLINE void scatter(const Context& c, Pixel<F>& p, const Tap& tap, Take&& take) {
+    const auto sunlit = [&](Vec2<F> shift) {
+      const auto quad = tap.quad(shift);
+      const Four<F> lit = tap.read(PlaneId::kSurfaceShadow, quad);
+      F sum(0);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * lit[k];
+      return sum;
+    };
+    // All parts send as much in clear water, where the mean way is half of the whole; they fade
+    // exponentially in murky water.
+    const F mean = p.sun_way, whole = min(p.path, F(1e30));
+    const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
+    const ScreenRay<F> line(c, p, p.sun_entry);
+    constexpr double kFading[kParts] = {0.1335, 0.4700, 0.9808, 2.0794};  // -log(1 - (i + 1/2) / 4)
+    F near_lit(0), far_lit(0), near_sum(0), far_sum(0);
+    for (int i = 0; i < kParts; ++i) {
+      const F even((2 * i + 1) / double(kParts)), fading(kFading[i]);
+      const F way = min(mean * (fading + even_share * (even - fading)), whole);
+      const F there = way / max(whole, F(1e-30)), lit = sunlit(line.shift_at(way));
+      near_lit = near_lit + (F(1) - there) * lit, near_sum = near_sum + (F(1) - there);
+      far_lit = far_lit + there * lit, far_sum = far_sum + there;
+    }
+    take(p, near_lit / max(near_sum, F(1e-6)), p.sun_near);
+    take(p, far_lit / max(far_sum, F(1e-6)), p.sun_far);
+    const Rgb<F>& often = p.sun_often;
+    if (!any(often.r + often.g + often.b > F(0))) return;
+    // Around where light of the mean way entered, as far away as that.
+    const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+    F lit(0);
+    for (int i = 0; i < kAround; ++i) {
+      const Vec3<F> side = i % 2 == 0 ? map_x : map_y;
+      const ScreenRay<F> ray(c, p, p.sun_entry + F(i < 2 ? 1 : -1) * side);
+      lit = lit + F(1.0 / kAround) * sunlit(ray.shift_at(mean));
+    }
+    take(p, lit, p.sun_often);
   }
 };
 

@@ -1,0 +1,26 @@
+#pragma once
+#include "limpid/core/vec.h"
+#include "limpid/optics/scattered_light.h"
+
+namespace limpid {
+
+/// Solves the equation of radiative transfer for a layer of water under sun and sky, per channel,
+/// and fits what the chain's pixels ask of it. 1 to 3 ms; the last water's is kept.
+///
+/// The peak of the phase function counts as not scattered (narrow_share); the rest of it is
+/// represented by 16 moments that fit it, relatively, at all other angles (Hu et al. 2000,
+/// "Delta-Fit: a Fast and Accurate Treatment of Particle Scattering Phase Functions").
+/// `sun` leaves out light that was scattered once, which is exact elsewhere (Nakajima & Tanaka
+/// 1988, "Algorithms for Radiative Intensity Calculations in Moderately Thick Atmospheres").
+class ScatteredLightMaker {
+ public:
+  /// Red, green, blue; until the next call.
+  const ScatteredLights& make(const ScatteringWater& water);
+
+ private:
+  ScatteringWater water_;
+  bool made_ = false;
+  ScatteredLights light_;
+};
+
+}  // namespace limpid

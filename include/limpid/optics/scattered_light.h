@@ -1,0 +1,114 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "limpid/core/vec.h"
+
+/// @file
+/// Light that water scatters more than once, and that its bottom and its surface throw back and
+/// forth: the numbers that are left of the equation of radiative transfer (Chandrasekhar 1960,
+/// "Radiative Transfer") in a level layer of water, once it is solved for a frame
+/// (complete/scattered_light.h).
+
+namespace limpid {
+
+/// Share of the light scattered by Henyey and Greenstein's phase function that goes on so nearly
+/// straight, by less than 10 degrees, that it counts as not scattered: what the peak of the
+/// function has there over its value at 10 degrees (Potter 1970, "The Delta Function Approximation
+/// in Radiative Transfer Theory"). `anisotropy` -0.99 ... 0.99; 0 up to 0.
+inline double narrow_share(double anisotropy) {
+  constexpr double kCosine = 0.984807753012208;  // of 10 degrees
+  const double g = anisotropy;
+  if (!(g > 1e-3)) return 0;
+  const double away = std::sqrt(1 + g * g - 2 * g * kCosine);
+  const double inside = (1 - g) * (1 + g) / (2 * g) * (1 / (1 - g) - 1 / away);
+  const double level = (1 - g) * (1 + g) / (2 * away * away * away) * (1 - kCosine);
+  return inside > level ? inside - level : 0;
+}
+
+/// What light that is scattered more than once depends on, all else being the pixel's.
+struct ScatteringWater {
+  Rgb<double> absorption{0, 0, 0}, scattering{0, 0, 0};  ///< 1/scene unit, >= 0
+  double anisotropy = 0;                                 ///< -0.99 ... 0.99
+  double beam = 1;  ///< cosine of the sun's beam with the vertical, in the water, 0 ... 1
+  double ior = 1.333;
+  bool surface = true;  ///< whether the surface reflects what comes from below
+
+  bool operator==(const ScatteringWater&) const = default;
+};
+
+/// Of one channel. Radiances are those in the water, over what a white Lambert surface shows that
+/// faces the sun's beam in the water ("sun"), or over the radiance of an even sky ("sky").
+/// Polynomials in x = t / (t + 2), without a constant, t being the optical depth straight down to
+/// the bottom: all light that is no beam's fades in or out from 0 there. They are fitted to the
+/// layer's solution at optical depths 1/64 ... 8192.
+struct ScatteredLight {
+  static constexpr int kDegree = 6;
+  static constexpr double kMostAlbedo = 0.9;  ///< of a bottom
+  /// What the radiance of the sun's light depends on besides: 1, the cosine of the view with the
+  /// vertical, that of the angle by which the beam is turned, and the phase function of light that
+  /// is scattered twice at that angle.
+  static constexpr int kShapes = 4;
+  using Power = std::array<double, kDegree>;
+
+  std::array<Power, kShapes> sun{};  ///< scattered more than once, over 1 - exp(-both ways)
+  std::array<Power, 2> sky{};        ///< scattered once and more; by the first two shapes
+  /// Radiance that a bottom of radiance 1 shows through the layer, beyond exp(-the way).
+  std::array<Power, 2> passing{};
+  Power sun_below{};  ///< what lights a bottom that is black, beyond the beam itself
+  Power sky_below{};  ///< likewise, beyond what the surface lets in
+  double sky_at_once = 1;
+  /// Share of what leaves the bottom that comes back to it, beyond what a surface right above it
+  /// throws back.
+  Power back{};
+  double back_at_once = 0;
+
+  /// For views that begin in the water, deep enough for the bottom not to matter: radiance that a
+  /// unit of way adds at depth z under the surface, as of the sun, even_sun exp(-even_rate z) and
+  /// `beam` times what is left of the beam; as of the sky, even_sky exp(-even_rate z).
+  double even_sun = 0, even_sky = 0, even_rate = 0, beam = 0;
+
+  /// For bounds. Of light scattered more than once the largest radiance, over all views and depths,
+  /// and that of an optical depth, for what is shallow; of light from the bottom the largest, its
+  /// albedo kMostAlbedo.
+  double most_sun = 0, most_sky = 0, slope_sun = 0, slope_sky = 0;
+  double most_bottom_sun = 0, most_bottom_sky = 0;
+  /// How far all that is from endless water, in layers of optical depth kFirstLayer, and twice that
+  /// of the last, and deeper ones.
+  static constexpr int kLayers = 20;
+  static constexpr double kFirstLayer = 1.0 / 64;
+  std::array<double, kLayers> beyond_sun{}, beyond_sky{};
+};
+
+/// Of red, green and blue.
+using ScatteredLights = std::array<ScatteredLight, 3>;
+
+/// x of the polynomials.
+template <class F>
+LIMPID_INLINE F layer_variable(F depth) {
+  return depth / (depth + F(2));
+}
+
+/// x (p0 + x (p1 + ...)).
+template <class F>
+LIMPID_INLINE F layer_power(const ScatteredLight::Power& p, F x) {
+  F sum(p[ScatteredLight::kDegree - 1]);
+  for (int i = ScatteredLight::kDegree - 2; i >= 0; --i) sum = F(p[i]) + x * sum;
+  return x * sum;
+}
+
+/// The same of several, each times its shape.
+template <std::size_t N, class F>
+LIMPID_INLINE F layer_power(const std::array<ScatteredLight::Power, N>& p,
+                            const std::array<F, N>& shapes, F x) {
+  F sum(0);
+  for (int i = ScatteredLight::kDegree - 1; i >= 0; --i) {
+    F coefficient = F(p[0][i]) * shapes[0];
+    for (std::size_t k = 1; k < N; ++k) coefficient = coefficient + F(p[k][i]) * shapes[k];
+    sum = coefficient + x * sum;
+  }
+  return x * sum;
+}
+
+}  // namespace limpid

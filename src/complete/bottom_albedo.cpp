@@ -1,0 +1,149 @@
+#include "limpid/complete/bottom_albedo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "complete/row_heights.h"
+#include "complete/rows.h"
+
+namespace limpid {
+namespace {
+
+constexpr int kStep = 2;        ///< pixels: every second one is enough for sums
+constexpr float kDepths = 1;    ///< of water that sums reach to each side
+constexpr int kMostReach = 24;  ///< cells
+
+Rect window_of(const Frame& frame) {
+  Rect window = frame.work();
+  for (int i = 0; i < 3; ++i) {
+    window = intersection(window, frame.plane(plane_after(PlaneId::kColorR, i)).window);
+  }
+  return intersection(window, frame.plane(PlaneId::kDepth).window);
+}
+
+}  // namespace
+
+/// A row of cells.
+void BottomAlbedo::gather(const Frame& frame, const Context& c, const Rgb<double>& sky, int row) {
+  const Rect window = window_of(frame);
+  const View<const float>& depth = frame.plane(PlaneId::kDepth);
+  const View<const float>& shadow = frame.plane(PlaneId::kShadow);
+  const double rise = c.has_sun ? std::max(glm::dot(c.sun.direction, c.up), 0.0) : 0;
+  const std::array<float, 3> sun{static_cast<float>(rise * c.sun.color.r),
+                                 static_cast<float>(rise * c.sun.color.g),
+                                 static_cast<float>(rise * c.sun.color.b)};
+  const std::array<float, 3> even{static_cast<float>(sky.r), static_cast<float>(sky.g),
+                                  static_cast<float>(sky.b)};
+  const double pixels = glm::length(c.to_u) * c.size.x;  // of a length at w = 1
+  Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
+  std::fill_n(cells, columns_, Cell{});
+  const int begin = window.y0 + row * kCell;
+  for (int y = begin; y < std::min(begin + kCell, window.y1); y += kStep) {
+    const RowHeights heights(c, y);
+    for (int x = window.x0; x < window.x1; x += kStep) {
+      const double far = depth.at(x, y);
+      const double under = -heights.at(x, far);
+      if (!(far > 0 && far < 1e30 && under > 0)) continue;
+      Cell& cell = cells[(x - window.x0) / kCell];
+      const float lit = shadow ? shadow.at(x, y) : 1;
+      for (int i = 0; i < 3; ++i) {
+        const std::size_t k = static_cast<std::size_t>(i);
+        cell.color[k] += frame.plane(plane_after(PlaneId::kColorR, i)).at(x, y);
+        cell.light[k] += lit * sun[k] + even[k];
+      }
+      const double w = std::max(c.w_origin + c.w_depth * far, 1e-30);
+      cell.reach += static_cast<float>(std::min(under * pixels / w, 1e4));
+      cell.count += 1;
+    }
+  }
+}
+
+/// In cells, the same for all of the picture: the mean of what its pixels ask for.
+int BottomAlbedo::reach() const {
+  double sum = 0, count = 0;
+  for (const Cell& cell : cells_) sum += cell.reach, count += cell.count;
+  if (!(count > 0)) return 0;
+  return std::clamp(static_cast<int>(kDepths * sum / count / kCell), 1, kMostReach);
+}
+
+/// Sums of all cells within `reach`, across and down.
+void BottomAlbedo::spread(int reach, Executor& executor) {
+  const auto add = [](Cell& to, const Cell& cell, float sign) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      to.color[i] += sign * cell.color[i];
+      to.light[i] += sign * cell.light[i];
+    }
+  };
+  /// Of a line of `count` cells, `step` apart.
+  const auto line = [&](const Cell* from, Cell* to, int count, int step) {
+    for (int i = 0; i < count; ++i) {
+      Cell sum;
+      for (int k = std::max(i - reach, 0); k <= std::min(i + reach, count - 1); ++k) {
+        add(sum, from[static_cast<std::ptrdiff_t>(k) * step], 1);
+      }
+      to[static_cast<std::ptrdiff_t>(i) * step] = sum;
+    }
+  };
+  sums_.resize(cells_.size());
+  for (int round = 0; round < 2; ++round) {
+    each_row(executor, {0, 0, 1, rows_}, [&](int y) {
+      const std::ptrdiff_t at = std::ptrdiff_t{y} * columns_;
+      line(cells_.data() + at, sums_.data() + at, columns_, 1);
+    });
+    each_row(executor, {0, 0, 1, columns_},
+             [&](int x) { line(sums_.data() + x, cells_.data() + x, rows_, columns_); });
+  }
+}
+
+/// Between the middles of the cells, linearly.
+void BottomAlbedo::draw_row(const Rect& window, int y) {
+  const float at_y = (static_cast<float>(y - window.y0) + 0.5f) / kCell - 0.5f;
+  const int low = static_cast<int>(std::floor(at_y));
+  const float part_y = at_y - static_cast<float>(low);
+  const auto row = [&](int r) {
+    return cells_.data() + static_cast<std::size_t>(std::clamp(r, 0, rows_ - 1)) * columns_;
+  };
+  const Cell *above = row(low), *below = row(low + 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    float* out = planes_[i].view().row(y);
+    const auto middle = [&](int column) {
+      const int k = std::clamp(column, 0, columns_ - 1);
+      return above[k].color[i] + part_y * (below[k].color[i] - above[k].color[i]);
+    };
+    float left = middle(-1), right = middle(0);
+    for (int column = 0; column <= columns_; ++column) {
+      // From the middle of the last cell to that of this one.
+      const int first = column * kCell - kCell / 2;
+      for (int k = 0; k < kCell; ++k) {
+        const int x = first + k;
+        if (x < 0 || x >= window.width()) continue;
+        out[x] = left + (right - left) * ((static_cast<float>(k) + 0.5f) / kCell);
+      }
+      left = right, right = middle(column + 1);
+    }
+  }
+}
+
+void BottomAlbedo::make(const Frame& frame, const Context& context, const Rgb<double>& sky,
+                        Executor& executor) {
+  const Rect window = window_of(frame);
+  columns_ = (window.width() + kCell - 1) / kCell;
+  rows_ = (window.height() + kCell - 1) / kCell;
+  cells_.resize(static_cast<std::size_t>(columns_) * rows_);
+  each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, context, sky, row); });
+  spread(reach(), executor);
+  for (Cell& cell : cells_) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float albedo = cell.light[i] > 0 ? cell.color[i] / cell.light[i] : 0;
+      cell.color[i] = std::clamp(albedo, 0.0f, 1.0f);
+    }
+  }
+  for (Plane& plane : planes_) {
+    if (!plane || plane.view().window != window) plane = Plane(window);
+  }
+  each_row(executor, window, [&](int y) { draw_row(window, y); });
+}
+
+}  // namespace limpid

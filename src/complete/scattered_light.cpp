@@ -1,0 +1,260 @@
+#include "limpid/complete/scattered_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "limpid/optics/absorption.h"
+#include "limpid/optics/fresnel.h"
+
+#include "complete/least_squares.h"
+#include "complete/slab.h"
+
+namespace limpid {
+namespace {
+
+constexpr int kDegree = ScatteredLight::kDegree, kShapes = ScatteredLight::kShapes;
+constexpr int kCount = SlabDirections::kCount, kModes = 4;
+/// The directions that a view from the air has in the water.
+constexpr int kFirstSeen = SlabDirections::kInside;
+
+/// Moments of what is left of the phase function without its peak, over its share. Legendre
+/// polynomials, fitted relatively from 10 degrees on.
+std::array<double, SlabWater::kMoments> moments_of(double anisotropy) {
+  constexpr std::size_t kFitted = SlabWater::kMoments - 1;
+  const double rest = 1 - narrow_share(anisotropy);
+  LeastSquares<kFitted> fit;
+  for (int degrees = 10; degrees <= 180; ++degrees) {
+    const double angle = degrees * (std::numbers::pi / 180), x = std::cos(angle);
+    const double phase = 4 * std::numbers::pi * henyey_greenstein(x, anisotropy);
+    const double weight = std::sqrt(std::sin(angle) + 0.02) / phase;
+    std::array<double, kFitted> row;
+    double before = 1, value = x;
+    for (std::size_t l = 1; l <= kFitted; ++l) {
+      const double degree = static_cast<double>(l);
+      row[l - 1] = weight * (2 * degree + 1) * value;
+      const double next = ((2 * degree + 1) * x * value - degree * before) / (degree + 1);
+      before = value, value = next;
+    }
+    fit.add(row, weight * (phase - rest));
+  }
+  std::array<double, SlabWater::kMoments> moments{1};
+  const auto fitted = fit.solved();
+  for (std::size_t l = 1; l <= kFitted; ++l) moments[l] = fitted[l - 1] / rest;
+  return moments;
+}
+
+/// Fits a number for each layer.
+ScatteredLight::Power power_fit(const std::vector<SlabLight>& layers, auto&& of) {
+  LeastSquares<kDegree> fit;
+  for (const SlabLight& layer : layers) {
+    std::array<double, kDegree> row;
+    double power = 1;
+    for (double& entry : row) entry = power *= layer_variable(layer.depth);
+    fit.add(row, of(layer));
+  }
+  return fit.solved();
+}
+
+/// Fits sums of shapes: of(layer, direction) by shape(k, direction).
+template <std::size_t N>
+class ShapesFit {
+ public:
+  void add(double depth, const std::array<double, N>& shapes, double value, double weight) {
+    std::array<double, N * kDegree> row;
+    for (std::size_t k = 0; k < N; ++k) {
+      double power = weight * shapes[k];
+      for (std::size_t i = 0; i < kDegree; ++i) {
+        row[k * kDegree + i] = power *= layer_variable(depth);
+      }
+    }
+    fit_.add(row, weight * value);
+  }
+  std::array<ScatteredLight::Power, N> solved() const {
+    const auto all = fit_.solved();
+    std::array<ScatteredLight::Power, N> powers;
+    for (std::size_t k = 0; k < N; ++k) {
+      std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(k * kDegree), kDegree,
+                  powers[k].begin());
+    }
+    return powers;
+  }
+
+ private:
+  LeastSquares<N * kDegree> fit_;
+};
+
+/// One channel: its layers in all modes, and the fits.
+class Channel {
+ public:
+  Channel(const ScatteringWater& water, const SlabDirections& directions,
+          const std::array<double, SlabWater::kMoments>& moments, double absorption,
+          double scattering)
+      : directions_(directions),
+        anisotropy_(water.anisotropy),
+        beam_(std::clamp(water.beam, 0.02, 1.0)) {
+    const double wide = scattering * (1 - narrow_share(water.anisotropy));
+    extinction_ = absorption + wide;
+    once_ = extinction_ > 0 ? scattering / extinction_ : 0;
+    const SlabWater slab{extinction_ > 0 ? wide / extinction_ : 0, moments};
+    SlabDirections::Radiance reflects{};
+    for (std::size_t i = 0; i < kCount && water.surface; ++i) {
+      reflects[i] = fresnel_exact(directions.cosine[i], 1 / water.ior);
+    }
+    const int modes = water.anisotropy == 0 ? 1 : kModes;
+    for (int mode = 0; mode < modes; ++mode) {
+      modes_.push_back(solve_slab(directions, slab, reflects, beam_, mode));
+    }
+    light_.back_at_once = directions.flux(reflects);
+    light_.sky_at_once = 1 - light_.back_at_once;
+    fit_even();
+    fit_sun();
+    put_bounds();
+    put_inside(absorption, scattering);
+  }
+
+  const ScatteredLight& light() const { return light_; }
+
+ private:
+  static constexpr int kAzimuths = 6;
+
+  const std::vector<SlabLight>& even_layers() const { return modes_[0]; }
+
+  void fit_even() {
+    const auto& layers = even_layers();
+    light_.sun_below = power_fit(layers, [&](const SlabLight& l) { return l.sun_below; });
+    light_.sky_below =
+        power_fit(layers, [&](const SlabLight& l) { return l.sky_below - light_.sky_at_once; });
+    light_.back =
+        power_fit(layers, [&](const SlabLight& l) { return l.back - light_.back_at_once; });
+    ShapesFit<2> sky, passing;
+    for (const SlabLight& layer : layers) {
+      for (std::size_t i = kFirstSeen; i < kCount; ++i) {
+        const double cosine = directions_.cosine[i];
+        sky.add(layer.depth, {1, cosine}, layer.sky[i], 1);
+        passing.add(layer.depth, {1, cosine}, layer.passing[i] - std::exp(-layer.depth / cosine),
+                    1);
+      }
+    }
+    light_.sky = sky.solved();
+    light_.passing = passing.solved();
+  }
+
+  static double azimuth_of(int a) { return a * std::numbers::pi / (kAzimuths - 1); }
+
+  /// Scattered more than once, in a direction, by layer.
+  double sun_of(std::size_t layer, std::size_t direction, int a) const {
+    double sum = modes_[0][layer].sun[direction];
+    for (std::size_t m = 1; m < modes_.size(); ++m) {
+      sum += 2 * modes_[m][layer].sun[direction] * std::cos(double(m) * azimuth_of(a));
+    }
+    return sum;
+  }
+
+  /// Relative to all of the sun's light that comes up, that scattered once included.
+  void fit_sun() {
+    ShapesFit<kShapes> fit;
+    const double level_beam = std::sqrt(1 - beam_ * beam_);
+    each_view([&](std::size_t i, int a) {
+      const double cosine = directions_.cosine[i];
+      const double turned =
+          std::sqrt(1 - cosine * cosine) * level_beam * std::cos(azimuth_of(a)) - cosine * beam_;
+      const double once = once_ * std::numbers::pi * henyey_greenstein(turned, anisotropy_) *
+                          beam_ / (beam_ + cosine);
+      for (std::size_t k = 0; k < even_layers().size(); ++k) {
+        const double depth = even_layers()[k].depth;
+        const double met = 1 - std::exp(-depth / cosine - depth / beam_);
+        const double share = sun_of(k, i, a) / met;
+        fit.add(depth, shapes(cosine, turned), share, 1 / std::max(once + share, 1e-6));
+      }
+    });
+    light_.sun = fit.solved();
+  }
+
+  void put_bounds() {
+    const auto& layers = even_layers();
+    const std::size_t last = layers.size() - 1;
+    for (std::size_t k = last + 1; k-- > 0;) {
+      const SlabLight& layer = layers[k];
+      const double most = ScatteredLight::kMostAlbedo;
+      const double again = most / (1 - most * layer.back);
+      double sun_off = 0, sky_off = 0, bottom_sun = 0, bottom_sky = 0;
+      each_view([&](std::size_t i, int a) {
+        const double sun = sun_of(k, i, a), sky = layer.sky[i];
+        light_.most_sun = std::max(light_.most_sun, sun);
+        light_.slope_sun = std::max(light_.slope_sun, sun / layer.depth);
+        light_.most_sky = std::max(light_.most_sky, sky);
+        light_.slope_sky = std::max(light_.slope_sky, sky / layer.depth);
+        const double beam = beam_ * std::exp(-layer.depth / beam_);
+        const double through = again * layer.passing[i];
+        bottom_sun = std::max(bottom_sun, through * (beam + layer.sun_below));
+        bottom_sky = std::max(bottom_sky, through * layer.sky_below);
+        sun_off = std::max(sun_off, std::abs(sun - sun_of(last, i, a)));
+        sky_off = std::max(sky_off, std::abs(sky - layers[last].sky[i]));
+      });
+      light_.most_bottom_sun = std::max(light_.most_bottom_sun, bottom_sun);
+      light_.most_bottom_sky = std::max(light_.most_bottom_sky, bottom_sky);
+      const double deeper_sun = k < last ? light_.beyond_sun[k + 1] : 0;
+      const double deeper_sky = k < last ? light_.beyond_sky[k + 1] : 0;
+      light_.beyond_sun[k] = std::max(deeper_sun, sun_off + bottom_sun);
+      light_.beyond_sky[k] = std::max(deeper_sky, sky_off + bottom_sky);
+    }
+  }
+
+  /// Calls visit(direction, azimuth) for what a view from the air may see.
+  template <class Visit>
+  void each_view(Visit&& visit) const {
+    const int azimuths = modes_.size() > 1 ? kAzimuths : 1;
+    for (std::size_t i = kFirstSeen; i < kCount; ++i) {
+      for (int a = 0; a < azimuths; ++a) visit(i, a);
+    }
+  }
+
+  std::array<double, kShapes> shapes(double cosine, double turned) const {
+    if (anisotropy_ == 0) return {1, cosine, 0, 0};
+    return {1, cosine, turned, henyey_greenstein(turned, anisotropy_ * anisotropy_)};
+  }
+
+  /// For views in the water: two streams in endless water (Toon et al. 1989, "Rapid Calculation of
+  /// Radiative Heating Rates and Photodissociation Rates in Inhomogeneous Multiple Scattering
+  /// Atmospheres") that scatters evenly what it turns (van de Hulst 1980, "Multiple Light
+  /// Scattering").
+  void put_inside(double absorption, double scattering) {
+    const double turned = scattering * (1 - anisotropy_), rate = absorption + turned;
+    if (!(turned > 0)) return;
+    const double albedo = turned / rate, reflects = light_.back_at_once;
+    double rest = std::sqrt(1 - albedo);
+    const double half_beam = 0.5 / beam_;
+    // Where both fade alike, the formula has no value; next to it, the right one.
+    if (std::abs(rest / half_beam - 1) < 2e-3) rest = 1.005 * half_beam;
+    const auto both = [&](double down) { return 1 - reflects + (1 + reflects) * down; };
+    const double beam = albedo / 4 / (rest * rest - half_beam * half_beam);
+    light_.beam = turned * beam;
+    light_.even_sun = -turned * beam * both(half_beam) / both(rest);
+    light_.even_sky = turned * light_.sky_at_once / both(rest);
+    light_.even_rate = 2 * rest * rate;
+  }
+
+  const SlabDirections& directions_;
+  double anisotropy_, beam_, extinction_ = 0, once_ = 0;
+  std::vector<std::vector<SlabLight>> modes_;
+  ScatteredLight light_;
+};
+
+}  // namespace
+
+const ScatteredLights& ScatteredLightMaker::make(const ScatteringWater& water) {
+  if (made_ && water == water_) return light_;
+  const SlabDirections directions(water.ior);
+  const auto moments = moments_of(water.anisotropy);
+  const Rgb<double>&a = water.absorption, &b = water.scattering;
+  light_ = {Channel(water, directions, moments, a.r, b.r).light(),
+            Channel(water, directions, moments, a.g, b.g).light(),
+            Channel(water, directions, moments, a.b, b.b).light()};
+  water_ = water;
+  made_ = true;
+  return light_;
+}
+
+}  // namespace limpid

@@ -1,0 +1,11 @@
+#pragma once
+#include "limpid/core/frame.h"
+
+namespace limpid {
+
+/// The radiance of an even sky that lights level water as an environment does: the mean of the
+/// directions above the horizon by their cosine with the water's up. Of a large map some hundred
+/// rows and columns are looked at.
+Rgb<double> sky_radiance(const Texture& environment);
+
+}  // namespace limpid

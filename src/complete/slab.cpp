@@ -1,0 +1,218 @@
+#include "complete/slab.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace limpid {
+namespace {
+
+constexpr int kCount = SlabDirections::kCount, kMoments = SlabWater::kMoments;
+using Radiance = SlabDirections::Radiance;
+using Matrix = std::array<Radiance, kCount>;  ///< rows: what goes out; columns: what comes in
+
+Matrix operator*(const Matrix& a, const Matrix& b) {
+  Matrix product{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t k = 0; k < kCount; ++k) {
+      for (std::size_t j = 0; j < kCount; ++j) product[i][j] += a[i][k] * b[k][j];
+    }
+  }
+  return product;
+}
+
+Radiance operator*(const Matrix& a, const Radiance& b) {
+  Radiance product{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t k = 0; k < kCount; ++k) product[i] += a[i][k] * b[k];
+  }
+  return product;
+}
+
+Radiance operator*(double a, Radiance b) {
+  for (double& value : b) value *= a;
+  return b;
+}
+
+Radiance each(const Radiance& a, Radiance b) {
+  for (std::size_t i = 0; i < kCount; ++i) b[i] *= a[i];
+  return b;
+}
+
+Radiance operator+(Radiance a, const Radiance& b) {
+  for (std::size_t i = 0; i < kCount; ++i) a[i] += b[i];
+  return a;
+}
+
+Matrix operator+(Matrix a, const Matrix& b) {
+  for (std::size_t i = 0; i < kCount; ++i) a[i] = a[i] + b[i];
+  return a;
+}
+
+/// 1 / (1 - a): all that goes to and fro. By Gauss and Jordan; what goes to and fro gets less, so
+/// that the largest entries stay on the diagonal.
+Matrix to_and_fro(const Matrix& a) {
+  Matrix left, right{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    left[i] = -1.0 * a[i];
+    left[i][i] += 1;
+    right[i][i] = 1;
+  }
+  for (std::size_t c = 0; c < kCount; ++c) {
+    const double scale = 1 / left[c][c];
+    left[c] = scale * left[c], right[c] = scale * right[c];
+    for (std::size_t r = 0; r < kCount; ++r) {
+      if (r == c) continue;
+      const double share = -left[r][c];
+      left[r] = left[r] + share * left[c], right[r] = right[r] + share * right[c];
+    }
+  }
+  return right;
+}
+
+using Values = std::array<double, kMoments>;
+
+/// Associated Legendre functions of one order at x, times sqrt((l - m)! / (l + m)!).
+Values legendre(int order, double x) {
+  const std::size_t m = static_cast<std::size_t>(order);
+  Values values{};
+  double first = 1;
+  for (int i = 1; i <= order; ++i) first *= std::sqrt((1 - x * x) * (2 * i - 1) / (2 * i));
+  values[m] = first;
+  if (m + 1 < kMoments) values[m + 1] = x * std::sqrt(2.0 * order + 1) * first;
+  for (std::size_t l = m + 2; l < kMoments; ++l) {
+    const double degree = static_cast<double>(l), square = double(order) * order;
+    values[l] = ((2 * degree - 1) * x * values[l - 1] -
+                 std::sqrt((degree - 1) * (degree - 1) - square) * values[l - 2]) /
+                std::sqrt(degree * degree - square);
+  }
+  return values;
+}
+
+/// The phase function's mode between two directions: onwards, or, `turned`, from down to up.
+double mode_between(const SlabWater& water, int mode, const Values& a, const Values& b,
+                    bool turned) {
+  double sum = 0;
+  for (int l = mode; l < kMoments; ++l) {
+    const std::size_t i = static_cast<std::size_t>(l);
+    const double part = (2 * l + 1) * water.moments[i] * a[i] * b[i];
+    sum += turned && (l - mode) % 2 != 0 ? -part : part;
+  }
+  return sum;
+}
+
+/// A layer without a surface: what it makes of what comes in, and of the beam.
+struct Layer {
+  double depth;
+  Matrix back, through;  ///< of what comes in from either side
+  Radiance up, down;     ///< of the beam, out at the top and the bottom
+
+  /// Thin enough for light to meet its water no more than once.
+  Layer(const SlabDirections& directions, const SlabWater& water, double beam, int mode,
+        double thin)
+      : depth(thin) {
+    const Values from_beam = legendre(mode, beam);
+    std::array<Values, kCount> of;
+    for (std::size_t i = 0; i < kCount; ++i) of[i] = legendre(mode, directions.cosine[i]);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double met = thin / directions.cosine[i] * water.albedo / 2;
+      for (std::size_t j = 0; j < kCount; ++j) {
+        const double share = met * directions.weight[j];
+        back[i][j] = share * mode_between(water, mode, of[i], of[j], true);
+        through[i][j] = share * mode_between(water, mode, of[i], of[j], false);
+      }
+      through[i][i] += std::exp(-thin / directions.cosine[i]);
+      up[i] = met / 2 * mode_between(water, mode, of[i], from_beam, true);
+      down[i] = met / 2 * mode_between(water, mode, of[i], from_beam, false);
+    }
+  }
+
+  void make_twice_as_deep(double beam) {
+    const double left = std::exp(-depth / beam);  // of the beam, for the lower half
+    const Matrix between = to_and_fro(back * back);
+    const Radiance rising = between * (left * up + back * down);
+    const Radiance sinking = down + back * rising;
+    up = up + through * rising;
+    down = left * down + through * sinking;
+    const Matrix reaching = through * between;
+    back = back + reaching * (back * through);
+    through = reaching * through;
+    depth *= 2;
+  }
+};
+
+SlabLight light_of(const Layer& layer, const SlabDirections& directions, const SlabWater& water,
+                   const Radiance& reflects, double beam, int mode) {
+  Matrix under = layer.back;  // what the surface throws down and the layer up again
+  for (Radiance& row : under) row = each(reflects, row);
+  const Matrix between = to_and_fro(under);
+  SlabLight light;
+  light.depth = layer.depth;
+  light.sun = between * layer.up;
+  light.sun_below = directions.flux(layer.down + layer.through * each(reflects, light.sun));
+  const Values from_beam = legendre(mode, beam);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const double cosine = directions.cosine[i];
+    const double first =
+        mode_between(water, mode, legendre(mode, cosine), from_beam, true) * water.albedo / 4;
+    const double met = 1 - std::exp(-layer.depth / cosine - layer.depth / beam);
+    light.sun[i] -= first * met * beam / (beam + cosine);
+  }
+  if (mode > 0) return light;
+  Radiance even;
+  even.fill(1);
+  light.passing = between * (layer.through * even);
+  light.back = directions.flux(layer.back * even + layer.through * each(reflects, light.passing));
+  // From the sky: what the surface lets in fills, at its own radiance, the cone in the water.
+  Radiance entering;
+  for (std::size_t i = 0; i < kCount; ++i) entering[i] = 1 - reflects[i];
+  light.sky = between * (layer.back * entering);
+  light.sky_below = directions.flux(layer.through * (entering + each(reflects, light.sky)));
+  return light;
+}
+
+/// Gauss and Legendre's nodes between two numbers.
+void put_nodes(double from, double to, int count, double* nodes, double* weights) {
+  for (int i = 0; i < count; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 0;
+    for (int round = 0; round < 20; ++round) {
+      double value = x, before = 1;
+      for (int l = 1; l < count; ++l) {
+        const double next = ((2 * l + 1) * x * value - l * before) / (l + 1);
+        before = value, value = next;
+      }
+      slope = count * (x * value - before) / (x * x - 1);
+      x -= value / slope;
+    }
+    nodes[i] = 0.5 * (from + to) + 0.5 * (to - from) * x;
+    weights[i] = (to - from) / ((1 - x * x) * slope * slope);
+  }
+}
+
+}  // namespace
+
+SlabDirections::SlabDirections(double ior) {
+  const double critical = std::sqrt(1 - 1 / (ior * ior));
+  put_nodes(0, critical, kInside, cosine.data(), weight.data());
+  put_nodes(critical, 1, kInside, cosine.data() + kInside, weight.data() + kInside);
+}
+
+double SlabDirections::flux(const Radiance& radiance) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < kCount; ++i) sum += 2 * weight[i] * cosine[i] * radiance[i];
+  return sum;
+}
+
+std::vector<SlabLight> solve_slab(const SlabDirections& directions, const SlabWater& water,
+                                  const SlabDirections::Radiance& reflects, double beam, int mode) {
+  constexpr double kThin = 1.0 / 8192;
+  Layer layer(directions, water, beam, mode, kThin);
+  std::vector<SlabLight> lights;
+  for (; lights.size() < SlabLight::kLayers; layer.make_twice_as_deep(beam)) {
+    if (layer.depth < SlabLight::kFirst) continue;
+    lights.push_back(light_of(layer, directions, water, reflects, beam, mode));
+  }
+  return lights;
+}
+
+}  // namespace limpid

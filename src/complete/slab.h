@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace limpid {
+
+/// Directions of a level layer, as cosines with the vertical, and their weights: Gauss's, apart for
+/// those that a calm surface reflects whole and those that it lets out.
+struct SlabDirections {
+  static constexpr int kInside = 4;  ///< of each kind
+  static constexpr int kCount = 2 * kInside;
+  using Radiance = std::array<double, kCount>;
+
+  explicit SlabDirections(double ior);
+  Radiance cosine, weight;
+
+  /// Irradiance over pi of what comes from all around.
+  double flux(const Radiance& radiance) const;
+};
+
+/// Water of a layer: of what it takes from a beam, `albedo` goes elsewhere, by a phase function of
+/// these moments, the first of them 1.
+struct SlabWater {
+  static constexpr int kMoments = 2 * SlabDirections::kCount;
+  double albedo;
+  std::array<double, kMoments> moments;
+};
+
+/// A layer of an optical depth, and what comes out of it; all per azimuth mode.
+struct SlabLight {
+  static constexpr std::size_t kLayers = 20;
+  static constexpr double kFirst = 1.0 / 64;  ///< and each twice as deep as the last: to 8192
+
+  using Radiance = SlabDirections::Radiance;
+  double depth;      ///< optical
+  Radiance sun;      ///< up at the top, over a black bottom, from a beam; but for its first order
+  double sun_below;  ///< on a black bottom, over pi, but for the beam's own
+  // Of mode 0 alone; 0 in others.
+  Radiance sky{};        ///< up at the top, from an even sky, all of it
+  Radiance passing{};    ///< up at the top, from a bottom of radiance 1
+  double sky_below = 0;  ///< on a black bottom, over pi
+  double back = 0;       ///< share of what leaves the bottom that comes back to it
+};
+
+/// All layers by doubling: the way
+/// through two layers is known from the ways through each (van de Hulst 1963, "A New Look at
+/// Multiple Scattering"; Hansen & Travis 1974, "Light Scattering in Planetary Atmospheres").
+/// `reflects`: of the surface from below, by direction, 0 without one; it lets in what is left. The
+/// beam, of irradiance pi on what faces it, comes down along `beam`, a cosine of 0.02 ... 1, in the
+/// water. `mode`: that of cos(mode azimuth); sky and bottom are even and only in mode 0.
+std::vector<SlabLight> solve_slab(const SlabDirections& directions, const SlabWater& water,
+                                  const SlabDirections::Radiance& reflects, double beam, int mode);
+
+}  // namespace limpid
