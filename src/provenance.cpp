@@ -159,8 +159,12 @@ std::string truth_options(const TruthJob& job) {
   std::vector<std::string> names = names_of(job.output.aovs);
   if (job.output.visible) names.push_back(toml_text(std::string("visible")));
   return line("runner", toml_text(std::string("traced"))) +
-         line("samples", std::to_string(job.samples)) + line("seed", std::to_string(job.seed)) +
-         line("aovs", "[" + join(names) + "]") +
+         line("samples", std::to_string(job.samples)) +
+         (job.light == TruthOptions::Light::kPaths
+              ? line("light", toml_text(std::string("paths"))) +
+                    line("paths", std::to_string(job.paths))
+              : line("light", toml_text(std::string("once")))) +
+         line("seed", std::to_string(job.seed)) + line("aovs", "[" + join(names) + "]") +
          file_options(job.output.compression, job.output.store_float);
 }
 

@@ -1,5 +1,7 @@
 #include "limpid/truth.h"
 
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "limpid/load/texture.h"
@@ -38,6 +40,7 @@ Textures textures_of(const Model& model, const Scene& scene, const TruthJob& job
     textures.inputs += wave_map_input(waves.map, files);
   }
   const bool surroundings =
+      job.light == TruthOptions::Light::kPaths ||
       job.look.of<FresnelReflection>().source == FresnelReflection::Source::kEnvironment;
   if (surroundings && has_environment(job.scene)) {
     textures.environment = load_environment(job.scene.environment, job.scene.environment_rotation);
@@ -77,6 +80,13 @@ Record record_of(const Model& model, const TruthJob& job, const Scene& scene,
   return record;
 }
 
+/// A hundredth of it tells nothing.
+std::string noise_text(double relative_error) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", relative_error);
+  return text;
+}
+
 ExrOutput file_of(const TruthPicture& picture, const Scene& scene, const TruthJob& job) {
   ExrOutput file;
   file.data = file.display = picture.window;
@@ -104,6 +114,8 @@ TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
   const Textures textures = textures_of(model, scene, job);
   const TruthOptions options{job.size,
                              job.samples,
+                             job.light,
+                             job.paths,
                              job.seed,
                              job.output.aovs,
                              job.output.visible,
@@ -113,6 +125,10 @@ TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
   report.trace_seconds = watch.lap();
   ExrOutput file = file_of(picture, scene, job);
   file.text = record_of(model, job, scene, textures);
+  report.relative_error = picture.relative_error;
+  if (!std::isnan(picture.relative_error)) {
+    file.text["limpid/noise"] = noise_text(picture.relative_error);
+  }
   if (!job.output.preview.empty()) {
     const auto& c = picture.target.color;
     write_preview(job.output.preview, c[0], c[1], c[2], 0, file.text);

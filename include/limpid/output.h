@@ -29,12 +29,14 @@ enum class Runner { kFused, kReference };
 ///                        the same picture before look and options
 ///     limpid/options     how it was computed and stored: runner, instruction set, AOVs,
 ///                        compression
+///     limpid/noise       of a ray-traced picture of more than one path a pixel: standard errors of
+///                        its colors over the colors, both in the mean (TruthPicture)
 ///
 /// Each EXR also has `limpid_file_hash`, a hash of its own bytes: whether it is still as it was
 /// written (ExrFile::is_as_written).
 ///
 /// A rendered plate has no look and no plan, a ray-traced picture no plan: its options name the
-/// runner "traced", samples and seed.
+/// runner "traced", light, samples, paths and seed.
 struct OutputChoice {
   std::vector<Aov> aovs;
   Runner runner = Runner::kFused;

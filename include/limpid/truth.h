@@ -26,6 +26,8 @@ struct TruthJob {
   double time = 0;  ///< seconds, for the waves
   Look look;
   int samples = 1;
+  TruthOptions::Light light = TruthOptions::Light::kPaths;
+  int paths = 16;
   std::uint64_t seed = 0;
   TruthOutput output;
 };
@@ -33,6 +35,7 @@ struct TruthJob {
 /// What was done, for the report line.
 struct TruthReport {
   Size size;
+  double relative_error = 0;  ///< as TruthPicture has it
   double trace_seconds = 0, write_seconds = 0;
 };
 

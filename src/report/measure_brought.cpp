@@ -222,6 +222,7 @@ void measure_brought_scene(const Measuring& m, const std::filesystem::path& scen
   const Frame frame = subject.frame_for(subject.plan(looks.front()));
   TruthOptions options;
   options.size = m.options.size;
+  options.light = TruthOptions::Light::kOnce;
   options.samples = kBroughtSamples;
   options.aovs = {Aov::kPath};
   options.wave_map = frame.wave_map;

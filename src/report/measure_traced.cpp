@@ -59,6 +59,7 @@ struct Moment {
     const Frame frame = subject.frame_for(subject.plan(m.physical));
     TruthOptions options;
     options.size = m.options.size;
+    options.light = TruthOptions::Light::kOnce;
     options.aovs.assign(std::begin(kStmaps), std::end(kStmaps));
     options.visible = true;
     options.wave_map = frame.wave_map;

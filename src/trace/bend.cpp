@@ -1,4 +1,4 @@
-#include "trace/tracer.h"
+#include "trace/bend.h"
 
 namespace limpid::trace {
 namespace {

@@ -5,6 +5,8 @@
 
 #include "limpid/optics/fresnel.h"
 
+#include "trace/bend.h"
+
 namespace limpid::trace {
 namespace {
 

@@ -3,17 +3,31 @@
 #include "limpid/optics/water_index.h"
 
 namespace limpid::trace {
+namespace {
+
+double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
+Rgb<double> shares(const Rgb<double>& part, const Rgb<double>& whole) {
+  return {share(part.r, whole.r), share(part.g, whole.g), share(part.b, whole.b)};
+}
+
+}  // namespace
 
 Medium::Medium(const Context& context, const Look& look) {
   const DepthFog::Params& fog = look.of<DepthFog>();
   rate = DepthFog::extinction(fog);
+  albedo = shares(fog.scattering, rate);
   ambient = fog.scattering * fog.ambient;
   anisotropy = fog.anisotropy;
+  crosses = fog.crossing != DepthFog::Crossing::kNone;
 
   const auto band = [&](double ior) {
     Band one;
     one.ior = ior;
     one.light = water_light(fog, context, ior);
+    one.square = crosses ? ior * ior : 1;
+    one.sun_on_water = shares(one.light.sun, fog.scattering);
+    const double enters = one.light.day ? one.light.spread * one.light.bottom * one.square : 0;
+    one.sun_on_bottom = enters * context.sun.color;
     return one;
   };
   const double gain = look.of<PrismSplit>().gain;

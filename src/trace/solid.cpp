@@ -206,6 +206,24 @@ bool Solid::is_lit(const SolidPoint& point) const {
   return shading != Shading::kFlat && shading != Shading::kTextured;
 }
 
+Rgb<double> Solid::base_color(const SolidPoint& point) const {
+  const raster::MaterialView& m = model_.materials[static_cast<std::size_t>(point.material)];
+  const Rgb<double> tint{point.color.r, point.color.g, point.color.b};
+  return tint * rgb_of(m.base) * texel_of(m.base_texture, m.base_lookup, point.places).color;
+}
+
+Rgb<double> Solid::ambient_light(const SolidPoint& point) const {
+  const Rgb<double> base = base_color(point);
+  if (!is_lit(point)) return base;
+  return base * rgb_of(model_.materials[static_cast<std::size_t>(point.material)].ambient);
+}
+
+Rgb<double> Solid::albedo(const SolidPoint& point) const {
+  if (!is_lit(point)) return {0, 0, 0};
+  const Rgb<double> base = base_color(point);
+  return {saturate(base.r), saturate(base.g), saturate(base.b)};
+}
+
 Rgb<double> Solid::shaded(const SolidPoint& point, const glm::dvec3& to_viewer, const Sunlight& sun,
                           double visible) const {
   const raster::MaterialView& m = model_.materials[static_cast<std::size_t>(point.material)];

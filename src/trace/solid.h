@@ -60,6 +60,12 @@ class Solid {
     return shaded(point, -beam.ray.direction, sun, lit ? visible() : 0.0);
   }
 
+  /// What of color() is the light from all around: the ambient of the material, and all of a
+  /// surface that takes no notice of light.
+  Rgb<double> ambient_light(const SolidPoint& point) const;
+  /// Share of the light of others that the surface sends everywhere, 0 ... 1.
+  Rgb<double> albedo(const SolidPoint& point) const;
+
  private:
   struct Source {  ///< a part of the triangles: the mesh that it came from
     const raster::PreparedMesh* mesh;
@@ -81,6 +87,7 @@ class Solid {
   double opacity_at(std::uint32_t part, std::uint32_t triangle, const glm::dvec3& shares,
                     const Beam* beam) const;
   bool is_lit(const SolidPoint& point) const;
+  Rgb<double> base_color(const SolidPoint& point) const;
   Rgb<double> shaded(const SolidPoint& point, const glm::dvec3& to_viewer, const Sunlight& sun,
                      double visible) const;
   void add(const Instance& instance, const glm::dvec3& eye, std::vector<Triangles::Part>& parts);

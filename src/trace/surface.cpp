@@ -67,6 +67,18 @@ std::optional<SurfacePoint> Surface::nearest(const Ray& ray, bool from_air) cons
   return found;
 }
 
+std::optional<SurfacePoint> Surface::from_below(const Ray& ray) const {
+  if (const auto found = nearest(ray, false)) return found;
+  const double rises = glm::dot(ray.direction, context_.up);
+  if (!has_mesh_ || !(rises > 0)) return std::nullopt;
+  SurfacePoint lid;
+  lid.distance = std::max((crest() - glm::dot(ray.origin, context_.up)) / rises, ray.from);
+  lid.point = ray.at(lid.distance);
+  lid.face = lid.normal = context_.up;
+  if (!(lid.distance < ray.to)) return std::nullopt;
+  return lid;
+}
+
 glm::dvec3 Surface::normal_at(const glm::dvec3& point) const {
   if (!wavy_) return context_.up;
   Pixel<double> pixel{};

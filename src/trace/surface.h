@@ -29,6 +29,10 @@ class Surface {
   /// that it does not come from.
   std::optional<SurfacePoint> nearest(const Ray& ray, bool from_air) const;
 
+  /// From the water, for ways that must not end where a mesh does: beside it the water goes on,
+  /// under a level plane as high as its crests.
+  std::optional<SurfacePoint> from_below(const Ray& ray) const;
+
   /// The height over the eye that no water reaches beyond.
   double crest() const { return height_ + crest_; }
 

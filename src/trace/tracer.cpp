@@ -6,20 +6,23 @@
 
 #include "limpid/optics/fresnel.h"
 #include "limpid/optics/scattering.h"
-#include "limpid/optics/surroundings.h"
 
-#include "op/plain_texture.h"
+#include "trace/bend.h"
 #include "trace/one_pixel.h"
 
 namespace limpid::trace {
 namespace {
 
-constexpr double kEndless = 3e38;  ///< length of a way that meets nothing
 constexpr Rgb<double> kBlack{0, 0, 0};
 
 Sunlight in_the_air(const Scene& scene) {
   if (!scene.sun) return {};
   return {scene.sun->direction, 1, scene.sun->color};
+}
+
+/// That of the scene, or else what the look takes for it.
+Rgb<double> even_sky(const Scene& scene, const Look& look) {
+  return scene.sky ? scene.sky->radiance : look.of<DepthFog>().ambient;
 }
 
 /// The beam goes on behind a point that it was seen through.
@@ -35,15 +38,20 @@ Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
                const TruthOptions& options, const Context& context)
     : context_(context),
       look_(look),
+      light_(options.light),
       environment_(options.environment),
       background_(model.background),
       sun_(in_the_air(scene)),
       medium_(context, look),
       solid_(model, context.eye),
-      surface_(model, scene, look, options.wave_map, context) {}
+      surface_(model, scene, look, options.wave_map, context),
+      sun_way_(context, solid_, medium_, sun_.to_sun),
+      sky_(context, environment_, even_sky(scene, look)),
+      walk_(context, solid_, surface_, medium_, sun_way_, sun_, sky_) {}
 
-Light Tracer::seen(const Beam& beam, bool in_water, int steps, Samples& samples) const {
-  View view{.steps = steps, .samples = samples};
+Light Tracer::seen(const Beam& beam, bool in_water, int steps, Samples& samples,
+                   Samples& paths) const {
+  View view{.steps = steps, .samples = samples, .paths = paths};
   view.from_air = !in_water;
   return in_water ? from_water(beam, view) : in_air(beam, view);
 }
@@ -57,7 +65,7 @@ Light Tracer::through_layer(const SolidPoint& layer, const Beam& beam, View view
   ++view.layers;
   Light light = in_air(beyond(beam, layer), view);
   const double left = 1 - layer.opacity;
-  light.transmitted = left * light.transmitted + layer.opacity * dry_light(layer, beam);
+  light.transmitted = left * light.transmitted + layer.opacity * walk_.dry(layer, beam);
   light.in_scatter = left * light.in_scatter;
   light.reflected = left * light.reflected;
   light.highlight = left * light.highlight;
@@ -75,7 +83,7 @@ Light Tracer::in_air(const Beam& beam, View view) const {
   }
   if (!wet && dry && dry->opacity < 1) return through_layer(*dry, beam, view);
   if (!wet) {
-    light.transmitted = dry ? dry_light(*dry, beam) : background(beam.ray.direction, view);
+    light.transmitted = dry ? walk_.dry(*dry, beam) : background(beam.ray.direction, view);
     return light;
   }
   ++view.events;
@@ -134,12 +142,20 @@ Tracer::Leg Tracer::through_layer(const SolidPoint& layer, const Beam& beam, con
 Rgb<double> Tracer::end_light(const SolidPoint* dry, const Beam& beam, double length,
                               const Band& band, const View& view) const {
   const Rgb<double> end =
-      dry ? bottom_light(*dry, beam, band) : background(beam.ray.direction, view);
-  const double depth =
-      dry ? depth_of(dry->hit.point) : std::max(0.0, depth_of(beam.ray.at(length)));
+      dry ? bottom_light(*dry, beam, band, view) : background(beam.ray.direction, view);
+  const Rgb<double> arrives = transmittance(length, medium_.rate) * end;
+  if (light_ == TruthOptions::Light::kPaths && dry) return arrives;
+  const double depth = sun_way_.depth_of(dry ? dry->hit.point : beam.ray.at(length));
   const double leaves = view.from_air ? band.light.bottom : 1;
-  return leaves *
-         (transmittance(depth, band.light.down) * (transmittance(length, medium_.rate) * end));
+  return leaves * (transmittance(depth, band.light.down) * arrives);
+}
+
+/// Of random ways it is what is left of it in the air; else still without loss by the surface and
+/// by the water over it.
+Rgb<double> Tracer::bottom_light(const SolidPoint& point, const Beam& beam, const Band& band,
+                                 const View& view) const {
+  if (light_ == TruthOptions::Light::kOnce) return bottom_lit_once(point, beam, band);
+  return (view.from_air ? 1 / band.square : 1) * walk_.bottom(point, beam, band, view.paths);
 }
 
 Tracer::Leg Tracer::through_water(const Beam& beam, const Band& band, View view) const {
@@ -151,7 +167,7 @@ Tracer::Leg Tracer::through_water(const Beam& beam, const Band& band, View view)
     wet = surface_.nearest(ray, false);
   }
   if (!wet && dry && dry->opacity < 1) return through_layer(*dry, beam, band, view);
-  const double length = wet ? wet->distance : dry ? dry->hit.distance : kEndless;
+  const double length = wet ? wet->distance : dry ? dry->hit.distance : kEndlessWay;
   Leg leg;
   leg.transmittance = transmittance(length, medium_.rate);
   leg.in_scatter = scattered(beam.ray, length, band, view);
@@ -175,6 +191,12 @@ Tracer::Leg Tracer::through_water(const Beam& beam, const Band& band, View view)
 
 Rgb<double> Tracer::scattered(const Ray& ray, double length, const Band& band,
                               const View& view) const {
+  if (light_ == TruthOptions::Light::kOnce) return scattered_once(ray, length, band, view);
+  return (view.from_air ? 1 / band.square : 1) * walk_.scattered(ray, length, band, view.paths);
+}
+
+Rgb<double> Tracer::scattered_once(const Ray& ray, double length, const Band& band,
+                                   const View& view) const {
   const Rgb<double>& rate = medium_.rate;
   const Rgb<double> everywhere =
       medium_.ambient * Rgb<double>{column_light(rate.r, length), column_light(rate.g, length),
@@ -198,7 +220,7 @@ Rgb<double> Tracer::scattered(const Ray& ray, double length, const Band& band,
 double Tracer::sunlit_column(const Ray& ray, double length, double rate, double down,
                              const Band& band, const View& view) const {
   const double sinks = -glm::dot(ray.direction, context_.up);
-  const double begin = under_calm(ray.origin), end = begin + sinks * length;
+  const double begin = sun_way_.under_calm(ray.origin), end = begin + sinks * length;
   const double crossing = begin * end < 0 ? -begin / sinks : length;
   struct Part {
     double from, length, begin, end, light;
@@ -229,49 +251,26 @@ double Tracer::sunlit_column(const Ray& ray, double length, double rate, double 
 /// exp(-loss s). Places are drawn by that weight, one in each of `steps` parts of equal light.
 double Tracer::sunlit_share(const Ray& ray, double length, double loss, int steps, const Band& band,
                             const View& view) const {
-  const double size = std::abs(loss), whole = size * std::min(length, kEndless);
+  const double size = std::abs(loss), whole = size * std::min(length, kEndlessWay);
   int reached = 0;
   for (int i = 0; i < steps; ++i) {
     const double part = (i + view.samples.next()) / steps;
     double s = part * length;
     if (whole > 1e-6) s = -std::log1p(part * std::expm1(-whole)) / size;
     if (loss < 0) s = length - s;
-    reached += sun_reaches(ray.at(s), band);
+    reached += sun_way_.reaches(ray.at(s), band);
   }
   return static_cast<double>(reached) / steps;
 }
 
-bool Tracer::sun_reaches(const glm::dvec3& point, const Band& band) const {
-  const double depth = depth_of(point);
-  Ray up{point, band.light.to_sun};
-  if (!medium_.bends_sun || depth <= 0) {
-    up.direction = sun_.to_sun;
-    return !solid_.blocks(up);
-  }
-  up.to = depth / glm::dot(band.light.to_sun, context_.up);
-  return !solid_.blocks(up) && !solid_.blocks({up.at(up.to), sun_.to_sun});
-}
-
-double Tracer::under_calm(const glm::dvec3& point) const {
-  return -context_.eye_above - glm::dot(context_.up, point);
-}
-
-double Tracer::depth_of(const glm::dvec3& point) const { return std::max(0.0, under_calm(point)); }
-
-Rgb<double> Tracer::dry_light(const SolidPoint& point, const Beam& beam) const {
-  return solid_.color(point, beam, sun_, [&] {
-    return solid_.blocks({point.off_towards(sun_.to_sun), sun_.to_sun}) ? 0.0 : 1.0;
-  });
-}
-
-Rgb<double> Tracer::bottom_light(const SolidPoint& point, const Beam& beam,
-                                 const Band& band) const {
-  if (!medium_.bends_sun || depth_of(point.hit.point) <= 0) return dry_light(point, beam);
+Rgb<double> Tracer::bottom_lit_once(const SolidPoint& point, const Beam& beam,
+                                    const Band& band) const {
+  if (!medium_.bends_sun || sun_way_.depth_of(point.hit.point) <= 0) return walk_.dry(point, beam);
   // Of a sun that is reflected whole there is nothing.
   const Sunlight sun{band.light.to_sun, band.light.spread,
                      band.light.spread > 0 ? sun_.color : kBlack};
   return solid_.color(point, beam, sun, [&] {
-    return sun_reaches(point.off_towards(band.light.to_sun), band) ? 1.0 : 0.0;
+    return sun_way_.reaches(point.off_towards(band.light.to_sun), band) ? 1.0 : 0.0;
   });
 }
 
@@ -280,9 +279,7 @@ Rgb<double> Tracer::background(const glm::dvec3& direction, const View& view) co
   const FresnelReflection::Params& mirror = look_.of<FresnelReflection>();
   if (view.mirrored && mirror.source == Source::kConstant) return mirror.color;
   if (view.mirrored && mirror.source == Source::kEnvironment && environment_) {
-    return lat_long_rgb_at(environment_, lat_long(glm::dot(context_.map_x, direction),
-                                                  glm::dot(context_.map_y, direction),
-                                                  glm::dot(context_.up, direction)));
+    return environment_at(environment_, context_, direction);
   }
   return background_;
 }

@@ -5,7 +5,9 @@
 #include "trace/medium.h"
 #include "trace/samples.h"
 #include "trace/solid.h"
+#include "trace/sun_way.h"
 #include "trace/surface.h"
+#include "trace/walk.h"
 
 namespace limpid::trace {
 
@@ -23,9 +25,11 @@ class Tracer {
  public:
   Tracer(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options,
          const Context& context);
+  Tracer(const Tracer&) = delete;  // its parts know one another
 
-  /// `steps`: samples along a way where the sun's shadow on scattering water is looked up.
-  Light seen(const Beam& beam, bool in_water, int steps, Samples& samples) const;
+  /// `steps`: samples along a way where the sun's shadow on scattering water is looked up, where
+  /// light is scattered once; else `paths` are the numbers of random ways.
+  Light seen(const Beam& beam, bool in_water, int steps, Samples& samples, Samples& paths) const;
 
   const Solid& solid() const { return solid_; }
   const Surface& surface() const { return surface_; }
@@ -40,6 +44,7 @@ class Tracer {
     bool from_air = true;   ///< where the eye is
     int steps;
     Samples& samples;
+    Samples& paths;
   };
   /// What a way through the water, in one band, gives to the view.
   struct Leg {
@@ -59,38 +64,32 @@ class Tracer {
   Rgb<double> end_light(const SolidPoint* dry, const Beam& beam, double length, const Band& band,
                         const View& view) const;
   std::optional<SolidPoint> nearest_dry(const Beam& beam, const View& view) const;
+  Rgb<double> bottom_light(const SolidPoint& point, const Beam& beam, const Band& band,
+                           const View& view) const;
   Rgb<double> scattered(const Ray& ray, double length, const Band& band, const View& view) const;
   double sunlit_column(const Ray& ray, double length, double rate, double down, const Band& band,
                        const View& view) const;
   double sunlit_share(const Ray& ray, double length, double loss, int steps, const Band& band,
                       const View& view) const;
 
-  Rgb<double> dry_light(const SolidPoint& point, const Beam& beam) const;
-  Rgb<double> bottom_light(const SolidPoint& point, const Beam& beam, const Band& band) const;
+  Rgb<double> scattered_once(const Ray& ray, double length, const Band& band,
+                             const View& view) const;
+  Rgb<double> bottom_lit_once(const SolidPoint& point, const Beam& beam, const Band& band) const;
   Rgb<double> background(const glm::dvec3& direction, const View& view) const;
   Rgb<double> highlight(const SurfacePoint& at, const glm::dvec3& to_viewer) const;
-  /// Whether the sun reaches a point in the water, or of the bottom, that this band sees.
-  bool sun_reaches(const glm::dvec3& point, const Band& band) const;
-  /// How far below the calm plane, and the same but never less than 0.
-  double under_calm(const glm::dvec3& point) const;
-  double depth_of(const glm::dvec3& point) const;
 
   const Context& context_;
   const Look& look_;
+  const TruthOptions::Light light_;
   const Texture environment_;
   Rgb<double> background_;
   Sunlight sun_;  ///< in the air
   Medium medium_;
   Solid solid_;
   Surface surface_;
+  SunWay sun_way_;
+  Sky sky_;
+  Walk walk_;
 };
-
-/// The beam goes on into the water, and out of it: at the plane of the surface there, by its
-/// normal. Rays that the normal would bend or mirror to the wrong side of the geometry are laid
-/// along it.
-Beam refracted_in(const Beam& beam, const SurfacePoint& at, double ior);
-Beam refracted_out(const Beam& beam, const SurfacePoint& at, double ior);
-Beam mirrored_up(const Beam& beam, const SurfacePoint& at);
-Beam mirrored_down(const Beam& beam, const SurfacePoint& at);
 
 }  // namespace limpid::trace

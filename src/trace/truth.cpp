@@ -1,6 +1,7 @@
 #include "limpid/trace/truth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "limpid/core/error.h"
@@ -10,6 +11,7 @@
 #include "raster/check_rendered.h"
 #include "run/each_once.h"
 #include "trace/geometry.h"
+#include "trace/mean_light.h"
 
 namespace limpid {
 namespace {
@@ -17,15 +19,19 @@ namespace {
 using trace::Geometry;
 using trace::Light;
 
+void expect_in(const char* name, int value, int most) {
+  if (value >= 1 && value <= most) return;
+  throw Error(std::string(name) + " = " + std::to_string(value) + ": expected 1 ... " +
+                  std::to_string(most),
+              Fault::kUsage);
+}
+
 void check(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options) {
   look.validate();
   check_rendered(scene, options.size);
   renderable(model, scene);
-  if (options.samples < 1 || options.samples > kMostTruthSamples) {
-    throw Error("samples = " + std::to_string(options.samples) + ": expected 1 ... " +
-                    std::to_string(kMostTruthSamples),
-                Fault::kUsage);
-  }
+  expect_in("samples", options.samples, kMostTruthSamples);
+  expect_in("paths", options.paths, kMostTruthPaths);
   for (Aov aov : options.aovs) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
     if (!info.of_buffers) continue;
@@ -94,7 +100,9 @@ class Mean {
     sum_.transmittance = sum_.transmittance + light.transmittance;
     sum_.fresnel += light.fresnel;
     count_ += 1;
+    color_.add(light.sum());
   }
+  const trace::MeanLight& color() const { return color_; }
   Light light() const {
     const double share = 1 / count_;
     return {share * sum_.transmitted, share * sum_.in_scatter, share * sum_.reflected,
@@ -104,7 +112,13 @@ class Mean {
  private:
   Light sum_{.transmittance = {0, 0, 0}};
   double count_ = 0;
+  trace::MeanLight color_;
 };
+
+double sum_of(const Rgb<double>& c) { return c.r + c.g + c.b; }
+
+/// Apart from the seeds of places in pixels.
+constexpr std::uint64_t kPathSeed = 0x5a11ed;
 
 class Painter {
  public:
@@ -115,11 +129,17 @@ class Painter {
         context_(scene, frame_of(model, scene, look, options, anything_), look.water.ior, {}),
         eye_(*scene.camera, options.size),
         tracer_(model, scene, look, options, context_),
-        steps_(std::max(4, 32 / (options.samples * options.samples))) {}
+        paths_(options.light == TruthOptions::Light::kPaths ? options.paths : 1),
+        steps_(std::max(4, 32 / (options.samples * options.samples))),
+        rows_(static_cast<std::size_t>(options.size.height)) {}
 
-  void paint_row(int y) const {
+  void paint_row(int y) {
     for (int x = 0; x < options_.size.width; ++x) {
-      put(x, y, light_at(x, y));
+      const Mean mean = seen_at(x, y);
+      put(x, y, mean.light());
+      Row& row = rows_[static_cast<std::size_t>(y)];
+      row.light += sum_of(mean.color().mean());
+      row.error += sum_of(mean.color().error());
       if (wants_geometry()) {
         const bool in_water = begins_in_water(x + 0.5, y + 0.5);
         put(x, y, geometry_at(tracer_, eye_, context_, x + 0.5, y + 0.5, in_water));
@@ -127,18 +147,35 @@ class Painter {
     }
   }
 
+  double relative_error() const {
+    if (options_.samples * options_.samples * paths_ < 2) return std::nan("");
+    Row all;
+    for (const Row& row : rows_) {
+      all.light += row.light;
+      all.error += row.error;
+    }
+    return all.light > 0 ? all.error / all.light : std::nan("");
+  }
+
  private:
-  Light light_at(int x, int y) const {
+  struct Row {
+    double light = 0, error = 0;
+  };
+
+  Mean seen_at(int x, int y) const {
     const int n = options_.samples;
     Mean mean;
     for (int i = 0; i < n * n; ++i) {
       trace::Samples samples = n > 1 ? trace::Samples(options_.seed, x, y, i) : trace::Samples();
-      const double at_x = x + (i % n + samples.next()) / n;
-      const double at_y = y + (i / n + samples.next()) / n;
-      mean.add(tracer_.seen(eye_.beam_at(at_x, at_y, 1.0 / n), begins_in_water(at_x, at_y), steps_,
-                            samples));
+      trace::Samples paths(options_.seed + kPathSeed, x, y, i);
+      for (int path = 0; path < paths_; ++path) {
+        const double at_x = x + (i % n + samples.next()) / n;
+        const double at_y = y + (i / n + samples.next()) / n;
+        mean.add(tracer_.seen(eye_.beam_at(at_x, at_y, 1.0 / n), begins_in_water(at_x, at_y),
+                              steps_, samples, paths));
+      }
     }
-    return mean.light();
+    return mean;
   }
 
   bool begins_in_water(double x, double y) const {
@@ -192,7 +229,8 @@ class Painter {
   Context context_;
   trace::Eye eye_;
   trace::Tracer tracer_;
-  int steps_;
+  int paths_, steps_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace
@@ -201,11 +239,11 @@ TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& loo
                          const TruthOptions& options, Executor& executor) {
   check(model, scene, look, options);
   TruthPicture picture = picture_for(options);
-  const Painter painter(model, scene, look, options, picture);
+  Painter painter(model, scene, look, options, picture);
   executor.run(
       options.size.height,
-      [](void* context, int y) { static_cast<const Painter*>(context)->paint_row(y); },
-      const_cast<Painter*>(&painter));
+      [](void* context, int y) { static_cast<Painter*>(context)->paint_row(y); }, &painter);
+  picture.relative_error = painter.relative_error();
   return picture;
 }
 

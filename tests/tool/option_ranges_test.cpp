@@ -86,7 +86,9 @@ TEST_F(OptionRangesTest, OfRenderedPictures) {
                           "a whole number, 0 ... 18446744073709551615",
                           {"0", "18446744073709551615"},
                           {"-1", "18446744073709551616", "1.5"}};
-  expect_ranges(of("truth"), {kTime, kFps, kSamples, seed});
+  const RangedOption paths{
+      "--paths", "a whole number, 1 ... 65536", {"1", "65536"}, {"0", "65537", "-1", "1.5"}};
+  expect_ranges(of("truth"), {kTime, kFps, kSamples, paths, seed});
   // A size is looked at behind the scene.
   for (const std::string verb : {"render", "water", "truth"}) {
     for (const std::string& bad : sizes.bad) {

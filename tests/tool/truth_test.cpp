@@ -20,17 +20,20 @@ TEST_F(TruthTest, EveryBundledSceneGivesAPicture) {
     const Ran ran = limpid({"truth", scene(name + ".toml"), "--size", "64x36", "-o", name + ".exr",
                             "--preview", name + ".png", "--aov", "all"});
     EXPECT_EQ(ran.code, 0) << ran.err;
-    EXPECT_THAT(ran.out, ContainsRegex(name +
-                                       ".exr: 64x36, 1 sample a pixel, look physical, "
-                                       "trace [0-9.]+ s, write [0-9]+ ms\n" +
-                                       name + ".png\n"));
+    EXPECT_THAT(
+        ran.out,
+        ContainsRegex(name +
+                      ".exr: 64x36, 1 sample a pixel of 16 paths, noise [0-9.]+ %, look physical, "
+                      "trace [0-9.]+ s, write [0-9]+ ms\n" +
+                      name + ".png\n"));
     EXPECT_THAT(oiiotool({name + ".exr", "--printstats"}).out,
                 HasSubstr("Stats NanCount: 0 0 0 0"));
     EXPECT_THAT(iinfo(name + ".png"), HasSubstr("64 x   36, 3 channel"));
   }
   const std::string info = iinfo("pool.exr");
   for (const char* part : {"transmitted.R", "stmap.b.V", "visible.R", "visible_below.B",
-                           "limpid/look", "limpid/scene", "limpid/inputs", "worldToCamera"}) {
+                           "limpid/noise", "light = \\\"paths\\\"", "paths = 16", "limpid/look",
+                           "limpid/scene", "limpid/inputs", "worldToCamera"}) {
     EXPECT_THAT(info, HasSubstr(part));
   }
   EXPECT_THAT(info, testing::Not(HasSubstr("confidence")));
@@ -47,6 +50,24 @@ TEST_F(TruthTest, TheSameJobGivesTheSameBytes) {
   ASSERT_EQ(with("other.exr", {"--seed", "7"}), 0);
   EXPECT_EQ(text_of("one.exr"), text_of("two.exr"));
   EXPECT_FALSE(same("one.exr", "other.exr"));
+}
+
+TEST_F(TruthTest, LightIsScatteredAnyNumberOfTimesOrOnce) {
+  const auto with = [&](const std::string& output, const Words& more) {
+    Words words = {"truth", scene("river.toml"), "--size", "48x27", "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    return limpid(words);
+  };
+  const Ran once = with("once.exr", {"--light", "once"});
+  ASSERT_EQ(once.code, 0) << once.err;
+  EXPECT_THAT(once.out, HasSubstr("1 sample a pixel, look"));
+  EXPECT_THAT(iinfo("once.exr"), HasSubstr("light = \\\"once\\\""));
+  EXPECT_THAT(iinfo("once.exr"), testing::Not(HasSubstr("limpid/noise")));
+  const Ran few = with("few.exr", {"--paths", "4"});
+  EXPECT_THAT(few.out, HasSubstr("of 4 paths, noise "));
+  ASSERT_EQ(with("paths.exr", {"--light", "paths", "--paths", "4"}).code, 0);
+  EXPECT_EQ(text_of("paths.exr"), text_of("few.exr"));
+  EXPECT_FALSE(same("once.exr", "few.exr"));
 }
 
 TEST_F(TruthTest, TakesTheLookAndTheTimeAndNumbersFrames) {
@@ -79,6 +100,9 @@ TEST_F(TruthTest, RefusesInOneSentence) {
   refused({"--aov", "all,confidence"}, {"'confidence' is no AOV"}, 2);
   refused({"--aov", "mirror_sources"}, {"'mirror_sources' is no AOV", "visible"}, 2);
   refused({"--samples", "17"}, {"--samples 17", "1 ... 16"}, 2);
+  refused({"--paths", "0"}, {"--paths 0", "1 ... 65536"}, 2);
+  refused({"--light", "twice"}, {"--light twice", "paths or once"}, 2);
+  refused({"--light", "once", "--paths", "9"}, {"--paths 9", "scattered once"}, 2);
   refused({"--overscan", "4"}, {"has no option '--overscan'"}, 2);
   refused({"--preview", "no/such/folder/x.png"}, {"no/such/folder"}, 1);
   expect_refused(limpid({"truth", scene("pool.toml"), "--size", "32000x32000", "-o", "x.exr"}),

@@ -69,6 +69,7 @@ inline TruthOptions every_aov(Size size = kTraceSize) {
   options.size = size;
   options.aovs = truth_aovs();
   options.visible = true;
+  options.light = TruthOptions::Light::kOnce;
   return options;
 }
 

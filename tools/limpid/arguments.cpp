@@ -173,7 +173,15 @@ CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
   verb.add_option("--samples", a.samples, "N x N samples a pixel; 1 is its centre (default: 1)")
       ->option_text("N")
       ->check(whole_number_in(1, kMostTruthSamples));
-  verb.add_option("--seed", a.seed, "Of where in the pixel samples lie (default: 0)")
+  verb.add_option("--light", a.light,
+                  "paths: scattered and bounced any number of times; once: scattered once, in "
+                  "closed form (default: paths)")
+      ->option_text("NAME");
+  verb.add_option("--paths", a.paths, "Random ways of light for each sample (default: 16)")
+      ->option_text("N")
+      ->check(whole_number_in(1, kMostTruthPaths));
+  verb.add_option("--seed", a.seed,
+                  "Of where in the pixel samples lie, and of the paths (default: 0)")
       ->option_text("N")
       ->check(whole_number_in(0, std::numeric_limits<std::uint64_t>::max()));
   add_frame_numbers(verb, a.frames, kRenderedFrames);

@@ -56,6 +56,8 @@ struct RenderArguments {
 struct TruthArguments {
   std::string scene, size = "1920x1080";
   int samples = 1;
+  std::string light = "paths";
+  std::optional<int> paths;
   std::uint64_t seed = 0;
   bool draw_what_you_can = false;
   FrameOptions frames;

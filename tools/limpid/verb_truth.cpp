@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 
 #include "limpid/core/error.h"
@@ -27,6 +28,15 @@ void choose_aovs(const std::vector<std::string>& names, TruthOutput& output) {
   }
 }
 
+TruthOptions::Light light_named(const TruthArguments& a) {
+  if (a.light == "paths") return TruthOptions::Light::kPaths;
+  if (a.light != "once")
+    throw Error("--light " + a.light + ": expected paths or once", Fault::kUsage);
+  if (!a.paths) return TruthOptions::Light::kOnce;
+  throw Error("--paths " + std::to_string(*a.paths) + ": light that is scattered once has no paths",
+              Fault::kUsage);
+}
+
 TruthJob job_of(const TruthArguments& a) {
   // Checked as those of water are.
   WaterOptions files = a.water;
@@ -38,6 +48,8 @@ TruthJob job_of(const TruthArguments& a) {
   job.time = begin_of(a.water, job.scene);
   job.look = look_of(a.water);
   job.samples = a.samples;
+  job.light = light_named(a);
+  job.paths = a.paths.value_or(job.paths);
   job.seed = a.seed;
   job.output.picture = choice.picture;
   job.output.preview = choice.preview;
@@ -48,9 +60,16 @@ TruthJob job_of(const TruthArguments& a) {
 }
 
 std::string text_of(const TruthReport& report, const TruthJob& job) {
-  char numbers[96];
-  std::snprintf(numbers, sizeof numbers, "%dx%d, %d sample%s a pixel", report.size.width,
-                report.size.height, job.samples * job.samples, job.samples == 1 ? "" : "s");
+  char numbers[160];
+  int end =
+      std::snprintf(numbers, sizeof numbers, "%dx%d, %d sample%s a pixel", report.size.width,
+                    report.size.height, job.samples * job.samples, job.samples == 1 ? "" : "s");
+  const auto add = [&](const char* format, auto value) {
+    const std::size_t at = static_cast<std::size_t>(end);
+    end += std::snprintf(numbers + at, sizeof numbers - at, format, value);
+  };
+  if (job.light == TruthOptions::Light::kPaths) add(" of %d paths", job.paths);
+  if (!std::isnan(report.relative_error)) add(", noise %.2g %%", 100 * report.relative_error);
   char times[64];
   std::snprintf(times, sizeof times, "trace %.1f s, write %.0f ms", report.trace_seconds,
                 1e3 * report.write_seconds);

@@ -12,7 +12,7 @@
 
 namespace limpid {
 
-inline constexpr int kMostTruthSamples = 16;
+inline constexpr int kMostTruthSamples = 16, kMostTruthPaths = 65536;
 
 /// The light that would really arrive, by tracing rays through a model: what the chain, which only
 /// looks things up in pictures, is judged by.
@@ -24,7 +24,7 @@ inline constexpr int kMostTruthSamples = 16;
 /// through kTruthEvents meetings with the surface; after these only what is dry is seen.
 ///
 /// What the surface and the water are like, the look says, by the parameters and in the conventions
-/// of the chain, so that on calm water over a flat, sunlit floor the two agree:
+/// of the chain, so that on calm water over a flat, sunlit floor the chain and Light::kOnce agree:
 /// - Normals: those of the raised mesh, or else what wave_normals makes of its map or waves, on a
 ///   surface that stays flat.
 /// - Index: water.ior for green, with prism_split.gain times the dispersion of water for the
@@ -33,7 +33,7 @@ inline constexpr int kMostTruthSamples = 16;
 ///   depth_fog, whatever its model is.
 /// - Way down of the sun: as `sunlight` and `crossing` have it, under calm water; depths are those
 ///   below the calm plane. With `refracted` the sunlight on the bottom comes from where it comes
-///   from in the water, and so do shadows. Ambient light loses as much as the sun's.
+///   from in the water, and so do shadows. With kOnce ambient light loses as much as the sun's.
 /// - Highlight: the lobe that sun_highlight has at the normal, times the sun's visibility: the sun
 ///   is a point to all else.
 /// - What mirrored rays see where they leave the scene is by fresnel_reflection.source: the model's
@@ -44,18 +44,45 @@ inline constexpr int kMostTruthSamples = 16;
 /// that blend are seen through where they lie, in the air or in the water, up to kBlendedLayers on
 /// one way; shadows, ends of ways and `visible` are by the rule that AlphaMode has for depth.
 ///
-/// Left out: light that waves focus on the bottom (caustics), light that is scattered or reflected
-/// more than once on its way from the sun to where it is seen, the sky's light being shadowed.
+/// Light::kPaths follows light through the water by random walks: scattered by the water, thrown
+/// back by dry surfaces (evenly, by their color; unlit ones throw nothing back) and by the surface
+/// from below, any number of times. Each channel is right in the mean. It differs from kOnce in
+/// - the sun's way down: it loses all that the water takes and throws elsewhere, a + b, whatever a
+///   `water_type` says, for what is thrown elsewhere is followed. `sunlight` = `none` is straight.
+/// - the sky: the environment, else Scene::sky, else an even one of depth_fog's `ambient`. It
+///   lights the water through the surface.
+/// - the surface from below: where `crossing` is not `none` it lets light through and throws it
+///   back by Fresnel's law, and radiance is ior^2 of that in the air; with `none` it does nothing.
+/// - dry surfaces in the water: the ambient light of a material is that of an even sky, and so
+///   comes down through the water, as on level ground; all light of unlit ones does. The dry
+///   picture has no light that one dry surface throws at another: what comes straight, through
+///   water or air, is left out here, too. Dry surfaces in the air are as in the dry picture. So
+///   what is added is what the water sends, and a chain that gets the dry picture can be judged by
+///   it.
+/// Blended surfaces block walks by the rule that AlphaMode has for depth. Beside a mesh of the
+/// water the water goes on. Where nothing is absorbed light from deeper than trace_column() has it
+/// counts as none.
+///
+/// Left out: light that waves focus on the bottom (caustics); with kOnce light that is scattered or
+/// reflected more than once on its way from the sun to where it is seen, and the sky's light being
+/// shadowed.
 struct TruthOptions {
+  enum class Light {
+    kPaths,  ///< scattered, and thrown back by surface and bottom, any number of times
+    kOnce,   ///< scattered once, in closed form
+  };
+
   Size size{1920, 1080};
   /// N x N samples a pixel, stratified and filtered by their mean, 1 ... kMostTruthSamples. One is
   /// the pixel's centre, as in the chain.
   int samples = 1;
-  std::uint64_t seed = 0;  ///< of where in its stratum each sample lies
+  Light light = Light::kPaths;
+  int paths = 16;          ///< random ones of each sample with kPaths, 1 ... kMostTruthPaths
+  std::uint64_t seed = 0;  ///< of where in its stratum each sample lies, and of the paths
   std::vector<Aov> aovs;   ///< all but AovInfo::of_buffers, for nothing is guessed
   bool visible = false;    ///< TruthPicture::visible and visible_below
   Texture wave_map;        ///< for a look that reads one
-  Texture environment;     ///< for a look whose mirror shows it
+  Texture environment;     ///< for a look whose mirror shows it, and as the sky of kPaths
 };
 
 inline constexpr int kTruthEvents = 4;
@@ -72,6 +99,9 @@ struct TruthPicture {
   Rect window;
   std::vector<Plane> planes;
   Target target;  ///< color, alpha and the AOVs that were asked for
+  /// The noise of the color: standard errors of its channels over their values, both in the mean of
+  /// the picture. NaN where it is not known, for each pixel is of one path, and of a black picture.
+  double relative_error = 0;
   /// For each channel, 1 where the dry camera sees the very point that the refracted ray ends at,
   /// so that the dry picture has its color; 0 where something hides it, where it is out of frame or
   /// behind the camera, and where the ray does not end. 1 where nothing is refracted.

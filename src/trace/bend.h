@@ -1,0 +1,15 @@
+#pragma once
+#include "trace/beam.h"
+#include "trace/surface.h"
+
+namespace limpid::trace {
+
+/// The beam goes on into the water, and out of it: at the plane of the surface there, by its
+/// normal. Rays that the normal would bend or mirror to the wrong side of the geometry are laid
+/// along it.
+Beam refracted_in(const Beam& beam, const SurfacePoint& at, double ior);
+Beam refracted_out(const Beam& beam, const SurfacePoint& at, double ior);
+Beam mirrored_up(const Beam& beam, const SurfacePoint& at);
+Beam mirrored_down(const Beam& beam, const SurfacePoint& at);
+
+}  // namespace limpid::trace

@@ -1,0 +1,51 @@
+#pragma once
+#include <algorithm>
+
+#include "limpid/op/context.h"
+
+#include "trace/medium.h"
+#include "trace/solid.h"
+
+namespace limpid::trace {
+
+/// The way of the sun's light down to points of the water and of the bottom, through the calm
+/// plane.
+class SunWay {
+ public:
+  /// `to_sun`: in the air, unit.
+  SunWay(const Context& context, const Solid& solid, const Medium& medium, const glm::dvec3& to_sun)
+      : context_(context), solid_(solid), medium_(medium), to_sun_(to_sun) {}
+
+  /// How far below the calm plane, and the same but never less than 0.
+  double under_calm(const glm::dvec3& point) const {
+    return -context_.eye_above - glm::dot(context_.up, point);
+  }
+  double depth_of(const glm::dvec3& point) const { return std::max(0.0, under_calm(point)); }
+
+  /// Whether the sun reaches a point in the water, or of the bottom, that this band sees.
+  bool reaches(const glm::dvec3& point, const Band& band) const {
+    const double depth = depth_of(point);
+    Ray up{point, band.light.to_sun};
+    if (!medium_.bends_sun || depth <= 0) {
+      up.direction = to_sun_;
+      return !solid_.blocks(up);
+    }
+    up.to = depth / glm::dot(band.light.to_sun, context_.up);
+    return !solid_.blocks(up) && !solid_.blocks({up.at(up.to), to_sun_});
+  }
+
+  /// What is left of it at a point that it reaches, by all that the water takes and throws
+  /// elsewhere. Only for a sun that stands over the horizon.
+  Rgb<double> left_at(const glm::dvec3& point, const Band& band) const {
+    const double rise = glm::dot(band.light.to_sun, context_.up);
+    return transmittance(depth_of(point) / rise, medium_.rate);
+  }
+
+ private:
+  const Context& context_;
+  const Solid& solid_;
+  const Medium& medium_;
+  glm::dvec3 to_sun_;
+};
+
+}  // namespace limpid::trace

@@ -1,0 +1,187 @@
+#include "trace/walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limpid/optics/absorption.h"
+#include "limpid/optics/fresnel.h"
+
+#include "trace/bend.h"
+#include "trace/directions.h"
+
+namespace limpid::trace {
+namespace {
+
+constexpr Rgb<double> kBlack{0, 0, 0};
+
+/// Ways carry no footprint: textures are met at their finest level.
+Beam beam_of(const Ray& ray) { return {ray, ray, ray}; }
+
+}  // namespace
+
+Rgb<double> Walk::scattered(const Ray& ray, double length, const Band& band,
+                            Samples& samples) const {
+  const Rgb<double>& rate = medium_.rate;
+  Way way{.chances = Chances(band.mask, samples.next())};
+  // Every way is scattered before it ends, and stands for those alone that are.
+  const auto share = [&](double of) { return -std::expm1(-of * std::min(length, kEndlessWay)); };
+  const Rgb<double> shares{share(rate.r), share(rate.g), share(rate.b)};
+  const double drawn = way.chances.drawn(shares);
+  if (!(drawn > 0)) return kBlack;
+  const double s = -std::log1p(-samples.next() * drawn) / way.chances.drawn(rate);
+  const auto over = [](double chance, double of) { return of > 0 ? chance / of : 0; };
+  const Rgb<double> chance = rate * transmittance(s, rate);
+  way.chances.go_on({over(chance.r, shares.r), over(chance.g, shares.g), over(chance.b, shares.b)});
+  way.ray = ray;
+  if (scatter(way, ray.at(s), band, samples)) go(way, band, samples);
+  return shares * way.light;
+}
+
+Rgb<double> Walk::bottom(const SolidPoint& point, const Beam& beam, const Band& band,
+                         Samples& samples) const {
+  Way way{.chances = Chances(band.mask, samples.next())};
+  way.light = band.mask * own_light(point, beam, band, samples);
+  if (bounce(way, point, samples)) go(way, band, samples);
+  return way.light;
+}
+
+Rgb<double> Walk::dry(const SolidPoint& point, const Beam& beam) const {
+  return solid_.color(point, beam, sun_, [&] {
+    return solid_.blocks({point.off_towards(sun_.to_sun), sun_.to_sun}) ? 0.0 : 1.0;
+  });
+}
+
+void Walk::go(Way& way, const Band& band, Samples& samples) const {
+  while (way.in_air ? through_air(way, band, samples) : through_water(way, band, samples)) {
+  }
+}
+
+std::optional<SolidPoint> Walk::nearest(const Ray& ray) const {
+  return solid_.nearest(beam_of(ray), Opacity::kBlocking);
+}
+
+/// To where it is scattered, or to the bottom, or to the surface.
+Walk::Going Walk::through_water(Way& way, const Band& band, Samples& samples) const {
+  const std::optional<SolidPoint> dry = nearest(way.ray);
+  Ray before = way.ray;
+  if (dry) before.to = std::min(before.to, dry->hit.distance);
+  const std::optional<SurfacePoint> wet = surface_.from_below(before);
+  const double length = wet ? wet->distance : dry ? dry->hit.distance : HUGE_VAL;
+  const double s = -std::log1p(-samples.next()) / way.chances.drawn(medium_.rate);
+  if (s < length) {
+    way.chances.go_on(medium_.rate * transmittance(s, medium_.rate));
+    return scatter(way, way.ray.at(s), band, samples);
+  }
+  if (!wet && !dry) return false;
+  way.chances.go_on(transmittance(length, medium_.rate));
+  if (wet) return meet_surface(way, *wet, band, samples);
+  if (way.from_dry) return false;
+  way.light = way.light +
+              way.scale * (way.chances.worth() * own_light(*dry, beam_of(way.ray), band, samples));
+  return bounce(way, *dry, samples);
+}
+
+/// Out of the water: to the sky or to what is dry, whose light is that of the raster pass; or down
+/// on a wave.
+Walk::Going Walk::through_air(Way& way, const Band& band, Samples& samples) const {
+  const std::optional<SolidPoint> dry = nearest(way.ray);
+  if (medium_.crosses) {
+    Ray before = way.ray;
+    if (dry) before.to = std::min(before.to, dry->hit.distance);
+    if (const auto wet = surface_.nearest(before, true)) {
+      const double cosine = glm::dot(-way.ray.direction, wet->normal);
+      if (samples.next() < fresnel_exact(cosine, band.ior)) {
+        way.ray = mirrored_up(beam_of(way.ray), *wet).ray;
+      } else {
+        way.ray = refracted_in(beam_of(way.ray), *wet, band.ior).ray;
+        way.scale /= band.square;
+        way.in_air = false;
+      }
+      return true;
+    }
+  }
+  const Rgb<double> end = dry ? this->dry(*dry, beam_of(way.ray)) : sky_.from(way.ray.direction);
+  way.light = way.light + way.scale * (way.chances.worth() * end);
+  return false;
+}
+
+/// The sun's light from there, and on in a random direction.
+Walk::Going Walk::scatter(Way& way, const glm::dvec3& at, const Band& band,
+                          Samples& samples) const {
+  way.from_dry = false;
+  if (band.sun_on_water != kBlack && sun_way_.reaches(at, band)) {
+    const double turned =
+        henyey_greenstein(glm::dot(band.light.to_sun, way.ray.direction), medium_.anisotropy);
+    way.light = way.light + (way.scale * turned) * (way.chances.worth() * medium_.albedo *
+                                                    band.sun_on_water * sun_way_.left_at(at, band));
+  }
+  if (samples.next() >= way.chances.drawn(medium_.albedo) || lost_below(at)) return false;
+  way.chances.go_on(medium_.albedo);
+  const double u = samples.next();
+  way.ray = {at, scattered_direction(way.ray.direction, medium_.anisotropy, u, samples.next())};
+  return true;
+}
+
+/// On from a dry surface in the water, as often as its color says.
+Walk::Going Walk::bounce(Way& way, const SolidPoint& point, Samples& samples) const {
+  const Rgb<double> albedo = solid_.albedo(point);
+  if (samples.next() >= way.chances.drawn(albedo)) return false;
+  way.chances.go_on(albedo);
+  const double u = samples.next();
+  const glm::dvec3 direction = diffuse_direction(point.normal, u, samples.next());
+  if (!(glm::dot(direction, point.face) > 0)) return false;
+  way.ray = {point.off_towards(direction), direction};
+  way.from_dry = true;
+  return true;
+}
+
+/// Thrown back down, or out.
+Walk::Going Walk::meet_surface(Way& way, const SurfacePoint& at, const Band& band,
+                               Samples& samples) const {
+  if (!medium_.crosses) {
+    way.ray = {at.point, way.ray.direction};
+  } else {
+    const double cosine = glm::dot(way.ray.direction, at.normal);
+    if (samples.next() < fresnel_exact(cosine, 1 / band.ior)) {
+      way.ray = mirrored_down(beam_of(way.ray), at).ray;
+      way.from_dry = false;
+      return true;
+    }
+    way.ray = refracted_out(beam_of(way.ray), at, band.ior).ray;
+    way.scale *= band.square;
+  }
+  way.in_air = true;
+  return !way.from_dry;
+}
+
+/// A dry surface's own answer to sun and sky, through the water over it.
+Rgb<double> Walk::own_light(const SolidPoint& point, const Beam& beam, const Band& band,
+                            Samples& samples) const {
+  Sunlight sun{band.light.to_sun, 1, band.sun_on_bottom};
+  const glm::dvec3 to_sun = point.off_towards(sun.to_sun);
+  if (sun.color != kBlack) sun.color = sun.color * sun_way_.left_at(to_sun, band);
+  const Rgb<double> lit =
+      solid_.color(point, beam, sun, [&] { return sun_way_.reaches(to_sun, band) ? 1.0 : 0.0; });
+  const Rgb<double> ambient = solid_.ambient_light(point);
+  if (ambient == kBlack) return lit;
+  return lit - ambient + skylight_at(point.hit.point, band, samples) * ambient;
+}
+
+/// What of an even sky's light comes straight down to what lies level there, by one of its
+/// directions.
+Rgb<double> Walk::skylight_at(const glm::dvec3& point, const Band& band, Samples& samples) const {
+  const double cosine = std::sqrt(samples.next());
+  const double enters = medium_.crosses ? 1 - fresnel_exact(cosine, 1 / band.ior) : 1;
+  if (enters == 0) return kBlack;
+  const double way = sun_way_.depth_of(point) / std::max(cosine, 1e-30);
+  return enters * band.square * transmittance(way, medium_.rate);
+}
+
+/// Where nothing is absorbed ways would go down for ever.
+bool Walk::lost_below(const glm::dvec3& point) const {
+  const Rgb<double>& rate = medium_.rate;
+  const double least = std::min({rate.r, rate.g, rate.b}) * (1 - medium_.anisotropy);
+  return sun_way_.depth_of(point) * least > 2000;
+}
+
+}  // namespace limpid::trace
