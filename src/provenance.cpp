@@ -162,7 +162,8 @@ std::string truth_options(const TruthJob& job) {
          line("samples", std::to_string(job.samples)) +
          (job.light == TruthOptions::Light::kPaths
               ? line("light", toml_text(std::string("paths"))) +
-                    line("paths", std::to_string(job.paths))
+                    line("paths", std::to_string(job.paths)) +
+                    line("photons", std::to_string(job.photons))
               : line("light", toml_text(std::string("once")))) +
          line("seed", std::to_string(job.seed)) + line("aovs", "[" + join(names) + "]") +
          file_options(job.output.compression, job.output.store_float);

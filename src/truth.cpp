@@ -116,6 +116,7 @@ TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
                              job.samples,
                              job.light,
                              job.paths,
+                             job.photons,
                              job.seed,
                              job.output.aovs,
                              job.output.visible,

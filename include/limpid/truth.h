@@ -27,7 +27,7 @@ struct TruthJob {
   Look look;
   int samples = 1;
   TruthOptions::Light light = TruthOptions::Light::kPaths;
-  int paths = 16;
+  int paths = 16, photons = 0;
   std::uint64_t seed = 0;
   TruthOutput output;
 };

@@ -35,7 +35,8 @@ Beam beyond(const Beam& beam, const SolidPoint& point) {
 }  // namespace
 
 Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
-               const TruthOptions& options, const Context& context)
+               const TruthOptions& options, const Context& context, const Eye& eye,
+               Executor& executor)
     : context_(context),
       look_(look),
       light_(options.light),
@@ -47,7 +48,17 @@ Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
       surface_(model, scene, look, options.wave_map, context),
       sun_way_(context, solid_, medium_, sun_.to_sun),
       sky_(context, environment_, even_sky(scene, look)),
-      walk_(context, solid_, surface_, medium_, sun_way_, sun_, sky_) {}
+      caustics_(caustics_of(options, eye, executor)),
+      walk_(solid_, surface_, medium_, sun_way_, sun_, sky_, caustics_ ? &*caustics_ : nullptr) {}
+
+std::optional<Caustics> Tracer::caustics_of(const TruthOptions& options, const Eye& eye,
+                                            Executor& executor) const {
+  const bool wanted = light_ == TruthOptions::Light::kPaths && options.photons > 0;
+  if (!wanted || !medium_.bends_sun) return std::nullopt;
+  return std::make_optional<Caustics>(
+      Caustics::Scenery{context_, solid_, surface_, medium_, sun_way_, sun_.to_sun}, eye,
+      options.size, options.photons, options.seed, executor);
+}
 
 Light Tracer::seen(const Beam& beam, bool in_water, int steps, Samples& samples,
                    Samples& paths) const {

@@ -24,7 +24,7 @@ struct Light {
 class Tracer {
  public:
   Tracer(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options,
-         const Context& context);
+         const Context& context, const Eye& eye, Executor& executor);
   Tracer(const Tracer&) = delete;  // its parts know one another
 
   /// `steps`: samples along a way where the sun's shadow on scattering water is looked up, where
@@ -56,6 +56,8 @@ class Tracer {
     double fresnel = 0;  ///< of the surface at its end
   };
 
+  std::optional<Caustics> caustics_of(const TruthOptions& options, const Eye& eye,
+                                      Executor& executor) const;
   Light in_air(const Beam& beam, View view) const;
   Light from_water(const Beam& beam, View view) const;
   Leg through_water(const Beam& beam, const Band& band, View view) const;
@@ -89,6 +91,7 @@ class Tracer {
   Surface surface_;
   SunWay sun_way_;
   Sky sky_;
+  std::optional<Caustics> caustics_;
   Walk walk_;
 };
 

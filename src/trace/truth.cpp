@@ -19,10 +19,10 @@ namespace {
 using trace::Geometry;
 using trace::Light;
 
-void expect_in(const char* name, int value, int most) {
-  if (value >= 1 && value <= most) return;
-  throw Error(std::string(name) + " = " + std::to_string(value) + ": expected 1 ... " +
-                  std::to_string(most),
+void expect_in(const char* name, int value, int least, int most) {
+  if (value >= least && value <= most) return;
+  throw Error(std::string(name) + " = " + std::to_string(value) + ": expected " +
+                  std::to_string(least) + " ... " + std::to_string(most),
               Fault::kUsage);
 }
 
@@ -30,8 +30,9 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
   look.validate();
   check_rendered(scene, options.size);
   renderable(model, scene);
-  expect_in("samples", options.samples, kMostTruthSamples);
-  expect_in("paths", options.paths, kMostTruthPaths);
+  expect_in("samples", options.samples, 1, kMostTruthSamples);
+  expect_in("paths", options.paths, 1, kMostTruthPaths);
+  expect_in("photons", options.photons, 0, kMostTruthPhotons);
   for (Aov aov : options.aovs) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
     if (!info.of_buffers) continue;
@@ -41,6 +42,14 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
                 Fault::kUsage);
   }
   expect_each_once(options.aovs);
+  const bool bends = look.of<DepthFog>().sunlight == DepthFog::Sunlight::kRefracted;
+  if (options.photons > 0 && (options.light == TruthOptions::Light::kOnce || !bends)) {
+    throw Error(
+        "photons = " + std::to_string(options.photons) +
+            ": expected 0 where light is scattered once, and where the sunlight of depth_fog "
+            "is not refracted",
+        Fault::kUsage);
+  }
   const double above = glm::dot(scene.camera->eye(), scene.water->up) - scene.water->height;
   if (scene.camera->orthographic() && above < 0) {
     throw Error("an orthographic camera below the water: expected one above it");
@@ -123,12 +132,12 @@ constexpr std::uint64_t kPathSeed = 0x5a11ed;
 class Painter {
  public:
   Painter(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options,
-          TruthPicture& picture)
+          TruthPicture& picture, Executor& executor)
       : options_(options),
         picture_(picture),
         context_(scene, frame_of(model, scene, look, options, anything_), look.water.ior, {}),
         eye_(*scene.camera, options.size),
-        tracer_(model, scene, look, options, context_),
+        tracer_(model, scene, look, options, context_, eye_, executor),
         paths_(options.light == TruthOptions::Light::kPaths ? options.paths : 1),
         steps_(std::max(4, 32 / (options.samples * options.samples))),
         rows_(static_cast<std::size_t>(options.size.height)) {}
@@ -239,7 +248,7 @@ TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& loo
                          const TruthOptions& options, Executor& executor) {
   check(model, scene, look, options);
   TruthPicture picture = picture_for(options);
-  Painter painter(model, scene, look, options, picture);
+  Painter painter(model, scene, look, options, picture, executor);
   executor.run(
       options.size.height,
       [](void* context, int y) { static_cast<Painter*>(context)->paint_row(y); }, &painter);

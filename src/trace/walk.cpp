@@ -158,13 +158,19 @@ Walk::Going Walk::meet_surface(Way& way, const SurfacePoint& at, const Band& ban
 Rgb<double> Walk::own_light(const SolidPoint& point, const Beam& beam, const Band& band,
                             Samples& samples) const {
   Sunlight sun{band.light.to_sun, 1, band.sun_on_bottom};
-  const glm::dvec3 to_sun = point.off_towards(sun.to_sun);
-  if (sun.color != kBlack) sun.color = sun.color * sun_way_.left_at(to_sun, band);
-  const Rgb<double> lit =
-      solid_.color(point, beam, sun, [&] { return sun_way_.reaches(to_sun, band) ? 1.0 : 0.0; });
+  if (sun.color != kBlack) sun.color = sun.color * sun_way_.left_at(point.hit.point, band);
+  const Rgb<double> lit = solid_.color(point, beam, sun, [&] { return sunlit(point, band); });
   const Rgb<double> ambient = solid_.ambient_light(point);
   if (ambient == kBlack) return lit;
   return lit - ambient + skylight_at(point.hit.point, band, samples) * ambient;
+}
+
+/// Share of the calm plane's sunlight, above 1 where waves focus it.
+double Walk::sunlit(const SolidPoint& point, const Band& band) const {
+  if (caustics_) {
+    if (const std::optional<double> focused = caustics_->at(point)) return *focused;
+  }
+  return sun_way_.reaches(point.off_towards(band.light.to_sun), band) ? 1 : 0;
 }
 
 /// What of an even sky's light comes straight down to what lies level there, by one of its

@@ -1,4 +1,5 @@
 #pragma once
+#include "trace/caustics.h"
 #include "trace/chances.h"
 #include "trace/medium.h"
 #include "trace/samples.h"
@@ -18,16 +19,17 @@ namespace limpid::trace {
 /// the bottom, count as part of that ambient light; the ways add what the water sends.
 class Walk {
  public:
-  /// All must outlive it. `sun`: of dry surfaces in the air.
-  Walk(const Context& context, const Solid& solid, const Surface& surface, const Medium& medium,
-       const SunWay& sun_way, const Sunlight& sun, const Sky& sky)
-      : context_(context),
-        solid_(solid),
+  /// All must outlive it. `sun`: of dry surfaces in the air. Without caustics sunlight comes
+  /// through the calm plane.
+  Walk(const Solid& solid, const Surface& surface, const Medium& medium, const SunWay& sun_way,
+       const Sunlight& sun, const Sky& sky, const Caustics* caustics)
+      : solid_(solid),
         surface_(surface),
         medium_(medium),
         sun_way_(sun_way),
         sun_(sun),
-        sky_(sky) {}
+        sky_(sky),
+        caustics_(caustics) {}
 
   /// Radiance, in the water, that is scattered into the ray within that length.
   Rgb<double> scattered(const Ray& ray, double length, const Band& band, Samples& samples) const;
@@ -60,16 +62,17 @@ class Walk {
   std::optional<SolidPoint> nearest(const Ray& ray) const;
   Rgb<double> own_light(const SolidPoint& point, const Beam& beam, const Band& band,
                         Samples& samples) const;
+  double sunlit(const SolidPoint& point, const Band& band) const;
   Rgb<double> skylight_at(const glm::dvec3& point, const Band& band, Samples& samples) const;
   bool lost_below(const glm::dvec3& point) const;
 
-  const Context& context_;
   const Solid& solid_;
   const Surface& surface_;
   const Medium& medium_;
   const SunWay& sun_way_;
   const Sunlight& sun_;
   const Sky& sky_;
+  const Caustics* caustics_;
 };
 
 }  // namespace limpid::trace

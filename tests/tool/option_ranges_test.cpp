@@ -88,7 +88,9 @@ TEST_F(OptionRangesTest, OfRenderedPictures) {
                           {"-1", "18446744073709551616", "1.5"}};
   const RangedOption paths{
       "--paths", "a whole number, 1 ... 65536", {"1", "65536"}, {"0", "65537", "-1", "1.5"}};
-  expect_ranges(of("truth"), {kTime, kFps, kSamples, paths, seed});
+  const RangedOption photons{
+      "--photons", "a whole number, 0 ... 50000000", {"0", "50000000"}, {"-1", "50000001", "1e3"}};
+  expect_ranges(of("truth"), {kTime, kFps, kSamples, paths, photons, seed});
   // A size is looked at behind the scene.
   for (const std::string verb : {"render", "water", "truth"}) {
     for (const std::string& bad : sizes.bad) {

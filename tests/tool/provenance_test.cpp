@@ -214,15 +214,16 @@ TEST_F(ProvenanceTest, TheTruthSaysHowItWasTraced) {
             hash_of(first.at("limpid/scene") + first.at("limpid/inputs")));
   EXPECT_THAT(first.at("limpid/inputs"), ContainsRegex("^model = \"[0-9a-f]+\"\nsize = \\[32, 18"));
   EXPECT_EQ(first.at("limpid/options"),
-            "runner = \"traced\"\nsamples = 1\nlight = \"paths\"\npaths = 16\nseed = 0\naovs = "
+            "runner = \"traced\"\nsamples = 1\nlight = \"paths\"\npaths = 16\nphotons = 0\nseed = "
+            "0\naovs = "
             "[]\ncompression = \"piz\"\n"
             "pixels = \"half\"\n");
 
   const Texts other = traced("a", "other", {"--samples", "2", "--seed", "7", "--aov", "visible"});
   EXPECT_EQ(other.at("limpid/scene_hash"), first.at("limpid/scene_hash"));
-  EXPECT_THAT(
-      other.at("limpid/options"),
-      HasSubstr("samples = 2\nlight = \"paths\"\npaths = 16\nseed = 7\naovs = [\"visible\"]\n"));
+  EXPECT_THAT(other.at("limpid/options"),
+              HasSubstr("samples = 2\nlight = \"paths\"\npaths = 16\nphotons = 0\nseed = 7\naovs = "
+                        "[\"visible\"]\n"));
   std::string bytes = text_of("a/pool.bin");
   bytes[0] ^= 4;  // in the mantissa of a coordinate
   write_text("a/pool.bin", bytes);

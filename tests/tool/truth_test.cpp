@@ -68,6 +68,9 @@ TEST_F(TruthTest, LightIsScatteredAnyNumberOfTimesOrOnce) {
   ASSERT_EQ(with("paths.exr", {"--light", "paths", "--paths", "4"}).code, 0);
   EXPECT_EQ(text_of("paths.exr"), text_of("few.exr"));
   EXPECT_FALSE(same("once.exr", "few.exr"));
+  ASSERT_EQ(with("focused.exr", {"--paths", "4", "--photons", "20000"}).code, 0);
+  EXPECT_THAT(iinfo("focused.exr"), HasSubstr("photons = 20000"));
+  EXPECT_FALSE(same("focused.exr", "few.exr"));
 }
 
 TEST_F(TruthTest, TakesTheLookAndTheTimeAndNumbersFrames) {
@@ -103,6 +106,9 @@ TEST_F(TruthTest, RefusesInOneSentence) {
   refused({"--paths", "0"}, {"--paths 0", "1 ... 65536"}, 2);
   refused({"--light", "twice"}, {"--light twice", "paths or once"}, 2);
   refused({"--light", "once", "--paths", "9"}, {"--paths 9", "scattered once"}, 2);
+  refused({"--light", "once", "--photons", "9"}, {"photons = 9", "scattered once"}, 2);
+  refused({"--set", "depth_fog.sunlight=straight", "--photons", "9"},
+          {"photons = 9", "not refracted"}, 2);
   refused({"--overscan", "4"}, {"has no option '--overscan'"}, 2);
   refused({"--preview", "no/such/folder/x.png"}, {"no/such/folder"}, 1);
   expect_refused(limpid({"truth", scene("pool.toml"), "--size", "32000x32000", "-o", "x.exr"}),

@@ -159,6 +159,10 @@ TEST(Column, LosesToABlackBottomWhatDiffusionSays) {
   column.sky = {1, 1, 1};
   const double lost = HFunction(1).at(view) / (std::sqrt(3.0) * 11.4209);
   expect_within(trace_column(column, 100000), out * (1 - lost) * Rgb<double>{1, 1, 1}, 0.001);
+  // Light that goes on forwards goes as far by five times as many turns, but for the first ones.
+  column.anisotropy = 0.8;
+  column.scattering = {10, 10, 10};
+  expect_within(trace_column(column, 20000), out * (1 - lost) * Rgb<double>{1, 1, 1}, 0.004);
 }
 
 /// Where little is scattered once is all there is: the sun's light on one turn in the water, and

@@ -253,6 +253,17 @@ TEST(Paths, AreSeenFromTheWaterToo) {
   expect_alike(mean_of(traced(model, scene, look, with_paths(200))), air);
 }
 
+/// Where nothing is absorbed and nothing lies below, ways end all the same, and hardly any light is
+/// lost by it.
+TEST(Paths, EndInEndlessWaterThatAbsorbsNothing) {
+  Scene scene = one_way(90);
+  scene.sun.reset();
+  scene.sky = SkyLight{{1, 1, 1}};
+  const Model model = model_of({level(-1e6, 1)}, lambert({0, 0, 0}));
+  const TruthPicture p = traced(model, scene, murky({0, 0, 0}, {1, 1, 1}, 0, false), with_paths(2));
+  EXPECT_NEAR(mean_of(p).mean.g, 1 - fresnel_exact(1.0, kTraceIor), 0.02);
+}
+
 TEST(Paths, TellTheirNoise) {
   const Model model = model_of({level(-1)}, lambert({.5, .5, .5}));
   const Scene scene = one_way(45);

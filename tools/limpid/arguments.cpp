@@ -180,6 +180,11 @@ CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
   verb.add_option("--paths", a.paths, "Random ways of light for each sample (default: 16)")
       ->option_text("N")
       ->check(whole_number_in(1, kMostTruthPaths));
+  verb.add_option("--photons", a.photons,
+                  "Of the sun, through the waves, which focus them on the bottom (default: 0, the "
+                  "sun comes through the calm plane)")
+      ->option_text("N")
+      ->check(whole_number_in(0, kMostTruthPhotons));
   verb.add_option("--seed", a.seed,
                   "Of where in the pixel samples lie, and of the paths (default: 0)")
       ->option_text("N")

@@ -58,6 +58,7 @@ struct TruthArguments {
   int samples = 1;
   std::string light = "paths";
   std::optional<int> paths;
+  int photons = 0;
   std::uint64_t seed = 0;
   bool draw_what_you_can = false;
   FrameOptions frames;

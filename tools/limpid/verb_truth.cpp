@@ -50,6 +50,7 @@ TruthJob job_of(const TruthArguments& a) {
   job.samples = a.samples;
   job.light = light_named(a);
   job.paths = a.paths.value_or(job.paths);
+  job.photons = a.photons;
   job.seed = a.seed;
   job.output.picture = choice.picture;
   job.output.preview = choice.preview;

@@ -12,7 +12,7 @@
 
 namespace limpid {
 
-inline constexpr int kMostTruthSamples = 16, kMostTruthPaths = 65536;
+inline constexpr int kMostTruthSamples = 16, kMostTruthPaths = 65536, kMostTruthPhotons = 50000000;
 
 /// The light that would really arrive, by tracing rays through a model: what the chain, which only
 /// looks things up in pictures, is judged by.
@@ -63,7 +63,12 @@ inline constexpr int kMostTruthSamples = 16, kMostTruthPaths = 65536;
 /// water the water goes on. Where nothing is absorbed light from deeper than trace_column() has it
 /// counts as none.
 ///
-/// Left out: light that waves focus on the bottom (caustics); with kOnce light that is scattered or
+/// With `photons` the sun's light reaches the bottom through the waves (in the color of the common
+/// index), where the picture shows it nearer than four times the median distance. It is blurred
+/// over the disc that 100 photons would fill on level ground under calm water, and dimmed within
+/// the disc's radius of edges. Light that the water scatters still comes through the calm plane.
+///
+/// Left out: light that waves focus in the water; with kOnce light that is scattered or
 /// reflected more than once on its way from the sun to where it is seen, and the sky's light being
 /// shadowed.
 struct TruthOptions {
@@ -77,7 +82,11 @@ struct TruthOptions {
   /// the pixel's centre, as in the chain.
   int samples = 1;
   Light light = Light::kPaths;
-  int paths = 16;          ///< random ones of each sample with kPaths, 1 ... kMostTruthPaths
+  int paths = 16;  ///< random ones of each sample with kPaths, 1 ... kMostTruthPaths
+  /// Of the sun's light on the bottom, through the waves, which focus it: 0 ... kMostTruthPhotons,
+  /// 40 bytes each. With 0 it comes through the calm plane. Only for kPaths, and where depth_fog's
+  /// `sunlight` is refracted.
+  int photons = 0;
   std::uint64_t seed = 0;  ///< of where in its stratum each sample lies, and of the paths
   std::vector<Aov> aovs;   ///< all but AovInfo::of_buffers, for nothing is guessed
   bool visible = false;    ///< TruthPicture::visible and visible_below
@@ -113,7 +122,8 @@ struct TruthPicture {
 };
 
 /// The same bits for any number of threads. Throws Error for what render_plate() refuses, an
-/// orthographic camera below the water, samples out of range, AOVs of buffers, AOVs that are
+/// orthographic camera below the water, samples, paths or photons out of range, photons where
+/// nothing bends the sun's light or for Light::kOnce, AOVs of buffers, AOVs that are
 /// named twice, and where Embree finds no memory.
 TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& look,
                          const TruthOptions& options, Executor& executor);
