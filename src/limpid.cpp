@@ -215,6 +215,11 @@ struct limpid_compositor {
       scene.sun = limpid::Sun{far > 0 ? direction / far : direction,
                               {host.sun_color[0], host.sun_color[1], host.sun_color[2]}};
     }
+    scene.sky.reset();
+    if (host.has_sky) {
+      const double* sky = host.sky_radiance;
+      scene.sky = limpid::SkyLight{{sky[0], sky[1], sky[2]}};
+    }
     scene.time = host.time;
   }
 };

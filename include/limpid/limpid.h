@@ -178,9 +178,11 @@ typedef struct limpid_frame {
   double sun_direction[3]; /**< towards the sun, need not be unit */
   double sun_color[3];
   double time; /**< seconds */
+  int32_t has_sky;
+  double sky_radiance[3]; /**< of an even sky, which lights the water besides the sun */
 } limpid_frame;
 #define LIMPID_FRAME \
-  { sizeof(limpid_frame), 0, 0, NULL, 0, {0}, {0}, {0}, 0, NULL, 0, 0, {0}, {0}, 0 }
+  { sizeof(limpid_frame), 0, 0, NULL, 0, {0}, {0}, {0}, 0, NULL, 0, 0, {0}, {0}, 0, 0, {0} }
 
 typedef struct limpid_picture {
   size_t size;

@@ -121,7 +121,9 @@ struct Layer {
         back[i][j] = share * mode_between(water, mode, of[i], of[j], true);
         through[i][j] = share * mode_between(water, mode, of[i], of[j], false);
       }
-      through[i][i] += std::exp(-thin / directions.cosine[i]);
+      // Not exp(-...): what is met is met above, and where nothing is absorbed not a bit of light
+      // may be won, for it would be won again by each doubling.
+      through[i][i] += 1 - thin / directions.cosine[i];
       up[i] = met / 2 * mode_between(water, mode, of[i], from_beam, true);
       down[i] = met / 2 * mode_between(water, mode, of[i], from_beam, false);
     }

@@ -11,9 +11,13 @@
 namespace limpid {
 namespace {
 
+bool transfers(const DepthFog::Params& params) {
+  return params.model == DepthFog::Model::kRadiativeTransfer;
+}
+
 /// K: what light from above loses for each length of its way down.
 Rgb<double> falling_loss(const DepthFog::Params& params) {
-  if (params.model == DepthFog::Model::kRadiativeTransfer) return DepthFog::extinction(params);
+  if (transfers(params)) return DepthFog::extinction(params);
   const bool typed =
       params.water_type != WaterType::kCustom && params.water_type != WaterType::kPure;
   if (typed) return water_optics(params.water_type).down_attenuation;
@@ -35,7 +39,14 @@ WaterLight water_light(const DepthFog::Params& params, const Context& c, double 
     light.bottom = radiance_crossing(ior, lost);
     light.water = radiance_crossing(ior, 0.0);
   }
-  if (!light.day) return light;
+  if (!light.day) {
+    // The sky's light comes down more or less steeply: on average as at these cosines.
+    const double steep = params.sunlight == Sunlight::kRefracted ? 0.83 : 0.6;
+    if (transfers(params) && params.sunlight != Sunlight::kNone) {
+      light.down = (1 / steep) * falling_loss(params);
+    }
+    return light;
+  }
 
   light.beam = c.sun.color;
   if (params.sunlight == Sunlight::kStraight) light.down = (1 / cosine) * falling_loss(params);

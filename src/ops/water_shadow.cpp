@@ -24,12 +24,12 @@ double WaterShadow::bound(const P& params, const Context&, const Ranges& ranges)
   if (params.model == Model::kDarken) {
     return bound_product(params.strength * off(ranges.shadow), ranges.light);
   }
-  return bound_product(params.strength * std::max(off(ranges.shadow), off(ranges.own_shadow)),
+  return bound_product(params.strength * std::max(off(ranges.shadow), off(ranges.shadow_of_water)),
                        ranges.sun_light);
 }
 
 double WaterShadow::displaced(const P& params, const Ranges& ranges) {
-  const Range &there = ranges.shadow, &own = ranges.own_shadow;
+  const Range &there = ranges.shadow, &own = ranges.shadow_of_water;
   if (params.model == Model::kDarken) {
     return bound_product(params.strength * (there.max - there.min), ranges.light);
   }

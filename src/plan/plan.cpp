@@ -138,6 +138,19 @@ void tell_depthless(Plan& plan, const Inputs& inputs, StateSet) {
       "reflection_depth, or fresnel_reflection.source = auto");
 }
 
+/// What is lit by the sky knows its radiance best where there is a picture of the surroundings.
+void take_sky(Plan& plan, const Inputs& inputs, StateSet) {
+  if (!inputs.environment) return;
+  Chain::for_each([&]<class Op, int I>() {
+    if constexpr (requires { Op::lit_by_sky(plan.look.of<Op>()); }) {
+      if (!plan.keeps(I) || !Op::lit_by_sky(plan.look.of<Op>())) return;
+      plan.reads_environment = true;
+      std::string& reason = plan.operators[I].reason;
+      reason += std::string(reason.empty() ? "" : "; ") + "the environment lights the water";
+    }
+  });
+}
+
 /// Planes that an operator which runs can use are made, where the plate lacks them.
 void complete_planes(Plan& plan, const Inputs& inputs, StateSet) {
   const AtHand has{inputs.planes, inputs.environment, inputs.waves};
@@ -168,6 +181,7 @@ constexpr RuleInfo kRuleInfos[] = {
     {"drop_unread", "What nothing reads does not run."},
     {"fill_reflection", "The surroundings are seen where the reflection is not valid."},
     {"tell_depthless", "A warning tells of a reflection without a depth."},
+    {"take_sky", "The surroundings light the water."},
     {"complete_planes", "Planes that nobody rendered are made, where an operator can use them."},
     {"copy_dry", "Cells without a wet pixel are copied."},
     {"skip_rejection", "Without foreground in reach refraction need not test for it."},
@@ -177,7 +191,7 @@ constexpr RuleInfo kRuleInfos[] = {
 };
 constexpr Rule kRules[] = {take_plate_normals, take_other_reflection, drop_absent_input,
                            drop_neutral,       drop_unread,           fill_reflection,
-                           tell_depthless,     complete_planes};
+                           tell_depthless,     take_sky,           complete_planes};
 
 /// Says of each operator which rule spoke of it last.
 void apply_rules(Plan& plan, const Inputs& inputs, StateSet outputs) {

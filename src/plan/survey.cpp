@@ -71,12 +71,13 @@ struct Survey::Scan {
   Refraction::Planes looked_up;
   CellRules rules;
   HeightError error;
-  PlaneSet wanted;       // of those that are looked up
-  PlaneId own_shadow;    // on the surface
-  int reach_x, reach_y;  // in blocks
-  bool everywhere;       // all blocks are in reach of all cells
-  bool same_windows;     // taps at depth and surface find the same pixel
-  Extremes all;          // of all blocks, if so
+  PlaneSet wanted;                             // of those that are looked up
+  PlaneId own_shadow;                          // on the surface
+  int reach_x, reach_y;                        // in blocks
+  bool everywhere;                             // all blocks are in reach of all cells
+  bool same_windows;                           // taps at depth and surface find the same pixel
+  Extremes all;                                // of all blocks, if so
+  Range shadow_of_water{HUGE_VAL, -HUGE_VAL};  // of the surface, of all cells
 
   Scan(Survey& s, const Plan& p, const Frame& f, const Context& c, const ScanTarget& t)
       : survey(s),
@@ -364,6 +365,9 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   if (wanted.has(PlaneId::kShadow)) ranges.shadow = range(kShadowLow, kShadowHigh);
   if (!frame.plane(own_shadow)) ranges.own_shadow = {1, 1};
   if (sees_own_shadow()) ranges.own_shadow = {own.shadow_low, own.shadow_high};
+  ranges.shadow_of_water = own_shadow == PlaneId::kSurfaceShadow && sees_own_shadow()
+                               ? shadow_of_water
+                               : ranges.own_shadow;
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     ranges.color[static_cast<std::size_t>(c)] = range(kColorLow + c, kColorHigh + c);
   }
@@ -388,6 +392,10 @@ void Survey::make(const Plan& plan, const Frame& frame, const Context& context, 
   scan.lay_out();
   if (!context.submersible) {
     executor.run(blocks_.height, Scan::scan_row, &scan);
+    for (const Own& own : own_) {
+      Range& all = scan.shadow_of_water;
+      all = {std::min<double>(all.min, own.shadow_low), std::max<double>(all.max, own.shadow_high)};
+    }
     Scan::none(scan.all);
     if (scan.everywhere) {
       for (const Extremes& extremes : extremes_) raise(scan.all, extremes);

@@ -22,6 +22,16 @@ Figure encoded(std::string name, std::string caption, const std::array<Plane, 3>
 
 }  // namespace
 
+Measuring scattered_once(Measuring measuring) {
+  const auto change = [](Look& look) {
+    DepthFog::Params& fog = look.of<DepthFog>();
+    if (fog.model == DepthFog::Model::kRadiativeTransfer) fog.model = DepthFog::Model::kBeerLambert;
+  };
+  change(measuring.physical);
+  for (Look& look : measuring.looks) change(look);
+  return measuring;
+}
+
 PixelError error_of(const Picture& picture, const Picture& judge, bool clip) {
   CompareOptions options;
   if (clip) options.clip = Lagoon::kBrightest;

@@ -31,6 +31,10 @@ struct Measuring {
   }
 };
 
+/// The same with light that water scatters once, as a truth without noise has it, in looks that
+/// scatter it more often.
+Measuring scattered_once(Measuring measuring);
+
 /// With `clip` larger values, as of glints, count as Lagoon::kBrightest.
 PixelError error_of(const Picture& picture, const Picture& judge, bool clip);
 /// "296 ns/pixel, error mean 5.9·10⁻⁷, max 0.125": the end of a line of progress.

@@ -211,7 +211,8 @@ void measure_brought_lagoon(const Measuring& m) {
   ByBrought(m, known, looks).measure(true);
 }
 
-void measure_brought_scene(const Measuring& m, const std::filesystem::path& scene_file) {
+void measure_brought_scene(const Measuring& measuring, const std::filesystem::path& scene_file) {
+  const Measuring m = scattered_once(measuring);
   const SceneFile file = load_scene(scene_file);
   const Model model =
       with_finer_water(load_gltf(file.geometry), file.scene.has_waves() ? kPartedWater : 0);

@@ -185,7 +185,9 @@ class Beside {
 
 }  // namespace
 
-void measure_models(const Measuring& m, const std::filesystem::path& scene_file, bool choices) {
+void measure_models(const Measuring& measuring, const std::filesystem::path& scene_file,
+                    bool choices) {
+  const Measuring m = scattered_once(measuring);
   const Model model = load_gltf(load_scene(scene_file).geometry);
   Beside beside(m, scene_file, model);
   for (const Look& look : m.looks) beside.add(look, "", "");

@@ -39,6 +39,7 @@ Scene scene_of(const py::dict& dict) {
                         matrix_of(dict["projection"], "camera.projection")};
   scene.water = water_of(dict["water"]);
   if (const py::object sun = dict["sun"]; !sun.is_none()) scene.sun = sun_of(sun);
+  if (const py::object sky = dict["sky_radiance"]; !sky.is_none()) scene.sky = sky_of(sky);
   scene.time = number_in(dict["time"], "time");
   return scene;
 }

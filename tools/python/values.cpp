@@ -154,17 +154,22 @@ WaterPlane water_of(const py::handle& object) {
   return water;
 }
 
+Rgb<double> color_of(const py::handle& object, const std::string& name) {
+  const glm::dvec3 color = point_of(object, name);
+  return {color.x, color.y, color.z};
+}
+
 Sun sun_of(const py::handle& object) {
   Sun sun;
-  for_each_of(object, "sun", {"direction", "color"},
+  for_each_of(object, "sun", {"direction", "color", "diameter"},
               [&](const std::string& key, const py::handle& value) {
                 if (key == "direction") sun.direction = direction_of(value, "sun.direction");
-                if (key == "color") {
-                  const glm::dvec3 color = point_of(value, "sun.color");
-                  sun.color = {color.x, color.y, color.z};
-                }
+                if (key == "color") sun.color = color_of(value, "sun.color");
+                if (key == "diameter") sun.diameter = number_in(value, "sun.diameter");
               });
   return sun;
 }
+
+SkyLight sky_of(const py::handle& object) { return {color_of(object, "sky_radiance")}; }
 
 }  // namespace limpid::python

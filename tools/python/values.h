@@ -37,7 +37,10 @@ glm::dvec3 point_of(const pybind11::handle& object, const std::string& name);
 
 /// {"up": , "height": , "waves": }, as files have them: `up` need not be unit.
 WaterPlane water_of(const pybind11::handle& object);
-/// {"direction": , "color": }, likewise.
+/// {"direction": , "color": , "diameter": }, likewise.
 Sun sun_of(const pybind11::handle& object);
+/// Three numbers, likewise.
+Rgb<double> color_of(const pybind11::handle& object, const std::string& name);
+SkyLight sky_of(const pybind11::handle& object);
 
 }  // namespace limpid::python

@@ -84,6 +84,10 @@ struct AtHand {
 /// planes which are made where the plate lacks them names those in
 ///
 ///     static PlaneSet wants(const Params&, const AtHand&);
+///
+/// and one whose light comes from the sky, too, in
+///
+///     static bool lit_by_sky(const Params&);
 template <class T>
 concept Operator = requires(const typename T::Params& params, StateSet made, const Context& context,
                             const Ranges& ranges) {

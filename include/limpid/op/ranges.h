@@ -23,8 +23,9 @@ struct Ranges {
   Range ray_length{1, HUGE_VAL};    ///< of a unit of eye depth along the view
   std::array<Range, 3> color{
       {{-HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, HUGE_VAL}}};  ///< looked up
-  Range shadow{0, 1};      ///< where lookups may end
-  Range own_shadow{0, 1};  ///< on the surface, at the pixels themselves
+  Range shadow{0, 1};           ///< where lookups may end
+  Range own_shadow{0, 1};       ///< on the surface, at the pixels themselves
+  Range shadow_of_water{0, 1};  ///< on the surface, wherever sunlight enters, or at the pixels
 
   // What operators make of it.
   Range hit{0, HUGE_VAL};   ///< eye depth of what is seen, less the surface's

@@ -101,6 +101,7 @@ struct DepthFog {
   static Rgb<double> absorption(const Params& params);
   /// Whether light that is scattered more than once is to be made for a frame, and of what water.
   static bool wants_scattered_light(const Params& params);
+  static bool lit_by_sky(const Params& params) { return wants_scattered_light(params); }
   static ScatteringWater scattering_water(const Params& params, const Context& c);
 
   template <class Strip>
@@ -276,7 +277,8 @@ struct DepthFog {
       choose(blue, often_inside(m, 2, way));
     }
     p.sun_often = {red.sun, green.sun, blue.sun};
-    p.in_scatter = p.in_scatter + p.sun_often + Rgb<F>{red.sky, green.sky, blue.sky};
+    const Rgb<F> all = p.in_scatter + p.sun_often + Rgb<F>{red.sky, green.sky, blue.sky};
+    p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
   }
 
   /// Of a view from the air. `fallen` and `left`: what is left of the beam at the end of the way,
@@ -302,9 +304,10 @@ struct DepthFog {
     const F sunlit = F(m.cosine) * fallen + layer_power(light.sun_below, x);
     const F skylit = F(light.sky_at_once) + layer_power(light.sky_below, x);
     const F had = reflects * fallen * left;
-    const auto beyond = [&](F all, double floor) { return max(all - had * F(floor), F(0)); };
-    return {water * up.sun + beyond(water * (seen * beam * sunlit), m.dry_suns()[channel]),
-            water * up.sky + beyond(water * (seen * sky * skylit), m.dry_skies()[channel])};
+    // What `transmitted` has of the sky's light went down as the sun's, and may be too much.
+    return {
+        water * up.sun + max(water * (seen * beam * sunlit) - had * F(m.dry_suns()[channel]), F(0)),
+        water * (up.sky + seen * sky * skylit) - had * F(m.dry_skies()[channel])};
   }
 
   /// Of a view that begins in the water.

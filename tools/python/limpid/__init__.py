@@ -123,7 +123,8 @@ class Compositor:
             surface_normal: np.ndarray | None = None, reflection_valid: np.ndarray | None = None,
             reflection_depth: np.ndarray | None = None, below_color: np.ndarray | None = None,
             below_depth: np.ndarray | None = None, surface_shadow: np.ndarray | None = None,
-            sky: np.ndarray | None = None,
+            sky: np.ndarray | None = None, albedo: np.ndarray | None = None,
+            sky_radiance: Sequence[float] | None = None,
             display: Sequence[int] | None = None, out: np.ndarray | None = None, dtype: str = "float32",
             aovs: Sequence[str] | Mapping[str, np.ndarray | None] | None = None) -> Any:
         """The frame with water in it: an array with the channels of color. With aovs: (array, dict).
@@ -134,7 +135,9 @@ class Compositor:
         water: {"up": (x, y, z), "height": h, "waves": rows}: the points p with dot(up, p) = h, up
             (0, 1, 0) and height 0 unless given. Waves are rows of amplitude (scene units), k_x, k_y
             (rad / scene unit), phase (rad), and omega (rad / s; that of deep water, if left out)
-        sun: {"direction": towards it, "color": (r, g, b)}, color (1, 1, 1) unless given
+        sun: {"direction": towards it, "color": (r, g, b), "diameter": degrees}, color (1, 1, 1) and
+            diameter 0.533 unless given
+        sky_radiance: (r, g, b), of an even sky, which lights the water where there is no environment
         time: seconds, for what drifts
         shadow: (rows, columns), visibility of the sun: 1 lit, 0 in shadow
         reflection: (rows, columns, 3), what a flat mirror in the water plane shows at each pixel
@@ -145,6 +148,7 @@ class Compositor:
         below_color, below_depth: the dry scene without all that is above the water
         surface_shadow: (rows, columns), shadow at the water surface
         sky: (rows, columns, 3), the sky as it would be seen if nothing stood before it
+        albedo: (rows, columns, 3), share of the light that the bottom throws back, around each pixel
         display: (x0, y0, x1, y1), the pixels of color that the camera's picture has; the rest is
             overscan, which is looked up, but not computed
         out: where to write, float32 or float16, 3 or 4 channels, any strides; may be color itself
@@ -158,14 +162,15 @@ class Compositor:
                   "surface_depth": surface_depth, "surface_normal": surface_normal,
                   "reflection_valid": reflection_valid, "reflection_depth": reflection_depth,
                   "below_color": below_color, "below_depth": below_depth, "surface_shadow": surface_shadow,
-                  "sky": sky}
+                  "sky": sky, "albedo": albedo}
         planes = {name: array for name, array in planes.items()
                   if array is not None or name in ("color", "depth")}
         try:
             view, projection = camera
         except (TypeError, ValueError):
             raise Error(f"camera is a {type(camera).__name__}, expected view and projection") from None
-        scene = {"view": view, "projection": projection, "water": water, "sun": sun, "time": time}
+        scene = {"view": view, "projection": projection, "water": water, "sun": sun,
+                 "sky_radiance": sky_radiance, "time": time}
         dtype = dtype if isinstance(dtype, str) else np.dtype(dtype).name
         wet, made = self._core.run(planes, scene, display, out, dtype, _aov_arrays(aovs))
         return wet if aovs is None else (wet, made)
