@@ -12,8 +12,9 @@ Rgb<double> shares(const Rgb<double>& part, const Rgb<double>& whole) {
 
 }  // namespace
 
-Medium::Medium(const Context& context, const Look& look) {
-  const DepthFog::Params& fog = look.of<DepthFog>();
+Medium::Medium(const Context& context, const Look& look, TruthOptions::Light light) {
+  DepthFog::Params fog = look.of<DepthFog>();
+  if (light == TruthOptions::Light::kPaths) fog.model = DepthFog::Model::kBeerLambert;
   rate = DepthFog::extinction(fog);
   albedo = shares(fog.scattering, rate);
   ambient = fog.scattering * fog.ambient;

@@ -3,6 +3,7 @@
 
 #include "limpid/op/context.h"
 #include "limpid/ops/look.h"
+#include "limpid/trace/truth.h"
 
 #include "ops/water_light.h"
 
@@ -20,7 +21,8 @@ struct Band {
 
 /// The water as depth_fog, prism_split and water describe it.
 struct Medium {
-  Medium(const Context& context, const Look& look);
+  /// Where all light is followed none counts as not scattered, whatever depth_fog's model is.
+  Medium(const Context& context, const Look& look, TruthOptions::Light light);
 
   Rgb<double> rate{0, 0, 0};     ///< a + b
   Rgb<double> albedo{0, 0, 0};   ///< b / (a + b), 0 in clear water

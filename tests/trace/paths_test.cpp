@@ -174,6 +174,20 @@ TEST(Paths, AreLitByTheSkyThatIsThere) {
   EXPECT_EQ(around.g, 0);
 }
 
+/// What a model of depth_fog takes for unscattered is not.
+TEST(Paths, AreTheSameForEachModelOfTheFog) {
+  const Model model = model_of({level(-1)}, lambert({.5, .4, .3}));
+  Look look = murky({.2, .1, .05}, {1, 1, 1}, 0.9, true);
+  look.of<DepthFog>().ambient = {.1, .2, .3};
+  const auto seen = [&](DepthFog::Model fog) {
+    look.of<DepthFog>().model = fog;
+    return mean_of(traced(model, one_way(40), look, with_paths(4))).mean;
+  };
+  const Rgb<double> right = seen(DepthFog::Model::kBeerLambert);
+  EXPECT_EQ(seen(DepthFog::Model::kRadiativeTransfer), right);
+  EXPECT_EQ(seen(DepthFog::Model::kLinear), right);
+}
+
 /// A slab over half of the water: under it there is light, for it comes from beside it; dry
 /// surfaces show what the raster pass has.
 TEST(Paths, BringLightUnderShadowsAndLeaveDryPixelsAlone) {

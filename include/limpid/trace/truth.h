@@ -48,7 +48,8 @@ inline constexpr int kMostTruthSamples = 16, kMostTruthPaths = 65536, kMostTruth
 /// back by dry surfaces (evenly, by their color; unlit ones throw nothing back) and by the surface
 /// from below, any number of times. Each channel is right in the mean. It differs from kOnce in
 /// - the sun's way down: it loses all that the water takes and throws elsewhere, a + b, whatever a
-///   `water_type` says, for what is thrown elsewhere is followed. `sunlight` = `none` is straight.
+///   `water_type` says, and the narrow peak of radiative_transfer, too, for what is thrown
+///   elsewhere is followed. `sunlight` = `none` is straight.
 /// - the sky: the environment, else Scene::sky, else an even one of depth_fog's `ambient`. It
 ///   lights the water through the surface.
 /// - the surface from below: where `crossing` is not `none` it lets light through and throws it
