@@ -75,9 +75,10 @@ Walk::Going Walk::through_water(Way& way, const Band& band, Samples& samples) co
   if (!wet && !dry) return false;
   way.chances.go_on(transmittance(length, medium_.rate));
   if (wet) return meet_surface(way, *wet, band, samples);
-  if (way.from_dry) return false;
-  way.light = way.light +
-              way.scale * (way.chances.worth() * own_light(*dry, beam_of(way.ray), band, samples));
+  if (!way.from_dry) {
+    way.light = way.light + way.scale * (way.chances.worth() *
+                                         own_light(*dry, beam_of(way.ray), band, samples));
+  }
   return bounce(way, *dry, samples);
 }
 

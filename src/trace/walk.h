@@ -15,8 +15,9 @@ namespace limpid::trace {
 /// bounce looks for, and to the sky, which ways that leave the water end in.
 ///
 /// The dry picture's own light is given: the sun on a dry surface, and the ambient light of its
-/// material. So what one dry surface throws straight at another, and what the sky sends straight to
-/// the bottom, count as part of that ambient light; the ways add what the water sends.
+/// material. So the given light that one dry surface throws straight at another, and what the sky
+/// sends straight to the bottom, count as part of that ambient light; the ways add what the water
+/// sends, straight and by dry surfaces.
 class Walk {
  public:
   /// All must outlive it. `sun`: of dry surfaces in the air. Without caustics sunlight comes
@@ -48,7 +49,8 @@ class Walk {
     Ray ray{};
     double scale = 1;  ///< of radiance, for where the way is
     bool in_air = false;
-    bool from_dry = false;  ///< straight on from a dry surface: what is there is its ambient light
+    bool from_dry =
+        false;  ///< straight on from dry surfaces: what light is given there is their ambient
     Rgb<double> light{0, 0, 0};
   };
   using Going = bool;  ///< whether the way goes on

@@ -239,6 +239,32 @@ TEST(Paths, LeaveOutWhatDrySurfacesThrowAtOneAnother) {
             1.1 * mean_of(traced(model, scene, look, once)).mean.g);
 }
 
+/// In a basin, what the surface throws onto the walls comes to the floor by them.
+TEST(Paths, GoOnFromDrySurfacesToOthersWithWhatTheWaterSends) {
+  Scene scene = one_way(90);
+  scene.sun->direction = {0, 1, 0};  // along the walls
+  const auto seen = [&](double wall_albedo) {
+    std::vector<Mesh> meshes{level(-1, 1)};
+    for (int side = 0; side < 4; ++side) {
+      const double a = side * kPi / 2;
+      const glm::vec3 out(std::round(std::sin(a)), 0, std::round(std::cos(a)));
+      const glm::vec3 along(out.z, 0, -out.x), up(0, 1, 0);
+      meshes.push_back(quad(out + along - up, out - along - up, out - along, out + along));
+      meshes.back().uvs.clear();
+      meshes.back().material = 1;
+    }
+    Model model = model_of(meshes, lambert({.8, .8, .8}, {0, 0, 0}));
+    model.materials.push_back(lambert({wall_albedo, wall_albedo, wall_albedo}, {0, 0, 0}));
+    return mean_of(traced(model, scene, murky({0, 0, 0}, {0, 0, 0}, 0, true), with_paths(200)));
+  };
+  const double black = seen(0).mean.g, white = seen(.9).mean.g;
+  EXPECT_GT(white, 1.03 * black);
+  // The surface throws light back where it is met so flatly that black walls stand before it.
+  const double enters = 1 - fresnel_exact(1.0, kTraceIor);
+  const double direct = enters * enters / kTraceIor / kTraceIor * .8 * scene.sun->color.g;
+  EXPECT_NEAR(black, direct, 0.02 * direct);
+}
+
 /// Where a mesh of the water ends the water goes on.
 TEST(Paths, KnowNoEdgeOfASmallMeshOfWater) {
   const Scene scene = one_way(60);

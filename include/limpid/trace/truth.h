@@ -55,11 +55,12 @@ inline constexpr int kMostTruthSamples = 16, kMostTruthPaths = 65536, kMostTruth
 /// - the surface from below: where `crossing` is not `none` it lets light through and throws it
 ///   back by Fresnel's law, and radiance is ior^2 of that in the air; with `none` it does nothing.
 /// - dry surfaces in the water: the ambient light of a material is that of an even sky, and so
-///   comes down through the water, as on level ground; all light of unlit ones does. The dry
-///   picture has no light that one dry surface throws at another: what comes straight, through
-///   water or air, is left out here, too. Dry surfaces in the air are as in the dry picture. So
-///   what is added is what the water sends, and a chain that gets the dry picture can be judged by
-///   it.
+///   comes down through the water, as on level ground; all light of unlit ones does. In the
+///   dry picture no dry surface lights another: of the light that it has, what would come straight
+///   from one to another, through water or air, is left out here, too. What is added is what the
+///   water scatters and the surface throws back, and that goes on from one dry surface to another.
+///   Dry surfaces in the air are as in the dry picture. So a chain that gets the dry picture can be
+///   judged by it.
 /// Blended surfaces block walks by the rule that AlphaMode has for depth. Beside a mesh of the
 /// water the water goes on. Where nothing is absorbed light from deeper than trace_column() has it
 /// counts as none.
