@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "limpid/complete/scattered_light.h"
 #include "limpid/core/error.h"
 
 #include "ops/probe_strip.h"
@@ -39,6 +40,8 @@ Context probe_context(StateSet made, PlaneSet absent = {}, bool has_sky = true) 
   }
   frame.wave_map = map.texture;
   if (has_sky) frame.environment = sky.texture;
+  static ScatteredLightMaker maker;
+  frame.scattered_light = maker.make({{0.2, 0.3, 0.4}, {1, 2, 3}, 0.5, 0.8}).data();
   Scene scene = test::simple_scene(test::kContractSize);
   scene.time = 3.7;
   return Context(scene, frame, 1.333, made);

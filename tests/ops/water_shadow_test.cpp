@@ -107,15 +107,35 @@ TEST(WaterShadow, ScatterTakesTheSunsPartOnly) {
   for (int x : {2, 7}) EXPECT_NEAR(got.aov(Aov::kTransmitted, x, 1), 0.5 * std::exp(-2.0), 1e-6);
 }
 
+// A shadow on the surface is where the light enters that any part of the way scatters: straight
+// above it, for the sun stands there and so does the viewer.
 TEST(WaterShadow, ScatterKnowsTheSurfaceFromTheBottom) {
   Tray tray = half_shaded_murk();
   tray.buffers.fill(PlaneId::kSurfaceShadow, 1);
-  EXPECT_NEAR(in_scatter(tray, 2), kPart + (1 - kFar) * kPart, 1e-6);
+  EXPECT_NEAR(in_scatter(tray, 2), 2 * kPart, 1e-6);
   tray.buffers.fill(PlaneId::kSurfaceShadow, 0.25f);
-  EXPECT_NEAR(in_scatter(tray, 2), kPart + 0.25 * (1 - kFar) * kPart, 1e-6);
-  EXPECT_NEAR(in_scatter(tray, 7), kPart + (0.25 * (1 - kFar) + kFar) * kPart, 1e-6);
+  EXPECT_NEAR(in_scatter(tray, 2), kPart + 0.25 * kPart, 1e-6);
+  EXPECT_NEAR(in_scatter(tray, 7), kPart + 0.25 * kPart, 1e-6);
   tray.look.of<WaterShadow>().strength = 0.5;
-  EXPECT_NEAR(in_scatter(tray, 7), kPart + (0.625 * (1 - kFar) + kFar) * kPart, 1e-6);
+  EXPECT_NEAR(in_scatter(tray, 7), kPart + 0.625 * kPart, 1e-6);
+}
+
+// The sun 45 degrees over the right: light that is scattered d deep enters d to the right. Shaded
+// to the left of column 5; the way is 4 long, and water that scatters little sends as much of each
+// of its quarters, whose middles lie 0.5, 1.5, 2.5 and 3.5 deep.
+TEST(WaterShadow, IsThatOfWhereTheSunlightEntered) {
+  Tray tray = half_shaded_murk();
+  tray.buffers.set(PlaneId::kSurfaceShadow, [](int x, int) { return x < 5 ? 0.f : 1.f; });
+  tray.scene.sun->direction = {std::sqrt(0.5), std::sqrt(0.5), 0};
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  fog.sunlight = DepthFog::Sunlight::kStraight;
+  fog.ambient = {0, 0, 0};
+  fog.scattering = {1e-4, 1e-4, 1e-4};
+  const double all = in_scatter(tray, 8);
+  // From the middle of column 2 the shadow ends between 2 and 3 to the right, linearly.
+  EXPECT_NEAR(in_scatter(tray, 2) / all, (0 + 0 + 0.5 + 1) / 4, 0.01);
+  EXPECT_NEAR(in_scatter(tray, 3) / all, (0 + 0.5 + 1 + 1) / 4, 0.01);
+  EXPECT_NEAR(in_scatter(tray, 0) / all, 0, 0.01);
 }
 
 // As in IsLookedUpWhereTheRefractedRayEnds: from column 3 half way into the light. Where the view

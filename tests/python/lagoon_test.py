@@ -36,7 +36,8 @@ class Lagoon(unittest.TestCase):
         # Without the plate's normals the waves come from the tiling map.
         frame = {name: value for name, value in self.frame.items() if name != "surface_normal"}
         look = limpid.load_look("fast")
-        wet = limpid.composite(**frame, look=look, wave_map=read_float(look["wave_normals"]["map"]), time=2.5)
+        wet = limpid.composite(**frame, look=look, wave_map=read_float(look["wave_normals"]["map"]),
+                               environment=read_float(DATA.parent / "maps/sky.hdr"), time=2.5)
         expected = self.tools("fast", "--layer", "surface_normal=none", "--time", "2.5")
         np.testing.assert_array_equal(wet, expected)
 

@@ -239,7 +239,7 @@ struct DepthFog {
         p.sun_near = light - p.sun_far;
         // Of endless ways the share is no number of a float any more.
         const F fading = max(rate.g + down.g * sink, F(1e-30));
-        p.sun_way = min(green.far_share * length, F(1) / fading);
+        p.sun_way = select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
         p.in_scatter = p.in_scatter + light;
       }
       if (medium.often) add_often(medium, way, turned, fallen, albedo, p);
