@@ -86,8 +86,6 @@ void Heights::make(const Plan& plan, const Frame& frame, const Context& context,
   const PlaneId seen = Refraction::planes_of(context).depth;
   const Rect& window = frame.plane(seen).window;
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
-  // Beyond the edge of one of them taps at both are of different rays.
-  if (surface && !(surface.window == window)) return;
   const HeightError error = march_error(context);
   const auto scan = [&](PlaneId plane, bool water) {
     const View<const float>& depth = frame.plane(plane);

@@ -78,6 +78,11 @@ Bounds bounds_of(const Frame& frame, PlaneSet planes) {
           (glm::dvec2(window.x1, window.y1) - 0.5 - corner) / size};
 }
 
+bool contains(const Bounds& outer, const Bounds& inner) {
+  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && inner.high.x <= outer.high.x &&
+         inner.high.y <= outer.high.y;
+}
+
 }  // namespace
 
 Context::Context(const Scene& scene, const Frame& frame, double index, StateSet parts,
@@ -154,10 +159,13 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   }
   submersible = !camera.orthographic() && lowest < crest;
 
-  dry = bounds_of(frame, kColorPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kSurfaceDepth});
+  dry = bounds_of(frame, kColorPlanes | PlaneSet{PlaneId::kDepth});
   below = bounds_of(frame, kBelowPlanes);
   reflection = bounds_of(
       frame, kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth});
+  surface = planes.has(PlaneId::kSurfaceDepth) ? bounds_of(frame, {PlaneId::kSurfaceDepth}) : dry;
+  const bool layer = planes.covers(kBelowPlanes);
+  surface_ends = !contains(surface, dry) || (layer && !contains(surface, below));
 }
 
 double Context::phase_at_eye(const SineWave& wave) const {

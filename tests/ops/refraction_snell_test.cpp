@@ -213,7 +213,8 @@ TEST(Snell, OffTheFrameIsInventedAndSaidSo) {
   }
 }
 
-TEST(Snell, OverscanIsUsedWhereThereIsSome) {
+/// A bottom 3 deep, whose color and depth go on far beyond the picture.
+Basin wide_basin() {
   Basin basin(3, 0);
   const Rect wide{-16, -16, kSize.width + 16, kSize.height + 60};
   const Rays rays = rays_of(*basin.scene.camera, {kSize.width, kSize.height});
@@ -229,11 +230,47 @@ TEST(Snell, OverscanIsUsedWhereThereIsSome) {
         return meets > 0 ? static_cast<float>(meets) : test::kInf;
       },
       wide);
+  return basin;
+}
+
+TEST(Snell, OverscanIsUsedWhereThereIsSome) {
+  const Basin basin = wide_basin();
   const Basin::Hit expected = basin.hit(32, 47, 3, 0);
   ASSERT_LT(expected.uv.y, 0);
   const test::Picture got = basin.wet();
   EXPECT_EQ(got.aov(Aov::kConfidence, 32, 47), 1);
   EXPECT_NEAR(got.aov(Aov::kStmapG, 32, 47, 1), expected.uv.y, 2e-3);
+}
+
+/// Renderers give overscan to color and depth often, and to passes of the water never.
+TEST(Snell, OverscanOfColorAndDepthCountsWhateverOtherPlanesHave) {
+  Basin basin = wide_basin();
+  const Rays rays = rays_of(*basin.scene.camera, {kSize.width, kSize.height});
+  basin.buffers.normal({0, 1, 0}).fill(PlaneId::kShadow, 1);
+  for (int c = 0; c < 3; ++c) basin.buffers.fill(plane_after(PlaneId::kReflectionR, c), 0.1f);
+  basin.buffers.set(PlaneId::kSurfaceDepth, [&](int x, int y) {
+    const double meets = -2 / rays.ray_at(x + 0.5, y + 0.5).y;
+    return meets > 0 ? static_cast<float>(meets) : test::kInf;
+  });
+  for (const auto rejection : {Refraction::Rejection::kNone, Refraction::Rejection::kSnap,
+                               Refraction::Rejection::kShorten}) {
+    basin.look.of<Refraction>().rejection = rejection;
+    const test::Picture judge = basin.wet(),
+                        fast = test::fused(basin.look, basin.buffers.frame, basin.scene);
+    for (const int x : {2, 32, 61}) {
+      const Basin::Hit expected = basin.hit(x, 47, 3, 0);
+      ASSERT_LT(expected.uv.y, 0);
+      for (const test::Picture* got : {&judge, &fast}) {
+        EXPECT_EQ(got->aov(Aov::kConfidence, x, 47), 1) << x;
+        EXPECT_NEAR(got->aov(Aov::kStmapG, x, 47, 1), expected.uv.y, 2e-3) << x;
+        const double row = (1 - expected.uv.y) * kSize.height - 0.5;
+        const double passes = 1 - got->aov(Aov::kFresnel, x, 47);
+        EXPECT_NEAR(got->aov(Aov::kTransmitted, x, 47) / passes,
+                    expected.uv.x * kSize.width - 0.5 + 100 * row, 10)
+            << x;
+      }
+    }
+  }
 }
 
 // --- dispersion ---------------------------------------------------------------------------------

@@ -67,6 +67,8 @@ struct Context {
   glm::dvec2 over_step, under_step;
   PlaneSet planes;  ///< that the frame has: for operators that take more where there is more
   Bounds dry, below, reflection;  ///< of color with depth, of the two others with theirs
+  Bounds surface;                 ///< of the water's depth; `dry` where the frame has none
+  bool surface_ends;              ///< before `dry` does: the calm level stands for the rest of it
   glm::ivec2 size;                ///< of the display window
   glm::ivec2 corner;              ///< of the display window
   Sun sun;                        ///< operators that need one declare it

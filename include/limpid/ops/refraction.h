@@ -406,6 +406,12 @@ struct Refraction {
           const F calm = calm_depth_at(c, p, tap.place(planes.depth, quad, k));
           surface = select(surface > F(1e30), calm, surface);
         }
+        if (surface_plane && c.surface_ends) {
+          // Its outermost texels tell nothing of the water beyond them.
+          const Vec2<F> place = tap.place(planes.depth, quad, k);
+          const auto known = reach_in(c.surface, p.uv, place) >= F(1);
+          if (any(!known)) surface = select(known, surface, calm_depth_at(c, p, place));
+        }
         if (c.submersible) {
           // Where the view begins in the water, what lies there has no surface before it.
           const F height = height_at(c, p, tap.place(planes.depth, quad, k), depth);
