@@ -110,10 +110,10 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
   return warnings;
 }
 
-/// What a survey looks at: depths, colors and shadows; not where the water's normals point, nor
-/// what it mirrors.
-constexpr PlaneSet kUnsurveyed = kSurfaceNormalPlanes | kReflectionPlanes |
-                                 PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
+/// What a survey looks at: depths, colors, shadows and where the water's normals point; not what it
+/// mirrors.
+constexpr PlaneSet kUnsurveyed =
+    kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
 
 }  // namespace
 
@@ -132,7 +132,7 @@ Plan plan_composite(const CompositeJob& job) {
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   const Plate plate = Plate::open(job.plate);
   const Scene scene = scene_of(job, plate);
-  SurveyedPlan surveyed{plan_of(job, plate, scene), {}, {}};
+  SurveyedPlan surveyed{plan_of(job, plate, scene), {}, {}, {}};
   const Plan& plan = surveyed.plan;
   const LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
   loaded.frame.validate();
@@ -143,6 +143,8 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
   surveyed.warnings = warnings_of(job, plate, plan);
   warn_of_picture(plan, frame, scene, surveyed.warnings);
+  surveyed.beyond = beyond_of(plan, frame, scene);
+  warn_of_beyond(surveyed.beyond, surveyed.warnings);
   refuse_warnings(job.output.strict, surveyed.warnings);
   return surveyed;
 }
@@ -157,7 +159,7 @@ MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor) {
   frame.read(job, executor, false);
   RunTimes times;
   for (int i = 0; i < 2; ++i) frame.run(job, executor, &times);
-  return {{frame.report().plan, frame.survey(), frame.report().warnings}, times};
+  return {{frame.report().plan, frame.survey(), frame.beyond(), frame.report().warnings}, times};
 }
 
 CompositeReport composite(const CompositeJob& job, Executor& executor) {
@@ -192,6 +194,8 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool 
   report_.replaced = loaded_.replaced;
   report_.warnings = warnings_of(job, plate, report_.plan);
   warn_of_picture(report_.plan, loaded_.frame, scene_, report_.warnings);
+  beyond_ = beyond_of(report_.plan, loaded_.frame, scene_);
+  warn_of_beyond(beyond_, report_.warnings);
   refuse_warnings(job.output.strict, report_.warnings);
 
   file_.display = plate.display();

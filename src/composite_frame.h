@@ -28,10 +28,12 @@ class CompositeFrame {
   void write(const CompositeJob& job);
   const CompositeReport& report() const { return report_; }
   const Survey& survey() const { return canvas_->survey(); }
+  const Beyond& beyond() const { return beyond_; }
 
  private:
   SharedTextures* textures_;
   CompositeReport report_;
+  Beyond beyond_;
   Scene scene_;
   LoadedPlate loaded_;
   SharedTextures::Held wave_map_, environment_;

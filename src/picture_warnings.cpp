@@ -165,6 +165,18 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_scale(plan, frame, context, warnings);
 }
 
+Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene) {
+  const bool rays = plan.look.of<Refraction>().model == Refraction::Model::kSnell;
+  if (!plan.made.has(StatePart::kPosition) || !rays) return {};
+  const Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const auto bottom = fit_bottom(frame, context);
+  return bottom ? look_beyond(*bottom, frame, context) : Beyond{};
+}
+
+void warn_of_beyond(const Beyond& beyond, std::vector<std::string>& warnings) {
+  if (beyond.share >= 0.01) warnings.push_back(to_text(beyond));
+}
+
 void refuse_warnings(bool strict, const std::vector<std::string>& warnings) {
   if (!strict || warnings.empty()) return;
   throw Error(warnings.front() +

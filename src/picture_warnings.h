@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "limpid/complete/bottom_plane.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
 #include "limpid/plan/plan.h"
@@ -20,6 +21,12 @@ namespace limpid {
 /// Looks at few pixels, unless it is all wet or all dry.
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings);
+
+/// Where the plan's refraction looks beyond the picture; nowhere, if it follows no rays.
+Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene);
+
+/// Adds to_text() of it where a hundredth of the wet pixels or more do.
+void warn_of_beyond(const Beyond& beyond, std::vector<std::string>& warnings);
 
 /// Throws the first of them as an Error, if `strict`.
 void refuse_warnings(bool strict, const std::vector<std::string>& warnings);

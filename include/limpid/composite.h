@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "limpid/complete/bottom_plane.h"
 #include "limpid/core/executor.h"
 #include "limpid/load/plate.h"
 #include "limpid/load/scene_file.h"
@@ -49,6 +50,7 @@ Plan plan_composite(const CompositeJob& job);
 struct SurveyedPlan {
   Plan plan;
   Survey survey;
+  Beyond beyond;
   std::vector<std::string> warnings;  ///< as CompositeReport's
 };
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor);

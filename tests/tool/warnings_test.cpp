@@ -58,10 +58,13 @@ TEST_F(WarningsTest, ASettingThatAnotherSwitchesOff) {
 
 TEST_F(WarningsTest, AnAbsorptionWinsOverTheTypeOfTheLook) {
   write_text("named.toml", "[depth_fog]\nwater_type = \"9C\"\n");
-  // The plate's reflection has no depth, of which a look that looks along the ray is told.
-  const Words plain = {"composite",  "plate.exr", "--scene",
-                       "scene.toml", "--set",     "fresnel_reflection.lookup=offset",
-                       "--float",    "-o"};
+  // The plate's reflection has no depth, of which a look that looks along the ray is told; nor has
+  // it overscan.
+  const Words plain = {"composite", "plate.exr",
+                       "--scene",   "scene.toml",
+                       "--set",     "fresnel_reflection.lookup=offset",
+                       "--set",     "refraction.model=normal_offset",
+                       "--float",   "-o"};
   const auto with = [&](const std::string& output, const Words& more) {
     Words words = plain;
     words.push_back(output);
@@ -119,6 +122,42 @@ TEST_F(WarningsTest, AreToldOnceOfASequence) {
   raise_water("-500");
   const Ran ran = limpid({"composite", "plate.#.exr", "--scene", "scene.toml", "--look",
                           "look.toml", "-o", "wet.#.exr", "--frames", "1-3"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(lines(ran.err), 1) << ran.err;
+}
+
+TEST_F(WarningsTest, WaterThatLooksBeyondThePicture) {
+  const Words refracts{"--set", "refraction.model=snell"};
+  const Ran ran = composite("wet.exr", refracts);
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(lines(ran.err), 1) << ran.err;
+  EXPECT_THAT(ran.err, ::testing::ContainsRegex(
+                           "limpid: warning: [0-9.]+ % of the wet pixels look beyond the picture; "
+                           "overscan of color and depth by [0-9]+ pixels on the left"));
+  const Ran plan = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml",
+                           "--set", "refraction.model=snell"});
+  EXPECT_EQ(plan.err, ran.err);
+  const std::string sentence = ran.err.substr(std::string("limpid: warning: ").size());
+  EXPECT_THAT(plan.out, HasSubstr(sentence)) << "on a line of its own";
+
+  PlateOptions wide;
+  wide.data = {-40, -40, 104, 76};
+  write_plate(folder_ / "plate.exr", wide);
+  EXPECT_EQ(composite("wet.exr", refracts).err, "");
+  EXPECT_THAT(limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml"}).out,
+              HasSubstr("no wet pixel looks beyond the picture\n"));
+}
+
+/// The numbers of each frame are its own, the sentence is not.
+TEST_F(WarningsTest, WaterThatLooksBeyondThePictureIsToldOnceOfASequence) {
+  for (int frame = 1; frame <= 3; ++frame) {
+    PlateOptions wide;
+    wide.data = {0, 0, 64, 35 + frame};
+    write_plate(folder_ / ("plate.000" + std::to_string(frame) + ".exr"), wide);
+  }
+  const Ran ran =
+      limpid({"composite", "plate.#.exr", "--scene", "scene.toml", "--look", "look.toml", "--set",
+              "refraction.model=snell", "-o", "wet.#.exr", "--frames", "1-3"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(lines(ran.err), 1) << ran.err;
 }

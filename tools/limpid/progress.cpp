@@ -24,6 +24,12 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+/// The same of all frames, for which measured numbers differ.
+std::string without_numbers(std::string sentence) {
+  std::erase_if(sentence, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+  return sentence;
+}
+
 }  // namespace
 
 std::string progress_text(const SequenceProgress& progress) {
@@ -46,8 +52,9 @@ Progress::~Progress() {
 
 void Progress::warn(const std::vector<std::string>& sentences) {
   for (const std::string& sentence : sentences) {
-    if (std::find(warned_.begin(), warned_.end(), sentence) != warned_.end()) continue;
-    warned_.push_back(sentence);
+    const std::string kind = without_numbers(sentence);
+    if (std::find(warned_.begin(), warned_.end(), kind) != warned_.end()) continue;
+    warned_.push_back(kind);
     if (drawn_) std::fputs("\r\033[K", stderr);
     drawn_ = false;
     tell_warnings({sentence}, quiet_);

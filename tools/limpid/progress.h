@@ -32,7 +32,7 @@ class Progress {
   bool quiet_, live_, lines_;
   bool drawn_ = false;  ///< the line on the terminal is not ended yet
   std::string notes_;
-  std::vector<std::string> warned_;
+  std::vector<std::string> warned_;  ///< sentences without their numbers
 };
 
 }  // namespace limpid::tool

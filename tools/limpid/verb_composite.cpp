@@ -104,8 +104,8 @@ CompositeJob expect_plate(CompositeJob job) {
 void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds,
                 const CommonArguments& common) {
   tell_warnings(surveyed.warnings, common.quiet);
-  std::printf("%sreads %s\n", to_text(surveyed.plan, surveyed.survey, seconds).c_str(),
-              roles_text(surveyed.plan.planes).c_str());
+  std::printf("%sreads %s\n%s\n", to_text(surveyed.plan, surveyed.survey, seconds).c_str(),
+              roles_text(surveyed.plan.planes).c_str(), to_text(surveyed.beyond).c_str());
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "limpid/core/frame.h"
+#include "limpid/op/context.h"
+
+namespace limpid {
+
+/// The bottom that a frame shows under its water, taken for a plane. Relative to the eye.
+struct BottomPlane {
+  glm::dvec3 normal;  ///< unit, upwards
+  double offset;      ///< dot(normal, p) of its points p
+  double drop;        ///< of the middle of all that is seen under the water, below the calm surface
+  double shallow;     ///< likewise, a twentieth of it lies higher
+  double slack;       ///< what lies nearer to it than this is of the bottom, in scene units
+
+  /// The depth at which a pixel's ray meets it; no finite one, or below 0, where it does not.
+  double depth_on(const Context& context, double x, double y) const;
+};
+
+/// The plane that most of the bottom lies in, posts, rocks and walls left out: the best of some
+/// planes through three texels each (Fischler & Bolles 1981, "Random Sample Consensus"), then by
+/// least squares. The texels near the edge of the picture count most, for rays leave it there.
+/// Looks at a few thousand texels of what refraction looks up. Nothing where hardly any lies under
+/// the water, and where the eye is not over the calm level.
+std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context);
+
+/// Where water makes one look beyond the picture: with the normals that the frame has, else calm.
+struct Beyond {
+  double share = 0;  ///< of the wet pixels
+  /// Pixels of overscan, from the sides of the display window, that would show it; 0 on a side at
+  /// which the planes go far enough.
+  int left = 0, top = 0, right = 0, bottom = 0;
+
+  bool any() const { return left > 0 || top > 0 || right > 0 || bottom > 0; }
+};
+
+/// From where rays meet the bottom: for the sides those of each wet pixel at an edge, for the share
+/// those of a few thousand wet pixels.
+Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Context& context);
+
+/// "5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 pixels on the
+/// left, 2 on the right, 0 at the top and 24 at the bottom would show what is there", or that none
+/// does.
+std::string to_text(const Beyond& beyond);
+
+}  // namespace limpid

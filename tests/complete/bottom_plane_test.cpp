@@ -1,0 +1,111 @@
+#include "limpid/complete/bottom_plane.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "complete/pool.h"
+
+// The plane of the bottom, and what of it lies beyond the picture.
+
+namespace limpid {
+namespace {
+
+using test::Pool;
+
+double grey(double, double) { return 0.5; }
+
+TEST(BottomPlane, IsThatOfTheBottom) {
+  for (const double rise : {0.0, 0.05, -0.1}) {
+    Pool pool;
+    pool.rise = rise;
+    pool.draw(grey);
+    const auto plane = fit_bottom(pool.buffers.frame, pool.context());
+    ASSERT_TRUE(plane) << rise;
+    EXPECT_LT(glm::length(plane->normal - pool.normal()), 1e-4) << rise;
+    EXPECT_NEAR(plane->offset, pool.normal().y * (-2 - pool.deep), 1e-3) << rise;
+  }
+}
+
+TEST(BottomPlane, PostsAndRocksDoNotPullAtIt) {
+  Pool pool;
+  pool.draw(grey);
+  pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    const double depth = pool.dry_depth(x, y);
+    if (x % 9 == 0) return 2.1f;                                             // before the water
+    if (x > 20 && x < 50 && y > 40) return static_cast<float>(0.8 * depth);  // in it
+    return static_cast<float>(depth);
+  });
+  const auto plane = fit_bottom(pool.buffers.frame, pool.context());
+  ASSERT_TRUE(plane);
+  EXPECT_LT(glm::length(plane->normal - pool.normal()), 2e-3);
+  EXPECT_NEAR(plane->offset, pool.normal().y * (-2 - pool.deep), 5e-3);
+}
+
+TEST(BottomPlane, IsNoneWhereNothingLiesUnderTheWater) {
+  Pool pool;
+  pool.draw(grey);
+  pool.buffers.fill(PlaneId::kDepth, 1);
+  EXPECT_FALSE(fit_bottom(pool.buffers.frame, pool.context()));
+  pool.buffers.fill(PlaneId::kDepth, test::kInf);
+  EXPECT_FALSE(fit_bottom(pool.buffers.frame, pool.context()));
+}
+
+Beyond beyond_of(const Pool& pool) {
+  const auto plane = fit_bottom(pool.buffers.frame, pool.context());
+  return plane ? look_beyond(*plane, pool.buffers.frame, pool.context()) : Beyond{};
+}
+
+TEST(Beyond, SaysWhichOverscanWouldShowWhatIsLookedAt) {
+  Pool pool;
+  pool.draw(grey);
+  double below = 0;
+  int wet = 0, off = 0;
+  for (int y = 0; y < Pool::kSize.height; ++y) {
+    for (int x = 0; x < Pool::kSize.width; ++x) {
+      if (!(pool.ray(x, y).y < 0)) continue;
+      ++wet;
+      off += pool.leaves(x, y);
+      below = std::max(below, pool.end(x, y).y - (Pool::kSize.height - 1));
+    }
+  }
+  const Beyond beyond = beyond_of(pool);
+  EXPECT_GT(below, 5);
+  EXPECT_EQ(beyond.bottom, static_cast<int>(std::ceil(below)));
+  EXPECT_EQ(beyond.top, 0);
+  EXPECT_EQ(beyond.left, 0) << "calm water bends rays towards the middle of a view from above";
+  EXPECT_EQ(beyond.right, 0);
+  EXPECT_NEAR(beyond.share, double(off) / wet, 0.02);
+}
+
+TEST(Beyond, OverscanThatIsThereCounts) {
+  Pool pool;
+  pool.draw(grey);
+  const int needed = beyond_of(pool).bottom;
+  pool.window = {-3, -3, Pool::kSize.width + 3, Pool::kSize.height + needed};
+  pool.draw(grey);
+  EXPECT_FALSE(beyond_of(pool).any());
+  pool.window.y1 -= 1;
+  pool.draw(grey);
+  EXPECT_EQ(beyond_of(pool).bottom, needed) << "told from the side of the picture";
+}
+
+TEST(Beyond, NormalsOfTheWaterCount) {
+  Pool pool;
+  pool.draw(grey);
+  pool.buffers.normal(normalize_or<double>({-0.6, 1, 0}, {0, 1, 0}));
+  const Beyond beyond = beyond_of(pool);
+  EXPECT_GT(beyond.right, 0);
+  EXPECT_EQ(beyond.left, 0);
+}
+
+TEST(Beyond, IsSaidInOneSentence) {
+  EXPECT_EQ(to_text(Beyond{}), "no wet pixel looks beyond the picture");
+  EXPECT_EQ(to_text(Beyond{0.0583, 4, 0, 2, 24}),
+            "5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 "
+            "pixels on the left, 2 on the right, 0 at the top and 24 at the bottom would show what "
+            "is there");
+}
+
+}  // namespace
+}  // namespace limpid
