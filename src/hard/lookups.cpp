@@ -85,7 +85,7 @@ Worst behind_the_eye(const HardWorld& world) {
   Look look = world.look("physical");
   for (const int steps : {0, 1, 8, Refraction::kMarch}) {
     for (const auto off_frame : {Refraction::OffFrame::kClamp, Refraction::OffFrame::kShorten,
-                                 Refraction::OffFrame::kFog}) {
+                                 Refraction::OffFrame::kFog, Refraction::OffFrame::kContinue}) {
       look.of<Refraction>().steps = steps;
       look.of<Refraction>().off_frame = off_frame;
       for (const std::string& runner : world.runners()) {

@@ -96,7 +96,8 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
       wave_slopes(frame.wave_slopes),
       wave_variance(frame.wave_variance),
       scattered_light(frame.scattered_light),
-      made(parts) {
+      made(parts),
+      continuation(frame.continuation) {
   scene.validate();
   has_sky = frame.sky_radiance || scene.sky;
   sky = frame.sky_radiance.value_or(scene.sky.value_or(SkyLight{}).radiance);

@@ -11,7 +11,7 @@ using P = Refraction::Params;
 constexpr std::string_view kModels[] = {"normal_offset", "dudv_offset", "snell"};
 constexpr std::string_view kRejections[] = {"none", "snap", "shorten"};
 constexpr std::string_view kSteps[] = {"march"};
-constexpr std::string_view kOffFrames[] = {"clamp", "shorten", "fog"};
+constexpr std::string_view kOffFrames[] = {"clamp", "shorten", "fog", "continue"};
 
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>("model", "How the refracted position is found."),
@@ -56,7 +56,10 @@ void Refraction::reckon(const P& params, const Context& c, Ranges& ranges) {
     ranges.path = {known ? std::max(drop - slack, 0.0) : 0, HUGE_VAL};
     // The ray's own depth where it ends; a texel's where one is looked up.
     const bool of_texel = params.steps == 0 || params.rejection == Rejection::kShorten;
-    if (!of_texel) ranges.hit = {0, HUGE_VAL};
+    const bool continues = Refraction::continues(params, c);
+    if (!of_texel || continues) ranges.hit = {0, HUGE_VAL};
+    // A ray falls a unit in each unit of its way, at most.
+    if (continues) ranges.path.min = std::min(ranges.path.min, c.continuation->least_drop);
   } else {
     const auto bent = [&](double cosine) {
       return cosine / std::max(refracted_cosine(cosine, 1 / c.ior), 0.02);

@@ -27,8 +27,8 @@ void each_way(Fn&& fn) {
       if (model != R::Model::kSnell && steps != 0) continue;
       for (const R::Rejection rejection :
            {R::Rejection::kNone, R::Rejection::kSnap, R::Rejection::kShorten}) {
-        for (const R::OffFrame off :
-             {R::OffFrame::kClamp, R::OffFrame::kShorten, R::OffFrame::kFog}) {
+        for (const R::OffFrame off : {R::OffFrame::kClamp, R::OffFrame::kShorten, R::OffFrame::kFog,
+                                      R::OffFrame::kContinue}) {
           for (const DepthFog::Model fog : fog_models) {
             for (const bool prism : {false, true}) {
               Look look = test::still_look();

@@ -62,7 +62,7 @@ TEST(Shorten, NoForegroundInAnyChannelForAnyNormalAndStrength) {
   for (int seed = 0; seed < 4; ++seed) {
     for (double strength : {0.05, 0.3, 5.0}) {
       for (auto off_frame : {Refraction::OffFrame::kClamp, Refraction::OffFrame::kShorten,
-                             Refraction::OffFrame::kFog}) {
+                             Refraction::OffFrame::kFog, Refraction::OffFrame::kContinue}) {
         Tray tray = checker_tray(1, 100 + 2 * seed);
         tray.look.of<Refraction>().strength = strength;
         tray.look.of<Refraction>().off_frame = off_frame;

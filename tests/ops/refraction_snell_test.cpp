@@ -199,8 +199,8 @@ TEST(Snell, WhatStandsUnderWaterHidesTheBottomAndIsNotSmeared) {
 
 TEST(Snell, OffTheFrameIsInventedAndSaidSo) {
   Basin basin(3, 0);  // so deep that the lowest rows look below the picture
-  for (auto policy :
-       {Refraction::OffFrame::kClamp, Refraction::OffFrame::kShorten, Refraction::OffFrame::kFog}) {
+  for (auto policy : {Refraction::OffFrame::kClamp, Refraction::OffFrame::kShorten,
+                      Refraction::OffFrame::kFog, Refraction::OffFrame::kContinue}) {
     basin.look.of<Refraction>().off_frame = policy;
     const test::Picture got = basin.wet();
     EXPECT_EQ(got.aov(Aov::kConfidence, 32, 47), 0);

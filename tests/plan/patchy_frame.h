@@ -108,7 +108,7 @@ inline Look patchy_look(int seed) {
   Refraction::Params& refraction = look.of<Refraction>();
   refraction.model = static_cast<Refraction::Model>(one_of(3));
   refraction.rejection = static_cast<Refraction::Rejection>(one_of(3));
-  refraction.off_frame = static_cast<Refraction::OffFrame>(one_of(3));
+  refraction.off_frame = static_cast<Refraction::OffFrame>(one_of(4));
   refraction.strength = any() < 0.2 ? 0 : 0.15 * any();
   refraction.steps = one_of(4) - 1;
   DepthFog::Params& fog = look.of<DepthFog>();

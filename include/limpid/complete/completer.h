@@ -2,6 +2,7 @@
 #include <string>
 
 #include "limpid/complete/bottom_albedo.h"
+#include "limpid/complete/continuation.h"
 #include "limpid/complete/displaced_surface.h"
 #include "limpid/complete/mirror_depth.h"
 #include "limpid/complete/part_depths.h"
@@ -18,9 +19,10 @@ namespace limpid {
 
 /// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
 /// the wave map what the plan's waves read where a pixel is wider than a texel; and moves depths to
-/// the part of each pixel that is seen. Once a frame, before its pixels; operators read the result
-/// as they read the plate's planes. The result does not depend on the number of threads. Keeps its
-/// memory from frame to frame.
+/// the part of each pixel that is seen. What rays see that leave the picture is made where the
+/// plan's refraction goes on there, and one does. Once a frame, before its pixels; operators read
+/// the result as they read the plate's planes. The result does not depend on the number of threads.
+/// Keeps its memory from frame to frame.
 class Completer {
  public:
   /// The frame with what was made; its views hold until the next call. `context` is that of the
@@ -34,6 +36,7 @@ class Completer {
   void complete_water(const Plan& plan, PlaneSet made, const Context& context, Executor& executor,
                       Frame& frame);
 
+  ContinuationMaker continuation_maker_;
   DisplacedSurface displaced_surface_;
   PartDepths part_depths_;
   MirrorDepth mirror_depth_;

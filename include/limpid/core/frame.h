@@ -96,6 +96,7 @@ inline constexpr PlaneSet kAlbedoPlanes{PlaneId::kAlbedoR, PlaneId::kAlbedoG, Pl
 inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, PlaneId::kBelowB,
                                        PlaneId::kBelowDepth};
 
+struct Continuation;
 struct ScatteredLight;
 struct SlopeLevels;
 struct TextureLevels;
@@ -140,6 +141,8 @@ struct Frame {
   /// The mean radiance of the environment above, by the cosine with the water's up, where it is
   /// asked for.
   std::optional<Rgb<double>> sky_radiance;
+  /// Of the bottom beyond the picture; null, or made by complete/.
+  const Continuation* continuation = nullptr;
 
   const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
   PlaneSet present() const;

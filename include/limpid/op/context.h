@@ -91,6 +91,7 @@ struct Context {
   /// Of what a march of refraction may look up, where a runner has made it (complete/heights.h). It
   /// saves looks and changes no result.
   HeightBound heights = {};
+  const Continuation* continuation;  ///< of the bottom beyond the picture, or null
 
   /// Depth after projection, 0 at the near plane, 1 at the far plane or at infinity.
   template <class F>

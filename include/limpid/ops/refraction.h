@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include "limpid/op/bottom_search.h"
+#include "limpid/op/continuation.h"
 #include "limpid/op/operator.h"
 #include "limpid/op/screen_ray.h"
 #include "limpid/op/valid_lookup.h"
@@ -50,7 +51,11 @@ namespace limpid {
 ///
 /// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
-/// end, faded in over a twentieth of the picture.
+/// end, faded in over a twentieth of the picture. `continue` draws the picture on, for snell's rays
+/// from the air: the bottom goes on as a plane, which the ray meets; what the edge shows goes on
+/// along the lines of the bottom, in their perspective, and fades into the color of the bottom near
+/// there (op/continuation.h). Where frames have no such plane, and with other models, it is
+/// `shorten`.
 ///
 /// `confidence` is the share of the lookup that is real: 0 for what was rejected or is off frame,
 /// and where nothing is there. `path` is the refracted way through the water: with snell the ray's
@@ -58,14 +63,14 @@ namespace limpid {
 struct Refraction {
   enum class Model { kNormalOffset, kDudvOffset, kSnell };
   enum class Rejection { kNone, kSnap, kShorten };
-  enum class OffFrame { kClamp, kShorten, kFog };
+  enum class OffFrame { kClamp, kShorten, kFog, kContinue };
   static constexpr int kMarch = -1;  ///< a value of steps
   struct Params {
     Model model = Model::kSnell;
     double strength = 0.03;
     Rejection rejection = Rejection::kShorten;
     int steps = kMarch;
-    OffFrame off_frame = OffFrame::kShorten;
+    OffFrame off_frame = OffFrame::kContinue;
   };
 
   static constexpr std::string_view kName = "refraction";
@@ -145,6 +150,17 @@ struct Refraction {
       if (params.model != Model::kSnell) measure_path(c, p);
       if (params.off_frame == OffFrame::kFog) fog_off_frame(planes.bounds, p);
     });
+    if (!continues(params, c)) return;
+    strip.probe([&](Pixel<F>& p, const auto& tap) {
+      // Nothing off the frame is sure.
+      if (any(p.confidence <= F(0))) go_on_off_frame(c, planes, p, tap);
+    });
+  }
+
+  /// Whether rays that leave the picture see what Context::continuation has.
+  static bool continues(const Params& params, const Context& c) {
+    return params.off_frame == OffFrame::kContinue && params.model == Model::kSnell &&
+           c.continuation;
   }
 
  private:
@@ -235,7 +251,8 @@ struct Refraction {
     const auto shortened = [&](Vec2<F> shift) {
       return min(reach_in(bounds, p.uv, shift), F(1)) * shift;
     };
-    if (params.off_frame == OffFrame::kShorten) p.shift = shortened(p.shift);
+    const bool shortens = params.off_frame == OffFrame::kShorten;
+    if (shortens || params.off_frame == OffFrame::kContinue) p.shift = shortened(p.shift);
     p.shift_r = shortened(p.shift_r);
     p.shift_g = shortened(p.shift_g);
     p.shift_b = shortened(p.shift_b);
@@ -249,6 +266,28 @@ struct Refraction {
     const F kept = saturate(F(1) - F(20) * over);
     p.transmitted = kept * p.transmitted;
     p.path = select(kept > F(0), p.path / max(kept, F(1e-30)), F(HUGE_VAL));
+  }
+
+  /// In place of what was made up: the way of these rays is still that to where they would end by
+  /// what the picture shows.
+  template <class F, class Tap>
+  [[gnu::noinline]] static void go_on_off_frame(const Context& c, const Planes& planes, Pixel<F>& p,
+                                                const Tap& tap) {
+    const Bent<F> bent = bend(c, p, F(c.ior));
+    const ScreenRay<F> ray(c, p, bent.direction);
+    const auto ends = bent.goes > F(0.5) && p.side > F(0) && p.path < F(1e20);
+    const auto off =
+        ends && p.confidence <= F(0) && reach_in(planes.bounds, p.uv, ray.shift_at(p.path)) < F(1);
+    if (!any(off)) return;
+    const BeyondPicture<F, Tap> beyond(c, planes, p, tap, ray, bent.direction, bent.fall);
+    const auto seen = beyond.look(select(off, p.path, F(1)));
+    p.path = select(off, seen.way, p.path);
+    p.hit_depth = select(off, ray.depth_at(seen.way), p.hit_depth);
+    p.transmitted = select(off, seen.color, p.transmitted);
+    p.shift = select(off, seen.shift, p.shift);
+    p.shift_r = select(off, seen.shift, p.shift_r);
+    p.shift_g = select(off, seen.shift, p.shift_g);
+    p.shift_b = select(off, seen.shift, p.shift_b);
   }
 
   // --- what is seen there -----------------------------------------------------------------------

@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "limpid/complete/bottom_plane.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/plane.h"
+#include "limpid/op/context.h"
+#include "limpid/op/continuation.h"
+
+namespace limpid {
+
+/// Makes what rays see that leave the picture under the water. Looks at a few thousand texels of
+/// what refraction looks up, on its edges most.
+class ContinuationMaker {
+ public:
+  /// Null, for which nothing but the plane of the bottom was looked for, where no ray of the
+  /// water leaves the picture. Valid until the next call.
+  const Continuation* make(const Frame& frame, const Context& context);
+
+ private:
+  void paint_edge(const Frame& frame, const Context& context);
+
+  Continuation continuation_;
+  Plane colors_[3];
+  std::vector<Rgb<float>> near_;  ///< room for texels near a place of the edge
+};
+
+}  // namespace limpid

@@ -1,0 +1,164 @@
+#pragma once
+#include "limpid/op/bottom_search.h"
+
+/// @file
+/// What a ray sees under the water that leaves the picture.
+
+namespace limpid {
+
+/// The bottom beyond the picture: a plane, and what it looks like there. Made by complete/ for
+/// frames in which a ray leaves the picture.
+struct Continuation {
+  glm::dvec3 normal;  ///< of the plane, unit, towards the water
+  double offset;      ///< dot(normal, p) of its points p, which are relative to the eye
+  /// Unit, on the plane: along it the bottom changes least, as along the lines of a pool. What the
+  /// edge of the picture shows goes on in this direction.
+  glm::dvec3 along;
+  double least_drop;  ///< below the calm surface, in scene units: no ray ends higher
+  double lift;        ///< what is seen at the edge is of the bottom up to this far off the plane
+  /// The share of what goes on from the edge is e^(-fade pixels), that of the bottom's depth there
+  /// e^(-settle pixels), by how many pixels beyond the edge a ray ends.
+  double fade, settle;
+  /// What the rest is of: the colors near the edge, in one row round the picture from its upper
+  /// left corner, to the right, down, to the left and up, a quarter of the row for each side.
+  Texture colors;
+};
+
+/// The ray of one pixel, or of one vector of pixels, beyond the picture. `falls` as in a
+/// BottomSearch, `direction` that of `way`.
+template <class F, class Tap>
+class BeyondPicture {
+ public:
+  struct Seen {
+    F way;          ///< along the ray
+    Vec2<F> shift;  ///< of the place at the edge that stands for its end
+    Rgb<F> color;
+  };
+
+  BeyondPicture(const Context& context, const SeenPlanes& seen, const Pixel<F>& pixel,
+                const Tap& taps, const ScreenRay<F>& way, Vec3<F> direction, F falls)
+      : c_(context),
+        on_(*context.continuation),
+        planes_(seen),
+        p_(pixel),
+        tap_(taps),
+        ray_(way),
+        direction_(direction),
+        fall_(falls) {}
+
+  /// `guess` is the way to where the ray would end by what is seen in the picture.
+  Seen look(F guess) const {
+    const F calm = way_to_plane(F(0), guess);
+    const F share = exp(F(-on_.settle) * pixels_beyond(ray_.shift_at(calm)));
+    const F way = way_to_plane(share * lift_at_edge(guess), guess);
+    const Vec2<F> end = ray_.shift_at(way), at = along_to_edge(end);
+    const F gone = length_on_screen(at - end);
+    const Texels texels = texels_at(at);
+    const F kept = texels.share * exp(F(-on_.fade) * gone);
+    const Rgb<F> far = tap_.lat_long_rgb(on_.colors, {round_edge(at), F(0.5)});
+    return {way, at, far + kept * (texels.color - far)};
+  }
+
+ private:
+  /// In pixels, at most a million.
+  F length_on_screen(Vec2<F> shift) const {
+    const F x = F(c_.size.x) * shift.x, y = F(c_.size.y) * shift.y;
+    return min(sqrt(x * x + y * y), F(1e6));
+  }
+  Vec2<F> kept_in(Vec2<F> shift) const {
+    const Bounds& b = planes_.bounds;
+    return {min(max(shift.x, F(b.low.x) - p_.uv.x), F(b.high.x) - p_.uv.x),
+            min(max(shift.y, F(b.low.y) - p_.uv.y), F(b.high.y) - p_.uv.y)};
+  }
+  F pixels_beyond(Vec2<F> shift) const { return length_on_screen(shift - kept_in(shift)); }
+
+  /// To the plane `lift` higher; never above Continuation::least_drop, and by the guess where the
+  /// ray hardly nears the plane.
+  F way_to_plane(F lift, F guess) const {
+    const Vec3<F> normal = vec3_of<F>(on_.normal);
+    const F nears = F(0) - dot(normal, direction_);
+    const F over = dot(normal, p_.surface_point) - F(on_.offset) - lift;
+    const F way = select(nears > F(0.02), over / max(nears, F(0.02)), guess);
+    return max(way, F(on_.least_drop) / fall_);
+  }
+
+  /// How far over the plane the bottom lies that is seen where the ray leaves the picture; 0 where
+  /// that is no bottom.
+  F lift_at_edge(F guess) const {
+    const Vec2<F> end = ray_.shift_at(guess);
+    const Vec2<F> edge = min(reach_in(planes_.bounds, p_.uv, end), F(1)) * end;
+    const F depth = tap_.nearest(planes_.depth, edge);
+    const Vec3<F> there = p_.surface_point + way_to(c_, p_, edge, depth);
+    const F lift = dot(vec3_of<F>(on_.normal), there) - F(on_.offset);
+    const auto bottom = depth < F(1e30) && abs(lift) < F(on_.lift);
+    return select(bottom, lift, F(0));
+  }
+
+  /// Where the line along the bottom that ends with the ray enters the picture.
+  Vec2<F> along_to_edge(Vec2<F> end) const {
+    const F step = F(c_.w_depth * dot_of(c_.forward, on_.along));
+    const Vec2<F> across{F(dot_of(c_.to_u, on_.along)) - (p_.uv.x + end.x) * step,
+                         F(dot_of(c_.to_v, on_.along)) - (p_.uv.y + end.y) * step};
+    const Vec2<F> lacks = kept_in(end) - end;
+    const auto times = [](F lack, F pace) {
+      return select(abs(pace) > F(1e-12), lack / select(abs(pace) > F(1e-12), pace, F(1)), F(0));
+    };
+    const F x = times(lacks.x, across.x), y = times(lacks.y, across.y);
+    const auto one_way = x * y >= F(0);
+    const F main = select(abs(lacks.x) * F(c_.size.x) > abs(lacks.y) * F(c_.size.y), x, y);
+    const F both = select(abs(x) > abs(y), x, y);
+    const F by = select(one_way, both, main);
+    // A line that is nearly parallel to the edge would come from anywhere.
+    const F far = max(abs(by * across.x), abs(by * across.y));
+    const F near = saturate(F(2) - far) * select(by * step < F(0.98), F(1), F(0));
+    return kept_in(end + select(near > F(0), near * by, F(0)) * across);
+  }
+
+  struct Texels {
+    Rgb<F> color;
+    F share;  ///< of them that show what lies under the water
+  };
+  Texels texels_at(Vec2<F> shift) const {
+    const auto quad = tap_.quad(shift);
+    const Four<F> depths = tap_.read(planes_.depth, quad);
+    const Four<F> red = tap_.read(planes_.color, quad);
+    const Four<F> green = tap_.read(plane_after(planes_.color, 1), quad);
+    const Four<F> blue = tap_.read(plane_after(planes_.color, 2), quad);
+    Texels sum{{F(0), F(0), F(0)}, F(0)};
+    for (int k = 0; k < 4; ++k) {
+      const F height = height_at(c_, p_, tap_.place(planes_.depth, quad, k), depths[k]);
+      const auto wet = height < F(0) && depths[k] < F(1e30);
+      const F weight = select(wet, quad.weight(k), F(0));
+      sum.color = sum.color + weight * Rgb<F>{red[k], green[k], blue[k]};
+      sum.share = sum.share + weight;
+    }
+    sum.color = (F(1) / max(sum.share, F(1e-6))) * sum.color;
+    return sum;
+  }
+
+  /// Where a place is in Continuation::colors.
+  F round_edge(Vec2<F> shift) const {
+    const Bounds& b = planes_.bounds;
+    const F x = saturate((p_.uv.x + shift.x - F(b.low.x)) / F(std::max(b.high.x - b.low.x, 1e-9)));
+    const F y = saturate((p_.uv.y + shift.y - F(b.low.y)) / F(std::max(b.high.y - b.low.y, 1e-9)));
+    const F left = x, right = F(1) - x, top = y, bottom = F(1) - y;
+    const F beside = select(left < right, F(0.75) + F(0.25) * bottom, F(0.25) + F(0.25) * top);
+    const F over = select(top < bottom, F(0.25) * left, F(0.5) + F(0.25) * right);
+    return select(min(left, right) < min(top, bottom), beside, over);
+  }
+
+  static double dot_of(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+
+  const Context& c_;
+  const Continuation& on_;
+  const SeenPlanes& planes_;
+  const Pixel<F>& p_;
+  const Tap& tap_;
+  const ScreenRay<F>& ray_;
+  Vec3<F> direction_;
+  F fall_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,265 @@
+#include "limpid/complete/continuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include "limpid/ops/look.h"
+
+#include "complete/row_heights.h"
+#include "complete/sides_beyond.h"
+
+namespace limpid {
+namespace {
+
+constexpr int kEdgeStep = 4;  ///< so many pixels of an edge apart water is asked where one looks
+constexpr int kColors = 64;   ///< round the edge
+/// How far along the edge, and how far from it, texels count for a color: in widths and heights of
+/// the picture.
+constexpr double kAlong = 0.15, kDeep = 0.125;
+constexpr int kTexelsAlong = 16, kTexelsDeep = 8;
+/// How near to an edge lines are looked for, in heights of the picture, and at how many texels.
+constexpr double kLinesDeep = 1.0 / 3;
+constexpr double kLongest = 64;  ///< pixels between which a change is looked at
+constexpr int kLineSamples = 12288;
+/// The direction of the view counts as much as lines that are this share of all that is seen.
+constexpr double kViewCounts = 0.05;
+/// Slopes at less than this cosine from the steepest change say where it is, so many times over.
+constexpr double kNear = 0.8;
+constexpr int kRefinements = 4;
+/// What goes on from the edge is as long, in pixels, as the height of the picture by this.
+constexpr double kFade = 24, kSettle = 24;
+
+float luminance(const Rgb<float>& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+/// What refraction looks up, in the places at which it is the bottom.
+struct Bottom {
+  const Context& c;
+  std::array<View<const float>, 3> color;
+  const View<const float>& depth;
+  Rect window;
+
+  Bottom(const Frame& frame, const Context& context)
+      : c(context), depth(frame.plane(Refraction::planes_of(context).depth)) {
+    const PlaneId red = Refraction::planes_of(context).color;
+    for (int i = 0; i < 3; ++i)
+      color[static_cast<std::size_t>(i)] = frame.plane(plane_after(red, i));
+    window = intersection(color[0].window, depth.window);
+  }
+  Rgb<float> color_at(int x, int y) const {
+    return {color[0].at(x, y), color[1].at(x, y), color[2].at(x, y)};
+  }
+  bool wet(int x, int y) const {
+    const double z = depth.at(x, y);
+    return z < 1e30 && RowHeights(c, y).at(x, z) < 0;
+  }
+  bool on(const BottomPlane& plane, int x, int y) const {
+    if (!window.contains({x, y, x + 1, y + 1})) return false;
+    const double z = depth.at(x, y);
+    if (!(z < 1e30)) return false;
+    const RowHeights heights(c, y);
+    return std::abs(heights.at(x, z) - heights.at(x, plane.depth_on(c, x, y))) < plane.slack;
+  }
+  glm::dvec2 level_at(const BottomPlane& plane, int x, int y) const {
+    const double column = x + 0.5 - c.corner.x, row = y + 0.5 - c.corner.y;
+    const glm::dvec3 p =
+        c.rays.origin_at(column, row) + plane.depth_on(c, x, y) * c.rays.ray_at(column, row);
+    return {glm::dot(c.t, p), glm::dot(c.b, p)};
+  }
+};
+
+/// Relative change of brightness a scene unit along Context::t and ::b, around a texel of the
+/// bottom; nothing at its end. Both over the same length, that of the longer side of the texel, for
+/// texels seen at a grazing angle blur what lies along the view.
+std::optional<glm::dvec2> slope_at(const Bottom& bottom, const BottomPlane& plane, int x, int y) {
+  const glm::dvec2 at = bottom.level_at(plane, x, y);
+  const glm::dmat2 steps(bottom.level_at(plane, x + 1, y) - at,
+                         bottom.level_at(plane, x, y + 1) - at);
+  const double length = std::max(glm::length(steps[0]), glm::length(steps[1]));
+  const glm::dmat2 pixels = length * glm::inverse(steps);
+  if (!(std::abs(pixels[0].x) + std::abs(pixels[0].y) + std::abs(pixels[1].x) +
+            std::abs(pixels[1].y) <
+        kLongest)) {
+    return {};
+  }
+  const auto change = [&](const glm::dvec2& by) -> std::optional<double> {
+    const int dx = static_cast<int>(std::lround(by.x)), dy = static_cast<int>(std::lround(by.y));
+    if (!bottom.on(plane, x + dx, y + dy) || !bottom.on(plane, x - dx, y - dy)) return {};
+    const double after = luminance(bottom.color_at(x + dx, y + dy));
+    const double before = luminance(bottom.color_at(x - dx, y - dy));
+    return (after - before) / std::max(std::abs(after) + std::abs(before), 1e-6);
+  };
+  const auto along = change(pixels[0]), away = change(pixels[1]);
+  if (!along || !away) return {};
+  return glm::dvec2(*along, *away) / length;
+}
+
+/// At places without an order, for lines may have one.
+std::vector<glm::dvec2> slopes_near_edge(const Bottom& bottom, const BottomPlane& plane,
+                                         const Beyond& beyond) {
+  const Rect& w = bottom.window;
+  const int deep = std::max(2, static_cast<int>(kLinesDeep * w.height()));
+  std::vector<glm::dvec2> slopes;
+  if (w.width() < 3 || w.height() < 3) return slopes;
+  std::uint32_t state = 1;  // the same places for the same frame
+  const auto any = [&](int begin, int end) {
+    state = 1664525u * state + 1013904223u;
+    return begin +
+           static_cast<int>(std::uint64_t{state} * static_cast<unsigned>(end - begin) >> 32);
+  };
+  for (int i = 0; i < kLineSamples; ++i) {
+    const int x = any(w.x0 + 1, w.x1 - 1), y = any(w.y0 + 1, w.y1 - 1);
+    const bool near =
+        (beyond.left > 0 && x < w.x0 + deep) || (beyond.right > 0 && x >= w.x1 - deep) ||
+        (beyond.top > 0 && y < w.y0 + deep) || (beyond.bottom > 0 && y >= w.y1 - deep);
+    if (!near) continue;
+    if (const auto slope = slope_at(bottom, plane, x, y)) slopes.push_back(*slope);
+  }
+  return slopes;
+}
+
+/// The direction in which a bottom changes least, along Context::t and ::b, and by how much less
+/// than across it: 0 ... 1.
+struct Lines {
+  glm::dvec2 direction;
+  double coherence;
+};
+
+struct Tensor {
+  double differs, together, all;  ///< along t less along b; both; the sum of both
+};
+
+/// Of the slopes that `counts`.
+template <class Counts>
+Tensor tensor_of(const std::vector<glm::dvec2>& slopes, Counts&& counts) {
+  Sym2<double> sum{0, 0, 0};
+  for (const glm::dvec2& s : slopes) {
+    if (counts(s)) sum = sum + Sym2<double>{s.x * s.x, s.x * s.y, s.y * s.y};
+  }
+  return {sum.xx - sum.yy, 2 * sum.xy, std::max(sum.xx + sum.yy, 1e-12)};
+}
+
+/// By the structure tensor (Bigun & Granlund 1987, "Optimal Orientation Detection of Linear
+/// Symmetry"), then by that of slopes alone which run across the lines found; away from the viewer
+/// where there are no lines.
+Lines lines_of(const std::vector<glm::dvec2>& slopes) {
+  const Tensor whole = tensor_of(slopes, [](const glm::dvec2&) { return true; });
+  const double coherence = std::min(std::hypot(whole.differs, whole.together) / whole.all, 1.0);
+  // Twice the angle of the steepest change, and of one across the view.
+  double across = 0.5 * std::atan2(whole.together, whole.differs + kViewCounts * whole.all);
+  for (int i = 0; i < kRefinements; ++i) {
+    const glm::dvec2 steepest(std::cos(across), std::sin(across));
+    const Tensor near = tensor_of(slopes, [&](const glm::dvec2& s) {
+      const double along = glm::dot(s, steepest);
+      return along * along > kNear * kNear * glm::dot(s, s);
+    });
+    across = 0.5 * std::atan2(near.together, near.differs + kViewCounts * near.all);
+  }
+  return {{-std::sin(across), std::cos(across)}, coherence};
+}
+
+/// The mean of the middle 40 % by brightness: posts and shadows pull at no color.
+Rgb<float> robust_mean(std::vector<Rgb<float>>& colors) {
+  std::sort(colors.begin(), colors.end(),
+            [](const Rgb<float>& a, const Rgb<float>& b) { return luminance(a) < luminance(b); });
+  const std::size_t begin = 3 * colors.size() / 10;
+  const std::size_t end = std::max(begin + 1, 7 * colors.size() / 10);
+  Rgb<float> sum{0, 0, 0};
+  for (std::size_t i = begin; i < end; ++i) sum = sum + colors[i];
+  return (1 / static_cast<float>(end - begin)) * sum;
+}
+
+/// The place on the edge of a window, in shares of it, and inwards from there.
+struct EdgePlace {
+  glm::dvec2 at, along, inwards;
+};
+EdgePlace place_on_edge(double share) {
+  const double t = 4 * share, u = t - std::floor(t);
+  if (t < 1) return {{u, 0}, {1, 0}, {0, 1}};
+  if (t < 2) return {{1, u}, {0, 1}, {-1, 0}};
+  if (t < 3) return {{1 - u, 1}, {1, 0}, {0, -1}};
+  return {{0, 1 - u}, {0, 1}, {1, 0}};
+}
+
+/// Texels under the water near a place of the edge.
+void gather_near(const Bottom& bottom, const EdgePlace& edge, std::vector<Rgb<float>>& colors) {
+  const Rect& w = bottom.window;
+  colors.clear();
+  for (int i = 0; i < kTexelsAlong; ++i) {
+    for (int j = 0; j < kTexelsDeep; ++j) {
+      const double along = kAlong * (2.0 * (i + 0.5) / kTexelsAlong - 1);
+      const double deep = kDeep * (j + 0.5) / kTexelsDeep;
+      const glm::dvec2 at = edge.at + along * edge.along + deep * edge.inwards;
+      if (!(at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1)) continue;
+      const int x = std::min(w.x0 + static_cast<int>(at.x * w.width()), w.x1 - 1);
+      const int y = std::min(w.y0 + static_cast<int>(at.y * w.height()), w.y1 - 1);
+      if (bottom.wet(x, y)) colors.push_back(bottom.color_at(x, y));
+    }
+  }
+}
+
+/// Colors that are not known become those of the nearest place round the edge that is.
+void close_gaps(std::array<View<float>, 3> colors, const std::array<bool, kColors>& known) {
+  for (int i = 0; i < kColors; ++i) {
+    if (known[static_cast<std::size_t>(i)]) continue;
+    for (int off = 1; off <= kColors / 2; ++off) {
+      const int after = (i + off) % kColors, before = (i + kColors - off) % kColors;
+      const bool is_after = known[static_cast<std::size_t>(after)];
+      if (!is_after && !known[static_cast<std::size_t>(before)]) continue;
+      for (const View<float>& channel : colors) {
+        channel.at(i, 0) = channel.at(is_after ? after : before, 0);
+      }
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void ContinuationMaker::paint_edge(const Frame& frame, const Context& context) {
+  const Bottom bottom(frame, context);
+  std::array<View<float>, 3> to;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!colors_[i]) colors_[i] = Plane({0, 0, kColors, 1});
+    to[i] = colors_[i].view();
+    continuation_.colors.channels[i] = to[i];
+  }
+  std::array<bool, kColors> known{};
+  for (int i = 0; i < kColors; ++i) {
+    gather_near(bottom, place_on_edge((i + 0.5) / kColors), near_);
+    known[static_cast<std::size_t>(i)] = !near_.empty();
+    const Rgb<float> color = near_.empty() ? Rgb<float>{0, 0, 0} : robust_mean(near_);
+    to[0].at(i, 0) = color.r;
+    to[1].at(i, 0) = color.g;
+    to[2].at(i, 0) = color.b;
+  }
+  close_gaps(to, known);
+}
+
+const Continuation* ContinuationMaker::make(const Frame& frame, const Context& c) {
+  const auto plane = fit_bottom(frame, c);
+  if (!plane) return nullptr;
+  const Beyond beyond = sides_beyond(*plane, frame, c, kEdgeStep);
+  if (!beyond.any()) return nullptr;
+  const Lines lines = lines_of(slopes_near_edge(Bottom(frame, c), *plane, beyond));
+  const glm::dvec3 level = lines.direction.x * c.t + lines.direction.y * c.b;
+  const double rise = -glm::dot(plane->normal, level) / glm::dot(plane->normal, c.up);
+  continuation_.normal = plane->normal;
+  continuation_.offset = plane->offset;
+  continuation_.along = glm::normalize(level + rise * c.up);
+  continuation_.least_drop = 0.5 * plane->shallow;
+  continuation_.lift = 0.25 * plane->drop;
+  // Sand and gravel have some lines, too, by chance.
+  const double clear = saturate((lines.coherence - 0.15) / 0.35), loose = 1 - 0.9 * clear;
+  continuation_.fade = loose * loose * kFade / c.size.y;
+  continuation_.settle = kSettle / c.size.y;
+  paint_edge(frame, c);
+  return &continuation_;
+}
+
+}  // namespace limpid

@@ -1,0 +1,166 @@
+#include "limpid/complete/continuation.h"
+
+#include <gmock/gmock.h>
+
+#include "complete/pool.h"
+
+// What is seen of a bottom that goes on beyond the picture.
+
+namespace limpid {
+namespace {
+
+using test::Pool;
+
+/// Stripes along a level direction, a metre wide each.
+auto lanes(double turn) {
+  return [=](double x, double z) {
+    const double across = std::cos(turn) * x - std::sin(turn) * z;
+    return std::abs(across - std::floor(across) - 0.5) < 0.2 ? 0.2 : 0.8;
+  };
+}
+
+Look going_on(bool goes_on) {
+  Look look = test::still_look();
+  Refraction::Params& refraction = look.of<Refraction>();
+  refraction = {};
+  look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
+  if (!goes_on) refraction.off_frame = Refraction::OffFrame::kShorten;
+  return look;
+}
+
+const Continuation* made(ContinuationMaker& maker, const Pool& pool) {
+  return maker.make(pool.buffers.frame, pool.context());
+}
+
+TEST(Continuation, FollowsTheLinesOfTheBottom) {
+  for (const double turn : {-0.5, 0.0, 0.3}) {
+    Pool pool;
+    pool.draw(lanes(turn));
+    ContinuationMaker maker;
+    const Continuation* on = made(maker, pool);
+    ASSERT_TRUE(on) << turn;
+    const glm::dvec3 expected =
+        glm::normalize(glm::dvec3(-std::sin(turn), -pool.rise * std::cos(turn), -std::cos(turn)));
+    EXPECT_GT(std::abs(glm::dot(on->along, expected)), 0.99) << turn;
+  }
+}
+
+TEST(Continuation, ItsColorIsThatOfMostOfTheBottomNearTheEdge) {
+  Pool pool;
+  pool.draw([](double x, double z) {
+    const bool post = std::abs(x) < 0.1 || std::sin(9 * z) > 0.9;
+    return post ? 40.0 : x < 0 ? 0.2 : 0.6;
+  });
+  ContinuationMaker maker;
+  const Continuation* on = made(maker, pool);
+  ASSERT_TRUE(on);
+  // The lower side runs from right to left.
+  const View<const float>& red = on->colors.channels[0];
+  EXPECT_NEAR(red.at(36, 0), 0.6, 0.01);
+  EXPECT_NEAR(red.at(44, 0), 0.2, 0.01);
+}
+
+TEST(Continuation, IsNotMadeWhereNothingLooksBeyondThePicture) {
+  Pool pool;
+  pool.window.y1 += 60;
+  pool.draw(lanes(0));
+  ContinuationMaker maker;
+  EXPECT_FALSE(made(maker, pool));
+}
+
+/// Mean error of what is transmitted, against the bottom as it is, where rays leave the picture.
+double error_beyond(const test::Picture& got, const Pool& pool, double turn) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < Pool::kSize.height; ++y) {
+    for (int x = 0; x < Pool::kSize.width; ++x) {
+      if (!(pool.ray(x, y).y < -0.05) || !pool.leaves(x, y)) continue;
+      const glm::dvec3 at = pool.end(x, y).at;
+      sum += std::abs(got.aov(Aov::kTransmitted, x, y) - lanes(turn)(at.x, at.z));
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 300);
+  return sum / count;
+}
+
+TEST(Continuation, LinesGoOnInTheirPerspective) {
+  for (const double turn : {0.0, 0.3}) {
+    Pool pool;
+    pool.draw(lanes(turn));
+    const test::Picture on = test::reference(going_on(true), pool.buffers.frame, pool.scene);
+    const test::Picture columns = test::reference(going_on(false), pool.buffers.frame, pool.scene);
+    EXPECT_LT(error_beyond(on, pool, turn), 0.6 * error_beyond(columns, pool, turn)) << turn;
+  }
+}
+
+TEST(Continuation, WaysEndOnThePlane) {
+  Pool pool;
+  pool.draw(lanes(0));
+  const test::Picture on = test::reference(going_on(true), pool.buffers.frame, pool.scene);
+  for (const int x : {3, 40, 90}) {
+    ASSERT_TRUE(pool.leaves(x, Pool::kSize.height - 1));
+    EXPECT_NEAR(on.aov(Aov::kPath, x, Pool::kSize.height - 1),
+                pool.end(x, Pool::kSize.height - 1).way, 1e-3);
+    EXPECT_EQ(on.aov(Aov::kConfidence, x, Pool::kSize.height - 1), 0);
+  }
+}
+
+TEST(Continuation, PixelsThatLookIntoThePictureDoNotChange) {
+  Pool pool;
+  pool.draw(lanes(0.3));
+  const test::Picture on = test::fused(going_on(true), pool.buffers.frame, pool.scene);
+  const test::Picture columns = test::fused(going_on(false), pool.buffers.frame, pool.scene);
+  int changed = 0;
+  for (int y = 0; y < Pool::kSize.height; ++y) {
+    for (int x = 0; x < Pool::kSize.width; ++x) {
+      const bool same = on.color(x, y) == columns.color(x, y);
+      changed += !same;
+      EXPECT_TRUE(same || columns.aov(Aov::kConfidence, x, y) == 0) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(changed, 300);
+}
+
+TEST(Continuation, BothRunnersSeeTheSame) {
+  Pool pool;
+  pool.draw(lanes(0.3));
+  const test::Picture judge = test::reference(going_on(true), pool.buffers.frame, pool.scene);
+  const test::Picture got = test::fused(going_on(true), pool.buffers.frame, pool.scene, {}, 2);
+  int far = 0;
+  for (int y = 0; y < Pool::kSize.height; ++y) {
+    for (int x = 0; x < Pool::kSize.width; ++x) {
+      far += std::abs(judge.color(x, y).r - got.color(x, y).r) > 1e-3;
+    }
+  }
+  EXPECT_LT(far, 5);
+}
+
+/// What stands before the water at the edge of the picture is none of the bottom.
+TEST(Continuation, WhatStandsAtTheEdgeIsNotDrawnOn) {
+  Pool pool;
+  pool.draw(lanes(0));
+  const auto post = [](int x, int y) { return x > 40 && x < 50 && y > 50; };
+  for (int c = 0; c < 3; ++c) {
+    const View<const float> dry = pool.buffers.frame.plane(plane_after(PlaneId::kColorR, c));
+    test::Buffers with(rect_of(Pool::kSize));
+    with.set(plane_after(PlaneId::kColorR, c),
+             [&](int x, int y) { return post(x, y) ? 1e3f : dry.at(x, y); });
+    pool.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+      return with.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+    });
+  }
+  pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return post(x, y) ? 1.0f : static_cast<float>(pool.dry_depth(x, y));
+  });
+  const test::Picture on = test::reference(going_on(true), pool.buffers.frame, pool.scene);
+  for (int y = 40; y < Pool::kSize.height; ++y) {
+    for (int x = 0; x < Pool::kSize.width; ++x) {
+      if (post(x, y) || on.aov(Aov::kConfidence, x, y) > 0) continue;
+      EXPECT_LT(on.aov(Aov::kTransmitted, x, y), 1) << x << ", " << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace limpid
