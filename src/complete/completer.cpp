@@ -20,6 +20,9 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& c
                           Executor& executor, const std::string* simd) {
   Frame whole = frame;
   if (context.off_centre != glm::dvec2(0, 0)) part_depths_.move(whole, context, executor);
+  if (plan.planes.covers(kBelowPlanes) && frame.present().covers(kBelowPlanes)) {
+    below_overscan_.widen(whole, context, executor);
+  }
   // What a completer is to make of a plane that is there is a mended one.
   const auto made_by = [&](std::string_view name) {
     for (const CompleterInfo& completer : completers()) {

@@ -273,6 +273,25 @@ TEST(Snell, OverscanOfColorAndDepthCountsWhateverOtherPlanesHave) {
   }
 }
 
+/// Of a layer below the water, too, which was rendered for the picture alone.
+TEST(Snell, OverscanGoesOnWhereTheLayerBelowEnds) {
+  Basin basin = wide_basin();
+  for (int c = 0; c < 3; ++c) {
+    basin.buffers.set(plane_after(PlaneId::kBelowR, c),
+                      [](int x, int y) { return float(x + 100 * y); });
+  }
+  const View<const float> depth = basin.buffers.frame.plane(PlaneId::kDepth);
+  basin.buffers.set(PlaneId::kBelowDepth, [&](int x, int y) { return depth.at(x, y); });
+  const Basin::Hit expected = basin.hit(32, 47, 3, 0);
+  ASSERT_LT(expected.uv.y, 0);
+  const test::Picture judge = basin.wet();
+  const test::Picture fast = test::fused(basin.look, basin.buffers.frame, basin.scene);
+  for (const test::Picture* got : {&judge, &fast}) {
+    EXPECT_EQ(got->aov(Aov::kConfidence, 32, 47), 1);
+    EXPECT_NEAR(got->aov(Aov::kStmapG, 32, 47, 1), expected.uv.y, 2e-3);
+  }
+}
+
 // --- dispersion ---------------------------------------------------------------------------------
 
 TEST(Dispersion, ChannelsGoWhereTheirIndexSendsThem) {

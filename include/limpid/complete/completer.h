@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "limpid/complete/below_overscan.h"
 #include "limpid/complete/bottom_albedo.h"
 #include "limpid/complete/continuation.h"
 #include "limpid/complete/displaced_surface.h"
@@ -20,7 +21,8 @@ namespace limpid {
 /// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
 /// the wave map what the plan's waves read where a pixel is wider than a texel; and moves depths to
 /// the part of each pixel that is seen. What rays see that leave the picture is made where the
-/// plan's refraction goes on there, and one does. Once a frame, before its pixels; operators read
+/// plan's refraction goes on there, and one does; and a layer below the water goes as far as color
+/// and depth. Once a frame, before its pixels; operators read
 /// the result as they read the plate's planes. The result does not depend on the number of threads.
 /// Keeps its memory from frame to frame.
 class Completer {
@@ -36,6 +38,7 @@ class Completer {
   void complete_water(const Plan& plan, PlaneSet made, const Context& context, Executor& executor,
                       Frame& frame);
 
+  BelowOverscan below_overscan_;
   ContinuationMaker continuation_maker_;
   DisplacedSurface displaced_surface_;
   PartDepths part_depths_;
