@@ -44,6 +44,19 @@ void expect_samples(const OutputChoice& choice) {
   }
 }
 
+void expect_overscan(const OutputChoice& choice) {
+  if (choice.overscan >= 0 && choice.overscan <= OutputChoice::kMostOverscan) return;
+  throw Error("overscan = " + std::to_string(choice.overscan) + ": expected 0 ... " +
+                  std::to_string(OutputChoice::kMostOverscan) + " (pixels)",
+              Fault::kUsage);
+}
+
+View<const float> cropped(View<const float> view, const Rect& to) {
+  view.data = &view.at(to.x0, to.y0);
+  view.window = to;
+  return view;
+}
+
 }  // namespace
 
 std::vector<Aov> computed_aovs(const OutputChoice& choice) {
@@ -54,6 +67,7 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice) {
 
 void expect_writable(const OutputChoice& choice) {
   expect_samples(choice);
+  expect_overscan(choice);
   expect_each_once(choice.aovs);
   expect_writable(choice.picture);
   if (!choice.deep.empty()) expect_writable(choice.deep);
@@ -193,8 +207,9 @@ void Canvas::write(ExrOutput described, const OutputChoice& choice) const {
   described.compression = choice.compression;
   described.channels = channels_;
   if (!choice.preview.empty()) {
-    const auto& c = target_.color;
-    write_preview(choice.preview, c[0], c[1], c[2], 0, described.text);
+    const Rect shown = intersection(window_, described.display);
+    const auto color = [&](int i) { return cropped(target_.color[i], shown); };
+    write_preview(choice.preview, color(0), color(1), color(2), 0, described.text);
   }
   if (!choice.deep.empty()) write_deep_water(choice.deep, deep_water(described, choice));
   write_exr(choice.picture, described);

@@ -134,7 +134,8 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   const Scene scene = scene_of(job, plate);
   SurveyedPlan surveyed{plan_of(job, plate, scene), {}, {}, {}};
   const Plan& plan = surveyed.plan;
-  const LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
+  LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
+  loaded.frame.overscan = job.output.overscan;
   loaded.frame.validate();
   const Context context(scene, loaded.frame, plan.look.water.ior, plan.made, plan.swell());
   Completer completer;
@@ -186,6 +187,7 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool 
   }
 
   plate.read(report_.plan.planes, scene_, depth, loaded_);
+  loaded_.frame.overscan = job.output.overscan;
   wave_map_ = textures_->wave_map(report_.plan, job.plate.limits);
   environment_ = textures_->environment(report_.plan, job.scene, job.plate.limits);
   loaded_.frame.wave_map = texture_of(wave_map_);

@@ -151,6 +151,7 @@ std::string picture_options(const OutputChoice& choice) {
          line("max_error", toml_text(choice.max_error)) +
          (choice.wave_samples > 1 ? line("wave_samples", std::to_string(choice.wave_samples))
                                   : "") +
+         (choice.overscan > 0 ? line("overscan", std::to_string(choice.overscan)) : "") +
          line("aovs", "[" + join(names_of(choice.aovs)) + "]") +
          file_options(choice.compression, choice.store_float);
 }

@@ -53,6 +53,12 @@ struct OutputChoice {
   int wave_samples = 1;
   static constexpr int kMostWaveSamples = 64;
 
+  /// So many pixels beyond each side of the display window are written, too, as far as all buffers
+  /// that are read have them: the data window of the files is as much larger, the preview is not.
+  /// For composite() alone.
+  int overscan = 0;
+  static constexpr int kMostOverscan = 16000;
+
   /// Whether what would be a warning is an Error, before anything is written.
   bool strict = false;
 

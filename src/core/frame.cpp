@@ -68,6 +68,18 @@ PlaneSet Frame::present() const {
   return set;
 }
 
+Rect Frame::work() const {
+  const Rect& color = plane(PlaneId::kColorR).window;
+  const Rect picture = intersection(display, color);
+  if (overscan == 0) return picture;
+  Rect all{display.x0 - overscan, display.y0 - overscan, display.x1 + overscan,
+           display.y1 + overscan};
+  for (const View<const float>& view : planes) {
+    if (view) all = intersection(all, view.window);
+  }
+  return all.contains(picture) ? all : picture;
+}
+
 void Frame::validate() const {
   const auto text = [](const Rect& r) {
     return "(" + std::to_string(r.x0) + ", " + std::to_string(r.y0) + ") - (" +

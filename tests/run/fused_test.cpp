@@ -308,6 +308,31 @@ TEST(Fused, OverscanIsReadAndNotWritten) {
   EXPECT_LE(far, a.size() / 5000);
 }
 
+TEST(Fused, OverscanIsKeptAsFarAsAllPlanesHaveIt) {
+  const Rect display{0, 0, 40, 20}, data{-8, -4, 48, 24};
+  Buffers wide = test::noisy_frame(data);
+  wide.frame.display = display;
+  const Scene scene = test::simple_scene(display.size());
+  const Picture alone = test::fused(busy_look(), wide.frame, scene);
+  wide.frame.overscan = 6;
+  const Rect work{-6, -4, 46, 24};
+  ASSERT_EQ(wide.frame.work(), work);
+  const Picture got = test::fused(busy_look(), wide.frame, scene);
+  const Picture judge = test::reference(busy_look(), wide.frame, scene);
+  std::size_t far = 0;
+  for (int y = work.y0; y < work.y1; ++y) {
+    for (int x = work.x0; x < work.x1; ++x) {
+      far += std::abs(got.color(x, y).g - judge.color(x, y).g) > 2e-5;
+      const bool shown = x >= 0 && x < 40 && y >= 0 && y < 20;
+      if (!shown) continue;
+      EXPECT_EQ(got.color(x, y).g, alone.color(x, y).g) << x << ", " << y;
+    }
+  }
+  EXPECT_LE(far, 4u);
+  wide.fill(PlaneId::kShadow, 1);  // of the display window
+  EXPECT_EQ(wide.frame.work(), display);
+}
+
 TEST(Fused, RefusesWhatItCannotDo) {
   const Size size{4, 4};
   const Buffers b = test::noisy_frame(rect_of(size));

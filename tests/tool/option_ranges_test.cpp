@@ -57,15 +57,16 @@ const RangedOption kMaxError{
 const RangedOption kSamples{
     "--samples", "a whole number, 1 ... 16", {"1", "16"}, {"0", "-1", "17", "1e3", "99999999999"}};
 
+const RangedOption kOverscan{
+    "--overscan", "a whole number, 0 ... 16000", {"0", "16000"}, {"-1", "16001", "0.5"}};
+
 TEST_F(OptionRangesTest, OfComposite) {
   expect_ranges({"composite", "absent.exr", "-o", "wet.####.exr", "--frames", "1"},
-                {kThreads, kTime, kFps, kInFlight, kMaxError});
+                {kThreads, kTime, kFps, kInFlight, kMaxError, kOverscan});
   expect_ranges({"plan", "absent.exr", "--frames", "1"}, {kTime, kFps, kInFlight, kMaxError});
 }
 
 TEST_F(OptionRangesTest, OfRenderedPictures) {
-  const RangedOption overscan{
-      "--overscan", "a whole number, 0 ... 16000", {"0", "16000"}, {"-1", "16001", "0.5"}};
   const RangedOption shadows{
       "--shadow-map", "a whole number, 1 ... 16384", {"1", "16384"}, {"0", "-2048", "16385"}};
   const std::string size = "WxH, as in 1920x1080, with 1 ... 32000 pixels a side";
@@ -80,8 +81,8 @@ TEST_F(OptionRangesTest, OfRenderedPictures) {
     words.insert(words.end(), frames.begin(), frames.end());
     return words;
   };
-  expect_ranges(of("render"), {kThreads, kTime, kFps, kInFlight, overscan, shadows});
-  expect_ranges(of("water"), {kTime, kFps, kInFlight, kMaxError, overscan, shadows, kSamples});
+  expect_ranges(of("render"), {kThreads, kTime, kFps, kInFlight, kOverscan, shadows});
+  expect_ranges(of("water"), {kTime, kFps, kInFlight, kMaxError, kOverscan, shadows, kSamples});
   const RangedOption seed{"--seed",
                           "a whole number, 0 ... 18446744073709551615",
                           {"0", "18446744073709551615"},

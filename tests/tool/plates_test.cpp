@@ -37,6 +37,24 @@ TEST_F(WindowsTest, OverscanIsReadAndThePictureWritten) {
   EXPECT_FALSE(same_in("64x36+0+0", "over.exr", "wet.exr"));  // the edges look into the overscan
 }
 
+TEST_F(WindowsTest, OverscanIsWrittenWhereItIsAskedFor) {
+  const PlateOptions options{.data = {-8, -4, 70, 41}};
+  composed_of("over", options);
+  const Ran ran =
+      limpid({"composite", "over_plate.exr", "--scene", "scene.toml", "--look", "look.toml",
+              "--overscan", "5", "-o", "wide.exr", "--preview", "wide.png", "-q"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string info = iinfo("wide.exr");
+  EXPECT_THAT(info, HasSubstr("74 x   45, 4 channel")) << "no row more is there above and below";
+  EXPECT_THAT(info, HasSubstr("pixel data origin: x=-5, y=-4"));
+  EXPECT_THAT(info, HasSubstr("full/display size: 64 x 36"));
+  EXPECT_TRUE(same_in("64x36+0+0", "wide.exr", "over.exr"));
+  EXPECT_THAT(iinfo("wide.png"), HasSubstr("64 x   36"));
+  composed("plain.exr");
+  composed("plain_wide.exr", {"--overscan", "5"});
+  EXPECT_TRUE(same("plain.exr", "plain_wide.exr")) << "there is none to be written";
+}
+
 TEST_F(WindowsTest, OfACropThePartThatIsThereIsWritten) {
   composed("wet.exr");
   composed_of("crop", {.data = {10, 6, 50, 30}});

@@ -365,6 +365,12 @@ Parsed parse(int argc, char** argv) {
                   "long (default: 1)")
       ->option_text("N")
       ->check(whole_number_in(1, OutputChoice::kMostWaveSamples));
+  composite
+      .add_option("--overscan", a.composite.overscan,
+                  "Pixels beyond each side of the picture that are written, too, as far as all "
+                  "layers that are read have them (default: 0)")
+      ->option_text("N")
+      ->check(whole_number_in(0, OutputChoice::kMostOverscan));
 
   CLI::App& water =
       *app.add_subcommand("water", "Render a scene and put water into it: SCENE.toml -o OUT.exr");

@@ -39,7 +39,7 @@ struct CompositeArguments {
   bool measure = false;  ///< `plan` runs it, too
   std::string scene, view, depth_kind;
   std::optional<double> depth_nothing;
-  int samples = 1;
+  int samples = 1, overscan = 0;
   FrameOptions frames;
   WaterOptions water;
 };

@@ -64,6 +64,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   job.time = a.water.time;
   job.output = output_of(a.water);
   job.output.wave_samples = a.samples;
+  job.output.overscan = a.overscan;
   return job;
 }
 

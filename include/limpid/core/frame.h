@@ -143,11 +143,14 @@ struct Frame {
   std::optional<Rgb<double>> sky_radiance;
   /// Of the bottom beyond the picture; null, or made by complete/.
   const Continuation* continuation = nullptr;
+  /// So many pixels beyond each side of the display window are computed, too, as far as all planes
+  /// have them.
+  int overscan = 0;
 
   const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
   PlaneSet present() const;
-  /// The pixels that are computed: the display window as far as there is color.
-  Rect work() const { return intersection(display, plane(PlaneId::kColorR).window); }
+  /// The pixels that are computed: the display window as far as there is color, and `overscan`.
+  Rect work() const;
   /// Throws Error when color is absent, the picture is empty, or a plane does not cover work().
   void validate() const;
 };
