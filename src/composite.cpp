@@ -104,6 +104,10 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
     warnings.push_back("wave_samples = " + std::to_string(job.output.wave_samples) +
                        " sample no waves: they are the frame's own normals, one a pixel");
   }
+  if (job.scene.scene.sky && !plan.lit_by_sky) unread("[sky]");
+  if (job.scene.scene.sky && plan.lit_by_sky && plan.reads_environment) {
+    warnings.push_back("[sky] is given, and the environment lights the water in its stead");
+  }
   // It may stand by for a reflection.
   const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);
   if (has_environment(job.scene) && !mirrors) unread("the environment");

@@ -140,10 +140,11 @@ void tell_depthless(Plan& plan, const Inputs& inputs, StateSet) {
 
 /// What is lit by the sky knows its radiance best where there is a picture of the surroundings.
 void take_sky(Plan& plan, const Inputs& inputs, StateSet) {
-  if (!inputs.environment) return;
   Chain::for_each([&]<class Op, int I>() {
     if constexpr (requires { Op::lit_by_sky(plan.look.of<Op>()); }) {
       if (!plan.keeps(I) || !Op::lit_by_sky(plan.look.of<Op>())) return;
+      plan.lit_by_sky = true;
+      if (!inputs.environment) return;
       plan.reads_environment = true;
       std::string& reason = plan.operators[I].reason;
       reason += std::string(reason.empty() ? "" : "; ") + "the environment lights the water";
@@ -189,9 +190,9 @@ constexpr RuleInfo kRuleInfos[] = {
     {"skip_invisible", "What changes a cell by less than is left of max_error does not run there."},
     {"skip_unread", "What nothing that still runs in a cell reads does not run there."},
 };
-constexpr Rule kRules[] = {take_plate_normals, take_other_reflection, drop_absent_input,
-                           drop_neutral,       drop_unread,           fill_reflection,
-                           tell_depthless,     take_sky,           complete_planes};
+constexpr Rule kRules[] = {
+    take_plate_normals, take_other_reflection, drop_absent_input, drop_neutral,   drop_unread,
+    fill_reflection,    tell_depthless,        take_sky,          complete_planes};
 
 /// Says of each operator which rule spoke of it last.
 void apply_rules(Plan& plan, const Inputs& inputs, StateSet outputs) {
@@ -244,7 +245,9 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
     plan.made = plan.made - StateSet{StatePart::kMirrorSources};
   }
   for (const CompleterInfo& completer : completers()) {
-    if (plan.completed.meets(completer.makes)) plan.planes = plan.planes | completer.inputs;
+    if (plan.completed.meets(completer.makes)) {
+      plan.planes = plan.planes | completer.inputs | completer.helped;
+    }
   }
   plan.planes = plan.planes & inputs.planes;
   if (!plan.planes.covers(kBelowPlanes)) plan.planes = plan.planes - kBelowPlanes;  // half a layer

@@ -96,6 +96,14 @@ TEST_F(WarningsTest, ALayerThatNothingReads) {
             "");
 }
 
+TEST_F(WarningsTest, ASkyThatLightsNothing) {
+  write_text("scene.toml", scene_toml() + "[sky]\nradiance = [0.3, 0.3, 0.4]\n");
+  const std::string model = "depth_fog.model=";
+  EXPECT_EQ(composite("wet.exr", {"--set", model + "radiative_transfer"}).err, "");
+  EXPECT_EQ(composite("wet.exr", {"--set", model + "beer_lambert"}).err,
+            "limpid: warning: [sky] is named, and nothing that runs of the look look reads it\n");
+}
+
 TEST_F(WarningsTest, APictureWithoutAWetPixelOrADryOne) {
   close_plate("plate.exr");
   raise_water("-500");

@@ -12,6 +12,7 @@ struct CompleterInfo {
   PlaneSet inputs;  ///< without all of these it is not made
   PlaneSet makes;   ///< those of them that an operator asks for and the frame lacks
   PlaneSet mends;   ///< and these where it has them, too: they stay where they tell something
+  PlaneSet helped;  ///< by these, where they are there
   std::string_view about;
 };
 

@@ -67,6 +67,8 @@ struct Plan {
   bool reads_environment = false;
   /// Whether one needs to know where the sun stands.
   bool needs_sun = false;
+  /// Whether one is lit by the sky: the environment's, else that of the scene.
+  bool lit_by_sky = false;
 
   /// What raises the water: waves of this look or of the scene, where the surface is one of
   /// `completed`. Refers to this plan.
