@@ -75,7 +75,8 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, const Context& c
   const DepthFog::Params& water = plan.look.of<DepthFog>();
   if (!DepthFog::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter)) return;
   frame.scattered_light = scattered_light_.make(DepthFog::scattering_water(water, context)).data();
-  if (plan.reads_environment && frame.environment) frame.sky_radiance = sky_radiance(frame.environment);
+  if (plan.reads_environment && frame.environment)
+    frame.sky_radiance = sky_radiance(frame.environment);
   if (made.empty()) return;
   const Rgb<double> sky =
       frame.sky_radiance.value_or(context.has_sky ? context.sky : water.ambient);

@@ -76,8 +76,8 @@ struct Context {
   double time;
   double ior;
   Texture wave_map, environment;
-  const SlopeLevels* wave_slopes;  ///< of the wave map at this time, or null
-  Sym2<double> wave_variance;      ///< likewise, or 0
+  const SlopeLevels* wave_slopes;         ///< of the wave map at this time, or null
+  Sym2<double> wave_variance;             ///< likewise, or 0
   const ScatteredLight* scattered_light;  ///< of red, green, blue, or null
   Rgb<double> sky;                        ///< radiance of an even sky, 0 where nobody knows it
   bool has_sky;
@@ -203,8 +203,8 @@ LIMPID_INLINE void begin_state(StateSet parts, const Context& c, Rgb<F> dry_colo
   if (parts.has(StatePart::kTransmitted)) p.transmitted = select(endless, black, dry_color);
   if (parts.has(StatePart::kInScatter)) p.in_scatter = black;
   if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = p.sun_often = black;
-    p.sun_entry = {F(0), F(0), F(0)};
-    p.sun_way = F(0);
+  p.sun_entry = {F(0), F(0), F(0)};
+  p.sun_way = F(0);
   if (parts.has(StatePart::kFresnel)) p.fresnel = F(0);
   if (parts.has(StatePart::kReflected)) p.reflected = black;
   if (parts.has(StatePart::kMirrorSources)) p.mirror_sources = black;
