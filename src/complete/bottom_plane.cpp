@@ -25,12 +25,7 @@ constexpr std::size_t kEnough = 16;  ///< of them
 constexpr int kTries = 32;
 constexpr double kSteepest = 1.5;  ///< slope of a bottom; a wall is none
 
-/// A texel of the bottom: relative to the eye, along Context::t, ::b and ::up.
-struct Sample {
-  glm::dvec3 at;
-  double drop;    ///< below the calm surface
-  double weight;  ///< more near the edge of the picture
-};
+using Sample = BottomSample;
 
 int step_for(const Rect& window, int samples) {
   const double area = static_cast<double>(window.area());
@@ -48,11 +43,11 @@ Rect looked_up(const Frame& frame, const Context& context) {
   return intersection(frame.plane(planes.color).window, frame.plane(planes.depth).window);
 }
 
-std::vector<Sample> bottom_samples(const Frame& frame, const Context& c) {
+void gather_samples(const Frame& frame, const Context& c, std::vector<Sample>& samples) {
   const View<const float>& depth = frame.plane(Refraction::planes_of(c).depth);
   const Rect window = looked_up(frame, c);
   const int step = step_for(window, kSamples);
-  std::vector<Sample> samples;
+  samples.clear();
   for (int y = window.y0 + step / 2; y < window.y1; y += step) {
     const RowHeights heights(c, y);
     for (int x = window.x0 + step / 2; x < window.x1; x += step) {
@@ -65,7 +60,6 @@ std::vector<Sample> bottom_samples(const Frame& frame, const Context& c) {
       samples.push_back({{glm::dot(c.t, p), glm::dot(c.b, p), glm::dot(c.up, p)}, -height, weight});
     }
   }
-  return samples;
 }
 
 /// Height = x along t + y along b + z.
@@ -177,9 +171,10 @@ double BottomPlane::depth_on(const Context& c, double x, double y) const {
          glm::dot(normal, c.rays.ray_at(column, row));
 }
 
-std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& c) {
+std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& c,
+                                      std::vector<Sample>& samples) {
   if (!(c.eye_above > 0)) return {};
-  std::vector<Sample> samples = bottom_samples(frame, c);
+  gather_samples(frame, c, samples);
   if (samples.size() < kEnough) return {};
   const double drop = drop_of(samples, 0.5), shallow = drop_of(samples, 0.05);
   const double slack = 0.1 * drop;

@@ -47,9 +47,12 @@ struct Bottom {
   Bottom(const Frame& frame, const Context& context)
       : c(context), depth(frame.plane(Refraction::planes_of(context).depth)) {
     const PlaneId red = Refraction::planes_of(context).color;
-    for (int i = 0; i < 3; ++i)
-      color[static_cast<std::size_t>(i)] = frame.plane(plane_after(red, i));
-    window = intersection(color[0].window, depth.window);
+    window = depth.window;
+    for (int i = 0; i < 3; ++i) {
+      const View<const float>& channel = frame.plane(plane_after(red, i));
+      color[static_cast<std::size_t>(i)] = channel;
+      window = intersection(window, channel.window);
+    }
   }
   Rgb<float> color_at(int x, int y) const {
     return {color[0].at(x, y), color[1].at(x, y), color[2].at(x, y)};
@@ -100,12 +103,12 @@ std::optional<glm::dvec2> slope_at(const Bottom& bottom, const BottomPlane& plan
 }
 
 /// At places without an order, for lines may have one.
-std::vector<glm::dvec2> slopes_near_edge(const Bottom& bottom, const BottomPlane& plane,
-                                         const Beyond& beyond) {
+void gather_slopes(const Bottom& bottom, const BottomPlane& plane, const Beyond& beyond,
+                   std::vector<glm::dvec2>& slopes) {
   const Rect& w = bottom.window;
   const int deep = std::max(2, static_cast<int>(kLinesDeep * w.height()));
-  std::vector<glm::dvec2> slopes;
-  if (w.width() < 3 || w.height() < 3) return slopes;
+  slopes.clear();
+  if (w.width() < 3 || w.height() < 3) return;
   std::uint32_t state = 1;  // the same places for the same frame
   const auto any = [&](int begin, int end) {
     state = 1664525u * state + 1013904223u;
@@ -120,7 +123,6 @@ std::vector<glm::dvec2> slopes_near_edge(const Bottom& bottom, const BottomPlane
     if (!near) continue;
     if (const auto slope = slope_at(bottom, plane, x, y)) slopes.push_back(*slope);
   }
-  return slopes;
 }
 
 /// The direction in which a bottom changes least, along Context::t and ::b, and by how much less
@@ -242,11 +244,12 @@ void ContinuationMaker::paint_edge(const Frame& frame, const Context& context) {
 }
 
 const Continuation* ContinuationMaker::make(const Frame& frame, const Context& c) {
-  const auto plane = fit_bottom(frame, c);
+  const auto plane = fit_bottom(frame, c, samples_);
   if (!plane) return nullptr;
   const Beyond beyond = sides_beyond(*plane, frame, c, kEdgeStep);
   if (!beyond.any()) return nullptr;
-  const Lines lines = lines_of(slopes_near_edge(Bottom(frame, c), *plane, beyond));
+  gather_slopes(Bottom(frame, c), *plane, beyond, slopes_);
+  const Lines lines = lines_of(slopes_);
   const glm::dvec3 level = lines.direction.x * c.t + lines.direction.y * c.b;
   const double rise = -glm::dot(plane->normal, level) / glm::dot(plane->normal, c.up);
   continuation_.normal = plane->normal;

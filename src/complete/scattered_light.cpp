@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "limpid/optics/absorption.h"
 #include "limpid/optics/fresnel.h"
@@ -46,7 +45,7 @@ std::array<double, SlabWater::kMoments> moments_of(double anisotropy) {
 }
 
 /// Fits a number for each layer.
-ScatteredLight::Power power_fit(const std::vector<SlabLight>& layers, auto&& of) {
+ScatteredLight::Power power_fit(const SlabLayers& layers, auto&& of) {
   LeastSquares<kDegree> fit;
   for (const SlabLight& layer : layers) {
     std::array<double, kDegree> row;
@@ -102,9 +101,9 @@ class Channel {
     for (std::size_t i = 0; i < kCount && water.surface; ++i) {
       reflects[i] = fresnel_exact(directions.cosine[i], 1 / water.ior);
     }
-    const int modes = water.anisotropy == 0 ? 1 : kModes;
-    for (int mode = 0; mode < modes; ++mode) {
-      modes_.push_back(solve_slab(directions, slab, reflects, beam_, mode));
+    mode_count_ = water.anisotropy == 0 ? 1 : kModes;
+    for (std::size_t mode = 0; mode < mode_count_; ++mode) {
+      modes_[mode] = solve_slab(directions, slab, reflects, beam_, static_cast<int>(mode));
     }
     light_.back_at_once = directions.flux(reflects);
     light_.sky_at_once = 1 - light_.back_at_once;
@@ -119,7 +118,7 @@ class Channel {
  private:
   static constexpr int kAzimuths = 6;
 
-  const std::vector<SlabLight>& even_layers() const { return modes_[0]; }
+  const SlabLayers& even_layers() const { return modes_[0]; }
 
   void fit_even() {
     const auto& layers = even_layers();
@@ -146,7 +145,7 @@ class Channel {
   /// Scattered more than once, in a direction, by layer.
   double sun_of(std::size_t layer, std::size_t direction, int a) const {
     double sum = modes_[0][layer].sun[direction];
-    for (std::size_t m = 1; m < modes_.size(); ++m) {
+    for (std::size_t m = 1; m < mode_count_; ++m) {
       sum += 2 * modes_[m][layer].sun[direction] * std::cos(double(m) * azimuth_of(a));
     }
     return sum;
@@ -205,7 +204,7 @@ class Channel {
   /// Calls visit(direction, azimuth) for what a view from the air may see.
   template <class Visit>
   void each_view(Visit&& visit) const {
-    const int azimuths = modes_.size() > 1 ? kAzimuths : 1;
+    const int azimuths = mode_count_ > 1 ? kAzimuths : 1;
     for (std::size_t i = kFirstSeen; i < kCount; ++i) {
       for (int a = 0; a < azimuths; ++a) visit(i, a);
     }
@@ -238,7 +237,8 @@ class Channel {
 
   const SlabDirections& directions_;
   double anisotropy_, beam_, extinction_ = 0, once_ = 0;
-  std::vector<std::vector<SlabLight>> modes_;
+  std::array<SlabLayers, kModes> modes_;
+  std::size_t mode_count_;
   ScatteredLight light_;
 };
 

@@ -205,16 +205,17 @@ double SlabDirections::flux(const Radiance& radiance) const {
   return sum;
 }
 
-std::vector<SlabLight> solve_slab(const SlabDirections& directions, const SlabWater& water,
-                                  const SlabDirections::Radiance& reflects, double beam, int mode) {
+SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
+                      const SlabDirections::Radiance& reflects, double beam, int mode) {
   constexpr double kThin = 1.0 / 8192;
   Layer layer(directions, water, beam, mode, kThin);
-  std::vector<SlabLight> lights;
-  for (; lights.size() < SlabLight::kLayers; layer.make_twice_as_deep(beam)) {
-    if (layer.depth < SlabLight::kFirst) continue;
-    lights.push_back(light_of(layer, directions, water, reflects, beam, mode));
+  while (layer.depth < SlabLight::kFirst) layer.make_twice_as_deep(beam);
+  SlabLayers layers;
+  for (SlabLight& light : layers) {
+    light = light_of(layer, directions, water, reflects, beam, mode);
+    layer.make_twice_as_deep(beam);
   }
-  return lights;
+  return layers;
 }
 
 }  // namespace limpid

@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <cstddef>
-#include <vector>
 
 namespace limpid {
 
@@ -43,13 +42,15 @@ struct SlabLight {
   double back = 0;       ///< share of what leaves the bottom that comes back to it
 };
 
+using SlabLayers = std::array<SlabLight, SlabLight::kLayers>;
+
 /// All layers by doubling: the way
 /// through two layers is known from the ways through each (van de Hulst 1963, "A New Look at
 /// Multiple Scattering"; Hansen & Travis 1974, "Light Scattering in Planetary Atmospheres").
 /// `reflects`: of the surface from below, by direction, 0 without one; it lets in what is left. The
 /// beam, of irradiance pi on what faces it, comes down along `beam`, a cosine of 0.02 ... 1, in the
 /// water. `mode`: that of cos(mode azimuth); sky and bottom are even and only in mode 0.
-std::vector<SlabLight> solve_slab(const SlabDirections& directions, const SlabWater& water,
-                                  const SlabDirections::Radiance& reflects, double beam, int mode);
+SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
+                      const SlabDirections::Radiance& reflects, double beam, int mode);
 
 }  // namespace limpid

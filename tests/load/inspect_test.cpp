@@ -105,6 +105,7 @@ not found
   below_depth       depth of what below_color shows
   surface_shadow    visibility of the sun at the water surface
   sky               the sky as it would be seen if nothing stood before it
+  albedo            share of the light that the bottom throws back, around each pixel
 not used
   reflection_shadow.exr
 )");

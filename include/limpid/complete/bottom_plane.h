@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -26,8 +27,19 @@ struct BottomPlane {
 /// planes through three texels each (Fischler & Bolles 1981, "Random Sample Consensus"), then by
 /// least squares. The texels near the edge of the picture count most, for rays leave it there.
 /// Looks at a few thousand texels of what refraction looks up. Nothing where hardly any lies under
-/// the water, and where the eye is not over the calm level.
-std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context);
+/// the water, and where the eye is not over the calm level. `room` is memory from one frame to the
+/// next.
+struct BottomSample {
+  glm::dvec3 at;  ///< relative to the eye, along Context::t, ::b and ::up
+  double drop;    ///< below the calm surface
+  double weight;  ///< more near the edge of the picture
+};
+std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context,
+                                      std::vector<BottomSample>& room);
+inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context) {
+  std::vector<BottomSample> room;
+  return fit_bottom(frame, context, room);
+}
 
 /// Where water makes one look beyond the picture: with the normals that the frame has, else calm.
 struct Beyond {

@@ -22,7 +22,10 @@ class ContinuationMaker {
 
   Continuation continuation_;
   Plane colors_[3];
-  std::vector<Rgb<float>> near_;  ///< room for texels near a place of the edge
+  // Room for texels near a place of the edge, those of the bottom, and how they change.
+  std::vector<Rgb<float>> near_;
+  std::vector<BottomSample> samples_;
+  std::vector<glm::dvec2> slopes_;
 };
 
 }  // namespace limpid
