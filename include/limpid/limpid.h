@@ -181,8 +181,10 @@ typedef struct limpid_frame {
   int32_t has_sky;
   double sky_radiance[3]; /**< of an even sky, which lights the water besides the sun */
 } limpid_frame;
-#define LIMPID_FRAME \
-  { sizeof(limpid_frame), 0, 0, NULL, 0, {0}, {0}, {0}, 0, NULL, 0, 0, {0}, {0}, 0, 0, {0} }
+#define LIMPID_FRAME                                                                         \
+  {                                                                                          \
+    sizeof(limpid_frame), 0, 0, NULL, 0, {0}, {0}, {0}, 0, NULL, 0, 0, {0}, {0}, 0, 0, { 0 } \
+  }
 
 typedef struct limpid_picture {
   size_t size;

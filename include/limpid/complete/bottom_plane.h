@@ -30,7 +30,7 @@ struct BottomPlane {
 /// the water, and where the eye is not over the calm level. `room` is memory from one frame to the
 /// next.
 struct BottomSample {
-  glm::dvec3 at;  ///< relative to the eye, along Context::t, ::b and ::up
+  glm::dvec3 at;  ///< relative to the eye, along t, b and up of Context
   double drop;    ///< below the calm surface
   double weight;  ///< more near the edge of the picture
 };
