@@ -2,6 +2,8 @@
 #include <array>
 #include <cstddef>
 
+#include "limpid/optics/scattered_light.h"
+
 namespace limpid {
 
 /// Directions of a level layer, as cosines with the vertical, and their weights: Gauss's, apart for
@@ -28,8 +30,8 @@ struct SlabWater {
 
 /// A layer of an optical depth, and what comes out of it; all per azimuth mode.
 struct SlabLight {
-  static constexpr std::size_t kLayers = 20;
-  static constexpr double kFirst = 1.0 / 64;  ///< and each twice as deep as the last: to 8192
+  static constexpr std::size_t kLayers = ScatteredLight::kLayers;
+  static constexpr double kFirst = ScatteredLight::kFirstLayer;
 
   using Radiance = SlabDirections::Radiance;
   double depth;      ///< optical

@@ -36,14 +36,17 @@ constexpr Field<P> kFields[] = {
     color<&P::scattering>("scattering", "1/scene unit", {0, 1e6},
                           "What it throws elsewhere: murky water glows in the sun.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
-    choice<&P::water_type, kWaterTypes>(
-        "water_type", "Water by name: Jerlov's types replace absorption and the loss downwards.")
+    choice<&P::water_type, kWaterTypes>("water_type",
+                                        "Water by name: Jerlov's types replace absorption and, of "
+                                        "beer_lambert, the loss downwards.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
     real<&P::anisotropy>("anisotropy", "", {-0.99, 0.99},
                          "Mean cosine of the angle by which scattered light turns; 0 is evenly.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
-    color<&P::ambient>("ambient", "radiance", {0, 1e6},
-                       "Light from all around that is scattered besides the sun's.")
+    color<&P::ambient>(
+        "ambient", "radiance", {0, 1e6},
+        "Light from all around besides the sun's; of radiative_transfer the sky's, where neither "
+        "environment nor scene tell of it.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
     choice<&P::sunlight, kSunlights>("sunlight", "The light's own way down to where it scatters.")
         .when("model", {"beer_lambert", "radiative_transfer"}),

@@ -23,17 +23,19 @@ struct BottomPlane {
   double depth_on(const Context& context, double x, double y) const;
 };
 
+/// A texel of the bottom.
+struct BottomSample {
+  glm::dvec3 at;  ///< relative to the eye, along t, b and up of Context
+  double drop;    ///< below the calm surface
+  double weight;  ///< more near the edge of the picture
+};
+
 /// The plane that most of the bottom lies in, posts, rocks and walls left out: the best of some
 /// planes through three texels each (Fischler & Bolles 1981, "Random Sample Consensus"), then by
 /// least squares. The texels near the edge of the picture count most, for rays leave it there.
 /// Looks at a few thousand texels of what refraction looks up. Nothing where hardly any lies under
 /// the water, and where the eye is not over the calm level. `room` is memory from one frame to the
 /// next.
-struct BottomSample {
-  glm::dvec3 at;  ///< relative to the eye, along t, b and up of Context
-  double drop;    ///< below the calm surface
-  double weight;  ///< more near the edge of the picture
-};
 std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context,
                                       std::vector<BottomSample>& room);
 inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context) {

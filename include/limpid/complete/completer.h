@@ -19,12 +19,12 @@
 namespace limpid {
 
 /// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
-/// the wave map what the plan's waves read where a pixel is wider than a texel; and moves depths to
-/// the part of each pixel that is seen. What rays see that leave the picture is made where the
-/// plan's refraction goes on there, and one does; and a layer below the water goes as far as color
-/// and depth. Once a frame, before its pixels; operators read
-/// the result as they read the plate's planes. The result does not depend on the number of threads.
-/// Keeps its memory from frame to frame.
+/// the wave map what the plan's waves read where a pixel is wider than a texel; moves depths to the
+/// part of each pixel that is seen; draws a layer below the water on as far as color and depth go;
+/// makes the continuation of the bottom for rays that leave the picture, and the light that the
+/// water scatters more than once. Each only where the plan asks for it. Once a frame, before its
+/// pixels; operators read the result as they read the plate's planes. The result does not depend on
+/// the number of threads. Keeps its memory from frame to frame.
 class Completer {
  public:
   /// The frame with what was made; its views hold until the next call. `context` is that of the

@@ -74,8 +74,8 @@ struct ScatteredLight {
   /// albedo kMostAlbedo.
   double most_sun = 0, most_sky = 0, slope_sun = 0, slope_sky = 0;
   double most_bottom_sun = 0, most_bottom_sky = 0;
-  /// How far all that is from endless water, in layers of optical depth kFirstLayer, and twice that
-  /// of the last, and deeper ones.
+  /// How far all that is from endless water, in layers of optical depth kFirstLayer, and each twice
+  /// as deep as the last, to 8192, and in all deeper ones.
   static constexpr int kLayers = 20;
   static constexpr double kFirstLayer = 1.0 / 64;
   std::array<double, kLayers> beyond_sun{}, beyond_sky{};
