@@ -8,7 +8,7 @@
 #include "limpid/run/reference.h"
 #include "limpid/write/preview.h"
 
-#include "complete/rows.h"
+#include "limpid/complete/rows.h"
 #include "run/each_once.h"
 #include "write/atomic_file.h"
 

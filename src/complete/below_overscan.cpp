@@ -2,8 +2,9 @@
 
 #include <limits>
 
+#include "limpid/complete/rows.h"
+
 #include "complete/row_heights.h"
-#include "complete/rows.h"
 
 namespace limpid {
 namespace {

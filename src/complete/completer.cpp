@@ -5,16 +5,6 @@
 #include "complete/sky_radiance.h"
 
 namespace limpid {
-namespace {
-
-/// Whether rays that leave the picture are to see more than its edge.
-bool goes_on(const Plan& plan) {
-  const Refraction::Params& refraction = plan.look.of<Refraction>();
-  return plan.made.has(StatePart::kPosition) && refraction.model == Refraction::Model::kSnell &&
-         refraction.off_frame == Refraction::OffFrame::kContinue;
-}
-
-}  // namespace
 
 Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& context,
                           Executor& executor, const std::string* simd) {
@@ -48,7 +38,12 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& c
   }
   complete_waves(plan, context, executor, whole);
   complete_water(plan, made_by("bottom_albedo"), context, executor, whole);
-  if (goes_on(plan)) whole.continuation = continuation_maker_.make(whole, context);
+  const Refraction::Params& refraction = plan.look.of<Refraction>();
+  if (!plan.made.has(StatePart::kPosition)) return whole;
+  if (refraction.goes_on()) whole.continuation = continuation_maker_.make(whole, context);
+  if (refraction.looks_behind()) {
+    whole.bottom_layer = bottom_layer_.make(whole, context, executor);
+  }
   return whole;
 }
 

@@ -23,12 +23,6 @@ Size half_of(Size blocks) { return {(blocks.width + 1) / 2, (blocks.height + 1) 
 
 bool is_one(Size blocks) { return blocks.width == 1 && blocks.height == 1; }
 
-bool marches(const Plan& plan) {
-  const Refraction::Params& refraction = plan.look.of<Refraction>();
-  return plan.made.has(StatePart::kPosition) && refraction.model == Refraction::Model::kSnell &&
-         refraction.steps == Refraction::kMarch;
-}
-
 /// Of a march, in which products may cancel: a few roundings of each.
 HeightError march_error(const Context& c) {
   const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
@@ -82,7 +76,8 @@ struct Heights::Scan {
 void Heights::make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
                    const std::string& simd) {
   bound_ = {};
-  if (!marches(plan) || context.submersible) return;
+  if (!plan.made.has(StatePart::kPosition) || !plan.look.of<Refraction>().marches()) return;
+  if (context.submersible) return;
   const PlaneId seen = Refraction::planes_of(context).depth;
   const Rect& window = frame.plane(seen).window;
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);

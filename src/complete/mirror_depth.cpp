@@ -9,8 +9,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "limpid/complete/rows.h"
+
 #include "complete/row_heights.h"
-#include "complete/rows.h"
 
 namespace limpid {
 namespace {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limpid/complete/rows.h"
+
 #include "complete/row_heights.h"
-#include "complete/rows.h"
 
 namespace limpid {
 namespace {

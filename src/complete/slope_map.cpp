@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "complete/rows.h"
+#include "limpid/complete/rows.h"
+
 #include "core/box_mean.h"
 #include "core/mean_of_four.h"
 

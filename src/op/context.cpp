@@ -97,7 +97,8 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
       wave_variance(frame.wave_variance),
       scattered_light(frame.scattered_light),
       made(parts),
-      continuation(frame.continuation) {
+      continuation(frame.continuation),
+      bottom_layer(frame.bottom_layer) {
   scene.validate();
   has_sky = frame.sky_radiance || scene.sky;
   sky = frame.sky_radiance.value_or(scene.sky.value_or(SkyLight{}).radiance);

@@ -26,6 +26,9 @@ constexpr Field<P> kFields[] = {
         .when("model", {"snell"}),
     choice<&P::off_frame, kOffFrames>("off_frame",
                                       "What is seen where the ray leaves the picture."),
+    real<&P::thickness>("thickness", "scene units", {0, 1e6},
+                        "Of thin things under water, along the view; 0 is a quarter of their width.")
+        .when("steps", {"march"}),
 };
 
 }  // namespace
@@ -56,8 +59,9 @@ void Refraction::reckon(const P& params, const Context& c, Ranges& ranges) {
     ranges.path = {known ? std::max(drop - slack, 0.0) : 0, HUGE_VAL};
     // The ray's own depth where it ends; a texel's where one is looked up.
     const bool of_texel = params.steps == 0 || params.rejection == Rejection::kShorten;
-    const bool continues = Refraction::continues(params, c);
-    if (!of_texel || continues) ranges.hit = {0, HUGE_VAL};
+    const bool continues = params.goes_on() && c.continuation;
+    const bool behind = params.looks_behind() && c.bottom_layer;
+    if (!of_texel || continues || behind) ranges.hit = {0, HUGE_VAL};
     // A ray falls a unit in each unit of its way, at most.
     if (continues) ranges.path.min = std::min(ranges.path.min, c.continuation->least_drop);
   } else {

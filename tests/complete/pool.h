@@ -9,8 +9,9 @@ namespace limpid::test {
 
 /// A pool without walls: a bottom at y = -deep + rise z, with a texture of the world. The camera of
 /// simple_scene(), two metres above the water; z grows towards it.
-struct Pool {
-  static constexpr Size kSize{96, 72};
+template <int kWidth, int kHeight>
+struct PoolOf {
+  static constexpr Size kSize{kWidth, kHeight};
   Scene scene = simple_scene(kSize);
   double deep = 2, rise = 0.05;
   Rect window = rect_of(kSize);
@@ -67,5 +68,6 @@ struct Pool {
            e.y > kSize.height - 1 + 1e-3;
   }
 };
+using Pool = PoolOf<96, 72>;
 
 }  // namespace limpid::test

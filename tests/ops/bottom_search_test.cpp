@@ -31,6 +31,7 @@ struct FlatBottom {
   }
   Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
   double highest(PlaneId, bool, Vec2<double>, Vec2<double>) const { return -drop; }
+  Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {drop, drop, 0}; }
 };
 
 struct Met {

@@ -101,6 +101,11 @@ typename Op::Params some_params(int seed) {
 TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
   const test::World world;
   Frame frame = world.buffers.frame;
+  const Plane texel({0, 0, 1, 1});
+  BottomLayer layer{};
+  for (Texture* part : {&layer.colors, &layer.shape}) part->channels.fill(texel.view());
+  layer.most_drop = 2;
+  frame.bottom_layer = &layer;
   const Context context(world.scene, frame, 1.333, everything());
   Chain::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {

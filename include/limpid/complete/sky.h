@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
-#include <vector>
 
+#include "limpid/complete/pull_push.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
@@ -9,8 +9,7 @@
 namespace limpid {
 
 /// The sky of a frame where something stands before it: the color where nothing was hit and alpha
-/// is above half, and elsewhere a smooth continuation of it, by a pyramid of means (Gortler et al.
-/// 1996, "The Lumigraph", pull-push).
+/// is above half, and elsewhere a smooth continuation of it (pull_push.h).
 class Sky {
  public:
   /// Looks at color and depth. False, and nothing is made, where the frame shows no sky.
@@ -19,19 +18,8 @@ class Sky {
   const Plane& color(int channel) const { return color_[static_cast<std::size_t>(channel)]; }
 
  private:
-  /// Means of a quarter of a level's texels each, and how much sky is in them.
-  struct Level {
-    Rect window;
-    std::vector<std::array<float, 4>> texels;  ///< r g b share
-    std::array<float, 4>& at(int x, int y) {
-      return texels[static_cast<std::size_t>(y) * window.width() + x];
-    }
-  };
-
-  void fill(Level& finer, Level& coarser, Executor& executor) const;
-
   std::array<Plane, 3> color_;
-  std::vector<Level> levels_;
+  PullPush<3> sky_;
 };
 
 }  // namespace limpid

@@ -96,6 +96,7 @@ inline constexpr PlaneSet kAlbedoPlanes{PlaneId::kAlbedoR, PlaneId::kAlbedoG, Pl
 inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, PlaneId::kBelowB,
                                        PlaneId::kBelowDepth};
 
+struct BottomLayer;
 struct Continuation;
 struct ScatteredLight;
 struct SlopeLevels;
@@ -143,6 +144,8 @@ struct Frame {
   std::optional<Rgb<double>> sky_radiance;
   /// Of the bottom beyond the picture; null, or made by complete/.
   const Continuation* continuation = nullptr;
+  /// Of the bottom behind what stands before it; null, or made by complete/.
+  const BottomLayer* bottom_layer = nullptr;
   /// So many pixels beyond each side of the display window are computed, too, as far as all planes
   /// have them.
   int overscan = 0;

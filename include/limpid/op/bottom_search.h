@@ -1,4 +1,5 @@
 #pragma once
+#include "limpid/op/bottom_layer.h"
 #include "limpid/op/context.h"
 #include "limpid/op/screen_ray.h"
 
@@ -23,10 +24,18 @@ class BottomSearch {
     F sure;  ///< 1 where the bottom was seen, 0 where it is a guess
   };
 
-  /// `fall` is the distance from the calm surface that the ray gains per unit of its way.
+  /// `fall` is the distance from the calm surface that the ray gains per unit of its way,
+  /// `thickness` that of thin things along the view, in scene units; 0: by Context::bottom_layer.
   LIMPID_INLINE BottomSearch(const Context& context, const SeenPlanes& seen, const Pixel<F>& pixel,
-                             const Tap& taps, const ScreenRay<F>& way, F falls)
-      : c_(context), planes_(seen), p_(pixel), tap_(taps), ray_(way), fall_(falls) {}
+                             const Tap& taps, const ScreenRay<F>& way, F falls,
+                             double thickness = 0)
+      : c_(context),
+        planes_(seen),
+        p_(pixel),
+        tap_(taps),
+        ray_(way),
+        fall_(falls),
+        thickness_(thickness) {}
 
   /// k times as deep as the bottom that the last guess has found, from that at the pixel itself on.
   Found iterate(int steps) const {
@@ -82,13 +91,12 @@ class BottomSearch {
       found = select(hit, F(1), found);
       if (!any(found < F(0.5))) break;
     }
-    if (!any(found > F(0.5))) return {iterate(kGuesses).way, F(0)};
-    const F step = after;
-    after = edge_between(before, step, most);
+    after = edge_between(before, after, most);
     const F met = ray_.at_share(after, most);
     // The bisection may have gone to the edge of what hides the bottom.
     const F at_edge = past(look(met), F(2));
-    const auto seen = found > F(0.5) && hidden < F(0.5) && at_edge < F(0.5);
+    const auto meets = found > F(0.5);
+    const auto seen = meets && hidden < F(0.5) && at_edge < F(0.5);
     // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
     // or so away.
     const F smooth = to_level(met);
@@ -96,8 +104,9 @@ class BottomSearch {
     F way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
                 ray_.at_share(min(after + texel, F(1)), most));
     if (any(!seen)) {
-      way = select(seen, way, last_drop(found > F(0.5) && !seen, step, first, most) / fall_);
-      if (any(found < F(0.5))) way = select(found > F(0.5), way, iterate(kGuesses).way);
+      const F guess = iterate(kGuesses).way;
+      const auto hides = !seen && (meets || hidden > F(0.5));
+      way = select(seen, way, any(hides) ? select(hides, end_behind(guess, most), guess) : guess);
     }
     return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
   }
@@ -105,12 +114,13 @@ class BottomSearch {
  private:
   static constexpr int kSteps = 48;
   static constexpr int kLeap = 16, kLooksBetweenLeaps = 6;
+  static constexpr int kStepsBehind = 12, kSecants = 3;
 
   /// i, or a later step if from i up to it a look would find nothing: the rays stay above all that
   /// they pass, by Context::heights. `length` is how many steps are tried at once at first.
   template <class Lanes>
   int leap_from(int i, int length, Lanes open, F most) const {
-    const F top = F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
+    const F top = surface_height();
     if (any(open && top > F(c_.heights.most))) return i;
     const auto way_to = [&](int step) { return ray_.at_share(F(double(step) / kSteps), most); };
     Vec2<F> from = ray_.shift_at(way_to(i));
@@ -130,10 +140,14 @@ class BottomSearch {
     return i;
   }
 
+  /// Of the surface point, above the calm surface.
+  LIMPID_INLINE F surface_height() const {
+    return F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
+  }
+
   /// How far below the surface point (above it, from below) a point seen on the screen lies.
   LIMPID_INLINE F drop_to(Vec2<F> shift, F depth) const {
-    const F surface = F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
-    return max(p_.side * (surface - height_at(c_, p_, shift, depth)), F(0));
+    return max(p_.side * (surface_height() - height_at(c_, p_, shift, depth)), F(0));
   }
 
   /// The same of what a texel shows: 0 where that tells nothing, for it stands above the surface or
@@ -161,22 +175,47 @@ class BottomSearch {
   /// Whether the ray runs before a bottom that is seen.
   LIMPID_INLINE static auto is_free(const Sight& at) { return at.behind < F(0) && at.drop > F(0); }
 
-  /// How far below the surface point the bottom lies that a step up to `end`, a share of the way,
-  /// has seen last; that at the pixel itself where none has. Looks again, for it is asked seldom.
-  template <class Lanes>
-  F last_drop(Lanes wanted, F end, F first, F most) const {
-    F drop = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth);
-    F looks = select(wanted, F(1), F(0));
-    for (int i = kSteps; i >= 0; --i) {
-      const F t = i == 0 ? first : F(double(i) / kSteps);
-      const auto before = looks > F(0.5) && t <= end;
-      if (!any(before)) continue;
-      const Sight at = look(ray_.at_share(t, most));
-      const auto ends = before && is_free(at);
-      drop = select(ends, at.drop, drop);
-      looks = select(ends, F(0), looks);
+  /// Where the ray meets the bottom that goes on behind what hides it, up to `most`, and beyond
+  /// that its level there; `guess` where no such bottom is known. Equal steps on screen, then by
+  /// secants.
+  [[gnu::noinline]] F end_behind(F guess, F most) const {
+    if (!c_.bottom_layer) return guess;
+    const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
+    // How far the bottom lies below the ray.
+    const auto room = [&](F way) {
+      return surface_height() + layer.shape(ray_.shift_at(way)).drop - way * fall_;
+    };
+    const F end = min(most, F(c_.bottom_layer->most_drop) / fall_);
+    F before = F(0), after = end, room_before = room(F(0)), room_after = F(0), found = F(0);
+    for (int i = 1; i <= kStepsBehind && any(found < F(0.5)); ++i) {
+      const F way = ray_.at_share(F(double(i) / kStepsBehind), end);
+      const F here = room(way);
+      const auto open = found < F(0.5);
+      const auto hit = open && here <= F(0);
+      after = select(hit, way, after);
+      room_after = select(open, here, room_after);
+      before = select(open && !hit, way, before);
+      room_before = select(open && !hit, here, room_before);
+      found = select(hit, F(1), found);
     }
-    return drop;
+    F met = after;
+    for (int i = 0; i < kSecants; ++i) {
+      const F share = room_before / max(room_before - room_after, F(1e-20));
+      met = before + saturate(share) * (after - before);
+      const F here = room(met);
+      const auto hit = here <= F(0);
+      after = select(hit, met, after);
+      room_after = select(hit, here, room_after);
+      before = select(hit, before, met);
+      room_before = select(hit, room_before, here);
+    }
+    const F level = max(end + room_after / fall_, F(0));
+    const F way = select(found > F(0.5), met, level);
+    // What stands in the water may hide itself: its level goes on.
+    const Vec2<F> here{F(0), F(0)};
+    const auto stands = !layer.is_bottom(here, F(0) - height_at(c_, p_, here, p_.dry_depth));
+    const F ends = select(stands, drop_to(here, p_.dry_depth) / fall_, max(way, F(0)));
+    return select(p_.side > F(0), ends, guess);
   }
 
   /// Where the ray passes behind what is seen, between two shares of its way on screen, the later
@@ -192,12 +231,25 @@ class BottomSearch {
   }
 
   /// 1 where what is seen lies far before the ray: it hides the bottom, it is not hit. A slope is
-  /// missed by as much as its depth changes from texel to texel, so many of which are forgiven.
+  /// missed by as much as its depth changes from texel to texel, so many of which are forgiven. A
+  /// thing of which the thickness is known hides what is behind that.
   LIMPID_INLINE F past(const Sight& at, F texels) const {
     if (!any(at.behind >= F(0))) return F(0);
     const F calm = min(calm_depth_at(c_, p_, at.shift), at.own);
-    const F slack = F(0.25) * (at.own - calm) + texels * calm_depth_step(c_, p_, at.shift);
-    return select(at.behind > slack, F(1), F(0));
+    const F step = calm_depth_step(c_, p_, at.shift);
+    const F slack = F(0.25) * (at.own - calm) + texels * step;
+    const F hides = select(at.behind > slack, F(1), F(0));
+    const auto doubtful = at.behind > F(0.5) * step && at.behind <= slack;
+    if (!c_.bottom_layer || !any(doubtful)) return hides;
+    return select(doubtful, is_behind_thin(at), hides);
+  }
+  [[gnu::noinline]] F is_behind_thin(const Sight& at) const {
+    const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
+    const auto shape = layer.shape(at.shift);
+    const auto stands = shape.thinness > F(0) && p_.side > F(0) &&
+                        at.drop < F(BottomLayer::kOfBottom) * (surface_height() + shape.drop);
+    const F thickness = thickness_ <= 0 ? F(1) / max(shape.thinness, F(1e-30)) : F(thickness_);
+    return select(stands && at.behind > thickness, F(1), F(0));
   }
 
   /// In pixels.
@@ -257,6 +309,7 @@ class BottomSearch {
   const Tap& tap_;
   const ScreenRay<F>& ray_;
   F fall_;
+  double thickness_;
 };
 
 }  // namespace limpid

@@ -92,6 +92,7 @@ struct Context {
   /// saves looks and changes no result.
   HeightBound heights = {};
   const Continuation* continuation;  ///< of the bottom beyond the picture, or null
+  const BottomLayer* bottom_layer;   ///< of the bottom behind what stands before it, or null
 
   /// Depth after projection, 0 at the near plane, 1 at the far plane or at infinity.
   template <class F>

@@ -89,15 +89,22 @@ LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
              along(uv.y, F(b.low.y), F(b.high.y), across.y));
 }
 
-/// Eye depth of the calm surface at `shift` from the pixel, +inf where it is not met.
+/// Eye depth at which the ray of the picture at `shift` from the pixel is `drop` below the calm
+/// surface, +inf where it never is.
 template <class F>
-LIMPID_INLINE F calm_depth_at(const Context& c, const Pixel<F>& p, Vec2<F> shift) {
+LIMPID_INLINE F depth_at_drop(const Context& c, const Pixel<F>& p, Vec2<F> shift, F drop) {
   const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
   const F over = dot(vec3_of<F>(c.up), p.surface_point) - p.surface_depth * under;
   const F falls = F(0) - (under + shift.x * F(c.under_step.x) + shift.y * F(c.under_step.y));
   const F above = F(c.eye_above) + over + shift.x * F(c.over_step.x) + shift.y * F(c.over_step.y);
-  const auto meets = above * falls > F(0);
-  return select(meets, above / select(meets, falls, F(1)), F(HUGE_VAL));
+  const auto meets = (above + drop) * falls > F(0);
+  return select(meets, (above + drop) / select(meets, falls, F(1)), F(HUGE_VAL));
+}
+
+/// The same of the calm surface itself.
+template <class F>
+LIMPID_INLINE F calm_depth_at(const Context& c, const Pixel<F>& p, Vec2<F> shift) {
+  return depth_at_drop(c, p, shift, F(0));
 }
 
 /// How much calm_depth_at changes from one row of pixels to the next.

@@ -18,14 +18,15 @@ namespace limpid {
 template <class F, class Quad>
 struct ValidTaps {
   Quad there, shortened;
-  Four<F> weight_there, weight_shortened;  ///< sum to 1, over both
+  Four<F> weight_there, weight_shortened;  ///< sum to 1, over both and what is filled
   F share;                                 ///< of `there`: 1 real, 0 made up
+  F filled;                                ///< of what stands in, which is not in the planes
   Vec2<F> place;                           ///< where most of the lookup comes from
   bool some_made_up;
 
   /// 1 but for rounding; less where not even the last resort was bearable.
   F weight() const {
-    F sum = F(0);
+    F sum = filled;
     for (int k = 0; k < 4; ++k) sum = sum + weight_there[k] + weight_shortened[k];
     return sum;
   }
@@ -102,26 +103,32 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
   return select(lands, t, low) * shift;
 }
 
-/// The taps for a lookup at `shift`. Should nothing on the way be `valid`, what is `bearable` there
-/// stands in for it: the pixel's own texel is always that. Where never(lanes) can tell that nothing
-/// is valid on the way of those lanes, nothing is looked for.
-template <class F, class Tap, class Valid, class Bearable, class Never>
-auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable, Never&& never) {
+/// The taps for a lookup at `shift`. Of what is missing there, the share fill(lanes) is left to the
+/// caller, as `filled`. Should nothing on the way be `valid`, what is `bearable` there stands in
+/// for it: the pixel's own texel is always that. Where never(lanes) can tell that nothing is valid
+/// on the way of those lanes, nothing is looked for.
+template <class F, class Tap, class Valid, class Bearable, class Fill, class Never>
+auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable, Fill&& fill,
+                Never&& never) {
   using Quad = decltype(tap.quad(shift));
   const Quad there = tap.quad(shift);
-  ValidTaps<F, Quad> taps{there, there, {}, {}, F(0), shift, false};
+  ValidTaps<F, Quad> taps{there, there, {}, {}, F(0), F(0), shift, false};
   const Four<F> valid_there = valid(there);
   for (int k = 0; k < 4; ++k) {
     taps.weight_there.at[k] = there.weight(k) * valid_there[k];
     taps.share = taps.share + taps.weight_there[k];
     taps.weight_shortened.at[k] = F(0);
   }
-  const auto whole = taps.share > F(1 - 1e-6);
+  auto whole = taps.share > F(1 - 1e-6);
+  if (!any(!whole)) return taps;
+  const F fills = fill(!whole);
+  taps.filled = select(whole, F(0), fills * max(F(1) - taps.share, F(0)));
+  whole = whole || fills >= F(1);
   taps.some_made_up = any(!whole);
   if (!taps.some_made_up) return taps;
   const Vec2<F> shortened =
       never(!whole) ? Vec2<F>{F(0), F(0)} : last_valid(tap, shift, taps.share, valid);
-  taps.place = select(taps.share >= F(0.5), shift, shortened);
+  taps.place = select(taps.share + taps.filled >= F(0.5), shift, shortened);
   taps.shortened = tap.quad(shortened);
   // Half of the weight is valid there, unless nothing on the way is.
   const Four<F> good = valid(taps.shortened), last_resort = bearable(taps.shortened);
@@ -133,7 +140,10 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
     taps.weight_shortened.at[k] = taps.shortened.weight(k) * counts;
     valid_weight = valid_weight + taps.weight_shortened[k];
   }
-  const F scale = max(F(1) - taps.share, F(0)) / max(valid_weight, F(1e-6));
+  // What stands in does so alone where nothing else is bearable.
+  const auto alone = taps.filled > F(0) && valid_weight < F(1e-6);
+  taps.filled = select(alone, F(1) - taps.share, taps.filled);
+  const F scale = max(F(1) - taps.share - taps.filled, F(0)) / max(valid_weight, F(1e-6));
   for (int k = 0; k < 4; ++k) {
     taps.weight_shortened.at[k] = select(whole, F(0), scale * taps.weight_shortened[k]);
   }
@@ -142,7 +152,9 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
 
 template <class F, class Tap, class Valid>
 auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
-  return valid_taps(tap, shift, valid, valid, [](const auto&) { return false; });
+  return valid_taps(
+      tap, shift, valid, valid, [](const auto&) { return F(0); },
+      [](const auto&) { return false; });
 }
 
 }  // namespace limpid

@@ -27,9 +27,11 @@ namespace limpid {
 /// that the last guess has found; with "march", to where the ray passes behind the depth plane
 /// (McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", with equal steps on screen, then
 /// bisection). What lies far before the ray hides the bottom and is not hit. A ray that comes out
-/// from behind it under the bottom goes on to the level of the bottom that it saw last; one that
-/// meets nothing in the picture to where 4 steps guess. From below the ray is bent outwards; where
-/// it is totally reflected nothing is transmitted by the surface and the lookup stays at the pixel.
+/// from behind it under the bottom ends where the layer of the bottom does that Context has, drawn
+/// on behind what stands before it; one that meets nothing in the picture where 4 steps guess. What
+/// is thin under water hides no more than what lies within its `thickness` behind it. From below
+/// the ray is bent outwards; where it is totally reflected nothing is transmitted by the surface
+/// and the lookup stays at the pixel.
 ///
 /// What lies above the surface must not be seen through it. `rejection` `none` takes what is there.
 /// `snap` ("Realistic Water"): where the dry depth nearest to uv' is in front of this pixel's
@@ -37,10 +39,12 @@ namespace limpid {
 /// of the three prism taps is tested, the color tap is bilinear where the depth tap is nearest, and
 /// the choice is hard (a halo). `shorten`: each texel of each channel is tested against the surface
 /// in front of it (op/valid_lookup.h); along snell's rays what stands under water far before their
-/// end hides that, too, and does not count. Where the frame has a layer below, that is looked up
-/// instead of the dry scene. It reaches the highest crest: `shorten` rejects what of it stands
-/// above the surface, `snap`, which asks for this pixel's surface alone, takes all of it. Not so
-/// where the view may begin in the water, from where one looks up into the air as well.
+/// end hides that, too, and does not count; what is missing is then of the layer of the bottom,
+/// where that lies deep enough, else of the last texel on the way there that counts. Where the
+/// frame has a layer below, that is looked up instead of the dry scene. It reaches the highest
+/// crest: `shorten` rejects what of it stands above the surface, `snap`, which asks for this
+/// pixel's surface alone, takes all of it. Not so where the view may begin in the water, from where
+/// one looks up into the air as well.
 ///
 /// Where nothing was hit (a depth of +inf) no light comes from: the water there has no end, and
 /// what is seen is the fog of an endless way, never the sky. A texel of that kind does not count
@@ -71,6 +75,13 @@ struct Refraction {
     Rejection rejection = Rejection::kShorten;
     int steps = kMarch;
     OffFrame off_frame = OffFrame::kContinue;
+    double thickness = 0;
+
+    bool marches() const { return model == Model::kSnell && steps == kMarch; }
+    /// Whether rays that end behind something see Context::bottom_layer.
+    bool looks_behind() const { return marches() && rejection == Rejection::kShorten; }
+    /// Whether rays that leave the picture see Context::continuation.
+    bool goes_on() const { return model == Model::kSnell && off_frame == OffFrame::kContinue; }
   };
 
   static constexpr std::string_view kName = "refraction";
@@ -150,17 +161,11 @@ struct Refraction {
       if (params.model != Model::kSnell) measure_path(c, p);
       if (params.off_frame == OffFrame::kFog) fog_off_frame(planes.bounds, p);
     });
-    if (!continues(params, c)) return;
+    if (!params.goes_on() || !c.continuation) return;
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       // Nothing off the frame is sure.
       if (any(p.confidence <= F(0))) go_on_off_frame(c, planes, p, tap);
     });
-  }
-
-  /// Whether rays that leave the picture see what Context::continuation has.
-  static bool continues(const Params& params, const Context& c) {
-    return params.off_frame == OffFrame::kContinue && params.model == Model::kSnell &&
-           c.continuation;
   }
 
  private:
@@ -222,8 +227,9 @@ struct Refraction {
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       const Bent<F> bent = bend(c, p, ior);
       const ScreenRay<F> ray(c, p, bent.direction);
-      const BottomSearch<F, std::decay_t<decltype(tap)>> search{c, planes, p, tap, ray, bent.fall};
-      const auto found = params.steps == kMarch ? search.march() : search.iterate(params.steps);
+      const BottomSearch<F, std::decay_t<decltype(tap)>> search{
+          c, planes, p, tap, ray, bent.fall, params.thickness};
+      const auto found = params.marches() ? search.march() : search.iterate(params.steps);
       const auto goes = bent.goes > F(0.5);
       const Vec2<F> none{F(0), F(0)};
       p.path = select(goes, found.way, F(0));
@@ -424,14 +430,20 @@ struct Refraction {
   static void look_up_valid(const Params& params, const Context& c, const Planes& planes,
                             Pixel<F>& p, const Tap& tap) {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
-    const F share_of_way(params.model == Model::kSnell ? 0.4 : 0);
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
+    const BottomLayer* layer = params.looks_behind() ? c.bottom_layer : nullptr;
+    // Where the end of the ray was not seen, only the bottom counts.
+    const F snell(params.model == Model::kSnell ? 0.4 : 0);
+    const F share_of_way =
+        layer ? select(p.confidence < F(1), F(BottomLayer::kOfBottom), snell) : snell;
+    // In open water only what lies under it may hide where a ray ends.
+    const auto hidden = layer && !c.foreground ? p.confidence < F(1) : p.confidence < F(-1);
     const auto lies = [&](const auto& quad, F share) -> Four<F> {
-      if (!kBottomless && !c.foreground) return {F(1), F(1), F(1), F(1)};
+      if (!kBottomless && !c.foreground && !any(hidden)) return {F(1), F(1), F(1), F(1)};
       const Four<F> depths = tap.read(planes.depth, quad);
       Four<F> surfaces, counts;
-      if (kBottomless && !c.foreground) {
+      if (kBottomless && !c.foreground && !any(hidden)) {
         for (int k = 0; k < 4; ++k) counts.at[k] = select(is_empty(depths[k]), F(0), F(1));
         return counts;
       }
@@ -461,30 +473,57 @@ struct Refraction {
         const F seen = kBottomless ? select(is_empty(depth), F(0), depth) : below;
         const auto there = seen > surface && (seen > least || share <= F(0));
         counts.at[k] = select(there, F(1), F(0));
+        if (c.foreground) continue;
+        const F is_there = kBottomless ? select(is_empty(depth), F(0), F(1)) : F(1);
+        counts.at[k] = select(hidden, counts[k], is_there);
       }
       return counts;
     };
     const auto valid = [&](const auto& quad) { return lies(quad, share_of_way); };
     const auto bearable = [&](const auto& quad) { return lies(quad, F(0)); };
     const auto taps_at = [&](Vec2<F> shift) {
+      // Not over what stands in the water, which may hide itself, nor where what the layer shows
+      // is itself far before the end of the ray.
+      const auto fill = [&](const auto& lanes) {
+        if (!layer || !any(lanes && p.side > F(0))) return F(0);
+        const BottomLayerTaps<F, Tap> taps(*layer, p, tap);
+        const Vec2<F> here{F(0), F(0)};
+        const auto fills =
+            p.side > F(0) && taps.is_bottom(here, F(0) - height_at(c, p, here, p.dry_depth));
+        const F calm = min(calm_depth_at(c, p, shift), ray_end);
+        const F way = ray_end - calm;
+        const F deeper = depth_at_drop(c, p, shift, taps.shape(shift).drop) - calm - F(0.3) * way;
+        return select(fills, saturate(F(5) * deeper / max(way, F(1e-3) * ray_end)), F(0));
+      };
       // Over a layer below that is empty, or holds only what stands higher than all water.
-      return valid_taps(tap, shift, valid, bearable, [&](const auto& lanes) {
+      const auto never = [&](const auto& lanes) {
         return planes.below &&
                tap.highest(planes.depth, lanes, Vec2<F>{F(0), F(0)}, shift) <= -HUGE_VAL;
-      });
+      };
+      return valid_taps(tap, shift, valid, bearable, fill, never);
+    };
+    const auto behind = [&](const auto& taps, Vec2<F> shift) {
+      if (!layer || !any(taps.filled > F(0))) return Rgb<F>{F(0), F(0), F(0)};
+      return taps.filled * BottomLayerTaps<F, Tap>(*layer, p, tap).color(shift);
+    };
+    const auto depth_of = [&](const auto& taps) {
+      const F depth = taps.read_depth(tap, planes.depth);
+      const F whole = select(taps.filled > F(0), depth + taps.filled * ray_end, depth);
+      return of_whole<kBottomless>(taps, whole);
     };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.
     const Rgb<F> own = p.transmitted;
-    const auto color = [&](const auto& taps, PlaneId plane, F stays) {
-      return select(taps.weight() > F(0.5), of_whole<kBottomless>(taps, taps.read(tap, plane)),
-                    stays);
+    const auto color = [&](const auto& taps, PlaneId plane, F filled, F stays) {
+      const F sum = taps.read(tap, plane) + filled;
+      return select(taps.weight() > F(0.5), of_whole<kBottomless>(taps, sum), stays);
     };
     const F lost = kBottomless ? share_of_nothing(planes, p, tap) : F(0);
     const Vec2<F> green_shift = p.shift_g;
     const auto taps = taps_at(p.shift_g);
+    const Rgb<F> filled = behind(taps, p.shift_g);
     p.shift_g = taps.place;
-    p.transmitted.g = color(taps, green, own.g);
+    p.transmitted.g = color(taps, green, filled.g, own.g);
     F share = taps.share, weight = kBottomless ? taps.weight() : F(1);
     if (c.made.has(StatePart::kPrism)) {
       const auto taps_r = taps_at(p.shift_r);
@@ -493,19 +532,19 @@ struct Refraction {
       const bool apart =
           any(abs(p.shift.x - green_shift.x) > F(0)) || any(abs(p.shift.y - green_shift.y) > F(0));
       const auto taps_common = apart ? taps_at(p.shift) : taps;
+      p.transmitted.r = color(taps_r, red, behind(taps_r, p.shift_r).r, own.r);
+      p.transmitted.b = color(taps_b, blue, behind(taps_b, p.shift_b).b, own.b);
       p.shift_r = taps_r.place;
       p.shift_b = taps_b.place;
       p.shift = taps_common.place;
-      p.transmitted.r = color(taps_r, red, own.r);
-      p.transmitted.b = color(taps_b, blue, own.b);
-      p.hit_depth = of_whole<kBottomless>(taps_common, taps_common.read_depth(tap, planes.depth));
+      p.hit_depth = depth_of(taps_common);
       if (kBottomless) weight = taps_common.weight();
       share = F(1.0 / 3) * (taps_r.share + taps.share + taps_b.share);
     } else {
       p.shift = p.shift_r = p.shift_b = taps.place;
-      p.transmitted.r = color(taps, red, own.r);
-      p.transmitted.b = color(taps, blue, own.b);
-      p.hit_depth = of_whole<kBottomless>(taps, taps.read_depth(tap, planes.depth));
+      p.transmitted.r = color(taps, red, filled.r, own.r);
+      p.transmitted.b = color(taps, blue, filled.b, own.b);
+      p.hit_depth = depth_of(taps);
     }
     p.confidence = p.confidence * share;
     if (!kBottomless) return;

@@ -1,0 +1,54 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "limpid/complete/pull_push.h"
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/plane.h"
+#include "limpid/op/bottom_layer.h"
+#include "limpid/op/context.h"
+
+namespace limpid {
+
+/// Makes the layer of the bottom that refraction looks up where a ray goes behind something.
+///
+/// In cells of a few pixels, about as many for each size of picture. What stands up from the bottom
+/// is what a grey closing of the depth below the water fills (Serra 1982, "Image Analysis and
+/// Mathematical Morphology"), by windows of one cell to an eighth of the picture: the smallest that
+/// fills it tells how wide it is, and it is taken to be a quarter as thick. The rest of the bottom is
+/// drawn on over these cells and those of what stands above the water, by a pyramid of means.
+class BottomLayerMaker {
+ public:
+  /// Null where nothing stands before a bottom, no bottom is seen, or the eye is in the water.
+  /// Valid until the next call. The same for any number of threads.
+  const BottomLayer* make(const Frame& frame, const Context& context, Executor& executor);
+
+ private:
+  struct Cell {
+    float highest;   ///< of its texels, as depth below the calm surface, 0 where one is above
+    float nearness;  ///< 1 / eye depth there
+    float width;     ///< of the cell there, in scene units
+    float bottom;    ///< what reaches down to this is of the bottom
+    int window;      ///< the smallest, in cells, that fills what stands there; 0 where nothing does
+    float looks, standing;  ///< texels looked at, and the share that is not of the bottom
+    float thinness;         ///< 1 / thickness of what stands there, 0 where nothing does
+  };
+  struct Scan;
+
+  void survey(const Scan& scan, Executor& executor);
+  bool find_standing(Size cells);
+  bool is_shore(Size cells, int column, int row) const;
+  bool fill(const Scan& scan, Executor& executor);
+  template <class Fn>
+  void each_near(Size size, int column, int row, Fn&& fn) const;
+  float thinness_at(Size size, int column, int row) const;
+
+  BottomLayer layer_;
+  PullPush<4> bottom_;  ///< color and depth below the calm surface
+  std::vector<Cell> cells_;
+  std::vector<float> dilated_, closed_, room_;
+  std::array<Plane, 5> planes_;  ///< color, depth below the calm surface, thinness
+};
+
+}  // namespace limpid

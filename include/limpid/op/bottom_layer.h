@@ -1,0 +1,62 @@
+#pragma once
+#include "limpid/op/context.h"
+
+/// @file
+/// The bottom where nobody rendered it: behind what stands in the water, or before it.
+
+namespace limpid {
+
+/// What the bottom of a frame looks like, and how deep it lies, as if nothing stood before it. Made
+/// by complete/ for frames in which something does; coarse, for what is known is looked up in the
+/// planes.
+struct BottomLayer {
+  /// What reaches down to this share of the depth around it is of the bottom.
+  static constexpr double kOfBottom = 0.75;
+
+  Texture colors;
+  /// How deep the bottom lies below the calm surface, in scene units, twice, and one by the
+  /// thickness of what stands before it, 0 where nothing thin does.
+  Texture shape;
+  glm::dvec2 scale, offset;  ///< from uv of the picture to that of the textures
+  double most_drop;          ///< the largest depth in `shape`
+};
+
+/// Of a pixel, or of a vector of pixels.
+template <class F, class Tap>
+class BottomLayerTaps {
+ public:
+  BottomLayerTaps(const BottomLayer& layer, const Pixel<F>& pixel, const Tap& tap)
+      : layer_(layer), p_(pixel), tap_(tap) {}
+
+  struct Shape {
+    F drop;      ///< below the calm surface
+    F thinness;  ///< 1 / thickness
+  };
+  Shape shape(Vec2<F> shift) const {
+    const Rgb<F> there = tap_.lat_long_rgb(layer_.shape, place(shift));
+    return {there.r, there.b};
+  }
+  /// Whether what is seen at `shift`, `drop` below the calm surface, is of the bottom.
+  auto is_bottom(Vec2<F> shift, F drop) const {
+    return drop >= F(BottomLayer::kOfBottom) * shape(shift).drop;
+  }
+  Rgb<F> color(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.colors, place(shift)); }
+
+ private:
+  /// Between the centres of the outermost texels, for the lookup goes round in x.
+  Vec2<F> place(Vec2<F> shift) const {
+    const auto& window = layer_.shape.channels[0].window;
+    const auto kept = [](double size, F at) {
+      return min(max(at, F(0.5 / size)), F(1 - 0.5 / size));
+    };
+    const F x = F(layer_.scale.x) * (p_.uv.x + shift.x) + F(layer_.offset.x);
+    const F y = F(layer_.scale.y) * (p_.uv.y + shift.y) + F(layer_.offset.y);
+    return {kept(window.width(), x), kept(window.height(), y)};
+  }
+
+  const BottomLayer& layer_;
+  const Pixel<F>& p_;
+  const Tap& tap_;
+};
+
+}  // namespace limpid

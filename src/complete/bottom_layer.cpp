@@ -1,0 +1,285 @@
+#include "limpid/complete/bottom_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "limpid/ops/look.h"
+
+#include "complete/row_heights.h"
+
+namespace limpid {
+namespace {
+
+constexpr int kCellsAcross = 240;  ///< of the longer side of a picture, but at least kLeastCell
+constexpr int kLeastCell = 4;      ///< pixels
+constexpr int kLooks = 2;          ///< across a cell, and down
+/// The widest window that closes is this share of the cells across to each side.
+constexpr int kReachShare = 8;
+constexpr float kOfBottom = BottomLayer::kOfBottom;
+/// What a cell counts of which not all is bottom: edges are mixed colors.
+constexpr float kMixed = 1e-3f;
+
+/// From a cell to the next, a smooth bottom changes 1 / depth by at most so many times as much as
+/// to the cell before, and by this share.
+constexpr float kStep = 3, kSmooth = 0.002f;
+
+/// Things are as thick behind what is seen of them as this share of their width: a ray that goes
+/// behind one passes its outline, where what is round is thinnest.
+constexpr float kThickness = 0.25f;
+/// The least share of a window that a thing is taken to cover.
+constexpr float kThinnest = 0.05f;
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
+/// The best of three numbers `step` apart in a line of `count`, which goes on as it ends.
+template <class Better>
+void best_of_three(const float* in, float* out, int count, int step, Better better) {
+  const auto ended = [&](int x) { return in[std::clamp(x, 0, count - 1)]; };
+  const int begin = std::min(step, count), end = std::max(count - step, begin);
+  for (int x = 0; x < begin; ++x) out[x] = better(in[x], better(in[0], ended(x + step)));
+  for (int x = begin; x < end; ++x) out[x] = better(in[x], better(in[x - step], in[x + step]));
+  for (int x = end; x < count; ++x) out[x] = better(in[x], better(ended(x - step), in[count - 1]));
+}
+
+/// Windows that reached `reach` to each side then reach `step` farther: at most 2 reach + 1.
+template <class Better>
+void widen(std::vector<float>& field, std::vector<float>& room, Size size, int step,
+           Better better) {
+  const auto row = [&](std::vector<float>& of, int y) {
+    return of.data() + std::ptrdiff_t{std::clamp(y, 0, size.height - 1)} * size.width;
+  };
+  for (int y = 0; y < size.height; ++y) {
+    best_of_three(row(field, y), row(room, y), size.width, step, better);
+  }
+  for (int y = 0; y < size.height; ++y) {
+    const float *above = row(room, y - step), *own = row(room, y), *below = row(room, y + step);
+    float* out = row(field, y);
+    for (int x = 0; x < size.width; ++x) out[x] = better(own[x], better(above[x], below[x]));
+  }
+}
+
+constexpr auto kGreater = [](float a, float b) { return a > b ? a : b; };
+constexpr auto kLess = [](float a, float b) { return a < b ? a : b; };
+
+}  // namespace
+
+/// A frame as cells.
+struct BottomLayerMaker::Scan {
+  const Context& c;
+  std::array<View<const float>, 3> color;
+  const View<const float>& depth;
+  Rect window;
+  int cell, step;
+  Size cells;
+
+  Scan(const Frame& frame, const Context& context)
+      : c(context), depth(frame.plane(Refraction::planes_of(context).depth)) {
+    window = depth.window;
+    for (int i = 0; i < 3; ++i) {
+      const PlaneId plane = plane_after(Refraction::planes_of(context).color, i);
+      color[static_cast<std::size_t>(i)] = frame.plane(plane);
+      window = intersection(window, frame.plane(plane).window);
+    }
+    const int longer = std::max(window.width(), window.height());
+    cell = std::max(kLeastCell, (longer + kCellsAcross - 1) / kCellsAcross);
+    step = cell / kLooks;
+    cells = {(window.width() + cell - 1) / cell, (window.height() + cell - 1) / cell};
+  }
+
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * cells.width + column;
+  }
+
+  /// look(column, x, y, z, drop) of every texel that is looked at in a row of cells: how deep it
+  /// lies below the calm surface, 0 above it, -1 where nothing is.
+  template <class Look>
+  void each(int row, Look&& look) const {
+    const int begin = window.y0 + row * cell;
+    for (int y = begin + step / 2; y < std::min(begin + cell, window.y1); y += step) {
+      const RowHeights heights(c, y);
+      for (int x = window.x0 + step / 2; x < window.x1; x += step) {
+        const float z = depth.at(x, y);
+        const auto drop = static_cast<float>(-heights.at(x, z));
+        look((x - window.x0) / cell, x, y, z, z < 1e30f ? std::max(drop, 0.0f) : -1.0f);
+      }
+    }
+  }
+};
+
+/// Calls fn of a cell and those around it.
+template <class Fn>
+void BottomLayerMaker::each_near(Size size, int column, int row, Fn&& fn) const {
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, size.height - 1); ++y) {
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, size.width - 1); ++x) {
+      fn(cells_[static_cast<std::size_t>(y) * size.width + x]);
+    }
+  }
+}
+
+/// What is highest in each cell.
+void BottomLayerMaker::survey(const Scan& scan, Executor& executor) {
+  const Context& c = scan.c;
+  const double pixels = glm::length(c.to_u) * c.size.x;  // of a length at w = 1
+  cells_.resize(scan.index(0, scan.cells.height));
+  each_row(executor, {0, 0, scan.cells.width, scan.cells.height}, [&](int row) {
+    Cell* cells = cells_.data() + scan.index(0, row);
+    std::fill_n(cells, scan.cells.width, Cell{kNone, 0, 0, 0, 0, 0, 0, 0});
+    scan.each(row, [&](int column, int, int, float z, float drop) {
+      Cell& cell = cells[column];
+      if (!(drop < cell.highest)) return;
+      cell.highest = std::max(drop, 0.0f);
+      cell.nearness = 1 / z;
+      cell.width = static_cast<float>(scan.cell * (c.w_origin + c.w_depth * z) / pixels);
+    });
+  });
+}
+
+/// Whether anything stands before the bottom. Afterwards each cell has the window that fills what
+/// stands there, and the depth to which what is of the bottom reaches.
+bool BottomLayerMaker::find_standing(Size cells) {
+  const int most = std::max(1, std::max(cells.width, cells.height) / kReachShare);
+  // Round the picture as wide as windows are: a bottom that rises there is to stay as it is.
+  const Size wide{cells.width + 2 * most, cells.height + 2 * most};
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y + most) * wide.width + (x + most);
+  };
+  const std::size_t area = static_cast<std::size_t>(wide.width) * wide.height;
+  for (std::vector<float>* field : {&dilated_, &closed_, &room_}) field->resize(area);
+  for (int y = -most; y < cells.height + most; ++y) {
+    for (int x = -most; x < cells.width + most; ++x) {
+      const int column = std::clamp(x, 0, cells.width - 1),
+                row = std::clamp(y, 0, cells.height - 1);
+      dilated_[at(x, y)] = cells_[static_cast<std::size_t>(row) * cells.width + column].highest;
+    }
+  }
+  bool stands = false;
+  const auto compare = [&](const std::vector<float>& closed, int window) {
+    for (int y = 0; y < cells.height; ++y) {
+      for (int x = 0; x < cells.width; ++x) {
+        Cell& cell = cells_[static_cast<std::size_t>(y) * cells.width + x];
+        const bool higher = cell.highest < kOfBottom * closed[at(x, y)];
+        stands = stands || higher;
+        if (higher && cell.window == 0) cell.window = window;
+      }
+    }
+  };
+  for (int last = 0, reach = 1; last < most; last = reach, reach = std::min(2 * reach, most)) {
+    widen(dilated_, room_, wide, reach - last, kGreater);
+    closed_ = dilated_;
+    for (int closed = 0, step = 0; closed < reach; closed += step) {
+      step = std::min(2 * closed + 1, reach - closed);
+      widen(closed_, room_, wide, step, kLess);
+    }
+    compare(closed_, 2 * reach + 1);
+  }
+  for (int y = 0; y < cells.height; ++y) {
+    for (int x = 0; x < cells.width; ++x) {
+      cells_[static_cast<std::size_t>(y) * cells.width + x].bottom = kOfBottom * closed_[at(x, y)];
+    }
+  }
+  return stands;
+}
+
+/// Whether a cell of land goes on as the bottom beside it does, so that the bottom ends there, and
+/// not behind it.
+bool BottomLayerMaker::is_shore(Size cells, int column, int row) const {
+  const auto at = [&](int x, int y) -> const Cell* {
+    const bool inside = x >= 0 && x < cells.width && y >= 0 && y < cells.height;
+    return inside ? &cells_[static_cast<std::size_t>(y) * cells.width + x] : nullptr;
+  };
+  const float own = at(column, row)->nearness;
+  for (const auto [x, y] :
+       {std::array{1, 0}, std::array{-1, 0}, std::array{0, 1}, std::array{0, -1}}) {
+    const Cell *next = at(column + x, row + y), *beyond = at(column + 2 * x, row + 2 * y);
+    if (!next || !beyond || !(next->highest > 0) || !(beyond->highest > 0)) continue;
+    const float step = std::abs(beyond->nearness - next->nearness);
+    if (std::abs(next->nearness - own) < kStep * step + kSmooth * own) return true;
+  }
+  return false;
+}
+
+/// Means of what is of the bottom, which are drawn on. False where nothing is.
+bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
+  const Size size = scan.cells;
+  auto& level = bottom_.finest(size);
+  each_row(executor, {0, 0, size.width, size.height}, [&](int row) {
+    auto* texels = &level.at(0, row);
+    std::fill_n(texels, size.width, PullPush<4>::Texel{});
+    Cell* cells = cells_.data() + scan.index(0, row);
+    scan.each(row, [&](int column, int x, int y, float, float drop) {
+      const bool land = drop <= 0;
+      cells[column].looks += 1;
+      if (!(drop >= cells[column].bottom) || (land && !is_shore(size, column, row))) return;
+      PullPush<4>::Texel& texel = texels[column];
+      for (std::size_t i = 0; i < 3; ++i) texel[i] += scan.color[i].at(x, y);
+      texel[3] += drop;
+      texel[4] += 1;
+    });
+    for (int column = 0; column < size.width; ++column) {
+      PullPush<4>::Texel& texel = texels[column];
+      cells[column].standing = 1 - texel[4] / std::max(cells[column].looks, 1.0f);
+      if (!(texel[4] > 0)) continue;
+      for (std::size_t i = 0; i < 4; ++i) texel[i] /= texel[4];
+      texel[4] = cells[column].highest >= cells[column].bottom ? 1 : kMixed;
+    }
+  });
+  return bottom_.draw_on(executor);
+}
+
+/// What stands in a cell is as wide as the window that fills it, in which a thing that is narrower
+/// covers a share.
+float BottomLayerMaker::thinness_at(Size size, int column, int row) const {
+  const Cell& own = cells_[static_cast<std::size_t>(row) * size.width + column];
+  if (own.window == 0) return 0;
+  float standing = 1;
+  if (own.window == 3) {
+    float sum = 0, count = 0;
+    each_near(size, column, row, [&](const Cell& cell) { sum += cell.standing, count += 1; });
+    standing = std::max(sum / count, kThinnest);
+  }
+  return 1 / (kThickness * standing * static_cast<float>(own.window) * own.width);
+}
+
+const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Context& context,
+                                          Executor& executor) {
+  if (!(context.eye_above > 0) || context.submersible) return nullptr;
+  const Scan scan(frame, context);
+  survey(scan, executor);
+  if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;
+  const Rect window{0, 0, scan.cells.width, scan.cells.height};
+  for (Plane& plane : planes_) {
+    if (!plane || plane.view().window != window) plane = Plane(window);
+  }
+  layer_.most_drop = 0;
+  for (int y = 0; y < window.y1; ++y) {
+    for (int x = 0; x < window.x1; ++x) {
+      cells_[scan.index(x, y)].thinness = thinness_at(window.size(), x, y);
+    }
+  }
+  for (int y = 0; y < window.y1; ++y) {
+    for (int x = 0; x < window.x1; ++x) {
+      const PullPush<4>::Texel& texel = bottom_.finest().at(x, y);
+      for (std::size_t i = 0; i < 4; ++i) planes_[i].view().at(x, y) = texel[i];
+      // Lookups are between cells: what is beside a thing is as thin.
+      float& thinness = planes_[4].view().at(x, y);
+      thinness = 0;
+      each_near(window.size(), x, y,
+                [&](const Cell& cell) { thinness = std::max(thinness, cell.thinness); });
+      layer_.most_drop = std::max(layer_.most_drop, static_cast<double>(texel[3]));
+    }
+  }
+  layer_.colors.channels = {planes_[0].view(), planes_[1].view(), planes_[2].view()};
+  layer_.shape.channels = {planes_[3].view(), planes_[3].view(), planes_[4].view()};
+  // The cells go on beyond the window where its size is no multiple of theirs.
+  const glm::dvec2 picture(context.size),
+      covered(scan.cell * window.width(), scan.cell * window.height());
+  const glm::dvec2 corner(scan.window.x0 - context.corner.x, scan.window.y0 - context.corner.y);
+  layer_.scale = picture / covered;
+  layer_.offset = -corner / covered;
+  return &layer_;
+}
+
+}  // namespace limpid

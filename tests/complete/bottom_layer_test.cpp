@@ -1,0 +1,245 @@
+#include "limpid/complete/bottom_layer.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "complete/pool.h"
+
+// The bottom behind what stands before it.
+
+namespace limpid {
+namespace {
+
+using test::Pool;
+using test::PoolOf;
+
+constexpr double kThing = 40;  ///< its color; that of the bottom is below 1
+
+double floor_color(double x, double z) { return 0.5 + 0.2 * std::sin(x) + 0.1 * std::sin(z); }
+
+/// A pool in which something hides the pixels of a rectangle, at a share of the bottom's depth.
+struct Hidden {
+  Pool pool;
+  Rect thing;
+
+  explicit Hidden(const Rect& at, double share = 0.5) : thing(at) {
+    pool.draw(floor_color);
+    for (int c = 0; c < 3; ++c) {
+      pool.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+        const glm::dvec3 place = pool.dry_depth(x, y) * pool.ray(x, y);
+        return static_cast<float>(hides(x, y) ? kThing : floor_color(place.x, place.z));
+      });
+    }
+    pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+      return static_cast<float>((hides(x, y) ? share : 1) * pool.dry_depth(x, y));
+    });
+  }
+  bool hides(int x, int y) const { return thing.contains({x, y, x + 1, y + 1}); }
+  double drop(int x, int y) const {
+    const glm::dvec3 place = pool.dry_depth(x, y) * pool.ray(x, y);
+    return -2 - place.y;
+  }
+  const BottomLayer* made(BottomLayerMaker& maker, int threads = 1) const {
+    const auto executor = make_executor(threads);
+    return maker.make(pool.buffers.frame, pool.context(), *executor);
+  }
+};
+
+/// Bilinear, at the middle of a pixel.
+double at_pixel(const BottomLayer& layer, const View<const float>& view, int x, int y) {
+  const double u = (x + 0.5) / Pool::kSize.width, v = (y + 0.5) / Pool::kSize.height;
+  const double px = (layer.scale.x * u + layer.offset.x) * view.window.width() - 0.5;
+  const double py = (layer.scale.y * v + layer.offset.y) * view.window.height() - 0.5;
+  const int x0 = static_cast<int>(std::floor(px)), y0 = static_cast<int>(std::floor(py));
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int column = x0 + (k & 1), row = y0 + (k >> 1);
+    const double weight = (k & 1 ? px - x0 : 1 - px + x0) * (k >> 1 ? py - y0 : 1 - py + y0);
+    sum += weight * view.at(std::clamp(column, 0, view.window.width() - 1),
+                            std::clamp(row, 0, view.window.height() - 1));
+  }
+  return sum;
+}
+
+TEST(BottomLayer, IsNotMadeWhereNothingStandsBeforeTheBottom) {
+  BottomLayerMaker maker;
+  EXPECT_FALSE(Hidden({0, 0, 0, 0}).made(maker));
+  // Nor where the bottom rises out of the water.
+  Hidden beach({0, 0, 0, 0});
+  beach.pool.rise = -0.3;
+  beach.pool.draw(floor_color);
+  EXPECT_FALSE(beach.made(maker));
+}
+
+TEST(BottomLayer, GoesOnBehindWhatStandsInTheWaterOrAboveIt) {
+  for (const double share : {0.3, 0.45, 0.7}) {  // the surface is at half of the depth, about
+    const Hidden hidden({40, 44, 52, 56}, share);
+    BottomLayerMaker maker;
+    const BottomLayer* layer = hidden.made(maker);
+    ASSERT_TRUE(layer) << share;
+    for (int y = 36; y < 64; ++y) {
+      for (int x = 32; x < 60; ++x) {
+        EXPECT_NEAR(at_pixel(*layer, layer->shape.channels[0], x, y), hidden.drop(x, y), 0.1)
+            << share << ": " << x << ", " << y;
+        // Little of the edges, and only where nothing else is known.
+        EXPECT_LT(at_pixel(*layer, layer->colors.channels[0], x, y), 0.85);
+        EXPECT_GT(at_pixel(*layer, layer->colors.channels[0], x, y), 0.15);
+      }
+    }
+  }
+}
+
+TEST(BottomLayer, IsWhatThePictureShowsElsewhere) {
+  const Hidden hidden({40, 44, 52, 56});
+  BottomLayerMaker maker;
+  const BottomLayer* layer = hidden.made(maker);
+  ASSERT_TRUE(layer);
+  for (int y = 40; y < 70; ++y) {
+    for (int x = 2; x < 30; ++x) {
+      const glm::dvec3 place = hidden.pool.dry_depth(x, y) * hidden.pool.ray(x, y);
+      EXPECT_NEAR(at_pixel(*layer, layer->colors.channels[1], x, y), floor_color(place.x, place.z),
+                  0.06);
+      EXPECT_NEAR(at_pixel(*layer, layer->shape.channels[0], x, y), hidden.drop(x, y), 0.05);
+      EXPECT_EQ(at_pixel(*layer, layer->shape.channels[2], x, y), 0);
+    }
+  }
+}
+
+TEST(BottomLayer, ThingsAreThickAsTheyAreWide) {
+  double last = 0;
+  for (const int width : {2, 6, 14}) {
+    const Hidden hidden({40, 30, 40 + width, 68}, 0.7);
+    BottomLayerMaker maker;
+    const BottomLayer* layer = hidden.made(maker);
+    ASSERT_TRUE(layer) << width;
+    const double depth = 0.7 * hidden.pool.dry_depth(40, 50);
+    const double pixel = 2 * std::tan(0.45) / Pool::kSize.height * depth;
+    const double thickness = 1 / at_pixel(*layer, layer->shape.channels[2], 40 + width / 2, 50);
+    // A quarter as thick as wide, in cells of four pixels, by windows twice as wide each.
+    EXPECT_GT(thickness, 0.15 * width * pixel) << width;
+    EXPECT_LT(thickness, 0.25 * (2 * width + 8) * pixel) << width;
+    EXPECT_GE(thickness, last);
+    last = thickness;
+  }
+}
+
+TEST(BottomLayer, ThreadsDoNotMatter) {
+  const Hidden hidden({33, 41, 50, 57});
+  BottomLayerMaker alone, crowd;
+  const BottomLayer *one = hidden.made(alone), *four = hidden.made(crowd, 4);
+  ASSERT_TRUE(one && four);
+  for (const auto part : {&BottomLayer::colors, &BottomLayer::shape}) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const View<const float>&a = (one->*part).channels[c], &b = (four->*part).channels[c];
+      for (int y = 0; y < a.window.height(); ++y) {
+        for (int x = 0; x < a.window.width(); ++x) ASSERT_EQ(a.at(x, y), b.at(x, y));
+      }
+    }
+  }
+}
+
+// --- what rays see that end behind something --------------------------------------------------
+
+constexpr float kPlain = 0.5f;
+
+float checks(int x, int y) { return (x / 5 + y / 5) % 2 == 0 ? 5.0f : 50.0f; }
+
+/// Rays that march, past things of that thickness.
+Look rays(double thickness = 0) {
+  Look look = test::still_look();
+  look.of<Refraction>() = {};
+  look.of<Refraction>().off_frame = Refraction::OffFrame::kShorten;
+  look.of<Refraction>().thickness = thickness;
+  return look;
+}
+
+/// A plain bottom, before which a checked board stands: what stands there, and where.
+struct Checked {
+  PoolOf<288, 216> pool;
+  std::function<double(const glm::dvec3& from, const glm::dvec3& along)> meets;  ///< +inf: never
+
+  explicit Checked(decltype(meets) board) : meets(std::move(board)) {
+    pool.rise = 0;
+    pool.draw([](double, double) { return double{kPlain}; });
+    const auto depth = [&](int x, int y) {
+      return std::min(pool.dry_depth(x, y), meets({0, 0, 0}, pool.ray(x, y)));
+    };
+    for (int c = 0; c < 3; ++c) {
+      pool.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+        return depth(x, y) < pool.dry_depth(x, y) ? checks(x, y) : kPlain;
+      });
+    }
+    pool.buffers.set(PlaneId::kDepth,
+                     [&](int x, int y) { return static_cast<float>(depth(x, y)); });
+    for (int axis = 0; axis < 3; ++axis) {
+      pool.buffers.set(plane_after(PlaneId::kSurfaceNormalX, axis),
+                       [&](int x, int y) { return static_cast<float>(wave(x, y)[axis]); });
+    }
+  }
+  /// Of the water at a pixel.
+  glm::dvec3 wave(int x, int y) const {
+    const glm::dvec3 at = (-2 / pool.ray(x, y).y) * pool.ray(x, y);
+    return glm::normalize(
+        glm::dvec3(0.06 * std::sin(3 * at.x + at.z), 1, 0.06 * std::sin(2 * at.z)));
+  }
+  /// Whether the pixel's water shows the board.
+  bool shows_board(int x, int y) const {
+    const glm::dvec3 r = pool.ray(x, y), n = wave(x, y), v = glm::normalize(r);
+    if (meets({0, 0, 0}, r) < -2 / r.y) return true;  // it stands before the water
+    return meets((-2 / r.y) * r, glm::refract(v, n, 1 / 1.333)) < HUGE_VAL;
+  }
+  /// Pixels away from its outline, seen through the water, that show something of it.
+  int streaks(const Look& look) const {
+    const test::Picture wet = test::reference(look, pool.buffers.frame, pool.scene);
+    int count = 0;
+    for (int y = 0; y < pool.kSize.height; ++y) {
+      for (int x = 0; x < pool.kSize.width; ++x) {
+        if (!(pool.ray(x, y).y < -0.12)) continue;
+        bool near = false;
+        for (int k = 0; k < 9; ++k) near = near || shows_board(x + k % 3 - 1, y + k / 3 - 1);
+        if (!near && wet.aov(Aov::kTransmitted, x, y) > 1.1 * kPlain) ++count;
+      }
+    }
+    return count;
+  }
+};
+
+/// A box with that middle, and half as large as that (Kay & Kajiya 1986, "Ray tracing complex
+/// scenes").
+auto box(glm::dvec3 middle, glm::dvec3 half) {
+  return [=](const glm::dvec3& from, const glm::dvec3& along) {
+    double enters = 0, leaves = HUGE_VAL;
+    for (int i = 0; i < 3; ++i) {
+      const double a = (middle[i] - half[i] - from[i]) / along[i];
+      const double b = (middle[i] + half[i] - from[i]) / along[i];
+      enters = std::max(enters, std::min(a, b));
+      leaves = std::min(leaves, std::max(a, b));
+    }
+    return enters < leaves ? enters : HUGE_VAL;
+  };
+}
+
+TEST(BottomLayer, NothingOfAPostIsDraggedAlong) {
+  EXPECT_EQ(Checked(box({0.2, -2.2, -4}, {0.1, 1.5, 0.1})).streaks(rays()), 0);
+}
+
+TEST(BottomLayer, NothingOfABoatIsDraggedAlong) {
+  EXPECT_EQ(Checked(box({-0.3, -1.7, -4.5}, {0.7, 0.4, 0.3})).streaks(rays()), 0);
+}
+
+TEST(BottomLayer, NothingOfWhatHoversUnderWaterIsDraggedAlong) {
+  EXPECT_EQ(Checked(box({0.1, -2.7, -4}, {0.25, 0.25, 0.25})).streaks(rays()), 0);
+  // A sheet is thinner than it is wide: that one has to say.
+  EXPECT_EQ(Checked(box({0.1, -2.6, -4}, {0.35, 0.01, 0.3})).streaks(rays(0.02)), 0);
+}
+
+TEST(BottomLayer, ARayPassesBehindWhatIsThin) {
+  const Checked rope(box({0, -3, -5}, {5, 0.05, 0.05}));
+  EXPECT_EQ(rope.streaks(rays()), 0);
+  // It hides as much as one says.
+  EXPECT_GT(rope.streaks(rays(100)), 0);
+}
+
+}  // namespace
+}  // namespace limpid
