@@ -100,6 +100,7 @@ Canvas::Canvas(Rect window, const OutputChoice& choice)
       if (!target_.of(aov)[i]) target_.of(aov)[i] = add();
     }
   }
+  if (!choice.deep.empty()) target_.uncovered = add();
 }
 
 Canvas& canvas_for(std::optional<Canvas>& kept, Rect window, const OutputChoice& choice) {
@@ -196,7 +197,7 @@ DeepWater Canvas::deep_water(const ExrHeading& heading, const OutputChoice& choi
   water.back = extent_.back.view();
   for (std::size_t c = 0; c < 3; ++c) {
     water.transmittance[c] = target_.of(Aov::kTransmittance)[c];
-    water.in_scatter[c] = target_.of(Aov::kInScatter)[c];
+    water.in_scatter[c] = extent_.in_scatter[c].view();
   }
   water.half = !choice.store_float;
   return water;

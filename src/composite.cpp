@@ -148,6 +148,7 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
   surveyed.warnings = warnings_of(job, plate, plan);
   warn_of_picture(plan, frame, scene, surveyed.warnings);
+  warn_of_deep_glass(loaded.transparent, surveyed.warnings);
   surveyed.beyond = beyond_of(plan, frame, scene);
   warn_of_beyond(surveyed.beyond, surveyed.warnings);
   refuse_warnings(job.output.strict, surveyed.warnings);
@@ -200,6 +201,7 @@ void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool 
   report_.replaced = loaded_.replaced;
   report_.warnings = warnings_of(job, plate, report_.plan);
   warn_of_picture(report_.plan, loaded_.frame, scene_, report_.warnings);
+  warn_of_deep_glass(loaded_.transparent, report_.warnings);
   beyond_ = beyond_of(report_.plan, loaded_.frame, scene_);
   warn_of_beyond(beyond_, report_.warnings);
   refuse_warnings(job.output.strict, report_.warnings);

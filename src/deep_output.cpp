@@ -54,13 +54,17 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
   };
 
   const Rect work = frame.work();
-  WaterExtent extent{Plane(work), Plane(work)};
+  WaterExtent extent{Plane(work), Plane(work), {Plane(work), Plane(work), Plane(work)}};
   for (int y = work.y0; y < work.y1; ++y) {
     const RowRays<double> rays(context, y - context.corner.y + 0.5);
     for (int x = work.x0; x < work.x1; ++x) {
       const Extent at = extent_at(rays, x, y);
       extent.front.view().at(x, y) = static_cast<float>(at.front);
       extent.back.view().at(x, y) = static_cast<float>(at.back);
+      for (std::size_t c = 0; c < 3; ++c) {
+        extent.in_scatter[c].view().at(x, y) =
+            target.of(Aov::kInScatter)[c].at(x, y) / target.uncovered.at(x, y);
+      }
     }
   }
   return extent;

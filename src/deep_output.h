@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 #include "limpid/core/scene.h"
@@ -15,9 +17,11 @@ inline constexpr Aov kDeepAovs[] = {Aov::kInScatter, Aov::kTransmittance, Aov::k
 /// +inf on dry pixels; the back is always finite, and the front again where there is no sample.
 struct WaterExtent {
   Plane front, back;
+  std::array<Plane, 3> in_scatter;  ///< of whole pixels, also where something stands before a part
 };
 
-/// From the AOVs path and surface_depth of a frame that was run; OutputChoice::deep says how.
+/// From the AOVs path, surface_depth and in_scatter of a frame that was run, and its uncovered;
+/// OutputChoice::deep says how.
 WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scene,
                          const Target& target);
 

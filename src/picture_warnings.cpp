@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 
 #include <glm/geometric.hpp>
 
@@ -47,6 +49,14 @@ Found look_at(const Frame& frame, const Context& context, int step) {
 
 constexpr int kCoarse = 16;
 
+std::string glass_text(double share, const std::string& what) {
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.1f %%", 100 * share);
+  return std::string(percent) + " of " + what +
+         " transparent, as glass or a wide blur, and taken for opaque at their depth: no water is "
+         "put behind";
+}
+
 /// Whether there are pixels of both kinds, as in a picture that was meant.
 bool warn_of_wet(const Frame& frame, const Context& context, std::vector<std::string>& warnings) {
   if (look_at(frame, context, kCoarse).both()) return true;
@@ -86,6 +96,28 @@ void warn_of_depth(const Frame& frame, std::vector<std::string>& warnings) {
     warnings.push_back("the depth is nearly the same everywhere," + range +
                        "; expected that of a scene, if that is not meant");
   }
+}
+
+/// What has a depth and shows what is behind it, too, in all pixels around one: glass. Edges do
+/// likewise, and are narrow.
+void warn_of_glass(const Frame& frame, std::vector<std::string>& warnings) {
+  const View<const float>& alpha = frame.plane(PlaneId::kColorA);
+  if (!alpha || frame.before_water[3]) return;
+  const Rect w = frame.work();
+  const auto clear = [&](int x, int y) {
+    const float a = alpha.at(x, y);
+    return a > 0.02f && a < 0.98f && frame.plane(PlaneId::kDepth).at(x, y) < HUGE_VALF;
+  };
+  const int step = std::clamp(std::min(w.width(), w.height()) / 64, 1, kCoarse);
+  std::int64_t seen = 0, found = 0;
+  for (int y = w.y0 + 1; y < w.y1 - 1; y += step) {
+    for (int x = w.x0 + 1; x < w.x1 - 1; x += step, ++seen) {
+      bool all = true;
+      for (int k = 0; all && k < 9; ++k) all = clear(x + k % 3 - 1, y + k / 3 - 1);
+      found += all;
+    }
+  }
+  if (found > 0) warnings.push_back(glass_text(double(found) / double(seen), "the pixels are"));
 }
 
 /// Looks where a mirror shows the sun, which is infinitely far away.
@@ -161,8 +193,14 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   // What is to be said of the rest would be of another picture than the one that was meant.
   if (!warn_of_wet(frame, context, warnings)) return;
   warn_of_depth(frame, warnings);
+  warn_of_glass(frame, warnings);
   warn_of_sun(plan, frame, context, warnings);
   warn_of_scale(plan, frame, context, warnings);
+}
+
+void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {
+  if (share < 0.001) return;
+  warnings.push_back(glass_text(share, "the wet pixels show something under the water that is"));
 }
 
 Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene) {

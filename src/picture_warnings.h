@@ -14,6 +14,8 @@ namespace limpid {
 /// - No pixel of Frame::work() is wet, or all are, seen from the air: then water, camera and depth
 ///   do not fit together.
 /// - The depth is nearly the same everywhere, or in 0 ... 1 everywhere, as that of a mist pass is.
+/// - Part of the picture has an alpha between 0 and 1 and a depth, as glass has: it counts as
+/// opaque.
 /// - The reflection shows the sun's disc, which the highlight adds, too.
 /// - A period of the tiling waves is smaller than two of the nearest water's pixels, or so large
 ///   that the whole picture shows a hundredth of it; or waves are higher than the camera.
@@ -21,6 +23,9 @@ namespace limpid {
 /// Looks at few pixels, unless it is all wet or all dry.
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings);
+
+/// Adds a sentence where a thousandth of the wet pixels or more is LoadedPlate::transparent.
+void warn_of_deep_glass(double share, std::vector<std::string>& warnings);
 
 /// Where the plan's refraction looks beyond the picture; nowhere, if it follows no rays.
 Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene);

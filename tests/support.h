@@ -190,6 +190,7 @@ inline DepthFog::Params plain_fog(DepthFog::Model model) {
 /// The models of "Realistic Water", which are the plainest to work out by hand.
 inline Look article_look() {
   Look look;
+  look.water.edges = Water::Edges::kHard;
   look.of<WaveNormals>().model = WaveNormals::Model::kFourMaps;
   look.of<PrismSplit>().model = PrismSplit::Model::kAxis;
   Refraction::Params& refraction = look.of<Refraction>();

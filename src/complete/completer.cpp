@@ -28,6 +28,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& c
     displaced_surface_.make(whole, context, executor, simd);
     take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth());
   }
+  if (plan.look.water.edges == Water::Edges::kMixed) edges_.make(whole, context, executor);
   if (const PlaneSet made = made_by("mirror_depth"); !made.empty()) {
     mirror_depth_.make(whole, context, executor);
     take(made, PlaneId::kReflectionDepth, mirror_depth_.depth());

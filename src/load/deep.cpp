@@ -121,16 +121,19 @@ void fill(const View<float>& plane, float value) {
   }
 }
 
-DeepLayers empty_layers(const ExrFile& file, const Rect& window) {
-  constexpr std::int64_t kPlanes = 4 + 1 + 3 + 1;
+DeepLayers empty_layers(const ExrFile& file, const Rect& window, bool water) {
+  const std::int64_t planes = 4 + 1 + 3 + 1 + (water ? 4 : 0);
   const std::int64_t most = file.limits().max_memory;
-  if (window.area() > most / (kPlanes * std::int64_t{sizeof(float)})) {
+  if (window.area() > most / (planes * std::int64_t{sizeof(float)})) {
     throw Error(file.path().string() + ": its deep layers need more memory than the limit of " +
                 std::to_string(most) + " bytes");
   }
   DeepLayers layers;
   for (Plane& plane : layers.color) plane = Plane(window);
   for (Plane& plane : layers.below_color) plane = Plane(window);
+  if (water) {
+    for (Plane& plane : layers.before_water) plane = Plane(window);
+  }
   layers.depth = Plane(window);
   layers.below_depth = Plane(window);
   fill(layers.depth.view(), kInf);
@@ -138,12 +141,44 @@ DeepLayers empty_layers(const ExrFile& file, const Rect& window) {
   return layers;
 }
 
+/// Whether what lies at the depth, the nearest there is behind the water, shows what is behind it:
+/// a point, for a volume is no pane.
+bool is_transparent(std::span<const DeepSample> samples, double nearest) {
+  bool clear = false, behind = false;
+  for (const DeepSample& sample : samples) {
+    const bool point = sample.back == sample.front;
+    if (sample.front == nearest && sample.alpha[3] > 0) clear |= point && sample.alpha[3] < 0.99;
+    behind |= sample.front > nearest && sample.front < kInf && sample.alpha[3] > 0;
+  }
+  return clear && behind;
+}
+
+std::size_t place(const Rect& window, int x, int y) {
+  return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(window.width()) +
+         static_cast<std::size_t>(x - window.x0);
+}
+
+/// How many pixels are set with all around them: an edge is transparent, too, but narrow.
+std::int64_t count_inner(const std::vector<bool>& set, const Rect& w) {
+  std::int64_t count = 0;
+  for (int y = w.y0 + 1; !set.empty() && y < w.y1 - 1; ++y) {
+    for (int x = w.x0 + 1; x < w.x1 - 1; ++x) {
+      bool inner = true;
+      for (int k = 0; inner && k < 9; ++k) inner = set[place(w, x + k % 3 - 1, y + k / 3 - 1)];
+      count += inner;
+    }
+  }
+  return count;
+}
+
 }  // namespace
 
 DeepLayers read_deep_layers(const ExrFile& file, int part, View<const float> surface) {
   const DeepChannels channels = channels_of(file, part);
   const Rect& window = surface.window;
-  DeepLayers layers = empty_layers(file, window);
+  DeepLayers layers = empty_layers(file, window, static_cast<bool>(surface));
+  std::int64_t wet = 0;
+  std::vector<bool> transparent(static_cast<std::size_t>(surface ? window.area() : 0));
   SampleReader reader(channels, layers.replaced);
   DeepFlattener flattener;
   file.read_deep(part, channels.names, [&](const DeepBlock& block) {
@@ -162,9 +197,17 @@ DeepLayers read_deep_layers(const ExrFile& file, int part, View<const float> sur
         for (int c = 0; c < 3; ++c)
           layers.below_color[c].view().at(x, y) = float_of(below.color[c]);
         layers.below_depth.view().at(x, y) = float_of(below.depth);
+        const FlatPixel before = flattener.flatten(samples, -HUGE_VAL, surface.at(x, y));
+        for (int c = 0; c < 4; ++c)
+          layers.before_water[c].view().at(x, y) = float_of(before.color[c]);
+        ++wet;
+        transparent[place(window, x, y)] = is_transparent(samples, below.depth);
       }
     }
   });
+  if (wet > 0) {
+    layers.transparent = static_cast<double>(count_inner(transparent, window)) / double(wet);
+  }
   return layers;
 }
 

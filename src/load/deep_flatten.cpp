@@ -108,13 +108,14 @@ bool any(const std::array<double, 4>& alpha, bool (*holds)(double)) {
 
 }  // namespace
 
-double DeepFlattener::collect(std::span<const DeepSample> samples, double from) {
+double DeepFlattener::collect(std::span<const DeepSample> samples, double from, double to) {
   double nearest = std::numeric_limits<double>::infinity();
   events_.clear();
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     const DeepSample& sample = samples[i];
     const bool volume = sample.back > sample.front;
     if (volume ? sample.back <= from : sample.front <= from) continue;
+    if (volume ? sample.front >= to : sample.front > to) continue;
     const double front = volume ? std::max(sample.front, from) : sample.front;
     if (any(sample.alpha, [](double a) { return a > 0; })) nearest = std::min(nearest, front);
     if (!volume) {
@@ -126,7 +127,7 @@ double DeepFlattener::collect(std::span<const DeepSample> samples, double from) 
     }
     if (any(sample.alpha, [](double a) { return a < 1; })) {
       events_.push_back({front, Kind::kVolumeBegins, i});
-      events_.push_back({sample.back, Kind::kVolumeEnds, i});
+      events_.push_back({std::min(sample.back, to), Kind::kVolumeEnds, i});
     }
   }
   std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
@@ -135,9 +136,9 @@ double DeepFlattener::collect(std::span<const DeepSample> samples, double from) 
   return nearest;
 }
 
-FlatPixel DeepFlattener::flatten(std::span<const DeepSample> samples, double from) {
+FlatPixel DeepFlattener::flatten(std::span<const DeepSample> samples, double from, double to) {
   FlatPixel flat;
-  flat.depth = collect(samples, from);
+  flat.depth = collect(samples, from, to);
   std::array<Channel, 4> channels;
   Inside inside;
   double depth = 0;

@@ -23,11 +23,13 @@ struct FlatPixel {
 /// Flattens one pixel after the other; keeps its memory between them.
 class DeepFlattener {
  public:
-  /// The samples behind the depth `from`, composited front to back. OpenEXR "Interpreting Deep
-  /// Pixels", with the sums that its splits and merges come to: a volume of alpha a and length L
-  /// has the extinction -ln(1-a)/L and the emission C (-ln(1-a)/a)/L everywhere in it, and what
-  /// overlaps adds up. Takes n log n for n samples, however they overlap.
-  FlatPixel flatten(std::span<const DeepSample> samples, double from);
+  /// The samples behind the depth `from` and not behind `to`, composited front to back. OpenEXR
+  /// "Interpreting Deep Pixels", with the sums that its splits and merges come to: a volume of
+  /// alpha a and length L has the extinction -ln(1-a)/L and the emission C (-ln(1-a)/a)/L
+  /// everywhere in it, and what overlaps adds up. Takes n log n for n samples, however they
+  /// overlap.
+  FlatPixel flatten(std::span<const DeepSample> samples, double from,
+                    double to = std::numeric_limits<double>::infinity());
 
  private:
   /// What happens at one depth happens in this order.
@@ -38,7 +40,7 @@ class DeepFlattener {
     std::uint32_t sample;
   };
   /// Fills `events_`, in order; returns the depth of the nearest sample with any alpha.
-  double collect(std::span<const DeepSample> samples, double from);
+  double collect(std::span<const DeepSample> samples, double from, double to);
 
   std::vector<Event> events_;
 };

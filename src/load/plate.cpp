@@ -337,6 +337,7 @@ void Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
   std::vector<Plane> old = std::exchange(loaded.planes, std::vector<Plane>(kPlaneCount));
   old.resize(kPlaneCount);
   loaded.frame = {};
+  loaded.transparent = 0;
   loaded.frame.display = display();
   const Rect work = intersection(display(), state_->part_of(state_->color_ref()).data);
   if (work.empty()) throw Error("color: its data window lies outside the display window");

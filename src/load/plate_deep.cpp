@@ -1,5 +1,6 @@
 #include "load/plate_deep.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "limpid/core/error.h"
@@ -89,6 +90,13 @@ void read_deep_planes(const ExrFile& file, int part, PlaneSet planes, const Rect
                            loaded.frame.display,
                            depth.nothing};
   for (Plane* plane : {&layers.depth, &layers.below_depth}) make_eye_depth(plane->view(), source);
+  if (surface) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      loaded.before_water[c] = std::move(layers.before_water[c]);
+      loaded.frame.before_water[c] = loaded.before_water[c].view();
+    }
+  }
+  loaded.transparent = std::max(loaded.transparent, layers.transparent);
   keep(PlaneId::kDepth, layers.depth);
   keep(PlaneId::kBelowDepth, layers.below_depth);
 }

@@ -10,6 +10,7 @@
 
 #include "run/checks.h"
 #include "run/fused_tile.h"
+#include "run/put_edges.h"
 #include "run/show_planes.h"
 
 namespace limpid {
@@ -162,6 +163,7 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   const int down = (work.height() + tile.height - 1) / tile.height;
   Tiles tiles{job, simd, work, tile, across};
   executor.run(across * down, Tiles::run, &tiles);
+  put_edges(frame, target, executor);
   show_planes(plan, frame, target, executor);
   if (options.times) *options.times = clock.times();
 }

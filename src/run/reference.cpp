@@ -8,6 +8,7 @@
 
 #include "op/plain_texture.h"
 #include "run/checks.h"
+#include "run/put_edges.h"
 #include "run/show_planes.h"
 
 namespace limpid {
@@ -270,6 +271,7 @@ void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, con
       }
     }
   }
+  put_edges(frame, target, *serial);
   show_planes(plan, frame, target, *serial);
 }
 

@@ -75,6 +75,58 @@ TEST(Deep, PointsAreCompositedFrontToBack) {
   EXPECT_EQ(p.below_depth, 6);
 }
 
+std::array<float, 4> before_water(std::vector<DeepValues> samples, float surface) {
+  const DeepLayers layers = one_pixel(std::move(samples), surface, {"ZBack"});
+  std::array<float, 4> rgba;
+  for (std::size_t c = 0; c < 4; ++c) rgba[c] = layers.before_water[c].view().at(0, 0);
+  return rgba;
+}
+
+// Two panes over each other before water at 5: .125 + .75 .25, and 1 - .75 .5 of the pixel.
+TEST(Deep, WhatStandsBeforeTheWaterIsALayer) {
+  const auto rgba =
+      before_water({point(8, 0.5f, 1), point(3, 0.25f, 0.5f), point(2, 0.125f, 0.25f)}, 5);
+  EXPECT_FLOAT_EQ(rgba[0], 0.125f + 0.75f * 0.25f);
+  EXPECT_FLOAT_EQ(rgba[1], 2 * rgba[0]);
+  EXPECT_FLOAT_EQ(rgba[3], 1 - 0.75f * 0.5f);
+  // A point on the surface is before it, one behind it is not.
+  EXPECT_FLOAT_EQ(before_water({point(5, 0.25f, 0.5f)}, 5)[3], 0.5f);
+  EXPECT_EQ(before_water({point(5.01f, 0.25f, 0.5f)}, 5)[3], 0);
+  EXPECT_EQ(before_water({point(2, 0.25f, 0.5f)}, kInf)[3], 0);  // no water
+}
+
+// Of a volume from 3 to 7 that lets a quarter through, the half before the water at 5 lets through
+// a half; before and behind, over each other, are the whole.
+TEST(Deep, TheSurfaceSplitsAVolume) {
+  const auto rgba = before_water({volume(3, 7, 0.75f, 0.75f)}, 5);
+  EXPECT_FLOAT_EQ(rgba[3], 0.5f);
+  const Pixel p = flattened({volume(3, 7, 0.75f, 0.75f)}, 5);
+  EXPECT_FLOAT_EQ(rgba[0] + (1 - rgba[3]) * p.below_r, p.r);
+  EXPECT_FLOAT_EQ(before_water({volume(3, 7, 0.75f, 1)}, 5)[3], 1);
+}
+
+/// The share of transparent pixels of 4 x 3, of which these hold a pane under water at 5.
+double transparent(const Rect& panes, float alpha) {
+  DeepPicture picture = rgbaz();
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      auto& samples = picture.samples[{x, y}] = {point(8, 0.5f, 1)};
+      if (panes.contains({x, y, x + 1, y + 1})) samples.push_back(point(6, 0.1f, alpha));
+    }
+  }
+  const std::string path = temporary("panes.exr");
+  write_deep_picture(path, picture);
+  const std::vector<float> surface(12, 5.0f);
+  return read_deep_layers(ExrFile::open(path), 0, {surface.data(), 1, 4, {0, 0, 4, 3}}).transparent;
+}
+
+TEST(Deep, PanesUnderTheWaterAreCounted) {
+  EXPECT_DOUBLE_EQ(transparent({0, 0, 4, 3}, 0.5f), 2.0 / 12);  // with such all around them
+  EXPECT_DOUBLE_EQ(transparent({0, 0, 3, 3}, 0.5f), 1.0 / 12);
+  EXPECT_EQ(transparent({0, 0, 2, 3}, 0.5f), 0);  // as narrow as an edge
+  EXPECT_EQ(transparent({0, 0, 4, 3}, 1), 0);
+}
+
 TEST(Deep, WithoutWaterNothingIsBelow) {
   for (float surface : {kInf, kNan}) {
     const Pixel p = flattened({point(8, 0.5f, 1)}, surface);

@@ -63,6 +63,30 @@ TEST(PictureWarnings, TheSunsDiscIsSeenTwice) {
   EXPECT_THAT(evening.warnings(), IsEmpty());
 }
 
+// A pane of ten columns is told with its share; a blurred edge of two is not.
+TEST(PictureWarnings, GlassIsTakenForOpaque) {
+  Evening evening;
+  const auto pane = [&](int columns, float alpha) {
+    evening.buffers.set(PlaneId::kColorA, [=](int x, int y) {
+      return x >= 20 && x < 20 + columns && y > 26 ? alpha : 1.0f;
+    });
+  };
+  pane(10, 0.5f);
+  // 8 x 19 inner pixels of 62 x 46.
+  EXPECT_THAT(evening.warnings(), ElementsAre(HasSubstr("5.3 % of the pixels are transparent")));
+  pane(2, 0.5f);
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+  pane(10, 1);
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+  pane(10, 0);
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+  std::vector<std::string> of_deep;
+  warn_of_deep_glass(0.0005, of_deep);
+  EXPECT_THAT(of_deep, IsEmpty());
+  warn_of_deep_glass(0.25, of_deep);
+  EXPECT_THAT(of_deep, ElementsAre(HasSubstr("25.0 % of the wet pixels show something under")));
+}
+
 TEST(PictureWarnings, WavesOverTheCamera) {
   Evening evening;
   evening.look.of<WaveNormals>().strength = 1;

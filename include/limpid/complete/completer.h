@@ -6,6 +6,7 @@
 #include "limpid/complete/bottom_layer.h"
 #include "limpid/complete/continuation.h"
 #include "limpid/complete/displaced_surface.h"
+#include "limpid/complete/edges.h"
 #include "limpid/complete/mirror_depth.h"
 #include "limpid/complete/part_depths.h"
 #include "limpid/complete/scattered_light.h"
@@ -21,12 +22,13 @@ namespace limpid {
 
 /// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
 /// the wave map what the plan's waves read where a pixel is wider than a texel; moves depths to the
-/// part of each pixel that is seen; draws a layer below the water on as far as color and depth go;
-/// makes the continuation of the bottom for rays that leave the picture, the layer of the bottom
-/// for those that end behind something, and the light that the water scatters more than once. Each
-/// only where the plan asks for it. Once a frame, before its pixels; operators read the result as
-/// they read the plate's planes. The result does not depend on the number of threads. Keeps its
-/// memory from frame to frame.
+/// part of each pixel that is seen; parts pixels that something before the water covers in part;
+/// draws a layer below the water on as far as color and depth go; makes the continuation of the
+/// bottom for rays that leave the picture, the layer of the bottom for those that end behind
+/// something, and the light that the water scatters more than once. Each only where the plan asks
+/// for it. Once a frame, before its pixels; operators read the result as they read the plate's
+/// planes. The result does not depend on the number of threads. Keeps its memory from frame to
+/// frame.
 class Completer {
  public:
   /// The frame with what was made; its views hold until the next call. `context` is that of the
@@ -44,6 +46,7 @@ class Completer {
   ContinuationMaker continuation_maker_;
   BottomLayerMaker bottom_layer_;
   DisplacedSurface displaced_surface_;
+  Edges edges_;
   PartDepths part_depths_;
   MirrorDepth mirror_depth_;
   Sky sky_;

@@ -98,6 +98,7 @@ inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, Plane
 
 struct BottomLayer;
 struct Continuation;
+struct EdgeCover;
 struct ScatteredLight;
 struct SlopeLevels;
 struct TextureLevels;
@@ -146,6 +147,12 @@ struct Frame {
   const Continuation* continuation = nullptr;
   /// Of the bottom behind what stands before it; null, or made by complete/.
   const BottomLayer* bottom_layer = nullptr;
+  /// What stands before the water, of deep samples: red, green, blue, premultiplied, and alpha, its
+  /// share of the pixel. None or all are there, and cover work(); `color` then shows it, too.
+  std::array<View<const float>, 4> before_water;
+  /// Pixels that something before the water covers in part; null, or made by complete/. Color and
+  /// depth are then those of what is behind it.
+  const EdgeCover* edges = nullptr;
   /// So many pixels beyond each side of the display window are computed, too, as far as all planes
   /// have them.
   int overscan = 0;

@@ -7,14 +7,19 @@
 
 namespace limpid {
 
-/// A deep picture seen with a water surface in it, flattened twice. All planes have the window of
-/// the surface. Colors are premultiplied.
+/// A deep picture seen with a water surface in it, flattened as a whole, before the surface and
+/// behind it. All planes have the window of the surface. Colors are premultiplied.
 struct DeepLayers {
   std::array<Plane, 4> color;  ///< R G B A of all samples
   Plane depth;                 ///< of the nearest sample with any alpha; +inf: none
   /// R G B of what lies behind the surface, as if nothing were in front; 0 where there is no water.
   std::array<Plane, 3> below_color;
-  Plane below_depth;        ///< of the nearest such sample with any alpha; +inf: none
+  Plane below_depth;  ///< of the nearest such sample with any alpha; +inf: none
+  /// R G B A of what lies before the surface; 0 where there is no water. None without a surface.
+  std::array<Plane, 4> before_water;
+  /// Share of the pixels with water whose nearest sample behind it is a transparent point with
+  /// others behind, as in all pixels around: glass, or a wide blur.
+  double transparent = 0;
   SanitiseCounts replaced;  ///< color and depth, by value
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -48,6 +49,8 @@ struct LoadedPlate {
   Frame frame;  ///< views into `planes`
   SanitiseCounts replaced;
   std::vector<Plane> planes;
+  std::array<Plane, 4> before_water;  ///< of deep samples, or none
+  double transparent = 0;             ///< share of the wet pixels, as DeepLayers has it
 };
 
 /// A frame as it lies in files: opened, every role found, no pixel read. A role is decided by

@@ -11,7 +11,11 @@ namespace limpid {
 
 /// What holds for the water as a whole: table `water` of a look.
 struct Water {
+  /// Of a pixel that something before the water covers in part (complete/edges.h): mixed of both,
+  /// or wet or dry as a whole, as its depth says.
+  enum class Edges { kMixed, kHard };
   double ior = 1.333;
+  Edges edges = Edges::kMixed;
 
   static constexpr std::string_view kName = "water";
   static constexpr std::string_view kAbout = "The water itself.";

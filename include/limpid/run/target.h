@@ -60,6 +60,10 @@ StateSet state_shown_by(std::span<const Aov> list);
 struct Target {
   std::array<View<float>, 3> color;
   View<float> alpha;  ///< may be absent
+  /// Share of each pixel that nothing before the water covers: 1, but at edges (Frame::edges),
+  /// where it is above 0; may be absent. The AOVs that sum to the picture are of that share, the
+  /// others of the water alone.
+  View<float> uncovered;
   std::array<std::array<View<float>, 3>, kAovCount> aovs;
 
   std::array<View<float>, 3>& of(Aov aov) { return aovs[static_cast<std::size_t>(aov)]; }

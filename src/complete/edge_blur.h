@@ -1,0 +1,57 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "limpid/core/executor.h"
+
+#include "complete/edge_picture.h"
+
+namespace limpid {
+
+/// How far edges are blurred: of steps between a dry pixel and a wet one that lies behind it, how
+/// the difference of color grows with the distance between the two that are compared. At a hard
+/// edge it is there at once, at a blurred one it grows until both are out of the blur.
+class EdgeBlur {
+ public:
+  /// Distances from the step to each side, in pixels; what is not full at the last but two is
+  /// taken to be as wide as that.
+  static constexpr std::array<int, 8> kLadder{0, 1, 3, 7, 15, 31, 63, 127};
+  static constexpr int kWidths = 6;  ///< how many of them an edge can be blurred by
+
+  /// Sums over steps of the products of the differences of color at distance i of the ladder with
+  /// themselves, with the next and with that after; each step counts by its relative contrast.
+  struct Growth {
+    std::array<double, kWidths> own{}, next{}, after{};
+    void add(const Growth& other);
+    /// Where on the ladder the difference is full; 0: at a hard edge, or none.
+    int full_at() const;
+  };
+
+  /// Between two pixels side by side.
+  struct Step {
+    int x, y;   ///< of the left or upper one
+    bool down;  ///< whether the other is below, and not to the right
+    bool dry_first;
+  };
+
+  explicit EdgeBlur(const EdgePicture& picture) : picture_(picture) {}
+
+  /// Whether some edge is blurred, by a look at some rows.
+  /// `sides` and `steps` are room that it uses.
+  bool any(std::vector<std::uint8_t>& sides, std::vector<Step>& steps) const;
+
+  /// Adds the steps of the row y, and from it to the next. `sides` are of both, from window.x0 on;
+  /// `below` is null in the last row.
+  void find(int y, const std::uint8_t* sides, const std::uint8_t* below,
+            std::vector<Step>& steps) const;
+
+  Growth growth_of(const Step& step, int widths) const;
+
+ private:
+  bool occludes(const Step& step) const;
+
+  const EdgePicture& picture_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,105 @@
+#include "complete/edge_matte.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace limpid {
+namespace {
+
+using Square = std::array<double, 6>;
+
+glm::dvec3 vector_of(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
+
+/// Of the colors around their mean, times the weight.
+Square scatter_of(const EdgeMoments& m) {
+  Square s = m.square;
+  const Square mean = EdgeMoments::products(m.color);
+  for (std::size_t i = 0; i < s.size(); ++i) s[i] -= mean[i] / m.weight;
+  return s;
+}
+
+/// (s + ridge)^-1 b.
+glm::dvec3 solved(const Square& s, double ridge, const glm::dvec3& b) {
+  const glm::dmat3 matrix{
+      {s[0] + ridge, s[1], s[2]}, {s[1], s[3] + ridge, s[4]}, {s[2], s[4], s[5] + ridge}};
+  return glm::inverse(matrix) * b;
+}
+
+/// Colors are compared to a hundredth of the contrast: that much noise is taken for granted.
+constexpr double kNoise = 0.01;
+
+std::optional<Matte> from_both_sides(const EdgeAround& around) {
+  const Rgb<double> dry = around.sure_dry.mean(), wet = around.sure_wet.mean();
+  const glm::dvec3 apart = vector_of(dry - wet);
+  const double contrast = glm::dot(apart, apart);
+  if (!(contrast > 0)) return std::nullopt;
+  Square within = scatter_of(around.sure_dry);
+  const Square other = scatter_of(around.sure_wet);
+  const double weight = around.sure_dry.weight + around.sure_wet.weight;
+  for (std::size_t i = 0; i < within.size(); ++i) within[i] = (within[i] + other[i]) / weight;
+  const glm::dvec3 d = solved(within, kNoise * kNoise * contrast, apart);
+  const double distance = glm::dot(d, apart);
+  if (!(distance > 9)) return std::nullopt;
+  const double spread = 1 / std::sqrt(distance);
+  const double place = glm::dot(d, -vector_of(wet)) / distance;
+  const double cover = std::clamp((place - spread) / (1 - 2 * spread), 0.0, 1.0);
+  // What neither side explains is of both by their shares.
+  const Rgb<double> rest = cover * dry + (1 - cover) * wet;
+  return Matte{cover, wet - (1 - cover) * rest};
+}
+
+std::optional<Matte> from_regression(const EdgeAround& around) {
+  const EdgeMoments dry = around.sure_dry + around.dry, wet = around.sure_wet + around.wet;
+  const EdgeMoments all = dry + wet;
+  const double share = dry.weight / all.weight;
+  const glm::dvec3 mean = vector_of(all.mean());
+  const glm::dvec3 with = vector_of((1 / all.weight) * dry.color) - share * mean;
+  Square spread = scatter_of(all);
+  for (double& s : spread) s /= all.weight;
+  const double trace = spread[0] + spread[3] + spread[5];
+  if (!(trace > 0)) return std::nullopt;
+  const glm::dvec3 slope = solved(spread, kNoise * kNoise * trace, with);
+  const double explained = glm::dot(slope, with) / (share * (1 - share));
+  if (!(explained > 0.1)) return std::nullopt;
+  const double cover = std::clamp(share - glm::dot(slope, mean), 0.0, 1.0);
+  return Matte{cover, around.sure_wet.mean()};
+}
+
+}  // namespace
+
+double EdgePlane::here() const {
+  const double x = place[1] / place[0], y = place[2] / place[0], mean = value[0] / place[0];
+  const double xx = place[3] - x * place[1], xy = place[4] - x * place[2],
+               yy = place[5] - y * place[2];
+  const double zx = value[1] - x * value[0], zy = value[2] - y * value[0];
+  const double area = xx * yy - xy * xy;
+  if (!(area > 1e-6 * xx * yy)) return mean;
+  const double right = (zx * yy - zy * xy) / area, down = (zy * xx - zx * xy) / area;
+  return std::clamp(mean - right * x - down * y, least, most);
+}
+
+EdgeMoments operator+(EdgeMoments a, const EdgeMoments& b) {
+  a.weight += b.weight;
+  a.alpha += b.alpha;
+  a.inverse_depth += b.inverse_depth;
+  a.color = a.color + b.color;
+  for (std::size_t i = 0; i < a.square.size(); ++i) a.square[i] += b.square[i];
+  return a;
+}
+
+std::optional<Matte> matte_of(const EdgeAround& around) {
+  const double all =
+      around.sure_dry.weight + around.dry.weight + around.sure_wet.weight + around.wet.weight;
+  // A side of which a corner is seen alone is none.
+  constexpr double kEnough = 0.02;
+  if (!(around.sure_wet.weight > kEnough * all)) return std::nullopt;
+  if (around.sure_dry.weight > kEnough * all) return from_both_sides(around);
+  if (!(around.sure_dry.weight + around.dry.weight > 0)) return std::nullopt;
+  return from_regression(around);
+}
+
+}  // namespace limpid

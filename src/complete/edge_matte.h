@@ -1,0 +1,73 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "limpid/core/vec.h"
+
+namespace limpid {
+
+/// Weighted sums over pixels of one kind around a pixel, colors less that of the pixel itself.
+struct EdgeMoments {
+  double weight = 0, alpha = 0, inverse_depth = 0;
+  Rgb<double> color{0, 0, 0};
+  std::array<double, 6> square{};  ///< rr rg rb gg gb bb
+
+  static std::array<double, 6> products(const Rgb<double>& c) {
+    return {c.r * c.r, c.r * c.g, c.r * c.b, c.g * c.g, c.g * c.b, c.b * c.b};
+  }
+  void add(double w, const Rgb<double>& c, double a, double z) {
+    weight += w;
+    alpha += w * a;
+    inverse_depth += w * z;
+    color = color + w * c;
+    const std::array<double, 6> p = products(c);
+    for (std::size_t i = 0; i < p.size(); ++i) square[i] += w * p[i];
+  }
+  friend EdgeMoments operator+(EdgeMoments a, const EdgeMoments& b);
+  Rgb<double> mean() const { return (1 / weight) * color; }
+};
+
+/// Of a plane's inverse depth, which is linear on the screen, at the places that show it.
+struct EdgePlane {
+  std::array<double, 6> place{};  ///< weighted sums of 1 x y xx xy yy
+  std::array<double, 3> value{};  ///< and of the inverse depth times 1 x y
+  double least = HUGE_VAL, most = 0;
+
+  void add(double w, double x, double y, double inverse_depth) {
+    const std::array<double, 6> at{1, x, y, x * x, x * y, y * y};
+    for (std::size_t i = 0; i < at.size(); ++i) place[i] += w * at[i];
+    for (std::size_t i = 0; i < value.size(); ++i) value[i] += w * inverse_depth * at[i];
+    least = std::min(least, inverse_depth);
+    most = std::max(most, inverse_depth);
+  }
+  /// The plane at the pixel (0, 0), by least squares, within what was seen.
+  double here() const;
+};
+
+/// What there is around a pixel in the band of a blurred edge, `sure` beyond the band: pixels that
+/// are dry and stand before the water of this one, and wet pixels.
+struct EdgeAround {
+  EdgeMoments sure_dry, sure_wet, dry, wet;
+  EdgePlane behind;  ///< of the sure wet ones
+};
+
+struct Matte {
+  double cover;  ///< share of the pixel that is dry, 0 ... 1
+  /// What is seen beside that, less the color of the pixel, of the whole pixel.
+  Rgb<double> behind;
+};
+
+/// The share of a pixel that what stands before the water covers. Nothing where its color does not
+/// tell: where the two sides are alike, or one of them is not there.
+///
+/// With sure pixels of both sides: cover = d.(c - w) / d.(f - w), f and w their mean colors, d =
+/// (S + e)^-1 (f - w), S the covariance within the sides (Fisher 1936, "The Use of Multiple
+/// Measurements in Taxonomic Problems"). Its standard deviation over texture is s = 1 / sqrt(d.(f -
+/// w)); (cover - s) / (1 - 2 s) takes that for nothing, and sides less than 3 s apart for one.
+/// Without sure dry pixels: the linear regression of "dry" on color over all. What texture of the
+/// bottom the pixel shows, stays in `behind` by its share.
+std::optional<Matte> matte_of(const EdgeAround& around);
+
+}  // namespace limpid

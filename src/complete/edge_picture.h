@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "limpid/core/frame.h"
+#include "limpid/core/vec.h"
+#include "limpid/op/context.h"
+
+#include "complete/row_heights.h"
+
+namespace limpid {
+
+/// What a pixel shows.
+enum class Side : std::uint8_t {
+  kWet,   ///< water, and what is behind it
+  kDry,   ///< something without water before it
+  kNone,  ///< nothing was hit, and no water before that
+};
+
+/// The planes of a frame that its edges are looked for in.
+struct EdgePicture {
+  const Context& context;
+  std::array<View<const float>, 3> color;
+  View<const float> alpha, depth, surface;  ///< of which the first and the last may be absent
+  Rect window;                              ///< where all of them are
+
+  EdgePicture(const Frame& frame, const Context& c)
+      : context(c),
+        color{frame.plane(PlaneId::kColorR), frame.plane(PlaneId::kColorG),
+              frame.plane(PlaneId::kColorB)},
+        alpha(frame.plane(PlaneId::kColorA)),
+        depth(frame.plane(PlaneId::kDepth)),
+        surface(frame.plane(PlaneId::kSurfaceDepth)),
+        window(depth.window) {
+    for (const View<const float>& view : color) window = intersection(window, view.window);
+    if (alpha) window = intersection(window, alpha.window);
+    if (surface) window = intersection(window, surface.window);
+  }
+
+  Rgb<double> color_at(int x, int y) const {
+    return {color[0].at(x, y), color[1].at(x, y), color[2].at(x, y)};
+  }
+  double inverse_depth(int x, int y) const { return 1.0 / depth.at(x, y); }
+
+  /// 1 over the depth of the water of the pixels of a row, 0 where there is none.
+  class Water {
+   public:
+    Water(const EdgePicture& picture, int y)
+        : picture_(picture),
+          y_(y),
+          heights_(picture.context, y),
+          sign_(heights_.over > 0 ? -1 : 1) {}
+    double inverse_depth(int x) const {
+      if (picture_.surface) return 1.0 / picture_.surface.at(x, y_);
+      const double over = std::abs(heights_.over + x * heights_.over_step);
+      const double falls = sign_ * (heights_.under + x * heights_.under_step);
+      return over > 0 && falls > 0 ? falls / over : 0;
+    }
+
+   private:
+    const EdgePicture& picture_;
+    int y_;
+    RowHeights heights_;
+    double sign_;
+  };
+
+  /// The sides of the pixels x0 ... x1 - 1 of a row.
+  void sides(int y, int x0, int x1, std::uint8_t* to) const;
+};
+
+}  // namespace limpid

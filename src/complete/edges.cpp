@@ -1,0 +1,333 @@
+#include "limpid/complete/edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "limpid/core/edge_cover.h"
+#include "limpid/core/plane.h"
+
+#include "complete/edge_blur.h"
+#include "complete/edge_matte.h"
+#include "complete/edge_picture.h"
+#include "complete/rows.h"
+
+namespace limpid {
+namespace {
+
+using Steps = std::vector<EdgeBlur::Step>;
+
+/// What covers less, or leaves less uncovered, is not there.
+constexpr double kLeast = 0.02;
+
+/// How wide the blur around a pixel is across edges that go down and across those that go to the
+/// right: a rung of EdgeBlur::kLadder, 0 for none.
+struct Band {
+  std::array<std::uint8_t, 2> rung{};
+  bool none() const { return rung[0] == 0 && rung[1] == 0; }
+};
+
+/// So many pixels square, what is seen of edges counts together.
+constexpr int kTile = 64;
+
+/// Which pixels around one in a band tell of it, and how much: a Gaussian that reaches from
+/// one end of the band beyond the other, looked up at some dozen places along each axis.
+struct Kernel {
+  int step = 1, reach = 0;
+  std::array<double, 8> weight{};  ///< at 0, step, 2 step ...
+  std::array<int, 8> width{};      ///< to the sides, so many rows away: a disc
+
+  static Kernel of(int half_width) {
+    Kernel kernel;
+    const int radius = 3 * half_width + 2;
+    kernel.step = (radius + 5) / 6;
+    kernel.reach = radius / kernel.step;
+    for (int i = 0; i <= kernel.reach; ++i) {
+      const double sigmas = 2.0 * i * kernel.step / radius;
+      const auto at = static_cast<std::size_t>(i);
+      kernel.weight[at] = std::exp(-0.5 * sigmas * sigmas);
+      kernel.width[at] = static_cast<int>(std::sqrt(kernel.reach * kernel.reach - i * i + 0.5));
+    }
+    return kernel;
+  }
+};
+
+}  // namespace
+
+struct Edges::State {
+  std::array<Kernel, EdgeBlur::kWidths + 1> kernels;
+  EdgeCover cover;
+  std::array<Plane, 4> planes;                          ///< R G B depth
+  std::vector<std::uint8_t> sides;                      ///< of each pixel
+  std::vector<Band> bands;                              ///< that each pixel lies in
+  std::vector<Steps> steps;                             ///< of each row of tiles
+  std::array<std::vector<EdgeBlur::Growth>, 2> growth;  ///< of each tile, to the right and down
+  std::array<std::vector<int>, 2> rungs;                ///< of EdgeBlur::kLadder, likewise
+
+  /// Color and depth from now on lie in planes of this.
+  void take_over(Frame& frame, Executor& executor) {
+    constexpr std::array kMended{PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB,
+                                 PlaneId::kDepth};
+    for (std::size_t i = 0; i < kMended.size(); ++i) {
+      View<const float>& view = frame.planes[index_of(kMended[i])];
+      if (!planes[i] || planes[i].view().window != view.window) planes[i] = Plane(view.window);
+      const View<float> to = planes[i].view();
+      each_row(executor, view.window, [&](int y) {
+        const float* from = view.row(y);
+        float* row = to.row(y);
+        if (view.x_stride == 1) {
+          std::copy_n(from, view.window.width(), row);
+        } else {
+          for (int x = 0; x < view.window.width(); ++x) row[x] = from[x * view.x_stride];
+        }
+      });
+      view = to;
+    }
+    frame.edges = &cover;
+  }
+
+  void clear_cover(const Rect& window) {
+    cover.first_row = window.y0;
+    cover.rows.resize(static_cast<std::size_t>(window.height()));
+    for (auto& row : cover.rows) row.clear();
+  }
+  std::vector<EdgeCover::Pixel>& cover_of(int y) {
+    return cover.rows[static_cast<std::size_t>(y - cover.first_row)];
+  }
+
+  void put(int x, int y, const Rgb<float>& color, double inverse_depth) {
+    planes[0].view().at(x, y) = color.r;
+    planes[1].view().at(x, y) = color.g;
+    planes[2].view().at(x, y) = color.b;
+    put_depth(x, y, inverse_depth);
+  }
+  void put_depth(int x, int y, double inverse_depth) {
+    planes[3].view().at(x, y) = static_cast<float>(1 / inverse_depth);
+  }
+
+  void take_deep(Frame& frame, const Context& context, Executor& executor);
+  bool find_bands(const EdgePicture& picture, Executor& executor);
+  EdgeBlur::Growth growth_around(std::size_t down, int tile, const Rect& tiles) const;
+  void paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung);
+  void part_row(const EdgePicture& picture, int y);
+  EdgeAround around(const EdgePicture& picture, const Kernel& kernel, int x, int y,
+                    double water) const;
+  bool part(const EdgePicture& picture, const Kernel& kernel, int x, int y, double water);
+
+  static std::size_t index(const EdgePicture& picture, int x, int y) {
+    const Rect& w = picture.window;
+    return static_cast<std::size_t>(y - w.y0) * static_cast<std::size_t>(w.width()) +
+           static_cast<std::size_t>(x - w.x0);
+  }
+};
+
+/// What is behind is the layer below.
+void Edges::State::take_deep(Frame& frame, const Context& context, Executor& executor) {
+  if (!frame.present().covers(kBelowPlanes)) return;
+  const std::array<View<const float>, 4> before = frame.before_water;
+  const Frame given = frame;
+  const EdgePicture picture(frame, context);
+  Rect window = intersection(picture.window, before[3].window);
+  for (int i = 0; i < 4; ++i) {
+    window = intersection(window, frame.plane(plane_after(PlaneId::kBelowR, i)).window);
+  }
+  clear_cover(window);
+  take_over(frame, executor);
+  each_row(executor, window, [&](int y) {
+    const EdgePicture::Water water(picture, y);
+    for (int x = window.x0; x < window.x1; ++x) {
+      const float cover_here = before[3].at(x, y);
+      const double behind = 1.0 / given.plane(PlaneId::kBelowDepth).at(x, y);
+      if (!(cover_here > 0 && cover_here < 1) || !(behind < water.inverse_depth(x))) continue;
+      const auto below = [&](int i) {
+        return given.plane(plane_after(PlaneId::kBelowR, i)).at(x, y);
+      };
+      put(x, y, {below(0), below(1), below(2)}, behind);
+      cover_of(y).push_back(
+          {x, cover_here, {before[0].at(x, y), before[1].at(x, y), before[2].at(x, y)}});
+    }
+  });
+}
+
+/// Whether some pixel lies in the band of a blurred edge.
+bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
+  const Rect& w = picture.window;
+  const auto width = static_cast<std::size_t>(w.width());
+  const EdgeBlur blur(picture);
+  steps.resize(static_cast<std::size_t>((w.height() + kTile - 1) / kTile));
+  if (!blur.any(sides, steps[0])) return false;
+
+  sides.resize(width * static_cast<std::size_t>(w.height()));
+  const auto sides_of = [&](int y) { return sides.data() + width * (y - w.y0); };
+  each_row(executor, w, [&](int y) { picture.sides(y, w.x0, w.x1, sides_of(y)); });
+
+  const Rect tiles{0, 0, (w.width() + kTile - 1) / kTile, static_cast<int>(steps.size())};
+  const auto tile_of = [&](const EdgeBlur::Step& step) {
+    return static_cast<std::size_t>((step.y - w.y0) / kTile * tiles.width() +
+                                    (step.x - w.x0) / kTile);
+  };
+  for (auto& list : growth) list.assign(static_cast<std::size_t>(tiles.area()), {});
+  each_row(executor, tiles, [&](int row) {
+    Steps& found = steps[static_cast<std::size_t>(row)];
+    found.clear();
+    const int begin = w.y0 + row * kTile, end = std::min(begin + kTile, w.y1);
+    for (int y = begin; y < end; ++y) {
+      blur.find(y, sides_of(y), y + 1 < w.y1 ? sides_of(y + 1) : nullptr, found);
+    }
+    for (const EdgeBlur::Step& step : found) {
+      growth[step.down][tile_of(step)].add(blur.growth_of(step, EdgeBlur::kWidths));
+    }
+  });
+
+  for (std::size_t down = 0; down < 2; ++down) {
+    rungs[down].resize(growth[down].size());
+    for (int tile = 0; tile < static_cast<int>(tiles.area()); ++tile) {
+      rungs[down][static_cast<std::size_t>(tile)] = growth_around(down, tile, tiles).full_at();
+    }
+  }
+  bands.assign(sides.size(), {});
+  bool some = false;
+  for (const Steps& list : steps) {
+    for (const EdgeBlur::Step& step : list) {
+      const int rung = rungs[step.down][tile_of(step)];
+      if (rung > 0) paint(picture, step, rung);
+      some |= rung > 0;
+    }
+  }
+  return some;
+}
+
+/// Of a tile and those around it: an edge in its corner is that of the next one.
+EdgeBlur::Growth Edges::State::growth_around(std::size_t down, int tile, const Rect& tiles) const {
+  EdgeBlur::Growth sum;
+  const int column = tile % tiles.x1, row = tile / tiles.x1;
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, tiles.y1 - 1); ++y) {
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, tiles.x1 - 1); ++x) {
+      sum.add(growth[down][static_cast<std::size_t>(y * tiles.x1 + x)]);
+    }
+  }
+  return sum;
+}
+
+/// The step is between two pixels, either of which is in the band.
+void Edges::State::paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung) {
+  const Rect& w = picture.window;
+  const int half = EdgeBlur::kLadder[static_cast<std::size_t>(rung)];
+  const int across = step.down ? 0 : half, along = step.down ? half : 0;
+  const Rect both{step.x, step.y, step.x + (step.down ? 1 : 2), step.y + (step.down ? 2 : 1)};
+  const Rect band =
+      intersection(w, {both.x0 - across, both.y0 - along, both.x1 + across, both.y1 + along});
+  for (int y = band.y0; y < band.y1; ++y) {
+    for (int x = band.x0; x < band.x1; ++x) {
+      std::uint8_t& here = bands[index(picture, x, y)].rung[step.down];
+      here = std::max(here, static_cast<std::uint8_t>(rung));
+    }
+  }
+}
+
+void Edges::State::part_row(const EdgePicture& picture, int y) {
+  const EdgePicture::Water water(picture, y);
+  for (int x = picture.window.x0; x < picture.window.x1; ++x) {
+    const Band& band = bands[index(picture, x, y)];
+    if (band.none() || !(water.inverse_depth(x) > 0)) continue;
+    // The blur of an edge that goes nearly along is far wider along than across, where it counts.
+    const auto [narrow, wide] = std::minmax(band.rung[0], band.rung[1]);
+    const auto parted = [&](int rung) {
+      const auto at = static_cast<std::size_t>(rung);
+      return rung > 0 && part(picture, kernels[at], x, y, water.inverse_depth(x));
+    };
+    // From the middle of a thin thing the water begins behind all of its blur.
+    if (!parted(narrow) && (wide == narrow || !parted(wide))) parted(wide + 1);
+  }
+}
+
+EdgeAround Edges::State::around(const EdgePicture& picture, const Kernel& kernel, int x, int y,
+                                double water) const {
+  const Rect& w = picture.window;
+  const Rgb<double> color = picture.color_at(x, y);
+  const double water_depth = 1 / water;
+  EdgeAround sums;
+  for (int j = -kernel.reach; j <= kernel.reach; ++j) {
+    const int row = y + j * kernel.step;
+    if (row < w.y0 || row >= w.y1) continue;
+    const double row_weight = kernel.weight[static_cast<std::size_t>(std::abs(j))];
+    const int reach = kernel.width[static_cast<std::size_t>(std::abs(j))];
+    for (int i = -reach; i <= reach; ++i) {
+      const int column = x + i * kernel.step;
+      if (column < w.x0 || column >= w.x1) continue;
+      const std::size_t at = index(picture, column, row);
+      const Side side = static_cast<Side>(sides[at]);
+      const double depth = picture.depth.at(column, row);
+      if (side == Side::kNone || (side == Side::kDry && !(depth < water_depth))) continue;
+      const bool sure = bands[at].none(), wet = side == Side::kWet;
+      EdgeMoments& of = sure ? (wet ? sums.sure_wet : sums.sure_dry) : (wet ? sums.wet : sums.dry);
+      of.add(row_weight * kernel.weight[static_cast<std::size_t>(std::abs(i))],
+             picture.color_at(column, row) - color,
+             picture.alpha ? picture.alpha.at(column, row) : 1, 1 / depth);
+      if (sure && wet) {
+        sums.behind.add(row_weight * kernel.weight[static_cast<std::size_t>(std::abs(i))], i, j,
+                        1 / depth);
+      }
+    }
+  }
+  return sums;
+}
+
+/// Whether what is around tells how.
+bool Edges::State::part(const EdgePicture& picture, const Kernel& kernel, int x, int y,
+                        double water) {
+  const EdgeAround sums = around(picture, kernel, x, y, water);
+  std::optional<Matte> matte = matte_of(sums);
+  const EdgeMoments& wet = sums.sure_wet;
+  if (picture.alpha && wet.weight > 0 && wet.alpha < 0.05 * wet.weight) {
+    matte = Matte{picture.alpha.at(x, y), wet.mean()};
+  }
+  if (!matte) return false;
+  const double behind = sums.behind.here();
+  const bool is_wet = static_cast<Side>(sides[index(picture, x, y)]) == Side::kWet;
+  if (matte->cover > 1 - kLeast) {
+    const EdgeMoments dry = sums.sure_dry + sums.dry;
+    if (is_wet && dry.weight > 0) put_depth(x, y, dry.inverse_depth / dry.weight);
+    return true;
+  }
+  if (!(behind < water) || (is_wet && matte->cover < kLeast)) return true;
+  const double open = 1 - matte->cover;
+  // What is before the water sends no less than nothing.
+  const auto shared = [&](double whole, double part) {
+    return std::clamp(whole + part, 0.0, std::max(whole, 0.0) / open);
+  };
+  const Rgb<double> color = picture.color_at(x, y);
+  const Rgb<double> beyond{shared(color.r, matte->behind.r), shared(color.g, matte->behind.g),
+                           shared(color.b, matte->behind.b)};
+  const auto narrow = [](const Rgb<double>& c) {
+    return Rgb<float>{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+  };
+  put(x, y, narrow(beyond), behind);
+  cover_of(y).push_back({x, static_cast<float>(matte->cover), narrow(color - open * beyond)});
+  return true;
+}
+
+Edges::Edges() : state_(std::make_unique<State>()) {
+  for (std::size_t i = 0; i < state_->kernels.size(); ++i) {
+    state_->kernels[i] = Kernel::of(EdgeBlur::kLadder[i]);
+  }
+}
+Edges::~Edges() = default;
+Edges::Edges(Edges&&) noexcept = default;
+Edges& Edges::operator=(Edges&&) noexcept = default;
+
+void Edges::make(Frame& frame, const Context& context, Executor& executor) {
+  if (context.submersible) return;
+  State& s = *state_;
+  if (frame.before_water[3]) return s.take_deep(frame, context, executor);
+  const EdgePicture picture(frame, context);
+  if (picture.window.empty() || !s.find_bands(picture, executor)) return;
+  static_assert(EdgeBlur::kLadder[EdgeBlur::kWidths - 1] == kFarthest);
+  s.clear_cover(picture.window);
+  s.take_over(frame, executor);
+  each_row(executor, picture.window, [&](int y) { s.part_row(picture, y); });
+}
+
+}  // namespace limpid
