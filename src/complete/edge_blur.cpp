@@ -8,9 +8,10 @@ namespace limpid {
 namespace {
 
 /// Growth that tells of a blur: the narrowest, of one pixel's own box, has 1.28.
-constexpr double kBlurred = 1.12;
-/// And of one that goes on: at more than so much the contrast is not full.
-constexpr double kGrows = 1.06;
+constexpr double kGrows = 1.12;
+/// A ramp that is not full at a distance has more than doubled on the way there; what grows slowly
+/// is light and texture of the two sides.
+constexpr double kRamp = 1.6;
 
 double dot(const Rgb<double>& a, const Rgb<double>& b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
 
@@ -26,6 +27,11 @@ struct Along {
   template <class At>
   auto wet(int distance, const At& at) const {
     return step.dry_first ? after(distance, at) : before(distance, at);
+  }
+  bool inside(int distance) const {
+    const int at = step.down ? step.y : step.x;
+    const int begin = step.down ? window.y0 : window.x0, end = step.down ? window.y1 : window.x1;
+    return at - distance >= begin && at + 1 + distance < end;
   }
 
  private:
@@ -66,34 +72,43 @@ void EdgeBlur::Growth::add(const Growth& other) {
   for (std::size_t i = 0; i < own.size(); ++i) {
     own[i] += other.own[i];
     next[i] += other.next[i];
-    after[i] += other.after[i];
   }
+  for (std::size_t i = 0; i < after.size(); ++i) after[i] += other.after[i];
+}
+
+bool EdgeBlur::Growth::grows_at(int rung) const {
+  const auto i = static_cast<std::size_t>(rung);
+  return next[i] > kGrows * own[i] || (i < after.size() && after[i] > kGrows * own[i]);
 }
 
 int EdgeBlur::Growth::full_at() const {
-  for (int i = 0; i < kWidths - 1; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const double grown = (i == 0 ? kBlurred : kGrows) * own[at];
-    if (next[at] <= grown && after[at] <= grown) return i;
+  for (int rung = 0; rung < kWidths; ++rung) {
+    const auto i = static_cast<std::size_t>(rung);
+    if (!(own[i] > 0)) return 0;
+    if (!grows_at(rung) || (i > 0 && next[i - 1] < kRamp * own[i - 1])) return rung;
   }
-  return kWidths - 1;
+  return 0;
 }
 
-EdgeBlur::Growth EdgeBlur::growth_of(const Step& step, int widths) const {
+EdgeBlur::Growth EdgeBlur::growth_of(const Step& step, int rungs) const {
   const Along along{step, picture_.window};
   const auto color = [&](int x, int y) { return picture_.color_at(x, y); };
-  std::array<Rgb<double>, kLadder.size()> difference;
-  double size = 1e-12;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(widths) + 2; ++i) {
-    const Rgb<double> dry = along.dry(kLadder[i], color), wet = along.wet(kLadder[i], color);
-    difference[i] = dry - wet;
-    if (i <= 2) size += dot(dry, dry) + dot(wet, wet);
-  }
+  const auto difference = [&](int rung) {
+    const int distance = kLadder[static_cast<std::size_t>(rung)];
+    return along.dry(distance, color) - along.wet(distance, color);
+  };
+  const Rgb<double> dry = along.dry(1, color), wet = along.wet(1, color);
+  const double size = dot(dry, dry) + dot(wet, wet) + 1e-12;
   Growth growth;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(widths); ++i) {
-    growth.own[i] = dot(difference[i], difference[i]) / size;
-    growth.next[i] = dot(difference[i], difference[i + 1]) / size;
-    growth.after[i] = dot(difference[i], difference[i + 2]) / size;
+  std::array<Rgb<double>, 3> seen{difference(0), difference(1), difference(2)};
+  for (int rung = 0; rung < rungs; ++rung) {
+    const auto i = static_cast<std::size_t>(rung);
+    const int farthest = std::min(rung < 2 ? rung + 2 : rung + 1, kWidths);
+    if (!along.inside(kLadder[static_cast<std::size_t>(farthest)])) break;
+    growth.own[i] = dot(seen[0], seen[0]) / size;
+    growth.next[i] = dot(seen[0], seen[1]) / size;
+    if (i < growth.after.size()) growth.after[i] = dot(seen[0], seen[2]) / size;
+    seen = {seen[1], seen[2], rung + 3 <= kWidths ? difference(rung + 3) : seen[2]};
   }
   return growth;
 }
@@ -146,7 +161,7 @@ bool EdgeBlur::any(std::vector<std::uint8_t>& sides, std::vector<Step>& steps) c
     find(y, upper, last ? nullptr : lower, steps);
     for (const Step& step : steps) growth.add(growth_of(step, 1));
   }
-  return growth.next[0] > kBlurred * growth.own[0] || growth.after[0] > kBlurred * growth.own[0];
+  return growth.grows_at(0);
 }
 
 }  // namespace limpid

@@ -14,17 +14,20 @@ namespace limpid {
 /// edge it is there at once, at a blurred one it grows until both are out of the blur.
 class EdgeBlur {
  public:
-  /// Distances from the step to each side, in pixels; what is not full at the last but two is
-  /// taken to be as wide as that.
-  static constexpr std::array<int, 8> kLadder{0, 1, 3, 7, 15, 31, 63, 127};
+  /// Distances from the step to each side, in pixels.
+  static constexpr std::array<int, 7> kLadder{0, 1, 3, 7, 15, 31, 63};
   static constexpr int kWidths = 6;  ///< how many of them an edge can be blurred by
 
   /// Sums over steps of the products of the differences of color at distance i of the ladder with
-  /// themselves, with the next and with that after; each step counts by its relative contrast.
+  /// themselves, with the next and, at the first two, with that after; each step counts by its
+  /// relative contrast, and not where that goes out of the picture.
   struct Growth {
-    std::array<double, kWidths> own{}, next{}, after{};
+    std::array<double, kWidths> own{}, next{};
+    std::array<double, 2> after{};
     void add(const Growth& other);
-    /// Where on the ladder the difference is full; 0: at a hard edge, or none.
+    bool grows_at(int rung) const;
+    /// Where on the ladder the difference is full. 0: at a hard edge, or none, and where it grows
+    /// on and on, as light does.
     int full_at() const;
   };
 
@@ -46,7 +49,7 @@ class EdgeBlur {
   void find(int y, const std::uint8_t* sides, const std::uint8_t* below,
             std::vector<Step>& steps) const;
 
-  Growth growth_of(const Step& step, int widths) const;
+  Growth growth_of(const Step& step, int rungs) const;
 
  private:
   bool occludes(const Step& step) const;

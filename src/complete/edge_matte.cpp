@@ -32,14 +32,28 @@ glm::dvec3 solved(const Square& s, double ridge, const glm::dvec3& b) {
 /// Colors are compared to a hundredth of the contrast: that much noise is taken for granted.
 constexpr double kNoise = 0.01;
 
-std::optional<Matte> from_both_sides(const EdgeAround& around) {
-  const Rgb<double> dry = around.sure_dry.mean(), wet = around.sure_wet.mean();
+/// A side of which a corner is seen alone is none.
+bool is_side(const EdgeAround& around, EdgeKind kind) {
+  double all = 0;
+  for (const EdgeMoments& moments : around.kinds) all += moments.weight;
+  return around.of(kind).weight > 0.02 * all;
+}
+
+}  // namespace
+
+std::optional<Matte> matte_between(const EdgeAround& around) {
+  if (!is_side(around, EdgeKind::kSureDry) || !is_side(around, EdgeKind::kSureWet)) {
+    return std::nullopt;
+  }
+  const EdgeMoments &sure_dry = around.of(EdgeKind::kSureDry),
+                    &sure_wet = around.of(EdgeKind::kSureWet);
+  const Rgb<double> dry = sure_dry.mean(), wet = sure_wet.mean();
   const glm::dvec3 apart = vector_of(dry - wet);
   const double contrast = glm::dot(apart, apart);
   if (!(contrast > 0)) return std::nullopt;
-  Square within = scatter_of(around.sure_dry);
-  const Square other = scatter_of(around.sure_wet);
-  const double weight = around.sure_dry.weight + around.sure_wet.weight;
+  Square within = scatter_of(sure_dry);
+  const Square other = scatter_of(sure_wet);
+  const double weight = sure_dry.weight + sure_wet.weight;
   for (std::size_t i = 0; i < within.size(); ++i) within[i] = (within[i] + other[i]) / weight;
   const glm::dvec3 d = solved(within, kNoise * kNoise * contrast, apart);
   const double distance = glm::dot(d, apart);
@@ -47,14 +61,18 @@ std::optional<Matte> from_both_sides(const EdgeAround& around) {
   const double spread = 1 / std::sqrt(distance);
   const double place = glm::dot(d, -vector_of(wet)) / distance;
   const double cover = std::clamp((place - spread) / (1 - 2 * spread), 0.0, 1.0);
-  // What neither side explains is of both by their shares.
+  // What neither side explains is of both by their shares; a color like neither tells of a third.
   const Rgb<double> rest = cover * dry + (1 - cover) * wet;
+  if (glm::dot(vector_of(rest), vector_of(rest)) > 0.25 * contrast) return std::nullopt;
   return Matte{cover, wet - (1 - cover) * rest};
 }
 
-std::optional<Matte> from_regression(const EdgeAround& around) {
-  const EdgeMoments dry = around.sure_dry + around.dry, wet = around.sure_wet + around.wet;
+std::optional<Matte> matte_by_regression(const EdgeAround& around) {
+  if (!is_side(around, EdgeKind::kSureWet)) return std::nullopt;
+  const EdgeMoments dry = around.of(EdgeKind::kSureDry) + around.of(EdgeKind::kDry);
+  const EdgeMoments wet = around.of(EdgeKind::kSureWet) + around.of(EdgeKind::kWet);
   const EdgeMoments all = dry + wet;
+  if (!(dry.weight > 0)) return std::nullopt;
   const double share = dry.weight / all.weight;
   const glm::dvec3 mean = vector_of(all.mean());
   const glm::dvec3 with = vector_of((1 / all.weight) * dry.color) - share * mean;
@@ -64,12 +82,10 @@ std::optional<Matte> from_regression(const EdgeAround& around) {
   if (!(trace > 0)) return std::nullopt;
   const glm::dvec3 slope = solved(spread, kNoise * kNoise * trace, with);
   const double explained = glm::dot(slope, with) / (share * (1 - share));
-  if (!(explained > 0.1)) return std::nullopt;
+  if (!(explained > 0.25)) return std::nullopt;
   const double cover = std::clamp(share - glm::dot(slope, mean), 0.0, 1.0);
-  return Matte{cover, around.sure_wet.mean()};
+  return Matte{cover, around.of(EdgeKind::kSureWet).mean()};
 }
-
-}  // namespace
 
 double EdgePlane::here() const {
   const double x = place[1] / place[0], y = place[2] / place[0], mean = value[0] / place[0];
@@ -85,21 +101,9 @@ double EdgePlane::here() const {
 EdgeMoments operator+(EdgeMoments a, const EdgeMoments& b) {
   a.weight += b.weight;
   a.alpha += b.alpha;
-  a.inverse_depth += b.inverse_depth;
   a.color = a.color + b.color;
   for (std::size_t i = 0; i < a.square.size(); ++i) a.square[i] += b.square[i];
   return a;
-}
-
-std::optional<Matte> matte_of(const EdgeAround& around) {
-  const double all =
-      around.sure_dry.weight + around.dry.weight + around.sure_wet.weight + around.wet.weight;
-  // A side of which a corner is seen alone is none.
-  constexpr double kEnough = 0.02;
-  if (!(around.sure_wet.weight > kEnough * all)) return std::nullopt;
-  if (around.sure_dry.weight > kEnough * all) return from_both_sides(around);
-  if (!(around.sure_dry.weight + around.dry.weight > 0)) return std::nullopt;
-  return from_regression(around);
 }
 
 }  // namespace limpid

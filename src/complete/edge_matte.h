@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "limpid/core/vec.h"
@@ -10,17 +11,16 @@ namespace limpid {
 
 /// Weighted sums over pixels of one kind around a pixel, colors less that of the pixel itself.
 struct EdgeMoments {
-  double weight = 0, alpha = 0, inverse_depth = 0;
+  double weight = 0, alpha = 0;
   Rgb<double> color{0, 0, 0};
   std::array<double, 6> square{};  ///< rr rg rb gg gb bb
 
   static std::array<double, 6> products(const Rgb<double>& c) {
     return {c.r * c.r, c.r * c.g, c.r * c.b, c.g * c.g, c.g * c.b, c.b * c.b};
   }
-  void add(double w, const Rgb<double>& c, double a, double z) {
+  void add(double w, const Rgb<double>& c, double a) {
     weight += w;
     alpha += w * a;
-    inverse_depth += w * z;
     color = color + w * c;
     const std::array<double, 6> p = products(c);
     for (std::size_t i = 0; i < p.size(); ++i) square[i] += w * p[i];
@@ -35,7 +35,8 @@ struct EdgePlane {
   std::array<double, 3> value{};  ///< and of the inverse depth times 1 x y
   double least = HUGE_VAL, most = 0;
 
-  void add(double w, double x, double y, double inverse_depth) {
+  void add(double w, int right, int down, double inverse_depth) {
+    const double x = right, y = down;
     const std::array<double, 6> at{1, x, y, x * x, x * y, y * y};
     for (std::size_t i = 0; i < at.size(); ++i) place[i] += w * at[i];
     for (std::size_t i = 0; i < value.size(); ++i) value[i] += w * inverse_depth * at[i];
@@ -46,11 +47,16 @@ struct EdgePlane {
   double here() const;
 };
 
-/// What there is around a pixel in the band of a blurred edge, `sure` beyond the band: pixels that
-/// are dry and stand before the water of this one, and wet pixels.
+/// A kind of pixels around one in the band of a blurred edge: `sure` beyond the band; dry, where
+/// they stand before the water of the one, or wet.
+enum class EdgeKind : std::uint8_t { kDry, kWet, kSureDry, kSureWet };
+
+/// What there is around a pixel.
 struct EdgeAround {
-  EdgeMoments sure_dry, sure_wet, dry, wet;
-  EdgePlane behind;  ///< of the sure wet ones
+  std::array<EdgeMoments, 4> kinds;
+  EdgePlane before, behind;  ///< of the dry ones, and of the sure wet ones
+  EdgeMoments& of(EdgeKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+  const EdgeMoments& of(EdgeKind kind) const { return kinds[static_cast<std::size_t>(kind)]; }
 };
 
 struct Matte {
@@ -60,14 +66,18 @@ struct Matte {
 };
 
 /// The share of a pixel that what stands before the water covers. Nothing where its color does not
-/// tell: where the two sides are alike, or one of them is not there.
+/// tell: where one of the sides is not there, the two are alike, or it is off the line between them
+/// by more than half of what they are apart.
 ///
-/// With sure pixels of both sides: cover = d.(c - w) / d.(f - w), f and w their mean colors, d =
-/// (S + e)^-1 (f - w), S the covariance within the sides (Fisher 1936, "The Use of Multiple
-/// Measurements in Taxonomic Problems"). Its standard deviation over texture is s = 1 / sqrt(d.(f -
-/// w)); (cover - s) / (1 - 2 s) takes that for nothing, and sides less than 3 s apart for one.
-/// Without sure dry pixels: the linear regression of "dry" on color over all. What texture of the
-/// bottom the pixel shows, stays in `behind` by its share.
-std::optional<Matte> matte_of(const EdgeAround& around);
+/// cover = d.(c - w) / d.(f - w), f and w the mean colors of the sure pixels, d = (S + e)^-1 (f -
+/// w), S the covariance within the sides (Fisher 1936, "The Use of Multiple Measurements in
+/// Taxonomic Problems"). Its standard deviation over texture is s = 1 / sqrt(d.(f - w)); (cover -
+/// s) / (1 - 2 s) takes that for nothing, and sides less than 3 s apart for one. What texture of
+/// the bottom the pixel shows, stays in `behind` by its share.
+std::optional<Matte> matte_between(const EdgeAround& around);
+
+/// The same of what has no sure pixels of its own, being thinner than its blur: the linear
+/// regression of "dry" on color over all. Nothing where that explains less than a quarter.
+std::optional<Matte> matte_by_regression(const EdgeAround& around);
 
 }  // namespace limpid

@@ -42,6 +42,33 @@ struct EdgePicture {
   }
   double inverse_depth(int x, int y) const { return 1.0 / depth.at(x, y); }
 
+  /// Texels of a row.
+  class Row {
+   public:
+    Row(const EdgePicture& picture, int y)
+        : window_(picture.window), depth_(row_of(picture, picture.depth, y)) {
+      for (std::size_t c = 0; c < 3; ++c) color_[c] = row_of(picture, picture.color[c], y);
+    }
+    Rgb<double> color(int x) const {
+      return {at(color_[0], x), at(color_[1], x), at(color_[2], x)};
+    }
+    float depth(int x) const { return at(depth_, x); }
+
+   private:
+    struct Texels {
+      const float* first;
+      std::ptrdiff_t step;
+    };
+    static Texels row_of(const EdgePicture& picture, const View<const float>& view, int y) {
+      return {&view.at(picture.window.x0, y), view.x_stride};
+    }
+    float at(const Texels& row, int x) const { return row.first[(x - window_.x0) * row.step]; }
+
+    Rect window_;
+    Texels depth_;
+    std::array<Texels, 3> color_{};
+  };
+
   /// 1 over the depth of the water of the pixels of a row, 0 where there is none.
   class Water {
    public:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "limpid/core/edge_cover.h"
@@ -113,8 +114,10 @@ struct Edges::State {
   void paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung);
   void part_row(const EdgePicture& picture, int y);
   EdgeAround around(const EdgePicture& picture, const Kernel& kernel, int x, int y,
-                    double water) const;
-  bool part(const EdgePicture& picture, const Kernel& kernel, int x, int y, double water);
+                    double water_depth) const;
+  std::optional<Matte> matte_at(const EdgePicture& picture, const Band& band, int x, int y,
+                                double water_depth, EdgeAround& sums) const;
+  void part(const EdgePicture& picture, const Band& band, int x, int y, double water);
 
   static std::size_t index(const EdgePicture& picture, int x, int y) {
     const Rect& w = picture.window;
@@ -214,7 +217,8 @@ EdgeBlur::Growth Edges::State::growth_around(std::size_t down, int tile, const R
 /// The step is between two pixels, either of which is in the band.
 void Edges::State::paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung) {
   const Rect& w = picture.window;
-  const int half = EdgeBlur::kLadder[static_cast<std::size_t>(rung)];
+  const int full = EdgeBlur::kLadder[static_cast<std::size_t>(rung)];
+  const int half = full + full / 4;  // nearly full is full
   const int across = step.down ? 0 : half, along = step.down ? half : 0;
   const Rect both{step.x, step.y, step.x + (step.down ? 1 : 2), step.y + (step.down ? 2 : 1)};
   const Rect band =
@@ -232,67 +236,79 @@ void Edges::State::part_row(const EdgePicture& picture, int y) {
   for (int x = picture.window.x0; x < picture.window.x1; ++x) {
     const Band& band = bands[index(picture, x, y)];
     if (band.none() || !(water.inverse_depth(x) > 0)) continue;
-    // The blur of an edge that goes nearly along is far wider along than across, where it counts.
-    const auto [narrow, wide] = std::minmax(band.rung[0], band.rung[1]);
-    const auto parted = [&](int rung) {
-      const auto at = static_cast<std::size_t>(rung);
-      return rung > 0 && part(picture, kernels[at], x, y, water.inverse_depth(x));
-    };
-    // From the middle of a thin thing the water begins behind all of its blur.
-    if (!parted(narrow) && (wide == narrow || !parted(wide))) parted(wide + 1);
+    part(picture, band, x, y, water.inverse_depth(x));
   }
 }
 
+/// What there is around the pixel at (x, y), whose water lies at that depth.
 EdgeAround Edges::State::around(const EdgePicture& picture, const Kernel& kernel, int x, int y,
-                                double water) const {
+                                double water_depth) const {
   const Rect& w = picture.window;
   const Rgb<double> color = picture.color_at(x, y);
-  const double water_depth = 1 / water;
   EdgeAround sums;
   for (int j = -kernel.reach; j <= kernel.reach; ++j) {
     const int row = y + j * kernel.step;
     if (row < w.y0 || row >= w.y1) continue;
+    const EdgePicture::Row texels(picture, row);
+    const std::size_t row_start = index(picture, w.x0, row);
     const double row_weight = kernel.weight[static_cast<std::size_t>(std::abs(j))];
     const int reach = kernel.width[static_cast<std::size_t>(std::abs(j))];
     for (int i = -reach; i <= reach; ++i) {
       const int column = x + i * kernel.step;
       if (column < w.x0 || column >= w.x1) continue;
-      const std::size_t at = index(picture, column, row);
+      const std::size_t at = row_start + static_cast<std::size_t>(column - w.x0);
       const Side side = static_cast<Side>(sides[at]);
-      const double depth = picture.depth.at(column, row);
-      if (side == Side::kNone || (side == Side::kDry && !(depth < water_depth))) continue;
-      const bool sure = bands[at].none(), wet = side == Side::kWet;
-      EdgeMoments& of = sure ? (wet ? sums.sure_wet : sums.sure_dry) : (wet ? sums.wet : sums.dry);
-      of.add(row_weight * kernel.weight[static_cast<std::size_t>(std::abs(i))],
-             picture.color_at(column, row) - color,
-             picture.alpha ? picture.alpha.at(column, row) : 1, 1 / depth);
-      if (sure && wet) {
-        sums.behind.add(row_weight * kernel.weight[static_cast<std::size_t>(std::abs(i))], i, j,
-                        1 / depth);
-      }
+      const float depth = texels.depth(column);
+      const bool wet = side == Side::kWet, sure = bands[at].none();
+      if (!wet && (side == Side::kNone || !(depth < water_depth))) continue;
+      const double weight = row_weight * kernel.weight[static_cast<std::size_t>(std::abs(i))];
+      sums.kinds[static_cast<std::size_t>(wet + 2 * sure)].add(
+          weight, texels.color(column) - color,
+          picture.alpha ? picture.alpha.at(column, row) : 1.0);
+      if (sure || !wet) (wet ? sums.behind : sums.before).add(weight, i, j, 1 / depth);
     }
   }
   return sums;
 }
 
-/// Whether what is around tells how.
-bool Edges::State::part(const EdgePicture& picture, const Kernel& kernel, int x, int y,
-                        double water) {
-  const EdgeAround sums = around(picture, kernel, x, y, water);
-  std::optional<Matte> matte = matte_of(sums);
-  const EdgeMoments& wet = sums.sure_wet;
-  if (picture.alpha && wet.weight > 0 && wet.alpha < 0.05 * wet.weight) {
-    matte = Matte{picture.alpha.at(x, y), wet.mean()};
+/// The share of the pixel, with what is around, where that tells. The blur of an edge that goes
+/// nearly along is far wider along than across, where it counts: the narrower of both goes first.
+/// From the middle of a thin thing the water begins behind all of its blur: something wider goes
+/// last.
+std::optional<Matte> Edges::State::matte_at(const EdgePicture& picture, const Band& band, int x,
+                                            int y, double water_depth, EdgeAround& sums) const {
+  const auto [narrow, wide] = std::minmax(band.rung[0], band.rung[1]);
+  std::array<std::size_t, 3> tries{narrow, wide, wide + std::size_t{1}};
+  std::array<EdgeAround, 3> seen;
+  for (std::size_t i = narrow == 0 || narrow == wide ? 1 : 0; i < tries.size(); ++i) {
+    seen[i] = around(picture, kernels[tries[i]], x, y, water_depth);
+    const EdgeMoments& wet = seen[i].of(EdgeKind::kSureWet);
+    std::optional<Matte> matte = matte_between(seen[i]);
+    if (picture.alpha && wet.weight > 0 && wet.alpha < 0.05 * wet.weight) {
+      matte = Matte{picture.alpha.at(x, y), wet.mean()};
+    }
+    sums = seen[i];
+    if (matte) return matte;
   }
-  if (!matte) return false;
-  const double behind = sums.behind.here();
+  for (const EdgeAround& around_here : seen) {
+    sums = around_here;
+    if (const std::optional<Matte> matte = matte_by_regression(sums)) return matte;
+  }
+  return std::nullopt;
+}
+
+void Edges::State::part(const EdgePicture& picture, const Band& band, int x, int y, double water) {
+  EdgeAround sums;
+  const std::optional<Matte> matte = matte_at(picture, band, x, y, 1 / water, sums);
+  if (!matte) return;
   const bool is_wet = static_cast<Side>(sides[index(picture, x, y)]) == Side::kWet;
+  if (is_wet ? matte->cover < kLeast : matte->cover > 1 - kLeast) return;
   if (matte->cover > 1 - kLeast) {
-    const EdgeMoments dry = sums.sure_dry + sums.dry;
-    if (is_wet && dry.weight > 0) put_depth(x, y, dry.inverse_depth / dry.weight);
-    return true;
+    if (sums.before.most > 0) put_depth(x, y, sums.before.here());
+    return;
   }
-  if (!(behind < water) || (is_wet && matte->cover < kLeast)) return true;
+  const double behind = sums.behind.here();
+  if (!(behind < water)) return;
   const double open = 1 - matte->cover;
   // What is before the water sends no less than nothing.
   const auto shared = [&](double whole, double part) {
@@ -306,7 +322,6 @@ bool Edges::State::part(const EdgePicture& picture, const Kernel& kernel, int x,
   };
   put(x, y, narrow(beyond), behind);
   cover_of(y).push_back({x, static_cast<float>(matte->cover), narrow(color - open * beyond)});
-  return true;
 }
 
 Edges::Edges() : state_(std::make_unique<State>()) {

@@ -106,6 +106,27 @@ TEST(Edges, TextureOfBothSidesDoesNotCount) {
   expect_parted(post.make(), 0.25);
 }
 
+// Light and texture of the two sides make them differ more, the farther away they are looked at.
+// That is no blur: an antialiased post, though thin, stays what it is.
+TEST(Edges, LightThatChangesAlongTheBottomIsNoBlur) {
+  Post post;
+  post.blur = 1;
+  post.width = 12;
+  post.rise = 1;
+  post.texture = 0.5f;
+  post.make();
+  const Parted parted(post);
+  ASSERT_TRUE(parted.frame.edges);
+  for (int y = 20; y < 80; ++y) {
+    for (int x = 0; x < Post::kSize.width; ++x) {
+      const double from_edge = std::abs(std::abs(x + 0.5 - Post::kMiddle) - post.width / 2);
+      if (from_edge > 2.5) {
+        EXPECT_FALSE(parted.at(x, y)) << x << " " << y;
+      }
+    }
+  }
+}
+
 TEST(Edges, HardOnesStayAsTheyAre) {
   for (const float texture : {0.0f, 0.6f}) {
     Post post;
@@ -123,6 +144,18 @@ TEST(Edges, SidesOfOneColorDoNotTell) {
   post.blur = 4;
   post.dark = post.light;
   EXPECT_FALSE(Parted(post.make()).frame.edges);
+}
+
+// Neither does light that rises across both, as wide as the picture.
+TEST(Edges, LightOverBothSidesIsNoBlur) {
+  Post post;
+  post.dark = post.light;
+  post.make();
+  for (int c = 0; c < 3; ++c) {
+    post.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [](int x, int y) { return 0.2f + 0.01f * float(x) + 0.004f * float(y); });
+  }
+  EXPECT_FALSE(Parted(post).frame.edges);
 }
 
 // The ground goes on through the water's edge; its color changes slowly all over it.

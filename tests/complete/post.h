@@ -18,6 +18,7 @@ struct Post {
   double width = 40, blur = 0;
   Depth kind = Depth::kMiddle;
   float texture = 0;  ///< of both sides: so much of their colors
+  float rise = 0;     ///< of the bottom's light to the right: so much of it over the picture
   Rgb<float> dark{0.1f, 0.06f, 0.03f}, light{0.5f, 0.6f, 0.4f};
   Scene scene = simple_scene(kSize);
   Buffers buffers{rect_of(kSize)};
@@ -42,7 +43,8 @@ struct Post {
   }
   Rgb<float> front(int x, int y) const { return (1 + texture * (noise(x, y, 71) - 0.5f)) * dark; }
   Rgb<float> behind(int x, int y) const {
-    return (1 + texture * (noise(x / 3, y / 3, 72) - 0.5f)) * light;
+    const float lit = 1 + rise * (static_cast<float>(x) / kSize.width - 0.5f);
+    return lit * (1 + texture * (noise(x / 3, y / 3, 72) - 0.5f)) * light;
   }
   float bottom_depth(int y) const {
     const glm::dvec3 ray = rays_of(*scene.camera, {kSize.width, kSize.height}).ray_at(64, y + 0.5);

@@ -101,8 +101,7 @@ TEST(EdgesInThePicture, FourTermsSumToIt) {
   for (int y = 0; y < Post::kSize.height; ++y) {
     for (int x = 0; x < Post::kSize.width; ++x) {
       double sum = 0;
-      for (const Aov aov :
-           {Aov::kTransmitted, Aov::kInScatter, Aov::kReflected, Aov::kHighlight}) {
+      for (const Aov aov : {Aov::kTransmitted, Aov::kInScatter, Aov::kReflected, Aov::kHighlight}) {
         sum += p.mixed.aov(aov, x, y);
       }
       EXPECT_NEAR(p.mixed.color(x, y).r, sum, 1e-6);
