@@ -12,6 +12,11 @@ constexpr double kGrows = 1.12;
 /// A ramp that is not full at a distance has more than doubled on the way there; what grows slowly
 /// is light and texture of the two sides.
 constexpr double kRamp = 1.6;
+/// So much of the square of the contrast on both sides of the band tells of light that rises
+/// evenly: that has ((k + 1) / (2 k + 1))^2, at least 0.25.
+constexpr double kBeside = 0.2;
+/// Share of steps at single pixels: of sides drawn by lot, more than this where either has a tenth.
+constexpr double kSpeckled = 0.3;
 
 double dot(const Rgb<double>& a, const Rgb<double>& b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
 
@@ -66,12 +71,21 @@ void each_difference(const std::uint8_t* a, const std::uint8_t* b, int count, co
   }
 }
 
+/// Whether the pixels to both sides of one in a row are of another side.
+bool alone(const std::uint8_t* sides, int i, int count) {
+  return i > 0 && i + 1 < count && sides[i - 1] != sides[i] && sides[i + 1] != sides[i];
+}
+
 }  // namespace
 
 void EdgeBlur::Growth::add(const Growth& other) {
+  steps += other.steps;
+  speckled += other.speckled;
   for (std::size_t i = 0; i < own.size(); ++i) {
     own[i] += other.own[i];
     next[i] += other.next[i];
+    dry[i] += other.dry[i];
+    wet[i] += other.wet[i];
   }
   for (std::size_t i = 0; i < after.size(); ++i) after[i] += other.after[i];
 }
@@ -84,8 +98,12 @@ bool EdgeBlur::Growth::grows_at(int rung) const {
 int EdgeBlur::Growth::full_at() const {
   for (int rung = 0; rung < kWidths; ++rung) {
     const auto i = static_cast<std::size_t>(rung);
-    if (!(own[i] > 0)) return 0;
-    if (!grows_at(rung) || (i > 0 && next[i - 1] < kRamp * own[i - 1])) return rung;
+    if (!(own[i] > 0)) return 0;  // nothing is seen so far away
+    const bool goes_on = grows_at(rung) && (i == 0 || next[i - 1] > kRamp * own[i - 1]);
+    if (goes_on) continue;
+    // What is thinner than its blur changes beside it, too, but the water behind does not.
+    const bool beside = std::min(dry[i], wet[i]) > kBeside * own[i];
+    return beside && speckled < kSpeckled * steps ? 0 : rung;
   }
   return 0;
 }
@@ -93,22 +111,31 @@ int EdgeBlur::Growth::full_at() const {
 EdgeBlur::Growth EdgeBlur::growth_of(const Step& step, int rungs) const {
   const Along along{step, picture_.window};
   const auto color = [&](int x, int y) { return picture_.color_at(x, y); };
-  const auto difference = [&](int rung) {
-    const int distance = kLadder[static_cast<std::size_t>(rung)];
-    return along.dry(distance, color) - along.wet(distance, color);
+  std::array<Rgb<double>, kLadder.size()> dry, wet, across;
+  std::size_t known = 0;
+  const auto see = [&](std::size_t rung) {
+    for (; known <= rung; ++known) {
+      dry[known] = along.dry(kLadder[known], color);
+      wet[known] = along.wet(kLadder[known], color);
+      across[known] = dry[known] - wet[known];
+    }
   };
-  const Rgb<double> dry = along.dry(1, color), wet = along.wet(1, color);
-  const double size = dot(dry, dry) + dot(wet, wet) + 1e-12;
+  see(1);
+  const double size = dot(dry[1], dry[1]) + dot(wet[1], wet[1]) + 1e-12;
   Growth growth;
-  std::array<Rgb<double>, 3> seen{difference(0), difference(1), difference(2)};
-  for (int rung = 0; rung < rungs; ++rung) {
-    const auto i = static_cast<std::size_t>(rung);
-    const int farthest = std::min(rung < 2 ? rung + 2 : rung + 1, kWidths);
-    if (!along.inside(kLadder[static_cast<std::size_t>(farthest)])) break;
-    growth.own[i] = dot(seen[0], seen[0]) / size;
-    growth.next[i] = dot(seen[0], seen[1]) / size;
-    if (i < growth.after.size()) growth.after[i] = dot(seen[0], seen[2]) / size;
-    seen = {seen[1], seen[2], rung + 3 <= kWidths ? difference(rung + 3) : seen[2]};
+  growth.steps = 1;
+  growth.speckled = step.speckle;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rungs); ++i) {
+    const bool has_after = i < growth.after.size();
+    const std::size_t farthest = i + (has_after ? 2 : 1);
+    if (!along.inside(kLadder[farthest])) break;
+    see(farthest);
+    const Rgb<double> dry_beyond = dry[i + 1] - dry[i], wet_beyond = wet[i + 1] - wet[i];
+    growth.own[i] = dot(across[i], across[i]) / size;
+    growth.next[i] = dot(across[i], across[i + 1]) / size;
+    growth.dry[i] = dot(dry_beyond, dry_beyond) / size;
+    growth.wet[i] = dot(wet_beyond, wet_beyond) / size;
+    if (has_after) growth.after[i] = dot(across[i], across[i + 2]) / size;
   }
   return growth;
 }
@@ -135,7 +162,10 @@ void EdgeBlur::find(int y, const std::uint8_t* sides, const std::uint8_t* below,
     constexpr auto kWet = static_cast<std::uint8_t>(Side::kWet);
     const bool dry_first = first == kDry && second == kWet;
     if (!dry_first && !(first == kWet && second == kDry)) return;
-    const Step step{w.x0 + i, y, down, dry_first};
+    const std::uint8_t* row = down ? below : sides;
+    const int other = down ? i : i + 1;
+    const bool speckle = alone(sides, i, w.width()) || alone(row, other, w.width());
+    const Step step{w.x0 + i, y, down, dry_first, speckle};
     if (occludes(step)) steps.push_back(step);
   };
   each_difference(sides, sides + 1, w.width() - 1,

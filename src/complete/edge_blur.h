@@ -20,14 +20,17 @@ class EdgeBlur {
 
   /// Sums over steps of the products of the differences of color at distance i of the ladder with
   /// themselves, with the next and, at the first two, with that after; each step counts by its
-  /// relative contrast, and not where that goes out of the picture.
+  /// relative contrast, and not where that goes out of the picture. The
+  /// last two: squares of the differences between distance i and the next on one side alone.
   struct Growth {
-    std::array<double, kWidths> own{}, next{};
+    std::array<double, kWidths> own{}, next{}, dry{}, wet{};
     std::array<double, 2> after{};
+    int steps = 0, speckled = 0;  ///< how many they are, and how many of Step::speckle
     void add(const Growth& other);
     bool grows_at(int rung) const;
-    /// Where on the ladder the difference is full. 0: at a hard edge, or none, and where it grows
-    /// on and on, as light does.
+    /// Where on the ladder the difference is full. 0: at a hard edge, or none, and where color
+    /// changes as much on both sides of the edge as across it, as light does, but for sides that
+    /// alternate from pixel to pixel, as in depth of one sample of many.
     int full_at() const;
   };
 
@@ -36,6 +39,7 @@ class EdgeBlur {
     int x, y;   ///< of the left or upper one
     bool down;  ///< whether the other is below, and not to the right
     bool dry_first;
+    bool speckle;  ///< at a pixel that is alone of its side in its row
   };
 
   explicit EdgeBlur(const EdgePicture& picture) : picture_(picture) {}

@@ -126,7 +126,14 @@ TEST(EdgeBlur, EndsWhereTheDifferenceGrowsSlowly) {
   growth.after[1] = 1.44 * growth.own[1];
   EXPECT_EQ(growth.full_at(), 1);
   EXPECT_EQ(EdgeBlur::Growth{}.full_at(), 0);
-  EXPECT_EQ(ramp(200).full_at(), 0);  // light over the whole picture
+  EXPECT_EQ(ramp(200).full_at(), 0);    // light over the whole picture
+  growth.dry[1] = 0.5 * growth.own[1];  // as of what is thin
+  EXPECT_EQ(growth.full_at(), 1);
+  growth.wet[1] = 0.5 * growth.own[1];
+  growth.steps = 10;
+  EXPECT_EQ(growth.full_at(), 0);  // or as much of it beside the edge
+  growth.speckled = 4;  // where depth is one of both by chance, it is a blur all the same
+  EXPECT_EQ(growth.full_at(), 1);
 }
 
 }  // namespace
