@@ -84,7 +84,8 @@ struct CompositorOptions {
 /// on threads, nor on the frames before it.
 ///
 /// From the second frame of a kind on (same sizes, same planes, same look, same AOVs) run()
-/// allocates nothing; it never locks (executors may), opens no file, prints nothing.
+/// allocates nothing, but where edges are blurred in more pixels than in any frame before; it never
+/// locks (executors may), opens no file, prints nothing.
 class Compositor {
  public:
   /// Throws Error for depths that cannot be made linear with what the conventions say, and as

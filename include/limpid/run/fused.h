@@ -39,7 +39,8 @@ struct FusedOptions {
 /// result depend on plan, frame, scene and instruction set, not on threads, tile size or order.
 /// Against run_reference: see the README; with Plan::max_error, as far from that besides. Numbers
 /// below 1.2e-38 count as 0, but are copied as they are. Keeps its memory from frame to frame: none
-/// is allocated after the first one of a size. One run at a time.
+/// is allocated after the first one of a size, but for edges that are blurred in more pixels than
+/// in those before. One run at a time.
 class FusedRunner {
  public:
   /// Throws Error as run_reference does, and for an instruction set that is not there. A plane may
