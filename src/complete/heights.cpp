@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,10 +12,12 @@
 namespace limpid {
 namespace {
 
+using Blocked = BlockPyramid<SeenHeights>;  // as large as those of others
+
 /// Blocks that cover a window, from its corner on.
 Size blocks_of(const Rect& window) {
-  return {(window.width() + HeightBound::kWidth - 1) / HeightBound::kWidth,
-          (window.height() + HeightBound::kHeight - 1) / HeightBound::kHeight};
+  return {(window.width() + Blocked::kWidth - 1) / Blocked::kWidth,
+          (window.height() + Blocked::kHeight - 1) / Blocked::kHeight};
 }
 
 std::size_t count_of(Size blocks) { return static_cast<std::size_t>(blocks.width) * blocks.height; }
@@ -22,6 +25,56 @@ std::size_t count_of(Size blocks) { return static_cast<std::size_t>(blocks.width
 Size half_of(Size blocks) { return {(blocks.width + 1) / 2, (blocks.height + 1) / 2}; }
 
 bool is_one(Size blocks) { return blocks.width == 1 && blocks.height == 1; }
+
+/// Fills the blocks of a window, in `cells`, which has room for all levels then, by
+/// look(pixels, blocks, to) at some of a row of them.
+template <class Cell, class Look>
+void look_at(const Rect& window, Executor& executor, std::vector<Cell>& cells, Look&& look) {
+  const Size all = blocks_of(window);
+  std::size_t room = 1;
+  for (Size size = all; !is_one(size); size = half_of(size)) room += count_of(size);
+  cells.resize(room);
+  const auto look_at_row = [&](int index) {
+    const int y = window.y0 + index * Blocked::kHeight;
+    for (int first = 0; first < all.width; first += Blocks::kMost) {
+      const int x = window.x0 + first * Blocked::kWidth;
+      const Rect some{x, y, x + Blocks::kMost * Blocked::kWidth, y + Blocked::kHeight};
+      look(intersection(some, window), Blocks{x, Blocked::kWidth},
+           cells.data() + count_of({all.width, index}) + first);
+    }
+  };
+  executor.run(
+      all.height,
+      [](void* self, int index) { (*static_cast<decltype(look_at_row)*>(self))(index); },
+      const_cast<void*>(static_cast<const void*>(&look_at_row)));
+}
+
+/// The other levels on the first one, which is there.
+template <class Cell>
+void stack_levels(const Rect& window, std::vector<Cell>& cells, BlockPyramid<Cell>& pyramid) {
+  Size size = blocks_of(window);
+  Cell* to = cells.data();
+  pyramid.levels[0] = {to, size.width};
+  for (int level = 1; !is_one(size); ++level) {
+    const Cell* from = to;
+    const Size before = size;
+    to += count_of(size);
+    size = half_of(size);
+    for (int y = 0; y < size.height; ++y) {
+      const Cell* upper = from + count_of({before.width, 2 * y});
+      const Cell* lower = from + count_of({before.width, std::min(2 * y + 1, before.height - 1)});
+      for (int x = 0; x < size.width; ++x) {
+        const int left = 2 * x, right = std::min(left + 1, before.width - 1);
+        to[count_of({size.width, y}) + x] = Cell::join(Cell::join(upper[left], upper[right]),
+                                                       Cell::join(lower[left], lower[right]));
+      }
+    }
+    pyramid.levels[level] = {to, size.width};
+  }
+  pyramid.x0 = window.x0;
+  pyramid.y0 = window.y0;
+  pyramid.known = true;
+}
 
 /// Of a march, in which products may cancel: a few roundings of each.
 HeightError march_error(const Context& c) {
@@ -36,6 +89,19 @@ HeightError march_error(const Context& c) {
       static_cast<float>(most(r.ray, r.ray_dx, r.ray_dy))};
 }
 
+/// 0 where lookups are not those that SeenHeights::covers speaks of.
+double share_of_way(const Plan& plan, const Frame& frame, const Context& context) {
+  const Refraction::Params& params = plan.look.of<Refraction>();
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  const bool kept_in_frame = params.off_frame == Refraction::OffFrame::kShorten ||
+                             params.off_frame == Refraction::OffFrame::kContinue;
+  const PlaneId seen = Refraction::planes_of(context).depth;
+  const bool same_window = !surface || surface.window == frame.plane(seen).window;
+  const bool known =
+      params.rejection == Refraction::Rejection::kShorten && kept_in_frame && same_window;
+  return known ? Refraction::kShareOfWay : 0;
+}
+
 /// Whether all water that reaches up to `most` is seen from above: what stands higher is nearer.
 bool seen_from_above(const Context& context, float most) {
   const bool parallel = context.w_depth == 0;
@@ -44,87 +110,60 @@ bool seen_from_above(const Context& context, float most) {
 
 }  // namespace
 
-struct Heights::Scan {
-  const Context& context;
-  const ScanTarget& target;
-  HeightError error;
-  const View<const float>& depth;
-  bool water;  ///< the plane is that of the surface
-  float most;
-  float* heights;
-
-  void chunk(const Rect& pixels, float* to) const {
-    const Blocks blocks{pixels.x0, HeightBound::kWidth};
-    if (water) return target.highest_water(context, depth, pixels, blocks, to);
-    target.highest_seen(context, error, depth, most, pixels, blocks, to);
-  }
-
-  /// A task: a row of blocks.
-  static void row(void* self, int index) {
-    const Scan& s = *static_cast<Scan*>(self);
-    const Rect& window = s.depth.window;
-    const int across = blocks_of(window).width;
-    const int y = window.y0 + index * HeightBound::kHeight;
-    for (int first = 0; first < across; first += Blocks::kMost) {
-      const int x = window.x0 + first * HeightBound::kWidth;
-      const Rect whole{x, y, x + Blocks::kMost * HeightBound::kWidth, y + HeightBound::kHeight};
-      s.chunk(intersection(whole, window), s.heights + count_of({across, index}) + first);
-    }
-  }
-};
-
 void Heights::make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
                    const std::string& simd) {
   bound_ = {};
-  if (!plan.made.has(StatePart::kPosition) || !plan.look.of<Refraction>().marches()) return;
-  if (context.submersible) return;
-  const PlaneId seen = Refraction::planes_of(context).depth;
-  const Rect& window = frame.plane(seen).window;
+  mirrored_ = lit_ = {};
+  const ScanTarget& target = scan_target(simd);
+  if (plan.made.has(StatePart::kPosition) && plan.look.of<Refraction>().marches() &&
+      !context.submersible) {
+    look_below(plan, frame, context, executor, target);
+  }
+  look_at_mirrored(plan, frame, context, executor, target);
+  const View<const float>& shadow = frame.plane(PlaneId::kSurfaceShadow);
+  if (!shadow || !WaterShadow::probes(plan.look.of<WaterShadow>(), plan.made)) return;
+  look_at(shadow.window, executor, shadows_, [&](const Rect& pixels, Blocks blocks, auto* to) {
+    target.range(shadow, pixels, blocks, to);
+  });
+  stack_levels(shadow.window, shadows_, lit_);
+  lit_.plane = PlaneId::kSurfaceShadow;
+}
+
+void Heights::look_at_mirrored(const Plan& plan, const Frame& frame, const Context& context,
+                               Executor& executor, const ScanTarget& target) {
+  const std::optional<PlaneId> plane =
+      FresnelReflection::marched(plan.look.of<FresnelReflection>(), context);
+  if (!plan.made.has(StatePart::kReflected) || !plane) return;
+  const View<const float>& depth = frame.plane(*plane);
+  const HeightError error = march_error(context);
+  look_at(depth.window, executor, depths_, [&](const Rect& pixels, Blocks blocks, auto* to) {
+    target.seen_depths(context, error, depth, *plane == PlaneId::kDepth, pixels, blocks, to);
+  });
+  stack_levels(depth.window, depths_, mirrored_);
+  mirrored_.plane = *plane;
+}
+
+void Heights::look_below(const Plan& plan, const Frame& frame, const Context& context,
+                         Executor& executor, const ScanTarget& target) {
+  const SeenPlanes planes = Refraction::planes_of(context);
+  const View<const float>& depth = frame.plane(planes.depth);
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   const HeightError error = march_error(context);
-  const auto scan = [&](PlaneId plane, bool water) {
-    const View<const float>& depth = frame.plane(plane);
-    const Size blocks = blocks_of(depth.window);
-    std::size_t room = 1;
-    for (Size size = blocks; !is_one(size); size = half_of(size)) room += count_of(size);
-    heights_.resize(room);
-    Scan job{context, scan_target(simd), error, depth, water, bound_.most, heights_.data()};
-    executor.run(blocks.height, Scan::row, &job);
-    return blocks;
-  };
   if (surface) {
-    const Size blocks = scan(PlaneId::kSurfaceDepth, true);
-    bound_.most = *std::max_element(heights_.data(), heights_.data() + count_of(blocks));
+    look_at(surface.window, executor, water_, [&](const Rect& pixels, Blocks blocks, float* to) {
+      target.highest_water(context, surface, pixels, blocks, to);
+    });
+    const std::size_t count = count_of(blocks_of(surface.window));
+    bound_.most = *std::max_element(water_.data(), water_.data() + count);
   }
   // Where no water is drawn the calm level stands for it.
   bound_.most = std::max(bound_.most, 0.0f) + error.over;
   if (!seen_from_above(context, bound_.most)) return;
-  stack_levels(scan(seen, false));
-  bound_.x0 = window.x0;
-  bound_.y0 = window.y0;
-  bound_.known = true;
-}
-
-/// The others on the first one, which is there.
-void Heights::stack_levels(Size size) {
-  float* to = heights_.data();
-  bound_.levels[0] = {to, size.width};
-  for (int level = 1; !is_one(size); ++level) {
-    const float* from = to;
-    const Size before = size;
-    to += count_of(size);
-    size = half_of(size);
-    for (int y = 0; y < size.height; ++y) {
-      const float* upper = from + count_of({before.width, 2 * y});
-      const float* lower = from + count_of({before.width, std::min(2 * y + 1, before.height - 1)});
-      for (int x = 0; x < size.width; ++x) {
-        const int left = 2 * x, right = std::min(left + 1, before.width - 1);
-        to[count_of({size.width, y}) + x] =
-            std::max({upper[left], upper[right], lower[left], lower[right]});
-      }
-    }
-    bound_.levels[level] = {to, size.width};
-  }
+  const SeenFrom from{error, bound_.most, share_of_way(plan, frame, context), planes.below};
+  look_at(depth.window, executor, heights_, [&](const Rect& pixels, Blocks blocks, auto* to) {
+    target.seen_heights(context, from, depth, surface, pixels, blocks, to);
+  });
+  stack_levels(depth.window, heights_, bound_);
 }
 
 }  // namespace limpid

@@ -197,14 +197,14 @@ void Survey::Scan::scan_chunk(const Chunk& chunk) {
   for (int i = chunk.first; i < chunk.end; ++i) none(extremes_of(i, chunk.row));
   scan_water(chunk);
   if (sees_own_shadow()) {
-    scan_plane(own_shadow, survey.work_, chunk, [&](int column, LowHigh lit) {
+    scan_plane(own_shadow, survey.work_, chunk, [&](int column, SeenRange lit) {
       Own& own = own_of(column, chunk.row);
       own.shadow_low = std::min(own.shadow_low, lit.low);
       own.shadow_high = std::max(own.shadow_high, lit.high);
     });
   }
   const auto keep = [&](PlaneId plane, const Rect& within, int low, int high) {
-    scan_plane(plane, within, chunk, [&](int column, LowHigh seen) {
+    scan_plane(plane, within, chunk, [&](int column, SeenRange seen) {
       Extremes& extremes = extremes_of(column, chunk.row);
       extremes[low] = std::max(extremes[low], -seen.low);
       extremes[high] = std::max(extremes[high], seen.high);
@@ -232,7 +232,7 @@ template <class Into>
 void Survey::Scan::scan_plane(PlaneId plane, const Rect& within, const Chunk& chunk, Into&& into) {
   const Rect there = intersection(pixels_of(chunk), within);
   if (there.empty()) return;
-  std::array<LowHigh, Blocks::kMost> seen;
+  std::array<SeenRange, Blocks::kMost> seen;
   const Blocks blocks{pixels_of(chunk).x0, kBlockWidth};
   target.range(frame.plane(plane), there, blocks, seen.data());
   for_each_block(there, blocks, [&](int i) { into(chunk.first + i, seen[i]); });

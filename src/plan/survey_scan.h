@@ -7,10 +7,6 @@
 
 namespace limpid {
 
-struct LowHigh {
-  float low, high;
-};
-
 /// Which pixels of a cell are wet, and how the water lies there. Where the frame has no plane of
 /// the surface, the calm one is computed in float, and not to the same bits as in a run: what
 /// cannot be told for sure counts for wet.
@@ -29,6 +25,14 @@ struct HeightError {
 /// Of RowRays.
 HeightError calm_error(const Context& context);
 
+/// What SeenHeights are made for.
+struct SeenFrom {
+  HeightError error;    ///< of who asks
+  float most;           ///< HeightBound::most
+  double share_of_way;  ///< Refraction::kShareOfWay, or 0 where nobody asks for SeenHeights::covers
+  bool calm_ashore;     ///< the calm surface stands for one that is infinitely far
+};
+
 /// Blocks of a row of them, `width` pixels wide from x0 on. Memory is read fastest along a row of
 /// the picture: so they are looked at together.
 struct Blocks {
@@ -40,14 +44,18 @@ struct Blocks {
 /// out[i] is of those in block i, and left alone where there are none. Unless `farthest`, all of
 /// WetSeen is found but surface_near and own_far, which are 0 and infinite then.
 struct ScanTarget {
-  void (*range)(const View<const float>& view, const Rect& pixels, Blocks blocks, LowHigh* out);
+  void (*range)(const View<const float>& view, const Rect& pixels, Blocks blocks, SeenRange* out);
   /// Greatest height over the calm surface of the finite texels of a surface.
   void (*highest_water)(const Context& context, const View<const float>& surface,
                         const Rect& pixels, Blocks blocks, float* out);
-  /// What HeightBound holds of a block, `error` being that of who asks it.
-  void (*highest_seen)(const Context& context, const HeightError& error,
-                       const View<const float>& depth, float most, const Rect& pixels,
-                       Blocks blocks, float* out);
+  /// `surface` has the window of `depth`, or is absent, for the calm one.
+  void (*seen_heights)(const Context& context, const SeenFrom& from, const View<const float>& depth,
+                       const View<const float>& surface, const Rect& pixels, Blocks blocks,
+                       SeenHeights* out);
+  /// Of all texels, or of those `above` the calm surface, by all that is known.
+  void (*seen_depths)(const Context& context, const HeightError& error,
+                      const View<const float>& depth, bool above, const Rect& pixels, Blocks blocks,
+                      SeenRange* out);
   void (*wet)(const Context& context, const HeightError& error, const View<const float>& depth,
               const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
               WetSeen* out);

@@ -68,7 +68,7 @@ struct RangeLanes {
   Lane low{HUGE_VAL}, high{-HUGE_VAL};
 };
 
-void range(const View<const float>& view, const Rect& pixels, Blocks blocks, LowHigh* out) {
+void range(const View<const float>& view, const Rect& pixels, Blocks blocks, SeenRange* out) {
   RangeLanes lanes[Blocks::kMost];
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     const Row row(view, pixels, y);
@@ -183,54 +183,110 @@ LIMPID_LANES_INLINE void add_rows(const Context& context, const HeightError& err
   }
 }
 
-/// The greatest in each block of height_of(z, over, under), for texels at eye depth z on rays on
-/// which z is seen at the height over + z under.
-template <class HeightOf>
-LIMPID_LANES_INLINE void greatest_height(const Context& context, const View<const float>& depth,
-                                         const Rect& pixels, Blocks blocks, float* out,
-                                         HeightOf&& height_of) {
+/// Calls visit(block, y, x, count, z, over, under) for the vectors of texels at eye depth z, on
+/// rays on which z is seen at the height over + z under.
+template <class Visit>
+LIMPID_LANES_INLINE void for_each_height(const Context& context, const View<const float>& depth,
+                                         const Rect& pixels, Blocks blocks, Visit&& visit) {
   const Lane steps(hn::Iota(kD, 0.0f));
-  Lane lanes[Blocks::kMost];
-  for (Lane& highest : lanes) highest = Lane(-HUGE_VAL);
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     const Row row(depth, pixels, y);
     const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
     for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
-      Lane highest = lanes[block];
       for_each_vector(x0, x1, [&](int x, int count) {
         row.ask_for_next(x);
         // What is repeated beyond the end of a row is seen on the ray of its last texel.
         const Lane column = min(steps, Lane(count - 1)) + Lane(x - context.corner.x + 0.5);
-        const Lane z = row.at(x, count);
         const Lane over = Lane(0) - (rays.calm_over + column * rays.calm_over_dx);
         const Lane under = rays.calm_under + column * rays.calm_under_dx;
-        highest = max(highest, select(z < Lane(1e30), height_of(z, over, under), Lane(-HUGE_VAL)));
+        visit(block, y, x, count, row.at(x, count), over, under);
       });
-      lanes[block] = highest;
     });
   }
-  for_each_block(pixels, blocks, [&](int block, int, int) { out[block] = greatest(lanes[block]); });
 }
 
 void highest_water(const Context& context, const View<const float>& surface, const Rect& pixels,
                    Blocks blocks, float* out) {
-  greatest_height(context, surface, pixels, blocks, out,
-                  [](Lane z, Lane over, Lane under) { return over + z * under; });
+  Lane lanes[Blocks::kMost];
+  for (Lane& highest : lanes) highest = Lane(-HUGE_VAL);
+  for_each_height(context, surface, pixels, blocks,
+                  [&](int block, int, int, int, Lane z, Lane over, Lane under) {
+                    const Lane height = select(z < Lane(1e30), over + z * under, Lane(-HUGE_VAL));
+                    lanes[block] = max(lanes[block], height);
+                  });
+  for_each_block(pixels, blocks, [&](int block, int, int) { out[block] = greatest(lanes[block]); });
 }
 
-void highest_seen(const Context& context, const HeightError& error, const View<const float>& depth,
-                  float most, const Rect& pixels, Blocks blocks, float* out) {
-  // A ray passes up to half a texel from the centre of the one that it sees, but for rounding.
-  const auto half_texel = [&](const glm::dvec2& step) LIMPID_LANES_LAMBDA {
-    return 0.51 *
-           (__builtin_fabs(step.x) / context.size.x + __builtin_fabs(step.y) / context.size.y);
-  };
-  const Lane off_over(error.over + half_texel(context.over_step));
-  const Lane off_under(error.under + half_texel(context.under_step));
-  greatest_height(context, depth, pixels, blocks, out, [&](Lane z, Lane over, Lane under) {
-    const Lane height = over + z * under, off = off_over + abs(z) * off_under;
-    const Lane upper = select(under + off_under < Lane(0), height + off, Lane(HUGE_VAL));
-    return select(height - off > Lane(most), Lane(-HUGE_VAL), upper);
+/// How far heights are off: a ray passes up to half a texel from the centre of the one that it
+/// sees, but for rounding.
+struct RayError {
+  Lane over, under;
+
+  LIMPID_LANES_INLINE RayError(const Context& c, const HeightError& error)
+      : over(error.over + half_texel(c, c.over_step)),
+        under(error.under + half_texel(c, c.under_step)) {}
+  LIMPID_LANES_INLINE Lane at(Lane z) const { return over + abs(z) * under; }
+
+ private:
+  static double half_texel(const Context& c, const glm::dvec2& step) {
+    return 0.51 * (__builtin_fabs(step.x) / c.size.x + __builtin_fabs(step.y) / c.size.y);
+  }
+};
+
+struct HeightLanes {
+  Lane highest{-HUGE_VAL}, deepest{-HUGE_VAL}, covers{-HUGE_VAL};
+};
+
+void seen_heights(const Context& context, const SeenFrom& from, const View<const float>& depth,
+                  const View<const float>& surface, const Rect& pixels, Blocks blocks,
+                  SeenHeights* out) {
+  const RayError off_by(context, from.error);
+  const Lane infinite(HUGE_VAL), none(-HUGE_VAL), far(1e30);
+  const bool covers = from.share_of_way > 0;
+  const Lane share(covers ? from.share_of_way : 1);
+  HeightLanes lanes[Blocks::kMost];
+  for_each_height(context, depth, pixels, blocks,
+                  [&](int block, int y, int x, int count, Lane z, Lane over, Lane under) {
+                    HeightLanes& all = lanes[block];
+                    const Mask down = under + off_by.under < Lane(0), some = z < far;
+                    const Lane height = over + z * under, off = off_by.at(z);
+                    const Lane upper = select(down, height + off, infinite);
+                    const Lane under_water = select(height - off > Lane(from.most), none, upper);
+                    all.highest = max(all.highest, select(some, under_water, none));
+                    all.deepest = max(all.deepest, select(some, off - height, infinite));
+                    if (!covers) return;
+                    // What lies under the calm surface is farther than that.
+                    Lane water = select(over > off_by.over, Lane(0) - off, none);
+                    if (surface.data) {
+                      const Lane at = Row(surface, pixels, y).at(x, count);
+                      const Lane wave = over + at * under - off_by.at(at);
+                      water = select(at < far, wave, from.calm_ashore ? water : none);
+                    }
+                    const Lane end = (upper - (Lane(1) - share) * water) / share;
+                    all.covers = max(all.covers, select(some && upper < water, end, infinite));
+                  });
+  for_each_block(pixels, blocks, [&](int block, int, int) {
+    const HeightLanes& all = lanes[block];
+    out[block] = {greatest(all.highest), greatest(all.deepest),
+                  covers ? greatest(all.covers) : HUGE_VALF};
+  });
+}
+
+void seen_depths(const Context& context, const HeightError& error, const View<const float>& depth,
+                 bool above, const Rect& pixels, Blocks blocks, SeenRange* out) {
+  const RayError off_by(context, error);
+  const Mask above_alone = Lane(above ? 1 : 0) > Lane(0);
+  RangeLanes lanes[Blocks::kMost];
+  for_each_height(context, depth, pixels, blocks,
+                  [&](int block, int, int, int, Lane z, Lane over, Lane under) {
+                    const Mask counts = !(over + z * under + off_by.at(z) < Lane(0));
+                    const Mask some = z < Lane(1e30) && (counts || !above_alone);
+                    RangeLanes& all = lanes[block];
+                    all.low = min(all.low, select(some, z, Lane(HUGE_VAL)));
+                    all.high = max(all.high, select(some, z, Lane(-HUGE_VAL)));
+                  });
+  for_each_block(pixels, blocks, [&](int block, int, int) {
+    out[block] = {least(lanes[block].low), greatest(lanes[block].high)};
   });
 }
 
@@ -262,6 +318,7 @@ namespace limpid {
 
 extern const ScanTarget LIMPID_OF_TARGET(kScan_);
 const ScanTarget LIMPID_OF_TARGET(kScan_) = {HWY_NAMESPACE::range, HWY_NAMESPACE::highest_water,
-                                             HWY_NAMESPACE::highest_seen, HWY_NAMESPACE::wet};
+                                             HWY_NAMESPACE::seen_heights,
+                                             HWY_NAMESPACE::seen_depths, HWY_NAMESPACE::wet};
 
 }  // namespace limpid

@@ -129,6 +129,8 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   if (options.leaps) {
     heights_.make(plan, frame, context, executor, options.simd);
     context.heights = heights_.bound();
+    context.mirrored = heights_.mirrored();
+    context.lit = heights_.lit();
   }
   const auto context_for = [&](bool open, bool grounded) {
     Context of_cell = context;

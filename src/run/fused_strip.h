@@ -161,6 +161,7 @@ class FusedStrip {
     const FusedStrip& strip;
     int vector;
 
+    LIMPID_LANES_INLINE Mask wet() const { return strip.wet_[vector]; }
     LIMPID_LANES_INLINE Lane nearest(PlaneId plane, Vec2<Lane> shift) const {
       const Source source = strip.source_of(plane);
       if (!source.data) return Lane(source.missing);
@@ -189,19 +190,32 @@ class FusedStrip {
       return {Lane(hn::ConvertTo(kD, hn::Sub(x, strip.column(vector)))) / Lane(strip.width_),
               Lane(hn::ConvertTo(kD, hn::Sub(y, strip.row()))) / Lane(strip.height_)};
     }
-    LIMPID_LANES_INLINE float highest(PlaneId plane, Mask lanes, Vec2<Lane> from,
-                                      Vec2<Lane> to) const {
-      const HeightBound& heights = strip.job_.context.heights;
-      if (!heights.known) return HUGE_VALF;
+    LIMPID_LANES_INLINE SeenHeights heights(PlaneId plane, Mask lanes, Vec2<Lane> from,
+                                            Vec2<Lane> to) const {
+      return all_between(strip.job_.context.heights, plane, lanes, from, to);
+    }
+    LIMPID_LANES_INLINE SeenRange range(PlaneId plane, Mask lanes, Vec2<Lane> from,
+                                        Vec2<Lane> to) const {
+      const Context& c = strip.job_.context;
+      const RangeBound& bound = plane == PlaneId::kSurfaceShadow ? c.lit : c.mirrored;
+      if (plane != bound.plane) return {};
+      return all_between(bound, plane, lanes, from, to);
+    }
+    LIMPID_LANES_INLINE Rgb<Lane> lat_long_rgb(const Texture& map, Vec2<Lane> at) const {
+      return wrapped_rgb<false>(map, at);
+    }
+
+   private:
+    template <class Cell>
+    LIMPID_LANES_INLINE Cell all_between(const BlockPyramid<Cell>& blocks, PlaneId plane,
+                                         Mask lanes, Vec2<Lane> from, Vec2<Lane> to) const {
+      if (!blocks.known) return {};
       const Rect w = strip.source_of(plane).window;
       const Vec2<Lane> a = strip.in_texels(from), b = strip.in_texels(to);
       const Lane iota(hn::Iota(kD, 0.0f));
       const Span x = span(lanes, strip.x0_ + vector * kLanes, iota + a.x, iota + b.x, w.x0, w.x1);
       const Span y = span(lanes, strip.y_, a.y, b.y, w.y0, w.y1);
-      return heights.highest(x.low, y.low, x.high, y.high);
-    }
-    LIMPID_LANES_INLINE Rgb<Lane> lat_long_rgb(const Texture& map, Vec2<Lane> at) const {
-      return wrapped_rgb<false>(map, at);
+      return blocks.of(x.low, y.low, x.high, y.high);
     }
   };
 

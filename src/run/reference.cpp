@@ -139,7 +139,9 @@ class ReferenceStrip {
               double(row - strip.y_) / strip.display_.height()};
     }
     /// The judge looks at each step.
-    static double highest(PlaneId, bool, Vec2<double>, Vec2<double>) { return HUGE_VAL; }
+    static SeenHeights heights(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
+    static SeenRange range(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
+    static bool wet() { return true; }
     Rgb<double> lat_long_rgb(const Texture& map, Vec2<double> at) const {
       return lat_long_rgb_at(map, at);
     }

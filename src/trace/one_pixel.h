@@ -38,6 +38,10 @@ struct OnePixel {
   /// A picture in which nothing was hit.
   struct Tap {
     static double nearest(PlaneId, Vec2<double>) { return HUGE_VAL; }
+    static SeenRange range(PlaneId, bool, Vec2<double>, Vec2<double>) {
+      return {HUGE_VALF, -HUGE_VALF};
+    }
+    static bool wet() { return true; }
   };
   template <class Fn>
   void probe(Fn&& fn) {

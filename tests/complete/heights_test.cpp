@@ -50,7 +50,21 @@ struct Measured {
     }
     return range;
   }
-  /// As HeightBound::highest, texel by texel.
+  SeenHeights of(const Rect& box) const {
+    return bound().of(box.x0, box.y0, box.x1 - 1, box.y1 - 1);
+  }
+  /// As SeenHeights::deepest, texel by texel.
+  double deepest(const Rect& box) const {
+    double deepest = -HUGE_VAL;
+    for (int y = box.y0; y < box.y1; ++y) {
+      for (int x = box.x0; x < box.x1; ++x) {
+        if (!(frame.plane(seen).at(x, y) < 1e30f)) return HUGE_VAL;
+        deepest = std::max(deepest, -heights_at(x, y).min);
+      }
+    }
+    return deepest;
+  }
+  /// As SeenHeights::highest, texel by texel.
   double highest(const Rect& box) const {
     double highest = -HUGE_VAL;
     for (int y = box.y0; y < box.y1; ++y) {
@@ -107,10 +121,11 @@ TEST(Heights, NothingThatIsSeenStandsHigher) {
             for (int i = 0; i < 30; ++i) {
               const Rect box = any_box(window, 100 * seed + i);
               const double highest = m.highest(box);
-              const float bound = m.bound().highest(box.x0, box.y0, box.x1 - 1, box.y1 - 1);
-              ASSERT_GE(bound, highest) << seed << " " << simd;
-              empty += bound < -1e30f;
-              finite += std::isfinite(bound);
+              const SeenHeights bound = m.of(box);
+              ASSERT_GE(bound.highest, highest) << seed << " " << simd;
+              ASSERT_GE(bound.deepest, m.deepest(box)) << seed << " " << simd;
+              empty += bound.highest < -1e30f;
+              finite += std::isfinite(bound.highest);
             }
           }
         }
@@ -133,11 +148,14 @@ TEST(Heights, AreNotFarAbove) {
     return static_cast<float>(rays.calm_depth(x + 0.5) * (2 + 1.5) / 2);
   });
   const Measured m(b, scene);
-  const float whole = m.bound().highest(0, 96, 319, 199);
-  const float part = m.bound().highest(40, 184, 60, 190);
-  EXPECT_NEAR(whole, -1.5, 0.1);
-  EXPECT_NEAR(part, -1.5, 0.03);
-  EXPECT_GE(whole, part);
+  const SeenHeights whole = m.of({0, 96, 320, 200}), part = m.of({40, 184, 61, 191});
+  EXPECT_NEAR(whole.highest, -1.5, 0.1);
+  EXPECT_NEAR(part.highest, -1.5, 0.03);
+  EXPECT_GE(whole.highest, part.highest);
+  EXPECT_NEAR(whole.deepest, 1.5, 0.1);
+  EXPECT_NEAR(part.deepest, 1.5, 0.03);
+  // A ray's end 0.4 of the way from the surface to which is there: but for the same errors.
+  EXPECT_NEAR(part.covers, -1.5 / Refraction::kShareOfWay, 0.1);
 }
 
 TEST(Heights, WhatStandsHigherThanTheWaterDoesNotCount) {
@@ -146,7 +164,30 @@ TEST(Heights, WhatStandsHigherThanTheWaterDoesNotCount) {
   Buffers b(rect_of(size));
   for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kColorR, c), 0.5f);
   b.fill(PlaneId::kDepth, 0.5f);  // of 2 above the water
-  EXPECT_EQ(Measured(b, scene).bound().highest(0, 0, 63, 31), -kInf);
+  EXPECT_EQ(Measured(b, scene).of({0, 0, 64, 32}).highest, -kInf);
+  EXPECT_EQ(Measured(b, scene).of({0, 0, 64, 32}).covers, kInf);
+}
+
+/// All that a mirrored ray may hit, where it is marched over the picture itself, and no more than
+/// that: what lies under the calm water it does not.
+TEST(Heights, DepthsOfWhatTheMirrorMayHit) {
+  const Size size{64, 32};
+  const Scene scene = test::simple_scene(size);
+  Buffers b(rect_of(size));
+  for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kColorR, c), 0.5f);
+  b.set(PlaneId::kDepth, [&](int x, int y) { return y < 8 ? kInf : x < 16 ? 0.5f : 500.0f; });
+  Look look = marching_look();
+  look.of<FresnelReflection>().source = FresnelReflection::Source::kAuto;
+  const Measured m(b, scene, look);
+  const RangeBound& mirrored = m.heights.mirrored();
+  ASSERT_TRUE(mirrored.known);
+  EXPECT_EQ(mirrored.plane, PlaneId::kDepth);
+  EXPECT_EQ(mirrored.of(0, 0, 15, 7).low, kInf);
+  EXPECT_EQ(mirrored.of(0, 0, 15, 7).high, -kInf);
+  EXPECT_EQ(mirrored.of(0, 8, 15, 31).low, 0.5f);
+  EXPECT_EQ(mirrored.of(0, 8, 15, 31).high, 0.5f);
+  EXPECT_EQ(mirrored.of(16, 24, 63, 31).low, kInf);  // deep under the water
+  EXPECT_EQ(mirrored.of(0, 24, 63, 31).low, 0.5f);
 }
 
 TEST(Heights, NothingIsKnownWhereNothingAsks) {

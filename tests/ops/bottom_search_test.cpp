@@ -30,7 +30,10 @@ struct FlatBottom {
     return {depth, depth, depth, depth};
   }
   Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
-  double highest(PlaneId, bool, Vec2<double>, Vec2<double>) const { return -drop; }
+  SeenHeights heights(PlaneId, bool, Vec2<double>, Vec2<double>) const {
+    return {.highest = static_cast<float>(-drop)};
+  }
+  static bool wet() { return true; }
   Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {drop, drop, 0}; }
 };
 
@@ -56,7 +59,8 @@ Met march(double drop, bool heights) {
   const Vec3<double> down{0, -0.5, 0.866};
   const ScreenRay<double> ray(context, p, down);
   const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, context.dry, false};
-  const BottomSearch<double, FlatBottom> search{context, planes, p, tap, ray, 0.5};
+  int expected = 0;
+  const BottomSearch<double, FlatBottom> search{context, planes, p, tap, ray, 0.5, 0, expected};
   const auto found = search.march();
   EXPECT_EQ(found.sure, 1);
   return {found.way, looks};

@@ -118,7 +118,9 @@ class ProbeStrip {
       return {at(0), at(1), at(2), at(3)};
     }
     Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
-    static double highest(PlaneId, bool, Vec2<double>, Vec2<double>) { return HUGE_VAL; }
+    static SeenHeights heights(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
+    static SeenRange range(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
+    static bool wet() { return true; }
     Rgb<double> lat_long_rgb(const Texture&, Vec2<double> at) const {
       strip.environment_tapped = true;
       EXPECT_TRUE(at.y >= 0 && at.y <= 1) << at.y;

@@ -60,6 +60,35 @@ TEST_P(Leaps, ChangeNotABitOfLandscapes) {
   }
 }
 
+/// Marched over the depth of the mirrored scene, and over the picture itself.
+TEST_P(Leaps, ChangeNotABitOfMirrorsAndShadows) {
+  int seed = 0;
+  for (const Size size : {Size{131, 67}, Size{300, 200}}) {
+    for (const double pitch : {0.1, 0.5}) {
+      Scene scene = test::simple_scene(size);
+      scene.camera->view = glm::lookAt(
+          glm::dvec3(0, 2, 0), glm::dvec3(0.1, 2 - std::sin(pitch), -std::cos(pitch)), {0, 1, 0});
+      scene.sun = Sun{glm::normalize(glm::dvec3(0.4, 0.7, -0.3)), {3, 3, 3}};
+      for (const bool reflection : {false, true}) {
+        for (const Below below : {Below::kNone, Below::kWhole}) {
+          ++seed;
+          Buffers b = test::landscape(rect_of(size), scene, seed, seed % 3 == 0, below);
+          b.set(PlaneId::kSurfaceShadow,
+                [&](int x, int y) { return test::patch(x, y, seed) < 0.4f ? 0.3f : 1.0f; });
+          for (int c = 0; c < 3 && !reflection; ++c) {
+            b.frame.planes[index_of(plane_after(PlaneId::kReflectionR, c))] = {};
+          }
+          Look look = marching_look(2 * seed);
+          look.of<FresnelReflection>() = {.source = FresnelReflection::Source::kAuto};
+          look.of<DepthFog>() = {};
+          look.of<WaterShadow>() = {};
+          EXPECT_EQ(others(look, b.frame, scene, GetParam()), 0u) << seed;
+        }
+      }
+    }
+  }
+}
+
 TEST_P(Leaps, ChangeNotABitOfNoise) {
   for (int seed = 0; seed < 40; ++seed) {
     const Rect display = test::patchy_display(seed);

@@ -26,16 +26,19 @@ class BottomSearch {
 
   /// `fall` is the distance from the calm surface that the ray gains per unit of its way,
   /// `thickness` that of thin things along the view, in scene units; 0: by Context::bottom_layer.
+  /// `expected` goes from one search to the next one beside it, 0 before the first: how far the ray
+  /// may be expected to go. It saves looks and changes no result.
   LIMPID_INLINE BottomSearch(const Context& context, const SeenPlanes& seen, const Pixel<F>& pixel,
-                             const Tap& taps, const ScreenRay<F>& way, F falls,
-                             double thickness = 0)
+                             const Tap& taps, const ScreenRay<F>& way, F falls, double thickness,
+                             int& expected)
       : c_(context),
         planes_(seen),
         p_(pixel),
         tap_(taps),
         ray_(way),
         fall_(falls),
-        thickness_(thickness) {}
+        thickness_(thickness),
+        expected_(expected) {}
 
   /// k times as deep as the bottom that the last guess has found, from that at the pixel itself on.
   Found iterate(int steps) const {
@@ -59,17 +62,21 @@ class BottomSearch {
     // look goes before it, to a little under the bottom at the pixel itself.
     const F shallow = min(F(1.25) * own_drop / fall_, most);
     const F first = min(ray_.share_at(shallow, most), F(1.0 / kSteps));
+    const auto wet = tap_.wet();
     F before = F(0), after = F(1), found = F(0), hidden = F(0);
-    int next_leap = c_.heights.known ? 1 : kSteps + 1;  // the step at which to try one
+    int goal = 0, next_leap = c_.heights.known ? 1 : kSteps + 1;  // the step at which to try one
+    int next_doubt = next_leap;  // and to ask whether anything may be met yet
     for (int i = 0; i <= kSteps; ++i) {
-      const auto open = found < F(0.5);
+      const auto open = wet && found < F(0.5);
       if (i >= next_leap) {
-        // The first one almost to where the level of the bottom at the pixel itself is met.
+        // The first ones almost to where the rays before have met the bottom, or else to where the
+        // level of that at the pixel itself is met.
         const auto steps_to_level = [&] {
           const F level = ray_.share_at(min(own_drop / fall_, most), most);
-          return static_cast<int>(kSteps * least(select(open, saturate(level), F(1)))) - 1;
+          return static_cast<int>(kSteps * least(select(open, saturate(level), F(1))));
         };
-        i = leap_from(i, i == 1 ? steps_to_level() : kLeap, open, most);
+        if (i == 1) goal = (expected_ > 0 ? expected_ : steps_to_level()) - 1;
+        i = leap_from(i, goal, open, most);
         next_leap = i + kLooksBetweenLeaps;
       }
       const F t = i == 0 ? first : F(double(i) / kSteps);
@@ -89,8 +96,14 @@ class BottomSearch {
       before = select(open && !hit, t, before);
       hidden = select(open && !hit, select(is_free(at), F(0), F(1)), hidden);
       found = select(hit, F(1), found);
-      if (!any(found < F(0.5))) break;
+      const auto still = wet && found < F(0.5);
+      if (!any(still)) break;
+      if (i >= next_doubt && !any(still && hidden < F(0.5))) {
+        if (stays_behind(still, way, most, stride)) break;
+        next_doubt = i + kLooksBetweenDoubts;
+      }
     }
+    expected_ = static_cast<int>(kSteps * least(select(wet, after, F(1))));
     after = edge_between(before, after, most);
     const F met = ray_.at_share(after, most);
     // The bisection may have gone to the edge of what hides the bottom.
@@ -103,9 +116,9 @@ class BottomSearch {
     const F texel = F(1.5) / pixels;
     F way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
                 ray_.at_share(min(after + texel, F(1)), most));
-    if (any(!seen)) {
+    if (any(wet && !seen)) {
       const F guess = iterate(kGuesses).way;
-      const auto hides = !seen && (meets || hidden > F(0.5));
+      const auto hides = wet && !seen && (meets || hidden > F(0.5));
       way = select(seen, way, any(hides) ? select(hides, end_behind(guess, most), guess) : guess);
     }
     return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
@@ -113,27 +126,37 @@ class BottomSearch {
 
  private:
   static constexpr int kSteps = 48;
-  static constexpr int kLeap = 16, kLooksBetweenLeaps = 6;
+  static constexpr int kLeap = 16, kLooksBetweenLeaps = 6, kLooksBetweenDoubts = 3;
+  static constexpr double kHiding = 0.25;      ///< see past()
+  static constexpr double kLeastFall = 0.021;  ///< below it `fall` may be more than the ray falls
   static constexpr int kStepsBehind = 12, kSecants = 3;
 
   /// i, or a later step if from i up to it a look would find nothing: the rays stay above all that
-  /// they pass, by Context::heights. `length` is how many steps are tried at once at first.
+  /// they pass, by Context::heights. Leaps to the step `goal` are shorter and shorter, for the
+  /// nearer to the bottom the ray comes, the less of it may be asked about at once; those from
+  /// there on are longer and longer.
   template <class Lanes>
-  int leap_from(int i, int length, Lanes open, F most) const {
+  int leap_from(int i, int goal, Lanes open, F most) const {
     const F top = surface_height();
     if (any(open && top > F(c_.heights.most))) return i;
     const auto way_to = [&](int step) { return ray_.at_share(F(double(step) / kSteps), most); };
     Vec2<F> from = ray_.shift_at(way_to(i));
-    while (length >= 2 && i < kSteps) {
+    int length = kLeap;
+    while (i < kSteps) {
+      const bool before_goal = i < goal;
+      if (before_goal) length = (goal - i + 1) / 2;
+      if (length < 2) break;
       const int end = i + length < kSteps ? i + length : kSteps;
       const F way = way_to(end);
       const Vec2<F> to = ray_.shift_at(way);
       const auto lowest = least(select(open, top - way * fall_, F(HUGE_VAL)));
-      if (lowest > tap_.highest(planes_.depth, open, from, to)) {
+      if (lowest > tap_.heights(planes_.depth, open, from, to).highest) {
         i = end;
         from = to;
         length *= 2;
+        if (before_goal && goal - i < 2) break;
       } else {
+        if (before_goal) break;
         length /= 4;
       }
     }
@@ -143,6 +166,27 @@ class BottomSearch {
   /// Of the surface point, above the calm surface.
   LIMPID_INLINE F surface_height() const {
     return F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
+  }
+
+  /// Whether rays that have passed behind something stay far behind all that they still pass, by
+  /// Context::heights: past() would say of each look from `way` on that it is hidden. Along the
+  /// view ray of a texel depths go as heights do, so behind > slack is what is written here, of the
+  /// calm water's height times -1; the texels' share is greatest at one of the two ends.
+  template <class Lanes>
+  bool stays_behind(Lanes open, F way, F most, F texels) const {
+    const F top = surface_height();
+    const Vec2<F> from = ray_.shift_at(way), to = ray_.shift_at(most);
+    const F slope = max(calm_step_down(from), calm_step_down(to));
+    const F deepest = F(1 - kHiding) * (way * fall_ - top) - texels * slope;
+    const F surely = select(fall_ > F(kLeastFall), F(1 - 1e-4) * deepest, F(-HUGE_VAL));
+    return least(select(open, surely, F(HUGE_VAL))) >
+           tap_.heights(planes_.depth, open, from, to).deepest;
+  }
+
+  /// How far calm_depth_step() leads down along the view ray at `shift`.
+  LIMPID_INLINE F calm_step_down(Vec2<F> shift) const {
+    const F falls = height_at(c_, p_, shift, F(0)) - height_at(c_, p_, shift, F(1));
+    return falls * calm_depth_step(c_, p_, shift);
   }
 
   /// How far below the surface point (above it, from below) a point seen on the screen lies.
@@ -237,7 +281,7 @@ class BottomSearch {
     if (!any(at.behind >= F(0))) return F(0);
     const F calm = min(calm_depth_at(c_, p_, at.shift), at.own);
     const F step = calm_depth_step(c_, p_, at.shift);
-    const F slack = F(0.25) * (at.own - calm) + texels * step;
+    const F slack = F(kHiding) * (at.own - calm) + texels * step;
     const F hides = select(at.behind > slack, F(1), F(0));
     const auto doubtful = at.behind > F(0.5) * step && at.behind <= slack;
     if (!c_.bottom_layer || !any(doubtful)) return hides;
@@ -310,6 +354,7 @@ class BottomSearch {
   const ScreenRay<F>& ray_;
   F fall_;
   double thickness_;
+  int& expected_;
 };
 
 }  // namespace limpid

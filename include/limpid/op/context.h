@@ -88,9 +88,11 @@ struct Context {
   /// False where it is known that something was hit in every place that refraction may look up: an
   /// operator may leave out its test for nothing().
   bool bottomless = true;
-  /// Of what a march of refraction may look up, where a runner has made it (complete/heights.h). It
-  /// saves looks and changes no result.
+  /// Of what refraction may look up, where a runner has made it (complete/heights.h). It saves
+  /// looks and changes no result.
   HeightBound heights = {};
+  RangeBound mirrored = {};          ///< likewise, of what the mirror marches over and may hit
+  RangeBound lit = {};               ///< likewise, of the shadow on the surface
   const Continuation* continuation;  ///< of the bottom beyond the picture, or null
   const BottomLayer* bottom_layer;   ///< of the bottom behind what stands before it, or null
 

@@ -1,41 +1,46 @@
 #pragma once
-#include "limpid/core/number.h"
+#include <cmath>
+
+#include "limpid/core/frame.h"
+#include "limpid/op/block_pyramid.h"
 
 namespace limpid {
 
-/// For any box of texels a height over the calm surface above which nothing is seen there that lies
-/// under water, be it as high as `most`: blocks of texels, and a pyramid of them in which each
-/// holds the greatest of four of the level before. Made once a frame (complete/heights.h); tells a
-/// march which steps need no look, as Uludag 2014, "Hi-Z Screen-Space Cone-Traced Reflections",
-/// does with depths. A view of somebody's memory.
-struct HeightBound {
-  static constexpr int kWidth = 32, kHeight = 16;  ///< texels a block
-  static constexpr int kMostLevels = 32;
-  struct Level {
-    const float* heights;
-    int across;  ///< in a row
-  };
+/// What refraction may see in some texels, as heights over the calm surface, seen from above.
+struct SeenHeights {
+  /// Nothing that lies under water, be it as high as HeightBound::most, is seen above it: -inf
+  /// where there is nothing, +inf where all may be.
+  float highest = HUGE_VALF;
+  /// Nothing is seen farther below the calm surface; +inf where something is infinitely far.
+  float deepest = HUGE_VALF;
+  /// All texels lie under the surface in front of them, and so far that they count for any lookup
+  /// whose ray ends above this; +inf where that is not known.
+  float covers = HUGE_VALF;
 
-  Level levels[kMostLevels] = {};
-  int x0 = 0, y0 = 0;  ///< the first texel of the first block
-  float most = 0;      ///< of all water; what surely stands higher is nearer and does not count
-  bool known = false;  ///< false: there is nothing to ask
-
-  /// Of the texels x_low ... x_high, y_low ... y_high, all of which lie in blocks; -inf where
-  /// nothing is seen, +inf where all may be.
-  LIMPID_INLINE float highest(int x_low, int y_low, int x_high, int y_high) const {
-    int left = (x_low - x0) / kWidth, right = (x_high - x0) / kWidth;
-    int top = (y_low - y0) / kHeight, bottom = (y_high - y0) / kHeight;
-    const Level* level = levels;
-    for (; right - left > 1 || bottom - top > 1; ++level) {
-      left >>= 1, right >>= 1, top >>= 1, bottom >>= 1;
-    }
-    const float* upper = level->heights + top * level->across;
-    const float* lower = level->heights + bottom * level->across;
-    const float above = upper[left] < upper[right] ? upper[right] : upper[left];
-    const float below = lower[left] < lower[right] ? lower[right] : lower[left];
-    return above < below ? below : above;
+  static LIMPID_INLINE float greater(float a, float b) { return a < b ? b : a; }
+  static LIMPID_INLINE SeenHeights join(const SeenHeights& a, const SeenHeights& b) {
+    return {greater(a.highest, b.highest), greater(a.deepest, b.deepest),
+            greater(a.covers, b.covers)};
   }
+};
+
+/// Of the depth plane that refraction looks up.
+struct HeightBound : BlockPyramid<SeenHeights> {
+  float most = 0;  ///< of all water; what surely stands higher is nearer and does not count
+};
+
+/// Least and greatest value in some texels; of those that count, be there none, +inf and -inf.
+struct SeenRange {
+  float low = -HUGE_VALF, high = HUGE_VALF;
+
+  static LIMPID_INLINE SeenRange join(const SeenRange& a, const SeenRange& b) {
+    return {a.low < b.low ? a.low : b.low, a.high < b.high ? b.high : a.high};
+  }
+};
+
+/// Of a plane.
+struct RangeBound : BlockPyramid<SeenRange> {
+  PlaneId plane = PlaneId::kDepth;
 };
 
 }  // namespace limpid

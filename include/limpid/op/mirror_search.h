@@ -65,12 +65,47 @@ class MirrorSearch {
       });
       return high;
     };
+    const auto share_of = [&](int step) {
+      const F even(double(step) / how.steps);
+      return F(0.5) * (even + even * even);
+    };
+    // Whether all steps after `begin` up to `last_one` need no look: what they pass is farther away
+    // than the ray, or the ray has passed it before. Where the ray is far away 1 - t bend is a
+    // small difference, and as far off as 1 is.
+    const auto passes = [&](int begin, int last_one, auto&& lanes) {
+      const F a = share_of(begin), b = share_of(last_one);
+      const auto depth_at = [&](F t, double off) {
+        return ray.depth + t * gain / max(F(1 + off) - t * bend, F(1e-30));
+      };
+      const F first = depth_at(a, -1e-6), second = depth_at(a, 1e-6);
+      const F third = depth_at(b, -1e-6), fourth = depth_at(b, 1e-6);
+      const F low = min(min(first, second), min(third, fourth));
+      const F high = max(max(first, second), max(third, fourth));
+      const SeenRange seen = tap.range(plane, lanes, a * end, b * end);
+      if (seen.low > greatest(select(lanes, F(1 + 1e-5) * high, F(-HUGE_VAL)))) return true;
+      const F back = back_of(F(seen.high));
+      return !any(lanes && !(F(1 - 1e-5) * low > back));
+    };
+    const auto wet = tap.wet();
     F before = F(0), met = F(0), found = F(0), last = F(0);
-    steps<F>(1, how.steps + 1, [&](auto i) {
-      const F even = Loop<F>::ratio(i, how.steps);
-      const F t = F(0.5) * (even + even * even);
+    int length = how.steps, next_ask = 1, asks = how.steps / 4;
+    for (int i = 1; i <= how.steps; ++i) {
+      const auto open = wet && found < F(0.5);
+      if (!any(open)) break;
+      while (i >= next_ask && i <= how.steps && asks-- > 0) {
+        const int after = i - 1 + length < how.steps ? i - 1 + length : how.steps;
+        if (after > i && passes(i - 1, after, open)) {
+          last = share_of(after);
+          i = after + 1;
+        } else if (length >= 2 * kLeastLeap) {
+          length /= 2;
+        } else {
+          next_ask = i + how.steps / 4;
+        }
+      }
+      if (i > how.steps) break;
+      const F t = share_of(i);
       const F seen = seen_at(t);
-      const auto open = found < F(0.5);
       const auto hit = open && within(t, seen);
       // A long step may lead through all of a thing.
       const auto leaps =
@@ -86,14 +121,14 @@ class MirrorSearch {
         found = select(enters, F(1), found);
       });
       last = t;
-      return found < F(0.5);
-    });
+    }
     if_any(found > F(0.5), [&] { met = edge(before, met, within); });
     return {select(found > F(0.5), ray.at_share(met, most), F(HUGE_VAL)), found};
   }
 
  private:
   static constexpr int kHalvings = 5;
+  static constexpr int kLeastLeap = 4;  ///< steps
 };
 
 }  // namespace limpid

@@ -50,10 +50,12 @@
 /// texel there. tap.quad(shift) are the four texels that bilinear filtering mixes, k = 0 ... 3:
 /// quad.weight(k), tap.read(plane, quad)[k], and tap.place(plane, quad, k), the shift of the centre
 /// of the texel that was read (clamped to the plane's window like the read itself).
-/// tap.highest(plane, lanes, from, to) is what Context::heights says of all texels that ways of
-/// these lanes from one shift to the other may pass, as one number for all of them; +inf where
-/// nothing is known. tap.lat_long_rgb(texture, at) is bilinear in a map of all directions
-/// (optics/surroundings.h): it goes round in x and ends at the poles in y.
+/// tap.heights(plane, lanes, from, to) is what Context::heights says of all texels that ways of
+/// these lanes from one shift to the other may pass, as one for all of them;
+/// tap.range(plane, lanes, from, to) likewise what Context::mirrored or Context::lit says of a
+/// plane. tap.wet() are the lanes whose pixels are wet: what the others look up is thrown away.
+/// tap.lat_long_rgb(texture, at) is bilinear in a map of all directions (optics/surroundings.h): it
+/// goes round in x and ends at the poles in y.
 
 namespace limpid {
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "limpid/op/mirror_search.h"
 #include "limpid/op/operator.h"
 #include "limpid/op/screen_ray.h"
@@ -102,6 +104,14 @@ struct FresnelReflection {
     return p.lookup == Lookup::kRay ? HUGE_VAL : abs(p.strength);
   }
   static bool neutral(const Params&, StateSet) { return false; }
+  /// The depth plane that mirrored rays are marched over, or none.
+  static std::optional<PlaneId> marched(const Params& params, const Context& c) {
+    if (params.source != Source::kAuto) return {};
+    if (!reads_planes(params, c)) return PlaneId::kDepth;
+    const bool follows = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
+    if (!follows || c.submersible) return {};
+    return PlaneId::kReflectionDepth;
+  }
   static double bound(const Params& params, const Context& c, const Ranges& ranges);
   static void reckon(const Params& params, const Context& c, Ranges& ranges);
 
@@ -319,7 +329,7 @@ struct FresnelReflection {
     F way(HUGE_VAL);
     if (!c.planes.has(PlaneId::kReflectionDepth)) return place_at(c, p, ray, way);
     // Beside the water's level a march over flat rays is decided by roundings.
-    if (params.source == Source::kAuto && !c.submersible) return march(c, p, tap, ray);
+    if (marched(params, c)) return march(c, p, tap, ray);
     constexpr int kSteps = 3;
     way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
     for (int i = 0; i < kSteps; ++i) way = distance_to(c, p, tap, place_at(c, p, ray, way), way);

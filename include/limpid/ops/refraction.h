@@ -69,6 +69,8 @@ struct Refraction {
   enum class Rejection { kNone, kSnap, kShorten };
   enum class OffFrame { kClamp, kShorten, kFog, kContinue };
   static constexpr int kMarch = -1;  ///< a value of steps
+  /// Of the way from the surface to the end of snell's ray: what lies before it hides that end.
+  static constexpr double kShareOfWay = 0.4;
   struct Params {
     Model model = Model::kSnell;
     double strength = 0.03;
@@ -224,11 +226,12 @@ struct Refraction {
     using F = typename Strip::Number;
     const F ior(c.ior);
     const bool split = c.made.has(StatePart::kPrism);
+    int expected = 0;
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       const Bent<F> bent = bend(c, p, ior);
       const ScreenRay<F> ray(c, p, bent.direction);
       const BottomSearch<F, std::decay_t<decltype(tap)>> search{
-          c, planes, p, tap, ray, bent.fall, params.thickness};
+          c, planes, p, tap, ray, bent.fall, params.thickness, expected};
       const auto found = params.marches() ? search.march() : search.iterate(params.steps);
       const auto goes = bent.goes > F(0.5);
       const Vec2<F> none{F(0), F(0)};
@@ -434,13 +437,16 @@ struct Refraction {
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
     const BottomLayer* layer = params.looks_behind() ? c.bottom_layer : nullptr;
     // Where the end of the ray was not seen, only the bottom counts.
-    const F snell(params.model == Model::kSnell ? 0.4 : 0);
+    const F snell(params.model == Model::kSnell ? kShareOfWay : 0);
     const F share_of_way =
         layer ? select(p.confidence < F(1), F(BottomLayer::kOfBottom), snell) : snell;
     // In open water only what lies under it may hide where a ray ends.
+    const bool all_seen = !layer || !any(tap.wet() && p.confidence < F(1));
+    const bool all_count = all_seen && all_texels_count(c, planes, p, tap);
     const auto hidden = layer && !c.foreground ? p.confidence < F(1) : p.confidence < F(-1);
     const auto lies = [&](const auto& quad, F share) -> Four<F> {
-      if (!kBottomless && !c.foreground && !any(hidden)) return {F(1), F(1), F(1), F(1)};
+      if (all_count || (!kBottomless && !c.foreground && !any(hidden)))
+        return {F(1), F(1), F(1), F(1)};
       const Four<F> depths = tap.read(planes.depth, quad);
       Four<F> surfaces, counts;
       if (kBottomless && !c.foreground && !any(hidden)) {
@@ -498,7 +504,7 @@ struct Refraction {
       // Over a layer below that is empty, or holds only what stands higher than all water.
       const auto never = [&](const auto& lanes) {
         return planes.below &&
-               tap.highest(planes.depth, lanes, Vec2<F>{F(0), F(0)}, shift) <= -HUGE_VAL;
+               tap.heights(planes.depth, lanes, Vec2<F>{F(0), F(0)}, shift).highest <= -HUGE_VAL;
       };
       return valid_taps(tap, shift, valid, bearable, fill, never);
     };
@@ -518,7 +524,7 @@ struct Refraction {
       const F sum = taps.read(tap, plane) + filled;
       return select(taps.weight() > F(0.5), of_whole<kBottomless>(taps, sum), stays);
     };
-    const F lost = kBottomless ? share_of_nothing(planes, p, tap) : F(0);
+    const F lost = kBottomless && !all_count ? share_of_nothing(planes, p, tap) : F(0);
     const Vec2<F> green_shift = p.shift_g;
     const auto taps = taps_at(p.shift_g);
     const Rgb<F> filled = behind(taps, p.shift_g);
@@ -547,8 +553,32 @@ struct Refraction {
       p.hit_depth = depth_of(taps);
     }
     p.confidence = p.confidence * share;
-    if (!kBottomless) return;
+    if (!kBottomless || all_count) return;
     see_no_end(lost >= F(0.5) || (weight <= F(0.5) && is_empty(p.dry_depth)), p);
+  }
+
+  /// Whether all texels of the pixel's lookups are known to count, by Context::heights. A texel's
+  /// view ray reaches the depth of the ray's end a little higher or lower than the one at the
+  /// lookup does, a texel away at most.
+  template <class F, class Tap>
+  static LIMPID_INLINE bool all_texels_count(const Context& c, const Planes& planes,
+                                             const Pixel<F>& p, const Tap& tap) {
+    if (!c.heights.known) return false;
+    const F end = min(p.hit_depth, F(1e30));
+    const auto texel = [&](const glm::dvec2& step) {
+      return F(std::abs(step.x) / c.size.x + std::abs(step.y) / c.size.y);
+    };
+    const auto lowest = [](F a, F b, F d) { return min(min(a, b), d); };
+    const auto greatest_of = [](F a, F b, F d) { return max(max(a, b), d); };
+    const Vec2<F>&r = p.shift_r, &g = p.shift_g, &b = p.shift_b;
+    const F height = lowest(height_at(c, p, r, end), height_at(c, p, g, end),
+                            min(height_at(c, p, b, end), height_at(c, p, p.shift, end)));
+    const F surely = height - texel(c.over_step) - end * texel(c.under_step);
+    const Vec2<F> low{lowest(r.x, g.x, min(b.x, p.shift.x)), lowest(r.y, g.y, min(b.y, p.shift.y))};
+    const Vec2<F> high{greatest_of(r.x, g.x, max(b.x, p.shift.x)),
+                       greatest_of(r.y, g.y, max(b.y, p.shift.y))};
+    return least(select(tap.wet(), surely, F(HUGE_VAL))) >
+           tap.heights(planes.depth, tap.wet(), low, high).covers;
   }
 
   /// Where there may be nothing. On its own, and so are its like, for the code that nearly all

@@ -40,6 +40,10 @@ struct WaterShadow {
   }
   static Needs needs(const Params&) { return {.planes = {PlaneId::kShadow}}; }
   static double reach(const Params&) { return 0; }  // beyond what refraction reaches
+  /// Whether it looks the shadow on the surface up, of frames that have it.
+  static bool probes(const Params& p, StateSet made) {
+    return p.model == Model::kScatter && !neutral(p, made);
+  }
   static bool neutral(const Params& p, StateSet made) {
     return p.strength == 0 || (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
   }
@@ -61,17 +65,17 @@ struct WaterShadow {
       });
       return;
     }
-    const auto take = [&](Pixel<F>& p, F shadow, Rgb<F> lit) {
-      const Rgb<F> left = p.in_scatter - strength * (F(1) - shadow) * lit;
+    const auto take = [&](Pixel<F>& p, F shade, Rgb<F> lit) {
+      const Rgb<F> left = p.in_scatter - strength * shade * lit;
       p.in_scatter = {max(left.r, F(0)), max(left.g, F(0)), max(left.b, F(0))};
     };
     if (c.planes.has(PlaneId::kSurfaceShadow)) {
       strip.probe([&](Pixel<F>& p, const auto& tap) { scatter(c, p, tap, take); });
       return;
     }
-    strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, shadow, p.sun_near); });
+    strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_near); });
     strip.bilinear(PlaneId::kShadow, where,
-                   [&](Pixel<F>& p, F shadow) { take(p, shadow, p.sun_far + p.sun_often); });
+                   [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_far + p.sun_often); });
   }
 
  private:
@@ -79,40 +83,52 @@ struct WaterShadow {
 
   template <class F, class Tap, class Take>
   static LIMPID_INLINE void scatter(const Context& c, Pixel<F>& p, const Tap& tap, Take&& take) {
-    const auto sunlit = [&](Vec2<F> shift) {
+    // Lit all over, what is taken away is 0 to the last bit.
+    const auto is_lit = [&](Vec2<F> from, Vec2<F> to) {
+      return tap.range(PlaneId::kSurfaceShadow, tap.wet(), from, to).low >= 1;
+    };
+    const auto shade = [&](Vec2<F> shift) {
+      F sum(0);
       const auto quad = tap.quad(shift);
       const Four<F> lit = tap.read(PlaneId::kSurfaceShadow, quad);
-      F sum(0);
-      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * lit[k];
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * (F(1) - lit[k]);
       return sum;
     };
-    // All parts send as much in clear water, where the mean way is half of the whole; they fade
-    // exponentially in murky water.
     const F mean = p.sun_way, whole = min(p.path, F(1e30));
-    const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
     const ScreenRay<F> line(c, p, p.sun_entry);
-    constexpr double kFading[kParts] = {0.1335, 0.4700, 0.9808, 2.0794};  // -log(1 - (i + 1/2) / 4)
-    F near_lit(0), far_lit(0), near_sum(0), far_sum(0);
-    for (int i = 0; i < kParts; ++i) {
-      const F even((2 * i + 1) / double(kParts)), fading(kFading[i]);
-      const F way = min(mean * (fading + even_share * (even - fading)), whole);
-      const F there = way / max(whole, F(1e-30)), lit = sunlit(line.shift_at(way));
-      near_lit = near_lit + (F(1) - there) * lit, near_sum = near_sum + (F(1) - there);
-      far_lit = far_lit + there * lit, far_sum = far_sum + there;
+    if (!is_lit(Vec2<F>{F(0), F(0)}, line.shift_at(whole))) {
+      // All parts send as much in clear water, where the mean way is half of the whole; they fade
+      // exponentially in murky water.
+      const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
+      constexpr double kFading[kParts] = {0.1335, 0.4700, 0.9808,
+                                          2.0794};  // -log(1 - (i + 1/2) / 4)
+      F near_shade(0), far_shade(0), near_sum(0), far_sum(0);
+      for (int i = 0; i < kParts; ++i) {
+        const F even((2 * i + 1) / double(kParts)), fading(kFading[i]);
+        const F way = min(mean * (fading + even_share * (even - fading)), whole);
+        const F there = way / max(whole, F(1e-30)), lost = shade(line.shift_at(way));
+        near_shade = near_shade + (F(1) - there) * lost, near_sum = near_sum + (F(1) - there);
+        far_shade = far_shade + there * lost, far_sum = far_sum + there;
+      }
+      take(p, near_shade / max(near_sum, F(1e-6)), p.sun_near);
+      take(p, far_shade / max(far_sum, F(1e-6)), p.sun_far);
     }
-    take(p, near_lit / max(near_sum, F(1e-6)), p.sun_near);
-    take(p, far_lit / max(far_sum, F(1e-6)), p.sun_far);
     const Rgb<F>& often = p.sun_often;
     if (!any(often.r + often.g + often.b > F(0))) return;
     // Around where light of the mean way entered, as far away as that.
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
-    F lit(0);
+    Vec2<F> around[kAround], low, high;
     for (int i = 0; i < kAround; ++i) {
       const Vec3<F> side = i % 2 == 0 ? map_x : map_y;
       const ScreenRay<F> ray(c, p, p.sun_entry + F(i < 2 ? 1 : -1) * side);
-      lit = lit + F(1.0 / kAround) * sunlit(ray.shift_at(mean));
+      const Vec2<F> at = around[i] = ray.shift_at(mean);
+      low = i == 0 ? at : Vec2<F>{min(low.x, at.x), min(low.y, at.y)};
+      high = i == 0 ? at : Vec2<F>{max(high.x, at.x), max(high.y, at.y)};
     }
-    take(p, lit, p.sun_often);
+    if (is_lit(low, high)) return;
+    F lost(0);
+    for (const Vec2<F>& shift : around) lost = lost + F(1.0 / kAround) * shade(shift);
+    take(p, lost, p.sun_often);
   }
 };
 
