@@ -2,13 +2,13 @@
 
 #include <iterator>
 
+#include "limpid/complete/rows.h"
 #include "limpid/core/error.h"
 #include "limpid/load/image_file.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 #include "limpid/write/preview.h"
 
-#include "limpid/complete/rows.h"
 #include "run/each_once.h"
 #include "write/atomic_file.h"
 

@@ -35,10 +35,19 @@ constexpr Field<P> kFields[] = {
         .brings("water_type", "custom"),
     color<&P::scattering>("scattering", "1/scene unit", {0, 1e6},
                           "What it throws elsewhere: murky water glows in the sun.")
-        .when("model", {"beer_lambert", "radiative_transfer"}),
+        .when("model", {"beer_lambert", "radiative_transfer"})
+        .when("water_type",
+              {"custom", "pure", "I", "IA", "IB", "II", "III", "1C", "3C", "5C", "7C", "9C"}),
+    real<&P::murkiness>(
+        "murkiness", "", {0, 1},
+        "Of natural waters by what lives in them: from the clearest ocean to a pond "
+        "in bloom.")
+        .when("model", {"beer_lambert", "radiative_transfer"})
+        .brings("water_type", "case_1"),
     choice<&P::water_type, kWaterTypes>("water_type",
                                         "Water by name: Jerlov's types replace absorption and, of "
-                                        "beer_lambert, the loss downwards.")
+                                        "beer_lambert, the loss downwards; case_1 goes by "
+                                        "murkiness, its scattering, too.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
     real<&P::anisotropy>("anisotropy", "", {-0.99, 0.99},
                          "Mean cosine of the angle by which scattered light turns; 0 is evenly.")
@@ -101,24 +110,30 @@ bool DepthFog::neutral(const Params& p, StateSet) {
 
 Rgb<double> DepthFog::absorption(const Params& params) {
   if (params.water_type == WaterType::kCustom) return params.absorption;
+  if (params.water_type == WaterType::kCase1) return case_1_water(params.murkiness).absorption;
   return water_optics(params.water_type).absorption;
+}
+
+Rgb<double> DepthFog::scattering(const Params& params) {
+  const bool by_murkiness = params.water_type == WaterType::kCase1;
+  return by_murkiness ? case_1_water(params.murkiness).scattering : params.scattering;
 }
 
 Rgb<double> DepthFog::extinction(const Params& params) {
   const bool transfers = params.model == Model::kRadiativeTransfer;
   const double wide = transfers ? 1 - narrow_share(params.anisotropy) : 1;
-  return absorption(params) + wide * params.scattering;
+  return absorption(params) + wide * scattering(params);
 }
 
 bool DepthFog::wants_scattered_light(const P& params) {
   return params.model == Model::kRadiativeTransfer &&
-         (params.scattering != kBlack || params.crossing == Crossing::kRadiance);
+         (scattering(params) != kBlack || params.crossing == Crossing::kRadiance);
 }
 
 ScatteringWater DepthFog::scattering_water(const P& params, const Context& c) {
   const WaterLight light = water_light(params, c, c.ior);
   return {.absorption = absorption(params),
-          .scattering = params.scattering,
+          .scattering = scattering(params),
           .anisotropy = params.anisotropy,
           .beam = light.day ? glm::dot(light.to_sun, c.up) : 1,
           .ior = c.ior,
@@ -250,7 +265,7 @@ DepthFog::Medium DepthFog::medium_of(const Params& params, const Context& c) {
   Medium m{};
   m.rate = extinction(params);
   m.down = light.down;
-  m.ambient = params.scattering * params.ambient;
+  m.ambient = scattering(params) * params.ambient;
   m.cosine = light.day ? std::clamp(glm::dot(light.to_sun, c.up), 0.0, 1.0) : 1;
   if (wants_scattered_light(params) && c.scattered_light) {
     const double above = glm::dot(c.sun.direction, c.up);
@@ -263,7 +278,7 @@ DepthFog::Medium DepthFog::medium_of(const Params& params, const Context& c) {
     m.dry_sun = (light.bottom * (light.day ? above : 0)) * c.sun.color;
     m.dry_sky = light.bottom * (c.has_sky ? c.sky : params.ambient);
     m.square = params.anisotropy * params.anisotropy;
-    m.scatters = params.scattering != kBlack;
+    m.scatters = scattering(params) != kBlack;
     m.turns = params.anisotropy != 0;
   }
   m.sun = light.sun;

@@ -26,8 +26,9 @@ constexpr Field<P> kFields[] = {
         .when("model", {"snell"}),
     choice<&P::off_frame, kOffFrames>("off_frame",
                                       "What is seen where the ray leaves the picture."),
-    real<&P::thickness>("thickness", "scene units", {0, 1e6},
-                        "Of thin things under water, along the view; 0 is a quarter of their width.")
+    real<&P::thickness>(
+        "thickness", "scene units", {0, 1e6},
+        "Of thin things under water, along the view; 0 is a quarter of their width.")
         .when("steps", {"march"}),
 };
 

@@ -18,11 +18,11 @@ bool transfers(const DepthFog::Params& params) {
 /// K: what light from above loses for each length of its way down.
 Rgb<double> falling_loss(const DepthFog::Params& params) {
   if (transfers(params)) return DepthFog::extinction(params);
-  const bool typed =
-      params.water_type != WaterType::kCustom && params.water_type != WaterType::kPure;
-  if (typed) return water_optics(params.water_type).down_attenuation;
+  const WaterType type = params.water_type;
+  const bool typed = type >= WaterType::kJerlovI && type <= WaterType::kJerlov9C;
+  if (typed) return water_optics(type).down_attenuation;
   // What is scattered goes on forwards, mostly.
-  return DepthFog::absorption(params) + (1 - params.anisotropy) * params.scattering;
+  return DepthFog::absorption(params) + (1 - params.anisotropy) * DepthFog::scattering(params);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ WaterLight water_light(const DepthFog::Params& params, const Context& c, double 
     light.beam = (enters ? (1 - lost) * cosine / inside : 0) * c.sun.color;
     light.to_sun = enters ? (c.sun.direction - cosine * c.up) / ior + inside * c.up : c.up;
   }
-  light.sun = std::numbers::pi * params.scattering * light.beam;
+  light.sun = std::numbers::pi * DepthFog::scattering(params) * light.beam;
   return light;
 }
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
+#include "limpid/complete/rows.h"
 #include "limpid/core/edge_cover.h"
-
-#include "complete/rows.h"
 
 namespace limpid {
 namespace {

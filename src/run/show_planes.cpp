@@ -1,6 +1,7 @@
 #include "run/show_planes.h"
 
 #include "limpid/complete/rows.h"
+
 #include "run/checks.h"
 
 namespace limpid {

@@ -15,9 +15,10 @@ Rgb<double> shares(const Rgb<double>& part, const Rgb<double>& whole) {
 Medium::Medium(const Context& context, const Look& look, TruthOptions::Light light) {
   DepthFog::Params fog = look.of<DepthFog>();
   if (light == TruthOptions::Light::kPaths) fog.model = DepthFog::Model::kBeerLambert;
+  const Rgb<double> scattering = DepthFog::scattering(fog);
   rate = DepthFog::extinction(fog);
-  albedo = shares(fog.scattering, rate);
-  ambient = fog.scattering * fog.ambient;
+  albedo = shares(scattering, rate);
+  ambient = scattering * fog.ambient;
   anisotropy = fog.anisotropy;
   crosses = fog.crossing != DepthFog::Crossing::kNone;
 
@@ -26,7 +27,7 @@ Medium::Medium(const Context& context, const Look& look, TruthOptions::Light lig
     one.ior = ior;
     one.light = water_light(fog, context, ior);
     one.square = crosses ? ior * ior : 1;
-    one.sun_on_water = shares(one.light.sun, fog.scattering);
+    one.sun_on_water = shares(one.light.sun, scattering);
     const double enters = one.light.day ? one.light.spread * one.light.bottom * one.square : 0;
     one.sun_on_bottom = enters * context.sun.color;
     return one;

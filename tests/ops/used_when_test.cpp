@@ -101,15 +101,12 @@ typename Op::Params some_params(int seed) {
 TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
   const test::World world;
   Frame frame = world.buffers.frame;
-  const Plane texel({0, 0, 1, 1});
-  BottomLayer layer{};
-  for (Texture* part : {&layer.colors, &layer.shape}) part->channels.fill(texel.view());
-  layer.most_drop = 2;
-  frame.bottom_layer = &layer;
   const Context context(world.scene, frame, 1.333, everything());
   Chain::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
-      bool matters = field.kind == FieldKind::kText;  // a file's name
+      // Not seen by pixels alone: a file's name, and of what is thin,
+      // complete/bottom_layer_test.cpp.
+      bool matters = field.kind == FieldKind::kText || field.name == "thickness";
       for (int seed = 0; seed < 60; ++seed) {
         const typename Op::Params params = some_params<Op>(seed);
         const std::vector<double> before = made_by<Op>(params, context);

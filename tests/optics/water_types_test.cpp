@@ -7,7 +7,7 @@
 namespace limpid {
 namespace {
 
-constexpr int kCount = static_cast<int>(WaterType::kJerlov9C) + 1;
+constexpr int kCount = static_cast<int>(WaterType::kCase1) + 1;
 
 TEST(WaterTypes, EachHasAWord) {
   ASSERT_EQ(std::size(kWaterTypes), kCount);
@@ -23,6 +23,23 @@ TEST(WaterTypes, PureWaterOnlyAbsorbs) {
   const WaterOptics pure = water_optics(WaterType::kPure);
   EXPECT_EQ(pure.absorption, (Rgb<double>{.340, .0565, .00922}));
   EXPECT_EQ(pure.down_attenuation, pure.absorption);
+}
+
+TEST(WaterTypes, MurkinessHandWorked) {
+  const ClearAndMurky ocean = case_1_water(0), pond = case_1_water(1);  // .03 and 30 mg/m^3
+  EXPECT_NEAR(ocean.absorption.b, 0.01763, 2e-5);  // (.00922 + .06 .944 .03^.65) (1 + .2 e^-.14)
+  EXPECT_NEAR(ocean.scattering.g, 0.03602, 2e-5);  // .3 .03^.62 + .00758 (400 / 550)^4.32
+  EXPECT_NEAR(pond.absorption.r, 0.5406, 1e-4);    // (.34 + .06 .356 30^.65) (1 + .2 e^-2.94)
+  EXPECT_NEAR(pond.absorption.g, 0.2627, 1e-4);
+  EXPECT_NEAR(pond.scattering.g, 2.473, 2e-3);
+  // The murkier, the less light gets through and the more comes back; blue ocean, green pond.
+  for (double m = 0; m < 0.95; m += 0.1) {
+    const ClearAndMurky less = case_1_water(m), more = case_1_water(m + 0.1);
+    EXPECT_LT(less.absorption.b, more.absorption.b);
+    EXPECT_LT(less.scattering.b, more.scattering.b);
+  }
+  EXPECT_LT(ocean.absorption.b, ocean.absorption.g);
+  EXPECT_GT(pond.absorption.b, pond.absorption.g);
 }
 
 TEST(WaterTypes, CustomIsEmpty) {
@@ -43,7 +60,7 @@ TEST(WaterTypes, JerlovHandWorked) {
 }
 
 TEST(WaterTypes, NoneIsClearerThanPureWaterAndEachMurkierThanTheLast) {
-  for (int i = 2; i < kCount; ++i) {
+  for (int i = 2; i <= static_cast<int>(WaterType::kJerlov9C); ++i) {
     const WaterOptics w = water_optics(static_cast<WaterType>(i));
     const WaterOptics before = water_optics(static_cast<WaterType>(i - 1));
     for (auto channel : {&Rgb<double>::r, &Rgb<double>::g, &Rgb<double>::b}) {

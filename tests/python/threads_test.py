@@ -78,8 +78,9 @@ class Threads(unittest.TestCase):
         frame = pond()
         expected = limpid.composite(**frame, look=LOOK, threads=1)
         np.testing.assert_array_equal(limpid.composite(**frame, look=LOOK, threads=3), expected)
-        # In noise a rounding tells whether a ray that ends on the edge is out of the picture.
-        look = dict(LOOK, refraction={"off_frame": "shorten"})
+        # In noise a rounding tells whether a ray that ends on the edge is out of the picture, and
+        # whether one has passed behind something.
+        look = dict(LOOK, refraction={"off_frame": "shorten", "steps": 8})
         expected = limpid.composite(**frame, look=look, threads=1)
         scalar = limpid.composite(**frame, look=look, simd="scalar")
         np.testing.assert_allclose(scalar, expected, atol=1e-3)

@@ -46,7 +46,7 @@ struct Range {
 /// When a parameter matters: where another one of the same struct holds one of some words. (That
 /// one may be a number, too: one that no word can be, or one whose text is among the words.)
 struct Condition {
-  static constexpr std::size_t kMost = 5;
+  static constexpr std::size_t kMost = 12;
   std::string_view key;  ///< "" for none
   std::array<std::string_view, kMost> words{};
   bool follows = false;  ///< where it is none of the words, it becomes the first with the parameter

@@ -30,7 +30,8 @@ namespace limpid {
 ///                + b p E' integral of exp(-(a + b) s) exp(-K z(s) / cos_sun), s = 0 ... d
 ///
 /// `absorption` is that of the `water_type` custom; to set it is to mean that one, and a type that
-/// is named afterwards has its own. K is the loss of light on its way down: that of the
+/// is named afterwards has its own. Likewise `murkiness` is that of case_1, which has a scattering
+/// of its own, too (optics/water_types.h). K is the loss of light on its way down: that of the
 /// `water_type` if it has one, else a + b (1 - g), for what is scattered goes on forwards, mostly.
 /// By `sunlight` this way is not made (`none`: K = 0, E' = E), or made along the sun's straight ray
 /// (E' = E), or along its refracted one: E' = (1 - F) E cos_i / cos_t, what the surface lets in, in
@@ -70,6 +71,7 @@ struct DepthFog {
     Rgb<double> absorption = kPureWaterAbsorption;
     Rgb<double> scattering{0.10, 0.12, 0.14};
     WaterType water_type = WaterType::kJerlovII;
+    double murkiness = 0.5;
     double anisotropy = 0.92;  // 1.8 % is thrown back, as by Petzold's ocean water
     Rgb<double> ambient{0.1, 0.1, 0.1};
     Sunlight sunlight = Sunlight::kRefracted;
@@ -99,6 +101,7 @@ struct DepthFog {
   /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
   static Rgb<double> absorption(const Params& params);
+  static Rgb<double> scattering(const Params& params);
   /// Whether light that is scattered more than once is to be made for a frame, and of what water.
   static bool wants_scattered_light(const Params& params);
   static bool lit_by_sky(const Params& params) { return wants_scattered_light(params); }

@@ -39,7 +39,8 @@ struct WaterShadow {
                                       : PlaneSet{PlaneId::kShadow};
   }
   static Needs needs(const Params&) { return {.planes = {PlaneId::kShadow}}; }
-  static double reach(const Params&) { return 0; }  // beyond what refraction reaches
+  /// Beyond what refraction reaches: sunlight may enter anywhere.
+  static double reach(const Params& p) { return p.model == Model::kScatter ? HUGE_VAL : 0; }
   /// Whether it looks the shadow on the surface up, of frames that have it.
   static bool probes(const Params& p, StateSet made) {
     return p.model == Model::kScatter && !neutral(p, made);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 
@@ -23,11 +24,12 @@ enum class WaterType {
   kJerlov5C,
   kJerlov7C,
   kJerlov9C,
+  kCase1,  ///< by how much lives in it: case_1_water()
 };
 
 /// The words for WaterType, in its order.
-inline constexpr std::string_view kWaterTypes[] = {"custom", "pure", "I",  "IA", "IB", "II",
-                                                   "III",    "1C",   "3C", "5C", "7C", "9C"};
+inline constexpr std::string_view kWaterTypes[] = {
+    "custom", "pure", "I", "IA", "IB", "II", "III", "1C", "3C", "5C", "7C", "9C", "case_1"};
 
 struct WaterOptics {
   Rgb<double> absorption;        ///< a, 1/m: taken from a ray
@@ -50,7 +52,7 @@ constexpr double absorption_from_down_attenuation(double k, double pure) {
 
 /// kPure: absorption for both, its little scattering left out. The types: K_d of Jerlov 1976,
 /// "Marine Optics", and the absorption that goes with it, never below that of pure water. kCustom
-/// is zero throughout: its numbers are elsewhere.
+/// and kCase1 are zero throughout: their numbers are elsewhere.
 constexpr WaterOptics water_optics(WaterType type) {
   constexpr Rgb<double> kDownAttenuation[] = {
       {0, 0, 0},  // kCustom
@@ -65,14 +67,45 @@ constexpr WaterOptics water_optics(WaterType type) {
       {.54, .30, .56},     // 5C
       {.63, .46, .89},     // 7C
       {.76, .63, 1.60},    // 9C
+      {0, 0, 0},           // kCase1
   };
   const Rgb<double> k = kDownAttenuation[static_cast<std::size_t>(type)];
-  if (type == WaterType::kCustom || type == WaterType::kPure) return {k, k};
+  const bool typed = type >= WaterType::kJerlovI && type <= WaterType::kJerlov9C;
+  if (!typed) return {k, k};
   const Rgb<double> pure = kPureWaterAbsorption;
   return {{detail::absorption_from_down_attenuation(k.r, pure.r),
            detail::absorption_from_down_attenuation(k.g, pure.g),
            detail::absorption_from_down_attenuation(k.b, pure.b)},
           k};
+}
+
+/// What a length of water takes and throws elsewhere, 1/m.
+struct ClearAndMurky {
+  Rgb<double> absorption, scattering;
+};
+
+/// Case 1 waters (Morel & Prieur 1977, "Analysis of variations in ocean color"): what lives in them
+/// makes them murky and green. `murkiness` 0 ... 1 is chlorophyll C = .03 ... 30 mg/m^3, ten times
+/// as much for each third: the clearest oceans, coasts, a pond in bloom. Mobley 1994, "Light and
+/// Water", at a wavelength l in nm:
+///
+///     a = (a_pure + .06 A(l) C^.65) (1 + .2 exp(-.014 (l - 440)))       Prieur & Sathyendranath
+///     1981 b = b_pure + .3 C^.62 550 / l                                    Gordon & Morel 1983
+///     b_pure = .00758 (400 / l)^4.32                                    Morel 1974, of sea water
+inline ClearAndMurky case_1_water(double murkiness) {
+  const double chlorophyll = 0.03 * std::pow(1000, murkiness);
+  const double swallows = 0.06 * std::pow(chlorophyll, 0.65);
+  const double scatters = 0.3 * std::pow(chlorophyll, 0.62);
+  const auto absorption = [&](double wavelength, double pure, double of_chlorophyll) {
+    return (pure + swallows * of_chlorophyll) * (1 + 0.2 * std::exp(-0.014 * (wavelength - 440)));
+  };
+  const auto scattering = [&](double wavelength) {
+    return 0.00758 * std::pow(400 / wavelength, 4.32) + scatters * 550 / wavelength;
+  };
+  const Rgb<double>& pure = kPureWaterAbsorption;
+  return {{absorption(650, pure.r, 0.356), absorption(550, pure.g, 0.357),
+           absorption(450, pure.b, 0.944)},
+          {scattering(650), scattering(550), scattering(450)}};
 }
 
 }  // namespace limpid
