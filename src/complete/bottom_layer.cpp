@@ -246,6 +246,7 @@ float BottomLayerMaker::thinness_at(Size size, int column, int row) const {
 const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Context& context,
                                           Executor& executor) {
   if (!(context.eye_above > 0) || context.submersible) return nullptr;
+  if (Refraction::planes_of(context).below) return nullptr;
   const Scan scan(frame, context);
   survey(scan, executor);
   if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;

@@ -20,7 +20,8 @@ namespace limpid {
 /// is drawn on over these cells and those of what stands above the water, by a pyramid of means.
 class BottomLayerMaker {
  public:
-  /// Null where nothing stands before a bottom, no bottom is seen, or the eye is in the water.
+  /// Null where nothing stands before a bottom, no bottom is seen, the eye is in the water, or the
+  /// frame brings a layer of what lies below.
   /// Valid until the next call. The same for any number of threads.
   const BottomLayer* make(const Frame& frame, const Context& context, Executor& executor);
 
