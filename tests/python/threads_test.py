@@ -79,11 +79,13 @@ class Threads(unittest.TestCase):
         expected = limpid.composite(**frame, look=LOOK, threads=1)
         np.testing.assert_array_equal(limpid.composite(**frame, look=LOOK, threads=3), expected)
         # In noise a rounding tells whether a ray that ends on the edge is out of the picture, and
-        # whether one has passed behind something.
-        look = dict(LOOK, refraction={"off_frame": "shorten", "steps": 8})
-        expected = limpid.composite(**frame, look=look, threads=1)
-        scalar = limpid.composite(**frame, look=look, simd="scalar")
-        np.testing.assert_allclose(scalar, expected, atol=1e-3)
+        # whether one has passed behind something; what meets the bottom in two steps is the same.
+        for refraction, share in ({"steps": 2}, 0), ({}, 1e-3):
+            look = dict(LOOK, refraction=dict(refraction, off_frame="shorten"))
+            expected = limpid.composite(**frame, look=look, threads=1)
+            scalar = limpid.composite(**frame, look=look, simd="scalar")
+            far = ~np.isclose(scalar, expected, rtol=0, atol=1e-3)
+            self.assertLessEqual(far.mean(), share, refraction)
 
 
 if __name__ == "__main__":
