@@ -15,9 +15,9 @@ namespace limpid {
 ///
 /// In cells of a few pixels, about as many for each size of picture. What stands up from the bottom
 /// is what a grey closing of the depth below the water fills (Serra 1982, "Image Analysis and
-/// Mathematical Morphology"), by windows of one cell to an eighth of the picture: the smallest that
-/// fills it tells how wide it is, and it is taken to be a quarter as thick. The rest of the bottom
-/// is drawn on over these cells and those of what stands above the water, by a pyramid of means.
+/// Mathematical Morphology"), by windows of three cells to a quarter of the picture: the smallest
+/// that fills it tells its width, of which a quarter is taken for its thickness. The bottom is then
+/// drawn on over these cells and those of what stands above the water, by a pyramid of means.
 class BottomLayerMaker {
  public:
   /// Null where nothing stands before a bottom, no bottom is seen, the eye is in the water, or the

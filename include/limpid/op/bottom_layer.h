@@ -14,8 +14,8 @@ struct BottomLayer {
   static constexpr double kOfBottom = 0.75;
 
   Texture colors;
-  /// How deep the bottom lies below the calm surface, in scene units, twice, and one by the
-  /// thickness of what stands before it, 0 where nothing thin does.
+  /// Red and green: depth of the bottom below the calm surface, in scene units. Blue: 1 / thickness
+  /// of what stands before the bottom, 0 where nothing does.
   Texture shape;
   glm::dvec2 scale, offset;  ///< from uv of the picture to that of the textures
   double most_drop;          ///< the largest depth in `shape`
