@@ -6,7 +6,7 @@
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
 #include "limpid/job_files.h"
-#include "limpid/write/exr_camera.h"
+#include "limpid/load/exr_camera.h"
 
 #include "composite_frame.h"
 #include "picture_warnings.h"

@@ -17,7 +17,7 @@
 
 #include "limpid/core/error.h"
 
-#include "write/exr_half.h"
+#include "load/half_bits.h"
 #include "write/exr_heading.h"
 #include "write/exr_whole.h"
 
@@ -131,7 +131,7 @@ class Lines {
       if (!sample) continue;
       *value = (*sample)[c];
       if (type_of(c, half) == Imf::HALF) {
-        const auto rounded = half_of(*value);
+        const std::uint16_t rounded = half_bits_of(*value);
         std::memcpy(value, &rounded, sizeof rounded);
       }
     }

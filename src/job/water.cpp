@@ -5,7 +5,7 @@
 
 #include "limpid/core/error.h"
 #include "limpid/job_files.h"
-#include "limpid/write/exr_camera.h"
+#include "limpid/load/exr_camera.h"
 
 #include "picture_warnings.h"
 #include "stopwatch.h"

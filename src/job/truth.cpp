@@ -6,7 +6,7 @@
 
 #include "limpid/load/texture.h"
 #include "limpid/raster/render_plate.h"
-#include "limpid/write/exr_camera.h"
+#include "limpid/load/exr_camera.h"
 #include "limpid/write/exr_writer.h"
 #include "limpid/write/preview.h"
 
