@@ -1,10 +1,9 @@
-#include "limpid/complete/below_overscan.h"
+#include "complete/below_overscan.h"
 
 #include <limits>
 
-#include "limpid/complete/rows.h"
-
 #include "complete/row_heights.h"
+#include "complete/rows.h"
 
 namespace limpid {
 namespace {

@@ -1,13 +1,12 @@
-#include "limpid/complete/bottom_albedo.h"
+#include "complete/bottom_albedo.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "limpid/complete/rows.h"
-
 #include "complete/row_heights.h"
+#include "complete/rows.h"
 
 namespace limpid {
 namespace {

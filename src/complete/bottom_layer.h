@@ -2,12 +2,13 @@
 #include <array>
 #include <vector>
 
-#include "limpid/complete/pull_push.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 #include "limpid/op/bottom_layer.h"
 #include "limpid/op/context.h"
+
+#include "complete/pull_push.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "limpid/complete/bottom_plane.h"
+#include "complete/bottom_plane.h"
 
 #include <algorithm>
 #include <array>

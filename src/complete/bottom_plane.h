@@ -1,11 +1,11 @@
 #pragma once
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "limpid/complete/beyond.h"
 #include "limpid/core/frame.h"
 #include "limpid/op/context.h"
 
@@ -43,23 +43,8 @@ inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& 
   return fit_bottom(frame, context, room);
 }
 
-/// Where water makes one look beyond the picture: with the normals that the frame has, else calm.
-struct Beyond {
-  double share = 0;  ///< of the wet pixels
-  /// Pixels of overscan, from the sides of the display window, that would show it; 0 on a side at
-  /// which the planes go far enough.
-  int left = 0, top = 0, right = 0, bottom = 0;
-
-  bool any() const { return left > 0 || top > 0 || right > 0 || bottom > 0; }
-};
-
 /// From where rays meet the bottom: for the sides those of each wet pixel at an edge, for the share
 /// those of a few thousand wet pixels.
 Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Context& context);
-
-/// "5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 pixels on the
-/// left, 2 on the right, 0 at the top and 24 at the bottom would show what is there", or that none
-/// does.
-std::string to_text(const Beyond& beyond);
 
 }  // namespace limpid

@@ -1,4 +1,4 @@
-#include "limpid/complete/completer.h"
+#include "complete/completer.h"
 
 #include <string_view>
 

@@ -1,22 +1,23 @@
 #pragma once
 #include <string>
 
-#include "limpid/complete/below_overscan.h"
-#include "limpid/complete/bottom_albedo.h"
-#include "limpid/complete/bottom_layer.h"
-#include "limpid/complete/continuation.h"
-#include "limpid/complete/displaced_surface.h"
-#include "limpid/complete/edges.h"
-#include "limpid/complete/mirror_depth.h"
-#include "limpid/complete/part_depths.h"
-#include "limpid/complete/scattered_light.h"
-#include "limpid/complete/sky.h"
-#include "limpid/complete/slope_map.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/texture_levels.h"
 #include "limpid/op/context.h"
 #include "limpid/plan/plan.h"
+
+#include "complete/below_overscan.h"
+#include "complete/bottom_albedo.h"
+#include "complete/bottom_layer.h"
+#include "complete/continuation.h"
+#include "complete/displaced_surface.h"
+#include "complete/edges.h"
+#include "complete/mirror_depth.h"
+#include "complete/part_depths.h"
+#include "complete/scattered_light.h"
+#include "complete/sky.h"
+#include "complete/slope_map.h"
 
 namespace limpid {
 

@@ -1,11 +1,12 @@
 #pragma once
 #include <vector>
 
-#include "limpid/complete/bottom_plane.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 #include "limpid/op/context.h"
 #include "limpid/op/continuation.h"
+
+#include "complete/bottom_plane.h"
 
 namespace limpid {
 

@@ -1,8 +1,8 @@
-#include "limpid/complete/displaced_surface.h"
+#include "complete/displaced_surface.h"
 
-#include "limpid/complete/rows.h"
 #include "limpid/core/simd.h"
 
+#include "complete/rows.h"
 #include "complete/surface_target.h"
 
 namespace limpid {

@@ -1,4 +1,4 @@
-#include "limpid/complete/edges.h"
+#include "complete/edges.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "limpid/complete/rows.h"
 #include "limpid/core/edge_cover.h"
 #include "limpid/core/plane.h"
 
 #include "complete/edge_blur.h"
 #include "complete/edge_matte.h"
 #include "complete/edge_picture.h"
+#include "complete/rows.h"
 
 namespace limpid {
 namespace {

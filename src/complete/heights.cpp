@@ -1,4 +1,4 @@
-#include "limpid/complete/heights.h"
+#include "complete/heights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "limpid/complete/mirror_depth.h"
+#include "complete/mirror_depth.h"
 
 #include <algorithm>
 #include <atomic>
@@ -9,9 +9,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "limpid/complete/rows.h"
-
 #include "complete/row_heights.h"
+#include "complete/rows.h"
 
 namespace limpid {
 namespace {

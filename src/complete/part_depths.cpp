@@ -1,11 +1,10 @@
-#include "limpid/complete/part_depths.h"
+#include "complete/part_depths.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "limpid/complete/rows.h"
-
 #include "complete/row_heights.h"
+#include "complete/rows.h"
 
 namespace limpid {
 namespace {

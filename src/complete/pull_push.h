@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "limpid/complete/rows.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/rect.h"
+
+#include "complete/rows.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "limpid/complete/scattered_light.h"
+#include "complete/scattered_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include "limpid/complete/bottom_plane.h"
+#include "complete/bottom_plane.h"
 
 namespace limpid {
 

@@ -1,9 +1,9 @@
-#include "limpid/complete/sky.h"
+#include "complete/sky.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "limpid/complete/rows.h"
+#include "complete/rows.h"
 
 namespace limpid {
 namespace {

@@ -1,10 +1,11 @@
 #pragma once
 #include <array>
 
-#include "limpid/complete/pull_push.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
+
+#include "complete/pull_push.h"
 
 namespace limpid {
 

@@ -1,11 +1,10 @@
-#include "limpid/complete/slope_map.h"
+#include "complete/slope_map.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "limpid/complete/rows.h"
-
+#include "complete/rows.h"
 #include "core/box_mean.h"
 #include "core/mean_of_four.h"
 

@@ -1,4 +1,4 @@
-#include "write/atomic_file.h"
+#include "files/atomic_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,11 +13,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "limpid/write/unfinished.h"
+#include "limpid/files/unfinished.h"
 
-#include "load/file_stream.h"
-#include "write/file_identity.h"
-#include "write/local_files.h"
+#include "files/file_identity.h"
+#include "files/file_stream.h"
+#include "files/local_files.h"
 
 namespace limpid {
 namespace {

@@ -10,7 +10,7 @@ namespace limpid {
 /// temporary file is removed and what was under `path` before stays. Where `path` is a symbolic
 /// link, all that is about the file it leads to, there or not, and the link stays. While it exists
 /// it is locked, so that others can tell it from what a killed process has left
-/// (write/unfinished.h); the first of a process in a folder removes what lies there of those.
+/// (files/unfinished.h); the first of a process in a folder removes what lies there of those.
 /// Neither on a file system that is not known to be of this machine (local_files.h).
 class AtomicFile {
  public:

@@ -1,4 +1,4 @@
-#include "load/content_hash.h"
+#include "files/content_hash.h"
 
 #include <cstdio>
 #include <new>

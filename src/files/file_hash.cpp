@@ -1,9 +1,9 @@
-#include "load/file_hash.h"
+#include "files/file_hash.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "load/content_hash.h"
+#include "files/content_hash.h"
 
 namespace limpid {
 namespace {

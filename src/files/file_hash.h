@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "load/file_stream.h"
+#include "files/file_stream.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "write/file_identity.h"
+#include "files/file_identity.h"
 
 #include <cerrno>
 #include <functional>
@@ -9,7 +9,7 @@
 
 #include "limpid/core/error.h"
 
-#include "load/file_stream.h"
+#include "files/file_stream.h"
 
 namespace limpid {
 namespace {

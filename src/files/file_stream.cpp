@@ -1,4 +1,4 @@
-#include "load/file_stream.h"
+#include "files/file_stream.h"
 
 #include <algorithm>
 #include <cctype>

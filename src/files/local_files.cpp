@@ -1,4 +1,4 @@
-#include "write/local_files.h"
+#include "files/local_files.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "load/memory_budget.h"
+#include "files/memory_budget.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/want_of_memory.h"
+#include "files/want_of_memory.h"
 
 #include <initializer_list>
 #include <string_view>

@@ -1,16 +1,16 @@
-#include "canvas.h"
+#include "job/canvas.h"
 
 #include <iterator>
 
-#include "limpid/complete/rows.h"
 #include "limpid/core/error.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/picture/preview.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
-#include "limpid/write/preview.h"
 
+#include "complete/rows.h"
+#include "files/atomic_file.h"
 #include "run/each_once.h"
-#include "write/atomic_file.h"
 
 namespace limpid {
 namespace {

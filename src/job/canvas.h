@@ -3,14 +3,14 @@
 #include <vector>
 
 #include "limpid/core/executor.h"
-#include "limpid/output.h"
+#include "limpid/files/exr/deep_writer.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/job/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/target.h"
-#include "limpid/write/deep_writer.h"
-#include "limpid/write/exr_writer.h"
 
-#include "deep_output.h"
+#include "job/deep_output.h"
 
 namespace limpid {
 

@@ -1,16 +1,16 @@
-#include "limpid/composite.h"
+#include "limpid/job/composite.h"
 
 #include <cmath>
 
-#include "limpid/complete/completer.h"
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
-#include "limpid/job_files.h"
-#include "limpid/load/exr_camera.h"
+#include "limpid/files/exr/exr_camera.h"
+#include "limpid/job/job_files.h"
 
-#include "composite_frame.h"
-#include "picture_warnings.h"
-#include "stopwatch.h"
+#include "complete/completer.h"
+#include "job/composite_frame.h"
+#include "job/picture_warnings.h"
+#include "job/stopwatch.h"
 
 namespace limpid {
 namespace {

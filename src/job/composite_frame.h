@@ -1,14 +1,14 @@
 #pragma once
 #include <optional>
 
-#include "limpid/composite.h"
 #include "limpid/core/scene.h"
-#include "limpid/load/plate.h"
-#include "limpid/write/exr_writer.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/job/composite.h"
+#include "limpid/plate/plate.h"
 
-#include "canvas.h"
-#include "provenance.h"
-#include "shared_textures.h"
+#include "job/canvas.h"
+#include "job/provenance.h"
+#include "job/shared_textures.h"
 
 namespace limpid {
 

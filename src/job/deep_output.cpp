@@ -1,11 +1,11 @@
-#include "deep_output.h"
+#include "job/deep_output.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "limpid/files/exr/deep_writer.h"
 #include "limpid/op/context.h"
-#include "limpid/write/deep_writer.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "limpid/job_files.h"
+#include "limpid/job/job_files.h"
 
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "limpid/core/error.h"
 
-#include "write/file_identity.h"
+#include "files/file_identity.h"
 
 namespace limpid {
 namespace {

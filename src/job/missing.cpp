@@ -1,4 +1,4 @@
-#include "limpid/missing.h"
+#include "limpid/job/missing.h"
 
 #include <iterator>
 #include <map>

@@ -1,4 +1,4 @@
-#include "picture_warnings.h"
+#include "job/picture_warnings.h"
 
 #include <algorithm>
 #include <cmath>

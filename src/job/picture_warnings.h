@@ -2,10 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "limpid/complete/bottom_plane.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
 #include "limpid/plan/plan.h"
+
+#include "complete/bottom_plane.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "provenance.h"
+#include "job/provenance.h"
 
 #include <utility>
 #include <vector>
@@ -6,10 +6,10 @@
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
 #include "limpid/core/toml_text.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/version.h"
 
-#include "load/content_hash.h"
+#include "files/content_hash.h"
 
 namespace limpid {
 namespace {

@@ -4,16 +4,16 @@
 #include <string>
 
 #include "limpid/core/scene.h"
+#include "limpid/job/output.h"
 #include "limpid/ops/look.h"
-#include "limpid/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/raster/model.h"
 #include "limpid/raster/render_plate.h"
-#include "limpid/truth.h"
 
-#include "shared_textures.h"
+#include "job/shared_textures.h"
+#include "job/truth.h"
 
-/// What an output says of how it was made, in attributes "limpid/..." (output.h lists them).
+/// What an output says of how it was made, in attributes "limpid/..." (job/output.h lists them).
 /// Nothing in it depends on where files lie, nor on date, host or threads.
 
 namespace limpid {

@@ -1,4 +1,4 @@
-#include "limpid/resume.h"
+#include "limpid/job/resume.h"
 
 #include <filesystem>
 #include <optional>
@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "limpid/core/error.h"
-#include "limpid/job_files.h"
-#include "limpid/load/exr_file.h"
-#include "limpid/load/image_file.h"
-#include "limpid/write/unfinished.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/unfinished.h"
+#include "limpid/job/job_files.h"
 
-#include "composite_frame.h"
-#include "water_frame.h"
-#include "write/file_identity.h"
+#include "files/file_identity.h"
+#include "job/composite_frame.h"
+#include "job/water_frame.h"
 
 namespace limpid {
 namespace {

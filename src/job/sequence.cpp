@@ -1,4 +1,4 @@
-#include "limpid/sequence.h"
+#include "limpid/job/sequence.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "limpid/core/error.h"
-#include "limpid/job_files.h"
+#include "limpid/job/job_files.h"
 
-#include "composite_frame.h"
-#include "stopwatch.h"
-#include "water_frame.h"
+#include "job/composite_frame.h"
+#include "job/stopwatch.h"
+#include "job/water_frame.h"
 
 namespace limpid {
 namespace {

@@ -1,8 +1,8 @@
-#include "shared_textures.h"
+#include "job/shared_textures.h"
 
 #include "limpid/core/error.h"
 
-#include "load/content_hash.h"
+#include "files/content_hash.h"
 
 namespace limpid {
 

@@ -6,9 +6,9 @@
 #include <mutex>
 #include <string>
 
-#include "limpid/load/scene_file.h"
-#include "limpid/load/texture.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/plan/plan.h"
+#include "limpid/plate/texture.h"
 
 namespace limpid {
 

@@ -1,19 +1,19 @@
-#include "limpid/truth.h"
+#include "job/truth.h"
 
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
-#include "limpid/load/texture.h"
+#include "limpid/files/exr/exr_camera.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/files/picture/preview.h"
+#include "limpid/plate/texture.h"
 #include "limpid/raster/render_plate.h"
-#include "limpid/load/exr_camera.h"
-#include "limpid/write/exr_writer.h"
-#include "limpid/write/preview.h"
 
-#include "canvas.h"
-#include "provenance.h"
-#include "shared_textures.h"
-#include "stopwatch.h"
+#include "job/canvas.h"
+#include "job/provenance.h"
+#include "job/shared_textures.h"
+#include "job/stopwatch.h"
 
 namespace limpid {
 namespace {

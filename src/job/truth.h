@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "limpid/job_files.h"
-#include "limpid/load/scene_file.h"
-#include "limpid/trace/truth.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/job/job_files.h"
+
+#include "judge/trace/truth.h"
 
 namespace limpid {
 
@@ -39,7 +40,7 @@ struct TruthReport {
   double trace_seconds = 0, write_seconds = 0;
 };
 
-/// What it reads and writes (job_files.h).
+/// What it reads and writes (job/job_files.h).
 JobFiles files_of(const Model& model, const TruthJob& job);
 
 /// Traces and writes. Throws Error as trace_truth() does, for textures that cannot be read, and for

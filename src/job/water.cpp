@@ -1,15 +1,15 @@
-#include "limpid/water.h"
+#include "limpid/job/water.h"
 
 #include <algorithm>
 #include <iterator>
 
 #include "limpid/core/error.h"
-#include "limpid/job_files.h"
-#include "limpid/load/exr_camera.h"
+#include "limpid/files/exr/exr_camera.h"
+#include "limpid/job/job_files.h"
 
-#include "picture_warnings.h"
-#include "stopwatch.h"
-#include "water_frame.h"
+#include "job/picture_warnings.h"
+#include "job/stopwatch.h"
+#include "job/water_frame.h"
 
 namespace limpid {
 namespace {

@@ -2,12 +2,12 @@
 #include <optional>
 
 #include "limpid/core/scene.h"
+#include "limpid/job/water.h"
 #include "limpid/raster/render_plate.h"
-#include "limpid/water.h"
 
-#include "canvas.h"
-#include "provenance.h"
-#include "shared_textures.h"
+#include "job/canvas.h"
+#include "job/provenance.h"
+#include "job/shared_textures.h"
 
 namespace limpid {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "limpid/plan/predict.h"
+#include "plan/predict.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "limpid/plan/predict.h"
+#include "plan/predict.h"
 
 #include <algorithm>
 

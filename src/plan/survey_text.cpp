@@ -1,8 +1,9 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "limpid/plan/predict.h"
 #include "limpid/plan/survey.h"
+
+#include "plan/predict.h"
 
 namespace limpid {
 namespace {

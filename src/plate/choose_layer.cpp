@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "limpid/core/error.h"
-#include "limpid/load/layers.h"
+#include "limpid/plate/layers.h"
 
-#include "load/layer_candidates.h"
-#include "load/layer_views.h"
+#include "plate/layer_candidates.h"
+#include "plate/layer_views.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "limpid/load/inspect.h"
+#include "limpid/plate/inspect.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,7 +6,7 @@
 
 #include "limpid/core/error.h"
 
-#include "load/layer_views.h"
+#include "plate/layer_views.h"
 
 namespace limpid {
 namespace {

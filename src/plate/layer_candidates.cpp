@@ -1,4 +1,4 @@
-#include "load/layer_candidates.h"
+#include "plate/layer_candidates.h"
 
 #include <algorithm>
 

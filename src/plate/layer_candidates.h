@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "limpid/load/layers.h"
+#include "limpid/plate/layers.h"
 
-#include "load/layer_names.h"
+#include "plate/layer_names.h"
 
 namespace limpid {
 

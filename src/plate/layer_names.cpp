@@ -1,4 +1,4 @@
-#include "load/layer_names.h"
+#include "plate/layer_names.h"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "limpid/load/layers.h"
+#include "limpid/plate/layers.h"
 
-#include "load/layer_rules.h"
+#include "plate/layer_rules.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/layer_rules.h"
+#include "plate/layer_rules.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "load/layer_views.h"
+#include "plate/layer_views.h"
 
 #include <algorithm>
 #include <iterator>

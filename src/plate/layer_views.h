@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "load/layer_candidates.h"
+#include "plate/layer_candidates.h"
 
 namespace limpid {
 

@@ -1,7 +1,7 @@
-#include "limpid/load/layers.h"
+#include "limpid/plate/layers.h"
 
-#include "load/layer_candidates.h"
-#include "load/layer_views.h"
+#include "plate/layer_candidates.h"
+#include "plate/layer_views.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "load/plane_budget.h"
+#include "plate/plane_budget.h"
 
 #include <algorithm>
 

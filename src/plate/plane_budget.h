@@ -2,7 +2,7 @@
 #include <string>
 
 #include "limpid/core/rect.h"
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 
 namespace limpid {
 

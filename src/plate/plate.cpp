@@ -1,4 +1,4 @@
-#include "limpid/load/plate.h"
+#include "limpid/plate/plate.h"
 
 #include <algorithm>
 #include <set>
@@ -6,18 +6,18 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
-#include "limpid/load/exr_camera.h"
-#include "limpid/load/image_file.h"
-#include "limpid/load/inspect.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/exr/exr_camera.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/plate/inspect.h"
 
-#include "load/exr_header.h"
-#include "load/layer_candidates.h"
-#include "load/layer_views.h"
-#include "load/plane_budget.h"
-#include "load/plate_deep.h"
-#include "load/plate_file.h"
-#include "load/primaries.h"
+#include "files/exr/exr_header.h"
+#include "plate/layer_candidates.h"
+#include "plate/layer_views.h"
+#include "plate/plane_budget.h"
+#include "plate/plate_deep.h"
+#include "plate/plate_file.h"
+#include "plate/primaries.h"
 
 namespace limpid {
 namespace {

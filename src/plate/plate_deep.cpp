@@ -1,10 +1,10 @@
-#include "load/plate_deep.h"
+#include "plate/plate_deep.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "limpid/core/error.h"
-#include "limpid/load/deep.h"
+#include "limpid/files/exr/deep.h"
 #include "limpid/op/context.h"
 
 namespace limpid {

@@ -1,8 +1,8 @@
 #pragma once
 #include <string_view>
 
-#include "limpid/load/exr_file.h"
-#include "limpid/load/plate.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/plate/plate.h"
 
 namespace limpid {
 
@@ -10,11 +10,11 @@ namespace limpid {
 /// pixels alone.
 std::string_view deep_channel(PlaneId plane);
 
-/// Reads these planes (those of deep_channel()) from a deep part (load/deep.h) and enters them in
-/// `loaded`, which has its display window and, where there is one, the surface depth already. Below
-/// is what lies behind that surface, or else behind the calm plane; for views that begin in the
-/// water it is all. Throws Error when below is asked for and the scene lacks camera or water, for a
-/// depth kind that deep samples cannot have, and as read_deep_layers().
+/// Reads these planes (those of deep_channel()) from a deep part (files/exr/deep.h) and enters them
+/// in `loaded`, which has its display window and, where there is one, the surface depth already.
+/// Below is what lies behind that surface, or else behind the calm plane; for views that begin in
+/// the water it is all. Throws Error when below is asked for and the scene lacks camera or water,
+/// for a depth kind that deep samples cannot have, and as read_deep_layers().
 void read_deep_planes(const ExrFile& file, int part, PlaneSet planes, const Rect& window,
                       const Scene& scene, const DepthMeaning& depth, LoadedPlate& loaded);
 

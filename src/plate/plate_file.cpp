@@ -1,9 +1,9 @@
-#include "load/plate_file.h"
+#include "plate/plate_file.h"
 
 #include <algorithm>
 #include <string>
 
-#include "load/content_hash.h"
+#include "files/content_hash.h"
 
 namespace limpid {
 namespace {

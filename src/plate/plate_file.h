@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "limpid/load/exr_file.h"
-#include "limpid/load/image_file.h"
-#include "limpid/load/limits.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/limits.h"
+#include "limpid/files/picture/image_file.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/primaries.h"
+#include "plate/primaries.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include <map>
 #include <string>
 
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 namespace limpid {
 

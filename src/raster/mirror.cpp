@@ -1,4 +1,4 @@
-#include "limpid/raster/mirror.h"
+#include "raster/mirror.h"
 
 #include <cmath>
 

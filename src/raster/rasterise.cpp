@@ -8,12 +8,12 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
-#include "limpid/raster/shadow_map.h"
 
 #include "raster/group.h"
 #include "raster/prepared.h"
 #include "raster/project.h"
 #include "raster/raster_job.h"
+#include "raster/shadow_map.h"
 
 namespace limpid {
 

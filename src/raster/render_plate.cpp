@@ -9,11 +9,11 @@
 #include <glm/matrix.hpp>
 
 #include "limpid/core/error.h"
-#include "limpid/raster/mirror.h"
 #include "limpid/raster/rasterise.h"
-#include "limpid/raster/shadow_map.h"
 
 #include "raster/check_rendered.h"
+#include "raster/mirror.h"
+#include "raster/shadow_map.h"
 #include "raster/water_surface.h"
 
 namespace limpid {

@@ -7,7 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "limpid/optics/waves.h"
-#include "limpid/raster/shadow_map.h"
+
+#include "raster/shadow_map.h"
 
 namespace limpid {
 

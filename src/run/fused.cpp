@@ -8,6 +8,8 @@
 
 #include "limpid/core/error.h"
 
+#include "complete/completer.h"
+#include "complete/heights.h"
 #include "run/checks.h"
 #include "run/fused_tile.h"
 #include "run/put_edges.h"
@@ -71,6 +73,25 @@ class SteadyClock : public StopClock {
   std::array<std::atomic<std::int64_t>, Chain::kCount + 1> sums_{};
 };
 
+/// The cells of a survey as they are run. Long runs of pixels are faster than short ones: of two
+/// cells side by side both run what either needs, unless one is dry. Which two does not depend on
+/// tiles.
+void pair_cells(const Survey& survey, std::vector<CellNeeds>& cells) {
+  cells.clear();
+  for (int i = 0; i < survey.count(); ++i) cells.push_back(survey.cell(i));
+  const int across = survey.across();
+  for (int left = 0; left + 1 < survey.count(); ++left) {
+    CellNeeds &a = cells[static_cast<std::size_t>(left)],
+              &b = cells[static_cast<std::size_t>(left) + 1];
+    const int column = left % across;
+    if (column % 2 == 1 || column + 1 == across || a.dry || b.dry) continue;
+    a.skips = b.skips = a.skips & b.skips;
+    a.open = b.open = a.open && b.open;
+    a.opaque = b.opaque = a.opaque && b.opaque;
+    a.grounded = b.grounded = a.grounded && b.grounded;
+  }
+}
+
 struct Tiles {
   const FusedJob& job;
   const FusedTarget& target;
@@ -88,23 +109,19 @@ struct Tiles {
 
 }  // namespace
 
-/// Long runs of pixels are faster than short ones: of two cells side by side both run what either
-/// needs, unless one is dry. Which two does not depend on tiles.
-void FusedRunner::pair_cells() {
-  cells_.clear();
-  for (int i = 0; i < survey_.count(); ++i) cells_.push_back(survey_.cell(i));
-  const int across = survey_.across();
-  for (int left = 0; left + 1 < survey_.count(); ++left) {
-    CellNeeds &a = cells_[static_cast<std::size_t>(left)],
-              &b = cells_[static_cast<std::size_t>(left) + 1];
-    const int column = left % across;
-    if (column % 2 == 1 || column + 1 == across || a.dry || b.dry) continue;
-    a.skips = b.skips = a.skips & b.skips;
-    a.open = b.open = a.open && b.open;
-    a.opaque = b.opaque = a.opaque && b.opaque;
-    a.grounded = b.grounded = a.grounded && b.grounded;
-  }
-}
+struct FusedRunner::Kept {
+  Completer completer;
+  Survey survey;
+  Heights heights;
+  std::vector<CellNeeds> cells;
+};
+
+FusedRunner::FusedRunner() : kept_(std::make_unique<Kept>()) {}
+FusedRunner::FusedRunner(FusedRunner&&) noexcept = default;
+FusedRunner& FusedRunner::operator=(FusedRunner&&) noexcept = default;
+FusedRunner::~FusedRunner() = default;
+
+const Survey& FusedRunner::survey() const { return kept_->survey; }
 
 void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
                       const Target& target, Executor& executor, const FusedOptions& options) {
@@ -120,17 +137,18 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
     throw Error("tile of " + std::to_string(tile.width) + "x" + std::to_string(tile.height) +
                 " pixels: expected at least 1x1");
   }
-  const Frame frame = completer_.complete(
+  auto& [completer, survey, heights, cells] = *kept_;
+  const Frame frame = completer.complete(
       plan, plate, Context(scene, plate, plan.look.water.ior, plan.made, plan.swell()), executor,
       &options.simd);
   Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   if (!plan.reads_environment) context.environment = {};  // nobody has checked it
-  survey_.make(plan, frame, context, executor, options.simd);
+  survey.make(plan, frame, context, executor, options.simd);
   if (options.leaps) {
-    heights_.make(plan, frame, context, executor, options.simd);
-    context.heights = heights_.bound();
-    context.mirrored = heights_.mirrored();
-    context.lit = heights_.lit();
+    heights.make(plan, frame, context, executor, options.simd);
+    context.heights = heights.bound();
+    context.mirrored = heights.mirrored();
+    context.lit = heights.lit();
   }
   const auto context_for = [&](bool open, bool grounded) {
     Context of_cell = context;
@@ -142,9 +160,9 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
       context_for(false, false), context_for(true, false), context_for(false, true),
       context_for(true, true)};
   FusedJob job{plan, frame, contexts[0], contexts.data(), target};
-  pair_cells();
-  job.cells = cells_.data();
-  job.cells_across = survey_.across();
+  pair_cells(survey, cells);
+  job.cells = cells.data();
+  job.cells_across = survey.across();
   job.begins = begins_of(plan, target);
   Chain::for_each([&]<class Op, int I>() {
     job.keeps[I] = plan.keeps(I);

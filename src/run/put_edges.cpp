@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "limpid/complete/rows.h"
 #include "limpid/core/edge_cover.h"
+
+#include "complete/rows.h"
 
 namespace limpid {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "limpid/complete/completer.h"
 #include "limpid/op/context.h"
 
+#include "complete/completer.h"
 #include "op/plain_texture.h"
 #include "run/checks.h"
 #include "run/put_edges.h"

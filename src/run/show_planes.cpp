@@ -1,7 +1,6 @@
 #include "run/show_planes.h"
 
-#include "limpid/complete/rows.h"
-
+#include "complete/rows.h"
 #include "run/checks.h"
 
 namespace limpid {

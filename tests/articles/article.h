@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 
 #include "ops/tray.h"
 

@@ -1,7 +1,7 @@
 #include "limpid/optics/fresnel.h"
-#include "limpid/raster/mirror.h"
 
 #include "articles/article.h"
+#include "raster/mirror.h"
 
 /// "How to create Water shader in Monogame XNA": planes clipped at the water, a DuDv map looked up
 /// in two steps, linear Fresnel, normal map and Blinn-Phong.

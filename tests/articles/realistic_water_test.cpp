@@ -1,6 +1,5 @@
-#include "limpid/raster/mirror.h"
-
 #include "articles/article.h"
+#include "raster/mirror.h"
 
 /// "Realistic Water": four drifting normal maps, an offset on the screen with rejection, a prism,
 /// linear fog, shadow on murky water, a mirror camera, rim and a Blinn-Phong highlight.

@@ -1,4 +1,4 @@
-#include "limpid/complete/bottom_layer.h"
+#include "complete/bottom_layer.h"
 
 #include <functional>
 

@@ -1,4 +1,4 @@
-#include "limpid/complete/continuation.h"
+#include "complete/continuation.h"
 
 #include <gmock/gmock.h>
 

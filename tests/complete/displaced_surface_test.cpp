@@ -1,4 +1,4 @@
-#include "limpid/complete/displaced_surface.h"
+#include "complete/displaced_surface.h"
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "limpid/complete/edges.h"
+#include "complete/edges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "limpid/complete/mirror_depth.h"
+#include "complete/mirror_depth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "limpid/complete/part_depths.h"
+#include "complete/part_depths.h"
 
 #include <gtest/gtest.h>
 

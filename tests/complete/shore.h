@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpid/complete/mirror_depth.h"
-
+#include "complete/mirror_depth.h"
 #include "support.h"
 
 namespace limpid::test {

@@ -1,4 +1,4 @@
-#include "limpid/complete/sky.h"
+#include "complete/sky.h"
 
 #include <gtest/gtest.h>
 

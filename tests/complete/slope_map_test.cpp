@@ -1,4 +1,4 @@
-#include "limpid/complete/slope_map.h"
+#include "complete/slope_map.h"
 
 #include <gtest/gtest.h>
 

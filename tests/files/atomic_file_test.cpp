@@ -1,4 +1,4 @@
-#include "write/atomic_file.h"
+#include "files/atomic_file.h"
 
 #include <cerrno>
 #include <fstream>
@@ -10,10 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "limpid/write/unfinished.h"
+#include "limpid/files/unfinished.h"
 
-#include "load/file_stream.h"
-#include "write/local_files.h"
+#include "files/file_stream.h"
+#include "files/local_files.h"
 
 namespace limpid {
 namespace {

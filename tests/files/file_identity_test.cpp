@@ -1,4 +1,4 @@
-#include "write/file_identity.h"
+#include "files/file_identity.h"
 
 #include <fstream>
 

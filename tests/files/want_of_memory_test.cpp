@@ -3,7 +3,7 @@
 
 #include "limpid/core/plane.h"
 
-#include "load/exr_files.h"
+#include "files/exr/exr_files.h"
 #include "memory_end.h"
 #include "sanitized.h"
 

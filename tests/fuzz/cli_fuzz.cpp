@@ -3,7 +3,7 @@
 #include <streambuf>
 #include <vector>
 
-#include "limpid/load/frame_range.h"
+#include "limpid/files/text/frame_range.h"
 
 #include "../../tools/limpid/arguments.h"
 #include "../../tools/limpid/memory_limit.h"

@@ -1,7 +1,7 @@
 #include <string_view>
 
+#include "files/gltf/gltf_model.h"
 #include "fuzz/harness.h"
-#include "load/gltf_model.h"
 
 namespace limpid::fuzz {
 namespace {

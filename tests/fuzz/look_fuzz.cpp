@@ -1,6 +1,6 @@
 #include <string_view>
 
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 
 #include "fuzz/harness.h"
 

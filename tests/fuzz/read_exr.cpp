@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "limpid/load/deep.h"
-#include "limpid/load/exr_camera.h"
-#include "limpid/load/inspect.h"
+#include "limpid/files/exr/deep.h"
+#include "limpid/files/exr/exr_camera.h"
+#include "limpid/plate/inspect.h"
 
 #include "fuzz/harness.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 
 namespace limpid::fuzz {
 

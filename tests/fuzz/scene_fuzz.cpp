@@ -1,4 +1,4 @@
-#include "limpid/load/scene_file.h"
+#include "limpid/files/text/scene_file.h"
 
 #include "fuzz/harness.h"
 

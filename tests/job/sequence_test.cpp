@@ -1,4 +1,4 @@
-#include "limpid/sequence.h"
+#include "limpid/job/sequence.h"
 
 #include <atomic>
 #include <functional>

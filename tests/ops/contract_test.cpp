@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/complete/scattered_light.h"
 #include "limpid/core/error.h"
 
+#include "complete/scattered_light.h"
 #include "ops/probe_strip.h"
 
 // What every operator of the chain promises, tested by the act of being in the chain: what it

@@ -1,11 +1,11 @@
 #include <cstring>
 
-#include "limpid/complete/slope_map.h"
 #include "limpid/op/context.h"
 #include "limpid/ops/wave_normals.h"
 
+#include "complete/slope_map.h"
+#include "judge/trace/one_pixel.h"
 #include "ops/tray.h"
-#include "trace/one_pixel.h"
 
 namespace limpid {
 namespace {

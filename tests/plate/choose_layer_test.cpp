@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "load/layer_names.h"
+#include "plate/layer_names.h"
 
 namespace limpid {
 namespace {

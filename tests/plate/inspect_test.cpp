@@ -1,4 +1,4 @@
-#include "limpid/load/inspect.h"
+#include "limpid/plate/inspect.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "limpid/core/error.h"
-#include "limpid/load/layers.h"
+#include "limpid/plate/layers.h"
 
 namespace limpid::test {
 

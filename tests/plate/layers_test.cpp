@@ -1,11 +1,11 @@
-#include "limpid/load/layers.h"
+#include "limpid/plate/layers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
 
-#include "load/layer_names.h"
+#include "plate/layer_names.h"
 
 namespace limpid {
 namespace {

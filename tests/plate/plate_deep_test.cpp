@@ -5,11 +5,11 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "limpid/load/plate.h"
-#include "limpid/write/exr_writer.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/plate/plate.h"
 
-#include "load/deep_files.h"
-#include "load/written.h"
+#include "files/exr/deep_files.h"
+#include "files/exr/written.h"
 
 /// Plates of deep samples: what becomes color and depth, and what lies below the water.
 

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/plate.h"
+#include "limpid/plate/plate.h"
 
-#include "load/part_files.h"
-#include "load/written.h"
+#include "files/exr/part_files.h"
+#include "files/exr/written.h"
 
 /// Plates whose buffers lie in several parts of a file, in several views, flat beside deep.
 

@@ -1,4 +1,4 @@
-#include "limpid/load/plate.h"
+#include "limpid/plate/plate.h"
 
 #include <cmath>
 #include <cstring>
@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/write/exr_writer.h"
+#include "limpid/files/exr/exr_writer.h"
 
-#include "load/written.h"
+#include "files/exr/written.h"
 
 namespace limpid {
 namespace {

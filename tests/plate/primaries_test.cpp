@@ -5,9 +5,9 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <gmock/gmock.h>
 
-#include "limpid/load/plate.h"
+#include "limpid/plate/plate.h"
 
-#include "load/written.h"
+#include "files/exr/written.h"
 
 /// Plates in other primaries than the water's.
 

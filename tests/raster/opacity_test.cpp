@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/simd.h"
-#include "limpid/raster/shadow_map.h"
 
+#include "raster/shadow_map.h"
 #include "raster_scenes.h"
 
 namespace limpid {

@@ -2,8 +2,8 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
-#include "limpid/raster/shadow_map.h"
 
+#include "raster/shadow_map.h"
 #include "raster_scenes.h"
 
 namespace limpid {

@@ -1,4 +1,4 @@
-#include "limpid/raster/shadow_map.h"
+#include "raster/shadow_map.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 #include "limpid/optics/fresnel.h"
 #include "limpid/optics/highlight.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/simd.h"
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 
 #include "plan/landscape.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/load/look_file.h"
-#include "limpid/load/texture.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/plate/texture.h"
 
 #include "support.h"
 

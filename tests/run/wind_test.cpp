@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/load/texture.h"
+#include "limpid/plate/texture.h"
 
 #include "ops/tray.h"
 

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 
 #include "limpid/core/error.h"
-#include "limpid/job_files.h"
-#include "limpid/load/frame_range.h"
-#include "limpid/load/gltf.h"
-#include "limpid/load/look_file.h"
-#include "limpid/load/scene_file.h"
-#include "limpid/sequence.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/job/job_files.h"
+#include "limpid/job/sequence.h"
 
 #include "tool/made_plate.h"
 #include "tool/tool.h"

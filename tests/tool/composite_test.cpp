@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 #include "limpid/run/fused.h"
 
 #include "tool/made_plate.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "complete/post.h"
-#include "deep_output.h"
+#include "job/deep_output.h"
 
 // The water of a deep file is that of whole pixels, also where something stands before a part of
 // one.

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 #include "tool/made_plate.h"
 #include "tool/tool.h"

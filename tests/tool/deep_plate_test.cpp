@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "load/deep_files.h"
+#include "files/exr/deep_files.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

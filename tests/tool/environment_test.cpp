@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "shared_textures.h"
+#include "job/shared_textures.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "limpid/load/gltf.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/raster/render_plate.h"
 
 #include "tool/tool.h"

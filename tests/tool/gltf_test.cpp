@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "load/gltf_files.h"
+#include "files/gltf/gltf_files.h"
 #include "tool/tool.h"
 
 /// What the tool says of glTF files that it does not draw as they are.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "limpid/core/camera.h"
-#include "limpid/write/exr_writer.h"
+#include "limpid/files/exr/exr_writer.h"
 
 /// A plate of a pond with a shore on its left and sky above, made up by formulas: 64x36 pixels, the
 /// camera 2 above the water y = 0, the bottom at y = -1, the shore at y = 0.2.

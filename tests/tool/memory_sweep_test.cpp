@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "load/deep_files.h"
+#include "files/exr/deep_files.h"
 #include "sanitized.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
-#include "load/part_files.h"
+#include "files/exr/part_files.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -3,13 +3,13 @@
 
 #include <gmock/gmock.h>
 
-#include "limpid/load/exr_file.h"
-#include "limpid/load/image_file.h"
-#include "limpid/load/look_file.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/version.h"
 
-#include "load/content_hash.h"
+#include "files/content_hash.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

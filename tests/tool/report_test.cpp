@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "limpid/core/simd.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
 #include "tool/tool.h"
 

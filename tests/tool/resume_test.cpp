@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "limpid/load/exr_file.h"
-#include "limpid/load/frame_range.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/version.h"
 
 #include "tool/made_plate.h"

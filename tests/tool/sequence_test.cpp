@@ -6,9 +6,9 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "limpid/load/exr_file.h"
-#include "limpid/load/frame_range.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/files/text/scene_file.h"
 
 #include "tool/made_plate.h"
 #include "tool/tool.h"

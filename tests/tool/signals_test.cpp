@@ -5,9 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "files/atomic_file.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
-#include "write/atomic_file.h"
 
 namespace limpid::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 
 #include "limpid/core/error.h"
-#include "limpid/load/frame_range.h"
-#include "limpid/load/look_file.h"
-#include "limpid/load/scene_file.h"
-#include "limpid/sequence.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/job/sequence.h"
 
 #include "tool/made_plate.h"
 #include "tool/new_files.h"

@@ -6,7 +6,7 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 

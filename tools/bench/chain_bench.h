@@ -7,10 +7,10 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/plan/plan.h"
-#include "limpid/report/picture.h"
 
 #include "arguments.h"
 #include "gl_process.h"
+#include "judge/report/picture.h"
 #include "made_plate.h"
 #include "picture_error.h"
 #include "realistic_numbers.h"

@@ -18,7 +18,7 @@
 #include <Imath/half.h>
 
 #include "limpid/compositor.h"
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 #include "limpid/run/fused.h"
 
 #include "arguments.h"

@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "limpid/report/lagoon.h"
-#include "limpid/report/picture.h"
-
 #include "arguments.h"
+#include "judge/report/lagoon.h"
+#include "judge/report/picture.h"
 #include "rows.h"
 
 namespace limpid::bench {

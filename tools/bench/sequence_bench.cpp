@@ -13,15 +13,15 @@
 
 #include <unistd.h>
 
-#include "limpid/load/exr_file.h"
-#include "limpid/load/frame_range.h"
-#include "limpid/load/look_file.h"
-#include "limpid/report/picture.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/job/sequence.h"
 #include "limpid/run/fused.h"
-#include "limpid/sequence.h"
-#include "limpid/write/exr_writer.h"
 
 #include "arguments.h"
+#include "judge/report/picture.h"
 #include "made_plate.h"
 #include "rows.h"
 

@@ -6,14 +6,14 @@
 #include <CLI/CLI.hpp>
 
 #include "limpid/core/error.h"
+#include "limpid/job/sequence.h"
+#include "limpid/job/water.h"
 #include "limpid/raster/render_plate.h"
-#include "limpid/report/report.h"
 #include "limpid/run/target.h"
-#include "limpid/sequence.h"
-#include "limpid/trace/truth.h"
 #include "limpid/version.h"
-#include "limpid/water.h"
 
+#include "judge/report/report.h"
+#include "judge/trace/truth.h"
 #include "option_range.h"
 
 namespace limpid::tool {

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
-#include "limpid/load/image_file.h"
-#include "limpid/write/preview.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/picture/preview.h"
 
 namespace limpid::tool {
 namespace {

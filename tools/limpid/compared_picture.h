@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "limpid/compare/color_pair.h"
-#include "limpid/compare/compare.h"
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
+
+#include "judge/compare/color_pair.h"
+#include "judge/compare/compare.h"
 
 /// Pictures as `compare` reads them.
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "limpid/core/error.h"
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 
 namespace limpid::tool {
 

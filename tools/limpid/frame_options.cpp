@@ -1,8 +1,8 @@
 #include "frame_options.h"
 
 #include "limpid/core/error.h"
-#include "limpid/load/frame_range.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/text/frame_range.h"
 
 namespace limpid::tool {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 #include <string>
 
-#include "limpid/load/scene_file.h"
-#include "limpid/missing.h"
-#include "limpid/output.h"
-#include "limpid/resume.h"
-#include "limpid/sequence.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/job/missing.h"
+#include "limpid/job/output.h"
+#include "limpid/job/resume.h"
+#include "limpid/job/sequence.h"
 
 #include "arguments.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 
 #include "arguments.h"
 

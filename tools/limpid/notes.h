@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "limpid/missing.h"
+#include "limpid/job/missing.h"
+#include "limpid/job/resume.h"
 #include "limpid/raster/model.h"
-#include "limpid/resume.h"
 
 #include "arguments.h"
 

@@ -11,7 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "limpid/write/unfinished.h"
+#include "limpid/files/unfinished.h"
 
 namespace limpid::tool {
 namespace {

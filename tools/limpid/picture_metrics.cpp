@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "limpid/compare/heat_map.h"
-#include "limpid/compare/number_text.h"
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
+
+#include "judge/compare/heat_map.h"
+#include "judge/compare/number_text.h"
 
 namespace limpid::tool {
 namespace {

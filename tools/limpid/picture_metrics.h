@@ -2,12 +2,11 @@
 #include <optional>
 #include <string>
 
-#include "limpid/compare/flip.h"
-#include "limpid/compare/offset.h"
-#include "limpid/compare/ssim.h"
-
 #include "arguments.h"
 #include "compared_picture.h"
+#include "judge/compare/flip.h"
+#include "judge/compare/offset.h"
+#include "judge/compare/ssim.h"
 
 /// What `compare --metrics` computes besides the difference of numbers.
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "limpid/sequence.h"
+#include "limpid/job/sequence.h"
 
 #include "arguments.h"
 

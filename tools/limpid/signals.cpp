@@ -3,7 +3,7 @@
 #include <csignal>
 #include <thread>
 
-#include "limpid/write/unfinished.h"
+#include "limpid/files/unfinished.h"
 
 namespace limpid::tool {
 namespace {

@@ -2,15 +2,15 @@
 #include <cstdio>
 #include <utility>
 
-#include "limpid/compare/compare.h"
-#include "limpid/compare/heat_map.h"
-#include "limpid/compare/number_text.h"
-#include "limpid/compare/temporal.h"
 #include "limpid/core/error.h"
-#include "limpid/job_files.h"
-#include "limpid/load/frame_range.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/job/job_files.h"
 
 #include "compared_picture.h"
+#include "judge/compare/compare.h"
+#include "judge/compare/heat_map.h"
+#include "judge/compare/number_text.h"
+#include "judge/compare/temporal.h"
 #include "memory_limit.h"
 #include "picture_metrics.h"
 #include "verbs.h"

@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "limpid/composite.h"
 #include "limpid/core/error.h"
-#include "limpid/load/frame_range.h"
-#include "limpid/sequence.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/job/composite.h"
+#include "limpid/job/sequence.h"
 
 #include "frame_options.h"
 #include "memory_limit.h"

@@ -1,7 +1,7 @@
 #include <cstdio>
 
-#include "limpid/sequence.h"
-#include "limpid/water.h"
+#include "limpid/job/sequence.h"
+#include "limpid/job/water.h"
 
 #include "frame_options.h"
 #include "memory_limit.h"

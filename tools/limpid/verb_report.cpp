@@ -1,11 +1,11 @@
 #include <cstdio>
 
 #include "limpid/core/error.h"
-#include "limpid/job_files.h"
-#include "limpid/report/hard_page.h"
-#include "limpid/report/report.h"
+#include "limpid/job/job_files.h"
 
 #include "data_folder.h"
+#include "judge/report/hard_page.h"
+#include "judge/report/report.h"
 #include "verbs.h"
 #include "water_options.h"
 

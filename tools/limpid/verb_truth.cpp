@@ -2,9 +2,9 @@
 #include <cstdio>
 
 #include "limpid/core/error.h"
-#include "limpid/truth.h"
 
 #include "frame_options.h"
+#include "job/truth.h"
 #include "notes.h"
 #include "verbs.h"
 #include "water_options.h"

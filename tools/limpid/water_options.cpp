@@ -7,12 +7,12 @@
 #include <thread>
 
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
-#include "limpid/load/gltf.h"
-#include "limpid/load/image_file.h"
-#include "limpid/load/look_file.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/text/look_file.h"
 #include "limpid/run/fused.h"
-#include "limpid/write/exr_writer.h"
 
 #include "data_folder.h"
 #include "frame_options.h"

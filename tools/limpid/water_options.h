@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "limpid/composite.h"
 #include "limpid/core/error.h"
+#include "limpid/job/composite.h"
 #include "limpid/raster/model.h"
 #include "limpid/raster/render_plate.h"
 

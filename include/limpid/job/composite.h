@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "limpid/complete/bottom_plane.h"
+#include "limpid/complete/beyond.h"
 #include "limpid/core/executor.h"
-#include "limpid/load/plate.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/job/output.h"
 #include "limpid/ops/look.h"
-#include "limpid/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/plan/survey.h"
+#include "limpid/plate/plate.h"
 #include "limpid/run/fused.h"
 
 namespace limpid {
@@ -63,7 +63,7 @@ struct MeasuredPlan {
 MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor);
 
 /// Loads, plans, runs, writes. Throws Error, also for an output that is one of the inputs or
-/// another output (job_files.h); nothing is left under the output's name then but what
+/// another output (job/job_files.h); nothing is left under the output's name then but what
 /// was there before.
 CompositeReport composite(const CompositeJob& job, Executor& executor);
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "limpid/composite.h"
-#include "limpid/output.h"
-#include "limpid/water.h"
+#include "limpid/job/composite.h"
+#include "limpid/job/output.h"
+#include "limpid/job/water.h"
 
 /// @file
 /// Which files a job reads and which it writes, and that no file is both. Every job of this library
@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> inputs_of(const Model& model, const SceneFile
                                              const Look& look);
 
 /// All files that were read or may be, plates and layers, too, and all that will be written. The
-/// job of truth.h has its own.
+/// job of job/truth.h has its own.
 JobFiles files_of(const CompositeJob& job);
 JobFiles files_of(const Model& model, const PlateJob& job);
 JobFiles files_of(const Model& model, const WaterJob& job);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "limpid/sequence.h"
+#include "limpid/job/sequence.h"
 
 /// @file
 /// Sequences with holes: frames whose plate is not there.

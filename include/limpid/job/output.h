@@ -65,11 +65,11 @@ struct OutputChoice {
   std::filesystem::path picture;  ///< EXR
   std::filesystem::path preview;  ///< PNG, or empty for none
   /// Deep EXR of the water alone, or empty for none: a volume sample on each wet pixel, of color
-  /// in_scatter and alpha 1 - transmittance (write/deep_writer.h). What the surface mirrors is not
-  /// in it. It begins at the surface, or at the near distance where the view begins in the water,
-  /// and is as long as the way through the water, laid straight along the view ray. Water without
-  /// end ends where its linear fog is full, or no more light of any channel is left; where it takes
-  /// no light at all it has no sample.
+  /// in_scatter and alpha 1 - transmittance (files/exr/deep_writer.h). What the surface mirrors is
+  /// not in it. It begins at the surface, or at the near distance where the view begins in the
+  /// water, and is as long as the way through the water, laid straight along the view ray. Water
+  /// without end ends where its linear fog is full, or no more light of any channel is left; where
+  /// it takes no light at all it has no sample.
   std::filesystem::path deep;
   std::string compression = "piz";
   bool store_float = false;  ///< half otherwise; depths and paths are float always

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "limpid/sequence.h"
+#include "limpid/job/sequence.h"
 
 /// @file
 /// Going on with a sequence where another run of it stopped, for whatever reason: which of its
@@ -32,12 +32,12 @@ enum class Scrutiny {
   kContents,
 };
 
-/// A frame is kept when all of its files are there, are whole, and say of themselves (output.h)
+/// A frame is kept when all of its files are there, are whole, and say of themselves (job/output.h)
 /// exactly what they would say if they were made now: by this version, from inputs of the same
 /// contents, with the same look, plan and options. A preview other than a PNG cannot say it, so its
 /// frame is never kept. Inputs are looked at for frames alone whose picture is there: headers are
 /// read, bytes hashed, no pixel is decoded. What is wrong with a frame's inputs is no error here,
-/// but when its turn comes. Removes abandoned temporary files (write/unfinished.h) from the folders
+/// but when its turn comes. Removes abandoned temporary files (files/unfinished.h) from the folders
 /// of all outputs. Throws Error as the sequences do: first of all for outputs that are not apart.
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                        Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);

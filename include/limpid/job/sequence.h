@@ -3,13 +3,14 @@
 #include <memory>
 #include <vector>
 
-#include "limpid/composite.h"
-#include "limpid/water.h"
+#include "limpid/job/composite.h"
+#include "limpid/job/water.h"
 
 /// @file
 /// Many frames, one after another, neighbours overlapped: while one is being run, others are read
 /// and written. Each gives the same bytes as composite() or water() of it alone. Frames without a
-/// plate are a matter of missing.h, those that are there already of resume.h: both give a sequence.
+/// plate are a matter of job/missing.h, those that are there already of job/resume.h: both give a
+/// sequence.
 
 namespace limpid {
 
@@ -35,8 +36,8 @@ struct SequenceProgress {
 };
 
 /// Asked for the jobs of all frames before the first is made, to see that no frame writes what it
-/// or another reads or writes (job_files.h), and then again for each when its turn comes: in order,
-/// from any thread, one at a time.
+/// or another reads or writes (job/job_files.h), and then again for each when its turn comes: in
+/// order, from any thread, one at a time.
 template <class Job>
 using JobOfFrame = std::function<Job(int frame)>;
 /// Called likewise, for frames that are done. What it throws stops the sequence.

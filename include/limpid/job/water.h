@@ -1,6 +1,6 @@
 #pragma once
-#include "limpid/composite.h"
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
+#include "limpid/job/composite.h"
 #include "limpid/raster/model.h"
 #include "limpid/raster/render_plate.h"
 

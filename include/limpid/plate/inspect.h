@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "limpid/load/layers.h"
+#include "limpid/plate/layers.h"
 
 namespace limpid {
 

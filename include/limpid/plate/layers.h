@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "limpid/core/frame.h"
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 namespace limpid {
 
@@ -60,7 +60,7 @@ std::vector<std::string> views_of(std::span<const LayerSource> sources);
 std::string default_view(std::span<const LayerSource> sources);
 
 /// Finds the channels of a role by the conventions of Blender, Nuke, Natron, Arnold, Karma, V-Ray,
-/// and our own plates (src/load/layer_rules.cpp lists them). Our own names win over layers and
+/// and our own plates (src/plate/layer_rules.cpp lists them). Our own names win over layers and
 /// parts with a known name, those over files with a telling name, those over bare channels. Letter
 /// case does not count. Layers of the water never feed a role of the dry scene, nor the other way
 /// round. Of several views it is `view`, and what names no view where that one has nothing for the

@@ -11,10 +11,10 @@
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
 #include "limpid/enter/sanitise.h"
-#include "limpid/load/exr_file.h"
-#include "limpid/load/layers.h"
-#include "limpid/load/limits.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/limits.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/plate/layers.h"
 
 namespace limpid {
 
@@ -54,9 +54,10 @@ struct LoadedPlate {
 };
 
 /// A frame as it lies in files: opened, every role found, no pixel read. A role is decided by
-/// `layers`, else by `named`, else found among `files`. A deep part (load/deep.h) gives color and
-/// depth, and where no other layer does, below_color and below_depth: what its samples hold behind
-/// the surface. Samples that a renderer left out behind opaque ones are black and infinitely far.
+/// `layers`, else by `named`, else found among `files`. A deep part (files/exr/deep.h) gives color
+/// and depth, and where no other layer does, below_color and below_depth: what its samples hold
+/// behind the surface. Samples that a renderer left out behind opaque ones are black and infinitely
+/// far.
 class Plate {
  public:
   /// Throws Error: a file that cannot be opened, no color (the list of what there is), two

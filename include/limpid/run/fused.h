@@ -1,11 +1,8 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "limpid/complete/completer.h"
-#include "limpid/complete/heights.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
@@ -43,21 +40,22 @@ struct FusedOptions {
 /// in those before. One run at a time.
 class FusedRunner {
  public:
+  FusedRunner();
+  FusedRunner(FusedRunner&&) noexcept;
+  FusedRunner& operator=(FusedRunner&&) noexcept;
+  ~FusedRunner();
+
   /// Throws Error as run_reference does, and for an instruction set that is not there. A plane may
   /// span at most 2^31 floats.
   void run(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
            Executor& executor, const FusedOptions& options = {});
 
   /// Of the last frame.
-  const Survey& survey() const { return survey_; }
+  const Survey& survey() const;
 
  private:
-  void pair_cells();
-
-  Completer completer_;
-  Survey survey_;
-  Heights heights_;
-  std::vector<CellNeeds> cells_;  ///< of the survey, as they are run
+  struct Kept;  // from frame to frame
+  std::unique_ptr<Kept> kept_;
 };
 
 /// The same for one frame alone.

@@ -1,4 +1,4 @@
-#include "limpid/load/deep.h"
+#include "limpid/files/exr/deep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "limpid/core/error.h"
 
-#include "load/deep_flatten.h"
+#include "files/exr/deep_flatten.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "load/deep_flatten.h"
+#include "files/exr/deep_flatten.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "limpid/write/deep_writer.h"
+#include "limpid/files/exr/deep_writer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,9 @@
 
 #include "limpid/core/error.h"
 
-#include "load/half_bits.h"
-#include "write/exr_heading.h"
-#include "write/exr_whole.h"
+#include "files/exr/exr_heading.h"
+#include "files/exr/exr_whole.h"
+#include "files/exr/half_bits.h"
 
 namespace limpid {
 namespace {

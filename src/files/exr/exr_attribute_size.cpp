@@ -1,4 +1,4 @@
-#include "load/exr_attribute_size.h"
+#include "files/exr/exr_attribute_size.h"
 
 #include <algorithm>
 #include <span>

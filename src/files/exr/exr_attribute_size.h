@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "limpid/load/exr_camera.h"
+#include "limpid/files/exr/exr_camera.h"
 
 #include <cmath>
 

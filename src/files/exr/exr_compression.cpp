@@ -1,10 +1,10 @@
-#include "write/exr_compression.h"
+#include "files/exr/exr_compression.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "load/exr_header.h"
+#include "files/exr/exr_header.h"
 
 namespace limpid {
 

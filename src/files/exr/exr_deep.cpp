@@ -1,4 +1,4 @@
-#include "load/exr_deep.h"
+#include "files/exr/exr_deep.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include <OpenEXR/ImfDeepScanLineInputPart.h>
 #include <OpenEXR/ImfDeepTiledInputPart.h>
 
-#include "load/exr_deep_chunks.h"
+#include "files/exr/exr_deep_chunks.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "load/exr_deep_chunks.h"
+#include "files/exr/exr_deep_chunks.h"
 
 #include <algorithm>
 #include <limits>

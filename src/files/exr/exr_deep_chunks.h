@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "load/exr_header.h"
+#include "files/exr/exr_header.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,14 +12,14 @@
 #include <OpenEXR/ImfThreading.h>
 
 #include "core/threads.h"
-#include "load/content_hash.h"
-#include "load/exr_deep.h"
-#include "load/exr_header.h"
-#include "load/exr_pixels.h"
-#include "load/exr_scanlines.h"
-#include "load/exr_unpack.h"
-#include "load/file_hash.h"
-#include "load/want_of_memory.h"
+#include "files/content_hash.h"
+#include "files/exr/exr_deep.h"
+#include "files/exr/exr_header.h"
+#include "files/exr/exr_pixels.h"
+#include "files/exr/exr_scanlines.h"
+#include "files/exr/exr_unpack.h"
+#include "files/file_hash.h"
+#include "files/want_of_memory.h"
 
 namespace limpid {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <OpenEXR/ImfThreading.h>
 
-#include "load/exr_header.h"
-#include "load/exr_unpack.h"
+#include "files/exr/exr_header.h"
+#include "files/exr/exr_unpack.h"
 
 namespace limpid {
 namespace {

@@ -1,11 +1,11 @@
-#include "load/exr_header.h"
+#include "files/exr/exr_header.h"
 
 #include <algorithm>
 #include <cstring>
 #include <span>
 
-#include "load/exr_attribute_size.h"
-#include "load/file_hash.h"
+#include "files/exr/exr_attribute_size.h"
+#include "files/file_hash.h"
 
 namespace limpid {
 namespace {

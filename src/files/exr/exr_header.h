@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
-#include "load/file_stream.h"
+#include "files/file_stream.h"
 
 namespace limpid {
 

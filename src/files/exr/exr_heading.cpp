@@ -1,4 +1,4 @@
-#include "write/exr_heading.h"
+#include "files/exr/exr_heading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVersion.h>
 
-#include "load/exr_header.h"
-#include "load/file_hash.h"
-#include "write/exr_streams.h"
+#include "files/exr/exr_header.h"
+#include "files/exr/exr_streams.h"
+#include "files/file_hash.h"
 
 namespace limpid {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <OpenEXR/ImfHeader.h>
 
-#include "limpid/write/exr_heading.h"
+#include "limpid/files/exr/exr_heading.h"
 
-#include "write/exr_compression.h"
+#include "files/exr/exr_compression.h"
 
 namespace limpid {
 
@@ -13,7 +13,7 @@ namespace limpid {
 /// written.
 void check_heading(const ExrHeading& heading);
 
-/// All of the header but the channels, with a place for the file's hash (load/file_hash.h). Throws
+/// All of the header but the channels, with a place for the file's hash (files/file_hash.h). Throws
 /// Error (without the path) for an inherited attribute of another type than the one that OpenEXR
 /// knows by this name.
 Imf::Header header_of(const ExrHeading& heading, const Compression& compression);

@@ -1,4 +1,4 @@
-#include "load/exr_pixels.h"
+#include "files/exr/exr_pixels.h"
 
 #include <algorithm>
 #include <map>

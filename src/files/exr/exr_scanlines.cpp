@@ -1,4 +1,4 @@
-#include "load/exr_scanlines.h"
+#include "files/exr/exr_scanlines.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,8 +10,8 @@
 #include <OpenEXR/IlmThreadPool.h>
 #include <OpenEXR/ImfInputPart.h>
 
-#include "load/exr_unpack.h"
-#include "load/half_bits.h"
+#include "files/exr/exr_unpack.h"
+#include "files/exr/half_bits.h"
 
 namespace limpid {
 namespace {

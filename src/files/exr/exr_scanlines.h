@@ -3,7 +3,7 @@
 
 #include <OpenEXR/ImfMultiPartInputFile.h>
 
-#include "load/exr_header.h"
+#include "files/exr/exr_header.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/exr_unpack.h"
+#include "files/exr/exr_unpack.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "load/exr_header.h"
+#include "files/exr/exr_header.h"
 
 namespace limpid {
 

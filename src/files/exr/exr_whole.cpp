@@ -1,4 +1,4 @@
-#include "write/exr_whole.h"
+#include "files/exr/exr_whole.h"
 
 #include <limits>
 #include <memory>
@@ -6,10 +6,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "load/exr_header.h"
-#include "load/file_hash.h"
-#include "load/want_of_memory.h"
-#include "write/atomic_file.h"
+#include "files/atomic_file.h"
+#include "files/exr/exr_header.h"
+#include "files/file_hash.h"
+#include "files/want_of_memory.h"
 
 namespace limpid {
 namespace {

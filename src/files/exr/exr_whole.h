@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "write/exr_streams.h"
+#include "files/exr/exr_streams.h"
 
 namespace limpid {
 

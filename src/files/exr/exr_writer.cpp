@@ -1,4 +1,4 @@
-#include "limpid/write/exr_writer.h"
+#include "limpid/files/exr/exr_writer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -11,9 +11,9 @@
 
 #include "limpid/core/error.h"
 
-#include "load/half_bits.h"
-#include "write/exr_heading.h"
-#include "write/exr_whole.h"
+#include "files/exr/exr_heading.h"
+#include "files/exr/exr_whole.h"
+#include "files/exr/half_bits.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
 #include <algorithm>
 #include <optional>
@@ -6,15 +6,15 @@
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_accessors.h"
-#include "load/gltf_buffers.h"
-#include "load/gltf_check.h"
-#include "load/gltf_files.h"
-#include "load/gltf_material.h"
-#include "load/gltf_model.h"
-#include "load/gltf_scene.h"
-#include "load/gltf_texture.h"
-#include "load/model_warnings.h"
+#include "files/gltf/gltf_accessors.h"
+#include "files/gltf/gltf_buffers.h"
+#include "files/gltf/gltf_check.h"
+#include "files/gltf/gltf_files.h"
+#include "files/gltf/gltf_material.h"
+#include "files/gltf/gltf_model.h"
+#include "files/gltf/gltf_scene.h"
+#include "files/gltf/gltf_texture.h"
+#include "files/gltf/model_warnings.h"
 
 namespace limpid {
 namespace {

@@ -1,11 +1,11 @@
-#include "load/gltf_accessors.h"
+#include "files/gltf/gltf_accessors.h"
 
 #include <algorithm>
 #include <cstring>
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_types.h"
+#include "files/gltf/gltf_types.h"
 
 namespace limpid {
 

@@ -6,9 +6,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "load/gltf_buffers.h"
-#include "load/json_place.h"
-#include "load/memory_budget.h"
+#include "files/gltf/gltf_buffers.h"
+#include "files/memory_budget.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

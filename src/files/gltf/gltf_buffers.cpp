@@ -1,8 +1,8 @@
-#include "load/gltf_buffers.h"
+#include "files/gltf/gltf_buffers.h"
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_extensions.h"
+#include "files/gltf/gltf_extensions.h"
 
 namespace limpid {
 namespace {

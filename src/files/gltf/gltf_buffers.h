@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "load/gltf_files.h"
-#include "load/memory_budget.h"
+#include "files/gltf/gltf_files.h"
+#include "files/memory_budget.h"
 
 namespace limpid {
 

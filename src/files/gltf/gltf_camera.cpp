@@ -1,4 +1,4 @@
-#include "load/gltf_camera.h"
+#include "files/gltf/gltf_camera.h"
 
 #include <limits>
 

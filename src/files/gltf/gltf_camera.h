@@ -3,7 +3,7 @@
 
 #include "limpid/core/camera.h"
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "limpid/core/error.h"
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
-#include "load/json_place.h"
-#include "load/model_warnings.h"
+#include "files/gltf/model_warnings.h"
+#include "files/text/json_place.h"
 
 /// What a glTF document must be before anything is read by it: every index, size, type and uri
 /// holds. What only the bytes of the buffers can tell (index values, NaN) is checked where they are

@@ -2,10 +2,10 @@
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_check.h"
-#include "load/gltf_extensions.h"
-#include "load/gltf_files.h"
-#include "load/gltf_types.h"
+#include "files/gltf/gltf_check.h"
+#include "files/gltf/gltf_extensions.h"
+#include "files/gltf/gltf_files.h"
+#include "files/gltf/gltf_types.h"
 
 namespace limpid {
 namespace {

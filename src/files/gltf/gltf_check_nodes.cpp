@@ -7,9 +7,9 @@
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_check.h"
-#include "load/gltf_extensions.h"
-#include "load/gltf_mesh_uses.h"
+#include "files/gltf/gltf_check.h"
+#include "files/gltf/gltf_extensions.h"
+#include "files/gltf/gltf_mesh_uses.h"
 
 namespace limpid {
 namespace {

@@ -1,5 +1,5 @@
-#include "load/gltf_check.h"
-#include "load/gltf_types.h"
+#include "files/gltf/gltf_check.h"
+#include "files/gltf/gltf_types.h"
 
 namespace limpid {
 namespace {

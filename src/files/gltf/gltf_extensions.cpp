@@ -1,4 +1,4 @@
-#include "load/gltf_extensions.h"
+#include "files/gltf/gltf_extensions.h"
 
 #include <algorithm>
 #include <set>

@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
-#include "load/json_place.h"
-#include "load/model_warnings.h"
+#include "files/gltf/model_warnings.h"
+#include "files/text/json_place.h"
 
 /// Which extensions of glTF are read, and what those that are not do to a file.
 

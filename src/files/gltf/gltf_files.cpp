@@ -1,4 +1,4 @@
-#include "load/gltf_files.h"
+#include "files/gltf/gltf_files.h"
 
 #include <algorithm>
 #include <cctype>

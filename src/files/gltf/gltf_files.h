@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

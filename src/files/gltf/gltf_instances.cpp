@@ -1,4 +1,4 @@
-#include "load/gltf_instances.h"
+#include "files/gltf/gltf_instances.h"
 
 #include <cmath>
 #include <cstdio>

@@ -4,8 +4,8 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "load/gltf_accessors.h"
-#include "load/json_place.h"
+#include "files/gltf/gltf_accessors.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

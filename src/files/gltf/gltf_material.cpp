@@ -1,11 +1,11 @@
-#include "load/gltf_material.h"
+#include "files/gltf/gltf_material.h"
 
 #include <algorithm>
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_extensions.h"
-#include "load/gltf_sampler.h"
+#include "files/gltf/gltf_extensions.h"
+#include "files/gltf/gltf_sampler.h"
 
 namespace limpid {
 namespace {

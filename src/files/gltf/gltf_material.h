@@ -2,12 +2,12 @@
 #include <string>
 #include <vector>
 
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 #include "limpid/raster/model.h"
 
-#include "load/gltf_uvs.h"
-#include "load/json_place.h"
-#include "load/model_warnings.h"
+#include "files/gltf/gltf_uvs.h"
+#include "files/gltf/model_warnings.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/gltf_mesh.h"
+#include "files/gltf/gltf_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_nodes.h"
-#include "load/gltf_triangles.h"
+#include "files/gltf/gltf_nodes.h"
+#include "files/gltf/gltf_triangles.h"
 
 namespace limpid {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "limpid/raster/model.h"
 
-#include "load/gltf_accessors.h"
-#include "load/gltf_material.h"
-#include "load/gltf_pose.h"
-#include "load/json_place.h"
-#include "load/memory_budget.h"
-#include "load/model_warnings.h"
+#include "files/gltf/gltf_accessors.h"
+#include "files/gltf/gltf_material.h"
+#include "files/gltf/gltf_pose.h"
+#include "files/gltf/model_warnings.h"
+#include "files/memory_budget.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

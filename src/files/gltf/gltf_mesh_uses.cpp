@@ -1,9 +1,9 @@
-#include "load/gltf_mesh_uses.h"
+#include "files/gltf/gltf_mesh_uses.h"
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_extensions.h"
-#include "load/gltf_types.h"
+#include "files/gltf/gltf_extensions.h"
+#include "files/gltf/gltf_types.h"
 
 namespace limpid {
 namespace {

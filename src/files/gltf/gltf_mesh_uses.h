@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

@@ -1,11 +1,11 @@
 #pragma once
 #include <filesystem>
 
-#include "limpid/load/gltf.h"
-#include "limpid/load/limits.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/limits.h"
 #include "limpid/raster/model.h"
 
-#include "load/gltf_files.h"
+#include "files/gltf/gltf_files.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/gltf_nodes.h"
+#include "files/gltf/gltf_nodes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "load/gltf_extensions.h"
+#include "files/gltf/gltf_extensions.h"
 
 namespace limpid {
 namespace {

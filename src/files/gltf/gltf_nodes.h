@@ -5,7 +5,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/gltf_pose.h"
+#include "files/gltf/gltf_pose.h"
 
 #include <algorithm>
 #include <cmath>

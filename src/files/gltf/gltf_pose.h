@@ -6,9 +6,9 @@
 
 #include "limpid/raster/model.h"
 
-#include "load/gltf_accessors.h"
-#include "load/json_place.h"
-#include "load/model_warnings.h"
+#include "files/gltf/gltf_accessors.h"
+#include "files/gltf/model_warnings.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/gltf_sampler.h"
+#include "files/gltf/gltf_sampler.h"
 
 namespace limpid {
 namespace {

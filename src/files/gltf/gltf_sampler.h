@@ -1,7 +1,7 @@
 #pragma once
 #include "limpid/raster/model.h"
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

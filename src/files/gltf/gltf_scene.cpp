@@ -1,4 +1,4 @@
-#include "load/gltf_scene.h"
+#include "files/gltf/gltf_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_camera.h"
-#include "load/gltf_extensions.h"
-#include "load/gltf_instances.h"
-#include "load/gltf_mesh.h"
-#include "load/gltf_nodes.h"
-#include "load/gltf_skins.h"
+#include "files/gltf/gltf_camera.h"
+#include "files/gltf/gltf_extensions.h"
+#include "files/gltf/gltf_instances.h"
+#include "files/gltf/gltf_mesh.h"
+#include "files/gltf/gltf_nodes.h"
+#include "files/gltf/gltf_skins.h"
 
 namespace limpid {
 namespace {

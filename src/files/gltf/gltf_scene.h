@@ -2,15 +2,15 @@
 #include <string>
 #include <vector>
 
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 #include "limpid/raster/model.h"
 
-#include "load/gltf_accessors.h"
-#include "load/gltf_check.h"
-#include "load/gltf_material.h"
-#include "load/json_place.h"
-#include "load/memory_budget.h"
-#include "load/model_warnings.h"
+#include "files/gltf/gltf_accessors.h"
+#include "files/gltf/gltf_check.h"
+#include "files/gltf/gltf_material.h"
+#include "files/gltf/model_warnings.h"
+#include "files/memory_budget.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

@@ -1,8 +1,8 @@
-#include "load/gltf_skins.h"
+#include "files/gltf/gltf_skins.h"
 
 #include "limpid/core/error.h"
 
-#include "load/gltf_nodes.h"
+#include "files/gltf/gltf_nodes.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "load/gltf_texture.h"
+#include "files/gltf/gltf_texture.h"
 
 #include <array>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "limpid/core/error.h"
 
-#include "load/memory_budget.h"
-#include "load/png_inflated.h"
-#include "load/stb_image.h"
-#include "load/whole_file.h"
+#include "files/memory_budget.h"
+#include "files/picture/png_inflated.h"
+#include "files/picture/stb_image.h"
+#include "files/picture/whole_file.h"
 
 namespace limpid {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 #include "limpid/raster/model.h"
 
 namespace limpid {

@@ -1,4 +1,4 @@
-#include "load/gltf_triangles.h"
+#include "files/gltf/gltf_triangles.h"
 
 namespace limpid {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 /// How the corners of a primitive make triangles (glTF 2.0, 3.7.2.1 "Overview" of meshes).
 

@@ -1,4 +1,4 @@
-#include "load/gltf_types.h"
+#include "files/gltf/gltf_types.h"
 
 namespace limpid {
 namespace {

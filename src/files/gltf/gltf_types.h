@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 /// The types of an accessor's numbers (glTF 2.0, 3.6.2.2 "Accessor Data Types").
 

@@ -1,10 +1,10 @@
-#include "load/gltf_uvs.h"
+#include "files/gltf/gltf_uvs.h"
 
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "load/gltf_extensions.h"
+#include "files/gltf/gltf_extensions.h"
 
 namespace limpid {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 namespace limpid {
 

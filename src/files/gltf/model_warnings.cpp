@@ -1,4 +1,4 @@
-#include "load/model_warnings.h"
+#include "files/gltf/model_warnings.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "load/formats.h"
+#include "files/picture/formats.h"
 
 #include <cstdlib>
 #include <filesystem>

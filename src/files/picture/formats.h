@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "load/formats_abi.h"
+#include "files/picture/formats_abi.h"
 
 namespace limpid::formats {
 

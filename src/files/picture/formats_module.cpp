@@ -13,7 +13,7 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
-#include "load/formats_abi.h"
+#include "files/picture/formats_abi.h"
 
 namespace limpid::formats {
 namespace {

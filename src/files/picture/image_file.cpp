@@ -1,4 +1,4 @@
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
 #include <algorithm>
 #include <array>
@@ -12,12 +12,12 @@
 #include "limpid/core/error.h"
 
 #include "core/memory.h"
-#include "load/file_stream.h"
-#include "load/formats.h"
-#include "load/png_text.h"
-#include "load/want_of_memory.h"
-#include "load/whole_file.h"
-#include "write/atomic_file.h"
+#include "files/atomic_file.h"
+#include "files/file_stream.h"
+#include "files/picture/formats.h"
+#include "files/picture/png_text.h"
+#include "files/picture/whole_file.h"
+#include "files/want_of_memory.h"
 
 namespace limpid {
 namespace {

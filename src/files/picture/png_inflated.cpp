@@ -1,4 +1,4 @@
-#include "load/png_inflated.h"
+#include "files/picture/png_inflated.h"
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "load/png_text.h"
+#include "files/picture/png_text.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 #include "limpid/core/error.h"
 
-#include "load/file_stream.h"
+#include "files/file_stream.h"
 
 namespace limpid {
 namespace {

@@ -1,11 +1,11 @@
-#include "limpid/write/preview.h"
+#include "limpid/files/picture/preview.h"
 
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "limpid/core/error.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
 namespace limpid {
 // IEC 61966-2-1:1999 "Colour management - Default RGB colour space - sRGB".

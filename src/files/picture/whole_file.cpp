@@ -1,4 +1,4 @@
-#include "load/whole_file.h"
+#include "files/picture/whole_file.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "limpid/core/error.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/text/scene_file.h"
 
 #include "enter/clip_direction.h"
 

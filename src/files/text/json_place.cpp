@@ -1,4 +1,4 @@
-#include "load/json_place.h"
+#include "files/text/json_place.h"
 
 #include <algorithm>
 #include <cmath>

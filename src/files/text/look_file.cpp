@@ -1,4 +1,4 @@
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <set>
 #include <system_error>
 
-#include "load/toml.h"
+#include "files/text/toml.h"
 
 namespace limpid {
 namespace {

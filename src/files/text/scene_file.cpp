@@ -1,4 +1,4 @@
-#include "limpid/load/scene_file.h"
+#include "limpid/files/text/scene_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/core/toml_text.h"
 
-#include "load/toml.h"
+#include "files/text/toml.h"
 
 namespace limpid {
 namespace {

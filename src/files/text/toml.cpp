@@ -1,4 +1,4 @@
-#include "load/toml.h"
+#include "files/text/toml.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -9,7 +9,7 @@
 
 #include <toml++/toml.h>
 
-#include "load/toml_nesting.h"
+#include "files/text/toml_nesting.h"
 
 namespace limpid {
 namespace {

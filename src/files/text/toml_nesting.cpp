@@ -1,4 +1,4 @@
-#include "load/toml_nesting.h"
+#include "files/text/toml_nesting.h"
 
 #include <algorithm>
 

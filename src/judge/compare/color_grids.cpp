@@ -1,10 +1,9 @@
-#include "compare/color_grids.h"
+#include "judge/compare/color_grids.h"
 
 #include <cmath>
 
-#include "limpid/compare/compare.h"
-
-#include "compare/compared_channels.h"
+#include "judge/compare/compare.h"
+#include "judge/compare/compared_channels.h"
 
 namespace limpid {
 

@@ -2,9 +2,8 @@
 #include <array>
 #include <cstdint>
 
-#include "limpid/compare/color_pair.h"
-
-#include "compare/grid.h"
+#include "judge/compare/color_pair.h"
+#include "judge/compare/grid.h"
 
 namespace limpid {
 

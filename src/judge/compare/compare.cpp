@@ -1,11 +1,11 @@
-#include "limpid/compare/compare.h"
+#include "judge/compare/compare.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "limpid/core/error.h"
 
-#include "compare/compared_channels.h"
+#include "judge/compare/compared_channels.h"
 
 namespace limpid {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
-#include "limpid/compare/compare.h"
-#include "limpid/compare/number_text.h"
+#include "judge/compare/compare.h"
+#include "judge/compare/number_text.h"
 
 namespace limpid {
 namespace {

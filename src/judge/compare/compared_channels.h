@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "limpid/compare/compare.h"
+#include "judge/compare/compare.h"
 
 namespace limpid {
 

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "limpid/compare/number_text.h"
-
-#include "compare/error_map_of.h"
+#include "judge/compare/error_map_of.h"
+#include "judge/compare/number_text.h"
 
 namespace limpid {
 

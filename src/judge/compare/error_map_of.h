@@ -1,7 +1,6 @@
 #pragma once
-#include "limpid/compare/error_map.h"
-
-#include "compare/color_grids.h"
+#include "judge/compare/color_grids.h"
+#include "judge/compare/error_map.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "limpid/compare/flip.h"
+#include "judge/compare/flip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include "limpid/core/error.h"
 
-#include "compare/error_map_of.h"
-#include "compare/seen.h"
+#include "judge/compare/error_map_of.h"
+#include "judge/compare/seen.h"
 
 namespace limpid {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-#include "limpid/compare/color_pair.h"
-#include "limpid/compare/error_map.h"
+#include "judge/compare/color_pair.h"
+#include "judge/compare/error_map.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "compare/grid.h"
+#include "judge/compare/grid.h"
 
 #include <cmath>
 

@@ -1,13 +1,13 @@
-#include "limpid/compare/heat_map.h"
+#include "judge/compare/heat_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "limpid/core/error.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
-#include "compare/compared_channels.h"
+#include "judge/compare/compared_channels.h"
 
 namespace limpid {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <span>
 
-#include "limpid/compare/compare.h"
+#include "judge/compare/compare.h"
 
 namespace limpid {
 

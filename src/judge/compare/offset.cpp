@@ -1,14 +1,14 @@
-#include "limpid/compare/offset.h"
+#include "judge/compare/offset.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "limpid/compare/number_text.h"
 #include "limpid/core/error.h"
 
-#include "compare/compared_channels.h"
+#include "judge/compare/compared_channels.h"
+#include "judge/compare/number_text.h"
 
 namespace limpid {
 namespace {

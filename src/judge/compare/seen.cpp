@@ -1,4 +1,4 @@
-#include "compare/seen.h"
+#include "judge/compare/seen.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #pragma once
-#include "limpid/compare/flip.h"
-
-#include "compare/color_grids.h"
+#include "judge/compare/color_grids.h"
+#include "judge/compare/flip.h"
 
 namespace limpid {
 

@@ -1,15 +1,15 @@
-#include "limpid/compare/ssim.h"
+#include "judge/compare/ssim.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "limpid/compare/number_text.h"
 #include "limpid/core/error.h"
-#include "limpid/write/preview.h"
+#include "limpid/files/picture/preview.h"
 
-#include "compare/color_grids.h"
+#include "judge/compare/color_grids.h"
+#include "judge/compare/number_text.h"
 
 namespace limpid {
 namespace {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "limpid/compare/color_pair.h"
+#include "judge/compare/color_pair.h"
 
 namespace limpid {
 

@@ -1,12 +1,12 @@
-#include "limpid/compare/temporal.h"
+#include "judge/compare/temporal.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "limpid/compare/number_text.h"
 #include "limpid/core/error.h"
 
-#include "compare/compared_channels.h"
+#include "judge/compare/compared_channels.h"
+#include "judge/compare/number_text.h"
 
 namespace limpid {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "limpid/compare/compare.h"
+#include "judge/compare/compare.h"
 
 namespace limpid {
 

@@ -2,8 +2,8 @@
 
 #include "limpid/enter/sanitise.h"
 
-#include "hard/hard_case.h"
-#include "hard/sea.h"
+#include "judge/hard/hard_case.h"
+#include "judge/hard/sea.h"
 
 namespace limpid {
 namespace {

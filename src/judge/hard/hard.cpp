@@ -1,10 +1,10 @@
-#include "limpid/hard/hard.h"
+#include "judge/hard/hard.h"
 
 #include <utility>
 
 #include "limpid/core/error.h"
 
-#include "hard/hard_case.h"
+#include "judge/hard/hard_case.h"
 
 namespace limpid {
 namespace {

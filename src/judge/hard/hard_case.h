@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "hard/world.h"
+#include "judge/hard/world.h"
 
 namespace limpid {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "hard/hard_case.h"
-#include "hard/sea.h"
+#include "judge/hard/hard_case.h"
+#include "judge/hard/sea.h"
 
 namespace limpid {
 namespace {

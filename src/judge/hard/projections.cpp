@@ -1,5 +1,5 @@
-#include "hard/hard_case.h"
-#include "hard/sea.h"
+#include "judge/hard/hard_case.h"
+#include "judge/hard/sea.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "hard/sea.h"
+#include "judge/hard/sea.h"
 
 #include <cmath>
 #include <limits>

@@ -3,8 +3,8 @@
 
 #include "limpid/core/scene.h"
 
-#include "hard/hard_case.h"
-#include "hard/world.h"
+#include "judge/hard/hard_case.h"
+#include "judge/hard/world.h"
 
 namespace limpid {
 

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hard/hard_case.h"
-#include "hard/sea.h"
+#include "judge/hard/hard_case.h"
+#include "judge/hard/sea.h"
 
 namespace limpid {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "limpid/hard/hard.h"
+#include "judge/hard/hard.h"
 
 namespace limpid {
 namespace {

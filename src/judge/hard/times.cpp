@@ -4,8 +4,8 @@
 #include "limpid/op/context.h"
 #include "limpid/optics/waves.h"
 
-#include "hard/hard_case.h"
-#include "hard/sea.h"
+#include "judge/hard/hard_case.h"
+#include "judge/hard/sea.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "hard/world.h"
+#include "judge/hard/world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
 #include "limpid/enter/sanitise.h"
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
-#include "hard/sea.h"
+#include "judge/hard/sea.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/brought.h"
+#include "judge/report/brought.h"
 
 #include <algorithm>
 #include <cmath>

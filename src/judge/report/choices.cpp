@@ -1,4 +1,4 @@
-#include "report/choices.h"
+#include "judge/report/choices.h"
 
 #include "limpid/ops/chain.h"
 

@@ -1,4 +1,4 @@
-#include "report/finer_water.h"
+#include "judge/report/finer_water.h"
 
 #include <algorithm>
 #include <map>

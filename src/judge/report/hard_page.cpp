@@ -1,14 +1,14 @@
-#include "limpid/report/hard_page.h"
+#include "judge/report/hard_page.h"
 
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
-#include "report/html_parts.h"
-#include "report/markup.h"
-#include "report/measure.h"
-#include "report/page_style.h"
-#include "report/report_files.h"
+#include "judge/report/html_parts.h"
+#include "judge/report/markup.h"
+#include "judge/report/measure.h"
+#include "judge/report/page_style.h"
+#include "judge/report/report_files.h"
 
 namespace limpid {
 namespace {

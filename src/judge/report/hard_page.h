@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <span>
 
-#include "limpid/hard/hard.h"
+#include "judge/hard/hard.h"
 
 namespace limpid {
 

@@ -1,14 +1,13 @@
-#include "report/html_parts.h"
+#include "judge/report/html_parts.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
-#include "limpid/compare/heat_map.h"
-
-#include "report/jpeg.h"
-#include "report/markup.h"
+#include "judge/compare/heat_map.h"
+#include "judge/report/jpeg.h"
+#include "judge/report/markup.h"
 
 namespace limpid {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "limpid/report/report.h"
+#include "judge/report/report.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "report/jpeg.h"
+#include "judge/report/jpeg.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "report/labels.h"
+#include "judge/report/labels.h"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,14 @@
-#include "limpid/report/lagoon.h"
+#include "judge/report/lagoon.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "limpid/load/exr_file.h"
-#include "limpid/load/scene_file.h"
-#include "limpid/report/picture.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/run/fused.h"
+
+#include "judge/report/picture.h"
 
 namespace limpid {
 namespace {

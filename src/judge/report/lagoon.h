@@ -7,9 +7,9 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/plane.h"
 #include "limpid/core/scene.h"
-#include "limpid/load/plate.h"
 #include "limpid/ops/look.h"
 #include "limpid/plan/plan.h"
+#include "limpid/plate/plate.h"
 #include "limpid/run/target.h"
 
 namespace limpid {

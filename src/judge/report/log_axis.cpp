@@ -1,10 +1,10 @@
-#include "report/log_axis.h"
+#include "judge/report/log_axis.h"
 
 #include <cmath>
 
 #include "limpid/core/error.h"
 
-#include "report/markup.h"
+#include "judge/report/markup.h"
 
 namespace limpid {
 namespace {

@@ -5,7 +5,7 @@
 #include "limpid/core/simd.h"
 #include "limpid/version.h"
 
-#include "report/measure.h"
+#include "judge/report/measure.h"
 
 namespace limpid {
 namespace {

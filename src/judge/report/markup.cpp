@@ -1,4 +1,4 @@
-#include "report/markup.h"
+#include "judge/report/markup.h"
 
 #include <array>
 #include <charconv>

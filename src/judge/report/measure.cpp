@@ -1,11 +1,11 @@
-#include "report/measure.h"
+#include "judge/report/measure.h"
 
-#include "limpid/compare/heat_map.h"
-#include "limpid/report/lagoon.h"
-#include "limpid/write/preview.h"
+#include "limpid/files/picture/preview.h"
 
-#include "report/jpeg.h"
-#include "report/markup.h"
+#include "judge/compare/heat_map.h"
+#include "judge/report/jpeg.h"
+#include "judge/report/lagoon.h"
+#include "judge/report/markup.h"
 
 namespace limpid {
 namespace {

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "limpid/compare/compare.h"
 #include "limpid/core/executor.h"
 #include "limpid/ops/look.h"
-#include "limpid/report/picture.h"
-#include "limpid/report/report.h"
 
-#include "report/subject.h"
+#include "judge/compare/compare.h"
+#include "judge/report/picture.h"
+#include "judge/report/report.h"
+#include "judge/report/subject.h"
 
 /// The parts of measure_report(), one function a section of the report.
 

@@ -2,19 +2,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpid/compare/flip.h"
-#include "limpid/load/exr_file.h"
-#include "limpid/load/gltf.h"
-#include "limpid/load/scene_file.h"
-#include "limpid/report/lagoon.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/run/fused.h"
-#include "limpid/trace/truth.h"
 
-#include "report/brought.h"
-#include "report/finer_water.h"
-#include "report/markup.h"
-#include "report/measure.h"
-#include "report/rounds.h"
+#include "judge/compare/flip.h"
+#include "judge/report/brought.h"
+#include "judge/report/finer_water.h"
+#include "judge/report/lagoon.h"
+#include "judge/report/markup.h"
+#include "judge/report/measure.h"
+#include "judge/report/rounds.h"
+#include "judge/trace/truth.h"
 
 namespace limpid {
 namespace {

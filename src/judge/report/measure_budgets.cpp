@@ -3,9 +3,9 @@
 #include "limpid/plan/survey.h"
 #include "limpid/run/fused.h"
 
-#include "report/markup.h"
-#include "report/measure.h"
-#include "report/rounds.h"
+#include "judge/report/markup.h"
+#include "judge/report/measure.h"
+#include "judge/report/rounds.h"
 
 namespace limpid {
 namespace {

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <array>
 
-#include "limpid/report/lagoon.h"
 #include "limpid/run/fused.h"
 
-#include "report/choices.h"
-#include "report/markup.h"
-#include "report/measure.h"
-#include "report/rounds.h"
+#include "judge/report/choices.h"
+#include "judge/report/lagoon.h"
+#include "judge/report/markup.h"
+#include "judge/report/measure.h"
+#include "judge/report/rounds.h"
 
 namespace limpid {
 namespace {

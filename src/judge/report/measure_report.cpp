@@ -6,9 +6,9 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 
-#include "report/measure.h"
+#include "judge/report/measure.h"
 
 namespace limpid {
 namespace {

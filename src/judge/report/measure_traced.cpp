@@ -2,20 +2,20 @@
 #include <algorithm>
 #include <span>
 
-#include "limpid/compare/flip.h"
-#include "limpid/compare/offset.h"
-#include "limpid/compare/ssim.h"
-#include "limpid/compare/temporal.h"
-#include "limpid/load/gltf.h"
-#include "limpid/load/scene_file.h"
-#include "limpid/report/lagoon.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/run/fused.h"
-#include "limpid/trace/truth.h"
 
-#include "report/choices.h"
-#include "report/markup.h"
-#include "report/measure.h"
-#include "report/rounds.h"
+#include "judge/compare/flip.h"
+#include "judge/compare/offset.h"
+#include "judge/compare/ssim.h"
+#include "judge/compare/temporal.h"
+#include "judge/report/choices.h"
+#include "judge/report/lagoon.h"
+#include "judge/report/markup.h"
+#include "judge/report/measure.h"
+#include "judge/report/rounds.h"
+#include "judge/trace/truth.h"
 
 namespace limpid {
 namespace {

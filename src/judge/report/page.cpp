@@ -1,9 +1,9 @@
-#include "report/page.h"
+#include "judge/report/page.h"
 
-#include "report/html_parts.h"
-#include "report/markup.h"
-#include "report/page_sections.h"
-#include "report/page_style.h"
+#include "judge/report/html_parts.h"
+#include "judge/report/markup.h"
+#include "judge/report/page_sections.h"
+#include "judge/report/page_style.h"
 
 namespace limpid {
 namespace {

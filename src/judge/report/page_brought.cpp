@@ -1,10 +1,10 @@
 // Looks by what one brings.
 #include <algorithm>
 
-#include "report/html_parts.h"
-#include "report/markup.h"
-#include "report/page_plots.h"
-#include "report/page_sections.h"
+#include "judge/report/html_parts.h"
+#include "judge/report/markup.h"
+#include "judge/report/page_plots.h"
+#include "judge/report/page_sections.h"
 
 namespace limpid {
 namespace {

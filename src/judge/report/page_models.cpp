@@ -4,11 +4,11 @@
 
 #include "limpid/core/error.h"
 
-#include "report/html_parts.h"
-#include "report/markup.h"
-#include "report/page_plots.h"
-#include "report/page_sections.h"
-#include "report/pareto.h"
+#include "judge/report/html_parts.h"
+#include "judge/report/markup.h"
+#include "judge/report/page_plots.h"
+#include "judge/report/page_sections.h"
+#include "judge/report/pareto.h"
 
 namespace limpid {
 namespace {

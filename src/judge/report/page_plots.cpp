@@ -1,10 +1,10 @@
-#include "report/page_plots.h"
+#include "judge/report/page_plots.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/html_parts.h"
-#include "report/markup.h"
+#include "judge/report/html_parts.h"
+#include "judge/report/markup.h"
 
 namespace limpid {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "report/scatter.h"
+#include "judge/report/scatter.h"
 
 /// What the sections with plots have in common.
 

@@ -1,12 +1,12 @@
-#include "report/page_sections.h"
+#include "judge/report/page_sections.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "limpid/core/error.h"
 
-#include "report/html_parts.h"
-#include "report/markup.h"
+#include "judge/report/html_parts.h"
+#include "judge/report/markup.h"
 
 namespace limpid {
 namespace {

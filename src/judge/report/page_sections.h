@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "limpid/report/report.h"
+#include "judge/report/report.h"
 
 /// The sections of the page. Each returns markup, and "" when there is nothing to show.
 

@@ -1,4 +1,4 @@
-#include "report/pareto.h"
+#include "judge/report/pareto.h"
 
 #include <algorithm>
 #include <cmath>

@@ -64,8 +64,8 @@ struct TruthRow {
 };
 
 /// A look on a scene, or the look `physical` there with one parameter changed; judged by the light
-/// that would really arrive, traced (trace/truth.h) through the scene with the water of `physical`,
-/// one sample a pixel as in the chain. Values above 4 count as 4, but for HDR-FLIP.
+/// that would really arrive, traced (judge/trace/truth.h) through the scene with the water of
+/// `physical`, one sample a pixel as in the chain. Values above 4 count as 4, but for HDR-FLIP.
 struct ModelRow {
   std::string subject, look;
   std::string parameter, value;  ///< both "" for a look as it is
@@ -73,14 +73,14 @@ struct ModelRow {
   PixelError error;
   double rmse = 0, rel_mse = 0, ssim = 0, flip = 0, hdr_flip = 0;
   double flicker = 0;  ///< mean change to the next of 24 frames a second beyond the truth's own
-  /// Of lookups of wet pixels (compare/offset.h).
+  /// Of lookups of wet pixels (judge/compare/offset.h).
   double offset_median = 0, offset_p95 = 0;  ///< pixels
   double wrongly_rejected = 0, wrongly_accepted = 0;
 };
 
 /// A plate or a scene whose picture with water is known, waves and all: path-traced, or traced
-/// through the scene (trace/truth.h) with kBroughtSamples squared samples a pixel. A wet pixel is
-/// near where its footprint on the calm water is shorter than the waves are long.
+/// through the scene (judge/trace/truth.h) with kBroughtSamples squared samples a pixel. A wet
+/// pixel is near where its footprint on the calm water is shorter than the waves are long.
 struct BroughtSubject {
   std::string subject;
   double wave_length = 0;  ///< scene units: 2 pi sqrt(mean square slope / mean square curvature)

@@ -1,10 +1,10 @@
-#include "report/report_files.h"
+#include "judge/report/report_files.h"
 
 #include <fstream>
 
 #include "limpid/core/error.h"
 
-#include "write/atomic_file.h"
+#include "files/atomic_file.h"
 
 namespace limpid {
 

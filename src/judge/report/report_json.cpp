@@ -1,4 +1,4 @@
-#include "report/report_json.h"
+#include "judge/report/report_json.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "limpid/report/report.h"
+#include "judge/report/report.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "report/rounds.h"
+#include "judge/report/rounds.h"
 
 #include <algorithm>
 #include <ctime>

@@ -1,4 +1,4 @@
-#include "report/subject.h"
+#include "judge/report/subject.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include "limpid/core/error.h"
 #include "limpid/enter/sanitise.h"
-#include "limpid/load/gltf.h"
-#include "limpid/load/plate.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/text/scene_file.h"
+#include "limpid/plate/plate.h"
 #include "limpid/raster/render_plate.h"
 
 namespace limpid {

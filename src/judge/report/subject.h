@@ -8,10 +8,11 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
-#include "limpid/load/texture.h"
 #include "limpid/plan/plan.h"
+#include "limpid/plate/texture.h"
 #include "limpid/raster/model.h"
-#include "limpid/report/report.h"
+
+#include "judge/report/report.h"
 
 namespace limpid {
 

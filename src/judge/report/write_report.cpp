@@ -1,8 +1,7 @@
-#include "limpid/report/report.h"
-
-#include "report/page.h"
-#include "report/report_files.h"
-#include "report/report_json.h"
+#include "judge/report/page.h"
+#include "judge/report/report.h"
+#include "judge/report/report_files.h"
+#include "judge/report/report_json.h"
 
 namespace limpid {
 

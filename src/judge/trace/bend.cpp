@@ -1,4 +1,4 @@
-#include "trace/bend.h"
+#include "judge/trace/bend.h"
 
 namespace limpid::trace {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-#include "trace/beam.h"
-#include "trace/surface.h"
+#include "judge/trace/beam.h"
+#include "judge/trace/surface.h"
 
 namespace limpid::trace {
 

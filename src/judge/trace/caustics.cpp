@@ -1,4 +1,4 @@
-#include "trace/caustics.h"
+#include "judge/trace/caustics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include "limpid/optics/fresnel.h"
 
-#include "trace/bend.h"
-#include "trace/samples.h"
+#include "judge/trace/bend.h"
+#include "judge/trace/samples.h"
 
 namespace limpid::trace {
 namespace {

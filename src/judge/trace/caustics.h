@@ -6,11 +6,11 @@
 #include "limpid/core/executor.h"
 #include "limpid/op/context.h"
 
-#include "trace/eye.h"
-#include "trace/medium.h"
-#include "trace/solid.h"
-#include "trace/sun_way.h"
-#include "trace/surface.h"
+#include "judge/trace/eye.h"
+#include "judge/trace/medium.h"
+#include "judge/trace/solid.h"
+#include "judge/trace/sun_way.h"
+#include "judge/trace/surface.h"
 
 namespace limpid::trace {
 

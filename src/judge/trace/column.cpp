@@ -1,4 +1,4 @@
-#include "limpid/trace/column.h"
+#include "judge/trace/column.h"
 
 #include <algorithm>
 #include <numbers>
@@ -7,10 +7,10 @@
 #include "limpid/optics/fresnel.h"
 #include "limpid/optics/refract.h"
 
-#include "trace/chances.h"
-#include "trace/directions.h"
-#include "trace/mean_light.h"
-#include "trace/samples.h"
+#include "judge/trace/chances.h"
+#include "judge/trace/directions.h"
+#include "judge/trace/mean_light.h"
+#include "judge/trace/samples.h"
 
 namespace limpid {
 namespace {

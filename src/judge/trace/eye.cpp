@@ -1,4 +1,4 @@
-#include "trace/eye.h"
+#include "judge/trace/eye.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "limpid/core/camera.h"
 #include "limpid/core/rect.h"
 
-#include "trace/beam.h"
+#include "judge/trace/beam.h"
 
 namespace limpid::trace {
 

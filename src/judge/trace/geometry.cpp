@@ -1,11 +1,11 @@
-#include "trace/geometry.h"
+#include "judge/trace/geometry.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "limpid/optics/fresnel.h"
 
-#include "trace/bend.h"
+#include "judge/trace/bend.h"
 
 namespace limpid::trace {
 namespace {

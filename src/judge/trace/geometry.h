@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 
-#include "trace/eye.h"
-#include "trace/tracer.h"
+#include "judge/trace/eye.h"
+#include "judge/trace/tracer.h"
 
 namespace limpid::trace {
 

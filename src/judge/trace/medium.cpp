@@ -1,4 +1,4 @@
-#include "trace/medium.h"
+#include "judge/trace/medium.h"
 
 #include "limpid/optics/water_index.h"
 

@@ -3,8 +3,8 @@
 
 #include "limpid/op/context.h"
 #include "limpid/ops/look.h"
-#include "limpid/trace/truth.h"
 
+#include "judge/trace/truth.h"
 #include "ops/water_light.h"
 
 namespace limpid::trace {

@@ -2,8 +2,8 @@
 #include "limpid/op/context.h"
 #include "limpid/optics/surroundings.h"
 
+#include "judge/trace/beam.h"
 #include "op/plain_texture.h"
-#include "trace/beam.h"
 
 namespace limpid::trace {
 

@@ -1,4 +1,4 @@
-#include "trace/solid.h"
+#include "judge/trace/solid.h"
 
 #include <algorithm>
 #include <array>

@@ -7,9 +7,9 @@
 
 #include "limpid/raster/model.h"
 
+#include "judge/trace/texture.h"
+#include "judge/trace/triangles.h"
 #include "raster/prepared.h"
-#include "trace/texture.h"
-#include "trace/triangles.h"
 
 namespace limpid::trace {
 

@@ -3,8 +3,8 @@
 
 #include "limpid/op/context.h"
 
-#include "trace/medium.h"
-#include "trace/solid.h"
+#include "judge/trace/medium.h"
+#include "judge/trace/solid.h"
 
 namespace limpid::trace {
 

@@ -1,9 +1,9 @@
-#include "trace/surface.h"
+#include "judge/trace/surface.h"
 
 #include <algorithm>
 
+#include "judge/trace/one_pixel.h"
 #include "raster/water_surface.h"
-#include "trace/one_pixel.h"
 
 namespace limpid::trace {
 namespace {

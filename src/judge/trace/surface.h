@@ -7,7 +7,7 @@
 #include "limpid/ops/look.h"
 #include "limpid/raster/model.h"
 
-#include "trace/triangles.h"
+#include "judge/trace/triangles.h"
 
 namespace limpid::trace {
 

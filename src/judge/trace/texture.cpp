@@ -1,4 +1,4 @@
-#include "trace/texture.h"
+#include "judge/trace/texture.h"
 
 #include <algorithm>
 #include <cmath>

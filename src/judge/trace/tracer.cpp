@@ -1,4 +1,4 @@
-#include "trace/tracer.h"
+#include "judge/trace/tracer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include "limpid/optics/fresnel.h"
 #include "limpid/optics/scattering.h"
 
-#include "trace/bend.h"
-#include "trace/one_pixel.h"
+#include "judge/trace/bend.h"
+#include "judge/trace/one_pixel.h"
 
 namespace limpid::trace {
 namespace {

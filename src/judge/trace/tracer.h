@@ -1,13 +1,13 @@
 #pragma once
 #include "limpid/op/context.h"
-#include "limpid/trace/truth.h"
 
-#include "trace/medium.h"
-#include "trace/samples.h"
-#include "trace/solid.h"
-#include "trace/sun_way.h"
-#include "trace/surface.h"
-#include "trace/walk.h"
+#include "judge/trace/medium.h"
+#include "judge/trace/samples.h"
+#include "judge/trace/solid.h"
+#include "judge/trace/sun_way.h"
+#include "judge/trace/surface.h"
+#include "judge/trace/truth.h"
+#include "judge/trace/walk.h"
 
 namespace limpid::trace {
 

@@ -1,4 +1,4 @@
-#include "trace/triangles.h"
+#include "judge/trace/triangles.h"
 
 #include <algorithm>
 

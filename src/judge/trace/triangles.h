@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "trace/beam.h"
+#include "judge/trace/beam.h"
 
 namespace limpid::trace {
 

@@ -1,4 +1,4 @@
-#include "limpid/trace/truth.h"
+#include "judge/trace/truth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include "limpid/core/texture_levels.h"
 #include "limpid/raster/render_plate.h"
 
+#include "judge/trace/geometry.h"
+#include "judge/trace/mean_light.h"
 #include "raster/check_rendered.h"
 #include "run/each_once.h"
-#include "trace/geometry.h"
-#include "trace/mean_light.h"
 
 namespace limpid {
 namespace {

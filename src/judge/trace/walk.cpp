@@ -1,4 +1,4 @@
-#include "trace/walk.h"
+#include "judge/trace/walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include "limpid/optics/absorption.h"
 #include "limpid/optics/fresnel.h"
 
-#include "trace/bend.h"
-#include "trace/directions.h"
+#include "judge/trace/bend.h"
+#include "judge/trace/directions.h"
 
 namespace limpid::trace {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
-#include "trace/caustics.h"
-#include "trace/chances.h"
-#include "trace/medium.h"
-#include "trace/samples.h"
-#include "trace/sky.h"
-#include "trace/solid.h"
-#include "trace/sun_way.h"
-#include "trace/surface.h"
+#include "judge/trace/caustics.h"
+#include "judge/trace/chances.h"
+#include "judge/trace/medium.h"
+#include "judge/trace/samples.h"
+#include "judge/trace/sky.h"
+#include "judge/trace/solid.h"
+#include "judge/trace/sun_way.h"
+#include "judge/trace/surface.h"
 
 namespace limpid::trace {
 

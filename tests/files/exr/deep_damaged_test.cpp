@@ -5,9 +5,9 @@
 
 #include <gmock/gmock.h>
 
-#include "limpid/load/deep.h"
+#include "limpid/files/exr/deep.h"
 
-#include "load/deep_files.h"
+#include "files/exr/deep_files.h"
 
 namespace limpid {
 namespace {

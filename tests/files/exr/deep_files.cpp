@@ -1,4 +1,4 @@
-#include "load/deep_files.h"
+#include "files/exr/deep_files.h"
 
 #include <memory>
 

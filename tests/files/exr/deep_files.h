@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "load/exr_files.h"
+#include "files/exr/exr_files.h"
 
 namespace limpid::exr_test {
 

@@ -1,11 +1,11 @@
-#include "limpid/load/deep.h"
+#include "limpid/files/exr/deep.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
 
-#include "load/deep_files.h"
+#include "files/exr/deep_files.h"
 
 namespace limpid {
 namespace {

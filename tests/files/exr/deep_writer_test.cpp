@@ -1,4 +1,4 @@
-#include "limpid/write/deep_writer.h"
+#include "limpid/files/exr/deep_writer.h"
 
 #include <cmath>
 #include <csignal>
@@ -17,7 +17,7 @@
 #include <sys/resource.h>
 
 #include "limpid/core/error.h"
-#include "limpid/load/deep.h"
+#include "limpid/files/exr/deep.h"
 
 namespace limpid {
 namespace {

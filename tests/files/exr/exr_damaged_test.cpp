@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "load/exr_files.h"
+#include "files/exr/exr_files.h"
 
 namespace limpid {
 namespace {

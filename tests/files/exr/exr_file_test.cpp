@@ -1,4 +1,4 @@
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 #include <bit>
 #include <random>
@@ -11,7 +11,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gmock/gmock.h>
 
-#include "load/exr_files.h"
+#include "files/exr/exr_files.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "load/exr_files.h"
+#include "files/exr/exr_files.h"
 
 #include <cstdint>
 

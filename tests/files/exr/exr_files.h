@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 /// Files for the tests of reading, made with OpenEXR itself.
 namespace limpid::exr_test {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "load/exr_files.h"
+#include "files/exr/exr_files.h"
 
 /// Files of other programs; what each shows is in its name and in tests/data/README.md.
 namespace limpid {

@@ -1,4 +1,4 @@
-#include "limpid/write/exr_writer.h"
+#include "limpid/files/exr/exr_writer.h"
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "limpid/core/error.h"
 
-#include "load/content_hash.h"
+#include "files/content_hash.h"
 
 namespace limpid {
 namespace {

@@ -5,7 +5,7 @@
 #include <Imath/half.h>
 #include <gtest/gtest.h>
 
-#include "load/half_bits.h"
+#include "files/exr/half_bits.h"
 
 namespace limpid {
 namespace {

@@ -4,11 +4,11 @@
 #include <OpenEXR/ImfOpaqueAttribute.h>
 #include <gmock/gmock.h>
 
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
-#include "load/exr_files.h"
-#include "load/part_files.h"
-#include "load/written.h"
+#include "files/exr/exr_files.h"
+#include "files/exr/part_files.h"
+#include "files/exr/written.h"
 
 /// Files whose channels lie in several parts.
 

@@ -1,4 +1,4 @@
-#include "load/part_files.h"
+#include "files/exr/part_files.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepFrameBuffer.h>

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "load/gltf_error.h"
-#include "load/gltf_files.h"
-#include "load/written.h"
+#include "files/exr/written.h"
+#include "files/gltf/gltf_error.h"
+#include "files/gltf/gltf_files.h"
 
 namespace limpid {
 namespace {

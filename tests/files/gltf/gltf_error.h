@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
-#include "load/written.h"
+#include "files/exr/written.h"
 
 namespace limpid::test {
 

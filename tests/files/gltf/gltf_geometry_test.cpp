@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
-#include "load/gltf_files.h"
-#include "load/written.h"
+#include "files/exr/written.h"
+#include "files/gltf/gltf_files.h"
 
 /// Vertices and triangles as files keep them otherwise than one by one: strips, fans, fractions,
 /// differences, poses.

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/gltf.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/picture/image_file.h"
 
-#include "load/gltf_error.h"
-#include "load/gltf_files.h"
-#include "load/written.h"
+#include "files/exr/written.h"
+#include "files/gltf/gltf_error.h"
+#include "files/gltf/gltf_files.h"
 
 /// Opacity, emission, wrapping, sets of uvs, vertex colors.
 

@@ -1,4 +1,4 @@
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
 #include <cmath>
 #include <limits>
@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
-#include "load/gltf_files.h"
-#include "load/written.h"
+#include "files/exr/written.h"
+#include "files/gltf/gltf_files.h"
 
 namespace limpid {
 namespace {

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
-#include "load/gltf_files.h"
-#include "load/written.h"
+#include "files/exr/written.h"
+#include "files/gltf/gltf_files.h"
 
 /// Files of which a part cannot be drawn: refused, or drawn without it.
 

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/gltf.h"
+#include "limpid/files/gltf/gltf.h"
 
-#include "load/gltf_files.h"
-#include "load/written.h"
+#include "files/exr/written.h"
+#include "files/gltf/gltf_files.h"
 
 /// What a model says of a file that it does not draw.
 

@@ -1,4 +1,4 @@
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
 #include <cmath>
 #include <csignal>

@@ -1,4 +1,4 @@
-#include "limpid/write/preview.h"
+#include "limpid/files/picture/preview.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
 namespace limpid {
 namespace {

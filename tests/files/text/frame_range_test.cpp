@@ -1,4 +1,4 @@
-#include "limpid/load/frame_range.h"
+#include "limpid/files/text/frame_range.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

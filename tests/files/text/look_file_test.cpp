@@ -1,4 +1,4 @@
-#include "limpid/load/look_file.h"
+#include "limpid/files/text/look_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "load/written.h"
+#include "files/exr/written.h"
 
 namespace limpid {
 namespace {

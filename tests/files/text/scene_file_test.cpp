@@ -1,4 +1,4 @@
-#include "limpid/load/scene_file.h"
+#include "limpid/files/text/scene_file.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "load/written.h"
+#include "files/exr/written.h"
 
 namespace limpid {
 namespace {

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/look_file.h"
-#include "limpid/load/scene_file.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/files/text/scene_file.h"
 
-#include "load/written.h"
+#include "files/exr/written.h"
 
 /// Texts that would take the parser, or whoever reads its sentences, too far.
 

@@ -7,12 +7,12 @@
 #include <memory>
 
 #include "limpid/core/error.h"
-#include "limpid/load/exr_file.h"
-#include "limpid/load/gltf.h"
-#include "limpid/load/image_file.h"
-#include "limpid/load/look_file.h"
-#include "limpid/sequence.h"
-#include "limpid/water.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/gltf/gltf.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/job/sequence.h"
+#include "limpid/job/water.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "limpid/compare/compare.h"
+#include "judge/compare/compare.h"
 
 #include <cmath>
 

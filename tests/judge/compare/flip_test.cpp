@@ -1,4 +1,4 @@
-#include "limpid/compare/flip.h"
+#include "judge/compare/flip.h"
 
 #include <cmath>
 #include <cstring>
@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 #include <opencv2/core/utility.hpp>
 
-#include "limpid/compare/compare.h"
 #include "limpid/core/error.h"
 
-#include "compare/metric_pictures.h"
-#include "compare/metrics_fixture.h"
+#include "judge/compare/compare.h"
+#include "judge/compare/metric_pictures.h"
+#include "judge/compare/metrics_fixture.h"
 
 namespace limpid {
 namespace {

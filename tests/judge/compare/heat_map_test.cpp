@@ -1,4 +1,4 @@
-#include "limpid/compare/heat_map.h"
+#include "judge/compare/heat_map.h"
 
 #include <cmath>
 #include <string>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/load/image_file.h"
+#include "limpid/files/picture/image_file.h"
 
 namespace limpid {
 namespace {

@@ -2,7 +2,7 @@
 #include <functional>
 #include <vector>
 
-#include "limpid/compare/color_pair.h"
+#include "judge/compare/color_pair.h"
 
 namespace limpid::test {
 

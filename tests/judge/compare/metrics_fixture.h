@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/compare/flip.h"
+#include "judge/compare/flip.h"
 
 /// Two made-up pictures and what tests/tools/metrics_numpy.py says of them.
 

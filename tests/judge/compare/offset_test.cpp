@@ -1,4 +1,4 @@
-#include "limpid/compare/offset.h"
+#include "judge/compare/offset.h"
 
 #include <cmath>
 #include <vector>

@@ -1,14 +1,14 @@
-#include "limpid/compare/ssim.h"
+#include "judge/compare/ssim.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "limpid/compare/compare.h"
 #include "limpid/core/error.h"
 
-#include "compare/metric_pictures.h"
-#include "compare/metrics_fixture.h"
+#include "judge/compare/compare.h"
+#include "judge/compare/metric_pictures.h"
+#include "judge/compare/metrics_fixture.h"
 
 namespace limpid {
 namespace {

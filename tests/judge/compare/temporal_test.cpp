@@ -1,4 +1,4 @@
-#include "limpid/compare/temporal.h"
+#include "judge/compare/temporal.h"
 
 #include <cmath>
 

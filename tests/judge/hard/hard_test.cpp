@@ -1,4 +1,4 @@
-#include "limpid/hard/hard.h"
+#include "judge/hard/hard.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "report/brought.h"
+#include "judge/report/brought.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpid/load/look_file.h"
-#include "limpid/load/texture.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/plate/texture.h"
 
-#include "report/finer_water.h"
-#include "report/measure.h"
+#include "judge/report/finer_water.h"
+#include "judge/report/measure.h"
 
 /// What one brings, where it is judged, and that each buffer is of use.
 

@@ -1,8 +1,8 @@
-#include "limpid/report/lagoon.h"
+#include "judge/report/lagoon.h"
 
 #include <gtest/gtest.h>
 
-#include "limpid/report/picture.h"
+#include "judge/report/picture.h"
 
 /// Water on the plate lagoon, by the fused runner, beside a path-traced picture of the same water.
 

@@ -6,10 +6,10 @@
 
 #include "limpid/core/error.h"
 
-#include "report/labels.h"
-#include "report/log_axis.h"
-#include "report/markup.h"
-#include "report/scatter.h"
+#include "judge/report/labels.h"
+#include "judge/report/log_axis.h"
+#include "judge/report/markup.h"
+#include "judge/report/scatter.h"
 
 namespace limpid {
 namespace {

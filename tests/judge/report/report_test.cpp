@@ -1,4 +1,4 @@
-#include "limpid/report/report.h"
+#include "judge/report/report.h"
 
 #include <cmath>
 #include <fstream>
@@ -11,12 +11,12 @@
 
 #include "limpid/core/error.h"
 
-#include "report/html_parts.h"
-#include "report/jpeg.h"
-#include "report/made_report.h"
-#include "report/page.h"
-#include "report/report_json.h"
-#include "report/rounds.h"
+#include "judge/report/html_parts.h"
+#include "judge/report/jpeg.h"
+#include "judge/report/made_report.h"
+#include "judge/report/page.h"
+#include "judge/report/report_json.h"
+#include "judge/report/rounds.h"
 
 namespace limpid {
 namespace {

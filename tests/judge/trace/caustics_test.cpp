@@ -2,7 +2,7 @@
 
 #include "limpid/core/error.h"
 
-#include "trace/trace_scenes.h"
+#include "judge/trace/trace_scenes.h"
 
 /// Sunlight that waves focus on the bottom.
 

@@ -2,8 +2,8 @@
 
 #include "limpid/raster/render_plate.h"
 
+#include "judge/trace/trace_scenes.h"
 #include "support.h"
-#include "trace/trace_scenes.h"
 
 /// The chain beside the truth, where what the chain leaves out does not matter.
 

@@ -1,4 +1,4 @@
-#include "limpid/trace/column.h"
+#include "judge/trace/column.h"
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "limpid/optics/water_index.h"
 
-#include "trace/trace_scenes.h"
+#include "judge/trace/trace_scenes.h"
 
 /// Calm water over a level floor, where everything has a closed form, worked out here by hand.
 

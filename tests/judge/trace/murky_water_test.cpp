@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "limpid/optics/fresnel.h"
-#include "limpid/trace/column.h"
 
+#include "judge/trace/column.h"
 #include "ops/tray.h"
 
 // depth_fog.model = radiative_transfer beside walks of light through the same water, over a level

@@ -2,7 +2,7 @@
 
 #include "limpid/raster/render_plate.h"
 
-#include "trace/trace_scenes.h"
+#include "judge/trace/trace_scenes.h"
 
 /// Masked and blended surfaces, vertex colors, emission: what the raster pass draws, by rays.
 

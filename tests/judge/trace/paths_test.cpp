@@ -2,9 +2,9 @@
 
 #include "limpid/core/error.h"
 #include "limpid/optics/fresnel.h"
-#include "limpid/trace/column.h"
 
-#include "trace/trace_scenes.h"
+#include "judge/trace/column.h"
+#include "judge/trace/trace_scenes.h"
 
 /// Light by random ways through a model: beside the column, which has closed forms for judges, and
 /// beside the closed forms of one scattering.

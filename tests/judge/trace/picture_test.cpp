@@ -7,7 +7,7 @@
 #include "limpid/core/error.h"
 #include "limpid/raster/render_plate.h"
 
-#include "trace/trace_scenes.h"
+#include "judge/trace/trace_scenes.h"
 
 /// Samples, threads, dry pixels, waves, and what is refused.
 

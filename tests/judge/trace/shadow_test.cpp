@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "trace/trace_scenes.h"
+#include "judge/trace/trace_scenes.h"
 
 /// The sun's shadow on the bottom, in the water and on the surface.
 

@@ -6,8 +6,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
-#include "limpid/trace/truth.h"
-
+#include "judge/trace/truth.h"
 #include "raster/raster_scenes.h"
 
 /// Small pools for the tests of the tracer.

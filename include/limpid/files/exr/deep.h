@@ -3,7 +3,7 @@
 
 #include "limpid/core/plane.h"
 #include "limpid/enter/sanitise.h"
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 namespace limpid {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "limpid/core/plane.h"
-#include "limpid/write/exr_heading.h"
+#include "limpid/files/exr/exr_heading.h"
 
 namespace limpid {
 

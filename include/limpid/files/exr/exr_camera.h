@@ -5,7 +5,7 @@
 #include <string>
 
 #include "limpid/core/camera.h"
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 /// @file
 /// Cameras as the standard attributes `worldToCamera` and `worldToNDC` of EXR files (OpenEXR
@@ -15,8 +15,8 @@
 namespace limpid {
 
 /// The camera that these attributes of a part describe, or nothing when one of them is absent. They
-/// do not say near and far: clip depth is GL with near 0.001 and infinite far. Throws Error when the
-/// two contradict each other.
+/// do not say near and far: clip depth is GL with near 0.001 and infinite far. Throws Error when
+/// the two contradict each other.
 std::optional<Camera> camera_of(const ExrFile& file, int part);
 
 /// The attributes, by name, from which camera_of() makes this camera again, but for near and far.

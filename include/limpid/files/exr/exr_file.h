@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "limpid/core/plane.h"
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 
 namespace limpid {
 

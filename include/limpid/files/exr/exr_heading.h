@@ -4,7 +4,7 @@
 #include <string>
 
 #include "limpid/core/rect.h"
-#include "limpid/load/exr_file.h"
+#include "limpid/files/exr/exr_file.h"
 
 namespace limpid {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "limpid/core/plane.h"
-#include "limpid/write/exr_heading.h"
+#include "limpid/files/exr/exr_heading.h"
 
 namespace limpid {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 #include "limpid/raster/model.h"
 
 namespace limpid {

@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/scene.h"
-#include "limpid/load/image_file.h"
-#include "limpid/load/texture.h"
-#include "limpid/write/exr_writer.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/files/picture/image_file.h"
+#include "limpid/plate/texture.h"
 
-#include "load/written.h"
+#include "files/exr/written.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "load/environment.h"
+#include "plate/environment.h"
 
 #include <algorithm>
 #include <cmath>

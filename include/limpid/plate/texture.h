@@ -7,7 +7,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 #include "limpid/core/texture_levels.h"
-#include "limpid/load/limits.h"
+#include "limpid/files/limits.h"
 
 namespace limpid {
 

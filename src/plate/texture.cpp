@@ -1,4 +1,4 @@
-#include "limpid/load/texture.h"
+#include "limpid/plate/texture.h"
 
 #include <array>
 #include <string>
@@ -6,8 +6,8 @@
 #include "limpid/core/error.h"
 #include "limpid/enter/sanitise.h"
 
-#include "load/environment.h"
-#include "load/plate_file.h"
+#include "plate/environment.h"
+#include "plate/plate_file.h"
 
 namespace limpid {
 namespace {
