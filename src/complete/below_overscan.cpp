@@ -28,7 +28,7 @@ Rect window_of(const Layer& layer) {
 
 }  // namespace
 
-void BelowOverscan::widen(Frame& frame, const Context& context, Executor& executor) {
+void BelowOverscan::widen(Frame& frame, const Pass& pass, Executor& executor) {
   const Layer dry = layer_of(frame, kDry), below = layer_of(frame, kBelow);
   const Rect wide = window_of(dry), own = window_of(below);
   if (own.contains(wide) || !wide.contains(own)) return;
@@ -39,11 +39,11 @@ void BelowOverscan::widen(Frame& frame, const Context& context, Executor& execut
     frame.planes[index_of(kBelow[i])] = to[i];
   }
   each_row(executor, wide, [&](int y) {
-    const RowHeights heights(context, y);
+    const RowHeights heights(pass, y);
     for (int x = wide.x0; x < wide.x1; ++x) {
       const bool is_own = own.contains({x, y, x + 1, y + 1});
       const float depth = dry[kDepth].at(x, y);
-      const bool wet = depth < 1e30f && heights.at(x, depth) * context.eye_above < 0;
+      const bool wet = depth < 1e30f && heights.at(x, depth) * pass.eye_above < 0;
       for (std::size_t i = 0; i < 4; ++i) {
         const float empty = i == kDepth ? std::numeric_limits<float>::infinity() : 0;
         to[i].at(x, y) = is_own ? below[i].at(x, y) : wet ? dry[i].at(x, y) : empty;

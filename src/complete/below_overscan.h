@@ -4,7 +4,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 namespace limpid {
 
@@ -15,7 +15,7 @@ class BelowOverscan {
  public:
   /// Replaces the frame's views, if color and depth go farther than the layer in any direction.
   /// What is kept is copied.
-  void widen(Frame& frame, const Context& context, Executor& executor);
+  void widen(Frame& frame, const Pass& pass, Executor& executor);
 
  private:
   std::array<Plane, 4> planes_;

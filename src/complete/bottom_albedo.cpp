@@ -26,7 +26,7 @@ Rect window_of(const Frame& frame) {
 }  // namespace
 
 /// A row of cells.
-void BottomAlbedo::gather(const Frame& frame, const Context& c, const Rgb<double>& sky, int row) {
+void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& sky, int row) {
   const Rect window = window_of(frame);
   const View<const float>& depth = frame.plane(PlaneId::kDepth);
   const View<const float>& shadow = frame.plane(PlaneId::kShadow);
@@ -126,13 +126,13 @@ void BottomAlbedo::draw_row(const Rect& window, int y) {
   }
 }
 
-void BottomAlbedo::make(const Frame& frame, const Context& context, const Rgb<double>& sky,
+void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>& sky,
                         Executor& executor) {
   const Rect window = window_of(frame);
   columns_ = (window.width() + kCell - 1) / kCell;
   rows_ = (window.height() + kCell - 1) / kCell;
   cells_.resize(static_cast<std::size_t>(columns_) * rows_);
-  each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, context, sky, row); });
+  each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, pass, sky, row); });
   spread(reach(), executor);
   for (Cell& cell : cells_) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -5,7 +5,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 namespace limpid {
 
@@ -17,7 +17,7 @@ class BottomAlbedo {
  public:
   /// Looks at color, depth and, where it is there, shadow. `sky`: radiance of an even sky. 0 where
   /// there is no bottom near, or no light; at most 1 else.
-  void make(const Frame& frame, const Context& context, const Rgb<double>& sky, Executor& executor);
+  void make(const Frame& frame, const Pass& pass, const Rgb<double>& sky, Executor& executor);
 
   const Plane& channel(int i) const { return planes_[static_cast<std::size_t>(i)]; }
 
@@ -29,7 +29,7 @@ class BottomAlbedo {
     std::array<float, 3> color{}, light{};
     float reach = 0, count = 0;
   };
-  void gather(const Frame& frame, const Context& context, const Rgb<double>& sky, int row);
+  void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);
   int reach() const;
   void spread(int reach, Executor& executor);
   void draw_row(const Rect& window, int y);

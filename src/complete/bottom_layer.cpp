@@ -68,18 +68,18 @@ constexpr auto kLess = [](float a, float b) { return a < b ? a : b; };
 
 /// A frame as cells.
 struct BottomLayerMaker::Scan {
-  const Context& c;
+  const Pass& c;
   std::array<View<const float>, 3> color;
   const View<const float>& depth;
   Rect window;
   int cell, step;
   Size cells;
 
-  Scan(const Frame& frame, const Context& context)
-      : c(context), depth(frame.plane(Refraction::planes_of(context).depth)) {
+  Scan(const Frame& frame, const Pass& pass)
+      : c(pass), depth(frame.plane(Refraction::planes_of(pass).depth)) {
     window = depth.window;
     for (int i = 0; i < 3; ++i) {
-      const PlaneId plane = plane_after(Refraction::planes_of(context).color, i);
+      const PlaneId plane = plane_after(Refraction::planes_of(pass).color, i);
       color[static_cast<std::size_t>(i)] = frame.plane(plane);
       window = intersection(window, frame.plane(plane).window);
     }
@@ -121,7 +121,7 @@ void BottomLayerMaker::each_near(Size size, int column, int row, Fn&& fn) const 
 
 /// What is highest in each cell.
 void BottomLayerMaker::survey(const Scan& scan, Executor& executor) {
-  const Context& c = scan.c;
+  const Pass& c = scan.c;
   const double pixels = glm::length(c.to_u) * c.size.x;  // of a length at w = 1
   cells_.resize(scan.index(0, scan.cells.height));
   each_row(executor, {0, 0, scan.cells.width, scan.cells.height}, [&](int row) {
@@ -243,11 +243,11 @@ float BottomLayerMaker::thinness_at(Size size, int column, int row) const {
   return 1 / (kThickness * standing * static_cast<float>(own.window) * own.width);
 }
 
-const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Context& context,
+const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
                                           Executor& executor) {
-  if (!(context.eye_above > 0) || context.submersible) return nullptr;
-  if (Refraction::planes_of(context).below) return nullptr;
-  const Scan scan(frame, context);
+  if (!(pass.eye_above > 0) || pass.submersible) return nullptr;
+  if (Refraction::planes_of(pass).below) return nullptr;
+  const Scan scan(frame, pass);
   survey(scan, executor);
   if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;
   const Rect window{0, 0, scan.cells.width, scan.cells.height};
@@ -275,9 +275,9 @@ const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Context& con
   layer_.colors.channels = {planes_[0].view(), planes_[1].view(), planes_[2].view()};
   layer_.shape.channels = {planes_[3].view(), planes_[3].view(), planes_[4].view()};
   // The cells go on beyond the window where its size is no multiple of theirs.
-  const glm::dvec2 picture(context.size),
+  const glm::dvec2 picture(pass.size),
       covered(scan.cell * window.width(), scan.cell * window.height());
-  const glm::dvec2 corner(scan.window.x0 - context.corner.x, scan.window.y0 - context.corner.y);
+  const glm::dvec2 corner(scan.window.x0 - pass.corner.x, scan.window.y0 - pass.corner.y);
   layer_.scale = picture / covered;
   layer_.offset = -corner / covered;
   return &layer_;

@@ -6,7 +6,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 #include "limpid/op/bottom_layer.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 #include "complete/pull_push.h"
 
@@ -24,7 +24,7 @@ class BottomLayerMaker {
   /// Null where nothing stands before a bottom, no bottom is seen, the eye is in the water, or the
   /// frame brings a layer of what lies below.
   /// Valid until the next call. The same for any number of threads.
-  const BottomLayer* make(const Frame& frame, const Context& context, Executor& executor);
+  const BottomLayer* make(const Frame& frame, const Pass& pass, Executor& executor);
 
  private:
   struct Cell {

@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "limpid/op/pixel_start.h"
 #include "limpid/ops/look.h"
 
 #include "complete/row_heights.h"
@@ -33,17 +34,17 @@ int step_for(const Rect& window, int samples) {
 }
 
 /// Points of the picture's rays, relative to the eye.
-glm::dvec3 point_at(const Context& c, double x, double y, double depth) {
+glm::dvec3 point_at(const Pass& c, double x, double y, double depth) {
   const double column = x + 0.5 - c.corner.x, row = y + 0.5 - c.corner.y;
   return c.rays.origin_at(column, row) + depth * c.rays.ray_at(column, row);
 }
 
-Rect looked_up(const Frame& frame, const Context& context) {
-  const Refraction::Planes planes = Refraction::planes_of(context);
+Rect looked_up(const Frame& frame, const Pass& pass) {
+  const Refraction::Planes planes = Refraction::planes_of(pass);
   return intersection(frame.plane(planes.color).window, frame.plane(planes.depth).window);
 }
 
-void gather_samples(const Frame& frame, const Context& c, std::vector<Sample>& samples) {
+void gather_samples(const Frame& frame, const Pass& c, std::vector<Sample>& samples) {
   const View<const float>& depth = frame.plane(Refraction::planes_of(c).depth);
   const Rect window = looked_up(frame, c);
   const int step = step_for(window, kSamples);
@@ -132,7 +133,7 @@ Plane3 best_plane(const std::vector<Sample>& samples, double drop, double eye_ab
 }
 
 /// Of the water: the calm one where the frame has none.
-Vec3<double> normal_at(const Frame& frame, const Context& c, int x, int y) {
+Vec3<double> normal_at(const Frame& frame, const Pass& c, int x, int y) {
   if (!c.planes.covers(kSurfaceNormalPlanes)) return vec3_of<double>(c.up);
   const auto part = [&](int i) -> double {
     return frame.plane(plane_after(PlaneId::kSurfaceNormalX, i)).at(x, y);
@@ -141,7 +142,7 @@ Vec3<double> normal_at(const Frame& frame, const Context& c, int x, int y) {
 }
 
 /// Whether, and where, the water of a pixel makes one look at the bottom: in pixels.
-std::optional<glm::dvec2> looks_at(const BottomPlane& bottom, const Frame& frame, const Context& c,
+std::optional<glm::dvec2> looks_at(const BottomPlane& bottom, const Frame& frame, const Pass& c,
                                    int x, int y) {
   const RowRays<double> rays(c, y - c.corner.y + 0.5);
   const double column = x - c.corner.x + 0.5, calm = rays.calm_depth(column);
@@ -165,13 +166,13 @@ constexpr double kRounding = 1e-3;
 
 }  // namespace
 
-double BottomPlane::depth_on(const Context& c, double x, double y) const {
+double BottomPlane::depth_on(const Pass& c, double x, double y) const {
   const double column = x + 0.5 - c.corner.x, row = y + 0.5 - c.corner.y;
   return (offset - glm::dot(normal, c.rays.origin_at(column, row))) /
          glm::dot(normal, c.rays.ray_at(column, row));
 }
 
-std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& c,
+std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& c,
                                       std::vector<Sample>& samples) {
   if (!(c.eye_above > 0)) return {};
   gather_samples(frame, c, samples);
@@ -185,7 +186,7 @@ std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& c,
   return BottomPlane{normal, plane.z / length, drop, shallow, slack};
 }
 
-Beyond sides_beyond(const BottomPlane& bottom, const Frame& frame, const Context& c, int step) {
+Beyond sides_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& c, int step) {
   const Rect work = frame.work(), there = looked_up(frame, c);
   const Rect& d = frame.display;
   Beyond beyond;
@@ -209,7 +210,7 @@ Beyond sides_beyond(const BottomPlane& bottom, const Frame& frame, const Context
   return beyond;
 }
 
-Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Context& c) {
+Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& c) {
   Beyond beyond = sides_beyond(bottom, frame, c, 1);
   if (!beyond.any()) return beyond;
   const Rect work = frame.work(), there = looked_up(frame, c);

@@ -7,7 +7,7 @@
 
 #include "limpid/complete/beyond.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 namespace limpid {
 
@@ -20,12 +20,12 @@ struct BottomPlane {
   double slack;       ///< what lies nearer to it than this is of the bottom, in scene units
 
   /// The depth at which a pixel's ray meets it; no finite one, or below 0, where it does not.
-  double depth_on(const Context& context, double x, double y) const;
+  double depth_on(const Pass& pass, double x, double y) const;
 };
 
 /// A texel of the bottom.
 struct BottomSample {
-  glm::dvec3 at;  ///< relative to the eye, along t, b and up of Context
+  glm::dvec3 at;  ///< relative to the eye, along t, b and up of Pass
   double drop;    ///< below the calm surface
   double weight;  ///< more near the edge of the picture
 };
@@ -36,15 +36,15 @@ struct BottomSample {
 /// Looks at a few thousand texels of what refraction looks up. Nothing where hardly any lies under
 /// the water, and where the eye is not over the calm level. `room` is memory from one frame to the
 /// next.
-std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context,
+std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& pass,
                                       std::vector<BottomSample>& room);
-inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Context& context) {
+inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& pass) {
   std::vector<BottomSample> room;
-  return fit_bottom(frame, context, room);
+  return fit_bottom(frame, pass, room);
 }
 
 /// From where rays meet the bottom: for the sides those of each wet pixel at an edge, for the share
 /// those of a few thousand wet pixels.
-Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Context& context);
+Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& pass);
 
 }  // namespace limpid

@@ -6,12 +6,12 @@
 
 namespace limpid {
 
-Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& context,
+Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass,
                           Executor& executor, const std::string* simd) {
   Frame whole = frame;
-  if (context.off_centre != glm::dvec2(0, 0)) part_depths_.move(whole, context, executor);
+  if (pass.off_centre != glm::dvec2(0, 0)) part_depths_.move(whole, pass, executor);
   if (plan.planes.covers(kBelowPlanes) && frame.present().covers(kBelowPlanes)) {
-    below_overscan_.widen(whole, context, executor);
+    below_overscan_.widen(whole, pass, executor);
   }
   // What a completer is to make of a plane that is there is a mended one.
   const auto made_by = [&](std::string_view name) {
@@ -25,30 +25,30 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Context& c
     if (made.has(plane)) whole.planes[index_of(plane)] = with.view();
   };
   if (const PlaneSet made = made_by("displaced_surface"); !made.empty()) {
-    displaced_surface_.make(whole, context, executor, simd);
+    displaced_surface_.make(whole, pass, executor, simd);
     take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth());
   }
-  if (plan.look.water.edges == Water::Edges::kMixed) edges_.make(whole, context, executor);
+  if (plan.look.water.edges == Water::Edges::kMixed) edges_.make(whole, pass, executor);
   if (const PlaneSet made = made_by("mirror_depth"); !made.empty()) {
-    mirror_depth_.make(whole, context, executor);
+    mirror_depth_.make(whole, pass, executor);
     take(made, PlaneId::kReflectionDepth, mirror_depth_.depth());
     take(made, PlaneId::kReflectionValid, mirror_depth_.valid());
   }
   if (const PlaneSet made = made_by("sky"); !made.empty() && sky_.make(whole, executor)) {
     for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i));
   }
-  complete_waves(plan, context, executor, whole);
-  complete_water(plan, made_by("bottom_albedo"), context, executor, whole);
+  complete_waves(plan, pass, executor, whole);
+  complete_water(plan, made_by("bottom_albedo"), pass, executor, whole);
   const Refraction::Params& refraction = plan.look.of<Refraction>();
   if (!plan.made.has(StatePart::kPosition)) return whole;
-  if (refraction.goes_on()) whole.continuation = continuation_maker_.make(whole, context);
+  if (refraction.goes_on()) whole.continuation = continuation_maker_.make(whole, pass);
   if (refraction.looks_behind()) {
-    whole.bottom_layer = bottom_layer_.make(whole, context, executor);
+    whole.bottom_layer = bottom_layer_.make(whole, pass, executor);
   }
   return whole;
 }
 
-void Completer::complete_waves(const Plan& plan, const Context& context, Executor& executor,
+void Completer::complete_waves(const Plan& plan, const Pass& pass, Executor& executor,
                                Frame& frame) {
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
   const bool windy = WaveNormals::needs_wave_variance(waves);
@@ -59,24 +59,23 @@ void Completer::complete_waves(const Plan& plan, const Context& context, Executo
     frame.wave_map.levels = &level_maker_.levels();
   }
   if (windy) {
-    frame.wave_variance = WaveNormals::wave_variance(waves, *frame.wave_map.levels, context.time);
+    frame.wave_variance = WaveNormals::wave_variance(waves, *frame.wave_map.levels, pass.time);
   }
   if (!WaveNormals::needs_slope_map(waves)) return;
-  slope_map_.make(*frame.wave_map.levels, WaveNormals::four_shifts(waves, context.time), executor);
+  slope_map_.make(*frame.wave_map.levels, WaveNormals::four_shifts(waves, pass.time), executor);
   frame.wave_slopes = &slope_map_.levels();
 }
 
-void Completer::complete_water(const Plan& plan, PlaneSet made, const Context& context,
+void Completer::complete_water(const Plan& plan, PlaneSet made, const Pass& pass,
                                Executor& executor, Frame& frame) {
   const DepthFog::Params& water = plan.look.of<DepthFog>();
   if (!DepthFog::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter)) return;
-  frame.scattered_light = scattered_light_.make(DepthFog::scattering_water(water, context)).data();
+  frame.scattered_light = scattered_light_.make(DepthFog::scattering_water(water, pass)).data();
   if (plan.reads_environment && frame.environment)
     frame.sky_radiance = sky_radiance(frame.environment);
   if (made.empty()) return;
-  const Rgb<double> sky =
-      frame.sky_radiance.value_or(context.has_sky ? context.sky : water.ambient);
-  bottom_albedo_.make(frame, context, sky, executor);
+  const Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
+  bottom_albedo_.make(frame, pass, sky, executor);
   for (int i = 0; i < 3; ++i) {
     const PlaneId plane = plane_after(PlaneId::kAlbedoR, i);
     if (made.has(plane)) frame.planes[index_of(plane)] = bottom_albedo_.channel(i).view();

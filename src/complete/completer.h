@@ -4,7 +4,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/texture_levels.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/plan/plan.h"
 
 #include "complete/below_overscan.h"
@@ -35,12 +35,12 @@ class Completer {
   /// The frame with what was made; its views hold until the next call. `context` is that of the
   /// frame as it is. A plane whose inputs the frame lacks is not made. Nothing but views is copied.
   /// `simd` as in FusedOptions; without it formulas run in double.
-  Frame complete(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+  Frame complete(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                  const std::string* simd = nullptr);
 
  private:
-  void complete_waves(const Plan& plan, const Context& context, Executor& executor, Frame& frame);
-  void complete_water(const Plan& plan, PlaneSet made, const Context& context, Executor& executor,
+  void complete_waves(const Plan& plan, const Pass& pass, Executor& executor, Frame& frame);
+  void complete_water(const Plan& plan, PlaneSet made, const Pass& pass, Executor& executor,
                       Frame& frame);
 
   BelowOverscan below_overscan_;

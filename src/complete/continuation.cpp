@@ -39,14 +39,14 @@ float luminance(const Rgb<float>& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.
 
 /// What refraction looks up, in the places at which it is the bottom.
 struct Bottom {
-  const Context& c;
+  const Pass& c;
   std::array<View<const float>, 3> color;
   const View<const float>& depth;
   Rect window;
 
-  Bottom(const Frame& frame, const Context& context)
-      : c(context), depth(frame.plane(Refraction::planes_of(context).depth)) {
-    const PlaneId red = Refraction::planes_of(context).color;
+  Bottom(const Frame& frame, const Pass& pass)
+      : c(pass), depth(frame.plane(Refraction::planes_of(pass).depth)) {
+    const PlaneId red = Refraction::planes_of(pass).color;
     window = depth.window;
     for (int i = 0; i < 3; ++i) {
       const View<const float>& channel = frame.plane(plane_after(red, i));
@@ -76,7 +76,7 @@ struct Bottom {
   }
 };
 
-/// Relative change of brightness a scene unit along Context::t and ::b, around a texel of the
+/// Relative change of brightness a scene unit along Pass::t and ::b, around a texel of the
 /// bottom; nothing at its end. Both over the same length, that of the longer side of the texel, for
 /// texels seen at a grazing angle blur what lies along the view.
 std::optional<glm::dvec2> slope_at(const Bottom& bottom, const BottomPlane& plane, int x, int y) {
@@ -125,7 +125,7 @@ void gather_slopes(const Bottom& bottom, const BottomPlane& plane, const Beyond&
   }
 }
 
-/// The direction in which a bottom changes least, along Context::t and ::b, and by how much less
+/// The direction in which a bottom changes least, along Pass::t and ::b, and by how much less
 /// than across it: 0 ... 1.
 struct Lines {
   glm::dvec2 direction;
@@ -223,8 +223,8 @@ void close_gaps(std::array<View<float>, 3> colors, const std::array<bool, kColor
 
 }  // namespace
 
-void ContinuationMaker::paint_edge(const Frame& frame, const Context& context) {
-  const Bottom bottom(frame, context);
+void ContinuationMaker::paint_edge(const Frame& frame, const Pass& pass) {
+  const Bottom bottom(frame, pass);
   std::array<View<float>, 3> to;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!colors_[i]) colors_[i] = Plane({0, 0, kColors, 1});
@@ -243,7 +243,7 @@ void ContinuationMaker::paint_edge(const Frame& frame, const Context& context) {
   close_gaps(to, known);
 }
 
-const Continuation* ContinuationMaker::make(const Frame& frame, const Context& c) {
+const Continuation* ContinuationMaker::make(const Frame& frame, const Pass& c) {
   const auto plane = fit_bottom(frame, c, samples_);
   if (!plane) return nullptr;
   const Beyond beyond = sides_beyond(*plane, frame, c, kEdgeStep);

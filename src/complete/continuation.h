@@ -3,8 +3,8 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/context.h"
 #include "limpid/op/continuation.h"
+#include "limpid/op/pass.h"
 
 #include "complete/bottom_plane.h"
 
@@ -16,10 +16,10 @@ class ContinuationMaker {
  public:
   /// Null, for which nothing but the plane of the bottom was looked for, where no ray of the
   /// water leaves the picture. Valid until the next call.
-  const Continuation* make(const Frame& frame, const Context& context);
+  const Continuation* make(const Frame& frame, const Pass& pass);
 
  private:
-  void paint_edge(const Frame& frame, const Context& context);
+  void paint_edge(const Frame& frame, const Pass& pass);
 
   Continuation continuation_;
   Plane colors_[3];

@@ -20,7 +20,7 @@ constexpr const SurfaceTarget* kTargets[] = {
 #undef LIMPID_TARGET
 };
 
-void exact_row(const Context& c, const RaisedWater<double>& water, int y,
+void exact_row(const WaterView& c, const RaisedWater<double>& water, int y,
                const View<float>& depth) {
   const RowRays<double> rays(c, y - c.corner.y + 0.5);
   for (int x = depth.window.x0; x < depth.window.x1; ++x) {
@@ -33,19 +33,19 @@ void exact_row(const Context& c, const RaisedWater<double>& water, int y,
 
 const SurfaceTarget& surface_target(const std::string& simd) { return *kTargets[simd_index(simd)]; }
 
-void DisplacedSurface::make(const Frame& frame, const Context& context, Executor& executor,
+void DisplacedSurface::make(const Frame& frame, const WaterView& view, Executor& executor,
                             const std::string* simd) {
   const Rect window = frame.plane(PlaneId::kDepth).window;
   if (!depth_ || depth_.view().window != window) depth_ = Plane(window);
   const View<float> to = depth_.view();
   if (!simd) {
-    exact_water_.make(context);
-    each_row(executor, window, [&](int y) { exact_row(context, exact_water_, y, to); });
+    exact_water_.make(view);
+    each_row(executor, window, [&](int y) { exact_row(view, exact_water_, y, to); });
     return;
   }
   const SurfaceTarget& target = surface_target(*simd);
-  water_.make(context);
-  each_row(executor, window, [&](int y) { target.row(context, water_, y, to); });
+  water_.make(view);
+  each_row(executor, window, [&](int y) { target.row(view, water_, y, to); });
 }
 
 }  // namespace limpid

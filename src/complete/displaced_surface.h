@@ -4,13 +4,13 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 #include "limpid/op/raised_water.h"
 
 namespace limpid {
 
 /// The depth of water that sine waves raise and lower: for each pixel the first point at which its
-/// ray meets the surface z = sum of the sines of Context::waves.
+/// ray meets the surface z = sum of the sines of WaterView::waves.
 ///
 /// Made for waves that are known as such, of the scene or of the look. Water from tiling maps or
 /// from the frame's own normals stays flat: those say how the surface leans, and what a map adds up
@@ -18,8 +18,7 @@ namespace limpid {
 class DisplacedSurface {
  public:
   /// Looks at the window of the dry depth. `simd` as in FusedOptions; without it in double.
-  void make(const Frame& frame, const Context& context, Executor& executor,
-            const std::string* simd);
+  void make(const Frame& frame, const WaterView& view, Executor& executor, const std::string* simd);
 
   const Plane& depth() const { return depth_; }  ///< eye depth, +inf where no water is met
 

@@ -18,7 +18,7 @@ void EdgePicture::sides(int y, int x0, int x1, std::uint8_t* to) const {
     for (int x = x0; x < x1; ++x, dry += step) *to++ = side_of(surface.at(x, y) < *dry, *dry);
     return;
   }
-  const RowHeights heights(context, y);
+  const RowHeights heights(pass, y);
   const float sign = heights.over + x0 * heights.over_step > 0 ? -1.0f : 1.0f;
   const auto over = static_cast<float>(std::abs(heights.over + x0 * heights.over_step));
   const float over_step = -sign * static_cast<float>(heights.over_step);

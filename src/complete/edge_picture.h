@@ -4,7 +4,7 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/vec.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 #include "complete/row_heights.h"
 
@@ -19,13 +19,13 @@ enum class Side : std::uint8_t {
 
 /// The planes of a frame that its edges are looked for in.
 struct EdgePicture {
-  const Context& context;
+  const Pass& pass;
   std::array<View<const float>, 3> color;
   View<const float> alpha, depth, surface;  ///< of which the first and the last may be absent
   Rect window;                              ///< where all of them are
 
-  EdgePicture(const Frame& frame, const Context& c)
-      : context(c),
+  EdgePicture(const Frame& frame, const Pass& c)
+      : pass(c),
         color{frame.plane(PlaneId::kColorR), frame.plane(PlaneId::kColorG),
               frame.plane(PlaneId::kColorB)},
         alpha(frame.plane(PlaneId::kColorA)),
@@ -73,10 +73,7 @@ struct EdgePicture {
   class Water {
    public:
     Water(const EdgePicture& picture, int y)
-        : picture_(picture),
-          y_(y),
-          heights_(picture.context, y),
-          sign_(heights_.over > 0 ? -1 : 1) {}
+        : picture_(picture), y_(y), heights_(picture.pass, y), sign_(heights_.over > 0 ? -1 : 1) {}
     double inverse_depth(int x) const {
       if (picture_.surface) return 1.0 / picture_.surface.at(x, y_);
       const double over = std::abs(heights_.over + x * heights_.over_step);

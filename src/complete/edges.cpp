@@ -108,7 +108,7 @@ struct Edges::State {
     planes[3].view().at(x, y) = static_cast<float>(1 / inverse_depth);
   }
 
-  void take_deep(Frame& frame, const Context& context, Executor& executor);
+  void take_deep(Frame& frame, const Pass& pass, Executor& executor);
   bool find_bands(const EdgePicture& picture, Executor& executor);
   EdgeBlur::Growth growth_around(std::size_t down, int tile, const Rect& tiles) const;
   void paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung);
@@ -127,11 +127,11 @@ struct Edges::State {
 };
 
 /// What is behind is the layer below.
-void Edges::State::take_deep(Frame& frame, const Context& context, Executor& executor) {
+void Edges::State::take_deep(Frame& frame, const Pass& pass, Executor& executor) {
   if (!frame.present().covers(kBelowPlanes)) return;
   const std::array<View<const float>, 4> before = frame.before_water;
   const Frame given = frame;
-  const EdgePicture picture(frame, context);
+  const EdgePicture picture(frame, pass);
   Rect window = intersection(picture.window, before[3].window);
   for (int i = 0; i < 4; ++i) {
     window = intersection(window, frame.plane(plane_after(PlaneId::kBelowR, i)).window);
@@ -333,11 +333,11 @@ Edges::~Edges() = default;
 Edges::Edges(Edges&&) noexcept = default;
 Edges& Edges::operator=(Edges&&) noexcept = default;
 
-void Edges::make(Frame& frame, const Context& context, Executor& executor) {
-  if (context.submersible) return;
+void Edges::make(Frame& frame, const Pass& pass, Executor& executor) {
+  if (pass.submersible) return;
   State& s = *state_;
-  if (frame.before_water[3]) return s.take_deep(frame, context, executor);
-  const EdgePicture picture(frame, context);
+  if (frame.before_water[3]) return s.take_deep(frame, pass, executor);
+  const EdgePicture picture(frame, pass);
   if (picture.window.empty() || !s.find_bands(picture, executor)) return;
   static_assert(EdgeBlur::kLadder[EdgeBlur::kWidths - 1] == kFarthest);
   s.clear_cover(picture.window);

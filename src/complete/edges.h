@@ -3,7 +3,7 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 namespace limpid {
 
@@ -34,7 +34,7 @@ class Edges {
 
   /// Puts planes of its own in place of color and depth and sets Frame::edges, where there are such
   /// pixels; these hold until the next call. `context` is that of the frame. Keeps its memory.
-  void make(Frame& frame, const Context& context, Executor& executor);
+  void make(Frame& frame, const Pass& pass, Executor& executor);
 
  private:
   struct State;

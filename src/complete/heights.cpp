@@ -77,7 +77,7 @@ void stack_levels(const Rect& window, std::vector<Cell>& cells, BlockPyramid<Cel
 }
 
 /// Of a march, in which products may cancel: a few roundings of each.
-HeightError march_error(const Context& c) {
+HeightError march_error(const Pass& c) {
   const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
     const glm::dvec3 size =
         glm::abs(at) + 4.0 * c.size.x * glm::abs(dx) + 4.0 * c.size.y * glm::abs(dy);
@@ -90,12 +90,12 @@ HeightError march_error(const Context& c) {
 }
 
 /// 0 where lookups are not those that SeenHeights::covers speaks of.
-double share_of_way(const Plan& plan, const Frame& frame, const Context& context) {
+double share_of_way(const Plan& plan, const Frame& frame, const Pass& pass) {
   const Refraction::Params& params = plan.look.of<Refraction>();
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   const bool kept_in_frame = params.off_frame == Refraction::OffFrame::kShorten ||
                              params.off_frame == Refraction::OffFrame::kContinue;
-  const PlaneId seen = Refraction::planes_of(context).depth;
+  const PlaneId seen = Refraction::planes_of(pass).depth;
   const bool same_window = !surface || surface.window == frame.plane(seen).window;
   const bool known =
       params.rejection == Refraction::Rejection::kShorten && kept_in_frame && same_window;
@@ -103,23 +103,23 @@ double share_of_way(const Plan& plan, const Frame& frame, const Context& context
 }
 
 /// Whether all water that reaches up to `most` is seen from above: what stands higher is nearer.
-bool seen_from_above(const Context& context, float most) {
-  const bool parallel = context.w_depth == 0;
-  return parallel ? glm::dot(context.up, context.rays.ray) < 0 : context.eye_above > most;
+bool seen_from_above(const Pass& pass, float most) {
+  const bool parallel = pass.w_depth == 0;
+  return parallel ? glm::dot(pass.up, pass.rays.ray) < 0 : pass.eye_above > most;
 }
 
 }  // namespace
 
-void Heights::make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+void Heights::make(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                    const std::string& simd) {
   bound_ = {};
   mirrored_ = lit_ = {};
   const ScanTarget& target = scan_target(simd);
   if (plan.made.has(StatePart::kPosition) && plan.look.of<Refraction>().marches() &&
-      !context.submersible) {
-    look_below(plan, frame, context, executor, target);
+      !pass.submersible) {
+    look_below(plan, frame, pass, executor, target);
   }
-  look_at_mirrored(plan, frame, context, executor, target);
+  look_at_mirrored(plan, frame, pass, executor, target);
   const View<const float>& shadow = frame.plane(PlaneId::kSurfaceShadow);
   if (!shadow || !WaterShadow::probes(plan.look.of<WaterShadow>(), plan.made)) return;
   look_at(shadow.window, executor, shadows_, [&](const Rect& pixels, Blocks blocks, auto* to) {
@@ -129,39 +129,39 @@ void Heights::make(const Plan& plan, const Frame& frame, const Context& context,
   lit_.plane = PlaneId::kSurfaceShadow;
 }
 
-void Heights::look_at_mirrored(const Plan& plan, const Frame& frame, const Context& context,
+void Heights::look_at_mirrored(const Plan& plan, const Frame& frame, const Pass& pass,
                                Executor& executor, const ScanTarget& target) {
   const std::optional<PlaneId> plane =
-      FresnelReflection::marched(plan.look.of<FresnelReflection>(), context);
+      FresnelReflection::marched(plan.look.of<FresnelReflection>(), pass);
   if (!plan.made.has(StatePart::kReflected) || !plane) return;
   const View<const float>& depth = frame.plane(*plane);
-  const HeightError error = march_error(context);
+  const HeightError error = march_error(pass);
   look_at(depth.window, executor, depths_, [&](const Rect& pixels, Blocks blocks, auto* to) {
-    target.seen_depths(context, error, depth, *plane == PlaneId::kDepth, pixels, blocks, to);
+    target.seen_depths(pass, error, depth, *plane == PlaneId::kDepth, pixels, blocks, to);
   });
   stack_levels(depth.window, depths_, mirrored_);
   mirrored_.plane = *plane;
 }
 
-void Heights::look_below(const Plan& plan, const Frame& frame, const Context& context,
-                         Executor& executor, const ScanTarget& target) {
-  const SeenPlanes planes = Refraction::planes_of(context);
+void Heights::look_below(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
+                         const ScanTarget& target) {
+  const SeenPlanes planes = Refraction::planes_of(pass);
   const View<const float>& depth = frame.plane(planes.depth);
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
-  const HeightError error = march_error(context);
+  const HeightError error = march_error(pass);
   if (surface) {
     look_at(surface.window, executor, water_, [&](const Rect& pixels, Blocks blocks, float* to) {
-      target.highest_water(context, surface, pixels, blocks, to);
+      target.highest_water(pass, surface, pixels, blocks, to);
     });
     const std::size_t count = count_of(blocks_of(surface.window));
     bound_.most = *std::max_element(water_.data(), water_.data() + count);
   }
   // Where no water is drawn the calm level stands for it.
   bound_.most = std::max(bound_.most, 0.0f) + error.over;
-  if (!seen_from_above(context, bound_.most)) return;
-  const SeenFrom from{error, bound_.most, share_of_way(plan, frame, context), planes.below};
+  if (!seen_from_above(pass, bound_.most)) return;
+  const SeenFrom from{error, bound_.most, share_of_way(plan, frame, pass), planes.below};
   look_at(depth.window, executor, heights_, [&](const Rect& pixels, Blocks blocks, auto* to) {
-    target.seen_heights(context, from, depth, surface, pixels, blocks, to);
+    target.seen_heights(pass, from, depth, surface, pixels, blocks, to);
   });
   stack_levels(depth.window, heights_, bound_);
 }

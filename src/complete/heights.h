@@ -4,7 +4,7 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/plan/plan.h"
 
 namespace limpid {
@@ -20,11 +20,11 @@ struct ScanTarget;
 /// where a layer below is empty.
 class Heights {
  public:
-  /// Looks at a frame that has been checked (the runners do that), with the Context that the plan
+  /// Looks at a frame that has been checked (the runners do that), with the Pass that the plan
   /// runs with. `simd` as in FusedOptions. No heights are known then where the plan does not march,
   /// or where water may be seen from below; no ranges are where no operator marches over the plane
   /// or looks it up. Makes no allocation after the first frame of a size.
-  void make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+  void make(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
             const std::string& simd = {});
 
   /// Of the last make(), until the next one.
@@ -33,9 +33,9 @@ class Heights {
   const RangeBound& lit() const { return lit_; }
 
  private:
-  void look_at_mirrored(const Plan& plan, const Frame& frame, const Context& context,
-                        Executor& executor, const ScanTarget& target);
-  void look_below(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+  void look_at_mirrored(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
+                        const ScanTarget& target);
+  void look_below(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                   const ScanTarget& target);
 
   // Of all levels.

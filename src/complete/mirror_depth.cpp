@@ -30,7 +30,7 @@ void keep_nearest(float& at, float depth) {
 
 /// From a point to its mirror image the way is straight down, which crosses the screen as a
 /// ScreenRay does.
-void scatter_row(const Context& c, const View<const float>& dry, int y, const View<float>& to) {
+void scatter_row(const WaterView& c, const View<const float>& dry, int y, const View<float>& to) {
   const double down_depth = -glm::dot(c.forward, c.up), w_step = c.w_depth * down_depth;
   const double down_u = -glm::dot(c.to_u, c.up), down_v = -glm::dot(c.to_v, c.up);
   const double v = (y - c.corner.y + 0.5) / c.size.y;
@@ -94,7 +94,7 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
 /// the mirror saw into it, whatever else would be seen through it.
 constexpr float kFoot = 0.15f;
 
-void tell_real(const Context& c, const View<const float>& dry, const View<const float>& given,
+void tell_real(const WaterView& c, const View<const float>& dry, const View<const float>& given,
                const View<float>& image, int y, const View<float>& to) {
   const int at_y = std::clamp(y, dry.window.y0, dry.window.y1 - 1);
   const RowHeights heights(c, at_y);
@@ -114,7 +114,7 @@ void tell_real(const Context& c, const View<const float>& dry, const View<const 
 
 }  // namespace
 
-void MirrorDepth::make(const Frame& frame, const Context& context, Executor& executor) {
+void MirrorDepth::make(const Frame& frame, const WaterView& view, Executor& executor) {
   const View<const float>& dry = frame.plane(PlaneId::kDepth);
   Rect window = frame.plane(PlaneId::kReflectionR).window;
   for (const PlaneId plane : {PlaneId::kReflectionDepth, PlaneId::kReflectionValid}) {
@@ -129,13 +129,13 @@ void MirrorDepth::make(const Frame& frame, const Context& context, Executor& exe
              [&](int y) { std::copy_n(&given.at(window.x0, y), window.width(), depth.row(y)); });
   } else {
     each_row(executor, window, [&](int y) { std::fill_n(depth.row(y), window.width(), kNothing); });
-    each_row(executor, dry.window, [&](int y) { scatter_row(context, dry, y, depth); });
+    each_row(executor, dry.window, [&](int y) { scatter_row(view, dry, y, depth); });
     // The other plane is room for the depths until it is made.
     each_row(executor, window, [&](int y) { close_holes(depth, y, valid); });
     each_row(executor, window, [&](int y) { close_holes(valid, y, depth); });
   }
   const View<const float>& given = frame.plane(PlaneId::kReflectionValid);
-  each_row(executor, window, [&](int y) { tell_real(context, dry, given, depth, y, valid); });
+  each_row(executor, window, [&](int y) { tell_real(view, dry, given, depth, y, valid); });
 }
 
 }  // namespace limpid

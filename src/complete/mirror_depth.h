@@ -2,7 +2,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 
 namespace limpid {
 
@@ -23,7 +23,7 @@ class MirrorDepth {
  public:
   /// Looks at depth, at the window of the reflection, and at reflection_depth and reflection_valid
   /// where they are there.
-  void make(const Frame& frame, const Context& context, Executor& executor);
+  void make(const Frame& frame, const WaterView& view, Executor& executor);
 
   const Plane& depth() const { return depth_; }  ///< eye depth, +inf where nothing is known
   const Plane& valid() const { return valid_; }  ///< 1 or 0

@@ -9,7 +9,7 @@
 namespace limpid {
 namespace {
 
-void move_row(const Context& c, const View<const float>& from, int y, const View<float>& to,
+void move_row(const WaterView& c, const View<const float>& from, int y, const View<float>& to,
               bool may_be_dry) {
   const RowHeights centre(c, y, -c.off_centre), part(c, y);
   for (int x = from.window.x0; x < from.window.x1; ++x) {
@@ -23,14 +23,14 @@ void move_row(const Context& c, const View<const float>& from, int y, const View
 
 }  // namespace
 
-void PartDepths::move(Frame& frame, const Context& context, Executor& executor) {
+void PartDepths::move(Frame& frame, const WaterView& water, Executor& executor) {
   for (std::size_t i = 0; i < kPlanes.size(); ++i) {
     View<const float>& view = frame.planes[index_of(kPlanes[i])];
     if (!view) continue;
     if (!depths_[i] || depths_[i].view().window != view.window) depths_[i] = Plane(view.window);
     const View<float> to = depths_[i].view();
     const bool may_be_dry = kPlanes[i] == PlaneId::kDepth;
-    each_row(executor, view.window, [&](int y) { move_row(context, view, y, to, may_be_dry); });
+    each_row(executor, view.window, [&](int y) { move_row(water, view, y, to, may_be_dry); });
     view = to;
   }
 }

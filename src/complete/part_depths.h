@@ -4,7 +4,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 
 namespace limpid {
 
@@ -20,7 +20,7 @@ class PartDepths {
 
   /// Puts depths of its own in the place of those that the frame has; they hold until the next
   /// call. `context` is that of the part.
-  void move(Frame& frame, const Context& context, Executor& executor);
+  void move(Frame& frame, const WaterView& view, Executor& executor);
 
  private:
   std::array<Plane, kPlanes.size()> depths_;

@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 
 namespace limpid {
 
@@ -11,7 +11,7 @@ namespace limpid {
 struct RowHeights {
   double over, over_step, under, under_step;
 
-  RowHeights(const Context& c, int y, glm::dvec2 off = {0, 0})
+  RowHeights(const WaterView& c, int y, glm::dvec2 off = {0, 0})
       : over_step(glm::dot(c.up, c.rays.origin_dx)), under_step(glm::dot(c.up, c.rays.ray_dx)) {
     const double column = 0.5 - c.corner.x + off.x, row = y - c.corner.y + 0.5 + off.y;
     over = c.eye_above + glm::dot(c.up, c.rays.origin_at(column, row));

@@ -4,7 +4,6 @@
 namespace limpid {
 
 /// look_beyond() without the share, from every `step`-th pixel at an edge.
-Beyond sides_beyond(const BottomPlane& bottom, const Frame& frame, const Context& context,
-                    int step);
+Beyond sides_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& pass, int step);
 
 }  // namespace limpid

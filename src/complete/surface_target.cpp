@@ -7,13 +7,13 @@
 namespace limpid::HWY_NAMESPACE {
 namespace {
 
-void row(const Context& context, const RaisedWater<float>& water, int y, const View<float>& depth) {
-  const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
+void row(const WaterView& view, const RaisedWater<float>& water, int y, const View<float>& depth) {
+  const RowRays<Lane> rays(view, y - view.corner.y + 0.5);
   const Rect& window = depth.window;
   float* to = depth.data + std::ptrdiff_t{y - window.y0} * depth.y_stride;
   for (int x = window.x0; x < window.x1; x += kLanes) {
-    const Lane at = Lane(hn::ConvertTo(kD, count_from(x))) + Lane(0.5 - context.corner.x);
-    const Lane met = RaisedRay<Lane, float>(context, water, rays, at).first_meeting();
+    const Lane at = Lane(hn::ConvertTo(kD, count_from(x))) + Lane(0.5 - view.corner.x);
+    const Lane met = RaisedRay<Lane, float>(view, water, rays, at).first_meeting();
     if (window.x1 - x >= kLanes) {
       hn::StoreU(met.v, kD, to + (x - window.x0));
       continue;

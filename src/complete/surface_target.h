@@ -8,7 +8,7 @@ namespace limpid {
 
 /// DisplacedSurface as compiled for one instruction set: one row of it.
 struct SurfaceTarget {
-  void (*row)(const Context& context, const RaisedWater<float>& water, int y,
+  void (*row)(const WaterView& view, const RaisedWater<float>& water, int y,
               const View<float>& depth);
 };
 

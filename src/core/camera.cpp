@@ -47,6 +47,11 @@ DepthRow perspective_depth(double near, double far, ClipSpace clip) {
   return {};
 }
 
+/// Solved for the depth that has this one after the division.
+double eye_depth_of(const glm::dmat4& p, double device) {
+  return (at(p, 2, 3) - device * at(p, 3, 3)) / (at(p, 2, 2) - device * at(p, 3, 2));
+}
+
 }  // namespace
 
 bool Camera::orthographic() const { return at(projection, 3, 2) == 0; }
@@ -93,6 +98,15 @@ double Camera::device_from_eye_depth(double eye_depth) const {
   const double z = -eye_depth;
   return (at(projection, 2, 2) * z + at(projection, 2, 3)) /
          (at(projection, 3, 2) * z + at(projection, 3, 3));
+}
+
+double Camera::near_depth() const {
+  return eye_depth_of(projection, clip == ClipSpace::kGl ? -1 : clip == ClipSpace::kD3d ? 0 : 1);
+}
+
+double Camera::far_depth() const {
+  const double far = eye_depth_of(projection, far_device_depth());
+  return far > near_depth() ? far : HUGE_VAL;  // an infinite far plane, by rounding
 }
 
 glm::dmat4 perspective(double fov_y, double aspect, double near, double far, ClipSpace clip,

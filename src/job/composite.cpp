@@ -141,10 +141,10 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
   loaded.frame.overscan = job.output.overscan;
   loaded.frame.validate();
-  const Context context(scene, loaded.frame, plan.look.water.ior, plan.made, plan.swell());
+  const Pass pass(scene, loaded.frame, plan.look.water.ior, plan.made, plan.swell());
   Completer completer;
-  const Frame frame = completer.complete(plan, loaded.frame, context, executor, &job.output.simd);
-  const Context whole(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Frame frame = completer.complete(plan, loaded.frame, pass, executor, &job.output.simd);
+  const Pass whole(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
   surveyed.warnings = warnings_of(job, plate, plan);
   warn_of_picture(plan, frame, scene, surveyed.warnings);

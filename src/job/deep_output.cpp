@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "limpid/files/exr/deep_writer.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 namespace limpid {
 namespace {
@@ -34,13 +34,13 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
                          const Target& target) {
   const Fog& fog = plan.look.of<DepthFog>();
   const std::optional<double> endless = endless_way(fog);
-  const Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   const View<float>&path = target.of(Aov::kPath)[0], &surface = target.of(Aov::kSurfaceDepth)[0];
 
   const auto extent_at = [&](const RowRays<double>& rays, int x, int y) -> Extent {
-    const double pixel_x = x - context.corner.x + 0.5;
-    const bool in_water = begins_in_water(context, rays, pixel_x) > 0;
-    const double front = in_water ? context.near : surface.at(x, y);
+    const double pixel_x = x - pass.corner.x + 0.5;
+    const bool in_water = begins_in_water(pass, rays, pixel_x) > 0;
+    const double front = in_water ? pass.near : surface.at(x, y);
     if (std::isinf(front)) return {front, front};
     // In water the operator measures from the eye and along the ray, whatever its `distance`.
     const bool along_axis = !in_water && fog.distance == DepthFog::Distance::kEye;
@@ -56,7 +56,7 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
   const Rect work = frame.work();
   WaterExtent extent{Plane(work), Plane(work), {Plane(work), Plane(work), Plane(work)}};
   for (int y = work.y0; y < work.y1; ++y) {
-    const RowRays<double> rays(context, y - context.corner.y + 0.5);
+    const RowRays<double> rays(pass, y - pass.corner.y + 0.5);
     for (int x = work.x0; x < work.x1; ++x) {
       const Extent at = extent_at(rays, x, y);
       extent.front.view().at(x, y) = static_cast<float>(at.front);

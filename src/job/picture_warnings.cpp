@@ -21,23 +21,23 @@ struct Found {
 };
 
 /// Every `step`-th pixel of every `step`-th row, until both kinds are found.
-Found look_at(const Frame& frame, const Context& context, int step) {
+Found look_at(const Frame& frame, const Pass& pass, int step) {
   Found found;
   RaisedWater<double> raised;
-  raised.make(context);
+  raised.make(pass);
   const auto water_at = [&](const RowRays<double>& rays, double x) {
-    if (!context.raised) return rays.calm_depth(x);
-    return RaisedRay<double, double>(context, raised, rays, x).first_meeting();
+    if (!pass.raised) return rays.calm_depth(x);
+    return RaisedRay<double, double>(pass, raised, rays, x).first_meeting();
   };
   const Rect work = frame.work();
   const View<const float>& depth = frame.plane(PlaneId::kDepth);
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   for (int y = work.y0; y < work.y1 && !found.both(); y += step) {
-    const RowRays<double> rays(context, y - context.corner.y + 0.5);
+    const RowRays<double> rays(pass, y - pass.corner.y + 0.5);
     for (int x = work.x0; x < work.x1 && !found.both(); x += step) {
-      const double pixel_x = x - context.corner.x + 0.5;
+      const double pixel_x = x - pass.corner.x + 0.5;
       const double water = surface ? surface.at(x, y) : water_at(rays, pixel_x);
-      const bool in_water = begins_in_water(context, rays, pixel_x) > 0;
+      const bool in_water = begins_in_water(pass, rays, pixel_x) > 0;
       const bool wet = in_water || water < depth.at(x, y);
       found.wet |= wet;
       found.dry |= !wet;
@@ -58,9 +58,9 @@ std::string glass_text(double share, const std::string& what) {
 }
 
 /// Whether there are pixels of both kinds, as in a picture that was meant.
-bool warn_of_wet(const Frame& frame, const Context& context, std::vector<std::string>& warnings) {
-  if (look_at(frame, context, kCoarse).both()) return true;
-  const Found found = look_at(frame, context, 1);
+bool warn_of_wet(const Frame& frame, const Pass& pass, std::vector<std::string>& warnings) {
+  if (look_at(frame, pass, kCoarse).both()) return true;
+  const Found found = look_at(frame, pass, 1);
   const std::string expected =
       "; expected another height or direction of the water, another camera or kind of depth, if "
       "that is not meant";
@@ -121,7 +121,7 @@ void warn_of_glass(const Frame& frame, std::vector<std::string>& warnings) {
 }
 
 /// Looks where a mirror shows the sun, which is infinitely far away.
-void warn_of_sun(const Plan& plan, const Frame& frame, const Context& c,
+void warn_of_sun(const Plan& plan, const Frame& frame, const Pass& c,
                  std::vector<std::string>& warnings) {
   const View<const float>& red = frame.plane(PlaneId::kReflectionR);
   const bool read = plan.planes.covers(kReflectionPlanes) && plan.needs_sun && red;
@@ -149,7 +149,7 @@ void warn_of_sun(const Plan& plan, const Frame& frame, const Context& c,
                      "the disc, or sun_highlight.strength = 0");
 }
 
-void warn_of_scale(const Plan& plan, const Frame& frame, const Context& c,
+void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
                    std::vector<std::string>& warnings) {
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
   if (!plan.made.has(StatePart::kNormal)) return;
@@ -189,13 +189,13 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Context& c,
 
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings) {
-  const Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   // What is to be said of the rest would be of another picture than the one that was meant.
-  if (!warn_of_wet(frame, context, warnings)) return;
+  if (!warn_of_wet(frame, pass, warnings)) return;
   warn_of_depth(frame, warnings);
   warn_of_glass(frame, warnings);
-  warn_of_sun(plan, frame, context, warnings);
-  warn_of_scale(plan, frame, context, warnings);
+  warn_of_sun(plan, frame, pass, warnings);
+  warn_of_scale(plan, frame, pass, warnings);
 }
 
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {
@@ -206,9 +206,9 @@ void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {
 Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene) {
   const bool rays = plan.look.of<Refraction>().model == Refraction::Model::kSnell;
   if (!plan.made.has(StatePart::kPosition) || !rays) return {};
-  const Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
-  const auto bottom = fit_bottom(frame, context);
-  return bottom ? look_beyond(*bottom, frame, context) : Beyond{};
+  const Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const auto bottom = fit_bottom(frame, pass);
+  return bottom ? look_beyond(*bottom, frame, pass) : Beyond{};
 }
 
 void warn_of_beyond(const Beyond& beyond, std::vector<std::string>& warnings) {

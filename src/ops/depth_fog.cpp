@@ -130,7 +130,7 @@ bool DepthFog::wants_scattered_light(const P& params) {
          (scattering(params) != kBlack || params.crossing == Crossing::kRadiance);
 }
 
-ScatteringWater DepthFog::scattering_water(const P& params, const Context& c) {
+ScatteringWater DepthFog::scattering_water(const P& params, const Pass& c) {
   const WaterLight light = water_light(params, c, c.ior);
   return {.absorption = absorption(params),
           .scattering = scattering(params),
@@ -140,7 +140,7 @@ ScatteringWater DepthFog::scattering_water(const P& params, const Context& c) {
           .surface = params.crossing == Crossing::kRadiance};
 }
 
-double DepthFog::bound(const P& params, const Context& c, const Ranges& ranges) {
+double DepthFog::bound(const P& params, const Pass& c, const Ranges& ranges) {
   const double way = ranges.way.max, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
     return bound_product(veil(params, way), apart(params.color, ranges));
@@ -155,7 +155,7 @@ double DepthFog::bound(const P& params, const Context& c, const Ranges& ranges) 
          m.most_often(way);
 }
 
-void DepthFog::reckon(const P& params, const Context& c, Ranges& ranges) {
+void DepthFog::reckon(const P& params, const Pass& c, Ranges& ranges) {
   // Should refraction run, hit and path are its own; else they are the pixel's.
   Range way = c.made.has(StatePart::kPosition) ? ranges.hit : ranges.own;
   if (params.distance == Distance::kRefracted && c.made.has(StatePart::kPosition)) {
@@ -200,7 +200,7 @@ void DepthFog::reckon(const P& params, const Context& c, Ranges& ranges) {
                     }) + often);
 }
 
-double DepthFog::beyond(const P& params, const Context& c, const Ranges& ranges) {
+double DepthFog::beyond(const P& params, const Pass& c, const Ranges& ranges) {
   const double way = ranges.way.min, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
     const double full = veil(params, HUGE_VAL);
@@ -251,7 +251,7 @@ double DepthFog::Medium::most_often(double way) const {
 
 /// The largest value of the phase function: views go down into the water at least as steeply as
 /// refraction leads them, and the sun stands above it.
-double DepthFog::brightest_phase(const P& params, const Context& c, const Medium& m) {
+double DepthFog::brightest_phase(const P& params, const Pass& c, const Medium& m) {
   if (!m.sunlit) return 0;
   const double sink = refracted_cosine(0.0, 1 / c.ior);
   const double rise = glm::dot(m.to_sun, c.up);
@@ -260,7 +260,7 @@ double DepthFog::brightest_phase(const P& params, const Context& c, const Medium
   return henyey_greenstein(least, params.anisotropy) * 1.0001;
 }
 
-DepthFog::Medium DepthFog::medium_of(const Params& params, const Context& c) {
+DepthFog::Medium DepthFog::medium_of(const Params& params, const Pass& c) {
   const WaterLight light = water_light(params, c, c.ior);
   Medium m{};
   m.rate = extinction(params);

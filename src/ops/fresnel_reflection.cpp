@@ -39,12 +39,12 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> FresnelReflection::fields() { return kFields; }
 
 /// F is at most 1. What planes and surroundings hold is not looked at.
-double FresnelReflection::bound(const P& params, const Context&, const Ranges& ranges) {
+double FresnelReflection::bound(const P& params, const Pass&, const Ranges& ranges) {
   if (params.source != Source::kConstant) return HUGE_VAL;
   return std::max({params.color.r, params.color.g, params.color.b}) + ranges.light;
 }
 
-void FresnelReflection::reckon(const P& params, const Context&, Ranges& ranges) {
+void FresnelReflection::reckon(const P& params, const Pass&, Ranges& ranges) {
   const bool known = params.source == Source::kConstant;
   ranges.above += known ? std::max({params.color.r, params.color.g, params.color.b}) : HUGE_VAL;
 }

@@ -38,11 +38,11 @@ std::span<const Field<P>> Refraction::fields() { return kFields; }
 
 /// Without it another color in reach is seen. And the way through the water is another: how much
 /// that matters is not known here.
-double Refraction::bound(const P&, const Context& c, const Ranges& ranges) {
+double Refraction::bound(const P&, const Pass& c, const Ranges& ranges) {
   return c.made.has(StatePart::kTransmittance) ? HUGE_VAL : ranges.contrast();
 }
 
-void Refraction::reckon(const P& params, const Context& c, Ranges& ranges) {
+void Refraction::reckon(const P& params, const Pass& c, Ranges& ranges) {
   const Range surface = ranges.surface, seen = ranges.looked_up;
   const bool fades = params.off_frame == OffFrame::kFog;
   // Where not even a pixel's own texel of the layer below holds anything, the depth there is none.

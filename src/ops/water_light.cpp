@@ -27,7 +27,7 @@ Rgb<double> falling_loss(const DepthFog::Params& params) {
 
 }  // namespace
 
-WaterLight water_light(const DepthFog::Params& params, const Context& c, double ior) {
+WaterLight water_light(const DepthFog::Params& params, const Pass& c, double ior) {
   using Sunlight = DepthFog::Sunlight;
   WaterLight light;
   // A sun on the horizon gives the water no light, and would divide by 0.

@@ -1,7 +1,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/ops/depth_fog.h"
 
 namespace limpid {
@@ -22,6 +22,6 @@ struct WaterLight {
 
 /// `ior` below 1 is for who bends each color by its own: beyond its critical angle the sun is
 /// reflected whole and spread, sun and bottom (with `crossing`) are 0.
-WaterLight water_light(const DepthFog::Params& params, const Context& c, double ior);
+WaterLight water_light(const DepthFog::Params& params, const Pass& c, double ior);
 
 }  // namespace limpid

@@ -19,7 +19,7 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> WaterShadow::fields() { return kFields; }
 
 /// `darken` takes strength (1 - shadow) of all light from below, `scatter` of the sun's alone.
-double WaterShadow::bound(const P& params, const Context&, const Ranges& ranges) {
+double WaterShadow::bound(const P& params, const Pass&, const Ranges& ranges) {
   const auto off = [](const Range& shadow) { return std::max(1 - shadow.min, shadow.max - 1); };
   if (params.model == Model::kDarken) {
     return bound_product(params.strength * off(ranges.shadow), ranges.light);

@@ -68,6 +68,6 @@ Sym2<double> WaveNormals::wave_variance(const P& params, const TextureLevels& ma
 }
 
 /// All that comes after hangs on them.
-double WaveNormals::bound(const P&, const Context&, const Ranges&) { return HUGE_VAL; }
+double WaveNormals::bound(const P&, const Pass&, const Ranges&) { return HUGE_VAL; }
 
 }  // namespace limpid

@@ -55,7 +55,7 @@ constexpr std::uint16_t bit(int index) { return static_cast<std::uint16_t>(1u <<
 
 }  // namespace
 
-CellRules::CellRules(const Plan& plan, const Context& context) : plan_(plan), context_(context) {
+CellRules::CellRules(const Plan& plan, const Pass& pass) : plan_(plan), pass_(pass) {
   std::array<double, Chain::kCount> cost;
   bool known = true;  // all that reads what refraction found is known to beyond() and displaced()
   for (int i = 0; i < Chain::kCount; ++i) {
@@ -83,10 +83,10 @@ Ranges CellRules::reckoned(const Ranges& planes, bool endless) const {
   ranges.path = {0, 0};
   ranges.light = ranges.brightest();
   Chain::for_each([&]<class Op, int I>() {
-    if constexpr (requires { Op::reckon(plan_.look.of<Op>(), context_, ranges); }) {
+    if constexpr (requires { Op::reckon(plan_.look.of<Op>(), pass_, ranges); }) {
       if (!has(kept_, I)) return;
       if (I == kFog && endless) ranges.hit = ranges.path = {HUGE_VAL, HUGE_VAL};
-      Op::reckon(plan_.look.of<Op>(), context_, ranges);
+      Op::reckon(plan_.look.of<Op>(), pass_, ranges);
     }
   });
   return ranges;
@@ -100,7 +100,7 @@ double CellRules::displaced(Mask skips, const Ranges& ranges) const {
 double CellRules::bound_of(int index, Mask skips, const Ranges& ranges) const {
   double bound = 0;
   Chain::for_each([&]<class Op, int I>() {
-    if (I == index) bound = Op::bound(plan_.look.of<Op>(), context_, ranges);
+    if (I == index) bound = Op::bound(plan_.look.of<Op>(), pass_, ranges);
   });
   return index == kRefraction ? bound + displaced(skips, ranges) : bound;
 }
@@ -144,7 +144,7 @@ CellNeeds CellRules::decide(const Ranges& planes, bool no_foreground, Weighed& w
   };
   if (may_hide_) {
     const double bound =
-        DepthFog::beyond(plan_.look.of<DepthFog>(), context_, ranges) + displaced(skips, ranges);
+        DepthFog::beyond(plan_.look.of<DepthFog>(), pass_, ranges) + displaced(skips, ranges);
     if (affords(kRefraction, bound)) {
       needs.opaque = true;
       needs.open = false;

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/op/ranges.h"
 #include "limpid/plan/plan.h"
 #include "limpid/plan/survey.h"
@@ -12,7 +12,7 @@ namespace limpid {
 /// The rules that look at one cell: what is true of all cells of a frame, found once.
 class CellRules {
  public:
-  CellRules(const Plan& plan, const Context& context);
+  CellRules(const Plan& plan, const Pass& pass);
 
   /// Of a cell with wet pixels. `planes`: all of Ranges that the planes tell. `no_foreground`: see
   /// CellNeeds::open. What is skipped for its bound is entered in `weighed`.
@@ -32,7 +32,7 @@ class CellRules {
   Mask with_unread(Mask skips) const;
 
   const Plan& plan_;
-  const Context& context_;
+  const Pass& pass_;
   Mask kept_ = 0;
   // Of those that are kept, which may be skipped without changing what is written besides the
   // picture:

@@ -31,7 +31,7 @@ constexpr int kBlocksInCell = 4, kBlockWidth = Survey::kCell.width / kBlocksInCe
 int count_of(int pixels, int part) { return (pixels + part - 1) / part; }
 
 /// How far lookups of the plan that follow the refracted ray go, in uv.
-double reach_of(const Plan& plan, const Context& context) {
+double reach_of(const Plan& plan, const Pass& pass) {
   double reach = 0, stretch = 1;
   Chain::for_each([&]<class Op, int I>() {
     // These follow other rays.
@@ -39,7 +39,7 @@ double reach_of(const Plan& plan, const Context& context) {
     if (!plan.keeps(I)) return;
     const auto& params = plan.look.of<Op>();
     reach += Op::reach(params);
-    if constexpr (std::is_same_v<Op, PrismSplit>) stretch = PrismSplit::stretch(params, context);
+    if constexpr (std::is_same_v<Op, PrismSplit>) stretch = PrismSplit::stretch(params, pass);
   });
   return reach * stretch;
 }
@@ -66,7 +66,7 @@ struct Survey::Scan {
   Survey& survey;
   const Plan& plan;
   const Frame& frame;
-  const Context& context;
+  const Pass& pass;
   const ScanTarget& target;
   Refraction::Planes looked_up;
   CellRules rules;
@@ -79,11 +79,11 @@ struct Survey::Scan {
   Extremes all;                                // of all blocks, if so
   Range shadow_of_water{HUGE_VAL, -HUGE_VAL};  // of the surface, of all cells
 
-  Scan(Survey& s, const Plan& p, const Frame& f, const Context& c, const ScanTarget& t)
+  Scan(Survey& s, const Plan& p, const Frame& f, const Pass& c, const ScanTarget& t)
       : survey(s),
         plan(p),
         frame(f),
-        context(c),
+        pass(c),
         target(t),
         looked_up(Refraction::planes_of(c)),
         rules(p, c),
@@ -109,7 +109,7 @@ struct Survey::Scan {
                        (column - survey.left_) / kBlocksInCell];
   }
   glm::dvec3 ray_at(int x, int y) const {
-    return context.rays.ray_at(x - context.corner.x, y - context.corner.y);
+    return pass.rays.ray_at(x - pass.corner.x, y - pass.corner.y);
   }
 
   bool sees_own_shadow() const { return frame.plane(own_shadow) && plan.planes.has(own_shadow); }
@@ -134,7 +134,7 @@ struct Survey::Scan {
 /// borne.
 void Survey::Scan::choose_planes() {
   own_shadow =
-      context.planes.has(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
+      pass.planes.has(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
   wanted = plan.planes & PlaneSet{PlaneId::kShadow};
   if (plan.made.has(StatePart::kPosition)) wanted = wanted | PlaneSet{looked_up.depth};
   if (plan.max_error > 0) {
@@ -156,11 +156,11 @@ void Survey::Scan::lay_out() {
     if (looked_at && frame.planes[i]) area = united(area, frame.planes[i].window);
   }
   // Two texels more, for filtering and for rounding.
-  const double uv = refracts ? reach_of(plan, context) : 0;
+  const double uv = refracts ? reach_of(plan, pass) : 0;
   const auto texels = [&](double size) {
     return refracts ? static_cast<int>(std::min(uv * size + 2, double{1 << 24})) : 0;
   };
-  const int far_x = texels(context.size.x), far_y = texels(context.size.y);
+  const int far_x = texels(pass.size.x), far_y = texels(pass.size.y);
   area = intersection(area, {work.x0 - far_x, work.y0 - far_y, work.x1 + far_x, work.y1 + far_y});
 
   Survey& s = survey;
@@ -247,11 +247,11 @@ void Survey::Scan::scan_water(const Chunk& chunk) {
   const Blocks blocks{pixels_of(chunk).x0, kBlockWidth};
   std::array<WetSeen, Blocks::kMost> seen;
   const bool farthest = plan.max_error > 0;
-  target.wet(context, error, depth, surface, there, blocks, farthest, seen.data());
+  target.wet(pass, error, depth, surface, there, blocks, farthest, seen.data());
   std::array<WetSeen, Blocks::kMost> under = seen;
   if (looked_up.below && same_windows) {
     const View<const float>& below = frame.plane(looked_up.depth);
-    target.wet(context, error, below, surface, there, blocks, false, under.data());
+    target.wet(pass, error, below, surface, there, blocks, false, under.data());
   }
   for_each_block(there, blocks, [&](int i) {
     const int column = chunk.first + i;
@@ -266,8 +266,7 @@ void Survey::Scan::scan_water(const Chunk& chunk) {
     if (inside.empty()) return;
     WetSeen water = seen[i];
     if (!(inside == block)) {
-      target.wet(context, error, depth, surface, inside, {inside.x0, kBlockWidth}, farthest,
-                 &water);
+      target.wet(pass, error, depth, surface, inside, {inside.x0, kBlockWidth}, farthest, &water);
     }
     if (water.wet == 0) return;
     Own& own = own_of(column, chunk.row);
@@ -284,7 +283,7 @@ Range Survey::Scan::sink_of(const Rect& pixels) const {
   Range sink{HUGE_VAL, -HUGE_VAL};
   for (const int x : {pixels.x0, pixels.x1}) {
     for (const int y : {pixels.y0, pixels.y1}) {
-      const double here = -glm::dot(context.up, ray_at(x, y));
+      const double here = -glm::dot(pass.up, ray_at(x, y));
       sink = {std::min(sink.min, here), std::max(sink.max, here)};
     }
   }
@@ -386,11 +385,11 @@ Rect Survey::pixels(int index) const {
   return intersection({x, y, x + kCell.width, y + kCell.height}, work_);
 }
 
-void Survey::make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+void Survey::make(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                   const std::string& simd) {
-  Scan scan(*this, plan, frame, context, scan_target(simd));
+  Scan scan(*this, plan, frame, pass, scan_target(simd));
   scan.lay_out();
-  if (!context.submersible) {
+  if (!pass.submersible) {
     executor.run(blocks_.height, Scan::scan_row, &scan);
     for (const Own& own : own_) {
       Range& all = scan.shadow_of_water;

@@ -26,7 +26,7 @@ constexpr const ScanTarget* kTargets[] = {
 const ScanTarget& scan_target(const std::string& simd) { return *kTargets[simd_index(simd)]; }
 
 /// A few roundings of each number that goes into it.
-HeightError calm_error(const Context& c) {
+HeightError calm_error(const WaterView& c) {
   const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
     return std::abs(glm::dot(c.up, at)) + 4 * c.size.x * std::abs(glm::dot(c.up, dx)) +
            4 * c.size.y * std::abs(glm::dot(c.up, dy));

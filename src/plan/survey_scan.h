@@ -3,7 +3,8 @@
 
 #include "limpid/core/plane.h"
 #include "limpid/core/rect.h"
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
+#include "limpid/op/height_bound.h"
 
 namespace limpid {
 
@@ -23,7 +24,7 @@ struct HeightError {
   float over, under;
 };
 /// Of RowRays.
-HeightError calm_error(const Context& context);
+HeightError calm_error(const WaterView& view);
 
 /// What SeenHeights are made for.
 struct SeenFrom {
@@ -46,17 +47,17 @@ struct Blocks {
 struct ScanTarget {
   void (*range)(const View<const float>& view, const Rect& pixels, Blocks blocks, SeenRange* out);
   /// Greatest height over the calm surface of the finite texels of a surface.
-  void (*highest_water)(const Context& context, const View<const float>& surface,
-                        const Rect& pixels, Blocks blocks, float* out);
+  void (*highest_water)(const WaterView& view, const View<const float>& surface, const Rect& pixels,
+                        Blocks blocks, float* out);
   /// `surface` has the window of `depth`, or is absent, for the calm one.
-  void (*seen_heights)(const Context& context, const SeenFrom& from, const View<const float>& depth,
+  void (*seen_heights)(const WaterView& view, const SeenFrom& from, const View<const float>& depth,
                        const View<const float>& surface, const Rect& pixels, Blocks blocks,
                        SeenHeights* out);
   /// Of all texels, or of those `above` the calm surface, by all that is known.
-  void (*seen_depths)(const Context& context, const HeightError& error,
+  void (*seen_depths)(const WaterView& view, const HeightError& error,
                       const View<const float>& depth, bool above, const Rect& pixels, Blocks blocks,
                       SeenRange* out);
-  void (*wet)(const Context& context, const HeightError& error, const View<const float>& depth,
+  void (*wet)(const WaterView& view, const HeightError& error, const View<const float>& depth,
               const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
               WetSeen* out);
 };

@@ -159,7 +159,7 @@ LIMPID_LANES_INLINE void add_row(const Row& depths, const Rect& pixels, Blocks b
 }
 
 template <bool kFarthest>
-LIMPID_LANES_INLINE void add_rows(const Context& context, const HeightError& error,
+LIMPID_LANES_INLINE void add_rows(const WaterView& view, const HeightError& error,
                                   const View<const float>& depth, const View<const float>& surface,
                                   const Rect& pixels, Blocks blocks, WetLanes* lanes) {
   const Lane steps(hn::Iota(kD, 0.0f));  // made of scalars: not in the loop
@@ -174,9 +174,9 @@ LIMPID_LANES_INLINE void add_rows(const Context& context, const HeightError& err
         return Surface{water, water, wet, wet};
       });
     } else {
-      const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
+      const RowRays<Lane> rays(view, y - view.corner.y + 0.5);
       add_row(depths, pixels, blocks, kFarthest, lanes, [&](int x, int, Lane dry) {
-        const Lane column = steps + Lane(x - context.corner.x + 0.5);
+        const Lane column = steps + Lane(x - view.corner.x + 0.5);
         return calm(rays, error, column, dry, kFarthest);
       });
     }
@@ -186,17 +186,17 @@ LIMPID_LANES_INLINE void add_rows(const Context& context, const HeightError& err
 /// Calls visit(block, y, x, count, z, over, under) for the vectors of texels at eye depth z, on
 /// rays on which z is seen at the height over + z under.
 template <class Visit>
-LIMPID_LANES_INLINE void for_each_height(const Context& context, const View<const float>& depth,
+LIMPID_LANES_INLINE void for_each_height(const WaterView& view, const View<const float>& depth,
                                          const Rect& pixels, Blocks blocks, Visit&& visit) {
   const Lane steps(hn::Iota(kD, 0.0f));
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     const Row row(depth, pixels, y);
-    const RowRays<Lane> rays(context, y - context.corner.y + 0.5);
+    const RowRays<Lane> rays(view, y - view.corner.y + 0.5);
     for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
       for_each_vector(x0, x1, [&](int x, int count) {
         row.ask_for_next(x);
         // What is repeated beyond the end of a row is seen on the ray of its last texel.
-        const Lane column = min(steps, Lane(count - 1)) + Lane(x - context.corner.x + 0.5);
+        const Lane column = min(steps, Lane(count - 1)) + Lane(x - view.corner.x + 0.5);
         const Lane over = Lane(0) - (rays.calm_over + column * rays.calm_over_dx);
         const Lane under = rays.calm_under + column * rays.calm_under_dx;
         visit(block, y, x, count, row.at(x, count), over, under);
@@ -205,11 +205,11 @@ LIMPID_LANES_INLINE void for_each_height(const Context& context, const View<cons
   }
 }
 
-void highest_water(const Context& context, const View<const float>& surface, const Rect& pixels,
+void highest_water(const WaterView& view, const View<const float>& surface, const Rect& pixels,
                    Blocks blocks, float* out) {
   Lane lanes[Blocks::kMost];
   for (Lane& highest : lanes) highest = Lane(-HUGE_VAL);
-  for_each_height(context, surface, pixels, blocks,
+  for_each_height(view, surface, pixels, blocks,
                   [&](int block, int, int, int, Lane z, Lane over, Lane under) {
                     const Lane height = select(z < Lane(1e30), over + z * under, Lane(-HUGE_VAL));
                     lanes[block] = max(lanes[block], height);
@@ -222,13 +222,13 @@ void highest_water(const Context& context, const View<const float>& surface, con
 struct RayError {
   Lane over, under;
 
-  LIMPID_LANES_INLINE RayError(const Context& c, const HeightError& error)
+  LIMPID_LANES_INLINE RayError(const WaterView& c, const HeightError& error)
       : over(error.over + half_texel(c, c.over_step)),
         under(error.under + half_texel(c, c.under_step)) {}
   LIMPID_LANES_INLINE Lane at(Lane z) const { return over + abs(z) * under; }
 
  private:
-  static double half_texel(const Context& c, const glm::dvec2& step) {
+  static double half_texel(const WaterView& c, const glm::dvec2& step) {
     return 0.51 * (__builtin_fabs(step.x) / c.size.x + __builtin_fabs(step.y) / c.size.y);
   }
 };
@@ -237,15 +237,15 @@ struct HeightLanes {
   Lane highest{-HUGE_VAL}, deepest{-HUGE_VAL}, covers{-HUGE_VAL};
 };
 
-void seen_heights(const Context& context, const SeenFrom& from, const View<const float>& depth,
+void seen_heights(const WaterView& view, const SeenFrom& from, const View<const float>& depth,
                   const View<const float>& surface, const Rect& pixels, Blocks blocks,
                   SeenHeights* out) {
-  const RayError off_by(context, from.error);
+  const RayError off_by(view, from.error);
   const Lane infinite(HUGE_VAL), none(-HUGE_VAL), far(1e30);
   const bool covers = from.share_of_way > 0;
   const Lane share(covers ? from.share_of_way : 1);
   HeightLanes lanes[Blocks::kMost];
-  for_each_height(context, depth, pixels, blocks,
+  for_each_height(view, depth, pixels, blocks,
                   [&](int block, int y, int x, int count, Lane z, Lane over, Lane under) {
                     HeightLanes& all = lanes[block];
                     const Mask down = under + off_by.under < Lane(0), some = z < far;
@@ -272,12 +272,12 @@ void seen_heights(const Context& context, const SeenFrom& from, const View<const
   });
 }
 
-void seen_depths(const Context& context, const HeightError& error, const View<const float>& depth,
+void seen_depths(const WaterView& view, const HeightError& error, const View<const float>& depth,
                  bool above, const Rect& pixels, Blocks blocks, SeenRange* out) {
-  const RayError off_by(context, error);
+  const RayError off_by(view, error);
   const Mask above_alone = Lane(above ? 1 : 0) > Lane(0);
   RangeLanes lanes[Blocks::kMost];
-  for_each_height(context, depth, pixels, blocks,
+  for_each_height(view, depth, pixels, blocks,
                   [&](int block, int, int, int, Lane z, Lane over, Lane under) {
                     const Mask counts = !(over + z * under + off_by.at(z) < Lane(0));
                     const Mask some = z < Lane(1e30) && (counts || !above_alone);
@@ -290,14 +290,14 @@ void seen_depths(const Context& context, const HeightError& error, const View<co
   });
 }
 
-void wet(const Context& context, const HeightError& error, const View<const float>& depth,
+void wet(const WaterView& view, const HeightError& error, const View<const float>& depth,
          const View<const float>& surface, const Rect& pixels, Blocks blocks, bool farthest,
          WetSeen* out) {
   WetLanes lanes[Blocks::kMost];
   if (farthest) {
-    add_rows<true>(context, error, depth, surface, pixels, blocks, lanes);
+    add_rows<true>(view, error, depth, surface, pixels, blocks, lanes);
   } else {
-    add_rows<false>(context, error, depth, surface, pixels, blocks, lanes);
+    add_rows<false>(view, error, depth, surface, pixels, blocks, lanes);
   }
   for_each_block(pixels, blocks, [&](int block, int, int) {
     const WetLanes& w = lanes[block];

@@ -5,7 +5,7 @@
 
 #include "limpid/core/error.h"
 #include "limpid/files/exr/deep.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 namespace limpid {
 namespace {
@@ -13,16 +13,15 @@ namespace {
 /// Where what lies below the water begins, in the depth kind of the samples.
 Plane beginning_of_below(const Scene& scene, const DepthMeaning& depth, const Frame& frame,
                          const Rect& window) {
-  const double any_index = 1;
-  const Context context(scene, frame, any_index, {});
+  const WaterView view(scene, frame.display, swell_of(frame));
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   Plane plane(window);
   for (int y = window.y0; y < window.y1; ++y) {
-    const RowRays<double> rays(context, y - context.corner.y + 0.5);
+    const RowRays<double> rays(view, y - view.corner.y + 0.5);
     for (int x = window.x0; x < window.x1; ++x) {
-      const double pixel_x = x - context.corner.x + 0.5;
+      const double pixel_x = x - view.corner.x + 0.5;
       double z = HUGE_VAL;
-      if (begins_in_water(context, rays, pixel_x) > 0) {
+      if (begins_in_water(view, rays, pixel_x) > 0) {
         z = -HUGE_VAL;
       } else if (!surface) {
         z = rays.calm_depth(pixel_x);

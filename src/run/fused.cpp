@@ -139,24 +139,24 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   }
   auto& [completer, survey, heights, cells] = *kept_;
   const Frame frame = completer.complete(
-      plan, plate, Context(scene, plate, plan.look.water.ior, plan.made, plan.swell()), executor,
+      plan, plate, Pass(scene, plate, plan.look.water.ior, plan.made, plan.swell()), executor,
       &options.simd);
-  Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
-  if (!plan.reads_environment) context.environment = {};  // nobody has checked it
-  survey.make(plan, frame, context, executor, options.simd);
+  Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
+  survey.make(plan, frame, pass, executor, options.simd);
   if (options.leaps) {
-    heights.make(plan, frame, context, executor, options.simd);
-    context.heights = heights.bound();
-    context.mirrored = heights.mirrored();
-    context.lit = heights.lit();
+    heights.make(plan, frame, pass, executor, options.simd);
+    pass.heights = heights.bound();
+    pass.mirrored = heights.mirrored();
+    pass.lit = heights.lit();
   }
   const auto context_for = [&](bool open, bool grounded) {
-    Context of_cell = context;
+    Pass of_cell = pass;
     of_cell.foreground = !open;
     of_cell.bottomless = !grounded;
     return of_cell;
   };
-  const std::array<Context, FusedJob::kContexts> contexts{
+  const std::array<Pass, FusedJob::kContexts> contexts{
       context_for(false, false), context_for(true, false), context_for(false, true),
       context_for(true, true)};
   FusedJob job{plan, frame, contexts[0], contexts.data(), target};

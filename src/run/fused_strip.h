@@ -1,4 +1,6 @@
 #pragma once
+#include "limpid/op/pixel_start.h"
+
 #include "run/fused_tile.h"
 #include "run/spot.h"
 #include "run/wrapped.h"
@@ -23,8 +25,8 @@ class FusedStrip {
         y_(y),
         count_(x1 - x0),
         vectors_((x1 - x0 + kLanes - 1) / kLanes),
-        width_(static_cast<float>(job.context.size.x)),
-        height_(static_cast<float>(job.context.size.y)) {}
+        width_(static_cast<float>(job.pass.size.x)),
+        height_(static_cast<float>(job.pass.size.y)) {}
 
   /// Loads depths and starts each pixel with these parts of its state; false when none is wet.
   bool begin(const RowRays<Lane>& rays, StateSet parts);
@@ -192,11 +194,11 @@ class FusedStrip {
     }
     LIMPID_LANES_INLINE SeenHeights heights(PlaneId plane, Mask lanes, Vec2<Lane> from,
                                             Vec2<Lane> to) const {
-      return all_between(strip.job_.context.heights, plane, lanes, from, to);
+      return all_between(strip.job_.pass.heights, plane, lanes, from, to);
     }
     LIMPID_LANES_INLINE SeenRange range(PlaneId plane, Mask lanes, Vec2<Lane> from,
                                         Vec2<Lane> to) const {
-      const Context& c = strip.job_.context;
+      const Pass& c = strip.job_.pass;
       const RangeBound& bound = plane == PlaneId::kSurfaceShadow ? c.lit : c.mirrored;
       if (plane != bound.plane) return {};
       return all_between(bound, plane, lanes, from, to);
@@ -381,7 +383,7 @@ class FusedStrip {
 
   /// `dry`: the dry color. A vector without a wet pixel has no state.
   void store_aovs(int vector, bool wet, Rgb<Lane> dry) const {
-    const Context& c = job_.context;
+    const Pass& c = job_.pass;
     const Lane x = Lane(hn::ConvertTo(kD, column(vector))) + Lane(0.5 - c.corner.x);
     const Vec2<Lane> uv{x * Lane(1.0 / c.size.x), Lane((y_ - c.corner.y + 0.5) / c.size.y)};
     for (int a = 0; a < kAovCount; ++a) {
@@ -406,7 +408,7 @@ class FusedStrip {
 };
 
 inline bool FusedStrip::begin(const RowRays<Lane>& rays, StateSet parts) {
-  const Context& c = job_.context;
+  const Pass& c = job_.pass;
   const Source surface = source_of(PlaneId::kSurfaceDepth), depth = source_of(PlaneId::kDepth);
   const Source color[3] = {source_of(PlaneId::kColorR), source_of(PlaneId::kColorG),
                            source_of(PlaneId::kColorB)};
@@ -417,17 +419,12 @@ inline bool FusedStrip::begin(const RowRays<Lane>& rays, StateSet parts) {
     const Lane water = surface.data ? own_at(surface, v) : rays.calm_depth(x);
     const Mask in_picture = {
         hn::Lt(hn::Iota(kD, 0.0f), hn::Set(kD, static_cast<float>(remaining(v))))};
-    const Mask meets = water < dry;
-    const Mask in_water = begins_in_water(c, rays, x) > Lane(0);
-    wet_[v] = in_picture && (meets || in_water);
+    const PixelStart<Lane> start(c, rays, x, water, dry, in_picture);
+    wet_[v] = start.wet;
     if (!any(wet_[v])) continue;
     order_[wet_vectors_++] = v;
-    const Lane side = select(in_water, select(meets, Lane(-1), Lane(0)), Lane(1));
-    // What a dry pixel gets instead keeps the formulas away from infinities; end() ignores the
-    // result. A pixel that looks through water alone has no surface, but a finite number for it.
-    const Lane other = select(in_water, min(dry, Lane(1e4)), Lane(1));
     Pixel<Lane>& p = pixels_[v];
-    begin_pixel(c, rays, x, side, select(meets, water, other), select(wet_[v], dry, Lane(2)), p);
+    begin_pixel(c, rays, x, start.side, start.surface_depth, start.dry_depth, p);
     begin_state(parts, c, takes_color ? color_at(color, v) : Rgb<Lane>{}, p);
   }
   return wet_vectors_ > 0;

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "limpid/core/frame.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/plan/survey.h"
 #include "limpid/run/target.h"
 
@@ -25,8 +25,8 @@ class StopClock {
 struct FusedJob {
   const Plan& plan;
   const Frame& frame;
-  const Context& context;
-  const Context* contexts;  ///< the same as cells need it, see kContexts
+  const Pass& pass;
+  const Pass* contexts;  ///< the same as cells need it, see kContexts
   const Target& target;
   const CellNeeds* cells = nullptr;  ///< Survey, rows of them from the corner of Frame::work()
   int cells_across = 0;

@@ -36,7 +36,7 @@ LIMPID_LANES_INLINE bool same(const CellNeeds& a, const CellNeeds& b) {
          a.grounded == b.grounded;
 }
 
-LIMPID_LANES_INLINE const Context& context_of(const FusedJob& job, const CellNeeds& needs) {
+LIMPID_LANES_INLINE const Pass& context_of(const FusedJob& job, const CellNeeds& needs) {
   return job.contexts[(needs.open ? 1 : 0) + (needs.grounded ? 2 : 0)];
 }
 
@@ -67,10 +67,10 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
   // Refraction is skipped, so this is what it leaves to the others.
   if (needs.opaque) strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
   if (wet) {
-    const Context& context = context_of(job, needs);
+    const Pass& pass = context_of(job, needs);
     Chain::for_each([&]<class Op, int I>() {
       if (!job.keeps[I] || !needs.needs(I)) return;
-      Op::apply(std::get<typename Op::Params>(job.plan.look.operators), context, strip);
+      Op::apply(std::get<typename Op::Params>(job.plan.look.operators), pass, strip);
       laps.charge(I);
     });
   }
@@ -81,7 +81,7 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
 __attribute__((noinline)) void run_rows(const FusedJob& job, const Rect& tile) {
   LapTimer laps(job.clock);
   for (int y = tile.y0; y < tile.y1; ++y) {
-    const RowRays<Lane> rays(job.context, y - job.context.corner.y + 0.5);
+    const RowRays<Lane> rays(job.pass, y - job.pass.corner.y + 0.5);
     for (int x = tile.x0; x < tile.x1;) {
       const Segment segment = segment_from(job, tile, x, y);
       run_segment(job, rays, y, x, segment, laps);

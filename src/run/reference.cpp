@@ -3,7 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
+#include "limpid/op/pixel_start.h"
 
 #include "complete/completer.h"
 #include "op/plain_texture.h"
@@ -188,29 +189,22 @@ class ReferenceStrip {
   std::vector<Pixel<double>> pixels_;
 };
 
-/// What stands in for the depths of a dry pixel while the operators pass over it.
-constexpr double kDrySurface = 1, kDryBottom = 2;
-/// And for the surface of a pixel that looks through water alone, into the distance.
-constexpr double kFarAway = 1e4;
-
-void begin_row(const Context& context, const Frame& frame, const Rect& work, int y,
+void begin_row(const Pass& pass, const Frame& frame, const Rect& work, int y,
                std::vector<Pixel<double>>& pixels, std::vector<char>& wet) {
-  const RowRays<double> rays(context, y - context.corner.y + 0.5);
+  const RowRays<double> rays(pass, y - pass.corner.y + 0.5);
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   for (int x = work.x0; x < work.x1; ++x) {
     const std::size_t i = static_cast<std::size_t>(x - work.x0);
-    const double pixel_x = x - context.corner.x + 0.5;
+    const double pixel_x = x - pass.corner.x + 0.5;
     const double dry = frame.plane(PlaneId::kDepth).at(x, y);
     const double water = surface ? surface.at(x, y) : rays.calm_depth(pixel_x);
     const Rgb<double> color{frame.plane(PlaneId::kColorR).at(x, y),
                             frame.plane(PlaneId::kColorG).at(x, y),
                             frame.plane(PlaneId::kColorB).at(x, y)};
-    const bool meets = water<dry, in_water = begins_in_water(context, rays, pixel_x)> 0;
-    wet[i] = meets || in_water;
-    const double side = !in_water ? 1 : meets ? -1 : 0;
-    const double surface_depth = meets ? water : in_water ? min(dry, kFarAway) : kDrySurface;
-    begin_pixel(context, rays, pixel_x, side, surface_depth, wet[i] ? dry : kDryBottom, pixels[i]);
-    begin_state(kWholeState, context, color, pixels[i]);
+    const PixelStart<double> start(pass, rays, pixel_x, water, dry, true);
+    wet[i] = start.wet;
+    begin_pixel(pass, rays, pixel_x, start.side, start.surface_depth, start.dry_depth, pixels[i]);
+    begin_state(kWholeState, pass, color, pixels[i]);
   }
 }
 
@@ -252,17 +246,17 @@ void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, con
   const std::unique_ptr<Executor> serial = make_executor(1);
   Completer completer;
   const Frame frame = completer.complete(
-      plan, plate, Context(scene, plate, plan.look.water.ior, plan.made, plan.swell()), *serial);
-  Context context(scene, frame, plan.look.water.ior, plan.made, plan.swell());
-  if (!plan.reads_environment) context.environment = {};  // nobody has checked it
+      plan, plate, Pass(scene, plate, plan.look.water.ior, plan.made, plan.swell()), *serial);
+  Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
   const Rect work = frame.work();
   ReferenceStrip strip(frame, work);
   std::vector<char> wet(work.width());
   for (int y = work.y0; y < work.y1; ++y) {
     strip.set_row(y);
-    begin_row(context, frame, work, y, strip.pixels(), wet);
+    begin_row(pass, frame, work, y, strip.pixels(), wet);
     Chain::for_each([&]<class Op, int I>() {
-      if (plan.keeps(I)) Op::apply(plan.look.of<Op>(), context, strip);
+      if (plan.keeps(I)) Op::apply(plan.look.of<Op>(), pass, strip);
     });
     for (int x = work.x0; x < work.x1; ++x) {
       const std::size_t i = static_cast<std::size_t>(x - work.x0);

@@ -42,7 +42,7 @@ struct Hidden {
   }
   const BottomLayer* made(BottomLayerMaker& maker, int threads = 1) const {
     const auto executor = make_executor(threads);
-    return maker.make(pool.buffers.frame, pool.context(), *executor);
+    return maker.make(pool.buffers.frame, pool.pass(), *executor);
   }
 };
 

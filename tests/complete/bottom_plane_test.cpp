@@ -20,7 +20,7 @@ TEST(BottomPlane, IsThatOfTheBottom) {
     Pool pool;
     pool.rise = rise;
     pool.draw(grey);
-    const auto plane = fit_bottom(pool.buffers.frame, pool.context());
+    const auto plane = fit_bottom(pool.buffers.frame, pool.pass());
     ASSERT_TRUE(plane) << rise;
     EXPECT_LT(glm::length(plane->normal - pool.normal()), 1e-4) << rise;
     EXPECT_NEAR(plane->offset, pool.normal().y * (-2 - pool.deep), 1e-3) << rise;
@@ -36,7 +36,7 @@ TEST(BottomPlane, PostsAndRocksDoNotPullAtIt) {
     if (x > 20 && x < 50 && y > 40) return static_cast<float>(0.8 * depth);  // in it
     return static_cast<float>(depth);
   });
-  const auto plane = fit_bottom(pool.buffers.frame, pool.context());
+  const auto plane = fit_bottom(pool.buffers.frame, pool.pass());
   ASSERT_TRUE(plane);
   EXPECT_LT(glm::length(plane->normal - pool.normal()), 2e-3);
   EXPECT_NEAR(plane->offset, pool.normal().y * (-2 - pool.deep), 5e-3);
@@ -46,14 +46,14 @@ TEST(BottomPlane, IsNoneWhereNothingLiesUnderTheWater) {
   Pool pool;
   pool.draw(grey);
   pool.buffers.fill(PlaneId::kDepth, 1);
-  EXPECT_FALSE(fit_bottom(pool.buffers.frame, pool.context()));
+  EXPECT_FALSE(fit_bottom(pool.buffers.frame, pool.pass()));
   pool.buffers.fill(PlaneId::kDepth, test::kInf);
-  EXPECT_FALSE(fit_bottom(pool.buffers.frame, pool.context()));
+  EXPECT_FALSE(fit_bottom(pool.buffers.frame, pool.pass()));
 }
 
 Beyond beyond_of(const Pool& pool) {
-  const auto plane = fit_bottom(pool.buffers.frame, pool.context());
-  return plane ? look_beyond(*plane, pool.buffers.frame, pool.context()) : Beyond{};
+  const auto plane = fit_bottom(pool.buffers.frame, pool.pass());
+  return plane ? look_beyond(*plane, pool.buffers.frame, pool.pass()) : Beyond{};
 }
 
 TEST(Beyond, SaysWhichOverscanWouldShowWhatIsLookedAt) {

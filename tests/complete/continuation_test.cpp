@@ -29,7 +29,7 @@ Look going_on(bool goes_on) {
 }
 
 const Continuation* made(ContinuationMaker& maker, const Pool& pool) {
-  return maker.make(pool.buffers.frame, pool.context());
+  return maker.make(pool.buffers.frame, pool.pass());
 }
 
 TEST(Continuation, FollowsTheLinesOfTheBottom) {

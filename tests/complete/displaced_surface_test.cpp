@@ -69,25 +69,25 @@ struct Made {
   Made(const Scene& s, const std::string* simd, const Look& look = sines(), int threads = 1)
       : scene(s),
         plan(make_plan(look, test::inputs_of(frame, s))),
-        context(scene, frame, look.water.ior, plan.made, plan.swell()),
+        pass(scene, frame, look.water.ior, plan.made, plan.swell()),
         strength(look.of<WaveNormals>().strength) {
-    surface.make(frame, context, *make_executor(threads), simd);
+    surface.make(frame, pass, *make_executor(threads), simd);
   }
   float at(int x, int y) const { return surface.depth().view().at(x, y); }
 
   glm::dvec3 point(int x, int y, double depth) const {
-    const Rays& r = context.rays;
-    return context.eye + r.origin_at(x + 0.5, y + 0.5) + depth * r.ray_at(x + 0.5, y + 0.5);
+    const Rays& r = pass.rays;
+    return pass.eye + r.origin_at(x + 0.5, y + 0.5) + depth * r.ray_at(x + 0.5, y + 0.5);
   }
   double under(int x, int y) const {
-    return glm::dot(scene.water->up, context.rays.ray_at(x + 0.5, y + 0.5));
+    return glm::dot(scene.water->up, pass.rays.ray_at(x + 0.5, y + 0.5));
   }
   /// Of a point of the ray, over the water as optics/waves.h has it.
   double over(int x, int y, double depth) const {
     const glm::dvec3 p = point(x, y, depth);
     const PlaneAxes axes = plane_axes(scene.water->up);
     const double wave =
-        wave_height(context.waves, glm::dot(p, axes.x), glm::dot(p, axes.y), scene.time).height;
+        wave_height(pass.waves, glm::dot(p, axes.x), glm::dot(p, axes.y), scene.time).height;
     return glm::dot(scene.water->up, p) - scene.water->height - strength * wave;
   }
   /// The first change of sides from a depth on, by many small steps.
@@ -114,7 +114,7 @@ struct Made {
   Frame frame = buffers.frame;
   Scene scene;
   Plan plan;
-  Context context;
+  Pass pass;
   double strength;
   DisplacedSurface surface;
 };
@@ -236,7 +236,7 @@ TEST(DisplacedSurface, IsOfTheLooksWavesTimesItsStrength) {
   on_all([](const std::string* simd) {
     const std::vector<SineWave> own{{0.05, 1, 2, 0.3, 1}};
     const Made made(scene_at(1.2, 0.7), simd, sines(0.5, own));
-    ASSERT_EQ(made.context.waves.size(), 1u);
+    ASSERT_EQ(made.pass.waves.size(), 1u);
     for_each_pixel([&](int x, int y) {
       EXPECT_NEAR(made.over(x, y, made.at(x, y)), 0, 1e-5) << x << ", " << y;
     });

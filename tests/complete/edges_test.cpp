@@ -21,7 +21,7 @@ struct Parted {
   Frame frame;
 
   explicit Parted(const Post& post, int threads = 1) : frame(post.buffers.frame) {
-    edges.make(frame, post.context(), *make_executor(threads));
+    edges.make(frame, post.pass(), *make_executor(threads));
   }
   const EdgeCover::Pixel* at(int x, int y = kRow) const {
     if (!frame.edges) return nullptr;
@@ -31,7 +31,7 @@ struct Parted {
     return nullptr;
   }
   bool wet(int x, const Post& post) const {
-    const RowRays<double> rays(post.context(), kRow + 0.5);
+    const RowRays<double> rays(post.pass(), kRow + 0.5);
     return rays.calm_depth(x + 0.5) < frame.plane(PlaneId::kDepth).at(x, kRow);
   }
   /// The share of a pixel that is not water.
@@ -247,10 +247,10 @@ TEST(Edges, ViewsThatMayBeginInTheWaterAreLeftAlone) {
   Post post;
   post.blur = 4;
   post.make();
-  Context context = post.context();
-  context.submersible = true;
+  Pass pass = post.pass();
+  pass.submersible = true;
   Frame frame = post.buffers.frame;
-  Edges().make(frame, context, *make_executor(1));
+  Edges().make(frame, pass, *make_executor(1));
   EXPECT_FALSE(frame.edges);
 }
 
@@ -280,10 +280,10 @@ TEST(Edges, ThreadsDoNotMatterNorFramesBefore) {
   Post hard;
   hard.make();
   Frame other = hard.buffers.frame;
-  two.edges.make(other, hard.context(), *make_executor(2));
+  two.edges.make(other, hard.pass(), *make_executor(2));
   EXPECT_FALSE(other.edges);
   two.frame = post.buffers.frame;
-  two.edges.make(two.frame, post.context(), *make_executor(2));
+  two.edges.make(two.frame, post.pass(), *make_executor(2));
   expect_same();
 }
 
@@ -307,7 +307,7 @@ TEST(Edges, StridesAndWindowsDoNotMatter) {
     from = to;
   }
   Edges edges;
-  edges.make(frame, post.context(), *make_executor(1));
+  edges.make(frame, post.pass(), *make_executor(1));
   ASSERT_TRUE(frame.edges);
   EXPECT_EQ(frame.plane(PlaneId::kColorR).window, wider);
   EXPECT_EQ(frame.plane(PlaneId::kColorB).at(-3, 5), frame.plane(PlaneId::kColorB).at(0, 5));

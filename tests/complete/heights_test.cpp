@@ -27,9 +27,9 @@ struct Measured {
            const std::string& simd = {})
       : frame(buffers.frame),
         plan(make_plan(look, test::inputs_of(frame, scene), test::all_state())),
-        context(scene, frame, look.water.ior, plan.made),
-        seen(Refraction::planes_of(context).depth) {
-    heights.make(plan, frame, context, *make_executor(2), simd);
+        pass(scene, frame, look.water.ior, plan.made),
+        seen(Refraction::planes_of(pass).depth) {
+    heights.make(plan, frame, pass, *make_executor(2), simd);
   }
   const HeightBound& bound() const { return heights.bound(); }
 
@@ -38,13 +38,13 @@ struct Measured {
     Range range{HUGE_VAL, -HUGE_VAL};
     for (const double at_x : {x + 0.0, x + 0.5, x + 1.0}) {
       for (const double at_y : {y + 0.0, y + 0.5, y + 1.0}) {
-        const glm::dvec2 p(at_x - context.corner.x, at_y - context.corner.y);
+        const glm::dvec2 p(at_x - pass.corner.x, at_y - pass.corner.y);
         const glm::dvec3 from =
-            context.rays.origin + p.x * context.rays.origin_dx + p.y * context.rays.origin_dy;
-        const glm::dvec3 to = context.rays.ray_at(p.x, p.y);
-        const double under = glm::dot(context.up, to);
-        const double height = context.eye_above + glm::dot(context.up, from) +
-                              double{frame.plane(seen).at(x, y)} * under;
+            pass.rays.origin + p.x * pass.rays.origin_dx + p.y * pass.rays.origin_dy;
+        const glm::dvec3 to = pass.rays.ray_at(p.x, p.y);
+        const double under = glm::dot(pass.up, to);
+        const double height =
+            pass.eye_above + glm::dot(pass.up, from) + double{frame.plane(seen).at(x, y)} * under;
         range = {std::min(range.min, height), under < 0 ? std::max(range.max, height) : HUGE_VAL};
       }
     }
@@ -79,7 +79,7 @@ struct Measured {
 
   Frame frame;
   Plan plan;
-  Context context;
+  Pass pass;
   PlaneId seen;
   Heights heights;
 };
@@ -141,10 +141,10 @@ TEST(Heights, AreNotFarAbove) {
   const Size size{320, 200};
   const Scene scene = test::simple_scene(size);
   Buffers b(rect_of(size));
-  const Context context(scene, b.frame, 1.333, {});
+  const Pass pass(scene, b.frame, 1.333, {});
   for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kColorR, c), 0.5f);
   b.set(PlaneId::kDepth, [&](int x, int y) {
-    const RowRays<double> rays(context, y + 0.5);
+    const RowRays<double> rays(pass, y + 0.5);
     return static_cast<float>(rays.calm_depth(x + 0.5) * (2 + 1.5) / 2);
   });
   const Measured m(b, scene);

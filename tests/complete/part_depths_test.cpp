@@ -18,8 +18,8 @@ TEST(PartDepths, IsAsHighThereAsAtTheCentre) {
   for (const double height : {0.0, 0.3}) {
     Scene raised = whole;
     raised.water->height += height;
-    const Context as_high(raised, b.frame, 1.333, kWholeState);
-    const auto depth_at = [&](const Context& c, int x, int y) {
+    const Pass as_high(raised, b.frame, 1.333, kWholeState);
+    const auto depth_at = [&](const Pass& c, int x, int y) {
       return RowRays<double>(c, y + 0.5).calm_depth(x + 0.5);
     };
     b.set(PlaneId::kSurfaceDepth,
@@ -30,8 +30,8 @@ TEST(PartDepths, IsAsHighThereAsAtTheCentre) {
       const auto executor = make_executor(1);
       PartDepths depths;
       Frame frame = b.frame;
-      depths.move(frame, Context(part, b.frame, 1.333, kWholeState), *executor);
-      const Context expected(raised_part, b.frame, 1.333, kWholeState);
+      depths.move(frame, Pass(part, b.frame, 1.333, kWholeState), *executor);
+      const Pass expected(raised_part, b.frame, 1.333, kWholeState);
       int seen = 0;
       for (int y = 0; y < kSize.height; ++y) {
         for (int x = 0; x < kSize.width; ++x) {
@@ -54,7 +54,7 @@ TEST(PartDepths, NothingStaysNothing) {
   b.fill(PlaneId::kDepth, 100).fill(PlaneId::kSurfaceDepth, test::kInf);
   PartDepths depths;
   Frame frame = b.frame;
-  depths.move(frame, Context(scene, b.frame, 1.333, kWholeState), *make_executor(1));
+  depths.move(frame, Pass(scene, b.frame, 1.333, kWholeState), *make_executor(1));
   for (int x = 0; x < kSize.width; ++x) {
     EXPECT_EQ(frame.plane(PlaneId::kSurfaceDepth).at(x, 20), test::kInf);
   }
@@ -65,7 +65,7 @@ TEST(PartDepths, WhatIsWetRemainsSo) {
   const Scene whole = test::simple_scene(kSize);
   test::Buffers b(rect_of(kSize));
   b.fill(PlaneId::kDepth, 100);
-  Context c(whole, b.frame, 1.333, kWholeState);
+  Pass c(whole, b.frame, 1.333, kWholeState);
   for (const double height : {0.02, -0.02}) {
     b.set(PlaneId::kDepth, [&](int x, int y) {
       const double depth = RowRays<double>(c, y + 0.5).calm_depth(x + 0.5);
@@ -74,7 +74,7 @@ TEST(PartDepths, WhatIsWetRemainsSo) {
     for (const int index : {0, 3}) {
       Scene part = whole;
       part.part = {index, 4};
-      const Context moved(part, b.frame, 1.333, kWholeState);
+      const Pass moved(part, b.frame, 1.333, kWholeState);
       PartDepths depths;
       Frame frame = b.frame;
       depths.move(frame, moved, *make_executor(1));

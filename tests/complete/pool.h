@@ -42,7 +42,7 @@ struct PoolOf {
           window);
     }
   }
-  Context context() const { return Context(scene, buffers.frame, 1.333, kWholeState); }
+  Pass pass() const { return Pass(scene, buffers.frame, 1.333, kWholeState); }
   glm::dvec3 normal() const { return glm::normalize(glm::dvec3(0, 1, -rise)); }
 
   /// Where the calm water of a pixel makes one look: its place in the picture, in pixels, the way,

@@ -50,7 +50,7 @@ struct Post {
     const glm::dvec3 ray = rays_of(*scene.camera, {kSize.width, kSize.height}).ray_at(64, y + 0.5);
     return static_cast<float>(-4 / ray.y);
   }
-  Context context() const { return Context(scene, buffers.frame, 1.333, kWholeState); }
+  Pass pass() const { return Pass(scene, buffers.frame, 1.333, kWholeState); }
 
   static float channel(const Rgb<float>& c, int i) { return i == 0 ? c.r : i == 1 ? c.g : c.b; }
 };

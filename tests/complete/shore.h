@@ -37,8 +37,8 @@ struct Shore {
     return height > 0 && height < top ? far : HUGE_VAL;
   }
   const MirrorDepth& made(Executor& executor) {
-    const Context context(scene, buffers.frame, 1.333, kWholeState);
-    mirror.make(buffers.frame, context, executor);
+    const Pass pass(scene, buffers.frame, 1.333, kWholeState);
+    mirror.make(buffers.frame, pass, executor);
     return mirror;
   }
   MirrorDepth mirror;

@@ -320,7 +320,7 @@ Pixel<double> fogged(const DepthFog::Params& params, const Scene& scene, StateSe
   const Tray tray({1, 1});
   test::ProbeStrip strip;
   strip.pixels.push_back(pixel);
-  DepthFog::apply(params, Context(scene, tray.buffers.frame, kN, made), strip);
+  DepthFog::apply(params, Pass(scene, tray.buffers.frame, kN, made), strip);
   return strip.pixels[0];
 }
 

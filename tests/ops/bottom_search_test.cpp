@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "limpid/op/pixel_start.h"
+
 #include "support.h"
 
 namespace limpid {
@@ -9,16 +11,16 @@ namespace {
 
 /// A flat bottom, as it is seen around one pixel, and how often somebody looks.
 struct FlatBottom {
-  const Context& context;
+  const Pass& pass;
   const Pixel<double>& pixel;
   double drop;  ///< below calm water
   int& looks;
 
   double nearest(PlaneId, Vec2<double> shift) const {
     ++looks;
-    const RowRays<double> rays(context, (pixel.uv.y + shift.y) * context.size.y);
-    const double x = (pixel.uv.x + shift.x) * context.size.x;
-    return rays.calm_depth(x) * (1 + drop / context.eye_above);
+    const RowRays<double> rays(pass, (pixel.uv.y + shift.y) * pass.size.y);
+    const double x = (pixel.uv.x + shift.x) * pass.size.x;
+    return rays.calm_depth(x) * (1 + drop / pass.eye_above);
   }
   struct Quad {
     Vec2<double> shift;
@@ -47,20 +49,20 @@ Met march(double drop, bool heights) {
   const Scene scene = test::simple_scene(size);
   test::Buffers b(rect_of(size));
   b.fill(PlaneId::kDepth, 1);
-  Context context(scene, b.frame, 1.333, {});
-  context.heights.known = heights;
-  const RowRays<double> rays(context, 120.5);
+  Pass pass(scene, b.frame, 1.333, {});
+  pass.heights.known = heights;
+  const RowRays<double> rays(pass, 120.5);
   const double calm = rays.calm_depth(320.5);
   Pixel<double> p{};
-  begin_pixel(context, rays, 320.5, 1.0, calm, calm * (1 + drop / context.eye_above), p);
+  begin_pixel(pass, rays, 320.5, 1.0, calm, calm * (1 + drop / pass.eye_above), p);
   int looks = 0;
-  const FlatBottom tap{context, p, drop, looks};
+  const FlatBottom tap{pass, p, drop, looks};
   // Not so steep as a refracted ray: there is a way to go on screen.
   const Vec3<double> down{0, -0.5, 0.866};
-  const ScreenRay<double> ray(context, p, down);
-  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, context.dry, false};
+  const ScreenRay<double> ray(pass, p, down);
+  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, pass.dry, false};
   int expected = 0;
-  const BottomSearch<double, FlatBottom> search{context, planes, p, tap, ray, 0.5, 0, expected};
+  const BottomSearch<double, FlatBottom> search{pass, planes, p, tap, ray, 0.5, 0, expected};
   const auto found = search.march();
   EXPECT_EQ(found.sure, 1);
   return {found.way, looks};

@@ -31,7 +31,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Of a frame that has every plane, or all but some.
-Context probe_context(StateSet made, PlaneSet absent = {}, bool has_sky = true) {
+Pass probe_context(StateSet made, PlaneSet absent = {}, bool has_sky = true) {
   static const Buffers buffers = test::noisy_frame(rect_of(test::kContractSize));
   static const test::NoiseMap map(16, 8), sky(12, 6);
   Frame frame = buffers.frame;
@@ -44,7 +44,7 @@ Context probe_context(StateSet made, PlaneSet absent = {}, bool has_sky = true) 
   frame.scattered_light = maker.make({{0.2, 0.3, 0.4}, {1, 2, 3}, 0.5, 0.8}).data();
   Scene scene = test::simple_scene(test::kContractSize);
   scene.time = 3.7;
-  return Context(scene, frame, 1.333, made);
+  return Pass(scene, frame, 1.333, made);
 }
 
 // --- what operators declare ---------------------------------------------------------------------
@@ -270,9 +270,9 @@ TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
         p.highlight = p.highlight + Rgb<double>{0.05, 0.15, 0.1};
         brighter.pixels.push_back(p);
       }
-      const Context context = probe_context(everything());
-      Op::apply(params, context, plain);
-      Op::apply(params, context, brighter);
+      const Pass pass = probe_context(everything());
+      Op::apply(params, pass, plain);
+      Op::apply(params, pass, brighter);
       for (int i = 0; i < 8; ++i) {
         const Rgb<double> more = sum(brighter.pixels[i]) - sum(plain.pixels[i]);
         EXPECT_LE(std::abs(more.r), 0.65 + 1e-9) << Op::kName << ", seed " << seed;
@@ -284,17 +284,17 @@ TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
 }
 
 TEST(Contract, BoundsAreNoNumbersBelowZero) {
-  const Context context = probe_context(everything());
+  const Pass pass = probe_context(everything());
   Chain::for_each([&]<class Op, int>() {
     for_each_params<Op>([&](const auto& params, const std::string& what) {
       Ranges nothing_known;
-      EXPECT_GE(Op::bound(params, context, nothing_known), 0) << what;
+      EXPECT_GE(Op::bound(params, pass, nothing_known), 0) << what;
       Ranges dark = nothing_known;
       dark.color = {{{0, 0}, {0, 0}, {0, 0}}};
       dark.light = dark.sun_light = 0;
-      EXPECT_GE(Op::bound(params, context, dark), 0) << what;
-      if constexpr (requires { Op::reckon(params, context, dark); }) {
-        Op::reckon(params, context, dark);
+      EXPECT_GE(Op::bound(params, pass, dark), 0) << what;
+      if constexpr (requires { Op::reckon(params, pass, dark); }) {
+        Op::reckon(params, pass, dark);
         for (const Range& r : {dark.hit, dark.path, dark.way}) {
           EXPECT_GE(r.min, 0) << what;
           EXPECT_LE(r.min, r.max) << what;
@@ -314,12 +314,12 @@ TEST(Contract, TapsStayWithinTheDeclaredReach) {
     ProbeStrip strip;
     double reach = 0;
     for (int i = 0; i < 8; ++i) strip.pixels.push_back(test::random_pixel(100 * seed + i, {}));
-    const Context context = probe_context(everything());
+    const Pass pass = probe_context(everything());
     Chain::for_each([&]<class Op, int>() {
       const typename Op::Params params = random_params<Op>(seed);
       EXPECT_GE(Op::reach(params), 0) << Op::kName;
       reach += Op::reach(params);
-      Op::apply(params, context, strip);
+      Op::apply(params, pass, strip);
       for (Pixel<double>& p : strip.pixels) {  // plate normals of the probe are noise, not unit
         const Vec3<double> n = normalize_or<double>(p.normal, {0, 1, 0});
         if (std::is_same_v<Op, WaveNormals>) p.normal = n, p.tilt = {n.x, n.z};

@@ -115,7 +115,7 @@ TEST(DepthFog, RefractedDistanceOfAFlatBottom) {
     p.dry_depth = p.hit_depth = 3 + depth / std::cos(angle) / p.ray_length;
     p.path = 0.7;
     params.distance = distance;
-    DepthFog::apply(params, Context(tray.scene, tray.buffers.frame, 1.333, made), strip);
+    DepthFog::apply(params, Pass(tray.scene, tray.buffers.frame, 1.333, made), strip);
     return p.path;
   };
   constexpr double kDegree = std::numbers::pi / 180;

@@ -14,14 +14,14 @@ namespace {
 
 constexpr Size kSize{32, 24};
 
-Context context_of() {
+Pass context_of() {
   static const test::Buffers buffers = test::noisy_frame(rect_of(kSize));
-  return Context(test::simple_scene(kSize), buffers.frame, 1.333, kWholeState);
+  return Pass(test::simple_scene(kSize), buffers.frame, 1.333, kWholeState);
 }
 
-/// A pixel seen at so many degrees over the water, along Context::map_y, with slopes that vary by
+/// A pixel seen at so many degrees over the water, along Pass::map_y, with slopes that vary by
 /// so much along the view and not across it.
-Pixel<double> pixel_at(const Context& c, double degrees, double deviation) {
+Pixel<double> pixel_at(const Pass& c, double degrees, double deviation) {
   const double rise = degrees * std::numbers::pi / 180;
   const Vec3<double> up = vec3_of<double>(c.up), away = vec3_of<double>(c.map_y);
   Pixel<double> p{};
@@ -51,7 +51,7 @@ double reflectance(double degrees, double slope) {
 }
 
 TEST(Facets, AreAveragedAtTheNodesOfGaussAndHermite) {
-  const Context c = context_of();
+  const Pass c = context_of();
   const double lean = std::sqrt(3.0) * 0.05;
   const Pixel<double> p = mirrored(pixel_at(c, 20, 0.05), FresnelReflection::Facets::kSpread);
   const double mean =
@@ -64,7 +64,7 @@ TEST(Facets, AreAveragedAtTheNodesOfGaussAndHermite) {
 }
 
 TEST(Facets, OfResolvedWavesAreOne) {
-  const Context c = context_of();
+  const Pass c = context_of();
   for (const double deviation : {0.0, 0.009}) {
     const Pixel<double> p = pixel_at(c, 20, deviation);
     const Pixel<double> spread = mirrored(p, FresnelReflection::Facets::kSpread);
@@ -81,7 +81,7 @@ TEST(Facets, OfResolvedWavesAreOne) {
 
 // At 2 degrees a facet that leans away by 5 shows its back: the ray is laid flat, half way.
 TEST(Facets, ThatWouldMirrorTheWaterAreLeaned) {
-  const Context c = context_of();
+  const Pass c = context_of();
   Pixel<double> p = pixel_at(c, 2, 0);
   const double lean = -5 * std::numbers::pi / 180;
   p.normal = std::cos(lean) * vec3_of<double>(c.up) + -std::sin(lean) * vec3_of<double>(c.map_y);
@@ -91,7 +91,7 @@ TEST(Facets, ThatWouldMirrorTheWaterAreLeaned) {
 }
 
 TEST(Facets, NothingBreaksAtTheEdges) {
-  const Context c = context_of();
+  const Pass c = context_of();
   for (const double degrees : {-30.0, 0.0, 1e-6, 0.01, 89.99, 90.0}) {
     for (const double deviation : {0.0, 1e-8, 0.3, 1e3}) {
       const Pixel<double> p =
@@ -129,7 +129,7 @@ struct Neighbours {
 };
 
 TEST(PlateNormals, TellWhatAPixelCannotResolveByTheirNeighbours) {
-  const Context c = context_of();
+  const Pass c = context_of();
   WaveNormals::Params params;
   params.model = WaveNormals::Model::kPlate;
   params.filter = WaveNormals::Filter::kVariance;

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "limpid/op/pixel_start.h"
 #include "limpid/ops/wave_normals.h"
 
 #include "ops/probe_strip.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr Size kSize{64, 48};
 
 /// The pixel at x, y of a frame without waves.
-Pixel<double> calm_pixel(const Context& c, double x, double y) {
+Pixel<double> calm_pixel(const Pass& c, double x, double y) {
   const RowRays<double> row(c, y);
   Pixel<double> p{};
   begin_pixel(c, row, x, 1.0, row.calm_depth(x), 1e9, p);
@@ -25,7 +26,7 @@ Pixel<double> calm_pixel(const Context& c, double x, double y) {
   return p;
 }
 
-Context context_of(const Scene& scene) {
+Pass context_of(const Scene& scene) {
   static const test::Buffers buffers = [] {
     test::Buffers b(rect_of(kSize));
     for (const PlaneId id :
@@ -34,10 +35,10 @@ Context context_of(const Scene& scene) {
     }
     return b;
   }();
-  return Context(scene, buffers.frame, 1.333, kWholeState);
+  return Pass(scene, buffers.frame, 1.333, kWholeState);
 }
 
-Vec2<double> on_map(const Context& c, const Pixel<double>& p) {
+Vec2<double> on_map(const Pass& c, const Pixel<double>& p) {
   return {dot(vec3_of<double>(c.map_x), p.surface_point),
           dot(vec3_of<double>(c.map_y), p.surface_point)};
 }
@@ -48,7 +49,7 @@ TEST(Footprint, IsThatOfNeighbouringRays) {
     if (orthographic) {
       scene.camera->projection = limpid::orthographic(2.4, 1.8, 0.1, 100, ClipSpace::kGl);
     }
-    const Context c = context_of(scene);
+    const Pass c = context_of(scene);
     for (const double y : {20.5, 30.5, 47.5}) {
       const Sym2<double> got = footprint(c, calm_pixel(c, 13.5, y));
       const auto across = [&](double dx, double dy) {
@@ -71,13 +72,13 @@ TEST(Footprint, OfAPartIsShorterTheWayTheWaterRecedes) {
     Scene scene = test::simple_scene(kSize);
     scene.camera->view =
         glm::dmat4(glm::rotate(glm::dmat4(1), roll, glm::dvec3(0, 0, 1))) * scene.camera->view;
-    const Context whole = context_of(scene);
+    const Pass whole = context_of(scene);
     const Pixel<double> centre = calm_pixel(whole, 32.5, 24.5);
     const Sym2<double> all = footprint(whole, centre);
     double mean = 0;
     for (int i = 0; i < 4; ++i) {
       scene.part = {i, 4};
-      const Context c = context_of(scene);
+      const Pass c = context_of(scene);
       const Pixel<double> p = calm_pixel(c, 32.5, 24.5);
       const Sym2<double> part = footprint(c, p);
       // The view is along map y there.
@@ -98,16 +99,16 @@ TEST(Footprint, PartsLieBelowOneAnotherStraightDown) {
   Scene scene = test::simple_scene(kSize);
   scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -1));
   scene.part = {0, 2};
-  const Context c = context_of(scene);
+  const Pass c = context_of(scene);
   EXPECT_NEAR(c.off_centre.x, 0, 1e-12);
   EXPECT_NEAR(c.off_centre.y, -0.25, 1e-12);
 }
 
 TEST(Footprint, OfAllOfAPixelHasTheBitsOfThePixel) {
   Scene scene = test::simple_scene(kSize);
-  const Context plain = context_of(scene);
+  const Pass plain = context_of(scene);
   scene.part = {0, 1};
-  const Context c = context_of(scene);
+  const Pass c = context_of(scene);
   EXPECT_EQ(c.rays.ray, plain.rays.ray);
   EXPECT_EQ(c.part.ray_dy, plain.rays.ray_dy);
   scene.part = {1, 1};
@@ -116,7 +117,7 @@ TEST(Footprint, OfAllOfAPixelHasTheBitsOfThePixel) {
 
 TEST(Footprint, HasBoundsAtTheHorizon) {
   const Scene scene = test::simple_scene(kSize);
-  const Context c = context_of(scene);
+  const Pass c = context_of(scene);
   Pixel<double> p = calm_pixel(c, 13.5, 30.5);
   for (const double rise : {0.0, 1e-9, -1e-9, 1e-300}) {
     p.to_viewer = normalize_or<double>({0.3, rise, 1}, {0, 0, 1});
@@ -158,7 +159,7 @@ Seen sampled(const SineWave& wave, Vec2<double> at, Sym2<double> footprint) {
 
 TEST(Sines, WhatAPixelCannotResolveBecomesVariance) {
   Scene scene = test::simple_scene(kSize);
-  const Context c = context_of(scene);
+  const Pass c = context_of(scene);
   const SineWave wave{0.02, 3, 5, 0.7, 0};
   WaveNormals::Params params;
   params.model = WaveNormals::Model::kSines;

@@ -231,8 +231,8 @@ TEST(FresnelReflection, TheWaterInFrontOfTheUndersideStaysInFront) {
   const Glance glance(0, -2);
   FresnelReflection::Params params = glance.look.of<FresnelReflection>();
   params.color = {4, 4, 4};
-  const Context context(glance.scene, glance.buffers.frame, 1.333, {});
-  ASSERT_TRUE(context.submersible);
+  const Pass pass(glance.scene, glance.buffers.frame, 1.333, {});
+  ASSERT_TRUE(pass.submersible);
   test::ProbeStrip strip;
   for (double side : {-1.0, 0.0, 1.0}) {
     Pixel<double> p = test::random_pixel(1, {});
@@ -243,7 +243,7 @@ TEST(FresnelReflection, TheWaterInFrontOfTheUndersideStaysInFront) {
     p.in_scatter = {0.3, 0.3, 0.3};
     strip.pixels.push_back(p);
   }
-  FresnelReflection::apply(params, context, strip);
+  FresnelReflection::apply(params, pass, strip);
   const double f = 0.0203731, t = 0.6 * (1 - f), s = 0.3 * (1 - f);
   const Pixel<double>&below = strip.pixels[0], &within = strip.pixels[1], &above = strip.pixels[2];
   test::expect_rgb(below.transmitted, {t, t, t});

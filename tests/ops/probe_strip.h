@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 #include "support.h"
 

@@ -8,7 +8,7 @@ namespace limpid {
 namespace {
 
 /// A ray from the middle of a picture, in this direction.
-ScreenRay<double> ray_towards(const Context& c, Vec3<double> direction) {
+ScreenRay<double> ray_towards(const Pass& c, Vec3<double> direction) {
   Pixel<double> p{};
   p.uv = {0.5, 0.5};
   p.surface_depth = 6;
@@ -19,7 +19,7 @@ TEST(ScreenRay, ShareOfTheWayOnScreenAndBack) {
   const Size size{64, 48};
   const test::Buffers b = test::noisy_frame(rect_of(size));
   const Scene scene = test::simple_scene(size);
-  const Context c(scene, b.frame, 1.333, {});
+  const Pass c(scene, b.frame, 1.333, {});
   const Vec3<double> directions[] = {{0, -1, 0}, {0.3, -0.8, 0.5}, {-0.2, -0.7, -0.6}};
   for (const Vec3<double>& direction : directions) {
     const ScreenRay<double> ray = ray_towards(c, direction);

@@ -60,10 +60,10 @@ TEST(UsedWhen, ConditionsNameWordsOfTheSameOperator) {
 
 /// All state of a few pixels after an operator, as numbers.
 template <class Op>
-std::vector<double> made_by(const typename Op::Params& params, const Context& context) {
+std::vector<double> made_by(const typename Op::Params& params, const Pass& pass) {
   ProbeStrip strip;
   for (int i = 0; i < 8; ++i) strip.pixels.push_back(test::random_pixel(i, everything()));
-  Op::apply(params, context, strip);
+  Op::apply(params, pass, strip);
   std::vector<double> all{strip.farthest};
   for (const Pixel<double>& p : strip.pixels) {
     for (StatePart part : test::kStateParts) {
@@ -101,7 +101,7 @@ typename Op::Params some_params(int seed) {
 TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
   const test::World world;
   Frame frame = world.buffers.frame;
-  const Context context(world.scene, frame, 1.333, everything());
+  const Pass pass(world.scene, frame, 1.333, everything());
   Chain::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
       // Not seen by pixels alone: a file's name, and of what is thin,
@@ -109,11 +109,11 @@ TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
       bool matters = field.kind == FieldKind::kText || field.name == "thickness";
       for (int seed = 0; seed < 60; ++seed) {
         const typename Op::Params params = some_params<Op>(seed);
-        const std::vector<double> before = made_by<Op>(params, context);
+        const std::vector<double> before = made_by<Op>(params, pass);
         for (const Value& value : candidates(field)) {
           typename Op::Params other = params;
           assign(Op::kName, field, other, value);
-          const bool same = made_by<Op>(other, context) == before;
+          const bool same = made_by<Op>(other, pass) == before;
           if (!read<Op>(field, params)) {
             ASSERT_TRUE(same) << label<Op>(field.name) << ", seed " << seed;
           }

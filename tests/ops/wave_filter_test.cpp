@@ -1,6 +1,7 @@
 #include <cstring>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
+#include "limpid/op/pixel_start.h"
 #include "limpid/ops/wave_normals.h"
 
 #include "complete/slope_map.h"
@@ -125,15 +126,15 @@ struct Striped {
     Frame frame = tray.buffers.frame;
     frame.wave_slopes = &slopes.levels();
     frame.wave_variance = WaveNormals::wave_variance(params, maker.levels(), 1);
-    Context context(tray.scene, frame, 1.33, kWholeState);
-    context.part.origin_dx = width * context.rays.origin_dx;
-    context.part.origin_dy = width * context.rays.origin_dy;
+    Pass pass(tray.scene, frame, 1.33, kWholeState);
+    pass.part.origin_dx = width * pass.rays.origin_dx;
+    pass.part.origin_dy = width * pass.rays.origin_dy;
     Pixel<double> pixel{};
-    const RowRays<double> rays(context, 4.5);
-    begin_pixel(context, rays, 4.5, 1.0, 10.0, 14.0, pixel);
-    begin_state(kWholeState, context, Rgb<double>{}, pixel);
+    const RowRays<double> rays(pass, 4.5);
+    begin_pixel(pass, rays, 4.5, 1.0, 10.0, 14.0, pixel);
+    begin_state(kWholeState, pass, Rgb<double>{}, pixel);
     trace::OnePixel strip{pixel};
-    WaveNormals::apply(params, context, strip);
+    WaveNormals::apply(params, pass, strip);
     return pixel;
   }
 

@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "limpid/optics/waves.h"
+
 #include "ops/tray.h"
 
 namespace limpid {

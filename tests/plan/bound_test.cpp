@@ -30,7 +30,7 @@ void widen(Range& range, const View<const float>& view) {
 }
 
 /// Of the frame as the place, with all that its planes hold in reach. False where no pixel is wet.
-bool ranges_of(const Frame& frame, const Context& context, Ranges& ranges) {
+bool ranges_of(const Frame& frame, const Pass& pass, Ranges& ranges) {
   ranges.surface = ranges.own = ranges.looked_up = ranges.sink = kNothing;
   ranges.shadow = ranges.own_shadow = {1, 1};
   ranges.ray_length = kNothing;
@@ -40,21 +40,21 @@ bool ranges_of(const Frame& frame, const Context& context, Ranges& ranges) {
       frame.plane(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
   if (frame.plane(own_shadow)) ranges.own_shadow = kNothing;
   for (int y = work.y0; y < work.y1; ++y) {
-    const RowRays<double> rays(context, y - context.corner.y + 0.5);
+    const RowRays<double> rays(pass, y - pass.corner.y + 0.5);
     for (int x = work.x0; x < work.x1; ++x) {
-      const double at = x - context.corner.x + 0.5;
+      const double at = x - pass.corner.x + 0.5;
       const double water = surface ? surface.at(x, y) : rays.calm_depth(at);
       const double dry = frame.plane(PlaneId::kDepth).at(x, y);
       if (!(water < dry)) continue;
-      const glm::dvec3 ray = context.rays.ray_at(at, y - context.corner.y + 0.5);
+      const glm::dvec3 ray = pass.rays.ray_at(at, y - pass.corner.y + 0.5);
       widen(ranges.surface, water);
       widen(ranges.own, dry - water);
-      widen(ranges.sink, -glm::dot(context.up, ray));
+      widen(ranges.sink, -glm::dot(pass.up, ray));
       widen(ranges.ray_length, glm::length(ray));
       if (frame.plane(own_shadow)) widen(ranges.own_shadow, frame.plane(own_shadow).at(x, y));
     }
   }
-  const Refraction::Planes planes = Refraction::planes_of(context);
+  const Refraction::Planes planes = Refraction::planes_of(pass);
   widen(ranges.looked_up, frame.plane(planes.depth));
   for (int c = 0; c < 3; ++c) {
     Range& color = ranges.color[static_cast<std::size_t>(c)];
@@ -104,15 +104,15 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     for (int op : {0, 1, 3, 4, 5, 6, 7}) {  // never what finds the way that others measure
       if (plan.keeps(op) && test::noise(seed, op, 5) < 0.3f) drop(plan, op);
     }
-    const Context context(scene, frame, plan.look.water.ior, plan.made);
+    const Pass pass(scene, frame, plan.look.water.ior, plan.made);
     Ranges ranges;
-    if (!ranges_of(frame, context, ranges)) continue;
+    if (!ranges_of(frame, pass, ranges)) continue;
     ranges.hit = ranges.own;
     ranges.path = {0, 0};
     ranges.light = ranges.brightest();
     Chain::for_each([&]<class Op, int I>() {
-      if constexpr (requires { Op::reckon(plan.look.of<Op>(), context, ranges); }) {
-        if (whole.keeps(I)) Op::reckon(plan.look.of<Op>(), context, ranges);
+      if constexpr (requires { Op::reckon(plan.look.of<Op>(), pass, ranges); }) {
+        if (whole.keeps(I)) Op::reckon(plan.look.of<Op>(), pass, ranges);
       }
     });
     const bool fog = plan.keeps(3);
@@ -120,7 +120,7 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     const Picture all = test::picture_of(plan, frame, scene, test::by_reference);
     Chain::for_each([&]<class Op, int I>() {
       if (!plan.keeps(I)) return;
-      double bound = Op::bound(plan.look.of<Op>(), context, ranges);
+      double bound = Op::bound(plan.look.of<Op>(), pass, ranges);
       if (std::is_same_v<Op, Refraction> && plan.keeps(4)) {
         bound += WaterShadow::displaced(plan.look.of<WaterShadow>(), ranges);
       }
@@ -135,7 +135,7 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
       if (bound > 0) known[I].closest = std::max(known[I].closest, change / bound);
     });
     if (!fog || !plan.keeps(2)) continue;
-    double beyond = DepthFog::beyond(plan.look.of<DepthFog>(), context, ranges);
+    double beyond = DepthFog::beyond(plan.look.of<DepthFog>(), pass, ranges);
     if (plan.keeps(4)) beyond += WaterShadow::displaced(plan.look.of<WaterShadow>(), ranges);
     if (!std::isfinite(beyond)) continue;
     CellNeeds opaque;

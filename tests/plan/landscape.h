@@ -14,17 +14,17 @@ inline Buffers landscape(Rect display, const Scene& scene, int seed, bool surfac
   Buffers b(display);
   const int more = seed % 3 == 0 ? 21 : 0;
   const Rect data{display.x0 - more, display.y0 - more, display.x1 + more, display.y1 + more};
-  const Context context(scene, b.frame, 1.333, {});
+  const Pass pass(scene, b.frame, 1.333, {});
   const auto calm = [&](int x, int y) {
-    const RowRays<double> rays(context, y - context.corner.y + 0.5);
-    return rays.calm_depth(x - context.corner.x + 0.5);
+    const RowRays<double> rays(pass, y - pass.corner.y + 0.5);
+    return rays.calm_depth(x - pass.corner.x + 0.5);
   };
   const double deep = 0.5 + 3 * noise(seed, 0, 50), rough = noise(seed, 1, 50);
   const auto rock = [&](int x, int y) { return patch(x, 2 * y, seed + 1); };
   const auto bottom = [&](int x, int y) {
     const double slope = 1 + 0.5 * std::sin(0.013 * x + seed) * std::sin(0.021 * y);
     const double drop = deep * slope + 0.1 * rough * noise(x, y, seed);
-    return calm(x, y) * (1 + drop * (rock(x, y) < 0.2f ? 0.3 : 1) / context.eye_above);
+    return calm(x, y) * (1 + drop * (rock(x, y) < 0.2f ? 0.3 : 1) / pass.eye_above);
   };
   const auto far = [&](int x, int y) { return y % 40 < 20 || x % 90 < 30 ? kInf : 300.0f; };
   for (int c = 0; c < 3; ++c) {
@@ -48,7 +48,7 @@ inline Buffers landscape(Rect display, const Scene& scene, int seed, bool surfac
         PlaneId::kSurfaceDepth,
         [&](int x, int y) {
           const double wave = 0.02 * std::sin(0.3 * x + 0.1 * y);
-          return static_cast<float>(calm(x, y) * (1 + wave / context.eye_above));
+          return static_cast<float>(calm(x, y) * (1 + wave / pass.eye_above));
         },
         data);
   }

@@ -270,14 +270,14 @@ TEST(Survey, DependsOnNeitherThreadsNorInstructionSetNorWhatWasSeenBefore) {
   const Buffers b = test::noisy_frame(rect_of({300, 50}));
   const Scene scene = scene_of(b.frame);
   const Plan plan = plan_of(short_look(), b.frame, 0.01);
-  const Context context(scene, b.frame, 1.333, plan.made);
+  const Pass pass(scene, b.frame, 1.333, plan.made);
   const Survey judge = surveyed(plan, b.frame, scene);
   Survey survey;
   survey.make(plan_of(murky(), tray(rect_of(kSize)).frame), tray(rect_of(kSize)).frame,
-              Context(scene_of(tray(rect_of(kSize)).frame), tray(rect_of(kSize)).frame, 1.333, {}),
+              Pass(scene_of(tray(rect_of(kSize)).frame), tray(rect_of(kSize)).frame, 1.333, {}),
               *make_executor(1));
   for (const std::string& simd : simd_targets()) {
-    survey.make(plan, b.frame, context, *make_executor(2), simd);
+    survey.make(plan, b.frame, pass, *make_executor(2), simd);
     ASSERT_EQ(survey.count(), judge.count());
     for (int i = 0; i < judge.count(); ++i) EXPECT_EQ(survey.cell(i), judge.cell(i)) << simd;
   }

@@ -15,8 +15,8 @@ namespace limpid::test {
 
 inline Survey surveyed(const Plan& plan, const Frame& frame, const Scene& scene) {
   Survey survey;
-  const Context context(scene, frame, plan.look.water.ior, plan.made);
-  survey.make(plan, frame, context, *make_executor(1));
+  const Pass pass(scene, frame, plan.look.water.ior, plan.made);
+  survey.make(plan, frame, pass, *make_executor(1));
   return survey;
 }
 
@@ -47,10 +47,10 @@ inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene
   if (kind.opaque) {
     const View<const float>& depth = frame.plane(PlaneId::kDepth);
     const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
-    const Context context(scene, frame, 1.333, {});
+    const Pass pass(scene, frame, 1.333, {});
     far.set(PlaneId::kDepth, [&](int x, int y) {
-      const RowRays<double> rays(context, y - context.corner.y + 0.5);
-      const double water = surface ? surface.at(x, y) : rays.calm_depth(x - context.corner.x + 0.5);
+      const RowRays<double> rays(pass, y - pass.corner.y + 0.5);
+      const double water = surface ? surface.at(x, y) : rays.calm_depth(x - pass.corner.x + 0.5);
       return water < depth.at(x, y) && depth.at(x, y) < kInf ? 9e29f : depth.at(x, y);
     });
     frame.planes[index_of(PlaneId::kDepth)] = far.frame.plane(PlaneId::kDepth);

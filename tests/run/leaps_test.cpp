@@ -121,15 +121,14 @@ TEST_P(Leaps, ChangeNotABitWhereNumbersAreLargeOrSmall) {
 /// The plane of eye depths at which what `height_of(x, y)` gives, over the calm surface, is seen.
 template <class HeightOf>
 void set_heights(Buffers& b, const Scene& scene, PlaneId plane, Rect window, HeightOf&& height_of) {
-  const Context context(scene, b.frame, 1.333, {});
+  const Pass pass(scene, b.frame, 1.333, {});
   b.set(
       plane,
       [&](int x, int y) {
-        const glm::dvec3 ray =
-            context.rays.ray_at(x + 0.5 - context.corner.x, y + 0.5 - context.corner.y);
-        const double under = glm::dot(context.up, ray), height = height_of(x, y);
+        const glm::dvec3 ray = pass.rays.ray_at(x + 0.5 - pass.corner.x, y + 0.5 - pass.corner.y);
+        const double under = glm::dot(pass.up, ray), height = height_of(x, y);
         return under < 0 && std::isfinite(height)
-                   ? static_cast<float>((height - context.eye_above) / under)
+                   ? static_cast<float>((height - pass.eye_above) / under)
                    : test::kInf;
       },
       window);

@@ -30,9 +30,9 @@ Buffers frame_of(const Scene& scene, bool with_surface) {
           [](int, int y) { return 2 * std::exp(-0.2f * static_cast<float>(y)); });
   }
   if (!with_surface) return b;
-  const Context context(scene, b.frame, 1.333, {});
+  const Pass pass(scene, b.frame, 1.333, {});
   b.set(PlaneId::kSurfaceDepth, [&](int x, int y) {
-    return static_cast<float>(RowRays<double>(context, y + 0.5).calm_depth(x + 0.5));
+    return static_cast<float>(RowRays<double>(pass, y + 0.5).calm_depth(x + 0.5));
   });
   return b;
 }

@@ -30,9 +30,9 @@ Scene sea(Size size) {
 Buffers sea_frame(Size size, const Scene& scene) {
   Buffers b(rect_of(size));
   b.fill(PlaneId::kColorR, 0).fill(PlaneId::kDepth, test::kInf);
-  const Context context(scene, b.frame, 1.33, {});
+  const Pass pass(scene, b.frame, 1.33, {});
   const auto water = [&](int x, int y) {
-    return RowRays<double>(context, y + 0.5).calm_depth(x + 0.5);
+    return RowRays<double>(pass, y + 0.5).calm_depth(x + 0.5);
   };
   b.set(PlaneId::kDepth, [&](int x, int y) { return static_cast<float>(1.4 * water(x, y)); });
   for (int c = 0; c < 3; ++c) {

@@ -3,12 +3,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 namespace limpid::bench {
 
 RealisticNumbers::RealisticNumbers(const Look& look, const Frame& frame, const Scene& scene) {
-  const Context c(scene, frame, look.water.ior, {});
+  const Pass c(scene, frame, look.water.ior, {});
   size = frame.display.size();
   ray_dx = c.rays.ray_dx;
   ray_dy = c.rays.ray_dy;

@@ -30,6 +30,9 @@ struct Camera {
   double device_from_eye_depth(double eye_depth) const;
   /// Device depth at infinity or at the far plane, whichever the projection has.
   double far_device_depth() const { return clip == ClipSpace::kReversed ? 0.0 : 1.0; }
+  /// Eye depth of the near plane, and of the far one, +inf where there is none.
+  double near_depth() const;
+  double far_depth() const;
 };
 
 /// A right-handed perspective projection for the clip space, `fov_y` in radians; `far` may be +inf.

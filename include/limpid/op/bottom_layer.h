@@ -1,5 +1,5 @@
 #pragma once
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 /// @file
 /// The bottom where nobody rendered it: behind what stands in the water, or before it.

@@ -1,6 +1,6 @@
 #pragma once
 #include "limpid/op/bottom_layer.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/op/screen_ray.h"
 
 /// @file
@@ -25,13 +25,13 @@ class BottomSearch {
   };
 
   /// `fall` is the distance from the calm surface that the ray gains per unit of its way,
-  /// `thickness` that of thin things along the view, in scene units; 0: by Context::bottom_layer.
+  /// `thickness` that of thin things along the view, in scene units; 0: by Pass::bottom_layer.
   /// `expected` goes from one search to the next one beside it, 0 before the first: how far the ray
   /// may be expected to go. It saves looks and changes no result.
-  LIMPID_INLINE BottomSearch(const Context& context, const SeenPlanes& seen, const Pixel<F>& pixel,
+  LIMPID_INLINE BottomSearch(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel,
                              const Tap& taps, const ScreenRay<F>& way, F falls, double thickness,
                              int& expected)
-      : c_(context),
+      : c_(pass),
         planes_(seen),
         p_(pixel),
         tap_(taps),
@@ -132,7 +132,7 @@ class BottomSearch {
   static constexpr int kStepsBehind = 12, kSecants = 3;
 
   /// i, or a later step if from i up to it a look would find nothing: the rays stay above all that
-  /// they pass, by Context::heights. Leaps to the step `goal` are shorter and shorter, for the
+  /// they pass, by Pass::heights. Leaps to the step `goal` are shorter and shorter, for the
   /// nearer to the bottom the ray comes, the less of it may be asked about at once; those from
   /// there on are longer and longer.
   template <class Lanes>
@@ -169,7 +169,7 @@ class BottomSearch {
   }
 
   /// Whether rays that have passed behind something stay far behind all that they still pass, by
-  /// Context::heights: past() would say of each look from `way` on that it is hidden. Along the
+  /// Pass::heights: past() would say of each look from `way` on that it is hidden. Along the
   /// view ray of a texel depths go as heights do, so behind > slack is what is written here, of the
   /// calm water's height times -1; the texels' share is greatest at one of the two ends.
   template <class Lanes>
@@ -347,7 +347,7 @@ class BottomSearch {
     return near && to_level(way) < way;
   }
 
-  const Context& c_;
+  const Pass& c_;
   const SeenPlanes& planes_;
   const Pixel<F>& p_;
   const Tap& tap_;

@@ -35,10 +35,10 @@ class BeyondPicture {
     Rgb<F> color;
   };
 
-  BeyondPicture(const Context& context, const SeenPlanes& seen, const Pixel<F>& pixel,
-                const Tap& taps, const ScreenRay<F>& way, Vec3<F> direction, F falls)
-      : c_(context),
-        on_(*context.continuation),
+  BeyondPicture(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel, const Tap& taps,
+                const ScreenRay<F>& way, Vec3<F> direction, F falls)
+      : c_(pass),
+        on_(*pass.continuation),
         planes_(seen),
         p_(pixel),
         tap_(taps),
@@ -151,7 +151,7 @@ class BeyondPicture {
     return a.x * b.x + a.y * b.y + a.z * b.z;
   }
 
-  const Context& c_;
+  const Pass& c_;
   const Continuation& on_;
   const SeenPlanes& planes_;
   const Pixel<F>& p_;

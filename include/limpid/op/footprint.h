@@ -1,14 +1,15 @@
 #pragma once
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
+#include "limpid/op/pixel.h"
 
 namespace limpid {
 
 /// Covariance of the places on the calm water that one pixel, or the part of it that is seen, sees,
-/// along Context::map_x and map_y, in scene units squared: of a pixel wide box, 1/12 of a pixel
+/// along WaterView::map_x and map_y, in scene units squared: of a pixel wide box, 1/12 of a pixel
 /// squared each way, through the derivatives of the view's rays (Igehy 1999, "Tracing Ray
 /// Differentials"). At the horizon, where it has no bounds, at most 1e12.
 template <class F>
-LIMPID_INLINE Sym2<F> footprint(const Context& c, const Pixel<F>& p) {
+LIMPID_INLINE Sym2<F> footprint(const WaterView& c, const Pixel<F>& p) {
   const Vec3<F> up = vec3_of<F>(c.up);
   const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
   const F fall = dot(up, p.to_viewer);  // per unit of way

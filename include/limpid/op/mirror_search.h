@@ -1,5 +1,5 @@
 #pragma once
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/op/screen_ray.h"
 
 /// @file

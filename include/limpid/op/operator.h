@@ -5,7 +5,7 @@
 
 #include "limpid/core/field.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/op/pixel.h"
 #include "limpid/op/ranges.h"
 
@@ -50,9 +50,9 @@
 /// texel there. tap.quad(shift) are the four texels that bilinear filtering mixes, k = 0 ... 3:
 /// quad.weight(k), tap.read(plane, quad)[k], and tap.place(plane, quad, k), the shift of the centre
 /// of the texel that was read (clamped to the plane's window like the read itself).
-/// tap.heights(plane, lanes, from, to) is what Context::heights says of all texels that ways of
+/// tap.heights(plane, lanes, from, to) is what Pass::heights says of all texels that ways of
 /// these lanes from one shift to the other may pass, as one for all of them;
-/// tap.range(plane, lanes, from, to) likewise what Context::mirrored or Context::lit says of a
+/// tap.range(plane, lanes, from, to) likewise what Pass::mirrored or Pass::lit says of a
 /// plane. tap.wet() are the lanes whose pixels are wet: what the others look up is thrown away.
 /// tap.lat_long_rgb(texture, at) is bilinear in a map of all directions (optics/surroundings.h): it
 /// goes round in x and ends at the poles in y.
@@ -80,7 +80,7 @@ struct AtHand {
 /// where nothing is known. So that bounds add up, an operator passes on of the light before it a
 /// share of at most 1. One that makes anything that later bounds are made of says so, besides, in
 ///
-///     static void reckon(const Params&, const Context&, Ranges& ranges);
+///     static void reckon(const Params&, const Pass&, Ranges& ranges);
 ///
 /// which widens or narrows `ranges` to what holds after it, be it left out or not. One that can use
 /// planes which are made where the plate lacks them names those in
@@ -91,7 +91,7 @@ struct AtHand {
 ///
 ///     static bool lit_by_sky(const Params&);
 template <class T>
-concept Operator = requires(const typename T::Params& params, StateSet made, const Context& context,
+concept Operator = requires(const typename T::Params& params, StateSet made, const Pass& pass,
                             const Ranges& ranges) {
   { T::kName } -> std::convertible_to<std::string_view>;   // its table in look files
   { T::kAbout } -> std::convertible_to<std::string_view>;  // one sentence
@@ -104,8 +104,8 @@ concept Operator = requires(const typename T::Params& params, StateSet made, con
   // The parameters make it the identity on all but kPath, given what the operators before it make.
   { T::neutral(params, made) } -> std::same_as<bool>;
   // At most this much of any channel of the picture is its doing, where `ranges` hold.
-  { T::bound(params, context, ranges) } -> std::same_as<double>;
-  // and: template <class Strip> static void apply(const Params&, const Context&, Strip&);
+  { T::bound(params, pass, ranges) } -> std::same_as<double>;
+  // and: template <class Strip> static void apply(const Params&, const Pass&, Strip&);
 };
 
 }  // namespace limpid

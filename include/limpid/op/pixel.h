@@ -52,12 +52,12 @@ struct Pixel {
   F ray_length;  ///< length of the pixel's ray per unit of eye depth
   /// Where the view begins and whether it meets the surface: 1 from the air onto the water, -1 from
   /// the water up to the surface, 0 in the water without meeting it. Always 1 unless
-  /// Context::submersible.
+  /// WaterView::submersible.
   F side;
 
   Vec3<F> normal;  ///< wave normal, unit, world; begins as the calm normal
   Vec2<F> tilt;    ///< (n.t, -n.b): x right, y down; begins as 0
-  /// Of the slopes along Context::map_x and map_y around those of `normal`: what waves too small
+  /// Of the slopes along WaterView::map_x and map_y around those of `normal`: what waves too small
   /// for the pixel do to it. Begins as 0.
   Sym2<F> slope_variance;
   Vec2<F> prism_r, prism_g, prism_b;  ///< shift of each channel beyond `shift`; begin as 0
@@ -91,5 +91,11 @@ struct Pixel {
 
   LIMPID_INLINE Rgb<F> beauty() const { return transmitted + in_scatter + reflected + highlight; }
 };
+
+/// Whether an eye depth says that nothing was hit.
+template <class F>
+LIMPID_INLINE auto nothing(F depth) {
+  return depth > F(1e30);
+}
 
 }  // namespace limpid

@@ -2,7 +2,7 @@
 #include <numbers>
 #include <vector>
 
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 
 /// @file
 /// Where rays meet water that sine waves raise and lower.
@@ -10,7 +10,7 @@
 namespace limpid {
 
 /// A sine wave as it is around the eye: its height is amplitude sin(2 pi (begin + k_x u + k_y v))
-/// at (u, v), along Context::map_x and map_y from the point below the eye. N: float or double.
+/// at (u, v), along WaterView::map_x and map_y from the point below the eye. N: float or double.
 template <class N>
 struct WaveTerm {
   N amplitude, k_x, k_y, begin;
@@ -23,8 +23,8 @@ struct RaisedWater {
   N crest = 0;     ///< over the calm surface; no wave reaches higher, nor lower than its negative
   N steepest = 0;  ///< slope that none of the water passes
 
-  /// Of Context::waves. Makes no allocation where there were as many.
-  void make(const Context& c) {
+  /// Of WaterView::waves. Makes no allocation where there were as many.
+  void make(const WaterView& c) {
     constexpr double kTurn = 2 * std::numbers::pi;
     double height = 0, slope = 0;
     waves.clear();
@@ -46,7 +46,8 @@ template <class F, class N>
 class RaisedRay {
  public:
   /// x: as in RowRays.
-  LIMPID_INLINE RaisedRay(const Context& c, const RaisedWater<N>& water, const RowRays<F>& row, F x)
+  LIMPID_INLINE RaisedRay(const WaterView& c, const RaisedWater<N>& water, const RowRays<F>& row,
+                          F x)
       : water_(water),
         over_(F(0) - (row.calm_over + x * row.calm_over_dx)),
         under_(row.calm_under + x * row.calm_under_dx) {

@@ -1,5 +1,5 @@
 #pragma once
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 /// @file
 /// What operators know of the screen: where a ray that leaves the surface passes over it, and how
@@ -18,7 +18,7 @@ struct ScreenRay {
   F w, w_step;                              ///< w_step < 0 where the ray comes towards the viewer
   F depth, depth_step;
 
-  LIMPID_INLINE ScreenRay(const Context& c, const Pixel<F>& p, Vec3<F> direction) {
+  LIMPID_INLINE ScreenRay(const WaterView& c, const Pixel<F>& p, Vec3<F> direction) {
     depth = p.surface_depth;
     depth_step = dot(vec3_of<F>(c.forward), direction);
     w = max(F(c.w_origin) + F(c.w_depth) * depth, F(kLeastW));
@@ -56,7 +56,7 @@ struct ScreenRay {
 /// Height over the calm surface of what lies at eye depth `depth` (+inf counts as 1e30) on the ray
 /// of the picture at `shift` from the pixel.
 template <class F>
-LIMPID_INLINE F height_at(const Context& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
+LIMPID_INLINE F height_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
   const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
   const F over = dot(vec3_of<F>(c.up), p.surface_point) - p.surface_depth * under;
   const F there_under = under + shift.x * F(c.under_step.x) + shift.y * F(c.under_step.y);
@@ -67,7 +67,7 @@ LIMPID_INLINE F height_at(const Context& c, const Pixel<F>& p, Vec2<F> shift, F 
 /// The way from the pixel's surface point to what is seen at `shift` from the pixel at eye depth
 /// `depth` (+inf counts as 1e30). From differences, like a ScreenRay.
 template <class F>
-LIMPID_INLINE Vec3<F> way_to(const Context& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
+LIMPID_INLINE Vec3<F> way_to(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
   const auto across = [&](const glm::dvec3& dx, const glm::dvec3& dy) {
     return shift.x * vec3_of<F>(double(c.size.x) * dx) +
            shift.y * vec3_of<F>(double(c.size.y) * dy);
@@ -92,7 +92,7 @@ LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
 /// Eye depth at which the ray of the picture at `shift` from the pixel is `drop` below the calm
 /// surface, +inf where it never is.
 template <class F>
-LIMPID_INLINE F depth_at_drop(const Context& c, const Pixel<F>& p, Vec2<F> shift, F drop) {
+LIMPID_INLINE F depth_at_drop(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F drop) {
   const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
   const F over = dot(vec3_of<F>(c.up), p.surface_point) - p.surface_depth * under;
   const F falls = F(0) - (under + shift.x * F(c.under_step.x) + shift.y * F(c.under_step.y));
@@ -103,13 +103,13 @@ LIMPID_INLINE F depth_at_drop(const Context& c, const Pixel<F>& p, Vec2<F> shift
 
 /// The same of the calm surface itself.
 template <class F>
-LIMPID_INLINE F calm_depth_at(const Context& c, const Pixel<F>& p, Vec2<F> shift) {
+LIMPID_INLINE F calm_depth_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift) {
   return depth_at_drop(c, p, shift, F(0));
 }
 
 /// How much calm_depth_at changes from one row of pixels to the next.
 template <class F>
-LIMPID_INLINE F calm_depth_step(const Context& c, const Pixel<F>& p, Vec2<F> shift) {
+LIMPID_INLINE F calm_depth_step(const WaterView& c, const Pixel<F>& p, Vec2<F> shift) {
   const F row(1.0 / c.size.y);
   const F here = min(calm_depth_at(c, p, shift), F(1e30));
   const F below = min(calm_depth_at(c, p, Vec2<F>{shift.x, shift.y + row}), F(1e30));

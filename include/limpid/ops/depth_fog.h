@@ -92,11 +92,11 @@ struct DepthFog {
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Context& c, Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
   /// How much the picture changes at most when the way through the water counts as endless and the
   /// light at its end as the pixel's own, for refraction is left out. 0 where no bit of it is left.
-  static double beyond(const Params& params, const Context& c, const Ranges& ranges);
+  static double beyond(const Params& params, const Pass& c, const Ranges& ranges);
   /// What a unit of the way takes from the light: a + b of beer_lambert, less the narrow peak of
   /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
@@ -105,10 +105,10 @@ struct DepthFog {
   /// Whether light that is scattered more than once is to be made for a frame, and of what water.
   static bool wants_scattered_light(const Params& params);
   static bool lit_by_sky(const Params& params) { return wants_scattered_light(params); }
-  static ScatteringWater scattering_water(const Params& params, const Context& c);
+  static ScatteringWater scattering_water(const Params& params, const Pass& c);
 
   template <class Strip>
-  static void apply(const Params& params, const Context& c, Strip& strip) {
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     strip.each([&](Pixel<F>& p) { p.path = way_length(params.distance, c, p); });
     if (params.model == Model::kLinear) {
@@ -148,8 +148,8 @@ struct DepthFog {
     double most_often(double way) const;
     double beyond_often(double depth) const;
   };
-  static Medium medium_of(const Params& params, const Context& c);
-  static double brightest_phase(const Params& params, const Context& c, const Medium& medium);
+  static Medium medium_of(const Params& params, const Pass& c);
+  static double brightest_phase(const Params& params, const Pass& c, const Medium& medium);
 
   template <class F>
   static LIMPID_INLINE Rgb<F> rgb_of(const Rgb<double>& c) {
@@ -157,7 +157,7 @@ struct DepthFog {
   }
 
   template <class F>
-  static LIMPID_INLINE F way_length(Distance distance, const Context& c, const Pixel<F>& p) {
+  static LIMPID_INLINE F way_length(Distance distance, const Pass& c, const Pixel<F>& p) {
     F d = max(p.hit_depth - p.surface_depth, F(0));
     if (distance != Distance::kEye) d = p.ray_length * d;
     if (distance == Distance::kRefracted) {
@@ -188,7 +188,7 @@ struct DepthFog {
   }
 
   template <class Strip>
-  static void beer_lambert(const Params& params, const Context& c, Strip& strip) {
+  static void beer_lambert(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Medium medium = medium_of(params, c);
     const Rgb<F> rate = rgb_of<F>(medium.rate), down = rgb_of<F>(medium.down);

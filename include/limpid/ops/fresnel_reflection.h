@@ -105,18 +105,18 @@ struct FresnelReflection {
   }
   static bool neutral(const Params&, StateSet) { return false; }
   /// The depth plane that mirrored rays are marched over, or none.
-  static std::optional<PlaneId> marched(const Params& params, const Context& c) {
+  static std::optional<PlaneId> marched(const Params& params, const Pass& c) {
     if (params.source != Source::kAuto) return {};
     if (!reads_planes(params, c)) return PlaneId::kDepth;
     const bool follows = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
     if (!follows || c.submersible) return {};
     return PlaneId::kReflectionDepth;
   }
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Context& c, Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
 
   template <class Strip>
-  static void apply(const Params& params, const Context& c, Strip& strip) {
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     if (params.facets == Facets::kSpread && c.made.has(StatePart::kSlopeVariance)) {
       return strip.probe([&](Pixel<F>& p, const auto& tap) { mirror_facets(params, c, p, tap); });
@@ -150,7 +150,7 @@ struct FresnelReflection {
 
  private:
   template <class F>
-  static LIMPID_INLINE F from_above(const Params& params, const Context& c, const Pixel<F>& p,
+  static LIMPID_INLINE F from_above(const Params& params, const Pass& c, const Pixel<F>& p,
                                     Vec3<F> n) {
     const F cosine = dot(p.to_viewer, n);
     switch (params.reflectance) {
@@ -169,7 +169,7 @@ struct FresnelReflection {
   }
 
   template <class F>
-  static LIMPID_INLINE F reflectance(const Params& params, const Context& c, const Pixel<F>& p,
+  static LIMPID_INLINE F reflectance(const Params& params, const Pass& c, const Pixel<F>& p,
                                      Vec3<F> n) {
     const F above = from_above(params, c, p, n);
     if (!c.submersible) return above;
@@ -191,13 +191,13 @@ struct FresnelReflection {
     return {F(0), F(0), F(1)};
   }
   template <class F>
-  static LIMPID_INLINE void tell(const Context& c, Rgb<F> sources, Pixel<F>& p) {
+  static LIMPID_INLINE void tell(const Pass& c, Rgb<F> sources, Pixel<F>& p) {
     if (c.made.has(StatePart::kMirrorSources)) p.mirror_sources = sources;
   }
 
   /// What is left of the light from below, and what is mirrored, the reflectance in it.
   template <class F>
-  static LIMPID_INLINE void blend(const Context& c, Rgb<F> reflected, Pixel<F>& p) {
+  static LIMPID_INLINE void blend(const Pass& c, Rgb<F> reflected, Pixel<F>& p) {
     const F through = F(1) - p.fresnel;
     p.transmitted = through * p.transmitted;
     p.reflected = reflected;
@@ -217,7 +217,7 @@ struct FresnelReflection {
   /// cannot resolve the waves, averaged over three facets: Gauss and Hermite's nodes of a Gaussian
   /// of slopes, along the view, which is where the mean changes most.
   template <class F, class Tap>
-  static void mirror_facets(const Params& params, const Context& c, Pixel<F>& p, const Tap& tap) {
+  static void mirror_facets(const Params& params, const Pass& c, Pixel<F>& p, const Tap& tap) {
     const Vec3<F> up = vec3_of<F>(c.up);
     const Vec3<F> level = p.to_viewer - dot(up, p.to_viewer) * up;
     const Vec3<F> away = normalize_or(level, vec3_of<F>(c.b));
@@ -252,7 +252,7 @@ struct FresnelReflection {
   /// A facet whose mirrored ray would go into the water, leaned until it goes along it: no such
   /// light comes from the waves of a flat plane. From below, as it is.
   template <class F>
-  static LIMPID_INLINE Vec3<F> bent(const Context& c, const Pixel<F>& p, Vec3<F> facet) {
+  static LIMPID_INLINE Vec3<F> bent(const Pass& c, const Pixel<F>& p, Vec3<F> facet) {
     const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, facet);
     const auto sunk = dot(up, ray) < F(0) && p.side > F(0);
     return select(sunk, normalize_or(p.to_viewer + lifted(ray, up), facet), facet);
@@ -265,12 +265,12 @@ struct FresnelReflection {
     return {F(params.color.r), F(params.color.g), F(params.color.b)};
   }
 
-  static bool reads_planes(const Params& params, const Context& c) {
+  static bool reads_planes(const Params& params, const Pass& c) {
     return params.source == Source::kPlanar ||
            (params.source == Source::kAuto && c.planes.covers(kReflectionPlanes));
   }
   /// Whether the place of the lookup is known before any.
-  static bool looks_once(const Params& params, const Context& c) {
+  static bool looks_once(const Params& params, const Pass& c) {
     const bool depths = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
     return reads_planes(params, c) && !depths && !c.planes.has(PlaneId::kReflectionValid) &&
            !c.submersible;
@@ -278,7 +278,7 @@ struct FresnelReflection {
 
   /// By the facet n, whose tilt is that of the operator wave_normals.
   template <class F, class Tap>
-  static Mirrored<F> mirrored(const Params& params, const Context& c, const Pixel<F>& p,
+  static Mirrored<F> mirrored(const Params& params, const Pass& c, const Pixel<F>& p,
                               const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
     if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
     if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
@@ -290,13 +290,13 @@ struct FresnelReflection {
 
   /// The mirrored ray, unit, on the viewer's side of the surface.
   template <class F>
-  static LIMPID_INLINE Vec3<F> mirrored_ray(const Context& c, const Pixel<F>& p, Vec3<F> n) {
+  static LIMPID_INLINE Vec3<F> mirrored_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
     const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, n);
     return c.submersible ? lifted(ray, select(p.side < F(0), F(-1) * up, up)) : lifted(ray, up);
   }
 
   template <class F, class Tap>
-  static LIMPID_INLINE Rgb<F> surroundings(const Context& c, const Pixel<F>& p, const Tap& tap,
+  static LIMPID_INLINE Rgb<F> surroundings(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                            Vec3<F> n) {
     const Vec3<F> ray = mirrored_ray(c, p, n);
     return tap.lat_long_rgb(c.environment,
@@ -308,22 +308,22 @@ struct FresnelReflection {
 
   /// The mirrored ray as the planes show it: in the mirrored scene it goes down into the mirror.
   template <class F>
-  static LIMPID_INLINE ScreenRay<F> image_ray(const Context& c, const Pixel<F>& p, Vec3<F> n) {
+  static LIMPID_INLINE ScreenRay<F> image_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
     const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, n);
     return ScreenRay<F>(c, p, ray - (F(2) * dot(up, ray)) * up);
   }
 
   /// The shift at s scene units along the ray, or at the planes' edge before that.
   template <class F>
-  static LIMPID_INLINE Vec2<F> place_at(const Context& c, const Pixel<F>& p,
-                                        const ScreenRay<F>& ray, F s) {
+  static LIMPID_INLINE Vec2<F> place_at(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
+                                        F s) {
     const Vec2<F> shift = ray.shift_at(s);
     return min(reach_in(c.reflection, p.uv, shift), F(1)) * shift;
   }
 
   /// Where the mirrored ray ends.
   template <class F, class Tap>
-  static Vec2<F> follow(const Params& params, const Context& c, const Pixel<F>& p, const Tap& tap,
+  static Vec2<F> follow(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
                         Vec3<F> n) {
     const ScreenRay<F> ray = image_ray(c, p, n);
     F way(HUGE_VAL);
@@ -339,7 +339,7 @@ struct FresnelReflection {
   /// From the surface point to what the planes show at `shift`; `otherwise` where that is not
   /// valid. Depths are mixed as 1 / depth, which is even across a plane and finite beside the sky.
   template <class F, class Tap>
-  static F distance_to(const Context& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift,
+  static F distance_to(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift,
                        F otherwise) {
     const auto quad = tap.quad(shift);
     const Four<F> counts = valid<F>(c, tap, quad);
@@ -358,8 +358,7 @@ struct FresnelReflection {
   /// infinitely far, should the planes show something that far in its place. Else it is the last
   /// such place on the way there that counts, or the pixel itself.
   template <class F, class Tap>
-  static Vec2<F> march(const Context& c, const Pixel<F>& p, const Tap& tap,
-                       const ScreenRay<F>& ray) {
+  static Vec2<F> march(const Pass& c, const Pixel<F>& p, const Tap& tap, const ScreenRay<F>& ray) {
     const auto all = [](Vec2<F>, F depth) { return depth > F(0); };
     const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kReflectionDepth, c.reflection,
                                                    F(c.eye_above), p, ray, kImageSteps, all);
@@ -391,7 +390,7 @@ struct FresnelReflection {
 
   /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest.
   template <class F, class Tap>
-  static Mirrored<F> seen_in_picture(const Params& params, const Context& c, const Pixel<F>& p,
+  static Mirrored<F> seen_in_picture(const Params& params, const Pass& c, const Pixel<F>& p,
                                      const Tap& tap, Vec3<F> n) {
     const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
     const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
@@ -405,7 +404,7 @@ struct FresnelReflection {
 
   /// What the frame, or else the look, has of things infinitely far.
   template <class F, class Tap>
-  static Rgb<F> far_away(const Params& params, const Context& c, const Pixel<F>& p, const Tap& tap,
+  static Rgb<F> far_away(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
                          Vec3<F> n, const ScreenRay<F>& ray) {
     if (c.environment) return surroundings(c, p, tap, n);
     if (!c.planes.covers(kSkyPlanes)) return constant<F>(params);
@@ -425,7 +424,7 @@ struct FresnelReflection {
   }
 
   template <class F, class Tap, class Quad>
-  static LIMPID_INLINE Four<F> valid(const Context& c, const Tap& tap, const Quad& quad) {
+  static LIMPID_INLINE Four<F> valid(const Pass& c, const Tap& tap, const Quad& quad) {
     if (!c.planes.has(PlaneId::kReflectionValid)) return {F(1), F(1), F(1), F(1)};
     Four<F> seen = tap.read(PlaneId::kReflectionValid, quad);
     for (F& share : seen.at) share = select(share >= F(0.5), F(1), F(0));
@@ -433,7 +432,7 @@ struct FresnelReflection {
   }
 
   template <class F, class Tap>
-  static Mirrored<F> seen_at(const Context& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+  static Mirrored<F> seen_at(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
                              Vec2<F> shift) {
     const auto taps =
         valid_taps(tap, shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });

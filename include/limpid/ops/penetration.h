@@ -33,10 +33,10 @@ struct Penetration {
   static bool neutral(const Params& p, StateSet) {
     return p.model == Model::kNone || (p.alpha == 1 && p.amount == 0);
   }
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
 
   template <class Strip>
-  static void apply(const Params& params, const Context& c, Strip& strip) {
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     if (params.model == Model::kNone) return;
     const Vec3<F> up = vec3_of<F>(c.up);

@@ -37,13 +37,13 @@ struct PrismSplit {
     if (p.model == Model::kDispersion) return p.gain == 0;
     return p.strength == 0 || !made.has(StatePart::kNormal);
   }
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   /// How many times as far as the common one the channels' lookups go, where refraction offsets
   /// them by their index.
-  static double stretch(const Params& params, const Context& c);
+  static double stretch(const Params& params, const Pass& c);
 
   template <class Strip>
-  static void apply(const Params& params, const Context&, Strip& strip) {
+  static void apply(const Params& params, const Pass&, Strip& strip) {
     using F = typename Strip::Number;
     if (params.model == Model::kDispersion) {
       const F red(params.gain * (water_index(kRedWavelength) - water_index(kGreenWavelength)));

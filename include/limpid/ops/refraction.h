@@ -27,7 +27,7 @@ namespace limpid {
 /// that the last guess has found; with "march", to where the ray passes behind the depth plane
 /// (McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", with equal steps on screen, then
 /// bisection). What lies far before the ray hides the bottom and is not hit. A ray that comes out
-/// from behind it under the bottom ends where the layer of the bottom does that Context has, drawn
+/// from behind it under the bottom ends where the layer of the bottom does that Pass has, drawn
 /// on behind what stands before it; one that meets nothing in the picture where 4 steps guess. What
 /// is thin under water hides no more than what lies within its `thickness` behind it. From below
 /// the ray is bent outwards; where it is totally reflected nothing is transmitted by the surface
@@ -80,9 +80,9 @@ struct Refraction {
     double thickness = 0;
 
     bool marches() const { return model == Model::kSnell && steps == kMarch; }
-    /// Whether rays that end behind something see Context::bottom_layer.
+    /// Whether rays that end behind something see Pass::bottom_layer.
     bool looks_behind() const { return marches() && rejection == Rejection::kShorten; }
-    /// Whether rays that leave the picture see Context::continuation.
+    /// Whether rays that leave the picture see Pass::continuation.
     bool goes_on() const { return model == Model::kSnell && off_frame == OffFrame::kContinue; }
   };
 
@@ -107,19 +107,19 @@ struct Refraction {
     return p.model == Model::kNormalOffset && !made.has(StatePart::kPrism) &&
            (p.strength == 0 || !made.has(StatePart::kNormal));
   }
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Context& c, Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
 
   /// The dry scene, or that below the water alone, where the frame has it.
   using Planes = SeenPlanes;
-  static Planes planes_of(const Context& c) {
+  static Planes planes_of(const Pass& c) {
     if (c.planes.covers(kBelowPlanes) && !c.submersible)
       return {PlaneId::kBelowR, PlaneId::kBelowDepth, c.below, true};
     return {PlaneId::kColorR, PlaneId::kDepth, c.dry, false};
   }
 
   template <class Strip>
-  static void apply(const Params& params, const Context& c, Strip& strip) {
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Planes planes = planes_of(c);
     switch (params.model) {
@@ -184,7 +184,7 @@ struct Refraction {
 
   /// In a thin prism the deviation grows with n - 1: so do the channels' offsets.
   template <class Strip>
-  static void aim_by_offset(const Params& params, const Context& c, Strip& strip) {
+  static void aim_by_offset(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const F strength(params.strength), per_index(c.ior > 1 ? 1 / (c.ior - 1) : 0);
     const bool dudv = params.model == Model::kDudvOffset;
@@ -209,7 +209,7 @@ struct Refraction {
     F goes;  ///< 1, or 0 where nothing is refracted
   };
   template <class F>
-  static LIMPID_INLINE Bent<F> bend(const Context& c, const Pixel<F>& p, F ior) {
+  static LIMPID_INLINE Bent<F> bend(const Pass& c, const Pixel<F>& p, F ior) {
     const auto from_air = p.side > F(0);
     const Vec3<F> normal = select(from_air, p.normal, F(-1) * p.normal);
     const Refracted<F> ray = refract(p.to_viewer, normal, select(from_air, F(1) / ior, ior));
@@ -221,7 +221,7 @@ struct Refraction {
   }
 
   template <class Strip>
-  static void aim_by_snell(const Params& params, const Context& c, const Planes& planes,
+  static void aim_by_snell(const Params& params, const Pass& c, const Planes& planes,
                            Strip& strip) {
     using F = typename Strip::Number;
     const F ior(c.ior);
@@ -280,7 +280,7 @@ struct Refraction {
   /// In place of what was made up: the way of these rays is still that to where they would end by
   /// what the picture shows.
   template <class F, class Tap>
-  [[gnu::noinline]] static void go_on_off_frame(const Context& c, const Planes& planes, Pixel<F>& p,
+  [[gnu::noinline]] static void go_on_off_frame(const Pass& c, const Planes& planes, Pixel<F>& p,
                                                 const Tap& tap) {
     const Bent<F> bent = bend(c, p, F(c.ior));
     const ScreenRay<F> ray(c, p, bent.direction);
@@ -382,8 +382,8 @@ struct Refraction {
 
   /// What look_up() has mixed without a look at depths, again where some of it does not count.
   template <class F, class Tap>
-  [[gnu::noinline]] static void leave_out_nothing(const Context& c, const Planes& planes,
-                                                  Pixel<F>& p, const Tap& tap) {
+  [[gnu::noinline]] static void leave_out_nothing(const Pass& c, const Planes& planes, Pixel<F>& p,
+                                                  const Tap& tap) {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     const auto mend = [&](const auto& taps, PlaneId plane, F& value) {
       if (!any(taps.lost > F(0))) return;
@@ -409,7 +409,7 @@ struct Refraction {
   }
 
   template <class Strip>
-  static void look_up(const Context& c, const Planes& planes, Strip& strip) {
+  static void look_up(const Pass& c, const Planes& planes, Strip& strip) {
     using F = typename Strip::Number;
     if (!c.made.has(StatePart::kPrism)) {
       return strip.bilinear_rgb(
@@ -430,8 +430,8 @@ struct Refraction {
   /// A texel counts where it lies under the surface, and not so far before the end of a ray that it
   /// must hide it. Where nothing was hit, or a layer below is empty, nothing does.
   template <bool kBottomless, class F, class Tap>
-  static void look_up_valid(const Params& params, const Context& c, const Planes& planes,
-                            Pixel<F>& p, const Tap& tap) {
+  static void look_up_valid(const Params& params, const Pass& c, const Planes& planes, Pixel<F>& p,
+                            const Tap& tap) {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
@@ -557,12 +557,12 @@ struct Refraction {
     see_no_end(lost >= F(0.5) || (weight <= F(0.5) && is_empty(p.dry_depth)), p);
   }
 
-  /// Whether all texels of the pixel's lookups are known to count, by Context::heights. A texel's
+  /// Whether all texels of the pixel's lookups are known to count, by Pass::heights. A texel's
   /// view ray reaches the depth of the ray's end a little higher or lower than the one at the
   /// lookup does, a texel away at most.
   template <class F, class Tap>
-  static LIMPID_INLINE bool all_texels_count(const Context& c, const Planes& planes,
-                                             const Pixel<F>& p, const Tap& tap) {
+  static LIMPID_INLINE bool all_texels_count(const Pass& c, const Planes& planes, const Pixel<F>& p,
+                                             const Tap& tap) {
     if (!c.heights.known) return false;
     const F end = min(p.hit_depth, F(1e30));
     const auto texel = [&](const glm::dvec2& step) {
@@ -584,7 +584,7 @@ struct Refraction {
   /// Where there may be nothing. On its own, and so are its like, for the code that nearly all
   /// cells run is to stay as small as it is.
   template <class F, class Tap>
-  [[gnu::noinline]] static void look_up_valid_if_any(const Params& params, const Context& c,
+  [[gnu::noinline]] static void look_up_valid_if_any(const Params& params, const Pass& c,
                                                      const Planes& planes, Pixel<F>& p,
                                                      const Tap& tap) {
     look_up_valid<true>(params, c, planes, p, tap);
@@ -614,7 +614,7 @@ struct Refraction {
 
   /// Of a bottom as deep as the one found, taken for flat, below a calm surface.
   template <class F>
-  static LIMPID_INLINE void measure_path(const Context& c, Pixel<F>& p) {
+  static LIMPID_INLINE void measure_path(const Pass& c, Pixel<F>& p) {
     const F cosine = abs(dot(vec3_of<F>(c.up), p.to_viewer));
     const F bent = refracted_cosine(cosine, select(p.side > F(0), F(1 / c.ior), F(c.ior)));
     const F straight = p.ray_length * max(p.hit_depth - p.surface_depth, F(0));

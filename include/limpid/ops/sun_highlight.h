@@ -49,11 +49,11 @@ struct SunHighlight {
   static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
   static double reach(const Params& p) { return p.model == Model::kSlopes ? HUGE_VAL : 0; }
   static bool neutral(const Params& p, StateSet) { return p.strength == 0; }
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Context& c, Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
 
   template <class Strip>
-  static void apply(const Params& params, const Context& c, Strip& strip) {
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const bool physical = params.model == Model::kGgx || params.model == Model::kSlopes;
     const double scale = params.strength * (physical ? std::numbers::pi : 1);
@@ -77,7 +77,7 @@ struct SunHighlight {
  private:
   /// Whether something that the picture shows stands between the surface point and the sun.
   template <class F, class Tap>
-  static auto is_shadowed(const Context& c, const Pixel<F>& p, const Tap& tap) {
+  static auto is_shadowed(const Pass& c, const Pixel<F>& p, const Tap& tap) {
     constexpr MirrorSteps kSteps{16, 0.06, 0.03};
     const ScreenRay<F> ray(c, p, vec3_of<F>(c.sun.direction));
     const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
@@ -87,7 +87,7 @@ struct SunHighlight {
   }
 
   template <class F>
-  static LIMPID_INLINE F lobe(const Params& params, const Context& c, const Pixel<F>& p) {
+  static LIMPID_INLINE F lobe(const Params& params, const Pass& c, const Pixel<F>& p) {
     const Vec3<F> n = p.normal, v = p.to_viewer, l = vec3_of<F>(c.sun.direction);
     const auto faces_sun = dot(n, l) > F(0);
     switch (params.model) {

@@ -48,13 +48,13 @@ struct WaterShadow {
   static bool neutral(const Params& p, StateSet made) {
     return p.strength == 0 || (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
   }
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   /// How much the picture changes at most when the shadow is looked up elsewhere in reach, or as
   /// if no sunlight were scattered at the end of the way.
   static double displaced(const Params& params, const Ranges& ranges);
 
   template <class Strip>
-  static void apply(const Params& params, const Context& c, Strip& strip) {
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const F strength(params.strength);
     const auto where = [](const Pixel<F>& p) { return p.shift; };
@@ -83,7 +83,7 @@ struct WaterShadow {
   static constexpr int kParts = 4, kAround = 4;
 
   template <class F, class Tap, class Take>
-  static LIMPID_INLINE void scatter(const Context& c, Pixel<F>& p, const Tap& tap, Take&& take) {
+  static LIMPID_INLINE void scatter(const Pass& c, Pixel<F>& p, const Tap& tap, Take&& take) {
     // Lit all over, what is taken away is 0 to the last bit.
     const auto is_lit = [&](Vec2<F> from, Vec2<F> to) {
       return tap.range(PlaneId::kSurfaceShadow, tap.wet(), from, to).low >= 1;

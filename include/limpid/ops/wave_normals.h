@@ -107,7 +107,7 @@ struct WaveNormals {
   static bool neutral(const Params& p, StateSet) {
     return p.model != Model::kPlate && p.strength == 0;
   }
-  /// Whether it reads Context::wave_slopes.
+  /// Whether it reads Pass::wave_slopes.
   static bool needs_slope_map(const Params& p) {
     return p.model == Model::kSlopes && p.filter != Filter::kNone;
   }
@@ -127,14 +127,14 @@ struct WaveNormals {
     const double move = drift(params, time);
     return {{{move, 0}, {-move, 0}, {0, move}, {0, -move}}};
   }
-  /// Whether it reads Context::wave_variance.
+  /// Whether it reads Pass::wave_variance.
   static bool needs_wave_variance(const Params& p) { return p.wind > 0 && needs(p).wave_map; }
   /// Of these waves at strength 1 without the wind's scale, at a time in s.
   static Sym2<double> wave_variance(const Params& params, const TextureLevels& map, double time);
-  static double bound(const Params& params, const Context& c, const Ranges& ranges);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
 
   template <class Strip>
-  static void apply(const Params& params, const Context& c, Strip& strip) {
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const bool variance = params.filter == Filter::kVariance;
     if (!variance || (params.model != Model::kPlate && params.model != Model::kSines)) {
@@ -194,7 +194,7 @@ struct WaveNormals {
            (of_skin + speed * (train.course.x * ahead + train.course.y * aside));
   }
   /// What the wind multiplies slopes by, along it and across it.
-  LIMPID_INLINE static Vec2<double> wind_factors(const Params& params, const Context& c) {
+  LIMPID_INLINE static Vec2<double> wind_factors(const Params& params, const Pass& c) {
     const Vec2<double> ahead = downwind(params);
     const WindSlopes wanted = wind_slopes(params.wind);
     const auto factor = [&](Vec2<double> axis, double square) {
@@ -207,7 +207,7 @@ struct WaveNormals {
 
   /// Vectors in the axes of the map, and what they vary, to what they are under the wind.
   template <class Strip>
-  static void stretch(const Params& params, const Context& c, Strip& strip) {
+  static void stretch(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     if (!(params.wind > 0)) return;
     const Vec2<double> ahead = downwind(params), factors = wind_factors(params, c);
@@ -231,7 +231,7 @@ struct WaveNormals {
   /// A pixel's normal is one sample of the waves in it; how much its neighbours differ tells what
   /// else is there. Half of their variance, for they are farther apart than what the pixel sees.
   template <class Strip>
-  static void plate_with_neighbours(const Context& c, Strip& strip) {
+  static void plate_with_neighbours(const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Vec3<F> up = vec3_of<F>(c.up), x = vec3_of<F>(c.map_x), y = vec3_of<F>(c.map_y);
     strip.around3(PlaneId::kSurfaceNormalX, [&](Pixel<F>& p, const Around<F>& normals) {
@@ -256,7 +256,7 @@ struct WaveNormals {
   // While the models gather, p.normal holds their sums, in the axes of the map.
 
   template <class Strip>
-  static void four_maps(const Params& params, const Context& c, Strip& strip) {
+  static void four_maps(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     measure(params.filter != Filter::kNone, params, c, strip);
     drifting_four(params, c, strip, [&](const Place<F>& place) {
@@ -271,7 +271,7 @@ struct WaveNormals {
   }
 
   template <class Strip>
-  static void two_flows(const Params& params, const Context& c, Strip& strip) {
+  static void two_flows(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Vec2<double> flow = drift(params, c.time) * downwind(params);
     const bool windy = params.wind > 0;
@@ -292,7 +292,7 @@ struct WaveNormals {
   }
 
   template <class Strip>
-  static void dudv(const Params& params, const Context& c, Strip& strip) {
+  static void dudv(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const double move = drift(params, c.time);
     const bool windy = params.wind > 0;
@@ -323,7 +323,7 @@ struct WaveNormals {
   }
 
   template <class Strip>
-  static void sines(const Params& params, const Context& c, Strip& strip) {
+  static void sines(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     constexpr double kTurn = 2 * std::numbers::pi;
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
@@ -376,7 +376,7 @@ struct WaveNormals {
 
   /// Where a pixel is 1 to 2 texels wide, the four lookups pass into one of the slope map.
   template <class Strip>
-  static void slopes(const Params& params, const Context& c, Strip& strip) {
+  static void slopes(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const bool filtered = needs_slope_map(params) && c.wave_slopes;
     measure(filtered, params, c, strip);
@@ -394,7 +394,7 @@ struct WaveNormals {
   }
 
   template <class Strip>
-  static void far_slopes(const Params& params, const Context& c, Strip& strip) {
+  static void far_slopes(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const F per_map_texel(1 / c.wave_slopes->map_texels);
     const F scale(params.filter == Filter::kVariance ? params.strength * params.strength : 0);
@@ -424,7 +424,7 @@ struct WaveNormals {
   /// While a model looks up a map, p.tilt.x says how many of its texels the pixel is wide: 0
   /// without a filter.
   template <class Strip>
-  static void measure(bool filtered, const Params& params, const Context& c, Strip& strip) {
+  static void measure(bool filtered, const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     if (!filtered) return strip.each([](Pixel<F>& p) { p.tilt.x = F(0); });
     const Rect& window = c.wave_map.channels[0].window;
@@ -445,8 +445,7 @@ struct WaveNormals {
 
   /// look_up(place) for the four places of four_maps, which add to p.normal.
   template <class Strip, class LookUp>
-  static void drifting_four(const Params& params, const Context& c, Strip& strip,
-                            LookUp&& look_up) {
+  static void drifting_four(const Params& params, const Pass& c, Strip& strip, LookUp&& look_up) {
     using F = typename Strip::Number;
     strip.each([&](Pixel<F>& p) { p.normal = {F(0), F(0), F(0)}; });
     const FourShifts shifts = four_shifts(params, c.time);
@@ -455,7 +454,7 @@ struct WaveNormals {
 
   /// From a vector in the axes of the map to the normal: normalize(lerp(up, vector, strength)).
   template <class Strip>
-  static void blend_from_calm(const Params& params, const Context& c, Strip& strip) {
+  static void blend_from_calm(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y), up = vec3_of<F>(c.up);
     const F strength(params.strength);
@@ -468,7 +467,7 @@ struct WaveNormals {
 
   /// From downhill slopes along the axes of the map to the normal.
   template <class Strip>
-  static void lean(double scale, const Context& c, Strip& strip) {
+  static void lean(double scale, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y), up = vec3_of<F>(c.up);
     const F s(scale);
@@ -486,7 +485,7 @@ struct WaveNormals {
     F u0, v0;
     Vec3<F> u_step, v_step;
 
-    Place(const Params& params, const Context& c, double tiling, Vec2<double> moved) {
+    Place(const Params& params, const Pass& c, double tiling, Vec2<double> moved) {
       const double scale = tiling / params.tile_size;
       const auto begin = [&](const glm::dvec3& axis, double move) {
         const double at = c.eye.x * axis.x + c.eye.y * axis.y + c.eye.z * axis.z;

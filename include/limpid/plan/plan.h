@@ -6,7 +6,7 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/op/pixel.h"
 #include "limpid/ops/look.h"
 #include "limpid/plan/completers.h"

@@ -8,7 +8,7 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/plan/plan.h"
 
 namespace limpid {
@@ -55,14 +55,14 @@ struct CellCount {
 /// one pass over depths (shadow and color only where a rule asks for them), from least and greatest
 /// values of the cell and of all blocks that its lookups may reach. Cells begin at the corner of
 /// Frame::work() whatever the tiles of a run, so that the result depends on plan, frame and scene
-/// alone. Where views may begin in the water (Context::submersible) every cell needs everything.
+/// alone. Where views may begin in the water (Pass::submersible) every cell needs everything.
 class Survey {
  public:
   static constexpr Size kCell{128, 16};
 
-  /// Looks at a frame that has been checked (the runners do that), with the Context that the plan
+  /// Looks at a frame that has been checked (the runners do that), with the Pass that the plan
   /// runs with. `simd` as in FusedOptions. Makes no allocation after the first frame of a size.
-  void make(const Plan& plan, const Frame& frame, const Context& context, Executor& executor,
+  void make(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
             const std::string& simd = {});
 
   /// Of the cell that holds this pixel of Frame::work().

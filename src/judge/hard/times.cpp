@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/optics/waves.h"
 
 #include "judge/hard/hard_case.h"

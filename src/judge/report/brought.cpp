@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "limpid/op/footprint.h"
+#include "limpid/op/pass.h"
+#include "limpid/op/pixel_start.h"
 
 namespace limpid {
 namespace {
@@ -78,22 +80,22 @@ double wave_length(const Texture& map, double tile_size) {
 
 std::vector<Place> places_of(const Scene& scene, const Frame& frame, double near,
                              const std::function<bool(int x, int y)>& wet) {
-  const Context context(scene, frame, 1, {});  // no ray is bent here
+  const WaterView view(scene, frame.display, swell_of(frame));
   const Rect w = frame.work();
   std::vector<Place> places;
   for (int y = w.y0; y < w.y1; ++y) {
-    const RowRays<double> row(context, y - context.corner.y + 0.5);
+    const RowRays<double> row(view, y - view.corner.y + 0.5);
     for (int x = w.x0; x < w.x1; ++x) {
       if (!wet(x, y)) {
         places.push_back(Place::kDry);
         continue;
       }
-      const double column = x - context.corner.x + 0.5, depth = row.calm_depth(column);
-      bool is_near = begins_in_water(context, row, column) > 0;
+      const double column = x - view.corner.x + 0.5, depth = row.calm_depth(column);
+      bool is_near = begins_in_water(view, row, column) > 0;
       if (std::isfinite(depth)) {
         Pixel<double> pixel{};
-        begin_pixel(context, row, column, 1.0, depth, depth, pixel);
-        is_near = !(texels_wide(footprint(context, pixel), {1, 1}, 1) >= near);
+        begin_pixel(view, row, column, 1.0, depth, depth, pixel);
+        is_near = !(texels_wide(footprint(view, pixel), {1, 1}, 1) >= near);
       }
       places.push_back(is_near ? Place::kNear : Place::kFar);
     }

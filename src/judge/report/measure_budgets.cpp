@@ -40,10 +40,9 @@ struct Budget {
 
 /// What the planner promises of this frame.
 void survey(const Budget& budget, const Subject& subject, const Measuring& m, BudgetRow& row) {
-  const Context context(subject.scene(), budget.frame, budget.plan.look.water.ior,
-                        budget.plan.made);
+  const Pass pass(subject.scene(), budget.frame, budget.plan.look.water.ior, budget.plan.made);
   Survey survey;
-  survey.make(budget.plan, budget.frame, context, m.many, m.simd);
+  survey.make(budget.plan, budget.frame, pass, m.many, m.simd);
   const Survey::Summary& all = survey.summary();
   const auto share = [&](const CellCount& cells) {
     return static_cast<double>(cells.pixels) / static_cast<double>(all.all.pixels);

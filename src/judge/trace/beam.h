@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "limpid/core/vec.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/optics/refract.h"
 
 /// Ways of light. All positions of the tracer are relative to the eye, which keeps them exact near

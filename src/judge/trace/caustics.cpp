@@ -25,8 +25,8 @@ Caustics::Caustics(const Scenery& scenery, const Eye& eye, Size size, int photon
     : scenery_(scenery),
       band_(scenery.medium.bands[scenery.medium.common]),
       seed_(seed),
-      rise_in_air_(glm::dot(scenery.to_sun, scenery.context.up)),
-      rise_(glm::dot(band_.light.to_sun, scenery.context.up)) {
+      rise_in_air_(glm::dot(scenery.to_sun, scenery.view.up)),
+      rise_(glm::dot(band_.light.to_sun, scenery.view.up)) {
   choose_region(eye, size);
   const glm::dvec2 sides = high_sent_ - low_sent_;
   if (!(sides.x * sides.y > 0)) return;
@@ -50,7 +50,7 @@ Caustics::Caustics(const Scenery& scenery, const Eye& eye, Size size, int photon
 /// Where on the calm plane, from the point under the eye, sunlight for a point of the bottom comes
 /// in.
 glm::dvec2 Caustics::entry_of(const glm::dvec3& point) const {
-  const Context& c = scenery_.context;
+  const WaterView& c = scenery_.view;
   const glm::dvec3 entry = point + scenery_.sun_way.depth_of(point) / rise_ * band_.light.to_sun;
   return {glm::dot(entry, c.map_x), glm::dot(entry, c.map_y)};
 }
@@ -59,7 +59,7 @@ std::optional<Triangles::Hit> Caustics::bottom_seen(const Ray& view) const {
   Ray before = view;
   if (const auto dry = scenery_.solid.nearest(view)) before.to = dry->distance;
   const auto wet = scenery_.surface.nearest(before, true);
-  if (!wet && scenery_.context.eye_above < 0) return scenery_.solid.nearest(view);
+  if (!wet && scenery_.view.eye_above < 0) return scenery_.solid.nearest(view);
   if (!wet) return std::nullopt;
   return scenery_.solid.nearest(refracted_in({view, view, view}, *wet, band_.ior).ray);
 }
@@ -101,7 +101,7 @@ void Caustics::choose_region(const Eye& eye, Size size) {
 }
 
 Caustics::Photon Caustics::sent(std::uint64_t number) const {
-  const Context& c = scenery_.context;
+  const WaterView& c = scenery_.view;
   Samples samples(seed_, static_cast<int>(number), 0, 0);
   const double u = samples.next(), v = samples.next();
   const glm::dvec2 at = low_sent_ + glm::dvec2(u, v) * (high_sent_ - low_sent_);

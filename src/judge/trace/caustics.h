@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "limpid/core/executor.h"
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 
 #include "judge/trace/eye.h"
 #include "judge/trace/medium.h"
@@ -25,7 +25,7 @@ class Caustics {
 
   /// What they are made from; all must outlive them.
   struct Scenery {
-    const Context& context;
+    const WaterView& view;
     const Solid& solid;
     const Surface& surface;
     const Medium& medium;

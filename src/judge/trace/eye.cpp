@@ -5,28 +5,13 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
 
-#include "limpid/optics/depth.h"
-
 namespace limpid::trace {
-namespace {
-
-double plane_depth(const Camera& camera, double device) {
-  return eye_depth_from_device(device, device_depth_of(camera));
-}
-
-}  // namespace
-
 Eye::Eye(const Camera& camera, Size size)
     : rays_(rays_of(camera, {size.width, size.height})),
       to_view_(camera.view),
-      projection_(camera.projection) {
-  const double at_near = camera.clip == ClipSpace::kGl    ? -1
-                         : camera.clip == ClipSpace::kD3d ? 0
-                                                          : 1;
-  near_ = plane_depth(camera, at_near);
-  far_ = plane_depth(camera, camera.far_device_depth());
-  if (!(far_ > near_)) far_ = HUGE_VAL;  // an infinite far plane, by rounding
-}
+      projection_(camera.projection),
+      near_(camera.near_depth()),
+      far_(camera.far_depth()) {}
 
 Ray Eye::ray_at(double x, double y) const {
   const glm::dvec3 along = rays_.ray_at(x, y);

@@ -47,11 +47,11 @@ bool sees(const Solid& solid, const Ray& view, const Triangles::Hit& point) {
 
 }  // namespace
 
-Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& context, double x,
+Geometry geometry_at(const Tracer& tracer, const Eye& eye, const WaterView& water, double x,
                      double y, bool in_water) {
   const Beam beam = eye.beam_at(x, y, 1);
   Geometry g;
-  const double width = context.size.x, height = context.size.y;
+  const double width = water.size.x, height = water.size.y;
   g.uv.fill({x / width, y / height});
   g.visible.fill(true);
   g.visible_below.fill(true);
@@ -59,7 +59,7 @@ Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& contex
   g.wet = in_water || own.wet;
   if (in_water) {
     g.path = own.distance();
-    g.normal = context.up;
+    g.normal = water.up;
   }
   if (!own.wet) return g;
   const SurfacePoint& at = *own.wet;
@@ -82,8 +82,8 @@ Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& contex
     if (framed && end.dry && !end.wet) {
       const Ray view = eye.beam_at(place->x * width, place->y * height, 1).ray;
       visible = visible_below = sees(tracer.solid(), view, *end.dry);
-      if (!context.submersible) {
-        const std::optional<Ray> below = view_below(view, context.up, tracer.surface().crest());
+      if (!water.submersible) {
+        const std::optional<Ray> below = view_below(view, water.up, tracer.surface().crest());
         visible_below = below && sees(tracer.solid(), *below, *end.dry);
       }
     }

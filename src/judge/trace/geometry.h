@@ -17,7 +17,7 @@ struct Geometry {
 };
 
 /// `x`, `y`: the place in the picture, in pixels.
-Geometry geometry_at(const Tracer& tracer, const Eye& eye, const Context& context, double x,
+Geometry geometry_at(const Tracer& tracer, const Eye& eye, const WaterView& water, double x,
                      double y, bool in_water);
 
 }  // namespace limpid::trace

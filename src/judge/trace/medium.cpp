@@ -12,7 +12,7 @@ Rgb<double> shares(const Rgb<double>& part, const Rgb<double>& whole) {
 
 }  // namespace
 
-Medium::Medium(const Context& context, const Look& look, TruthOptions::Light light) {
+Medium::Medium(const Pass& pass, const Look& look, TruthOptions::Light light) {
   DepthFog::Params fog = look.of<DepthFog>();
   if (light == TruthOptions::Light::kPaths) fog.model = DepthFog::Model::kBeerLambert;
   const Rgb<double> scattering = DepthFog::scattering(fog);
@@ -25,11 +25,11 @@ Medium::Medium(const Context& context, const Look& look, TruthOptions::Light lig
   const auto band = [&](double ior) {
     Band one;
     one.ior = ior;
-    one.light = water_light(fog, context, ior);
+    one.light = water_light(fog, pass, ior);
     one.square = crosses ? ior * ior : 1;
     one.sun_on_water = shares(one.light.sun, scattering);
     const double enters = one.light.day ? one.light.spread * one.light.bottom * one.square : 0;
-    one.sun_on_bottom = enters * context.sun.color;
+    one.sun_on_bottom = enters * pass.sun.color;
     return one;
   };
   const double gain = look.of<PrismSplit>().gain;

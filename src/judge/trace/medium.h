@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/ops/look.h"
 
 #include "judge/trace/truth.h"
@@ -22,7 +22,7 @@ struct Band {
 /// The water as depth_fog, prism_split and water describe it.
 struct Medium {
   /// Where all light is followed none counts as not scattered, whatever depth_fog's model is.
-  Medium(const Context& context, const Look& look, TruthOptions::Light light);
+  Medium(const Pass& pass, const Look& look, TruthOptions::Light light);
 
   Rgb<double> rate{0, 0, 0};     ///< a + b
   Rgb<double> albedo{0, 0, 0};   ///< b / (a + b), 0 in clear water

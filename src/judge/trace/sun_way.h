@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 
 #include "judge/trace/medium.h"
 #include "judge/trace/solid.h"
@@ -13,12 +13,12 @@ namespace limpid::trace {
 class SunWay {
  public:
   /// `to_sun`: in the air, unit.
-  SunWay(const Context& context, const Solid& solid, const Medium& medium, const glm::dvec3& to_sun)
-      : context_(context), solid_(solid), medium_(medium), to_sun_(to_sun) {}
+  SunWay(const WaterView& view, const Solid& solid, const Medium& medium, const glm::dvec3& to_sun)
+      : view_(view), solid_(solid), medium_(medium), to_sun_(to_sun) {}
 
   /// How far below the calm plane, and the same but never less than 0.
   double under_calm(const glm::dvec3& point) const {
-    return -context_.eye_above - glm::dot(context_.up, point);
+    return -view_.eye_above - glm::dot(view_.up, point);
   }
   double depth_of(const glm::dvec3& point) const { return std::max(0.0, under_calm(point)); }
 
@@ -30,19 +30,19 @@ class SunWay {
       up.direction = to_sun_;
       return !solid_.blocks(up);
     }
-    up.to = depth / glm::dot(band.light.to_sun, context_.up);
+    up.to = depth / glm::dot(band.light.to_sun, view_.up);
     return !solid_.blocks(up) && !solid_.blocks({up.at(up.to), to_sun_});
   }
 
   /// What is left of it at a point that it reaches, by all that the water takes and throws
   /// elsewhere. Only for a sun that stands over the horizon.
   Rgb<double> left_at(const glm::dvec3& point, const Band& band) const {
-    const double rise = glm::dot(band.light.to_sun, context_.up);
+    const double rise = glm::dot(band.light.to_sun, view_.up);
     return transmittance(depth_of(point) / rise, medium_.rate);
   }
 
  private:
-  const Context& context_;
+  const WaterView& view_;
   const Solid& solid_;
   const Medium& medium_;
   glm::dvec3 to_sun_;

@@ -21,14 +21,14 @@ WaveNormals::Params unfiltered(WaveNormals::Params waves) {
 }  // namespace
 
 Surface::Surface(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map,
-                 const Context& context)
-    : context_(context),
+                 const Pass& pass)
+    : pass_(pass),
       waves_(unfiltered(look.of<WaveNormals>())),
       wavy_(makes_waves(waves_, wave_map)),
       has_mesh_(std::any_of(model.instances.begin(), model.instances.end(),
                             [](const Instance& i) { return i.water; })),
       raised_(has_mesh_ && !scene.water->waves.empty()),
-      height_(-context.eye_above),
+      height_(-pass.eye_above),
       crest_(raised_ ? highest_crest(*scene.water) : 0),
       mesh_(made(raised_water(model, *scene.water, scene.time))) {}
 
@@ -37,7 +37,7 @@ Triangles Surface::made(const Model& water) {
   for (const Mesh& mesh : water.meshes) {
     Triangles::Part part;
     for (const glm::vec3& p : mesh.positions) {
-      part.positions.push_back(glm::dvec3(p) - context_.eye);
+      part.positions.push_back(glm::dvec3(p) - pass_.eye);
     }
     part.indices = with_area(part.positions, mesh.indices);
     if (part.indices.empty()) continue;
@@ -55,12 +55,12 @@ std::optional<SurfacePoint> Surface::nearest(const Ray& ray, bool from_air) cons
     found = {hit->distance, hit->point, hit->front, {}};
     found.normal = raised_ ? mesh_normal_at(*hit) : normal_at(hit->point);
   } else {
-    const double sinks = -glm::dot(ray.direction, context_.up);
+    const double sinks = -glm::dot(ray.direction, pass_.up);
     if (!(from_air ? sinks > 0 : sinks < 0)) return std::nullopt;
-    found.distance = (glm::dot(ray.origin, context_.up) - height_) / sinks;
+    found.distance = (glm::dot(ray.origin, pass_.up) - height_) / sinks;
     if (!(found.distance >= ray.from)) return std::nullopt;
     found.point = ray.at(found.distance);
-    found.face = context_.up;
+    found.face = pass_.up;
     found.normal = normal_at(found.point);
   }
   if (!(found.distance < ray.to)) return std::nullopt;
@@ -69,23 +69,23 @@ std::optional<SurfacePoint> Surface::nearest(const Ray& ray, bool from_air) cons
 
 std::optional<SurfacePoint> Surface::from_below(const Ray& ray) const {
   if (const auto found = nearest(ray, false)) return found;
-  const double rises = glm::dot(ray.direction, context_.up);
+  const double rises = glm::dot(ray.direction, pass_.up);
   if (!has_mesh_ || !(rises > 0)) return std::nullopt;
   SurfacePoint lid;
-  lid.distance = std::max((crest() - glm::dot(ray.origin, context_.up)) / rises, ray.from);
+  lid.distance = std::max((crest() - glm::dot(ray.origin, pass_.up)) / rises, ray.from);
   lid.point = ray.at(lid.distance);
-  lid.face = lid.normal = context_.up;
+  lid.face = lid.normal = pass_.up;
   if (!(lid.distance < ray.to)) return std::nullopt;
   return lid;
 }
 
 glm::dvec3 Surface::normal_at(const glm::dvec3& point) const {
-  if (!wavy_) return context_.up;
+  if (!wavy_) return pass_.up;
   Pixel<double> pixel{};
   pixel.surface_point = formula_of(point);
-  pixel.normal = formula_of(context_.up);
+  pixel.normal = formula_of(pass_.up);
   OnePixel strip{pixel};
-  WaveNormals::apply(waves_, context_, strip);
+  WaveNormals::apply(waves_, pass_, strip);
   return glm_of(pixel.normal);
 }
 

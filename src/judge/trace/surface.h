@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "limpid/core/frame.h"
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 #include "limpid/ops/look.h"
 #include "limpid/raster/model.h"
 
@@ -23,7 +23,7 @@ struct SurfacePoint {
 class Surface {
  public:
   Surface(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map,
-          const Context& context);
+          const Pass& pass);
 
   /// Rays in the air meet it from above, rays in the water from below: none meets it from the side
   /// that it does not come from.
@@ -41,7 +41,7 @@ class Surface {
   glm::dvec3 normal_at(const glm::dvec3& point) const;
   glm::dvec3 mesh_normal_at(const Triangles::Hit& hit) const;
 
-  const Context& context_;
+  const Pass& pass_;
   const WaveNormals::Params waves_;
   bool wavy_;  ///< by the operator
   bool has_mesh_, raised_;

@@ -35,19 +35,18 @@ Beam beyond(const Beam& beam, const SolidPoint& point) {
 }  // namespace
 
 Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
-               const TruthOptions& options, const Context& context, const Eye& eye,
-               Executor& executor)
-    : context_(context),
+               const TruthOptions& options, const Pass& pass, const Eye& eye, Executor& executor)
+    : pass_(pass),
       look_(look),
       light_(options.light),
       environment_(options.environment),
       background_(model.background),
       sun_(in_the_air(scene)),
-      medium_(context, look, options.light),
-      solid_(model, context.eye),
-      surface_(model, scene, look, options.wave_map, context),
-      sun_way_(context, solid_, medium_, sun_.to_sun),
-      sky_(context, environment_, even_sky(scene, look)),
+      medium_(pass, look, options.light),
+      solid_(model, pass.eye),
+      surface_(model, scene, look, options.wave_map, pass),
+      sun_way_(pass, solid_, medium_, sun_.to_sun),
+      sky_(pass, environment_, even_sky(scene, look)),
       caustics_(caustics_of(options, eye, executor)),
       walk_(solid_, surface_, medium_, sun_way_, sun_, sky_, caustics_ ? &*caustics_ : nullptr) {}
 
@@ -56,8 +55,8 @@ std::optional<Caustics> Tracer::caustics_of(const TruthOptions& options, const E
   const bool wanted = light_ == TruthOptions::Light::kPaths && options.photons > 0;
   if (!wanted || !medium_.bends_sun) return std::nullopt;
   return std::make_optional<Caustics>(
-      Caustics::Scenery{context_, solid_, surface_, medium_, sun_way_, sun_.to_sun}, eye,
-      options.size, options.photons, options.seed, executor);
+      Caustics::Scenery{pass_, solid_, surface_, medium_, sun_way_, sun_.to_sun}, eye, options.size,
+      options.photons, options.seed, executor);
 }
 
 Light Tracer::seen(const Beam& beam, bool in_water, int steps, Samples& samples,
@@ -230,7 +229,7 @@ Rgb<double> Tracer::scattered_once(const Ray& ray, double length, const Band& ba
 /// has lost nothing, times the share of it that the sun reaches.
 double Tracer::sunlit_column(const Ray& ray, double length, double rate, double down,
                              const Band& band, const View& view) const {
-  const double sinks = -glm::dot(ray.direction, context_.up);
+  const double sinks = -glm::dot(ray.direction, pass_.up);
   const double begin = sun_way_.under_calm(ray.origin), end = begin + sinks * length;
   const double crossing = begin * end < 0 ? -begin / sinks : length;
   struct Part {
@@ -290,20 +289,20 @@ Rgb<double> Tracer::background(const glm::dvec3& direction, const View& view) co
   const FresnelReflection::Params& mirror = look_.of<FresnelReflection>();
   if (view.mirrored && mirror.source == Source::kConstant) return mirror.color;
   if (view.mirrored && mirror.source == Source::kEnvironment && environment_) {
-    return environment_at(environment_, context_, direction);
+    return environment_at(environment_, pass_, direction);
   }
   return background_;
 }
 
 Rgb<double> Tracer::highlight(const SurfacePoint& at, const glm::dvec3& to_viewer) const {
   const SunHighlight::Params& params = look_.of<SunHighlight>();
-  if (!context_.has_sun || SunHighlight::neutral(params, {})) return kBlack;
+  if (!pass_.has_sun || SunHighlight::neutral(params, {})) return kBlack;
   Pixel<double> pixel{};
   pixel.side = 1;
   pixel.to_viewer = formula_of(to_viewer);
   pixel.normal = formula_of(at.normal);
   OnePixel strip{pixel};
-  SunHighlight::apply(params, context_, strip);
+  SunHighlight::apply(params, pass_, strip);
   const bool faces = glm::dot(at.normal, sun_.to_sun) > 0;
   if (pixel.highlight == kBlack || !faces) return kBlack;
   return solid_.blocks({at.point, sun_.to_sun}) ? kBlack : pixel.highlight;

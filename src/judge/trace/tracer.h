@@ -1,5 +1,5 @@
 #pragma once
-#include "limpid/op/context.h"
+#include "limpid/op/pass.h"
 
 #include "judge/trace/medium.h"
 #include "judge/trace/samples.h"
@@ -24,7 +24,7 @@ struct Light {
 class Tracer {
  public:
   Tracer(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options,
-         const Context& context, const Eye& eye, Executor& executor);
+         const Pass& pass, const Eye& eye, Executor& executor);
   Tracer(const Tracer&) = delete;  // its parts know one another
 
   /// `steps`: samples along a way where the sun's shadow on scattering water is looked up, where
@@ -80,7 +80,7 @@ class Tracer {
   Rgb<double> background(const glm::dvec3& direction, const View& view) const;
   Rgb<double> highlight(const SurfacePoint& at, const glm::dvec3& to_viewer) const;
 
-  const Context& context_;
+  const Pass& pass_;
   const Look& look_;
   const TruthOptions::Light light_;
   const Texture environment_;

@@ -56,10 +56,8 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
   }
 }
 
-/// What the chain's formulas want to know of the frame: its size, and whether the surface has
-/// planes of its own.
-Frame frame_of(const Model& model, const Scene& scene, const Look& look,
-               const TruthOptions& options, const float& anything) {
+/// What the chain's formulas want to know of a frame that has no planes: its size, and the waves.
+Frame frame_of(const Scene& scene, const Look& look, const TruthOptions& options) {
   Frame frame;
   frame.display = rect_of(options.size);
   frame.wave_map = options.wave_map;
@@ -71,11 +69,19 @@ Frame frame_of(const Model& model, const Scene& scene, const Look& look,
     frame.wave_variance =
         WaveNormals::wave_variance(waves, levels ? *levels : maker.levels(), scene.time);
   }
-  for (PlaneId id : {PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow}) {
-    const bool there = renderable(model, scene).has(id);
-    if (there) frame.planes[index_of(id)] = {&anything, 0, 0, frame.display};
-  }
   return frame;
+}
+
+/// The pass for formulas that are applied to one point of the surface. Instead of planes it has
+/// what the rays find there: the surface itself, and the sun's shadow on it.
+Pass pass_of(const Model& model, const Scene& scene, const Look& look,
+             const TruthOptions& options) {
+  const PlaneSet traced{PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow};
+  const PlaneSet there = renderable(model, scene) & traced;
+  Pass pass(scene, frame_of(scene, look, options), look.water.ior, {},
+            {.raises = there.has(PlaneId::kSurfaceDepth), .waves = {}});
+  pass.planes = there;
+  return pass;
 }
 
 TruthPicture picture_for(const TruthOptions& options) {
@@ -135,9 +141,9 @@ class Painter {
           TruthPicture& picture, Executor& executor)
       : options_(options),
         picture_(picture),
-        context_(scene, frame_of(model, scene, look, options, anything_), look.water.ior, {}),
+        pass_(pass_of(model, scene, look, options)),
         eye_(*scene.camera, options.size),
-        tracer_(model, scene, look, options, context_, eye_, executor),
+        tracer_(model, scene, look, options, pass_, eye_, executor),
         paths_(options.light == TruthOptions::Light::kPaths ? options.paths : 1),
         steps_(std::max(4, 32 / (options.samples * options.samples))),
         rows_(static_cast<std::size_t>(options.size.height)) {}
@@ -151,7 +157,7 @@ class Painter {
       row.error += sum_of(mean.color().error());
       if (wants_geometry()) {
         const bool in_water = begins_in_water(x + 0.5, y + 0.5);
-        put(x, y, geometry_at(tracer_, eye_, context_, x + 0.5, y + 0.5, in_water));
+        put(x, y, geometry_at(tracer_, eye_, pass_, x + 0.5, y + 0.5, in_water));
       }
     }
   }
@@ -188,7 +194,7 @@ class Painter {
   }
 
   bool begins_in_water(double x, double y) const {
-    return limpid::begins_in_water(context_, RowRays<double>(context_, y), x) > 0;
+    return limpid::begins_in_water(pass_, RowRays<double>(pass_, y), x) > 0;
   }
 
   bool wants_geometry() const {
@@ -234,8 +240,7 @@ class Painter {
 
   const TruthOptions& options_;
   TruthPicture& picture_;
-  float anything_ = 0;
-  Context context_;
+  Pass pass_;
   trace::Eye eye_;
   trace::Tracer tracer_;
   int paths_, steps_;

@@ -1,4 +1,4 @@
-#include "limpid/op/context.h"
+#include "limpid/core/water_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec2.hpp>
 
 #include "limpid/core/error.h"
-#include "limpid/optics/depth.h"
 
 namespace limpid {
 namespace {
@@ -21,14 +19,6 @@ glm::dvec3 on_plane(const glm::dvec3& axis, const glm::dvec3& v, const glm::dvec
   const auto flat = [&](const glm::dvec3& w) { return w - glm::dot(w, axis) * axis; };
   const glm::dvec3 first = flat(v);
   return glm::normalize(glm::length(first) > 1e-6 ? first : flat(fallback));
-}
-
-/// Distance of the near plane along the view axis.
-double near_depth(const Camera& camera) {
-  const double at_near = camera.clip == ClipSpace::kGl    ? -1
-                         : camera.clip == ClipSpace::kD3d ? 0
-                                                          : 1;
-  return eye_depth_from_device(at_near, device_depth_of(camera));
 }
 
 /// The direction on screen, unit, in pixels to the right and down, in which the calm water recedes:
@@ -64,52 +54,18 @@ Rays narrower(Rays rays, glm::dvec2 along, int times) {
   return rays;
 }
 
-Bounds bounds_of(const Frame& frame, PlaneSet planes) {
-  Rect window;
-  for (int i = 0; i < kPlaneCount; ++i) {
-    const PlaneId id = static_cast<PlaneId>(i);
-    if (!planes.has(id) || !frame.plane(id)) continue;
-    window = window.empty() ? frame.plane(id).window : intersection(window, frame.plane(id).window);
-  }
-  if (window.empty()) window = frame.display;
-  const glm::dvec2 corner(frame.display.x0, frame.display.y0);
-  const glm::dvec2 size(frame.display.width(), frame.display.height());
-  return {(glm::dvec2(window.x0, window.y0) + 0.5 - corner) / size,
-          (glm::dvec2(window.x1, window.y1) - 0.5 - corner) / size};
-}
-
-bool contains(const Bounds& outer, const Bounds& inner) {
-  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && inner.high.x <= outer.high.x &&
-         inner.high.y <= outer.high.y;
-}
-
 }  // namespace
 
-Context::Context(const Scene& scene, const Frame& frame, double index, StateSet parts,
-                 const Swell& swell)
-    : sun(scene.sun.value_or(Sun{})),
-      has_sun(scene.sun.has_value()),
-      time(scene.time),
-      ior(index),
-      wave_map(frame.wave_map),
-      environment(frame.environment),
-      wave_slopes(frame.wave_slopes),
-      wave_variance(frame.wave_variance),
-      scattered_light(frame.scattered_light),
-      made(parts),
-      continuation(frame.continuation),
-      bottom_layer(frame.bottom_layer) {
+WaterView::WaterView(const Scene& scene, const Rect& window, const Swell& swell) {
   scene.validate();
-  has_sky = frame.sky_radiance || scene.sky;
-  sky = frame.sky_radiance.value_or(scene.sky.value_or(SkyLight{}).radiance);
   if (!scene.camera) throw Error("the scene has no camera, expected view and projection matrices");
   if (!scene.water) throw Error("the scene has no water plane, expected its normal and height");
-  size = {frame.display.width(), frame.display.height()};
-  corner = {frame.display.x0, frame.display.y0};
-  planes = frame.present();
-  raised = swell.raises || planes.has(PlaneId::kSurfaceDepth);
+  size = {window.width(), window.height()};
+  corner = {window.x0, window.y0};
+  raised = swell.raises;
   waves = swell.waves.empty() ? std::span<const SineWave>(scene.water->waves) : swell.waves;
   wave_scale = swell.scale;
+  time = scene.time;
   Camera camera = *scene.camera;
   up = scene.water->up;
   rays = part = rays_of(camera, size);
@@ -152,7 +108,7 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
   if (raised) {
     for (const SineWave& wave : waves) crest += std::abs(wave_scale * wave.amplitude);
   }
-  near = near_depth(camera);
+  near = camera.near_depth();
   double lowest = HUGE_VAL;  // of the window's corners, over the calm surface
   for (const int x : {0, size.x}) {
     for (const int y : {0, size.y}) {
@@ -160,17 +116,9 @@ Context::Context(const Scene& scene, const Frame& frame, double index, StateSet 
     }
   }
   submersible = !camera.orthographic() && lowest < crest;
-
-  dry = bounds_of(frame, kColorPlanes | PlaneSet{PlaneId::kDepth});
-  below = bounds_of(frame, kBelowPlanes);
-  reflection = bounds_of(
-      frame, kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth});
-  surface = planes.has(PlaneId::kSurfaceDepth) ? bounds_of(frame, {PlaneId::kSurfaceDepth}) : dry;
-  const bool layer = planes.covers(kBelowPlanes);
-  surface_ends = !contains(surface, dry) || (layer && !contains(surface, below));
 }
 
-double Context::phase_at_eye(const SineWave& wave) const {
+double WaterView::phase_at_eye(const SineWave& wave) const {
   const double phase = wave.k_x * glm::dot(eye, map_x) + wave.k_y * glm::dot(eye, map_y) +
                        wave.phase - std::fmod(wave.omega * time, 2 * std::numbers::pi);
   return std::remainder(phase, 2 * std::numbers::pi);
