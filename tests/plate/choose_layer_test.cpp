@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "plate/layer_names.h"
+#include "plate/named_layers.h"
 
 namespace limpid {
 namespace {

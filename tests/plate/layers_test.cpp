@@ -5,7 +5,7 @@
 
 #include "limpid/core/error.h"
 
-#include "plate/layer_names.h"
+#include "plate/named_layers.h"
 
 namespace limpid {
 namespace {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "files/gltf/gltf_files.h"
+#include "files/gltf/made_gltf.h"
 #include "tool/tool.h"
 
 /// What the tool says of glTF files that it does not draw as they are.

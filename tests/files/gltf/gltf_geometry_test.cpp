@@ -8,7 +8,7 @@
 #include "limpid/files/gltf/gltf.h"
 
 #include "files/exr/written.h"
-#include "files/gltf/gltf_files.h"
+#include "files/gltf/made_gltf.h"
 
 /// Vertices and triangles as files keep them otherwise than one by one: strips, fans, fractions,
 /// differences, poses.

@@ -8,7 +8,7 @@
 
 #include "files/exr/written.h"
 #include "files/gltf/gltf_error.h"
-#include "files/gltf/gltf_files.h"
+#include "files/gltf/made_gltf.h"
 
 /// Opacity, emission, wrapping, sets of uvs, vertex colors.
 

@@ -13,7 +13,7 @@
 #include "limpid/files/picture/image_file.h"
 
 #include "files/exr/written.h"
-#include "files/gltf/gltf_files.h"
+#include "files/gltf/made_gltf.h"
 
 namespace limpid {
 namespace {

@@ -6,7 +6,7 @@
 #include "limpid/files/gltf/gltf.h"
 
 #include "files/exr/written.h"
-#include "files/gltf/gltf_files.h"
+#include "files/gltf/made_gltf.h"
 
 /// Files of which a part cannot be drawn: refused, or drawn without it.
 

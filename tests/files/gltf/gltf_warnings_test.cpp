@@ -4,7 +4,7 @@
 #include "limpid/files/gltf/gltf.h"
 
 #include "files/exr/written.h"
-#include "files/gltf/gltf_files.h"
+#include "files/gltf/made_gltf.h"
 
 /// What a model says of a file that it does not draw.
 
