@@ -76,10 +76,10 @@ struct BottomLayerMaker::Scan {
   Size cells;
 
   Scan(const Frame& frame, const Pass& pass)
-      : c(pass), depth(frame.plane(Refraction::planes_of(pass).depth)) {
+      : c(pass), depth(frame.plane(SeenPlanes::of(pass).depth)) {
     window = depth.window;
     for (int i = 0; i < 3; ++i) {
-      const PlaneId plane = plane_after(Refraction::planes_of(pass).color, i);
+      const PlaneId plane = plane_after(SeenPlanes::of(pass).color, i);
       color[static_cast<std::size_t>(i)] = frame.plane(plane);
       window = intersection(window, frame.plane(plane).window);
     }
@@ -246,7 +246,7 @@ float BottomLayerMaker::thinness_at(Size size, int column, int row) const {
 const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
                                           Executor& executor) {
   if (!(pass.eye_above > 0) || pass.submersible) return nullptr;
-  if (Refraction::planes_of(pass).below) return nullptr;
+  if (SeenPlanes::of(pass).below) return nullptr;
   const Scan scan(frame, pass);
   survey(scan, executor);
   if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;

@@ -40,12 +40,12 @@ glm::dvec3 point_at(const Pass& c, double x, double y, double depth) {
 }
 
 Rect looked_up(const Frame& frame, const Pass& pass) {
-  const Refraction::Planes planes = Refraction::planes_of(pass);
+  const SeenPlanes planes = SeenPlanes::of(pass);
   return intersection(frame.plane(planes.color).window, frame.plane(planes.depth).window);
 }
 
 void gather_samples(const Frame& frame, const Pass& c, std::vector<Sample>& samples) {
-  const View<const float>& depth = frame.plane(Refraction::planes_of(c).depth);
+  const View<const float>& depth = frame.plane(SeenPlanes::of(c).depth);
   const Rect window = looked_up(frame, c);
   const int step = step_for(window, kSamples);
   samples.clear();

@@ -45,8 +45,8 @@ struct Bottom {
   Rect window;
 
   Bottom(const Frame& frame, const Pass& pass)
-      : c(pass), depth(frame.plane(Refraction::planes_of(pass).depth)) {
-    const PlaneId red = Refraction::planes_of(pass).color;
+      : c(pass), depth(frame.plane(SeenPlanes::of(pass).depth)) {
+    const PlaneId red = SeenPlanes::of(pass).color;
     window = depth.window;
     for (int i = 0; i < 3; ++i) {
       const View<const float>& channel = frame.plane(plane_after(red, i));

@@ -95,7 +95,7 @@ double share_of_way(const Plan& plan, const Frame& frame, const Pass& pass) {
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   const bool kept_in_frame = params.off_frame == Refraction::OffFrame::kShorten ||
                              params.off_frame == Refraction::OffFrame::kContinue;
-  const PlaneId seen = Refraction::planes_of(pass).depth;
+  const PlaneId seen = SeenPlanes::of(pass).depth;
   const bool same_window = !surface || surface.window == frame.plane(seen).window;
   const bool known =
       params.rejection == Refraction::Rejection::kShorten && kept_in_frame && same_window;
@@ -145,7 +145,7 @@ void Heights::look_at_mirrored(const Plan& plan, const Frame& frame, const Pass&
 
 void Heights::look_below(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                          const ScanTarget& target) {
-  const SeenPlanes planes = Refraction::planes_of(pass);
+  const SeenPlanes planes = SeenPlanes::of(pass);
   const View<const float>& depth = frame.plane(planes.depth);
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   const HeightError error = march_error(pass);

@@ -49,4 +49,43 @@ void FresnelReflection::reckon(const P& params, const Pass&, Ranges& ranges) {
   ranges.above += known ? std::max({params.color.r, params.color.g, params.color.b}) : HUGE_VAL;
 }
 
+std::string_view FresnelReflection::prefer(P& params, const AtHand& has) {
+  if (params.source != Source::kPlanar || !has.environment) return "";
+  if (has.planes.covers(kReflectionPlanes)) return "";
+  params.source = Source::kEnvironment;
+  return "source environment: the frame has no reflection";
+}
+
+std::string_view FresnelReflection::looks_around(const P& params, const AtHand& has) {
+  const bool planar = params.source == Source::kPlanar && has.planes.has(PlaneId::kReflectionValid);
+  if (!has.environment || (!planar && params.source != Source::kAuto)) return "";
+  return has.planes.covers(kReflectionPlanes)
+             ? "environment where the reflection is not valid"
+             : "environment where the picture does not show what is mirrored";
+}
+
+std::string_view FresnelReflection::warning(const P& params, const AtHand& has) {
+  if (params.source != Source::kPlanar || params.lookup != Lookup::kRay) return "";
+  if (has.planes.has(PlaneId::kReflectionDepth)) return "";
+  return "the reflection has no depth: all that it shows is taken to be infinitely far; expected a "
+         "reflection_depth, or fresnel_reflection.source = auto";
+}
+
+double FresnelReflection::ns(const P& p, const Running& running) {
+  const bool cheap =
+      p.reflectance != Reflectance::kRim && p.reflectance != Reflectance::kInversePower;
+  const double formula = cheap ? 0.6 : 1.5;
+  if (p.source == Source::kConstant) return formula;
+  const double facets = p.facets == Facets::kSpread ? 1.6 : 1;
+  if (p.source == Source::kEnvironment) return formula + 8 * facets;
+  const bool depth = running.planes.has(PlaneId::kReflectionDepth);
+  if (p.source == Source::kAuto) {
+    if (!running.planes.covers(kReflectionPlanes)) return formula + 150 * facets;
+    if (depth || running.completed.has(PlaneId::kReflectionDepth)) return formula + 55 * facets;
+  }
+  const bool probes = running.planes.has(PlaneId::kReflectionValid);
+  if (p.lookup == Lookup::kOffset) return formula + (probes ? 12 : 3);
+  return formula + (depth ? 30 : probes ? 16 : 4);
+}
+
 }  // namespace limpid

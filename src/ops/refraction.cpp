@@ -47,7 +47,7 @@ void Refraction::reckon(const P& params, const Pass& c, Ranges& ranges) {
   const bool fades = params.off_frame == OffFrame::kFog;
   // Where not even a pixel's own texel of the layer below holds anything, the depth there is none.
   const bool nothing =
-      planes_of(c).below && params.rejection == Rejection::kShorten && !(seen.max < 1e30);
+      SeenPlanes::of(c).below && params.rejection == Rejection::kShorten && !(seen.max < 1e30);
   const bool known = surface.max < HUGE_VAL && !nothing;
   ranges.hit = {known ? std::max(seen.min - surface.max, 0.0) : 0,
                 std::max(seen.max - surface.min, 0.0)};
@@ -78,6 +78,31 @@ void Refraction::reckon(const P& params, const Pass& c, Ranges& ranges) {
   for (Range& color : ranges.color) {
     color = {std::min(color.min, 0.0), std::max(color.max, 0.0)};
   }
+}
+
+/// With `snap` nothing that is looked up may lie before the water of the cell; with `shorten` every
+/// texel that is tapped must count. Of snell's rays with `shorten` more is asked.
+bool Refraction::foreground_free(const P& params, const InReach& reach) {
+  switch (params.rejection) {
+    case Rejection::kNone:
+      return false;
+    case Rejection::kSnap:
+      return reach.below || reach.nearest >= reach.surface_far;
+    case Rejection::kShorten:
+      return params.model != Model::kSnell && reach.all_under &&
+             (!reach.below || reach.farthest < 1e30);
+  }
+  return false;
+}
+
+double Refraction::ns(const P& p, const Running& running) {
+  const bool split = running.made.has(StatePart::kPrism);
+  const double lookups = split ? 5 : 3;
+  const double steps = p.model != Model::kSnell ? 0.5 : p.steps < 0 ? 90 : 4 + 8.0 * p.steps;
+  const double test = p.rejection == Rejection::kShorten ? (split ? 50 : 26)
+                      : p.rejection == Rejection::kSnap  ? 1.5
+                                                         : 0.5;
+  return lookups + steps + test;
 }
 
 }  // namespace limpid

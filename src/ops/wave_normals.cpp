@@ -70,4 +70,27 @@ Sym2<double> WaveNormals::wave_variance(const P& params, const TextureLevels& ma
 /// All that comes after hangs on them.
 double WaveNormals::bound(const P&, const Pass&, const Ranges&) { return HUGE_VAL; }
 
+std::string_view WaveNormals::prefer(P& params, const AtHand& has) {
+  if (!has.planes.covers(kSurfaceNormalPlanes) || params.model == Model::kPlate) return "";
+  params.model = Model::kPlate;
+  return "model plate: the frame has surface normals";
+}
+
+double WaveNormals::ns(const P& p, const Running&) {
+  const bool variance = p.filter == Filter::kVariance;
+  switch (p.model) {
+    case Model::kPlate:
+      return variance ? 6 : 0.5;
+    case Model::kSines:
+      return 0.5 + (variance ? 4.0 : 2.0) * static_cast<double>(p.waves.size());
+    case Model::kTwoFlows:
+    case Model::kDudv:
+      return 6;
+    case Model::kFourMaps:
+    case Model::kSlopes:
+      return 11;
+  }
+  return 1;
+}
+
 }  // namespace limpid

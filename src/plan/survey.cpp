@@ -5,7 +5,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "limpid/op/seen_planes.h"
+
 #include "plan/cell_rules.h"
+#include "plan/operator_table.h"
 #include "plan/survey_scan.h"
 
 namespace limpid {
@@ -33,14 +36,12 @@ int count_of(int pixels, int part) { return (pixels + part - 1) / part; }
 /// How far lookups of the plan that follow the refracted ray go, in uv.
 double reach_of(const Plan& plan, const Pass& pass) {
   double reach = 0, stretch = 1;
-  Chain::for_each([&]<class Op, int I>() {
-    // These follow other rays.
-    if (std::is_same_v<Op, FresnelReflection> || std::is_same_v<Op, SunHighlight>) return;
-    if (!plan.keeps(I)) return;
-    const auto& params = plan.look.of<Op>();
-    reach += Op::reach(params);
-    if constexpr (std::is_same_v<Op, PrismSplit>) stretch = PrismSplit::stretch(params, pass);
-  });
+  for (int i = 0; i < Chain::kCount; ++i) {
+    const OperatorEntry& entry = operator_table()[static_cast<std::size_t>(i)];
+    if (!plan.keeps(i) || entry.looks_above) continue;
+    reach += entry.reach(plan.look);
+    stretch *= entry.stretch(plan.look, pass);
+  }
   return reach * stretch;
 }
 
@@ -68,7 +69,7 @@ struct Survey::Scan {
   const Frame& frame;
   const Pass& pass;
   const ScanTarget& target;
-  Refraction::Planes looked_up;
+  SeenPlanes looked_up;
   CellRules rules;
   HeightError error;
   PlaneSet wanted;                             // of those that are looked up
@@ -85,7 +86,7 @@ struct Survey::Scan {
         frame(f),
         pass(c),
         target(t),
-        looked_up(Refraction::planes_of(c)),
+        looked_up(SeenPlanes::of(c)),
         rules(p, c),
         error(calm_error(c)) {}
 
@@ -122,7 +123,6 @@ struct Survey::Scan {
   void scan_plane(PlaneId plane, const Rect& within, const Chunk& chunk, Into&& into);
   Range sink_of(const Rect& pixels) const;
   void decide_cell(int index, const Extremes& reached);
-  bool no_foreground(const Own& own, const Extremes& reached) const;
 
   // Tasks, one a row of blocks or cells.
   static void scan_row(void* self, int row);
@@ -322,26 +322,12 @@ void Survey::Scan::decide_row(void* self, int row) {
   }
 }
 
-bool Survey::Scan::no_foreground(const Own& own, const Extremes& reached) const {
-  if (!plan.made.has(StatePart::kPosition)) return false;
-  const Refraction::Params& params = plan.look.of<Refraction>();
-  switch (params.rejection) {
-    case Refraction::Rejection::kNone:
-      return false;
-    case Refraction::Rejection::kSnap:
-      return looked_up.below || -reached[kNear] >= own.surface_far;
-    case Refraction::Rejection::kShorten:
-      if (params.model == Refraction::Model::kSnell) return false;
-      return reached[kGap] == 0 && (!looked_up.below || reached[kFar] < 1e30f);
-  }
-  return false;
-}
-
 void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   const Own& own = survey.own_[static_cast<std::size_t>(index)];
   CellNeeds& needs = survey.needs_[static_cast<std::size_t>(index)];
+  Weighed& weighed = survey.weighed_[static_cast<std::size_t>(index / survey.cells_.width)];
   if (own.wet == 0) {
-    needs = rules.dry();
+    needs = rules.decide({.wet = false, .planes = {}, .reach = {}, .weighed = weighed});
     return;
   }
   const auto range = [&](int low, int high) -> Range { return {-reached[low], reached[high]}; };
@@ -374,8 +360,9 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   if (!(ranges.own.max < 1e30 && ranges.looked_up.max < 1e30)) {
     for (Range& c : ranges.color) c = {std::min(c.min, 0.0), std::max(c.max, 0.0)};
   }
-  Weighed& weighed = survey.weighed_[static_cast<std::size_t>(index / survey.cells_.width)];
-  needs = rules.decide(ranges, no_foreground(own, reached), weighed);
+  const InReach reach{looked_up.below, -reached[kNear], reached[kFar], own.surface_far,
+                      reached[kGap] == 0};
+  needs = rules.decide({.wet = true, .planes = ranges, .reach = reach, .weighed = weighed});
   needs.grounded = wanted.has(looked_up.depth) && reached[kFar] < 1e30f;
 }
 
@@ -420,12 +407,11 @@ void Survey::sum_up(const Plan& plan) {
     add(summary_.opaque, needs.opaque);
     add(summary_.open, needs.open);
     add(summary_.full, needs.skips == 0 && !needs.open);
-    Chain::for_each([&]<class Op, int I>() {
-      add(summary_.runs[I], plan.keeps(I) && needs.needs(I));
-      if (std::is_same_v<Op, WaterShadow>) {
-        add(summary_.lit, plan.keeps(I) && !needs.dry && !needs.needs(I));
-      }
-    });
+    for (int op = 0; op < Chain::kCount; ++op) {
+      const auto at = static_cast<std::size_t>(op);
+      add(summary_.runs[at], plan.keeps(op) && needs.needs(op));
+      add(summary_.spared[at], plan.keeps(op) && !needs.dry && !needs.needs(op));
+    }
     summary_.bound = std::max(summary_.bound, double{needs.bound});
   }
   for (const Own& own : own_) summary_.wet += own.wet;

@@ -30,7 +30,7 @@ HeightError calm_error(const WaterView& view);
 struct SeenFrom {
   HeightError error;    ///< of who asks
   float most;           ///< HeightBound::most
-  double share_of_way;  ///< Refraction::kShareOfWay, or 0 where nobody asks for SeenHeights::covers
+  double share_of_way;  ///< that SeenHeights::covers speaks of, or 0 where nobody asks
   bool calm_ashore;     ///< the calm surface stands for one that is infinitely far
 };
 

@@ -3,7 +3,9 @@
 
 #include "limpid/plan/survey.h"
 
+#include "plan/cell_rules.h"
 #include "plan/predict.h"
+#include "plan/rules.h"
 
 namespace limpid {
 namespace {
@@ -40,7 +42,12 @@ std::string cells_text(const Plan& plan, const Survey::Summary& s) {
   text +=
       kind_text("opaque", s.opaque, s.all, "the end of the way is hidden: nothing is refracted");
   text += kind_text("foreground-free", s.open, s.all, "nothing in reach stands before the water");
-  text += kind_text("lit", s.lit, s.all, "no shadow falls on the water");
+  for (std::size_t i = 0; i < operator_table().size(); ++i) {
+    const CellKind& kind = operator_table()[i].skipped;
+    if (kind.name.empty()) continue;
+    text += kind_text(std::string(kind.name).c_str(), s.spared[i], s.all,
+                      std::string(kind.about).c_str());
+  }
   text += kind_text("full", s.full, s.all, "all of the plan runs");
   if (plan.max_error > 0) {
     text += line("max_error %g: no pixel is off by more than %.2g\n", plan.max_error, s.bound);
@@ -64,12 +71,13 @@ std::string time_text(const Plan& plan, const Survey::Summary& s, std::span<cons
     text += "\n";
     total += ms;
   };
-  Chain::for_each([&]<class Op, int I>() {
-    if (!plan.keeps(I)) return;
-    const CellCount& runs = s.runs[I];
-    add(std::string(Op::kName).c_str(), runs,
-        1e-6 * predicted_ns(plan, I) * static_cast<double>(runs.pixels), I);
-  });
+  for (int i = 0; i < Chain::kCount; ++i) {
+    if (!plan.keeps(i)) continue;
+    const auto index = static_cast<std::size_t>(i);
+    const CellCount& runs = s.runs[index];
+    add(std::string(plan.operators[index].name).c_str(), runs,
+        1e-6 * predicted_ns(plan, i) * static_cast<double>(runs.pixels), index);
+  }
   const auto wet = static_cast<double>(s.all.pixels - s.dry.pixels);
   add("all else", s.all,
       1e-6 * (kPredictedWetNs * wet + kPredictedDryNs * static_cast<double>(s.dry.pixels)),
@@ -90,17 +98,17 @@ std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& surv
     if (!plan.keeps(i) || s.runs[index].cells > 0) continue;
     op.verdict = Verdict::kInvisible;
     op.reason = bound_text(s.weighed.bounds[index]);
-    op.rule = "skip_invisible";
+    op.rule = name_of(&CellRules::skip_invisible);
     if (s.dry.cells == s.all.cells) {
       op.reason = "no pixel is wet";
-      op.rule = "copy_dry";
-    } else if (op.name == Refraction::kName && s.opaque.cells > 0) {
+      op.rule = name_of(&CellRules::copy_dry);
+    } else if (operator_table()[index].makes.has(StatePart::kPosition) && s.opaque.cells > 0) {
       op.reason = "fog hides all that it could show, " + op.reason;
-      op.rule = "skip_hidden";
+      op.rule = name_of(&CellRules::skip_hidden);
     } else if (((s.weighed.operators >> i) & 1u) == 0) {
       op.verdict = Verdict::kUnread;
       op.reason = "nothing that runs in a cell reads what it makes";
-      op.rule = "skip_unread";
+      op.rule = name_of(&CellRules::skip_unread);
     }
   }
   return operators;

@@ -272,8 +272,8 @@ TEST(DisplacedSurface, IsNotMadeWhereThePlateKnowsBetter) {
 
 TEST(DisplacedSurface, IsToldByThePlan) {
   const Plan plan = make_plan(sines(), test::inputs_of(bare().frame, scene_at(1, 0.3)));
-  EXPECT_EQ(plan.operators[0].reason, "displaced_surface is made");
-  EXPECT_EQ(plan.operators[0].rule, "complete_planes");
+  EXPECT_EQ(plan.of<WaveNormals>().reason, "displaced_surface is made");
+  EXPECT_EQ(plan.of<WaveNormals>().rule, "complete_planes");
 }
 
 // --- what a picture shows of it ------------------------------------------------------------------

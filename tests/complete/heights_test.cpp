@@ -28,7 +28,7 @@ struct Measured {
       : frame(buffers.frame),
         plan(make_plan(look, test::inputs_of(frame, scene), test::all_state())),
         pass(scene, frame, look.water.ior, plan.made),
-        seen(Refraction::planes_of(pass).depth) {
+        seen(SeenPlanes::of(pass).depth) {
     heights.make(plan, frame, pass, *make_executor(2), simd);
   }
   const HeightBound& bound() const { return heights.bound(); }

@@ -299,7 +299,7 @@ TEST(Compositor, LooksChangeBetweenFrames) {
   EXPECT_THROW(compositor.plan(), Error);
   EXPECT_THROW(compositor.replaced(), Error);
   EXPECT_TRUE(same_bits(wet(compositor, frame), s.expected));
-  EXPECT_TRUE(compositor.plan().keeps(0));
+  EXPECT_TRUE(compositor.plan().keeps<WaveNormals>());
   Look bad = busy_look();
   bad.of<DepthFog>().density = -1;
   EXPECT_THROW(compositor.set_look(bad), Error);

@@ -169,8 +169,8 @@ TEST(WaterShadow, ScatterIsDroppedWhereNoSunScatters) {
   Tray tray = half_shaded_murk();
   tray.look.of<DepthFog>().scattering = {0, 0, 0};
   const Inputs inputs = test::inputs_of(tray.buffers.frame, tray.scene);
-  const auto verdict = [&] { return make_plan(tray.look, inputs).operators[4].verdict; };
-  EXPECT_EQ(make_plan(tray.look, inputs).operators[4].name, WaterShadow::kName);
+  const auto verdict = [&] { return make_plan(tray.look, inputs).of<WaterShadow>().verdict; };
+  EXPECT_EQ(make_plan(tray.look, inputs).of<WaterShadow>().name, WaterShadow::kName);
   EXPECT_EQ(verdict(), Verdict::kNeutral);
   tray.look.of<DepthFog>().scattering = {0.5, 0.5, 0.5};
   EXPECT_EQ(verdict(), Verdict::kKept);

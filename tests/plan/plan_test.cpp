@@ -127,7 +127,7 @@ TEST(Plan, DropsWavesThatNothingReads) {
             "penetration         dropped: neutral, its parameters change nothing here\n");
   // As an output of their own they are read.
   const Plan plan = make_plan(look, no_mirror_no_sun, {StatePart::kNormal});
-  EXPECT_EQ(plan.operators[0].verdict, Verdict::kKept);
+  EXPECT_EQ(plan.of<WaveNormals>().verdict, Verdict::kKept);
   EXPECT_TRUE(plan.planes.covers(kSurfaceNormalPlanes));
 }
 
@@ -135,8 +135,9 @@ TEST(Plan, DropsThePrismWhenNothingIsRefractedAndKeepsItsLookupOtherwise) {
   Look look = busy_look();
   look.of<Refraction>().strength = 0;
   const Plan plan = make_plan(look, {kAll, false, true}, {});
-  EXPECT_EQ(plan.operators[1].verdict, Verdict::kKept);
-  EXPECT_EQ(plan.operators[2].verdict, Verdict::kKept) << "the prism is looked up by refraction";
+  EXPECT_EQ(plan.of<PrismSplit>().verdict, Verdict::kKept);
+  EXPECT_EQ(plan.of<Refraction>().verdict, Verdict::kKept)
+      << "the prism is looked up by refraction";
 }
 
 TEST(Plan, PlateNormalsReplaceMaps) {
@@ -191,16 +192,16 @@ TEST(Plan, KeepsANeutralFogWhosePathIsWritten) {
 
 TEST(Plan, SaysWhichRuleDecided) {
   const Plan plan = make_plan(test::article_look(), {kAll - kReflectionPlanes, false, true});
-  EXPECT_EQ(plan.operators[0].rule, "take_plate_normals");
-  EXPECT_EQ(plan.operators[1].rule, "drop_neutral");
-  EXPECT_EQ(plan.operators[2].rule, "");
-  EXPECT_EQ(plan.operators[5].rule, "drop_absent_input");
+  EXPECT_EQ(plan.of<WaveNormals>().rule, "take_better_input");
+  EXPECT_EQ(plan.of<PrismSplit>().rule, "drop_neutral");
+  EXPECT_EQ(plan.of<Refraction>().rule, "");
+  EXPECT_EQ(plan.of<FresnelReflection>().rule, "drop_absent_input");
   std::set<std::string_view> names;
   for (const RuleInfo& rule : rules()) {
     EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
     EXPECT_TRUE(rule.about.ends_with(".")) << rule.name;
   }
-  EXPECT_THAT(names, testing::IsSupersetOf({"take_plate_normals", "drop_neutral", "copy_dry",
+  EXPECT_THAT(names, testing::IsSupersetOf({"take_better_input", "drop_neutral", "copy_dry",
                                             "skip_hidden", "skip_invisible"}));
 }
 

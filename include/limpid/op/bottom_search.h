@@ -2,18 +2,12 @@
 #include "limpid/op/bottom_layer.h"
 #include "limpid/op/pass.h"
 #include "limpid/op/screen_ray.h"
+#include "limpid/op/seen_planes.h"
 
 /// @file
 /// Where a ray under the water meets what the depth plane shows.
 
 namespace limpid {
-
-/// What is looked up.
-struct SeenPlanes {
-  PlaneId color, depth;
-  Bounds bounds;
-  bool below;  ///< holds what lies under the crests of the water alone, +inf where there is nothing
-};
 
 /// The search along the ray of one pixel, or of one vector of pixels.
 template <class F, class Tap>

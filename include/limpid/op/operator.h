@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <concepts>
 #include <span>
 #include <string_view>
@@ -74,22 +75,71 @@ struct AtHand {
   bool waves = false;  ///< the scene's own
 };
 
+/// What of a plan its costs depend on.
+struct Running {
+  StateSet made;               ///< by operators that run
+  PlaneSet planes, completed;  ///< that are read, and those that are made
+};
+
+/// What is known of a cell of the picture and of all that lookups along refracted rays may reach
+/// from it. Depths are eye depths.
+struct InReach {
+  bool below = false;  ///< they look up the layer that lies below the water
+  double nearest = -HUGE_VAL, farthest = HUGE_VAL;  ///< of what they look up
+  double surface_far = HUGE_VAL;                    ///< of the water in the cell
+  bool all_under = false;                           ///< every texel lies under water, for sure
+};
+
+/// Cells in which an operator need not run, for those that have a name.
+struct CellKind {
+  std::string_view name, about;
+};
+
 /// What an operator must tell of itself. `bound` is a promise: left out, whichever of the other
 /// operators run, it changes no channel of the picture by more than this where `ranges` hold (0:
 /// not a bit of it, and what makes nothing but kOutputTerms leaves those as they are). HUGE_VAL
 /// where nothing is known. So that bounds add up, an operator passes on of the light before it a
-/// share of at most 1. One that makes anything that later bounds are made of says so, besides, in
+/// share of at most 1.
 ///
-///     static void reckon(const Params&, const Pass&, Ranges& ranges);
+/// What it may tell besides, as static members; whoever reads them takes the default where an
+/// operator has none:
 ///
-/// which widens or narrows `ranges` to what holds after it, be it left out or not. One that can use
-/// planes which are made where the plate lacks them names those in
-///
-///     static PlaneSet wants(const Params&, const AtHand&);
-///
-/// and one whose light comes from the sky, too, in
-///
-///     static bool lit_by_sky(const Params&);
+///     // Widens or narrows what later bounds are made of to what holds after it, be it left out or
+///     // not. Default: changes nothing.
+///     void reckon(const Params&, const Pass&, Ranges&);
+///     // How much more the picture changes than the bound of the operator which makes
+///     // StatePart::kPosition says, when that one is left out. Default: HUGE_VAL for one that uses
+///     // what comes of the position, else 0.
+///     double displaced(const Params&, const Ranges&);
+///     // How much the picture changes when the end of every way through the water is taken to be
+///     // infinitely far: of an operator that hides it. Default: it hides nothing.
+///     double beyond(const Params&, const Pass&, const Ranges&);
+///     // Whether nothing that stands before the water changes what it does in such a cell, so that
+///     // its test for that may be left out. Default: it has no test.
+///     bool foreground_free(const Params&, const InReach&);
+///     // Its taps, and those of `reach`, follow mirrored rays or the sun's. Default: false, they
+///     // follow refracted ones.
+///     constexpr bool kLooksAbove = true;
+///     // How many times farther than `reach` says refracted rays go for its doing. Default: 1.
+///     double stretch(const Params&, const Pass&);
+///     // Cells in which it is skipped have this name. Default: none.
+///     constexpr CellKind kSkipped;
+///     // Sets parameters to what is better among what is at hand, and says so in a phrase; ""
+///     where
+///     // it leaves them. Default: leaves them.
+///     std::string_view prefer(Params&, const AtHand&);
+///     // Why it looks up the surroundings, though it could do without; "" where it does not.
+///     std::string_view looks_around(const Params&, const AtHand&);
+///     // What is wrong with what is at hand, a sentence; "" for nothing.
+///     std::string_view warning(const Params&, const AtHand&);
+///     // Planes that are made for it where the plate lacks them (plan/completers.h).
+///     PlaneSet wants(const Params&, const AtHand&);
+///     // Whether its light comes from the sky, too.
+///     bool lit_by_sky(const Params&);
+///     // The waves that raise the water, if that is its affair: they live as long as the
+///     parameters. Swell swell(const Params&);
+///     // What it is expected to cost, in ns for each pixel (plan/predict.h). Default: 1.
+///     double ns(const Params&, const Running&);
 template <class T>
 concept Operator = requires(const typename T::Params& params, StateSet made, const Pass& pass,
                             const Ranges& ranges) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <tuple>
+#include <type_traits>
 
 #include "limpid/op/operator.h"
 #include "limpid/ops/depth_fog.h"
@@ -24,7 +25,7 @@
 /// in both), its branch in apply(), its formula in optics/ when it has one, new parameters as
 /// members and table rows, and what it reads in reads() and needs(). Nothing outside the operator's
 /// two files and its test changes, unless the model needs an input that no frame has had before:
-/// that is a role in core/frame.h.
+/// that is a role in core/frame.h. What the planner asks of an operator is in op/operator.h.
 
 namespace limpid {
 
@@ -32,6 +33,16 @@ template <Operator... Ops>
 struct OperatorList {
   static constexpr int kCount = sizeof...(Ops);
   using AllParams = std::tuple<typename Ops::Params...>;
+
+  /// Where an operator stands.
+  template <class Op>
+  static constexpr int index_of() {
+    constexpr bool kIs[] = {std::is_same_v<Op, Ops>...};
+    static_assert((std::is_same_v<Op, Ops> || ...), "an operator of the chain");
+    int index = 0;
+    while (!kIs[index]) ++index;
+    return index;
+  }
 
   /// Calls fn.operator()<Op, index>() for each operator in order.
   template <class Fn>

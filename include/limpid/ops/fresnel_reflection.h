@@ -115,6 +115,17 @@ struct FresnelReflection {
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   static void reckon(const Params& params, const Pass& c, Ranges& ranges);
 
+  static constexpr bool kLooksAbove = true;
+  /// What it dims is light that has been counted.
+  static double displaced(const Params&, const Ranges&) { return 0; }
+  /// A picture of the surroundings is the next best mirror.
+  static std::string_view prefer(Params& params, const AtHand& has);
+  /// What the mirror did not see comes from the surroundings, where there is a picture of them.
+  static std::string_view looks_around(const Params& params, const AtHand& has);
+  /// Of a reflection without a depth: a ray over it ends where things infinitely far are.
+  static std::string_view warning(const Params& params, const AtHand& has);
+  static double ns(const Params& params, const Running& running);
+
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;

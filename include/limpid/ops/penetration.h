@@ -35,6 +35,8 @@ struct Penetration {
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
 
+  static double ns(const Params&, const Running&) { return 1.5; }
+
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;

@@ -42,6 +42,8 @@ struct PrismSplit {
   /// them by their index.
   static double stretch(const Params& params, const Pass& c);
 
+  static double ns(const Params&, const Running&) { return 0.3; }
+
   template <class Strip>
   static void apply(const Params& params, const Pass&, Strip& strip) {
     using F = typename Strip::Number;

@@ -110,18 +110,13 @@ struct Refraction {
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   static void reckon(const Params& params, const Pass& c, Ranges& ranges);
 
-  /// The dry scene, or that below the water alone, where the frame has it.
-  using Planes = SeenPlanes;
-  static Planes planes_of(const Pass& c) {
-    if (c.planes.covers(kBelowPlanes) && !c.submersible)
-      return {PlaneId::kBelowR, PlaneId::kBelowDepth, c.below, true};
-    return {PlaneId::kColorR, PlaneId::kDepth, c.dry, false};
-  }
+  static bool foreground_free(const Params& params, const InReach& reach);
+  static double ns(const Params& params, const Running& running);
 
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    const Planes planes = planes_of(c);
+    const SeenPlanes planes = SeenPlanes::of(c);
     switch (params.model) {
       case Model::kNormalOffset:
       case Model::kDudvOffset:
@@ -221,7 +216,7 @@ struct Refraction {
   }
 
   template <class Strip>
-  static void aim_by_snell(const Params& params, const Pass& c, const Planes& planes,
+  static void aim_by_snell(const Params& params, const Pass& c, const SeenPlanes& planes,
                            Strip& strip) {
     using F = typename Strip::Number;
     const F ior(c.ior);
@@ -280,8 +275,8 @@ struct Refraction {
   /// In place of what was made up: the way of these rays is still that to where they would end by
   /// what the picture shows.
   template <class F, class Tap>
-  [[gnu::noinline]] static void go_on_off_frame(const Pass& c, const Planes& planes, Pixel<F>& p,
-                                                const Tap& tap) {
+  [[gnu::noinline]] static void go_on_off_frame(const Pass& c, const SeenPlanes& planes,
+                                                Pixel<F>& p, const Tap& tap) {
     const Bent<F> bent = bend(c, p, F(c.ior));
     const ScreenRay<F> ray(c, p, bent.direction);
     const auto ends = bent.goes > F(0.5) && p.side > F(0) && p.path < F(1e20);
@@ -320,7 +315,8 @@ struct Refraction {
 
   /// The layer below is empty where something rises out of the water, or stands before it.
   template <class F, class Tap>
-  [[gnu::noinline]] static void snap_from_empty(const Planes& planes, Pixel<F>& p, const Tap& tap) {
+  [[gnu::noinline]] static void snap_from_empty(const SeenPlanes& planes, Pixel<F>& p,
+                                                const Tap& tap) {
     const auto empty = nothing(p.hit_depth);
     if (!any(empty)) return;
     const auto hidden = empty && !nothing(tap.nearest(PlaneId::kDepth, p.shift));
@@ -369,7 +365,7 @@ struct Refraction {
     }
   };
   template <class F, class Tap>
-  static auto counted(const Planes& planes, const Pixel<F>& p, const Tap& tap, Vec2<F> shift) {
+  static auto counted(const SeenPlanes& planes, const Pixel<F>& p, const Tap& tap, Vec2<F> shift) {
     const auto quad = tap.quad(shift);
     Counted<F, std::decay_t<decltype(quad)>> taps{quad, tap.read(planes.depth, quad), {}, F(0)};
     for (int k = 0; k < 4; ++k) {
@@ -382,8 +378,8 @@ struct Refraction {
 
   /// What look_up() has mixed without a look at depths, again where some of it does not count.
   template <class F, class Tap>
-  [[gnu::noinline]] static void leave_out_nothing(const Pass& c, const Planes& planes, Pixel<F>& p,
-                                                  const Tap& tap) {
+  [[gnu::noinline]] static void leave_out_nothing(const Pass& c, const SeenPlanes& planes,
+                                                  Pixel<F>& p, const Tap& tap) {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     const auto mend = [&](const auto& taps, PlaneId plane, F& value) {
       if (!any(taps.lost > F(0))) return;
@@ -409,7 +405,7 @@ struct Refraction {
   }
 
   template <class Strip>
-  static void look_up(const Pass& c, const Planes& planes, Strip& strip) {
+  static void look_up(const Pass& c, const SeenPlanes& planes, Strip& strip) {
     using F = typename Strip::Number;
     if (!c.made.has(StatePart::kPrism)) {
       return strip.bilinear_rgb(
@@ -430,8 +426,8 @@ struct Refraction {
   /// A texel counts where it lies under the surface, and not so far before the end of a ray that it
   /// must hide it. Where nothing was hit, or a layer below is empty, nothing does.
   template <bool kBottomless, class F, class Tap>
-  static void look_up_valid(const Params& params, const Pass& c, const Planes& planes, Pixel<F>& p,
-                            const Tap& tap) {
+  static void look_up_valid(const Params& params, const Pass& c, const SeenPlanes& planes,
+                            Pixel<F>& p, const Tap& tap) {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
@@ -561,8 +557,8 @@ struct Refraction {
   /// view ray reaches the depth of the ray's end a little higher or lower than the one at the
   /// lookup does, a texel away at most.
   template <class F, class Tap>
-  static LIMPID_INLINE bool all_texels_count(const Pass& c, const Planes& planes, const Pixel<F>& p,
-                                             const Tap& tap) {
+  static LIMPID_INLINE bool all_texels_count(const Pass& c, const SeenPlanes& planes,
+                                             const Pixel<F>& p, const Tap& tap) {
     if (!c.heights.known) return false;
     const F end = min(p.hit_depth, F(1e30));
     const auto texel = [&](const glm::dvec2& step) {
@@ -585,14 +581,14 @@ struct Refraction {
   /// cells run is to stay as small as it is.
   template <class F, class Tap>
   [[gnu::noinline]] static void look_up_valid_if_any(const Params& params, const Pass& c,
-                                                     const Planes& planes, Pixel<F>& p,
+                                                     const SeenPlanes& planes, Pixel<F>& p,
                                                      const Tap& tap) {
     look_up_valid<true>(params, c, planes, p, tap);
   }
 
   /// Share of the four texels at the pixel's shift at which nothing was hit, of the dry scene, too.
   template <class F, class Tap>
-  static F share_of_nothing(const Planes& planes, const Pixel<F>& p, const Tap& tap) {
+  static F share_of_nothing(const SeenPlanes& planes, const Pixel<F>& p, const Tap& tap) {
     const auto taps = counted(planes, p, tap, p.shift);
     if (!planes.below || !any(taps.lost > F(0))) return taps.lost;
     const Four<F> dry = tap.read(PlaneId::kDepth, taps.quad);

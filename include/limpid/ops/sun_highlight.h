@@ -52,6 +52,11 @@ struct SunHighlight {
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   static void reckon(const Params& params, const Pass& c, Ranges& ranges);
 
+  static constexpr bool kLooksAbove = true;
+  static double ns(const Params& p, const Running&) {
+    return p.model == Model::kGgx ? 2.5 : p.model == Model::kSlopes ? 4 : 2;
+  }
+
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;

@@ -49,9 +49,14 @@ struct WaterShadow {
     return p.strength == 0 || (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  /// How much the picture changes at most when the shadow is looked up elsewhere in reach, or as
-  /// if no sunlight were scattered at the end of the way.
+  /// When the shadow is looked up elsewhere in reach, or as if no sunlight were scattered at the
+  /// end of the way.
   static double displaced(const Params& params, const Ranges& ranges);
+
+  static constexpr CellKind kSkipped{"lit", "no shadow falls on the water"};
+  static double ns(const Params& p, const Running&) {
+    return p.model == Model::kDarken ? 1.2 : 1.6;
+  }
 
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {

@@ -132,6 +132,10 @@ struct WaveNormals {
   /// Of these waves at strength 1 without the wind's scale, at a time in s.
   static Sym2<double> wave_variance(const Params& params, const TextureLevels& map, double time);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  /// Normals that came with the plate are better than any that could be made up.
+  static std::string_view prefer(Params& params, const AtHand& has);
+  static Swell swell(const Params& params) { return {true, params.waves, params.strength}; }
+  static double ns(const Params& params, const Running& running);
 
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {

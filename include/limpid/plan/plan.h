@@ -75,6 +75,14 @@ struct Plan {
   Swell swell() const;
 
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
+  template <Operator Op>
+  const PlannedOperator& of() const {
+    return operators[Chain::index_of<Op>()];
+  }
+  template <Operator Op>
+  bool keeps() const {
+    return keeps(Chain::index_of<Op>());
+  }
 };
 
 /// `outputs`: the state that is written besides the picture itself (AOVs). Throws Error for a look

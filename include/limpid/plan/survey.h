@@ -27,8 +27,8 @@ struct CellNeeds {
   /// reads, and how it mixes it, must stay.) Never for snell's rays with `shorten`, of which more
   /// is asked.
   bool open = false;
-  /// What lies at the end of the way through the water cannot be seen. Refraction is among the
-  /// skips: hit_depth and path must be +inf in its place when depth_fog begins.
+  /// What lies at the end of the way through the water cannot be seen. What finds the position is
+  /// among the skips: hit_depth and path must be +inf in its place when depth_fog begins.
   bool opaque = false;
   /// Something was hit wherever lookups of refraction may end: its test for nothing cannot fire.
   bool grounded = false;
@@ -79,9 +79,9 @@ class Survey {
   /// Of all cells together. Dry ones are of no other kind, and run nothing.
   struct Summary {
     CellCount all, dry, opaque, open;
-    CellCount lit;   ///< the plan has a water shadow, and none falls here
-    CellCount full;  ///< skips nothing, and is not open
-    std::array<CellCount, Chain::kCount> runs;  ///< where an operator of the plan runs
+    CellCount full;                               ///< skips nothing, and is not open
+    std::array<CellCount, Chain::kCount> runs;    ///< where an operator of the plan runs
+    std::array<CellCount, Chain::kCount> spared;  ///< where it need not, and cells are not dry
     Weighed weighed;
     double bound = 0;      ///< the largest of all that a cell skips
     std::int64_t wet = 0;  ///< pixels, at most

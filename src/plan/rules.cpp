@@ -1,0 +1,185 @@
+#include "plan/rules.h"
+
+#include <array>
+
+#include "limpid/core/error.h"
+
+#include "plan/cell_rules.h"
+#include "plan/operator_table.h"
+
+namespace limpid {
+namespace {
+
+void drop(PlannedOperator& op, Verdict verdict, std::string reason) {
+  op.verdict = verdict;
+  op.reason = std::move(reason);
+}
+
+void add_reason(PlannedOperator& op, std::string_view reason) {
+  op.reason += (op.reason.empty() ? "" : "; ") + std::string(reason);
+}
+
+AtHand at_hand(const Inputs& inputs) { return {inputs.planes, inputs.environment, inputs.waves}; }
+
+/// Calls visit(operator, its entry) for those that are kept, in order.
+template <class Visit>
+void for_each_kept(Plan& plan, Visit&& visit) {
+  for (int i = 0; i < Chain::kCount; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    if (plan.keeps(i)) visit(plan.operators[index], operator_table()[index]);
+  }
+}
+
+// The rules of a plan. Each looks at the whole of it, changes it, and leaves its reason with the
+// operator.
+
+void take_better_input(Plan& plan, const Inputs& inputs) {
+  for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
+    const std::string_view reason = entry.prefer(plan.look, at_hand(inputs));
+    if (!reason.empty()) op.reason = reason;
+  });
+}
+
+void drop_absent_input(Plan& plan, const Inputs& inputs) {
+  for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
+    const Needs needs = entry.needs(plan.look);
+    std::vector<std::string> absent;
+    for (const Role& role : roles()) {
+      const PlaneSet wanted = needs.planes & role.planes();
+      if (!inputs.planes.covers(wanted)) absent.emplace_back(role.name);
+    }
+    if (needs.sun && !inputs.sun) absent.emplace_back("sun");
+    if (needs.wave_map && !inputs.wave_map) absent.emplace_back("normal map");
+    if (needs.environment && !inputs.environment) absent.emplace_back("environment");
+    if (!absent.empty()) drop(op, Verdict::kAbsent, "no " + join(absent, ", no "));
+  });
+}
+
+/// In chain order: what is dropped before can make what comes after neutral. Neutral means for the
+/// picture: the path is measured by the way, and the operator that makes it stays when it is to be
+/// written.
+void drop_neutral(Plan& plan, const Inputs&) {
+  StateSet made;
+  for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
+    const bool measured = entry.makes.has(StatePart::kPath) && plan.outputs.has(StatePart::kPath);
+    if (entry.neutral(plan.look, made) && !measured) {
+      drop(op, Verdict::kNeutral, "its parameters change nothing here");
+    } else {
+      made = made | entry.makes;
+    }
+  });
+}
+
+/// Backwards from what is written.
+void drop_unread(Plan& plan, const Inputs&) {
+  StateSet live = kOutputTerms | plan.outputs;
+  for (int i = Chain::kCount - 1; i >= 0; --i) {
+    if (!plan.keeps(i)) continue;
+    const auto index = static_cast<std::size_t>(i);
+    const OperatorEntry& entry = operator_table()[index];
+    if (entry.makes.meets(live)) {
+      live = live | entry.uses;
+    } else {
+      drop(plan.operators[index], Verdict::kUnread, "nothing reads what it makes");
+    }
+  }
+}
+
+void look_around(Plan& plan, const Inputs& inputs) {
+  for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
+    const std::string_view reason = entry.looks_around(plan.look, at_hand(inputs));
+    if (reason.empty()) return;
+    plan.reads_environment = true;
+    op.reason = reason;
+  });
+}
+
+void tell_of_input(Plan& plan, const Inputs& inputs) {
+  for_each_kept(plan, [&](PlannedOperator&, const OperatorEntry& entry) {
+    const std::string_view warning = entry.warning(plan.look, at_hand(inputs));
+    if (!warning.empty()) plan.warnings.emplace_back(warning);
+  });
+}
+
+/// What is lit by the sky knows its radiance best where there is a picture of the surroundings.
+void take_sky(Plan& plan, const Inputs& inputs) {
+  for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
+    if (!entry.lit_by_sky(plan.look)) return;
+    plan.lit_by_sky = true;
+    if (!inputs.environment) return;
+    plan.reads_environment = true;
+    add_reason(op, "the environment lights the water");
+  });
+}
+
+/// Planes that an operator which runs can use are made, where the plate lacks them.
+void complete_planes(Plan& plan, const Inputs& inputs) {
+  for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
+    const PlaneSet wanted = entry.wants(plan.look, at_hand(inputs));
+    for (const CompleterInfo& completer : completers()) {
+      const PlaneSet makes = wanted & completer.makes;
+      const PlaneSet made = (makes - inputs.planes) | (makes & completer.mends);
+      if (made.empty() || !inputs.planes.covers(completer.inputs)) continue;
+      plan.completed = plan.completed | made;
+      add_reason(op, std::string(completer.name) + " is made");
+    }
+  });
+}
+
+constexpr Rule kRules[] = {
+    {"take_better_input", "What came with the plate replaces what would be made up.",
+     take_better_input},
+    {"drop_absent_input", "What lacks an input that it cannot do without does not run.",
+     drop_absent_input},
+    {"drop_neutral", "What its parameters make the identity does not run.", drop_neutral},
+    {"drop_unread", "What nothing reads does not run.", drop_unread},
+    {"look_around", "The surroundings are seen where nothing else shows what is mirrored.",
+     look_around},
+    {"tell_of_input", "A warning tells of an input that an operator lacks.", tell_of_input},
+    {"take_sky", "The surroundings light the water.", take_sky},
+    {"complete_planes", "Planes that nobody rendered are made, where an operator can use them.",
+     complete_planes},
+    {"copy_dry", "Cells without a wet pixel are copied.", nullptr, &CellRules::copy_dry},
+    {"skip_rejection", "Without foreground in reach refraction need not test for it.", nullptr,
+     &CellRules::skip_rejection},
+    {"skip_hidden", "Where fog hides the end of every way, nothing is refracted.", nullptr,
+     &CellRules::skip_hidden},
+    {"skip_invisible", "What changes a cell by less than is left of max_error does not run there.",
+     nullptr, &CellRules::skip_invisible},
+    {"skip_unread", "What nothing that still runs in a cell reads does not run there.", nullptr,
+     &CellRules::skip_unread},
+};
+
+constexpr auto kInfos = [] {
+  std::array<RuleInfo, std::size(kRules)> infos{};
+  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = {kRules[i].name, kRules[i].about};
+  return infos;
+}();
+
+}  // namespace
+
+std::span<const Rule> all_rules() { return kRules; }
+
+std::span<const RuleInfo> rules() { return kInfos; }
+
+std::string_view name_of(CellRule wanted) {
+  for (const Rule& rule : kRules) {
+    if (rule.cell == wanted) return rule.name;
+  }
+  return "";
+}
+
+/// Says of each operator which rule spoke of it last.
+void apply_rules(Plan& plan, const Inputs& inputs) {
+  for (const Rule& rule : kRules) {
+    if (!rule.plan) continue;
+    const std::vector<PlannedOperator> before = plan.operators;
+    rule.plan(plan, inputs);
+    for (std::size_t j = 0; j < before.size(); ++j) {
+      PlannedOperator& now = plan.operators[j];
+      if (now.verdict != before[j].verdict || now.reason != before[j].reason) now.rule = rule.name;
+    }
+  }
+}
+
+}  // namespace limpid
