@@ -15,8 +15,8 @@
 
 #include "limpid/files/unfinished.h"
 
+#include "files/file_handle.h"
 #include "files/file_identity.h"
-#include "files/file_stream.h"
 #include "files/local_files.h"
 
 namespace limpid {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "files/file_stream.h"
+#include "files/file_handle.h"
 
 namespace limpid {
 

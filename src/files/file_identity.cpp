@@ -9,7 +9,7 @@
 
 #include "limpid/core/error.h"
 
-#include "files/file_stream.h"
+#include "files/file_handle.h"
 
 namespace limpid {
 namespace {

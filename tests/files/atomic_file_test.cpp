@@ -12,7 +12,7 @@
 
 #include "limpid/files/unfinished.h"
 
-#include "files/file_stream.h"
+#include "files/file_handle.h"
 #include "files/local_files.h"
 
 namespace limpid {

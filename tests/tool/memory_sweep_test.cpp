@@ -77,7 +77,7 @@ class MemorySweepTest : public ToolTest, public ::testing::WithParamInterface<Li
 TEST_P(MemorySweepTest, SmallPlate) { sweep_composite({"plate.exr"}); }
 
 TEST_P(MemorySweepTest, Preview) {
-  sweep_composite({"plate.exr"}, {"--preview", "wet.png"}, step_of(5));
+  sweep_composite({"plate.exr"}, {"--preview", "wet.tif"}, step_of(5));
 }
 
 TEST_P(MemorySweepTest, PlateOf4K) {

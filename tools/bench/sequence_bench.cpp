@@ -214,7 +214,6 @@ void bench(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace limpid::bench;
-  setenv("LIMPID_MODULE_DIR", LIMPID_FORMATS_FOLDER, 0);  // the look's map is a PNG
   return run_program("limpid_sequence_bench",
                      [&] { bench(arguments_of(argc, argv, false, kRounds)); });
 }

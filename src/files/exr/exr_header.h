@@ -6,7 +6,7 @@
 
 #include "limpid/files/exr/exr_file.h"
 
-#include "files/file_stream.h"
+#include "files/exr/exr_input_stream.h"
 
 namespace limpid {
 

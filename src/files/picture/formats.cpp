@@ -60,8 +60,10 @@ void expect_room(const std::string& wanted_for) {
     throw no_memory(wanted_for);
   }
   if (threads_to_be_had(kThreads, stack) < kThreads) {
-    throw Error(wanted_for + ": formats other than EXR need four threads more than can be made",
-                Fault::kRetry);
+    throw Error(
+        wanted_for +
+            ": formats other than EXR, PNG and JPEG need four threads more than can be made",
+        Fault::kRetry);
   }
 }
 
@@ -88,8 +90,8 @@ Module find(const std::string& wanted_for) {
     if (fs::exists(folder / kFile, ignored)) return load(folder / kFile, wanted_for);
     searched.push_back(folder.string());
   }
-  throw Error(wanted_for + ": formats other than EXR need " + kFile + ", which is not in " +
-              join(searched, " or ") +
+  throw Error(wanted_for + ": formats other than EXR, PNG and JPEG need " + kFile +
+              ", which is not in " + join(searched, " or ") +
               " (the environment variable LIMPID_MODULE_DIR names its folder)");
 }
 

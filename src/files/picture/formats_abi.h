@@ -3,9 +3,10 @@
 #include <cstdint>
 
 /// The contract between the library and limpid_formats, the module that it loads at need to read
-/// and write other formats than EXR. Plain C: no exception, allocation or C++ type crosses it. A
-/// function returns 0 when it is done; otherwise it has put one phrase into `error`, which holds
-/// kErrorSize bytes, or returns kNoMemory. A change to anything here takes a new kFormatsAbi.
+/// and write other formats than EXR, PNG and JPEG. Plain C: no exception, allocation or C++ type
+/// crosses it. A function returns 0 when it is done; otherwise it has put one phrase into `error`,
+/// which holds kErrorSize bytes, or returns kNoMemory. A change to anything here takes a new
+/// kFormatsAbi.
 namespace limpid::formats {
 
 inline constexpr unsigned kFormatsAbi = 2;

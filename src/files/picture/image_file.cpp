@@ -13,10 +13,10 @@
 
 #include "core/memory.h"
 #include "files/atomic_file.h"
-#include "files/file_stream.h"
+#include "files/file_handle.h"
 #include "files/picture/formats.h"
-#include "files/picture/png_text.h"
-#include "files/picture/whole_file.h"
+#include "files/picture/jpeg.h"
+#include "files/picture/png.h"
 #include "files/want_of_memory.h"
 
 namespace limpid {
@@ -29,6 +29,76 @@ std::string extension_of(const fs::path& path) {
   for (char& letter : extension)
     letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   return extension;
+}
+
+// Enough to know a format by.
+std::string start_of(const FileHandle& file) {
+  std::string bytes(8, '\0');
+  bytes.resize(file.read(bytes.data(), bytes.size(), 0));
+  return bytes;
+}
+
+// Common readers of DPX make up the pixels that a file lacks. Its header says the size of the file,
+// in the byte order of its first four letters (SMPTE ST 268:2014, "File Format for Digital
+// Moving-Picture Exchange"); 0 and all bits set mean that the writer did not say.
+void check_dpx_size(const FileHandle& file) {
+  std::array<char, 20> header{};
+  const std::size_t got = file.read(header.data(), header.size(), 0);
+  const std::string_view magic(header.data(), 4);
+  if (got < header.size() || (magic != "SDPX" && magic != "XPDS")) return;
+  if (magic == "XPDS") std::reverse(header.begin() + 16, header.end());
+  std::uint32_t size = 0;
+  for (int i = 16; i < 20; ++i) size = size << 8 | static_cast<unsigned char>(header[i]);
+  if (size == ~0u || file.size() >= size) return;
+  throw Error(file.path().string() + ": ends after " + std::to_string(file.size()) +
+              " bytes: expected " + std::to_string(size));
+}
+
+// The same as the format module holds of others.
+void check_header(const Samples& header, const std::string& name, const Limits& limits) {
+  const std::int64_t pixels = std::int64_t{header.width} * header.height;
+  const std::string size =
+      name + ": " + std::to_string(header.width) + "x" + std::to_string(header.height) + " pixels";
+  if (std::max(header.width, header.height) > limits.max_side) {
+    throw Error(size + ": expected sides of at most " + std::to_string(limits.max_side));
+  }
+  if (pixels > limits.max_pixels) {
+    throw Error(size + ": expected at most " + std::to_string(limits.max_pixels) + " in all");
+  }
+  if (header.channels > limits.max_channels) {
+    throw Error(name + ": " + std::to_string(header.channels) + " channels: expected at most " +
+                std::to_string(limits.max_channels));
+  }
+  const std::int64_t bytes = pixels * header.channels * std::int64_t{sizeof(float)};
+  if (bytes > limits.max_memory) {
+    throw Error(name + ": needs " + std::to_string(bytes) + " bytes of memory: expected at most " +
+                std::to_string(limits.max_memory));
+  }
+  for (const std::int64_t offset : {header.x0, header.y0}) {
+    if (std::max(offset, -offset) > limits.max_side) {
+      throw Error(name + ": window starts at " + std::to_string(offset) + ": expected at most " +
+                  std::to_string(limits.max_side) + " pixels off the display window");
+    }
+  }
+}
+
+ImageFile image_of(const Samples& samples) {
+  static const std::vector<std::string> names[] = {
+      {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+  ImageFile image;
+  image.window = {samples.x0, samples.y0, samples.x0 + samples.width, samples.y0 + samples.height};
+  image.channels = names[samples.channels - 1];
+  image.straight_alpha = samples.channels % 2 == 0;
+  const auto largest = static_cast<float>(samples.largest);
+  for (int c = 0; c < samples.channels; ++c) {
+    const View<float> to = image.planes.emplace_back(image.window).view();
+    std::size_t sample = c;
+    for (int y = image.window.y0; y < image.window.y1; ++y) {
+      for (int x = image.window.x0; x < image.window.x1; ++x, sample += samples.channels)
+        to.at(x, y) = static_cast<float>(samples.at(sample)) / largest;
+    }
+  }
+  return image;
 }
 
 // What the callback of one read needs; what it throws waits here until C is left behind.
@@ -79,7 +149,7 @@ std::vector<std::uint8_t> interleaved(const std::vector<View<const float>>& plan
 int take(void* host, const void* bytes, std::size_t size) {
   try {
     const char* from = static_cast<const char*>(bytes);
-    static_cast<std::vector<char>*>(host)->assign(from, from + size);
+    static_cast<std::string*>(host)->assign(from, size);
     return 0;
   } catch (...) {
     return 1;
@@ -94,10 +164,14 @@ void check_done(const fs::path& path, int result, const std::string& error) {
   throw Error(path.string() + ": " + error);
 }
 
-// The name by which the format module knows what the extension means.
-const char* format_of(const fs::path& path) {
-  static const std::map<std::string, const char*> formats = {
-      {".png", "png"}, {".jpg", "jpeg"}, {".jpeg", "jpeg"}, {".tif", "tiff"}, {".tiff", "tiff"}};
+enum class Format { kPng, kJpeg, kTiff };
+
+Format format_of(const fs::path& path) {
+  static const std::map<std::string, Format> formats = {{".png", Format::kPng},
+                                                        {".jpg", Format::kJpeg},
+                                                        {".jpeg", Format::kJpeg},
+                                                        {".tif", Format::kTiff},
+                                                        {".tiff", Format::kTiff}};
   const auto found = formats.find(extension_of(path));
   if (found == formats.end()) {
     throw Error(path.string() + ": 8-bit pictures are written as .png, .jpg or .tif");
@@ -105,7 +179,33 @@ const char* format_of(const fs::path& path) {
   return found->second;
 }
 
-void write_whole(const fs::path& path, const std::vector<char>& bytes) {
+// By the format module.
+std::string encode_tiff(const fs::path& path, Rect window, int channels,
+                        const std::uint8_t* pixels) {
+  std::string bytes;
+  std::array<char, formats::kErrorSize> error{};
+  const int result = formats::module(path.string())
+                         .write8("tiff", window.width(), window.height(), channels, pixels, take,
+                                 &bytes, error.data());
+  check_done(path, result, error.data());
+  return bytes;
+}
+
+std::string encode(const fs::path& path, Rect window, int channels, const std::uint8_t* pixels,
+                   const std::map<std::string, std::string>& texts) {
+  switch (format_of(path)) {
+    case Format::kPng:
+      return encode_png(window.width(), window.height(), channels, pixels, texts, path.string());
+    case Format::kJpeg:
+      if (channels != 3) throw Error(path.string() + ": jpeg has no alpha: expected 3 channels");
+      return encode_jpeg(window.width(), window.height(), pixels, 98, path.string());
+    case Format::kTiff:
+      break;
+  }
+  return encode_tiff(path, window, channels, pixels);
+}
+
+void write_whole(const fs::path& path, const std::string& bytes) {
   AtomicFile file(path);
   errno = 0;
   std::ofstream out(file.temporary(), std::ios::binary);
@@ -124,7 +224,14 @@ ImageFile read_image(const fs::path& path, const Limits& limits) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw Error(path.string() + ": no such file");
   if (!fs::is_regular_file(path, ignored)) throw Error(path.string() + ": expected a file");
-  check_whole(path);
+  const FileHandle file(path);
+  const std::string start = start_of(file);
+  if (begins_as_png(start) || begins_as_jpeg(start)) {
+    const auto decode = begins_as_png(start) ? decode_png : decode_jpeg;
+    const auto check = [&](const Samples& header) { check_header(header, path.string(), limits); };
+    return image_of(decode(file.all(limits.max_memory), path.string(), check));
+  }
+  check_dpx_size(file);
   const formats::FormatsLimits asked = {limits.max_pixels, limits.max_side, limits.max_channels,
                                         limits.max_memory};
   Reading reading;
@@ -138,7 +245,7 @@ ImageFile read_image(const fs::path& path, const Limits& limits) {
 
 void write_image8(const fs::path& path, const std::vector<View<const float>>& planes,
                   const std::map<std::string, std::string>& texts) {
-  const char* format = format_of(path);
+  format_of(path);
   if (planes.size() != 3 && planes.size() != 4) {
     throw Error(path.string() + ": " + std::to_string(planes.size()) + " planes: expected 3 or 4");
   }
@@ -149,25 +256,17 @@ void write_image8(const fs::path& path, const std::vector<View<const float>>& pl
     }
   }
   const std::vector<std::uint8_t> pixels = interleaved(planes);
-  std::vector<char> bytes;
-  std::array<char, formats::kErrorSize> error{};
-  const int result =
-      formats::module(path.string())
-          .write8(format, window.width(), window.height(), static_cast<int>(planes.size()),
-                  pixels.data(), take, &bytes, error.data());
-  check_done(path, result, error.data());
-  if (is_png(path)) add_png_texts(bytes, texts);
-  write_whole(path, bytes);
+  write_whole(path, encode(path, window, static_cast<int>(planes.size()), pixels.data(), texts));
 }
 
 void expect_image8(const fs::path& path) {
-  format_of(path);
-  formats::module(path.string());
+  if (format_of(path) == Format::kTiff) formats::module(path.string());
 }
 
 std::map<std::string, std::string> read_image_texts(const fs::path& path) {
-  check_whole(path);
-  return png_texts(path);
+  const FileHandle file(path);
+  if (!begins_as_png(start_of(file))) return {};
+  return png_texts(file.all(Limits{}.max_memory), path.string());
 }
 
 bool is_png(const fs::path& path) { return extension_of(path) == ".png"; }

@@ -3,13 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "limpid/core/error.h"
-
-// In memory alone.
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
-#include <stb/stb_image_write.h>
+#include "files/picture/jpeg.h"
 
 namespace limpid {
 namespace {
@@ -30,17 +24,7 @@ std::string jpeg_of(const std::array<View<const float>, 3>& rgb, int quality) {
       for (const View<const float>& channel : rgb) pixels.push_back(byte_of(channel.at(x, y)));
     }
   }
-  std::string bytes;
-  const auto append = [](void* to, void* data, int size) {
-    static_cast<std::string*>(to)->append(static_cast<const char*>(data),
-                                          static_cast<std::size_t>(size));
-  };
-  if (stbi_write_jpg_to_func(append, &bytes, w.width(), w.height(), 3, pixels.data(), quality) ==
-      0) {
-    throw Error("a picture of " + std::to_string(w.width()) + "x" + std::to_string(w.height()) +
-                " pixels cannot be written as JPEG");
-  }
-  return bytes;
+  return encode_jpeg(w.width(), w.height(), pixels.data(), quality, "a picture of the report");
 }
 
 std::string base64(const std::string& bytes) {

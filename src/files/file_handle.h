@@ -1,16 +1,13 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <vector>
-
-#include <OpenEXR/ImfIO.h>
+#include <string>
 
 #include "limpid/core/error.h"
 
 namespace limpid {
 
-/// A file opened for reading, closed with the last stream on it.
+/// A file opened for reading.
 class FileHandle {
  public:
   /// Throws Error that begins with the path.
@@ -23,35 +20,14 @@ class FileHandle {
   std::uint64_t size() const { return size_; }
   /// Reads up to `bytes` from `offset`; fewer at the end of the file only. Throws Error.
   std::size_t read(char* into, std::size_t bytes, std::uint64_t offset) const;
+  /// All that is in it. Throws Error for more than `most` bytes.
+  std::string all(std::int64_t most) const;
 
  private:
   std::filesystem::path path_;
   int descriptor_;
   std::uint64_t size_;
 };
-
-/// A position in such a file, buffered. Several streams may share one file.
-class FileStream : public Imf::IStream {
- public:
-  explicit FileStream(std::shared_ptr<const FileHandle> file);
-
-  const FileHandle& file() const { return *file_; }
-  std::uint64_t remaining() const { return file_->size() - position_; }
-
-  /// Throws Iex::InputExc at the end of the file, Error when the system cannot read.
-  bool read(char into[], int bytes) override;
-  std::uint64_t tellg() override { return position_; }
-  void seekg(std::uint64_t position) override { position_ = position; }
-
- private:
-  std::shared_ptr<const FileHandle> file_;
-  std::uint64_t position_ = 0;
-  std::uint64_t buffer_begin_ = 0;
-  std::vector<char> buffer_;
-};
-
-/// The next 1 to 8 bytes as a little-endian number. Throws as FileStream::read.
-std::uint64_t read_number(FileStream& stream, int bytes);
 
 /// Whether a failed system call is worth another try (disk full, file-size limit, network file
 /// gone) or not.

@@ -1,20 +1,14 @@
-#include "files/file_stream.h"
+#include "files/file_handle.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 
-#include <OpenEXR/Iex.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 namespace limpid {
-namespace {
-constexpr std::size_t kBufferBytes = 16384;
-}
 
 FileHandle::FileHandle(const std::filesystem::path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -48,44 +42,14 @@ std::size_t FileHandle::read(char* into, std::size_t bytes, std::uint64_t offset
   return done;
 }
 
-FileStream::FileStream(std::shared_ptr<const FileHandle> file)
-    : Imf::IStream(file->path().c_str()), file_(std::move(file)) {}
-
-bool FileStream::read(char into[], int bytes) {
-  const std::uint64_t wanted = static_cast<std::uint64_t>(std::max(bytes, 0));
-  if (position_ > file_->size() || wanted > file_->size() - position_) {
-    throw Iex::InputExc("unexpected end of file");
+std::string FileHandle::all(std::int64_t most) const {
+  if (size_ > static_cast<std::uint64_t>(most)) {
+    throw Error(path_.string() + ": has " + std::to_string(size_) + " bytes: expected at most " +
+                std::to_string(most));
   }
-  std::uint64_t done = 0;
-  while (done < wanted) {
-    const bool buffered = position_ >= buffer_begin_ && position_ < buffer_begin_ + buffer_.size();
-    if (buffered) {
-      const std::uint64_t skip = position_ - buffer_begin_;
-      const std::uint64_t count = std::min(wanted - done, buffer_.size() - skip);
-      std::memcpy(into + done, buffer_.data() + skip, count);
-      position_ += count;
-      done += count;
-    } else if (wanted - done >= kBufferBytes) {
-      const std::size_t got = file_->read(into + done, wanted - done, position_);
-      if (got < wanted - done) throw Iex::InputExc("unexpected end of file");
-      position_ += got;
-      done += got;
-    } else {
-      buffer_.resize(kBufferBytes);
-      buffer_.resize(file_->read(buffer_.data(), kBufferBytes, position_));
-      buffer_begin_ = position_;
-      if (buffer_.empty()) throw Iex::InputExc("unexpected end of file");
-    }
-  }
-  return position_ < file_->size();
-}
-
-std::uint64_t read_number(FileStream& stream, int bytes) {
-  char memory[8];
-  stream.read(memory, bytes);
-  std::uint64_t number = 0;
-  for (int i = bytes; i-- > 0;) number = number << 8 | static_cast<unsigned char>(memory[i]);
-  return number;
+  std::string bytes(size_, '\0');
+  bytes.resize(read(bytes.data(), bytes.size(), 0));
+  return bytes;
 }
 
 Fault fault_of(int system_error) {
