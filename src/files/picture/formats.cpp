@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "limpid_formats.so";
 
+/// The build tree has the module where an installed tree has it.
 std::vector<fs::path> module_folders() {
   if (const char* named = std::getenv("LIMPID_MODULE_DIR")) return {named};
   std::vector<fs::path> bases;
@@ -34,12 +35,10 @@ std::vector<fs::path> module_folders() {
   std::vector<fs::path> folders;
   for (const fs::path& base : bases) {
     for (const fs::path& folder :
-         {base, base / "limpid", base / ".." / LIMPID_LIBRARY_FOLDER / "limpid",
-          base / ".." / "src"}) {
+         {base, base / "limpid", base / ".." / LIMPID_LIBRARY_FOLDER / "limpid"}) {
       folders.push_back(folder.lexically_normal());
     }
   }
-  folders.emplace_back(LIMPID_INSTALLED_MODULE_FOLDER);
   return folders;
 }
 

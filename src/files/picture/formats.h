@@ -13,7 +13,7 @@ struct Module {
 
 /// The module, found and loaded at the first call and kept until the program ends. Looked for in
 /// the folder LIMPID_MODULE_DIR (environment; when set, only there), else beside the program or the
-/// library that limpid is part of, in their ../lib/limpid and ../src (the build tree), and where
+/// library that limpid is part of, in a folder `limpid` there, and in their ../lib/limpid, where
 /// `install` puts it. Throws Error, which says what `wanted_for` asked for, when it is not there or
 /// is of another version.
 const Module& module(const std::string& wanted_for);
