@@ -6,8 +6,9 @@ namespace limpid {
 
 /// Half floats, a run of pixels at a time, as compiled for one instruction set; strides of halves
 /// count bytes. Every half is a float; floats are rounded to the nearest half (even, where two are
-/// as near), finite ones beyond the largest half to that one. NaN and infinities stay what they
-/// are.
+/// as near), finite ones beyond the largest half to that one, so that no number becomes an
+/// infinity; NaN and infinities stay what they are. Files have the same rule
+/// (files/exr/half_bits.h).
 struct HalfTarget {
   void (*widen)(const std::byte* halves, std::ptrdiff_t stride, float* floats, int count);
   void (*narrow)(const float* floats, std::byte* halves, std::ptrdiff_t stride, int count);

@@ -19,7 +19,7 @@ inline float float_of_half(std::uint16_t half) {
 }
 
 /// The nearest half, ties to even. Finite values beyond the largest half, 65504, become it; inf
-/// stays inf and NaN a NaN.
+/// stays inf and NaN a NaN. The halves of hosts (enter/half.h) have the same rule.
 inline std::uint16_t half_bits_of(float value) {
   constexpr std::int32_t kBias = 112 << 23, kLeastNormal = 113 << 23, kInfinity = 255 << 23;
   constexpr auto kLargest = std::bit_cast<std::int32_t>(65504.0f);

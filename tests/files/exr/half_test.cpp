@@ -1,9 +1,15 @@
+#include "enter/half.h"
+
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <Imath/half.h>
 #include <gtest/gtest.h>
+
+#include "limpid/core/simd.h"
 
 #include "files/exr/half_bits.h"
 
@@ -56,6 +62,25 @@ TEST(HalfBits, WhatIsTooLargeBecomesTheLargestButInfStaysInf) {
   EXPECT_TRUE(std::isnan(float_of(half_bits_of(std::nanf("")))));
   EXPECT_TRUE(std::isnan(float_of(half_bits_of(std::bit_cast<float>(0x7f800001)))));
   EXPECT_EQ(half_bits_of(std::numeric_limits<float>::denorm_min()), 0);
+}
+
+/// What a host's buffer gets and what a file gets: one rule, two ways to compute it.
+TEST(HalfBits, AreThoseOfHostsToo) {
+  std::vector<float> floats;
+  for (std::uint32_t high = 0; high < 0x10000; ++high) {
+    for (const std::uint32_t low : {0x0000u, 0x0001u, 0x0fffu, 0x1000u, 0x1001u, 0x8000u, 0xffffu})
+      floats.push_back(std::bit_cast<float>(high << 16 | low));
+  }
+  std::vector<std::uint16_t> halves(floats.size());
+  for (const std::string& simd : simd_targets()) {
+    half_target(simd).narrow(floats.data(), reinterpret_cast<std::byte*>(halves.data()), 2,
+                             static_cast<int>(floats.size()));
+    for (std::size_t i = 0; i < floats.size(); ++i) {
+      ASSERT_TRUE(halves[i] == half_bits_of(floats[i]) ||
+                  (std::isnan(floats[i]) && std::isnan(float_of(halves[i]))))
+          << simd << ": " << floats[i] << " -> " << float_of(halves[i]);
+    }
+  }
 }
 
 }  // namespace
