@@ -92,21 +92,63 @@ void flush_folder(const std::filesystem::path& folder) {
   ::close(descriptor);
 }
 
+/// What `path` leads to, which is a file or not there.
+std::filesystem::path target_of(const std::filesystem::path& path) {
+  std::filesystem::path target = followed(path);
+  std::error_code ignored;
+  const auto status = std::filesystem::status(target, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw Error(path.string() + ": is there and not a file, so it is not replaced");
+  }
+  return target;
+}
+
+Error not_writable(const std::filesystem::path& path, const std::filesystem::path& folder,
+                   int system_error) {
+  return Error(path.string() + ": the folder '" + folder.string() + "' cannot be written to (" +
+                   describe(system_error) + ")",
+               fault_of(system_error));
+}
+
+Error not_written(const std::filesystem::path& path, int system_error) {
+  return Error(path.string() + ": cannot be written (" + describe(system_error) + ")",
+               fault_of(system_error));
+}
+
+/// The error with which a file in the folder would not begin, or 0. A file without a name (open(2),
+/// O_TMPFILE) tells without a trace; where the file system has none, the folder's permissions do.
+int error_of_new_file(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (descriptor >= 0) {
+    ::close(descriptor);
+    return 0;
+  }
+  if (errno != EOPNOTSUPP && errno != EISDIR) return errno;
+  return ::faccessat(AT_FDCWD, (folder / ".").c_str(), W_OK | X_OK, AT_EACCESS) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)), target_(followed(path_)) {
+void expect_replaceable(const std::filesystem::path& path) {
+  const std::filesystem::path folder = folder_of(target_of(path));
+  if (const int error = error_of_new_file(folder)) throw not_writable(path, folder, error);
+}
+
+void tidy_folder_of(const std::filesystem::path& path) {
+  const std::filesystem::path folder = folder_of(followed(path));
   std::error_code ignored;
-  const auto status = std::filesystem::status(target_, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw Error(path_.string() + ": is there and not a file, so it is not replaced");
-  }
-  const std::filesystem::path folder = folder_of(target_);
   Unfinished& unfinished = Unfinished::all();
   const std::lock_guard lock(unfinished.mutex);
   if (unfinished.tidied.insert(std::filesystem::absolute(folder, ignored)).second) {
     remove_abandoned_files(folder);
   }
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path)
+    : path_(std::move(path)), target_(target_of(path_)) {
+  const std::filesystem::path folder = folder_of(target_);
+  Unfinished& unfinished = Unfinished::all();
+  const std::lock_guard lock(unfinished.mutex);
   for (int attempt = 0;; ++attempt) {
     temporary_ = folder / temporary_name(attempt, target_.extension().string());
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -117,9 +159,7 @@ AtomicFile::AtomicFile(std::filesystem::path path)
     if (descriptor_ >= 0) {
       ::close(descriptor_);
     } else if (errno != EEXIST) {
-      throw Error(path_.string() + ": the folder '" + folder.string() + "' cannot be written to (" +
-                      describe(errno) + ")",
-                  fault_of(errno));
+      throw not_writable(path_, folder, errno);
     }
   }
 }
@@ -132,18 +172,30 @@ AtomicFile::~AtomicFile() {
   ::close(descriptor_);
 }
 
+void AtomicFile::flush() {
+  if (::fsync(descriptor_) != 0) throw not_written(path_, errno);
+}
+
 void AtomicFile::commit() {
-  int error = ::fsync(descriptor_) == 0 ? 0 : errno;
-  if (error == 0) {
+  flush();
+  {
     const std::lock_guard lock(Unfinished::all().mutex);
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) error = errno;
-    if (error == 0) Unfinished::all().files.erase(temporary_);
-  }
-  if (error != 0) {
-    throw Error(path_.string() + ": cannot be written (" + describe(error) + ")", fault_of(error));
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw not_written(path_, errno);
+    Unfinished::all().files.erase(temporary_);
   }
   ::close(std::exchange(descriptor_, -1));
   flush_folder(folder_of(target_));
+}
+
+AtomicFile& AtomicFiles::add(const std::filesystem::path& path) {
+  tidy_folder_of(path);
+  return *files_.emplace_back(std::make_unique<AtomicFile>(path));
+}
+
+void AtomicFiles::commit() {
+  for (const auto& file : files_) file->flush();
+  for (const auto& file : files_) file->commit();
+  files_.clear();
 }
 
 std::unique_lock<std::mutex> remove_unfinished_files() {

@@ -3,13 +3,12 @@
 #include <iterator>
 
 #include "limpid/core/error.h"
-#include "limpid/files/picture/image_file.h"
-#include "limpid/files/picture/preview.h"
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
 #include "complete/rows.h"
-#include "files/atomic_file.h"
+#include "files/exr/exr_whole.h"
+#include "files/picture/whole_image.h"
 #include "run/each_once.h"
 
 namespace limpid {
@@ -74,7 +73,7 @@ void expect_writable(const OutputChoice& choice) {
   if (!choice.preview.empty()) expect_preview_writable(choice.preview);
 }
 
-void expect_writable(const std::filesystem::path& file) { AtomicFile{file}; }
+void expect_writable(const std::filesystem::path& file) { expect_replaceable(file); }
 
 void expect_preview_writable(const std::filesystem::path& file) {
   expect_writable(file);
@@ -207,13 +206,15 @@ void Canvas::write(ExrOutput described, const OutputChoice& choice) const {
   described.data = window_;
   described.compression = choice.compression;
   described.channels = channels_;
+  AtomicFiles files;
   if (!choice.preview.empty()) {
     const Rect shown = intersection(window_, described.display);
     const auto color = [&](int i) { return cropped(target_.color[i], shown); };
-    write_preview(choice.preview, color(0), color(1), color(2), 0, described.text);
+    write_preview(files, choice.preview, color(0), color(1), color(2), 0, described.text);
   }
-  if (!choice.deep.empty()) write_deep_water(choice.deep, deep_water(described, choice));
-  write_exr(choice.picture, described);
+  if (!choice.deep.empty()) write_deep_water(files, choice.deep, deep_water(described, choice));
+  write_exr(files, choice.picture, described);
+  files.commit();
 }
 
 }  // namespace limpid

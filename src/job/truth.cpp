@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "limpid/files/exr/exr_camera.h"
-#include "limpid/files/exr/exr_writer.h"
-#include "limpid/files/picture/preview.h"
 #include "limpid/plate/texture.h"
 #include "limpid/raster/render_plate.h"
 
+#include "files/exr/exr_whole.h"
+#include "files/picture/whole_image.h"
 #include "job/canvas.h"
 #include "job/provenance.h"
 #include "job/shared_textures.h"
@@ -130,11 +130,13 @@ TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
   if (!std::isnan(picture.relative_error)) {
     file.text["limpid/noise"] = noise_text(picture.relative_error);
   }
+  AtomicFiles files;
   if (!job.output.preview.empty()) {
     const auto& c = picture.target.color;
-    write_preview(job.output.preview, c[0], c[1], c[2], 0, file.text);
+    write_preview(files, job.output.preview, c[0], c[1], c[2], 0, file.text);
   }
-  write_exr(job.output.picture, file);
+  write_exr(files, job.output.picture, file);
+  files.commit();
   report.write_seconds = watch.lap();
   return report;
 }

@@ -1,6 +1,7 @@
 #include "files/atomic_file.h"
 
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 
 #include <fcntl.h>
@@ -43,13 +44,21 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-std::string error_of(const fs::path& path) {
+template <class Work>
+std::string error_in(Work work) {
   try {
-    AtomicFile file(path);
+    work();
   } catch (const Error& error) {
     return error.what();
   }
   return "";
+}
+
+/// What is said of a path, which does not depend on whether it is only asked about.
+std::string error_of(const fs::path& path) {
+  const std::string error = error_in([&] { AtomicFile file(path); });
+  const std::string asked = error_in([&] { expect_replaceable(path); });
+  return asked == error ? error : "asked: '" + asked + "', begun: '" + error + "'";
 }
 
 /// The same of a process that may not write everywhere, as root may.
@@ -256,12 +265,51 @@ TEST(RemoveAbandonedFiles, LeavesWhatIsLocked) {
   EXPECT_EQ(files_in(here), 0);
 }
 
-TEST(RemoveAbandonedFiles, TheFirstFileOfAFolderDoesIt) {
+TEST(AtomicFiles, AppearTogetherOrNotAtAll) {
   const fs::path here = folder();
-  Writer dead(here / "dead.exr");
-  dead.kill();
-  AtomicFile(here / "a.exr").commit();
+  write_text(here / "a.exr", "old");
+  {
+    AtomicFiles files;
+    write_text(files.add(here / "a.exr").temporary(), "new");
+    EXPECT_THROW(files.add(here / "none/b.exr"), Error);
+  }
+  EXPECT_EQ(text_of(here / "a.exr"), "old");
   EXPECT_EQ(files_in(here), 1);
+  AtomicFiles files;
+  write_text(files.add(here / "a.exr").temporary(), "new");
+  write_text(files.add(here / "b.exr").temporary(), "other");
+  EXPECT_EQ(text_of(here / "a.exr"), "old");
+  files.commit();
+  EXPECT_EQ(text_of(here / "a.exr"), "new");
+  EXPECT_EQ(text_of(here / "b.exr"), "other");
+  EXPECT_EQ(files_in(here), 2);
+}
+
+TEST(TidyFolder, OnceAProcess) {
+  const fs::path here = folder();
+  write_text(here / ".limpid-7-0.exr", "half");
+  fs::create_directory(here / "links");
+  fs::create_symlink(here / "a.exr", here / "links/a.exr");
+  AtomicFile(here / "a.exr").commit();
+  EXPECT_TRUE(fs::exists(here / ".limpid-7-0.exr"));
+  tidy_folder_of(here / "links/a.exr");  // the folder of what it leads to
+  EXPECT_FALSE(fs::exists(here / ".limpid-7-0.exr"));
+  write_text(here / ".limpid-7-0.exr", "half");
+  tidy_folder_of(here / "b.exr");
+  EXPECT_TRUE(fs::exists(here / ".limpid-7-0.exr"));
+}
+
+TEST(ExpectReplaceable, LeavesTheFolderAsItWas) {
+  const fs::path here = folder();
+  write_text(here / "a.exr", "old");
+  write_text(here / ".limpid-7-0.exr", "half");
+  const auto long_ago = fs::last_write_time(here) - std::chrono::hours(1);
+  fs::last_write_time(here, long_ago);
+  expect_replaceable(here / "a.exr");
+  expect_replaceable(here / "b.exr");
+  EXPECT_EQ(fs::last_write_time(here), long_ago);
+  EXPECT_EQ(files_in(here), 2);
+  EXPECT_EQ(text_of(here / "a.exr"), "old");
 }
 
 /// Types as statfs(2) lists them.

@@ -76,7 +76,9 @@ class MemorySweepTest : public ToolTest, public ::testing::WithParamInterface<Li
 
 TEST_P(MemorySweepTest, SmallPlate) { sweep_composite({"plate.exr"}); }
 
-TEST_P(MemorySweepTest, Preview) {
+TEST_P(MemorySweepTest, Preview) { sweep_composite({"plate.exr"}, {"--preview", "wet.png"}); }
+
+TEST_P(MemorySweepTest, PreviewByTheFormatModule) {
   sweep_composite({"plate.exr"}, {"--preview", "wet.tif"}, step_of(5));
 }
 

@@ -135,6 +135,20 @@ TEST_F(TroubleTest, AFileSizeLimitInTheMiddle) {
   EXPECT_EQ(text_of("out/wet.3.exr"), "old");
 }
 
+/// The preview, which is small, is written first, and appears with the rest.
+TEST_F(TroubleTest, AFrameThatFailsLeavesNoneOfItsFiles) {
+  Words limited{"/bin/sh", "-c", "ulimit -f 72; exec \"$@\"", "sh"};
+  for (const std::string& word :
+       words("out", {"--frames-in-flight", "1", "--preview", "out/wet.%d.png"})) {
+    limited.push_back(word);
+  }
+  EXPECT_EQ(run(folder_, limited).code, 75);
+  const auto found = in("out");
+  EXPECT_EQ(found.size(), 6u);
+  EXPECT_TRUE(found.contains("wet.2.png"));
+  EXPECT_FALSE(found.contains("wet.3.png"));
+}
+
 /// On a disk of a few hundred kilobytes, where the system lets one be mounted.
 TEST_F(TroubleTest, AFullDisk) {
   const std::string script =

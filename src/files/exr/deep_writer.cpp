@@ -205,8 +205,15 @@ void validate_deep_compression(const std::string& compression) {
 }
 
 void write_deep_water(const std::filesystem::path& path, const DeepWater& water) {
+  AtomicFiles files;
+  write_deep_water(files, path, water);
+  files.commit();
+}
+
+void write_deep_water(AtomicFiles& files, const std::filesystem::path& path,
+                      const DeepWater& water) {
   write_whole_exr(
-      path, [&] { check(water); },
+      files, path, [&] { check(water); },
       [&](OutputStream& stream) {
         Imf::DeepScanLineOutputFile file(stream, deep_header_of(water));
         write_samples(file, water);

@@ -6,7 +6,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "files/atomic_file.h"
 #include "files/exr/exr_header.h"
 #include "files/file_hash.h"
 #include "files/want_of_memory.h"
@@ -42,7 +41,8 @@ void finish(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_whole_exr(const std::filesystem::path& path, const std::function<void()>& check,
+void write_whole_exr(AtomicFiles& files, const std::filesystem::path& path,
+                     const std::function<void()>& check,
                      const std::function<void(OutputStream&)>& write) {
   const std::string name = path.string();
   try {
@@ -50,13 +50,13 @@ void write_whole_exr(const std::filesystem::path& path, const std::function<void
   } catch (const Error& error) {
     throw Error(name + ": " + error.what(), error.fault());
   }
-  AtomicFile file(path);
-  OutputStream stream(file.temporary());
+  const std::filesystem::path temporary = files.add(path).temporary();
+  OutputStream stream(temporary);
   std::optional<Error> failure;
   try {
     write(stream);
     stream.close();
-    if (stream.error() == 0) finish(file.temporary());
+    if (stream.error() == 0) finish(temporary);
   } catch (const Error& error) {
     failure.emplace(name + ": " + error.what(), error.fault());
   } catch (const std::bad_alloc&) {
@@ -71,7 +71,6 @@ void write_whole_exr(const std::filesystem::path& path, const std::function<void
                     fault_of(stream.error()));
   }
   if (failure) throw *failure;
-  file.commit();
 }
 
 }  // namespace limpid

@@ -2,14 +2,24 @@
 #include <filesystem>
 #include <functional>
 
+#include "limpid/files/exr/deep_writer.h"
+#include "limpid/files/exr/exr_writer.h"
+
+#include "files/atomic_file.h"
 #include "files/exr/exr_streams.h"
 
 namespace limpid {
 
-/// An EXR file of one part that appears whole or not at all: `check` runs first, then `write` gets
-/// the stream of a temporary file, which is looked at, given its hash, flushed and renamed.
-/// Whatever either throws leaves as an Error that begins with the path.
-void write_whole_exr(const std::filesystem::path& path, const std::function<void()>& check,
+/// An EXR file of one part, one more of the files: `check` runs first, then `write` gets the stream
+/// of a temporary file, which is looked at and given its hash. Whatever either throws leaves as an
+/// Error that begins with the path.
+void write_whole_exr(AtomicFiles& files, const std::filesystem::path& path,
+                     const std::function<void()>& check,
                      const std::function<void(OutputStream&)>& write);
+
+/// As without `files`, but that the file appears when those are committed.
+void write_exr(AtomicFiles& files, const std::filesystem::path& path, const ExrOutput& output);
+void write_deep_water(AtomicFiles& files, const std::filesystem::path& path,
+                      const DeepWater& water);
 
 }  // namespace limpid

@@ -118,8 +118,15 @@ void write_stream(OutputStream& stream, const ExrOutput& output) {
 void validate_compression(const std::string& compression) { compression_named(compression); }
 
 void write_exr(const std::filesystem::path& path, const ExrOutput& output) {
+  AtomicFiles files;
+  write_exr(files, path, output);
+  files.commit();
+}
+
+void write_exr(AtomicFiles& files, const std::filesystem::path& path, const ExrOutput& output) {
   write_whole_exr(
-      path, [&] { check(output); }, [&](OutputStream& stream) { write_stream(stream, output); });
+      files, path, [&] { check(output); },
+      [&](OutputStream& stream) { write_stream(stream, output); });
 }
 
 }  // namespace limpid

@@ -12,11 +12,11 @@
 #include "limpid/core/error.h"
 
 #include "core/memory.h"
-#include "files/atomic_file.h"
 #include "files/file_handle.h"
 #include "files/picture/formats.h"
 #include "files/picture/jpeg.h"
 #include "files/picture/png.h"
+#include "files/picture/whole_image.h"
 #include "files/want_of_memory.h"
 
 namespace limpid {
@@ -205,17 +205,16 @@ std::string encode(const fs::path& path, Rect window, int channels, const std::u
   return encode_tiff(path, window, channels, pixels);
 }
 
-void write_whole(const fs::path& path, const std::string& bytes) {
-  AtomicFile file(path);
+void write_whole(AtomicFiles& files, const fs::path& path, const std::string& bytes) {
+  const fs::path temporary = files.add(path).temporary();
   errno = 0;
-  std::ofstream out(file.temporary(), std::ios::binary);
+  std::ofstream out(temporary, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) {
     const int cause = errno;
     throw Error(path.string() + ": cannot be written (" + describe(cause) + ")", fault_of(cause));
   }
-  file.commit();
 }
 
 }  // namespace
@@ -245,6 +244,14 @@ ImageFile read_image(const fs::path& path, const Limits& limits) {
 
 void write_image8(const fs::path& path, const std::vector<View<const float>>& planes,
                   const std::map<std::string, std::string>& texts) {
+  AtomicFiles files;
+  write_image8(files, path, planes, texts);
+  files.commit();
+}
+
+void write_image8(AtomicFiles& files, const fs::path& path,
+                  const std::vector<View<const float>>& planes,
+                  const std::map<std::string, std::string>& texts) {
   format_of(path);
   if (planes.size() != 3 && planes.size() != 4) {
     throw Error(path.string() + ": " + std::to_string(planes.size()) + " planes: expected 3 or 4");
@@ -256,7 +263,8 @@ void write_image8(const fs::path& path, const std::vector<View<const float>>& pl
     }
   }
   const std::vector<std::uint8_t> pixels = interleaved(planes);
-  write_whole(path, encode(path, window, static_cast<int>(planes.size()), pixels.data(), texts));
+  write_whole(files, path,
+              encode(path, window, static_cast<int>(planes.size()), pixels.data(), texts));
 }
 
 void expect_image8(const fs::path& path) {

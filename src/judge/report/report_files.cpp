@@ -15,16 +15,16 @@ void make_folder_for(const std::filesystem::path& folder, const std::vector<std:
   }
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(folder.string() + ": cannot be made (" + error.message() + ")");
-  for (const std::string& name : names) AtomicFile{folder / name};
+  for (const std::string& name : names) expect_replaceable(folder / name);
 }
 
 void write_whole(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
+  AtomicFiles files;
+  std::ofstream stream(files.add(path).temporary(), std::ios::binary);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (!stream) throw Error(path.string() + ": cannot be written (disk full?)", Fault::kRetry);
-  file.commit();
+  files.commit();
 }
 
 }  // namespace limpid

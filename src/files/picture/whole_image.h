@@ -1,0 +1,17 @@
+#pragma once
+#include "limpid/files/picture/image_file.h"
+#include "limpid/files/picture/preview.h"
+
+#include "files/atomic_file.h"
+
+namespace limpid {
+
+/// As without `files`, but that the picture appears when those are committed.
+void write_image8(AtomicFiles& files, const std::filesystem::path& path,
+                  const std::vector<View<const float>>& planes,
+                  const std::map<std::string, std::string>& texts);
+void write_preview(AtomicFiles& files, const std::filesystem::path& path, View<const float> r,
+                   View<const float> g, View<const float> b, double exposure_stops,
+                   const std::map<std::string, std::string>& texts);
+
+}  // namespace limpid
