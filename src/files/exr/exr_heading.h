@@ -1,13 +1,21 @@
 #pragma once
+#include <optional>
 #include <string>
 
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfHeader.h>
 
 #include "limpid/files/exr/exr_heading.h"
 
-#include "files/exr/exr_compression.h"
-
 namespace limpid {
+
+struct Compression {
+  Imf::Compression method;
+  std::optional<double> level;
+};
+
+/// Of "zip", "dwaa:45" and so on. Throws Error of Fault::kUsage, with the nearest name.
+Compression compression_named(const std::string& text);
 
 /// Throws Error (without the path) for windows, aspect ratios and attribute names that cannot be
 /// written.

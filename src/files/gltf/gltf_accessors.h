@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "files/gltf/gltf_buffers.h"
-#include "files/memory_budget.h"
+#include "files/gltf/memory_budget.h"
 #include "files/text/json_place.h"
 
 namespace limpid {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/gltf/gltf_files.h"
-#include "files/memory_budget.h"
+#include "files/gltf/memory_budget.h"
 
 namespace limpid {
 

@@ -5,7 +5,6 @@
 #include "limpid/core/error.h"
 
 #include "files/gltf/gltf_extensions.h"
-#include "files/gltf/gltf_sampler.h"
 
 namespace limpid {
 namespace {
@@ -26,6 +25,26 @@ double number_from_0(const JsonPlace& place) {
   return place.number();
 }
 
+/// What a sampler says of the outside of 0 ... 1, in u and v.
+struct GltfSampler {
+  Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
+};
+
+Wrap wrap_of(const JsonPlace& sampler, std::string_view key) {
+  const std::optional<JsonPlace> wrap = sampler.find(key);
+  if (!wrap) return Wrap::kRepeat;
+  switch (wrap->integer(0, INT32_MAX)) {
+    case 10497:
+      return Wrap::kRepeat;
+    case 33071:
+      return Wrap::kClamp;
+    case 33648:
+      return Wrap::kMirror;
+    default:
+      wrap->refuse("one of 10497, 33071, 33648");
+  }
+}
+
 class Reader {
  public:
   Reader(const JsonPlace& root, Undrawable undrawable, ModelWarnings& warnings)
@@ -33,7 +52,7 @@ class Reader {
         textures_(root.list("textures")),
         texture_of_image_(root.count("images"), -1) {
     for (const JsonPlace& sampler : root.list("samplers")) {
-      samplers_.push_back(read_gltf_sampler(sampler));
+      samplers_.push_back({wrap_of(sampler, "wrapS"), wrap_of(sampler, "wrapT")});
     }
     for (const JsonPlace& texture : textures_) {
       if (const auto source = texture.find("source")) source->index(texture_of_image_.size());

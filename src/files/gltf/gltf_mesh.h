@@ -8,8 +8,8 @@
 #include "files/gltf/gltf_accessors.h"
 #include "files/gltf/gltf_material.h"
 #include "files/gltf/gltf_pose.h"
+#include "files/gltf/memory_budget.h"
 #include "files/gltf/model_warnings.h"
-#include "files/memory_budget.h"
 #include "files/text/json_place.h"
 
 namespace limpid {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -10,7 +11,6 @@
 
 #include "limpid/core/error.h"
 
-#include "files/gltf/gltf_camera.h"
 #include "files/gltf/gltf_extensions.h"
 #include "files/gltf/gltf_instances.h"
 #include "files/gltf/gltf_mesh.h"
@@ -41,6 +41,34 @@ Sun sun_of(const JsonPlace& light, const glm::dmat4& world) {
   const std::vector<double> c = color ? color->color() : std::vector<double>{1, 1, 1};
   return Sun{glm::normalize(glm::dvec3(world[2])),
              (intensity ? intensity->number() : 1.0) * Rgb<double>{c[0], c[1], c[2]}};
+}
+
+double number_or(const JsonPlace& object, std::string_view key, double otherwise) {
+  const auto number = object.find(key);
+  return number ? number->number() : otherwise;
+}
+
+glm::dmat4 projection_of(const JsonPlace& camera) {
+  if (camera.at("type").text() == "orthographic") {
+    const JsonPlace lens = camera.at("orthographic");
+    return orthographic(2 * lens.at("xmag").number(), 2 * lens.at("ymag").number(),
+                        lens.at("znear").number(), lens.at("zfar").number(), ClipSpace::kGl);
+  }
+  const JsonPlace lens = camera.at("perspective");
+  return perspective(
+      lens.at("yfov").number(), number_or(lens, "aspectRatio", 1), lens.at("znear").number(),
+      number_or(lens, "zfar", std::numeric_limits<double>::infinity()), ClipSpace::kGl);
+}
+
+// The scale of its node counts for nothing; one that is sheared is refused.
+Camera gltf_camera(const JsonPlace& place, glm::dmat4 world) {
+  for (int c = 0; c < 3; ++c) world[c] = glm::normalize(world[c]);
+  if (glm::determinant(glm::dmat3(world)) < 0) {
+    throw Error("its camera is mirrored, expected a rotation and a translation");
+  }
+  const Camera camera{glm::inverse(world), projection_of(place), ClipSpace::kGl};
+  camera.validate();
+  return camera;
 }
 
 class SceneReader {

@@ -6,7 +6,7 @@
 
 #include "limpid/core/error.h"
 
-#include "files/memory_budget.h"
+#include "files/gltf/memory_budget.h"
 #include "files/picture/jpeg.h"
 #include "files/picture/png.h"
 

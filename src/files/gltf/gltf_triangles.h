@@ -20,7 +20,10 @@ enum class GltfMode : std::uint8_t {
 };
 
 /// The mode of a primitive. Throws Error for one that there is not.
-GltfMode gltf_mode_of(const JsonPlace& primitive);
+inline GltfMode gltf_mode_of(const JsonPlace& primitive) {
+  const std::optional<JsonPlace> mode = primitive.find("mode");
+  return mode ? static_cast<GltfMode>(mode->integer(0, 6)) : GltfMode::kTriangles;
+}
 
 constexpr bool is_triangles(GltfMode mode) { return mode >= GltfMode::kTriangles; }
 

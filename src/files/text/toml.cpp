@@ -9,8 +9,6 @@
 
 #include <toml++/toml.h>
 
-#include "files/text/toml_nesting.h"
-
 namespace limpid {
 namespace {
 
@@ -34,6 +32,82 @@ std::string text_of_file(const std::filesystem::path& path) {
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;
 }
+
+constexpr int kDeepest = 16;  // brackets, and dots of a key
+
+/// Goes over a text token by token and refuses one whose brackets are nested, or whose keys are
+/// dotted, deeper than any of our files: toml++ limits the one at 256 and the other not at all, and
+/// goes down by recursion. What is no TOML is left for the parser to refuse.
+class Nesting {
+ public:
+  Nesting(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  void check() {
+    while (at_ < text_.size()) {
+      const char letter = text_[at_];
+      if (letter == '"' || letter == '\'') {
+        skip_string(letter);
+        continue;
+      }
+      if (letter == '#') at_ = std::min(text_.find('\n', at_), text_.size());
+      if (at_ < text_.size()) take(text_[at_++]);
+    }
+  }
+
+ private:
+  void take(char letter) {
+    switch (letter) {
+      case '.':  // of a key, or of a number, where another cannot follow
+        if (++dots_ > kDeepest) refuse("a key of more than " + std::to_string(kDeepest) + " dots");
+        break;
+      case '[':
+      case '{':
+        dots_ = 0;
+        if (++depth_ > kDeepest) {
+          refuse("brackets nested more than " + std::to_string(kDeepest) + " deep");
+        }
+        break;
+      case ']':
+      case '}':
+        dots_ = 0;
+        depth_ = std::max(depth_ - 1, 0);
+        break;
+      case '\n':
+      case ',':
+      case '=':
+        dots_ = 0;
+        break;
+    }
+  }
+
+  /// A string ends at its quote or, in error, with the line; one of three quotes at three.
+  void skip_string(char quote) {
+    const std::string three(3, quote);
+    const bool long_one = text_.substr(at_).starts_with(three);
+    const std::string_view end = std::string_view(three).substr(0, long_one ? 3 : 1);
+    at_ += end.size();
+    while (at_ < text_.size() && !text_.substr(at_).starts_with(end)) {
+      if (text_[at_] == '\n' && !long_one) return;
+      at_ += text_[at_] == '\\' && quote == '"' ? 2 : 1;
+    }
+    at_ = std::min(at_ + end.size(), text_.size());
+    // The last three of up to five quotes are the end.
+    for (int more = 0; long_one && more < 2 && at_ < text_.size() && text_[at_] == quote; ++more) {
+      ++at_;
+    }
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    const auto line =
+        1 + std::count(text_.begin(), text_.begin() + static_cast<long>(at_ - 1), '\n');
+    throw Error(name_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  int dots_ = 0, depth_ = 0;
+};
 
 std::string place_of(const std::string& file, const toml::source_region& region) {
   return file + ":" + std::to_string(region.begin.line) + ":" +
@@ -189,7 +263,7 @@ TomlNode parse_toml_text(const std::string& text, const std::string& name) {
   if (std::ssize(text) > kMaxBytes) {
     throw Error(name + ": is larger than 256 KiB, expected a TOML file");
   }
-  check_toml_nesting(text, name);
+  Nesting(text, name).check();
   try {
     return converted(toml::parse(text, name), name, "");
   } catch (const toml::parse_error& error) {
