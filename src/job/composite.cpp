@@ -5,12 +5,12 @@
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
 #include "limpid/files/exr/exr_camera.h"
-#include "limpid/job/job_files.h"
 
 #include "complete/completer.h"
-#include "job/composite_frame.h"
+#include "job/canvas.h"
 #include "job/picture_warnings.h"
-#include "job/stopwatch.h"
+#include "job/run_jobs.h"
+#include "job/shared_textures.h"
 
 namespace limpid {
 namespace {
@@ -35,9 +35,8 @@ Scene scene_of(const CompositeJob& job, const Plate& plate) {
   if (!scene.water) {
     throw Error("no water plane found: expected a scene with [water] up and height");
   }
-  const double unsaid =
-      plate.has_scene() ? carried.scene.time + job.time_after_plate : job.time_if_unsaid;
-  scene.time = job.time.value_or(job.scene.time.value_or(unsaid));
+  scene.time =
+      job.time.of(job.scene, plate.has_scene() ? std::optional(carried.scene.time) : std::nullopt);
   return scene;
 }
 
@@ -69,21 +68,6 @@ Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
                     .environment = has_environment(job.scene),
                     .waves = scene.has_waves()},
                    state_shown_by(computed_aovs(job.output)), job.output.max_error);
-}
-
-/// What an output says of the job.
-Record record_of(const CompositeJob& job, const Plate& plate, const Scene& scene, const Plan& plan,
-                 SharedTextures& textures) {
-  const DepthMeaning depth = depth_of(job);
-  std::string inputs = "depth_kind = \"" + std::string(depth_kind_name(depth.kind)) + "\"\n";
-  if (depth.kind == DepthKind::kNormalised) {
-    inputs += "near = " + toml_text(depth.near) + "\nfar = " + toml_text(depth.far) + "\n";
-  }
-  if (depth.nothing) inputs += "depth_nothing = " + toml_text(*depth.nothing) + "\n";
-  inputs += plate.inputs_text(plan.planes) + texture_inputs(plan, job.scene, textures);
-  Record record = record_of(scene, inputs, picture_options(job.output));
-  add_look(record, job.look, plan);
-  return record;
 }
 
 /// Of the plate and the plan, and of layers that are named in vain.
@@ -119,26 +103,106 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
 constexpr PlaneSet kUnsurveyed =
     kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
 
+/// The jobs of composite().
+class CompositeKind {
+ public:
+  using Job = CompositeJob;
+  using Report = CompositeReport;
+  struct Prepared {
+    Plate plate;
+    Scene scene;
+    DepthMeaning depth;
+    Plan plan;
+    TextureFiles textures;
+  };
+
+  static JobFiles files(const CompositeJob& job) { return files_of(job); }
+  static Prepared prepare(const CompositeJob& job) {
+    Plate plate = Plate::open(job.plate);
+    Scene scene = scene_of(job, plate);
+    const DepthMeaning depth = depth_of(job);
+    Plan plan = plan_of(job, plate, scene);
+    TextureFiles textures = textures_read(plan, job.scene);
+    return {std::move(plate), std::move(scene), depth, std::move(plan), std::move(textures)};
+  }
+  Record record(const CompositeJob& job, const Prepared& prepared) {
+    const auto& [plate, scene, depth, plan, textures] = prepared;
+    std::string inputs = "depth_kind = \"" + std::string(depth_kind_name(depth.kind)) + "\"\n";
+    if (depth.kind == DepthKind::kNormalised) {
+      inputs += "near = " + toml_text(depth.near) + "\nfar = " + toml_text(depth.far) + "\n";
+    }
+    if (depth.nothing) inputs += "depth_nothing = " + toml_text(*depth.nothing) + "\n";
+    inputs += plate.inputs_text(plan.planes) + texture_inputs(textures, textures_);
+    Record record = record_of(scene, inputs, picture_options(job.output));
+    add_look(record, job.look, plan);
+    return record;
+  }
+  static void expect_writable(const CompositeJob& job) { limpid::expect_writable(job.output); }
+
+  class Frame {
+   public:
+    explicit Frame(CompositeKind& kind) : kind_(kind) {}
+
+    void read(const CompositeJob& job, Prepared prepared) {
+      const Plate& plate = prepared.plate;
+      scene_ = std::move(prepared.scene);
+      report_.plan = std::move(prepared.plan);
+      plate.read(report_.plan.planes, scene_, prepared.depth, loaded_);
+      loaded_.frame.overscan = job.output.overscan;
+      textures_ = kind_.textures_.load(prepared.textures, job.plate.limits);
+      textures_.show_in(loaded_.frame);
+      report_.size = loaded_.frame.work().size();
+      report_.replaced = loaded_.replaced;
+      report_.warnings = warnings_of(job, plate, report_.plan);
+      warn_of_picture(report_.plan, loaded_.frame, scene_, report_.warnings);
+      warn_of_deep_glass(loaded_.transparent, report_.warnings);
+      beyond_ = beyond_of(report_.plan, loaded_.frame, scene_);
+      warn_of_beyond(beyond_, report_.warnings);
+      refuse_warnings(job.output.strict, report_.warnings);
+
+      file_ = {};
+      file_.display = plate.display();
+      file_.pixel_aspect = plate.pixel_aspect();
+      file_.inherited = plate.attributes();
+      file_.matrices = camera_attributes(*scene_.camera);
+    }
+    void run(const CompositeJob& job, Executor& executor, RunTimes* times = nullptr) {
+      canvas_for(canvas_, loaded_.frame.work(), job.output)
+          .paint(report_.plan, loaded_.frame, scene_, job.output, executor, times);
+    }
+    void write(const CompositeJob& job, Record record) {
+      file_.text = std::move(record);
+      canvas_->write(std::move(file_), job.output);
+    }
+    CompositeReport& report() { return report_; }
+    const Survey& survey() const { return canvas_->survey(); }
+    const Beyond& beyond() const { return beyond_; }
+
+   private:
+    CompositeKind& kind_;
+    CompositeReport report_;
+    Beyond beyond_;
+    Scene scene_;
+    LoadedPlate loaded_;
+    HeldTextures textures_;
+    ExrOutput file_;  ///< all but the channels and the record
+    std::optional<Canvas> canvas_;
+  };
+
+ private:
+  SharedTextures textures_;
+};
+
 }  // namespace
 
-Record record_of(const CompositeJob& job, SharedTextures& textures) {
-  const Plate plate = Plate::open(job.plate);
-  const Scene scene = scene_of(job, plate);
-  return record_of(job, plate, scene, plan_of(job, plate, scene), textures);
-}
-
-Plan plan_composite(const CompositeJob& job) {
-  const Plate plate = Plate::open(job.plate);
-  depth_of(job);
-  return plan_of(job, plate, scene_of(job, plate));
-}
+Plan plan_composite(const CompositeJob& job) { return CompositeKind::prepare(job).plan; }
 
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
-  const Plate plate = Plate::open(job.plate);
-  const Scene scene = scene_of(job, plate);
-  SurveyedPlan surveyed{plan_of(job, plate, scene), {}, {}, {}};
+  CompositeKind::Prepared prepared = CompositeKind::prepare(job);
+  const Scene& scene = prepared.scene;
+  SurveyedPlan surveyed{std::move(prepared.plan), {}, {}, {}};
   const Plan& plan = surveyed.plan;
-  LoadedPlate loaded = plate.read(plan.planes - kUnsurveyed, scene, depth_of(job));
+  LoadedPlate loaded = prepared.plate.read(plan.planes - kUnsurveyed, scene, prepared.depth);
   loaded.frame.overscan = job.output.overscan;
   loaded.frame.validate();
   const Pass pass(scene, loaded.frame, plan.look.water.ior, plan.made, plan.swell());
@@ -146,7 +210,7 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   const Frame frame = completer.complete(plan, loaded.frame, pass, executor, &job.output.simd);
   const Pass whole(scene, frame, plan.look.water.ior, plan.made, plan.swell());
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
-  surveyed.warnings = warnings_of(job, plate, plan);
+  surveyed.warnings = warnings_of(job, prepared.plate, plan);
   warn_of_picture(plan, frame, scene, surveyed.warnings);
   warn_of_deep_glass(loaded.transparent, surveyed.warnings);
   surveyed.beyond = beyond_of(plan, frame, scene);
@@ -160,70 +224,27 @@ MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor) {
     throw Error("runner reference: expected fused, for operators are timed in that one alone",
                 Fault::kUsage);
   }
-  SharedTextures textures;
-  CompositeFrame frame(textures);
-  frame.read(job, executor, false);
+  CompositeKind kind;
+  CompositeKind::Frame frame(kind);
+  frame.read(job, kind.prepare(job));
   RunTimes times;
   for (int i = 0; i < 2; ++i) frame.run(job, executor, &times);
-  return {{frame.report().plan, frame.survey(), frame.beyond(), frame.report().warnings}, times};
+  const CompositeReport& report = frame.report();
+  return {{report.plan, frame.survey(), frame.beyond(), report.warnings}, times};
 }
 
 CompositeReport composite(const CompositeJob& job, Executor& executor) {
-  SharedTextures textures;
-  CompositeFrame frame(textures);
-  frame.read(job, executor);
-  frame.run(job, executor);
-  frame.write(job);
-  return frame.report();
+  return run_job(CompositeKind(), job, executor);
 }
 
-void CompositeFrame::read(const CompositeJob& job, Executor& /*executor*/, bool writes) {
-  Stopwatch watch;
-  if (writes) expect_apart(files_of(job));
-  const Plate plate = Plate::open(job.plate);
-  scene_ = scene_of(job, plate);
-  const DepthMeaning depth = depth_of(job);
-  report_ = {};
-  report_.plan = plan_of(job, plate, scene_);
-  file_ = {};
-  if (writes) {
-    expect_writable(job.output);
-    file_.text = record_of(job, plate, scene_, report_.plan, *textures_);
-  }
-
-  plate.read(report_.plan.planes, scene_, depth, loaded_);
-  loaded_.frame.overscan = job.output.overscan;
-  wave_map_ = textures_->wave_map(report_.plan, job.plate.limits);
-  environment_ = textures_->environment(report_.plan, job.scene, job.plate.limits);
-  loaded_.frame.wave_map = texture_of(wave_map_);
-  loaded_.frame.environment = texture_of(environment_);
-  report_.size = loaded_.frame.work().size();
-  report_.replaced = loaded_.replaced;
-  report_.warnings = warnings_of(job, plate, report_.plan);
-  warn_of_picture(report_.plan, loaded_.frame, scene_, report_.warnings);
-  warn_of_deep_glass(loaded_.transparent, report_.warnings);
-  beyond_ = beyond_of(report_.plan, loaded_.frame, scene_);
-  warn_of_beyond(beyond_, report_.warnings);
-  refuse_warnings(job.output.strict, report_.warnings);
-
-  file_.display = plate.display();
-  file_.pixel_aspect = plate.pixel_aspect();
-  file_.inherited = plate.attributes();
-  file_.matrices = camera_attributes(*scene_.camera);
-  report_.read_seconds = watch.lap();
+void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
+                        const OnFrame& on_frame, Executor& executor) {
+  run_jobs(CompositeKind(), sequence, job_of, on_frame, executor);
 }
 
-void CompositeFrame::run(const CompositeJob& job, Executor& executor, RunTimes* times) {
-  Stopwatch watch;
-  canvas_for(canvas_, loaded_.frame.work(), job.output)
-      .paint(report_.plan, loaded_.frame, scene_, job.output, executor, times);
-  report_.run_seconds = watch.lap();
-}
-
-void CompositeFrame::write(const CompositeJob& job) {
-  Stopwatch watch;
-  canvas_->write(file_, job.output);
-  report_.write_seconds = watch.lap();
+Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
+                       Executor& executor, Scrutiny scrutiny) {
+  return rest_of_jobs(CompositeKind(), sequence, job_of, executor, scrutiny);
 }
 
 }  // namespace limpid

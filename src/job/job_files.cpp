@@ -111,12 +111,12 @@ JobFiles files_of(const CompositeJob& job) {
   return files;
 }
 
-JobFiles files_of(const Model& model, const PlateJob& job) {
-  return {rendered_from(model, job.render.scene), {job.output.plate}};
+JobFiles files_of(const Model& model, const RenderJob& job) {
+  return {rendered_from(model, job.scene), {job.output.plate}};
 }
 
 JobFiles files_of(const Model& model, const WaterJob& job) {
-  return {inputs_of(model, job.render.scene, job.look), outputs_of(job.output)};
+  return {inputs_of(model, job.scene, job.look), outputs_of(job.output)};
 }
 
 void expect_apart(const JobFiles& files) {

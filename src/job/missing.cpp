@@ -37,7 +37,7 @@ CompositeJob held_job(const JobOfFrame<CompositeJob>& job_of, int frame, int sta
   job.plate = std::move(held.plate);
   job.scene = std::move(held.scene);
   job.depth_kind = held.depth_kind;
-  job.time_after_plate += job.time_if_unsaid - held.time_if_unsaid;
+  job.time.after_plate += job.time.otherwise - held.time.otherwise;
   return job;
 }
 

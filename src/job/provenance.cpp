@@ -76,23 +76,24 @@ std::string hash_of_model(const Model& model) {
   return hash.text();
 }
 
-std::string line(std::string_view key, const std::string& value) {
-  return std::string(key) + " = " + value + "\n";
-}
-
-std::vector<std::string> names_of(const std::vector<Aov>& list) {
-  std::vector<std::string> names;
-  for (const Aov aov : list) {
-    names.push_back(toml_text(std::string(aovs()[static_cast<std::size_t>(aov)].name)));
-  }
-  return names;
-}
-
 std::string simd_line(std::string_view key, const std::string& simd) {
   return line(key, toml_text(simd.empty() ? simd_targets().front() : simd));
 }
 
 }  // namespace
+
+std::string line(std::string_view key, const std::string& value) {
+  return std::string(key) + " = " + value + "\n";
+}
+
+std::string aovs_line(const std::vector<Aov>& list, bool visible) {
+  std::vector<std::string> names;
+  for (const Aov aov : list) {
+    names.push_back(toml_text(std::string(aovs()[static_cast<std::size_t>(aov)].name)));
+  }
+  if (visible) names.push_back(toml_text(std::string("visible")));
+  return line("aovs", "[" + join(names) + "]");
+}
 
 HashedModel::HashedModel(const Model& named) : model(&named), hash(hash_of_model(named)) {}
 
@@ -128,20 +129,16 @@ std::string model_inputs(const HashedModel& model, const RenderOptions& options)
          line("shadow_map", std::to_string(options.shadow_map_size));
 }
 
-std::string texture_inputs(const Plan& plan, const SceneFile& scene, SharedTextures& textures) {
+std::string texture_inputs(const TextureFiles& files, SharedTextures& textures) {
   std::string text;
-  if (plan.reads_wave_map) text += wave_map_input(plan.look.of<WaveNormals>().map, textures);
-  if (plan.reads_environment) text += environment_input(scene, textures);
+  if (!files.wave_map.empty()) {
+    text += line("wave_map", toml_text(textures.hash_of(files.wave_map)));
+  }
+  if (!files.environment.empty()) {
+    text += line("environment", "{file = " + toml_text(textures.hash_of(files.environment)) +
+                                    ", rotation = " + toml_text(files.rotation) + "}");
+  }
   return text;
-}
-
-std::string wave_map_input(const std::filesystem::path& file, SharedTextures& textures) {
-  return line("wave_map", toml_text(textures.hash_of(file)));
-}
-
-std::string environment_input(const SceneFile& scene, SharedTextures& textures) {
-  return line("environment", "{file = " + toml_text(textures.hash_of(scene.environment)) +
-                                 ", rotation = " + toml_text(scene.environment_rotation) + "}");
 }
 
 std::string picture_options(const OutputChoice& choice) {
@@ -152,22 +149,7 @@ std::string picture_options(const OutputChoice& choice) {
          (choice.wave_samples > 1 ? line("wave_samples", std::to_string(choice.wave_samples))
                                   : "") +
          (choice.overscan > 0 ? line("overscan", std::to_string(choice.overscan)) : "") +
-         line("aovs", "[" + join(names_of(choice.aovs)) + "]") +
-         file_options(choice.compression, choice.store_float);
-}
-
-std::string truth_options(const TruthJob& job) {
-  std::vector<std::string> names = names_of(job.output.aovs);
-  if (job.output.visible) names.push_back(toml_text(std::string("visible")));
-  return line("runner", toml_text(std::string("traced"))) +
-         line("samples", std::to_string(job.samples)) +
-         (job.light == TruthOptions::Light::kPaths
-              ? line("light", toml_text(std::string("paths"))) +
-                    line("paths", std::to_string(job.paths)) +
-                    line("photons", std::to_string(job.photons))
-              : line("light", toml_text(std::string("once")))) +
-         line("seed", std::to_string(job.seed)) + line("aovs", "[" + join(names) + "]") +
-         file_options(job.output.compression, job.output.store_float);
+         aovs_line(choice.aovs) + file_options(choice.compression, choice.store_float);
 }
 
 std::string raster_options(const std::string& simd) { return simd_line("raster_simd", simd); }

@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "limpid/core/scene.h"
 #include "limpid/job/output.h"
@@ -11,7 +13,6 @@
 #include "limpid/raster/render_plate.h"
 
 #include "job/shared_textures.h"
-#include "job/truth.h"
 
 /// What an output says of how it was made, in attributes "limpid/..." (job/output.h lists them).
 /// Nothing in it depends on where files lie, nor on date, host or threads.
@@ -37,13 +38,15 @@ struct HashedModel {
 /// Parts of `inputs`: TOML, some lines each.
 std::string model_inputs(const HashedModel& model, Size size);
 std::string model_inputs(const HashedModel& model, const RenderOptions& options);
-std::string texture_inputs(const Plan& plan, const SceneFile& scene, SharedTextures& textures);
-std::string wave_map_input(const std::filesystem::path& file, SharedTextures& textures);
-std::string environment_input(const SceneFile& scene, SharedTextures& textures);
+std::string texture_inputs(const TextureFiles& files, SharedTextures& textures);
+
+/// A line of TOML: the value is given as it stands there.
+std::string line(std::string_view key, const std::string& value);
+/// `aovs = ["path", "visible"]`.
+std::string aovs_line(const std::vector<Aov>& aovs, bool visible = false);
 
 /// Parts of `options`.
 std::string picture_options(const OutputChoice& choice);
-std::string truth_options(const TruthJob& job);
 std::string raster_options(const std::string& simd);
 std::string file_options(const std::string& compression, bool store_float);
 

@@ -12,19 +12,13 @@
 #include "limpid/job/job_files.h"
 
 #include "files/file_identity.h"
-#include "job/composite_frame.h"
-#include "job/water_frame.h"
+#include "job/frame_line.h"
+#include "job/resume_frames.h"
 
 namespace limpid {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Files = std::vector<fs::path>;
-
-Files outputs_of(const CompositeJob& job) { return outputs_of(job.output); }
-Files outputs_of(const WaterJob& job) { return outputs_of(job.output); }
-Files outputs_of(const PlateJob& job) { return {job.output.plate}; }
 
 bool is_there(const fs::path& file) {
   std::error_code ignored;
@@ -76,15 +70,15 @@ struct Found {
   std::string why;  ///< it is not, though its picture is there
 };
 
-template <class RecordOfJob>
-Found find(const Files& files, const RecordOfJob& record_of_job, Scrutiny scrutiny) {
+Found find(const ExpectedOutput& output, Scrutiny scrutiny) {
+  const std::vector<fs::path>& files = output.files.outputs;
   if (!is_there(files.front())) return {};
   for (const fs::path& file : files) {
     if (!is_there(file)) return {false, file.string() + " is not there"};
   }
   Record record;
   try {
-    record = record_of_job();
+    record = output.record();
   } catch (const Error&) {
     return {};  // it will be told when the frame is made
   }
@@ -95,101 +89,53 @@ Found find(const Files& files, const RecordOfJob& record_of_job, Scrutiny scruti
   return {true, ""};
 }
 
-struct Findings {
-  Scrutiny scrutiny;
-  Rest rest;
-  std::set<fs::path> folders;
-
-  void add_folder_of(const fs::path& file) {
-    try {
-      folders.insert(fs::absolute(followed(file)).parent_path());
-    } catch (const Error&) {
-      return;  // it will be told when the frame is made
-    }
-  }
+/// A frame that is being looked at.
+struct Candidate {
+  std::optional<ExpectedOutput> output;
+  Found found;
 };
-
-/// A slot that looks at frames instead of making them.
-template <class Job, class RecordOfJob>
-class LookingSlot : public FrameSlot {
- public:
-  LookingSlot(const JobOfFrame<Job>& job_of, const RecordOfJob& record_of_job, Findings& findings)
-      : job_of_(job_of), record_of_job_(record_of_job), findings_(findings) {}
-
-  void begin(int frame) override {
-    job_.reset();
-    found_ = {};
-    try {
-      job_ = job_of_(frame);
-    } catch (const Error&) {
-      return;  // it will be told when the frame is made
-    }
-    for (const fs::path& file : outputs_of(*job_)) findings_.add_folder_of(file);
-  }
-  void read(Executor&) override {
-    const auto record = [&] { return record_of_job_(*job_); };
-    if (job_) found_ = find(outputs_of(*job_), record, findings_.scrutiny);
-  }
-  void run(Executor&) override {}
-  void write() override {}
-  void done(const SequenceProgress& progress) override {
-    Rest& rest = findings_.rest;
-    if (found_.kept) {
-      ++rest.kept;
-      return;
-    }
-    rest.frames.push_back(progress.frame);
-    if (!found_.why.empty()) rest.others.push_back({progress.frame, found_.why});
-  }
-
- private:
-  const JobOfFrame<Job>& job_of_;
-  const RecordOfJob& record_of_job_;
-  Findings& findings_;
-  std::optional<Job> job_;
-  Found found_;
-};
-
-template <class Job, class RecordOfJob>
-Rest rest_of(const Sequence& sequence, const JobOfFrame<Job>& job_of,
-             const RecordOfJob& record_of_job, Executor& executor, Scrutiny scrutiny) {
-  Findings findings{scrutiny, {}, {}};
-  const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
-    return std::make_unique<LookingSlot<Job, RecordOfJob>>(job_of, record_of_job, findings);
-  };
-  run_sequence(sequence, make_slot, executor);
-  for (const fs::path& folder : findings.folders) remove_abandoned_files(folder);
-  return std::move(findings.rest);
-}
 
 }  // namespace
 
-Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
-                       Executor& executor, Scrutiny scrutiny) {
-  expect_apart(sequence.frames, [&](int frame) { return files_of(job_of(frame)); });
-  SharedTextures textures;
-  return rest_of(
-      sequence, job_of, [&](const CompositeJob& job) { return record_of(job, textures); }, executor,
-      scrutiny);
-}
-
-Rest rest_of_render(const Model& model, const Sequence& sequence,
-                    const JobOfFrame<PlateJob>& job_of, Executor& executor, Scrutiny scrutiny) {
-  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
-  const HashedModel hashed(model);
-  return rest_of(
-      sequence, job_of, [&](const PlateJob& job) { return record_of(hashed, job); }, executor,
-      scrutiny);
-}
-
-Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
-                   Executor& executor, Scrutiny scrutiny) {
-  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of(frame)); });
-  SharedTextures textures;
-  const HashedModel hashed(model);
-  return rest_of(
-      sequence, job_of, [&](const WaterJob& job) { return record_of(hashed, job, textures); },
-      executor, scrutiny);
+Rest rest_of_frames(const Sequence& sequence,
+                    const std::function<ExpectedOutput(int frame)>& output_of, Executor& executor,
+                    Scrutiny scrutiny) {
+  check(sequence);
+  expect_apart(sequence.frames, [&](int frame) { return output_of(frame).files; });
+  Rest rest;
+  std::set<fs::path> folders;
+  std::vector<Candidate> candidates(static_cast<std::size_t>(frames_in_flight(sequence)));
+  const auto at = [&](int place) -> Candidate& {
+    return candidates[static_cast<std::size_t>(place)];
+  };
+  const FrameStep steps[] = {
+      [&](int place, int frame) {
+        at(place) = {};
+        try {
+          at(place).output = output_of(frame);
+          for (const fs::path& file : at(place).output->files.outputs) {
+            folders.insert(fs::absolute(followed(file)).parent_path());
+          }
+        } catch (const Error&) {
+          return;  // it will be told when the frame is made
+        }
+      },
+      [&](int place, int) {
+        if (at(place).output) at(place).found = find(*at(place).output, scrutiny);
+      },
+      [&](int place, int frame) {
+        const Found& found = at(place).found;
+        if (found.kept) {
+          ++rest.kept;
+          return;
+        }
+        rest.frames.push_back(frame);
+        if (!found.why.empty()) rest.others.push_back({frame, found.why});
+      },
+  };
+  run_steps(sequence, steps, executor);
+  for (const fs::path& folder : folders) remove_abandoned_files(folder);
+  return rest;
 }
 
 }  // namespace limpid

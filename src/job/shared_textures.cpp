@@ -15,9 +15,25 @@ bool has_environment(const SceneFile& scene) {
   return true;
 }
 
-SharedTextures::Held SharedTextures::kept(Kept& kept, const std::filesystem::path& path,
-                                          double rotation,
-                                          const std::function<LoadedTexture()>& load) {
+TextureFiles textures_read(const Plan& plan, const SceneFile& scene) {
+  TextureFiles files;
+  if (plan.reads_wave_map) files.wave_map = plan.look.of<WaveNormals>().map;
+  if (plan.reads_environment) {
+    files.environment = scene.environment;
+    files.rotation = scene.environment_rotation;
+  }
+  return files;
+}
+
+void HeldTextures::show_in(Frame& frame) const {
+  frame.wave_map = texture_of(wave_map);
+  frame.environment = texture_of(environment);
+}
+
+std::shared_ptr<const LoadedTexture> SharedTextures::kept(
+    Kept& kept, const std::filesystem::path& path, double rotation,
+    const std::function<LoadedTexture()>& load) {
+  if (path.empty()) return {};
   const std::lock_guard lock(mutex_);
   if (!kept.texture || kept.path != path || kept.rotation != rotation) {
     kept = {path, rotation, std::make_shared<const LoadedTexture>(load())};
@@ -25,18 +41,10 @@ SharedTextures::Held SharedTextures::kept(Kept& kept, const std::filesystem::pat
   return kept.texture;
 }
 
-SharedTextures::Held SharedTextures::wave_map(const Plan& plan, const Limits& limits) {
-  if (!plan.reads_wave_map) return {};
-  const std::filesystem::path path = plan.look.of<WaveNormals>().map;
-  return kept(wave_map_, path, 0, [&] { return load_texture(path, limits); });
-}
-
-SharedTextures::Held SharedTextures::environment(const Plan& plan, const SceneFile& scene,
-                                                 const Limits& limits) {
-  if (!plan.reads_environment) return {};
-  const double rotation = scene.environment_rotation;
-  return kept(environment_, scene.environment, rotation,
-              [&] { return load_environment(scene.environment, rotation, limits); });
+HeldTextures SharedTextures::load(const TextureFiles& files, const Limits& limits) {
+  return {kept(wave_map_, files.wave_map, 0, [&] { return load_texture(files.wave_map, limits); }),
+          kept(environment_, files.environment, files.rotation,
+               [&] { return load_environment(files.environment, files.rotation, limits); })};
 }
 
 std::string SharedTextures::hash_of(const std::filesystem::path& path) {

@@ -15,16 +15,25 @@ namespace limpid {
 /// Whether the scene file names surroundings. Throws Error when it does and they are not there.
 bool has_environment(const SceneFile& scene);
 
-/// The textures that plans look up, kept from frame to frame: loaded when a plan first reads them,
-/// and again only where another file is meant. Empty for plans that do not. Any threads may ask.
+/// The files of the textures that a job looks up; an empty path where it does not.
+struct TextureFiles {
+  std::filesystem::path wave_map;     ///< the tiling normal map
+  std::filesystem::path environment;  ///< the surroundings
+  double rotation = 0;                ///< rad, of the environment
+};
+TextureFiles textures_read(const Plan& plan, const SceneFile& scene);
+
+/// Textures as long as somebody holds them; none where no file is.
+struct HeldTextures {
+  std::shared_ptr<const LoadedTexture> wave_map, environment;
+  void show_in(Frame& frame) const;
+};
+
+/// The textures of many frames: loaded when a job first reads them, and again only where another
+/// file is meant. Any threads may ask.
 class SharedTextures {
  public:
-  using Held = std::shared_ptr<const LoadedTexture>;
-
-  /// The tiling normal map.
-  Held wave_map(const Plan& plan, const Limits& limits = {});
-  /// The surroundings.
-  Held environment(const Plan& plan, const SceneFile& scene, const Limits& limits = {});
+  HeldTextures load(const TextureFiles& files, const Limits& limits = {});
 
   /// The hash of the bytes of such a file, as ExrFile::content_hash(): taken once. Throws Error.
   std::string hash_of(const std::filesystem::path& path);
@@ -33,10 +42,11 @@ class SharedTextures {
   struct Kept {
     std::filesystem::path path;
     double rotation = 0;
-    Held texture;
+    std::shared_ptr<const LoadedTexture> texture;
   };
-  Held kept(Kept& kept, const std::filesystem::path& path, double rotation,
-            const std::function<LoadedTexture()>& load);
+  std::shared_ptr<const LoadedTexture> kept(Kept& kept, const std::filesystem::path& path,
+                                            double rotation,
+                                            const std::function<LoadedTexture()>& load);
 
   std::mutex mutex_;
   Kept wave_map_, environment_;
@@ -44,7 +54,7 @@ class SharedTextures {
 };
 
 /// The view of what is held, if anything is.
-inline Texture texture_of(const SharedTextures::Held& held) {
+inline Texture texture_of(const std::shared_ptr<const LoadedTexture>& held) {
   return held ? held->texture : Texture{};
 }
 

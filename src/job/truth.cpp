@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "limpid/core/toml_text.h"
 #include "limpid/files/exr/exr_camera.h"
 #include "limpid/plate/texture.h"
 #include "limpid/raster/render_plate.h"
@@ -11,42 +12,27 @@
 #include "files/exr/exr_whole.h"
 #include "files/picture/whole_image.h"
 #include "job/canvas.h"
-#include "job/provenance.h"
+#include "job/run_jobs.h"
+#include "job/scene_job.h"
 #include "job/shared_textures.h"
-#include "job/stopwatch.h"
 
 namespace limpid {
 namespace {
 
-Scene scene_of(const Model& model, const TruthJob& job) {
-  Scene scene = job.scene.scene;
-  if (job.scene.camera) scene.camera = camera_for(*job.scene.camera, job.size);
-  scene.time = job.time;
-  return scene_of_model(scene, model, job.size);
-}
-
 /// What the look reads beside the model: raised meshes have normals of their own.
-struct Textures {
-  LoadedTexture wave_map, environment;
-  std::string inputs;  ///< what a record says of them
-};
-Textures textures_of(const Model& model, const Scene& scene, const TruthJob& job) {
-  Textures textures;
-  SharedTextures files;
+TextureFiles textures_of(const Model& model, const Scene& scene, const TruthJob& job) {
+  TextureFiles files;
   const WaveNormals::Params& waves = job.look.of<WaveNormals>();
   const bool raised = renderable(model, scene).covers(kSurfaceNormalPlanes);
-  if (!raised && WaveNormals::needs(waves).wave_map && !waves.map.empty()) {
-    textures.wave_map = load_texture(waves.map);
-    textures.inputs += wave_map_input(waves.map, files);
-  }
+  if (!raised && WaveNormals::needs(waves).wave_map) files.wave_map = waves.map;
   const bool surroundings =
       job.light == TruthOptions::Light::kPaths ||
       job.look.of<FresnelReflection>().source == FresnelReflection::Source::kEnvironment;
   if (surroundings && has_environment(job.scene)) {
-    textures.environment = load_environment(job.scene.environment, job.scene.environment_rotation);
-    textures.inputs += environment_input(job.scene, files);
+    files.environment = job.scene.environment;
+    files.rotation = job.scene.environment_rotation;
   }
-  return textures;
+  return files;
 }
 
 std::vector<ExrOutputChannel> channels_of(const TruthPicture& picture, const TruthOutput& output) {
@@ -72,12 +58,16 @@ std::vector<ExrOutputChannel> channels_of(const TruthPicture& picture, const Tru
   return channels;
 }
 
-Record record_of(const Model& model, const TruthJob& job, const Scene& scene,
-                 const Textures& textures) {
-  Record record = record_of(scene, model_inputs(HashedModel(model), job.size) + textures.inputs,
-                            truth_options(job));
-  add_look(record, job.look);
-  return record;
+std::string options_text(const TruthJob& job) {
+  return line("runner", toml_text(std::string("traced"))) +
+         line("samples", std::to_string(job.samples)) +
+         (job.light == TruthOptions::Light::kPaths
+              ? line("light", toml_text(std::string("paths"))) +
+                    line("paths", std::to_string(job.paths)) +
+                    line("photons", std::to_string(job.photons))
+              : line("light", toml_text(std::string("once")))) +
+         line("seed", std::to_string(job.seed)) + aovs_line(job.output.aovs, job.output.visible) +
+         file_options(job.output.compression, job.output.store_float);
 }
 
 /// A hundredth of it tells nothing.
@@ -96,49 +86,110 @@ ExrOutput file_of(const TruthPicture& picture, const Scene& scene, const TruthJo
   return file;
 }
 
+/// The jobs of truth().
+class TruthKind {
+ public:
+  using Job = TruthJob;
+  using Report = TruthReport;
+  struct Prepared {
+    Scene scene;
+    TextureFiles textures;
+  };
+
+  explicit TruthKind(const Model& model) : model_(model) {}
+
+  JobFiles files(const TruthJob& job) const {
+    OutputChoice named;
+    named.picture = job.output.picture;
+    named.preview = job.output.preview;
+    return {inputs_of(*model_.model, job.scene, job.look), outputs_of(named)};
+  }
+  Prepared prepare(const TruthJob& job) const {
+    Scene scene = scene_of(*model_.model, job, job.size);
+    TextureFiles textures = textures_of(*model_.model, scene, job);
+    return {std::move(scene), std::move(textures)};
+  }
+  /// All but `limpid/noise`, which is known when the picture is.
+  Record record(const TruthJob& job, const Prepared& prepared) {
+    const std::string inputs =
+        model_inputs(model_, job.size) + texture_inputs(prepared.textures, textures_);
+    Record record = record_of(prepared.scene, inputs, options_text(job));
+    add_look(record, job.look);
+    return record;
+  }
+  static void expect_writable(const TruthJob& job) {
+    limpid::expect_writable(job.output.picture);
+    if (!job.output.preview.empty()) expect_preview_writable(job.output.preview);
+  }
+
+  class Frame {
+   public:
+    explicit Frame(TruthKind& kind) : kind_(kind) {}
+
+    void read(const TruthJob& job, Prepared prepared) {
+      report_.size = job.size;
+      scene_ = std::move(prepared.scene);
+      textures_ = kind_.textures_.load(prepared.textures, job.limits);
+    }
+    void run(const TruthJob& job, Executor& executor) {
+      const TruthOptions options{job.size,
+                                 job.samples,
+                                 job.light,
+                                 job.paths,
+                                 job.photons,
+                                 job.seed,
+                                 job.output.aovs,
+                                 job.output.visible,
+                                 texture_of(textures_.wave_map),
+                                 texture_of(textures_.environment)};
+      picture_ = {};  // before another is made
+      picture_ = trace_truth(*kind_.model_.model, scene_, job.look, options, executor);
+      report_.relative_error = picture_.relative_error;
+    }
+    void write(const TruthJob& job, Record record) {
+      ExrOutput file = file_of(picture_, scene_, job);
+      file.text = std::move(record);
+      if (!std::isnan(picture_.relative_error)) {
+        file.text["limpid/noise"] = noise_text(picture_.relative_error);
+      }
+      AtomicFiles files;
+      if (!job.output.preview.empty()) {
+        const auto& c = picture_.target.color;
+        write_preview(files, job.output.preview, c[0], c[1], c[2], 0, file.text);
+      }
+      write_exr(files, job.output.picture, file);
+      files.commit();
+    }
+    TruthReport& report() { return report_; }
+
+   private:
+    TruthKind& kind_;
+    TruthReport report_;
+    Scene scene_;
+    HeldTextures textures_;
+    TruthPicture picture_;
+  };
+
+ private:
+  HashedModel model_;
+  SharedTextures textures_;
+};
+
 }  // namespace
 
-JobFiles files_of(const Model& model, const TruthJob& job) {
-  return {inputs_of(model, job.scene, job.look), {job.output.picture, job.output.preview}};
+TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
+  return run_job(TruthKind(model), job, executor);
 }
 
-TruthReport truth(const Model& model, const TruthJob& job, Executor& executor) {
-  Stopwatch watch;
-  TruthReport report;
-  report.size = job.size;
-  expect_apart(files_of(model, job));
-  // The Error that writing would end with, before the work is done.
-  expect_writable(job.output.picture);
-  if (!job.output.preview.empty()) expect_preview_writable(job.output.preview);
-  const Scene scene = scene_of(model, job);
-  const Textures textures = textures_of(model, scene, job);
-  const TruthOptions options{job.size,
-                             job.samples,
-                             job.light,
-                             job.paths,
-                             job.photons,
-                             job.seed,
-                             job.output.aovs,
-                             job.output.visible,
-                             textures.wave_map.texture,
-                             textures.environment.texture};
-  const TruthPicture picture = trace_truth(model, scene, job.look, options, executor);
-  report.trace_seconds = watch.lap();
-  ExrOutput file = file_of(picture, scene, job);
-  file.text = record_of(model, job, scene, textures);
-  report.relative_error = picture.relative_error;
-  if (!std::isnan(picture.relative_error)) {
-    file.text["limpid/noise"] = noise_text(picture.relative_error);
-  }
-  AtomicFiles files;
-  if (!job.output.preview.empty()) {
-    const auto& c = picture.target.color;
-    write_preview(files, job.output.preview, c[0], c[1], c[2], 0, file.text);
-  }
-  write_exr(files, job.output.picture, file);
-  files.commit();
-  report.write_seconds = watch.lap();
-  return report;
+void truth_sequence(const Model& model, const Sequence& sequence,
+                    const JobOfFrame<TruthJob>& job_of, const OnFrameOf<TruthReport>& on_frame,
+                    Executor& executor) {
+  run_jobs(TruthKind(model), sequence, job_of, on_frame, executor);
+}
+
+Rest rest_of_truth(const Model& model, const Sequence& sequence, const JobOfFrame<TruthJob>& job_of,
+                   Executor& executor, Scrutiny scrutiny) {
+  return rest_of_jobs(TruthKind(model), sequence, job_of, executor, scrutiny);
 }
 
 }  // namespace limpid

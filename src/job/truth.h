@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "limpid/files/text/scene_file.h"
-#include "limpid/job/job_files.h"
+#include "limpid/job/resume.h"
+#include "limpid/job/sequence.h"
+#include "limpid/job/water.h"
 
 #include "judge/trace/truth.h"
 
@@ -21,10 +22,8 @@ struct TruthOutput {
   bool store_float = false;  ///< half otherwise; depths, paths and maps are float always
 };
 
-struct TruthJob {
-  SceneFile scene;  ///< camera and sun come from the model where it has none
+struct TruthJob : SceneJob {
   Size size{1920, 1080};
-  double time = 0;  ///< seconds, for the waves
   Look look;
   int samples = 1;
   TruthOptions::Light light = TruthOptions::Light::kPaths;
@@ -37,15 +36,19 @@ struct TruthJob {
 struct TruthReport {
   Size size;
   double relative_error = 0;  ///< as TruthPicture has it
-  double trace_seconds = 0, write_seconds = 0;
+  double read_seconds = 0, run_seconds = 0, write_seconds = 0;
 };
-
-/// What it reads and writes (job/job_files.h).
-JobFiles files_of(const Model& model, const TruthJob& job);
 
 /// Traces and writes. Throws Error as trace_truth() does, for textures that cannot be read, and for
 /// an output that is one of the inputs or another output; nothing is left under the output's name
 /// then but what was there before.
 TruthReport truth(const Model& model, const TruthJob& job, Executor& executor);
+
+/// Many frames, and the rest of many, as those of water() are (job/sequence.h, job/resume.h).
+void truth_sequence(const Model& model, const Sequence& sequence,
+                    const JobOfFrame<TruthJob>& job_of, const OnFrameOf<TruthReport>& on_frame,
+                    Executor& executor);
+Rest rest_of_truth(const Model& model, const Sequence& sequence, const JobOfFrame<TruthJob>& job_of,
+                   Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
 
 }  // namespace limpid

@@ -265,10 +265,11 @@ TEST_F(ApartJobs, ModelsKnowTheirFiles) {
   const SceneFile scene = load_scene(folder_ / "pool/pool.toml");
   const Model model = load_gltf(scene.geometry);
   const auto executor = make_executor(1);
-  PlateJob plate;
-  plate.render.scene = scene;
-  plate.render.render.size = {32, 18};
+  RenderJob plate;
+  plate.scene = scene;
+  plate.render.size = {32, 18};
   WaterJob wet;
+  wet.scene = scene;
   wet.render = plate.render;
   wet.look = load_look(folder_ / "look.toml");
   ASSERT_GE(model.files.size(), 2u);

@@ -71,10 +71,10 @@ TEST_F(EnvironmentTest, IsLoadedAndTurnedForAPlanThatReadsIt) {
   EXPECT_TRUE(has_environment(scene));
   SharedTextures textures;
   Plan plan;
-  EXPECT_FALSE(textures.environment(plan, scene));
+  EXPECT_FALSE(textures.load(textures_read(plan, scene)).environment);
   plan.reads_environment = true;
-  EXPECT_THROW(textures.environment(plan, scene, {.max_pixels = 31}), Error);
-  const auto held = textures.environment(plan, scene);
+  EXPECT_THROW(textures.load(textures_read(plan, scene), {.max_pixels = 31}), Error);
+  const auto held = textures.load(textures_read(plan, scene)).environment;
   const Texture sky = texture_of(held);
   EXPECT_EQ(sky.channels[0].window, (Rect{0, 0, 8, 4}));
   EXPECT_EQ(sky.channels[2].at(6, 1), 7);  // mirrored from 3 to 4, turned by two
@@ -90,18 +90,17 @@ TEST_F(EnvironmentTest, OfManyFramesIsLoadedOnce) {
   plan.reads_environment = plan.reads_wave_map = true;
   plan.look.of<WaveNormals>().map = folder_ / "waves.exr";
   SharedTextures textures;
-  const auto sky = textures.environment(plan, scene);
-  const auto map = textures.wave_map(plan);
+  const auto [map, sky] = textures.load(textures_read(plan, scene));
   std::filesystem::remove(folder_ / "sky.exr");
   std::filesystem::remove(folder_ / "waves.exr");
-  EXPECT_EQ(textures.environment(plan, scene), sky);
-  EXPECT_EQ(textures.wave_map(plan), map);
+  EXPECT_EQ(textures.load(textures_read(plan, scene)).environment, sky);
+  EXPECT_EQ(textures.load(textures_read(plan, scene)).wave_map, map);
   // Another file, or the same turned, is another texture.
   scene.environment = folder_ / "other.exr";
-  EXPECT_NE(textures.environment(plan, scene), sky);
+  EXPECT_NE(textures.load(textures_read(plan, scene)).environment, sky);
   std::filesystem::remove(folder_ / "other.exr");
   scene.environment_rotation = 1;
-  EXPECT_THROW(textures.environment(plan, scene), Error);
+  EXPECT_THROW(textures.load(textures_read(plan, scene)), Error);
 }
 
 }  // namespace

@@ -244,16 +244,15 @@ TEST_F(ResumeTest, AFrameWithoutItsInputIsNotKept) {
             "limpid: 3 of 3 frames are there already\n");
 }
 
-TEST_F(ResumeTest, RendersAndWatersResumeToo) {
+TEST_F(ResumeTest, RendersWatersAndTruthsResumeToo) {
   fs::create_directory(folder_ / "pool");
   for (const auto& entry : fs::directory_iterator(LIMPID_DATA "/scenes")) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("pool")) fs::copy_file(entry.path(), folder_ / "pool" / name);
   }
-  for (const std::string verb : {"render", "water"}) {
-    const auto with = [&](const Words& more) {
-      Words all{verb, "pool/pool.toml", "--size",   "32x18",
-                "-o", verb + ".%d.exr", "--frames", "1-3"};
+  for (const std::string verb : {"render", "water", "truth"}) {
+    const auto with = [&](const Words& more, const std::string& size = "32x18") {
+      Words all{verb, "pool/pool.toml", "--size", size, "-o", verb + ".%d.exr", "--frames", "1-3"};
       all.insert(all.end(), more.begin(), more.end());
       return said_by(all);
     };
@@ -270,7 +269,8 @@ TEST_F(ResumeTest, RendersAndWatersResumeToo) {
                 HasSubstr("frame 2: " + verb + ".2.exr has changed"));
     EXPECT_TRUE(text_of(verb + ".2.exr") == second);
     EXPECT_EQ(file_number(verb + ".1.exr"), first);
-    EXPECT_THAT(with({"--resume", "--overscan", "1"}), HasSubstr("(inputs, scene_hash)\n"));
+    EXPECT_EQ(with({"--resume"}), "limpid: 3 of 3 frames are there already\n");
+    EXPECT_THAT(with({"--resume"}, "32x16"), HasSubstr(" otherwise (inputs, scene"));
     EXPECT_THAT(with({"--resume", "--fps", "12"}), HasSubstr(" otherwise ("));
   }
   std::string vertices = text_of("pool/pool.bin");
@@ -342,7 +342,7 @@ TEST_F(ResumeTest, RefusesWhatMakesNoSense) {
   refused({"--resume", "-n", "--frames", "1"}, {"--resume and -n: expected one of them"});
   refused({"--missing", "hold", "-n", "--frames", "1"}, {"--missing and -n"});
   refused({"--resume", "--frames", "1", "--preview", "p.%d.jpg"}, {"p.%d.jpg: expected a .png"});
-  for (const std::string verb : {"composite", "water", "render"}) {
+  for (const std::string verb : {"composite", "water", "render", "truth"}) {
     EXPECT_THAT(limpid({"help", verb}).out, HasSubstr("--resume")) << verb;
   }
 }

@@ -393,6 +393,7 @@ Parsed parse(int argc, char** argv) {
   add_simd(render, a.render.water);
 
   CLI::App& truth = add_truth(app, a.truth);
+  add_resume(truth, a.truth.frames);
 
   CLI::App& plan =
       *app.add_subcommand("plan", "Say what would run for a plate and a look, and why");

@@ -4,6 +4,8 @@
 #include "limpid/files/picture/image_file.h"
 #include "limpid/files/text/frame_range.h"
 
+#include "notes.h"
+
 namespace limpid::tool {
 namespace {
 
@@ -52,8 +54,13 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
   return sequence;
 }
 
-Scrutiny scrutiny_of(const FrameOptions& options) {
-  return options.verify ? Scrutiny::kContents : Scrutiny::kWhole;
+Sequence rest_of(const Sequence& sequence, const FrameOptions& options,
+                 const CommonArguments& common,
+                 const std::function<Rest(const Sequence&, Scrutiny)>& find) {
+  if (!options.resume) return sequence;
+  const Rest rest = find(sequence, options.verify ? Scrutiny::kContents : Scrutiny::kWhole);
+  tell_rest(rest, common);
+  return {rest.frames, sequence.in_flight};
 }
 
 Missing missing_named(const std::string& name) {
@@ -63,12 +70,14 @@ Missing missing_named(const std::string& name) {
   throw Error("--missing " + name + ": expected error, skip or hold", Fault::kUsage);
 }
 
-double begin_of(const WaterOptions& water, const SceneFile& scene) {
-  return water.time.value_or(scene.time.value_or(0));
-}
-
-double time_of_frame(const FrameOptions& options, double begin, int frame) {
-  return begin + frame / options.fps.value_or(kUsualFps);
+JobTime time_of_frame(const FrameOptions& options, const WaterOptions& water,
+                      const SceneFile& scene, bool scene_of_frame, int frame) {
+  JobTime time{.asked = water.time};
+  const double begin = time.of(scene);
+  time.otherwise = begin + frame / options.fps.value_or(kUsualFps);
+  const bool of_scene = scene.time && !scene_of_frame;
+  if (water.time || options.fps || of_scene) time.asked = time.otherwise;
+  return time;
 }
 
 OutputChoice output_of_frame(OutputChoice output, int frame) {

@@ -1,7 +1,9 @@
 #pragma once
+#include <functional>
 #include <string>
 
 #include "limpid/files/text/scene_file.h"
+#include "limpid/job/job_time.h"
 #include "limpid/job/missing.h"
 #include "limpid/job/output.h"
 #include "limpid/job/resume.h"
@@ -18,16 +20,19 @@ namespace limpid::tool {
 /// several frames would overwrite, and for a preview that a sequence cannot be resumed by.
 Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs);
 
-/// How closely --resume looks at what is there.
-Scrutiny scrutiny_of(const FrameOptions& options);
+/// What `find` finds left of the sequence with --resume, which is told; without, all of it.
+Sequence rest_of(const Sequence& sequence, const FrameOptions& options,
+                 const CommonArguments& common,
+                 const std::function<Rest(const Sequence&, Scrutiny)>& find);
 
 /// That --missing names.
 Missing missing_named(const std::string& name);
 
-/// --time, or that of the scene where it is not given; 0 without either.
-double begin_of(const WaterOptions& water, const SceneFile& scene);
-/// That + frame / --fps.
-double time_of_frame(const FrameOptions& options, double begin, int frame);
+/// When the frame is: --time, or the scene's, or 0 where there is neither, and then frame / --fps
+/// later. A scene that is of this frame alone, and a plate, say their own time, unless --time or
+/// --fps is given.
+JobTime time_of_frame(const FrameOptions& options, const WaterOptions& water,
+                      const SceneFile& scene, bool scene_of_frame, int frame);
 
 /// The output with the frame's number in its names.
 OutputChoice output_of_frame(OutputChoice output, int frame);

@@ -61,7 +61,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   if (!a.depth_kind.empty()) job.depth_kind = depth_kind_named(a.depth_kind);
   if (a.depth_nothing) job.depth_nothing = finite_nothing(*a.depth_nothing);
   job.look = look_of(a.water);
-  job.time = a.water.time;
+  job.time.asked = a.water.time;
   job.output = output_of(a.water);
   job.output.wave_samples = a.samples;
   job.output.overscan = a.overscan;
@@ -76,10 +76,7 @@ CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int fra
   for (auto& file : job.plate.files) file = name_of_frame(file.string(), frame);
   for (auto& [role, name] : job.plate.named) name = name_of_frame(name, frame);
   for (auto& [role, name] : job.plate.layers) name = name_of_frame(name, frame);
-  job.time_if_unsaid = time_of_frame(a.frames, begin_of(a.water, job.scene), frame);
-  // A scene of its own for each frame says the time of that frame.
-  const bool of_scene = job.scene.time && !has_frame_number(a.scene);
-  if (a.water.time || a.frames.fps || of_scene) job.time = job.time_if_unsaid;
+  job.time = time_of_frame(a.frames, a.water, job.scene, has_frame_number(a.scene), frame);
   job.output = output_of_frame(job.output, frame);
   return job;
 }
@@ -127,11 +124,9 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
       missing_named(a.frames.missing));
   tell_missing(filled, sequence.frames.size(), common);
   sequence.frames = filled.frames;
-  if (a.frames.resume) {
-    const Rest rest = rest_of_composite(sequence, filled.job_of, *executor, scrutiny_of(a.frames));
-    tell_rest(rest, common);
-    sequence.frames = rest.frames;
-  }
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+    return rest_of_composite(all, filled.job_of, *executor, scrutiny);
+  });
   if (sequence.frames.empty()) return 0;
   if (common.verbose) {
     std::printf("%s", Plate::inspect(filled.job_of(sequence.frames.front()).plate).c_str());

@@ -12,13 +12,12 @@
 namespace limpid::tool {
 namespace {
 
-RenderJob job_of(const RenderArguments& a, const CommonArguments& common) {
-  RenderJob job;
-  job.scene = scene_to_render(a.scene);
-  job.render = {size_named(a.size), a.overscan, a.shadow_map, a.water.simd};
-  job.time = begin_of(a.water, job.scene);
-  job.limits = limits_of(common);
-  return job;
+SceneJob scene_job(const RenderArguments& a, const CommonArguments& common) {
+  return {scene_to_render(a.scene), {.asked = a.water.time}, limits_of(common)};
+}
+
+RenderOptions options_of(const RenderArguments& a) {
+  return {size_named(a.size), a.overscan, a.shadow_map, a.water.simd};
 }
 
 }  // namespace
@@ -27,26 +26,25 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   Sequence sequence = sequence_of(a.frames, a.water);
   const OutputChoice choice = output_of(a.water);
-  const PlateJob job{job_of(a, common), {choice.picture, choice.compression, choice.store_float}};
+  const RenderJob job{scene_job(a, common),
+                      options_of(a),
+                      {choice.picture, choice.compression, choice.store_float}};
   const auto executor = executor_of(common);
-  const Model model = model_to_render(job.render.scene, a.draw_what_you_can, common);
+  const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
   if (sequence.frames.empty()) {
     render(model, job, *executor);
     if (!common.quiet) std::printf("%s\n", a.water.output.c_str());
     return 0;
   }
   const auto job_of_frame = [&](int frame) {
-    PlateJob one = job;
-    one.render.time = time_of_frame(a.frames, job.render.time, frame);
+    RenderJob one = job;
+    one.time = time_of_frame(a.frames, a.water, job.scene, false, frame);
     one.output.plate = output_of_frame(choice, frame).picture;
     return one;
   };
-  if (a.frames.resume) {
-    const Rest rest =
-        rest_of_render(model, sequence, job_of_frame, *executor, scrutiny_of(a.frames));
-    tell_rest(rest, common);
-    sequence.frames = rest.frames;
-  }
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+    return rest_of_render(model, all, job_of_frame, *executor, scrutiny);
+  });
   Progress progress(common);
   const auto tell = [&](const SequenceProgress& at, const CompositeReport&) {
     progress.frame_done(at, output_of_frame(choice, at.frame).picture.string() + "\n");
@@ -58,12 +56,13 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
-  const WaterJob job{job_of(a, common), look_of(a.water), a.samples, output_of(a.water)};
+  const WaterJob job{scene_job(a, common), options_of(a), look_of(a.water), a.samples,
+                     output_of(a.water)};
   const auto executor = executor_of(common);
-  const Model model = model_to_render(job.render.scene, a.draw_what_you_can, common);
+  const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
   const auto job_of_frame = [&](int frame) {
     WaterJob one = job;
-    one.render.time = time_of_frame(a.frames, job.render.time, frame);
+    one.time = time_of_frame(a.frames, a.water, job.scene, false, frame);
     one.output = output_of_frame(job.output, frame);
     return one;
   };
@@ -78,12 +77,9 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
     print_report(water(model, job, *executor), job.look, job.output, common);
     return 0;
   }
-  if (a.frames.resume) {
-    const Rest rest =
-        rest_of_water(model, sequence, job_of_frame, *executor, scrutiny_of(a.frames));
-    tell_rest(rest, common);
-    sequence.frames = rest.frames;
-  }
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+    return rest_of_water(model, all, job_of_frame, *executor, scrutiny);
+  });
   Progress progress(common);
   water_sequence(model, sequence, job_of_frame,
                  report_frames(progress, job.look, job.output, common), *executor);

@@ -2,9 +2,11 @@
 #include <cstdio>
 
 #include "limpid/core/error.h"
+#include "limpid/files/text/frame_range.h"
 
 #include "frame_options.h"
 #include "job/truth.h"
+#include "memory_limit.h"
 #include "notes.h"
 #include "verbs.h"
 #include "water_options.h"
@@ -37,7 +39,7 @@ TruthOptions::Light light_named(const TruthArguments& a) {
               Fault::kUsage);
 }
 
-TruthJob job_of(const TruthArguments& a) {
+TruthJob job_of(const TruthArguments& a, const CommonArguments& common) {
   // Checked as those of water are.
   WaterOptions files = a.water;
   files.aovs.clear();
@@ -45,7 +47,8 @@ TruthJob job_of(const TruthArguments& a) {
   TruthJob job;
   job.scene = scene_to_render(a.scene);
   job.size = size_named(a.size);
-  job.time = begin_of(a.water, job.scene);
+  job.time.asked = a.water.time;
+  job.limits = limits_of(common);
   job.look = look_of(a.water);
   job.samples = a.samples;
   job.light = light_named(a);
@@ -72,42 +75,20 @@ std::string text_of(const TruthReport& report, const TruthJob& job) {
   if (job.light == TruthOptions::Light::kPaths) add(" of %d paths", job.paths);
   if (!std::isnan(report.relative_error)) add(", noise %.2g %%", 100 * report.relative_error);
   char times[64];
-  std::snprintf(times, sizeof times, "trace %.1f s, write %.0f ms", report.trace_seconds,
-                1e3 * report.write_seconds);
+  std::snprintf(times, sizeof times, "trace %.1f s, write %.0f ms",
+                report.read_seconds + report.run_seconds, 1e3 * report.write_seconds);
   std::string text = job.output.picture.string() + ": " + numbers + ", look " + job.look.name +
                      ", " + times + "\n";
   if (!job.output.preview.empty()) text += job.output.preview.string() + "\n";
   return text;
 }
 
-/// A frame at a time: tracing keeps all threads busy.
-class TruthSlot : public FrameSlot {
- public:
-  TruthSlot(const Model& model, const JobOfFrame<TruthJob>& job_of, Progress& progress)
-      : model_(model), job_of_(job_of), progress_(progress) {}
-
-  void begin(int frame) override { job_ = job_of_(frame); }
-  void read(Executor&) override {}
-  void run(Executor& executor) override { report_ = truth(model_, job_, executor); }
-  void write() override {}
-  void done(const SequenceProgress& at) override {
-    progress_.frame_done(at, text_of(report_, job_));
-  }
-
- private:
-  const Model& model_;
-  const JobOfFrame<TruthJob>& job_of_;
-  Progress& progress_;
-  TruthJob job_;
-  TruthReport report_;
-};
-
 }  // namespace
 
 int truth_verb(const TruthArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   Sequence sequence = sequence_of(a.frames, a.water);
-  const TruthJob job = job_of(a);
+  const TruthJob job = job_of(a, common);
   const auto executor = executor_of(common);
   tell_warnings(unread_settings(job.look), common.quiet);
   const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
@@ -116,26 +97,22 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
     if (!common.quiet) std::printf("%s", text_of(report, job).c_str());
     return 0;
   }
-  const JobOfFrame<TruthJob> job_of_frame = [&](int frame) {
+  const auto job_of_frame = [&](int frame) {
     TruthJob one = job;
-    OutputChoice names;
-    names.picture = job.output.picture;
-    names.preview = job.output.preview;
-    names = output_of_frame(names, frame);
-    one.output.picture = names.picture;
-    one.output.preview = names.preview;
-    one.time = time_of_frame(a.frames, job.time, frame);
+    one.output.picture = name_of_frame(job.output.picture.string(), frame);
+    one.output.preview = name_of_frame(job.output.preview.string(), frame);
+    one.time = time_of_frame(a.frames, a.water, job.scene, false, frame);
     return one;
   };
-  expect_apart(sequence.frames, [&](int frame) { return files_of(model, job_of_frame(frame)); });
-  sequence.in_flight = 1;
+  sequence.in_flight = 1;  // tracing keeps all threads busy
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+    return rest_of_truth(model, all, job_of_frame, *executor, scrutiny);
+  });
   Progress progress(common);
-  run_sequence(
-      sequence,
-      [&]() -> std::unique_ptr<FrameSlot> {
-        return std::make_unique<TruthSlot>(model, job_of_frame, progress);
-      },
-      *executor);
+  const auto tell = [&](const SequenceProgress& at, const TruthReport& report) {
+    progress.frame_done(at, text_of(report, job_of_frame(at.frame)));
+  };
+  truth_sequence(model, sequence, job_of_frame, tell, *executor);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "limpid/complete/beyond.h"
 #include "limpid/core/executor.h"
 #include "limpid/files/text/scene_file.h"
+#include "limpid/job/job_time.h"
 #include "limpid/job/output.h"
 #include "limpid/ops/look.h"
 #include "limpid/plan/plan.h"
@@ -22,10 +23,7 @@ struct CompositeJob {
   SceneFile scene;
   std::optional<DepthKind> depth_kind;  ///< instead of the scene's
   std::optional<double> depth_nothing;  ///< instead of the scene's
-  /// Seconds, for drifting waves, instead of the scene's, which counts before the plate's own.
-  std::optional<double> time;
-  double time_if_unsaid = 0;    ///< where neither `time` nor scene nor plate says one
-  double time_after_plate = 0;  ///< seconds, added to the plate's own time where that counts
+  JobTime time;
   Look look;
 
   OutputChoice output;
@@ -40,6 +38,7 @@ struct CompositeReport {
   /// Plan::warnings, layers that are named and not read, and a picture without a wet pixel or a dry
   /// one.
   std::vector<std::string> warnings;
+  /// `read` is what it took to get the planes: from files, or by drawing them.
   double read_seconds = 0, run_seconds = 0, write_seconds = 0;
 };
 

@@ -26,10 +26,9 @@ std::vector<std::filesystem::path> outputs_of(const OutputChoice& choice);
 std::vector<std::filesystem::path> inputs_of(const Model& model, const SceneFile& scene,
                                              const Look& look);
 
-/// All files that were read or may be, plates and layers, too, and all that will be written. The
-/// job of job/truth.h has its own.
+/// All files that were read or may be, plates and layers, too, and all that will be written.
 JobFiles files_of(const CompositeJob& job);
-JobFiles files_of(const Model& model, const PlateJob& job);
+JobFiles files_of(const Model& model, const RenderJob& job);
 JobFiles files_of(const Model& model, const WaterJob& job);
 
 /// Throws the Error of Fault::kUsage for an output that is an input, too, or another output: by

@@ -16,7 +16,7 @@ enum class Missing {
   /// The inputs (plate, scene, kind of depth) of the nearest frame before it that is there stand
   /// in, or where there is none, of the first one after it; outputs, look and time are its own. A
   /// plate that tells its own time is taken to be as much younger as the two frames'
-  /// CompositeJob::time_if_unsaid are apart.
+  /// JobTime::otherwise are apart.
   kHold,
 };
 

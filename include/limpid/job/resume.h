@@ -42,7 +42,7 @@ enum class Scrutiny {
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                        Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
 Rest rest_of_render(const Model& model, const Sequence& sequence,
-                    const JobOfFrame<PlateJob>& job_of, Executor& executor,
+                    const JobOfFrame<RenderJob>& job_of, Executor& executor,
                     Scrutiny scrutiny = Scrutiny::kWhole);
 Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
                    Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);

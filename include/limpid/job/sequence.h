@@ -41,7 +41,9 @@ struct SequenceProgress {
 template <class Job>
 using JobOfFrame = std::function<Job(int frame)>;
 /// Called likewise, for frames that are done. What it throws stops the sequence.
-using OnFrame = std::function<void(const SequenceProgress&, const CompositeReport&)>;
+template <class Report>
+using OnFrameOf = std::function<void(const SequenceProgress&, const Report&)>;
+using OnFrame = OnFrameOf<CompositeReport>;
 
 /// Throws Error before anything is made for outputs that are not apart. Throws Error, which names
 /// the frame, for the first one (in the order of `frames`) that fails.
@@ -51,7 +53,7 @@ using OnFrame = std::function<void(const SequenceProgress&, const CompositeRepor
 void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                         const OnFrame& on_frame, Executor& executor);
 void render_sequence(const Model& model, const Sequence& sequence,
-                     const JobOfFrame<PlateJob>& job_of, const OnFrame& on_frame,
+                     const JobOfFrame<RenderJob>& job_of, const OnFrame& on_frame,
                      Executor& executor);
 void water_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<WaterJob>& job_of, const OnFrame& on_frame,

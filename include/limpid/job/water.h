@@ -1,17 +1,17 @@
 #pragma once
 #include "limpid/files/limits.h"
 #include "limpid/job/composite.h"
+#include "limpid/job/job_time.h"
 #include "limpid/raster/model.h"
 #include "limpid/raster/render_plate.h"
 
 namespace limpid {
 
-/// What `limpid render` and `limpid water` have in common: a model seen in a scene.
-struct RenderJob {
+/// What all jobs over a model have in common: the scene that it is seen in.
+struct SceneJob {
   SceneFile scene;  ///< camera and sun come from the model where it has none
-  RenderOptions render;
-  double time = 0;  ///< seconds, for the waves
-  Limits limits;    ///< of the files of wave map and environment
+  JobTime time;
+  Limits limits;  ///< of the files of wave map and environment
 };
 
 /// `limpid render`: all buffers of the model as one plate with our own layer names (color, depth,
@@ -22,19 +22,19 @@ struct PlateOutput {
   std::string compression = "piz";
   bool store_float = false;  ///< half otherwise; depths are float always
 };
-struct PlateJob {
-  RenderJob render;
+struct RenderJob : SceneJob {
+  RenderOptions render;
   PlateOutput output;
 };
-void render(const Model& model, const PlateJob& job, Executor& executor);
+void render(const Model& model, const RenderJob& job, Executor& executor);
 
 inline constexpr int kMostSamples = 16;
 
 /// `limpid water`: render and composite without a file between. With samples = N the picture is
 /// made N times as wide and high and the finished water filtered down last, so that no pixel mixes
 /// depths.
-struct WaterJob {
-  RenderJob render;
+struct WaterJob : SceneJob {
+  RenderOptions render;
   Look look;
   int samples = 1;  ///< 1 ... kMostSamples
   OutputChoice output;

@@ -36,13 +36,13 @@ struct Counting : FrameSlot {
 
 void check_a_picture(const fs::path& data, Executor& executor) {
   WaterJob job;
-  job.render.scene = load_scene(data / "scenes" / "pool.toml");
-  job.render.render.size = {64, 36};
+  job.scene = load_scene(data / "scenes" / "pool.toml");
+  job.render.size = {64, 36};
   job.look = look_named("realistic", std::array{data / "looks"});
   job.output.picture = "files_consumer.exr";
   job.output.preview = "files_consumer.png";
-  water(load_gltf(job.render.scene.geometry), job, executor);
-  const Rect window = rect_of(job.render.render.size);
+  water(load_gltf(job.scene.geometry), job, executor);
+  const Rect window = rect_of(job.render.size);
   expect(ExrFile::open(job.output.picture).parts().at(0).display == window, "the EXR is not 64x36");
   // Other formats than EXR are read by a module that lies beside the installed library.
   expect(read_image(job.output.preview).window == window, "the PNG is not 64x36");

@@ -1,0 +1,128 @@
+#include <iterator>
+
+#include "limpid/files/exr/exr_camera.h"
+#include "limpid/job/water.h"
+
+#include "job/canvas.h"
+#include "job/run_jobs.h"
+#include "job/scene_job.h"
+
+namespace limpid {
+namespace {
+
+struct NamedPlane {
+  PlaneId plane;
+  const char* channel;
+};
+constexpr NamedPlane kPlaneChannels[] = {
+    {PlaneId::kColorR, "color.R"},
+    {PlaneId::kColorG, "color.G"},
+    {PlaneId::kColorB, "color.B"},
+    {PlaneId::kColorA, "color.A"},
+    {PlaneId::kDepth, "depth.Z"},
+    {PlaneId::kShadow, "shadow.Y"},
+    {PlaneId::kReflectionR, "reflection.R"},
+    {PlaneId::kReflectionG, "reflection.G"},
+    {PlaneId::kReflectionB, "reflection.B"},
+    {PlaneId::kSurfaceDepth, "surface.Z"},
+    {PlaneId::kSurfaceNormalX, "surface.NX"},
+    {PlaneId::kSurfaceNormalY, "surface.NY"},
+    {PlaneId::kSurfaceNormalZ, "surface.NZ"},
+    {PlaneId::kReflectionValid, "reflection.A"},
+    {PlaneId::kReflectionDepth, "reflection.Z"},
+    {PlaneId::kBelowR, "below.R"},
+    {PlaneId::kBelowG, "below.G"},
+    {PlaneId::kBelowB, "below.B"},
+    {PlaneId::kBelowDepth, "below.Z"},
+    {PlaneId::kSurfaceShadow, "surface_shadow.Y"},
+    {PlaneId::kSkyR, "sky.R"},
+    {PlaneId::kSkyG, "sky.G"},
+    {PlaneId::kSkyB, "sky.B"},
+    {PlaneId::kAlbedoR, "albedo.R"},
+    {PlaneId::kAlbedoG, "albedo.G"},
+    {PlaneId::kAlbedoB, "albedo.B"},
+};
+static_assert(std::size(kPlaneChannels) == kPlaneCount);
+
+/// The jobs of render().
+class RenderKind {
+ public:
+  using Job = RenderJob;
+  using Report = CompositeReport;  ///< size and times
+  struct Prepared {
+    Scene scene;
+  };
+
+  explicit RenderKind(const Model& model) : model_(model) {}
+
+  JobFiles files(const RenderJob& job) const { return files_of(*model_.model, job); }
+  Prepared prepare(const RenderJob& job) const {
+    return {scene_of(*model_.model, job, job.render.size)};
+  }
+  Record record(const RenderJob& job, const Prepared& prepared) const {
+    return record_of(prepared.scene, model_inputs(model_, job.render),
+                     raster_options(job.render.simd) +
+                         file_options(job.output.compression, job.output.store_float));
+  }
+  static void expect_writable(const RenderJob& job) { limpid::expect_writable(job.output.plate); }
+
+  class Frame {
+   public:
+    explicit Frame(const RenderKind& kind) : model_(*kind.model_.model) {}
+
+    void read(const RenderJob& job, Prepared prepared) {
+      scene_ = std::move(prepared.scene);
+      report_.size = job.render.size;
+    }
+    void run(const RenderJob& job, Executor& executor) {
+      plate_ = {};  // before another is made
+      plate_ = render_plate(model_, scene_, job.render, renderable(model_, scene_), executor);
+    }
+    void write(const RenderJob& job, Record record) {
+      ExrOutput file;
+      file.data = plate_.planes[0].view().window;
+      file.display = plate_.frame.display;
+      file.compression = job.output.compression;
+      file.matrices = camera_attributes(*scene_.camera);
+      file.text = std::move(record);
+      const auto add = [&](const std::string& name, const Plane& plane) {
+        if (plane)
+          file.channels.push_back(
+              {name, plane.view(), !job.output.store_float && !name.ends_with(".Z")});
+      };
+      for (const NamedPlane& named : kPlaneChannels) {
+        add(named.channel, plate_.planes[static_cast<std::size_t>(index_of(named.plane))]);
+      }
+      write_exr(job.output.plate, file);
+    }
+    CompositeReport& report() { return report_; }
+
+   private:
+    const Model& model_;
+    CompositeReport report_;
+    Scene scene_;
+    RenderedPlate plate_;
+  };
+
+ private:
+  HashedModel model_;
+};
+
+}  // namespace
+
+void render(const Model& model, const RenderJob& job, Executor& executor) {
+  run_job(RenderKind(model), job, executor);
+}
+
+void render_sequence(const Model& model, const Sequence& sequence,
+                     const JobOfFrame<RenderJob>& job_of, const OnFrame& on_frame,
+                     Executor& executor) {
+  run_jobs(RenderKind(model), sequence, job_of, on_frame, executor);
+}
+
+Rest rest_of_render(const Model& model, const Sequence& sequence,
+                    const JobOfFrame<RenderJob>& job_of, Executor& executor, Scrutiny scrutiny) {
+  return rest_of_jobs(RenderKind(model), sequence, job_of, executor, scrutiny);
+}
+
+}  // namespace limpid

@@ -1,0 +1,14 @@
+#pragma once
+#include "limpid/job/water.h"
+
+namespace limpid {
+
+/// The scene of a job over a model, for a picture of that size.
+inline Scene scene_of(const Model& model, const SceneJob& job, Size size) {
+  Scene scene = job.scene.scene;
+  if (job.scene.camera) scene.camera = camera_for(*job.scene.camera, size);
+  scene.time = job.time.of(job.scene);
+  return scene_of_model(scene, model, size);
+}
+
+}  // namespace limpid
