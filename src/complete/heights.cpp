@@ -43,10 +43,7 @@ void look_at(const Rect& window, Executor& executor, std::vector<Cell>& cells, L
            cells.data() + count_of({all.width, index}) + first);
     }
   };
-  executor.run(
-      all.height,
-      [](void* self, int index) { (*static_cast<decltype(look_at_row)*>(self))(index); },
-      const_cast<void*>(static_cast<const void*>(&look_at_row)));
+  run_each(executor, all.height, look_at_row);
 }
 
 /// The other levels on the first one, which is there.

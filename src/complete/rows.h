@@ -10,17 +10,10 @@ namespace limpid {
 template <class Work>
 void each_row(Executor& executor, const Rect& window, const Work& work) {
   constexpr int kRows = 8;
-  struct Job {
-    const Rect& window;
-    const Work& work;
-    static void run(void* self, int index) {
-      const Job& job = *static_cast<const Job*>(self);
-      const int begin = job.window.y0 + index * kRows;
-      for (int y = begin; y < std::min(begin + kRows, job.window.y1); ++y) job.work(y);
-    }
-  };
-  Job job{window, work};
-  executor.run((window.height() + kRows - 1) / kRows, Job::run, &job);
+  run_each(executor, (window.height() + kRows - 1) / kRows, [&](int index) {
+    const int begin = window.y0 + index * kRows;
+    for (int y = begin; y < std::min(begin + kRows, window.y1); ++y) work(y);
+  });
 }
 
 }  // namespace limpid

@@ -157,19 +157,17 @@ struct EnteredPlanes::Entry {
     int count = 0;
     for (const Role& role : roles()) count += way(role).*kGoes ? bands(way(role)) : 0;
     if (count == 0) return;
-    const auto task = [](void* context, int index) {
-      const Entry& entry = *static_cast<const Entry*>(context);
+    run_each(executor, count, [&](int index) {
       for (const Role& role : roles()) {
-        const Way& way = entry.way(role);
-        if (!(way.*kGoes)) continue;
-        if (index < bands(way)) {
-          const int y0 = way.window.y0 + index * kBandRows;
-          return (entry.*kStep)(role, y0, std::min(y0 + kBandRows, way.window.y1));
+        const Way& of_role = way(role);
+        if (!(of_role.*kGoes)) continue;
+        if (index < bands(of_role)) {
+          const int y0 = of_role.window.y0 + index * kBandRows;
+          return (this->*kStep)(role, y0, std::min(y0 + kBandRows, of_role.window.y1));
         }
-        index -= bands(way);
+        index -= bands(of_role);
       }
-    };
-    executor.run(count, task, const_cast<Entry*>(this));
+    });
   }
 };
 

@@ -35,12 +35,6 @@ constexpr const RasterTarget* kTargets[] = {
 constexpr int kVerticesATask = 16384;
 constexpr std::size_t kMaxGroups = 65535;  ///< a pixel's id holds 16 bits of group
 
-template <class Fn>
-void run(Executor& executor, int count, Fn&& task) {
-  executor.run(
-      count, [](void* context, int index) { (*static_cast<Fn*>(context))(index); }, &task);
-}
-
 void check(const RasterView& view) {
   view.camera.validate();
   const auto check_rect = [](const char* name, const Rect& r) {
@@ -171,7 +165,7 @@ std::uint32_t Rasteriser::State::transform_vertices(const raster::RasterTarget& 
   const std::size_t room = vertices + vertices / 16 + 4096;  // clipping adds some
   raster::Corner* to = corners.take(room);
   raster::Attributes* more = attributes.take(room);
-  raster::run(executor, static_cast<int>(tasks.size()), [&](int index) {
+  run_each(executor, static_cast<int>(tasks.size()), [&](int index) {
     const Task& t = tasks[static_cast<std::size_t>(index)];
     target.transform(*t.instance, t.first, t.count, to + t.instance->first_vertex,
                      more + t.instance->first_vertex);
@@ -264,7 +258,7 @@ void Rasteriser::draw(const RasterView& view, const RasterLighting& lighting, Ra
   s.instances = raster::drawn_instances(s.prepared, view, screen);
   const std::uint32_t vertices = s.transform_vertices(target, executor);
   s.make_groups();
-  raster::run(executor, static_cast<int>(s.group_count), [&](int index) {
+  run_each(executor, static_cast<int>(s.group_count), [&](int index) {
     s.groups[static_cast<std::size_t>(index)].set_up(target, screen, s.corners.data());
   });
   s.add_clipped_corners(vertices);
@@ -282,7 +276,7 @@ void Rasteriser::draw(const RasterView& view, const RasterLighting& lighting, Ra
   job.more = s.more_attributes.empty() ? nullptr : s.more_attributes.data();
   job.materials = s.prepared.materials.data();
   const int down = (view.window.height() + raster::kTile - 1) / raster::kTile;
-  raster::run(executor, job.tiles_across * down, [&](int index) { target.draw_tile(job, index); });
+  run_each(executor, job.tiles_across * down, [&](int index) { target.draw_tile(job, index); });
 }
 
 RasterImage rasterise(const Model& model, const RasterView& view, const RasterLighting& lighting,

@@ -103,10 +103,7 @@ Plane surface_shadow(const SeenSurface& surface, const Camera& camera, const Wat
       lit = static_cast<float>(shadow_at(map, point, normal));
     }
   };
-  executor.run(
-      depth.window.height(),
-      [](void* context, int row) { (*static_cast<decltype(shade_row)*>(context))(row); },
-      &shade_row);
+  run_each(executor, depth.window.height(), shade_row);
   return shadow;
 }
 

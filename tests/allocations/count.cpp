@@ -9,9 +9,11 @@
 
 namespace {
 std::atomic<int> count = 0;
+std::atomic<bool> none_left = false;
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++count;
+  if (none_left) throw std::bad_alloc();
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   if (void* p = std::aligned_alloc(alignment, whole == 0 ? alignment : whole)) return p;
   throw std::bad_alloc();
@@ -52,3 +54,6 @@ extern "C" void* __wrap_calloc(std::size_t number, std::size_t size) {
 }
 
 int limpid::test::allocations() { return count; }
+
+limpid::test::NoMemory::NoMemory() { none_left = true; }
+limpid::test::NoMemory::~NoMemory() { none_left = false; }

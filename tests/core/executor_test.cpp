@@ -123,5 +123,48 @@ TEST(Executor, HasFewerThreadsWhereNoMoreCanBeMade) {
   EXPECT_EXIT(count_without_threads(), ::testing::ExitedWithCode(28), "");
 }
 
+/// A host's executor, which no task may throw through.
+class Strict : public Executor {
+ public:
+  void run(int count, Task task, void* context) override {
+    for (int i = 0; i < count; ++i) {
+      try {
+        task(context, i);
+        ++done;
+      } catch (...) {
+        ++thrown;
+      }
+    }
+  }
+  int done = 0, thrown = 0;
+};
+
+TEST(RunEach, CallsEachOnce) {
+  for (const int threads : {1, 2}) {
+    std::array<std::atomic<int>, 100> taken{};
+    run_each(*make_executor(threads), 100, [&](int i) { ++taken[static_cast<std::size_t>(i)]; });
+    for (const auto& times : taken) EXPECT_EQ(times, 1);
+  }
+}
+
+TEST(RunEach, CarriesWhatIsThrownPastTheExecutor) {
+  Strict host;
+  int worked = 0;
+  const auto work = [&](int i) {
+    if (i >= 3) throw i;
+    ++worked;
+  };
+  try {
+    run_each(host, 10, work);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (int first) {
+    EXPECT_EQ(first, 3);
+  }
+  EXPECT_EQ(worked, 3);
+  EXPECT_EQ(host.done, 10);
+  EXPECT_EQ(host.thrown, 0);
+  EXPECT_THROW(run_each(*make_executor(2), 10, work), int);
+}
+
 }  // namespace
 }  // namespace limpid

@@ -34,14 +34,11 @@ Caustics::Caustics(const Scenery& scenery, const Eye& eye, Size size, int photon
   expected_ = kCounted;
 
   photons_.resize(static_cast<std::size_t>(photons));
-  executor.run((photons + kChunk - 1) / kChunk,
-               [](void* context, int chunk) {
-                 Caustics& c = *static_cast<Caustics*>(context);
-                 const std::size_t first = std::size_t(chunk) * kChunk;
-                 const std::size_t end = std::min(first + kChunk, c.photons_.size());
-                 for (std::size_t i = first; i < end; ++i) c.photons_[i] = c.sent(i);
-               },
-               this);
+  run_each(executor, (photons + kChunk - 1) / kChunk, [&](int chunk) {
+    const std::size_t first = std::size_t(chunk) * kChunk;
+    const std::size_t end = std::min(first + kChunk, photons_.size());
+    for (std::size_t i = first; i < end; ++i) photons_[i] = sent(i);
+  });
   std::erase_if(photons_, [](const Photon& p) { return p.weight == 0; });
   std::stable_sort(photons_.begin(), photons_.end(),
                    [](const Photon& a, const Photon& b) { return a.cell < b.cell; });

@@ -254,9 +254,7 @@ TruthPicture trace_truth(const Model& model, const Scene& scene, const Look& loo
   check(model, scene, look, options);
   TruthPicture picture = picture_for(options);
   Painter painter(model, scene, look, options, picture, executor);
-  executor.run(
-      options.size.height,
-      [](void* context, int y) { static_cast<Painter*>(context)->paint_row(y); }, &painter);
+  run_each(executor, options.size.height, [&](int y) { painter.paint_row(y); });
   picture.relative_error = painter.relative_error();
   return picture;
 }
