@@ -1,6 +1,7 @@
 #include "limpid/core/frame.h"
 
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include "limpid/core/error.h"
@@ -11,30 +12,31 @@ namespace {
 constexpr float kNothingHit = std::numeric_limits<float>::infinity();
 
 constexpr Role kRoles[] = {
-    {"color", PlaneId::kColorR, 4, 0, Sanitise::kColor,
+    {"color", PlaneId::kColorR, 4, 0, Sanitise::kColor, "color", "R G B A|R G B", Storage::kHalf,
      "the dry picture: scene-linear, premultiplied"},
-    {"depth", PlaneId::kDepth, 1, kNothingHit, Sanitise::kDepth, "depth of the dry scene"},
-    {"shadow", PlaneId::kShadow, 1, 1, Sanitise::kShadow,
+    {"depth", PlaneId::kDepth, 1, kNothingHit, Sanitise::kDepth, "depth", "Z", Storage::kFloat,
+     "depth of the dry scene"},
+    {"shadow", PlaneId::kShadow, 1, 1, Sanitise::kShadow, "shadow", "Y", Storage::kHalf,
      "visibility of the sun: 1 lit, 0 in shadow"},
-    {"reflection", PlaneId::kReflectionR, 3, 0, Sanitise::kColor,
-     "what a flat mirror in the water plane shows at each pixel"},
-    {"surface_depth", PlaneId::kSurfaceDepth, 1, kNothingHit, Sanitise::kDepth,
-     "depth of the water surface"},
-    {"surface_normal", PlaneId::kSurfaceNormalX, 3, 0, Sanitise::kNormal,
-     "world normal of the water surface"},
-    {"reflection_valid", PlaneId::kReflectionValid, 1, 0, Sanitise::kMask,
-     "1 where the reflection is real, 0 where the cut at the water left nothing"},
-    {"reflection_depth", PlaneId::kReflectionDepth, 1, kNothingHit, Sanitise::kDepth,
-     "depth of the mirrored scene along the mirrored ray"},
-    {"below_color", PlaneId::kBelowR, 3, 0, Sanitise::kColor,
+    {"reflection", PlaneId::kReflectionR, 3, 0, Sanitise::kColor, "reflection", "R G B",
+     Storage::kHalf, "what a flat mirror in the water plane shows at each pixel"},
+    {"surface_depth", PlaneId::kSurfaceDepth, 1, kNothingHit, Sanitise::kDepth, "surface", "Z",
+     Storage::kFloat, "depth of the water surface"},
+    {"surface_normal", PlaneId::kSurfaceNormalX, 3, 0, Sanitise::kNormal, "surface", "NX NY NZ",
+     Storage::kHalf, "world normal of the water surface"},
+    {"reflection_valid", PlaneId::kReflectionValid, 1, 0, Sanitise::kMask, "reflection", "A",
+     Storage::kHalf, "1 where the reflection is real, 0 where the cut at the water left nothing"},
+    {"reflection_depth", PlaneId::kReflectionDepth, 1, kNothingHit, Sanitise::kDepth, "reflection",
+     "Z", Storage::kFloat, "depth of the mirrored scene along the mirrored ray"},
+    {"below_color", PlaneId::kBelowR, 3, 0, Sanitise::kColor, "below", "R G B", Storage::kHalf,
      "the dry scene without all that is above the water"},
-    {"below_depth", PlaneId::kBelowDepth, 1, kNothingHit, Sanitise::kDepth,
-     "depth of what below_color shows"},
-    {"surface_shadow", PlaneId::kSurfaceShadow, 1, 1, Sanitise::kShadow,
-     "visibility of the sun at the water surface"},
-    {"sky", PlaneId::kSkyR, 3, 0, Sanitise::kColor,
+    {"below_depth", PlaneId::kBelowDepth, 1, kNothingHit, Sanitise::kDepth, "below", "Z",
+     Storage::kFloat, "depth of what below_color shows"},
+    {"surface_shadow", PlaneId::kSurfaceShadow, 1, 1, Sanitise::kShadow, "surface_shadow", "Y",
+     Storage::kHalf, "visibility of the sun at the water surface"},
+    {"sky", PlaneId::kSkyR, 3, 0, Sanitise::kColor, "", "", Storage::kHalf,
      "the sky as it would be seen if nothing stood before it"},
-    {"albedo", PlaneId::kAlbedoR, 3, 0, Sanitise::kColor,
+    {"albedo", PlaneId::kAlbedoR, 3, 0, Sanitise::kColor, "", "", Storage::kHalf,
      "share of the light that the bottom throws back, around each pixel"},
 };
 
@@ -58,6 +60,13 @@ std::string roles_text(PlaneSet planes) {
     if (!(planes & role.planes()).empty()) names.emplace_back(role.name);
   }
   return names.empty() ? "-" : join(names);
+}
+
+std::string channel_name(const Role& role, int i) {
+  std::istringstream written(std::string(role.channels.substr(0, role.channels.find('|'))));
+  std::string channel;
+  for (int k = 0; k <= i; ++k) written >> channel;
+  return role.layer.empty() ? "" : std::string(role.layer) + "." + channel;
 }
 
 PlaneSet Frame::present() const {

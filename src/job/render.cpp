@@ -1,5 +1,3 @@
-#include <iterator>
-
 #include "limpid/files/exr/exr_camera.h"
 #include "limpid/job/water.h"
 
@@ -9,40 +7,6 @@
 
 namespace limpid {
 namespace {
-
-struct NamedPlane {
-  PlaneId plane;
-  const char* channel;
-};
-constexpr NamedPlane kPlaneChannels[] = {
-    {PlaneId::kColorR, "color.R"},
-    {PlaneId::kColorG, "color.G"},
-    {PlaneId::kColorB, "color.B"},
-    {PlaneId::kColorA, "color.A"},
-    {PlaneId::kDepth, "depth.Z"},
-    {PlaneId::kShadow, "shadow.Y"},
-    {PlaneId::kReflectionR, "reflection.R"},
-    {PlaneId::kReflectionG, "reflection.G"},
-    {PlaneId::kReflectionB, "reflection.B"},
-    {PlaneId::kSurfaceDepth, "surface.Z"},
-    {PlaneId::kSurfaceNormalX, "surface.NX"},
-    {PlaneId::kSurfaceNormalY, "surface.NY"},
-    {PlaneId::kSurfaceNormalZ, "surface.NZ"},
-    {PlaneId::kReflectionValid, "reflection.A"},
-    {PlaneId::kReflectionDepth, "reflection.Z"},
-    {PlaneId::kBelowR, "below.R"},
-    {PlaneId::kBelowG, "below.G"},
-    {PlaneId::kBelowB, "below.B"},
-    {PlaneId::kBelowDepth, "below.Z"},
-    {PlaneId::kSurfaceShadow, "surface_shadow.Y"},
-    {PlaneId::kSkyR, "sky.R"},
-    {PlaneId::kSkyG, "sky.G"},
-    {PlaneId::kSkyB, "sky.B"},
-    {PlaneId::kAlbedoR, "albedo.R"},
-    {PlaneId::kAlbedoG, "albedo.G"},
-    {PlaneId::kAlbedoB, "albedo.B"},
-};
-static_assert(std::size(kPlaneChannels) == kPlaneCount);
 
 /// The jobs of render().
 class RenderKind {
@@ -85,13 +49,12 @@ class RenderKind {
       file.compression = job.output.compression;
       file.matrices = camera_attributes(*scene_.camera);
       file.text = std::move(record);
-      const auto add = [&](const std::string& name, const Plane& plane) {
-        if (plane)
-          file.channels.push_back(
-              {name, plane.view(), !job.output.store_float && !name.ends_with(".Z")});
-      };
-      for (const NamedPlane& named : kPlaneChannels) {
-        add(named.channel, plate_.planes[static_cast<std::size_t>(index_of(named.plane))]);
+      for (const Role& role : roles()) {
+        const bool half = !job.output.store_float && role.storage == Storage::kHalf;
+        for (int i = 0; i < role.count; ++i) {
+          const Plane& plane = plate_.planes[static_cast<std::size_t>(index_of(role.first) + i)];
+          if (plane) file.channels.push_back({channel_name(role, i), plane.view(), half});
+        }
       }
       write_exr(job.output.plate, file);
     }

@@ -1,5 +1,10 @@
 #include "plate/layer_rules.h"
 
+#include <iterator>
+#include <vector>
+
+#include "limpid/core/frame.h"
+
 namespace limpid {
 namespace {
 
@@ -17,18 +22,6 @@ constexpr std::string_view kAny = "R|X|Y|Z|V|*";
 // Of the file-name rules, the first that fits decides what the file is.
 // clang-format off
 constexpr LayerRule kRules[] = {
-    {kOwn, "color",          "color",      kRgba,      "limpid"},
-    {kOwn, "depth",          "depth",      "Z",        "limpid, Nuke, Natron"},
-    {kOwn, "shadow",         "shadow",     "Y",        "limpid"},
-    {kOwn, "reflection",     "reflection", "R G B",    "limpid"},
-    {kOwn, "surface_depth",  "surface",    "Z",        "limpid"},
-    {kOwn, "surface_normal", "surface",    "NX NY NZ", "limpid"},
-    {kOwn, "reflection_valid", "reflection", "A",      "limpid"},
-    {kOwn, "reflection_depth", "reflection", "Z",      "limpid"},
-    {kOwn, "below_color",    "below",      "R G B",    "limpid"},
-    {kOwn, "below_depth",    "below",      "Z",        "limpid"},
-    {kOwn, "surface_shadow", "surface_shadow", "Y",    "limpid"},
-
     {kLayer, "color",          "combined",                    kPicture,   "Blender"},
     {kLayer, "color",          "color|colour",                kPicture,   "Blender's File Output"},
     {kLayer, "color",          "rgba|rgb|beauty",             kPicture,   "Nuke, Arnold, oiiotool"},
@@ -97,8 +90,24 @@ constexpr LayerRule kRules[] = {
 };
 // clang-format on
 
+/// The names of our own plates, strongest of all, and then those of others.
+std::vector<LayerRule> all_rules() {
+  std::vector<LayerRule> all;
+  for (const Role& role : roles()) {
+    if (role.layer.empty()) continue;
+    const bool shared = role.first == PlaneId::kDepth;
+    all.push_back(
+        {kOwn, role.name, role.layer, role.channels, shared ? "limpid, Nuke, Natron" : "limpid"});
+  }
+  all.insert(all.end(), std::begin(kRules), std::end(kRules));
+  return all;
+}
+
 }  // namespace
 
-std::span<const LayerRule> layer_rules() { return kRules; }
+std::span<const LayerRule> layer_rules() {
+  static const std::vector<LayerRule> all = all_rules();
+  return all;
+}
 
 }  // namespace limpid

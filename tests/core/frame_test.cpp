@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,6 +46,25 @@ TEST(Roles, CoverEveryPlaneOnceInOrder) {
     next += role.count;
   }
   EXPECT_EQ(next, kPlaneCount);
+}
+
+TEST(Roles, HaveChannelsOfTheirOwnInFiles) {
+  std::set<std::string> names;
+  std::size_t planes = 0;
+  for (const Role& role : roles()) {
+    EXPECT_EQ(role.storage == Storage::kFloat, role.sanitise == Sanitise::kDepth) << role.name;
+    EXPECT_EQ(role.layer.empty(), role.channels.empty()) << role.name;
+    for (int i = 0; i < role.count && !role.layer.empty(); ++i, ++planes) {
+      EXPECT_TRUE(channel_name(role, i).starts_with(std::string(role.layer) + "."));
+      names.insert(channel_name(role, i));
+    }
+  }
+  EXPECT_EQ(names.size(), planes) << "no two planes in one channel";
+  EXPECT_EQ(channel_name(role_named("color"), 3), "color.A");
+  EXPECT_EQ(channel_name(role_named("surface_normal"), 1), "surface.NY");
+  EXPECT_EQ(channel_name(role_named("reflection_valid"), 0), "reflection.A");
+  EXPECT_EQ(channel_name(role_named("below_depth"), 0), "below.Z");
+  EXPECT_EQ(channel_name(role_named("sky"), 0), "") << "files have none";
 }
 
 TEST(Roles, ReadSensiblyOutsideTheirWindow) {

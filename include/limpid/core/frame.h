@@ -60,6 +60,12 @@ enum class Sanitise : std::uint8_t {
   kMask,    ///< NaN -> 0, then clamped to 0 ... 1
 };
 
+/// How numbers lie in files, unless all is stored as float.
+enum class Storage : std::uint8_t {
+  kHalf,
+  kFloat,  ///< half would be too coarse: lengths, and places in the picture
+};
+
 /// A group of planes that belong together, by the name that files and the command line use.
 struct Role {
   std::string_view name;
@@ -67,6 +73,11 @@ struct Role {
   int count;
   float missing;  ///< what a pixel outside the plane's data window reads
   Sanitise sanitise;
+  /// The layer that holds it in a plate of our own, or "" for a role that no file has.
+  std::string_view layer;
+  /// Of that layer, one for each plane, as they are written: "R G B". After '|' what is read, too.
+  std::string_view channels;
+  Storage storage;
   std::string_view about;
 
   constexpr PlaneSet planes() const {
@@ -82,6 +93,8 @@ std::span<const Role> roles();
 const Role& role_named(std::string_view name);
 /// "color, depth": the roles that have a plane in the set; "-" for none.
 std::string roles_text(PlaneSet planes);
+/// "below.R": the channel that holds the i-th plane of the role in a plate of our own; "" for none.
+std::string channel_name(const Role& role, int i);
 
 inline constexpr PlaneSet kColorPlanes{PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB};
 inline constexpr PlaneSet kReflectionPlanes{PlaneId::kReflectionR, PlaneId::kReflectionG,
