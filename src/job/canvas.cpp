@@ -14,14 +14,7 @@
 namespace limpid {
 namespace {
 
-/// Places in the picture are too fine for half.
-bool is_map(Aov aov) { return aovs()[static_cast<std::size_t>(aov)].suffixes == "UV"; }
-
-/// Whether a channel is a length, a place or a direction, which no mean can be taken of.
-bool is_geometry(Aov aov) {
-  const std::string_view suffixes = aovs()[static_cast<std::size_t>(aov)].suffixes;
-  return suffixes == "Z" || suffixes == "XYZ" || is_map(aov);
-}
+bool has_mean(Aov aov) { return aovs()[static_cast<std::size_t>(aov)].filter == Filter::kMean; }
 
 float block_mean(const View<float>& from, int x, int y, int n) {
   double sum = 0;
@@ -88,10 +81,10 @@ Canvas::Canvas(Rect window, const OutputChoice& choice)
   target_.alpha = add("A", !choice.store_float);
   for (Aov aov : choice.aovs) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
-    const bool exact = info.suffixes == "Z" || is_map(aov);
+    const bool half = info.storage == Storage::kHalf && !choice.store_float;
     for (std::size_t i = 0; i < info.suffixes.size(); ++i) {
       const std::string name = std::string(info.name) + "." + info.suffixes[i];
-      target_.of(aov)[i] = add(name, !choice.store_float && !exact);
+      target_.of(aov)[i] = add(name, half);
     }
   }
   for (Aov aov : computed_aovs(choice)) {
@@ -146,7 +139,7 @@ void Canvas::take_mean(int count, Executor& executor) {
   std::vector<View<float>> mixed(std::begin(target_.color), std::end(target_.color));
   mixed.push_back(target_.alpha);
   for (Aov aov : made_.computed) {
-    if (is_geometry(aov)) continue;
+    if (!has_mean(aov)) continue;
     for (const View<float>& view : target_.of(aov)) {
       if (view) mixed.push_back(view);
     }
@@ -183,7 +176,7 @@ Canvas Canvas::filtered(int n, const OutputChoice& choice) const {
   shrink(target_.alpha, canvas.target_.alpha, true);
   for (Aov aov : choice.aovs) {
     for (int i = 0; i < 3; ++i) {
-      shrink(target_.of(aov)[i], canvas.target_.of(aov)[i], !is_geometry(aov));
+      shrink(target_.of(aov)[i], canvas.target_.of(aov)[i], has_mean(aov));
     }
   }
   return canvas;

@@ -46,7 +46,7 @@ std::vector<ExrOutputChannel> channels_of(const TruthPicture& picture, const Tru
   add("A", picture.target.alpha, false);
   for (Aov aov : output.aovs) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
-    const bool exact = info.suffixes == "Z" || info.suffixes == "UV";
+    const bool exact = info.storage == Storage::kFloat;
     for (std::size_t c = 0; c < info.suffixes.size(); ++c) {
       add(std::string(info.name) + "." + info.suffixes[c], picture.target.of(aov)[c], exact);
     }

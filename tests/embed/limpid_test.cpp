@@ -1,6 +1,9 @@
 #include "limpid/limpid.h"
 
+#include <cctype>
 #include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -294,6 +297,49 @@ TEST_F(LimpidC, StructsHaveSizes) {
   EXPECT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);
   frame.size = sizeof frame + 1;
   expect_refused("limpid_frame.size");
+}
+
+std::string capitals(std::string name) {
+  for (char& c : name) c = c == '.' ? '_' : static_cast<char>(std::toupper(c));
+  return name;
+}
+
+/// The enumerators of an enum of limpid.h: "LIMPID_COLOR_R = 0", in their order.
+std::vector<std::string> enumerators(const std::string& of) {
+  std::ifstream header(LIMPID_DATA "/../include/limpid/limpid.h");
+  std::vector<std::string> list;
+  std::string line;
+  while (std::getline(header, line) && line != "typedef enum " + of + " {") continue;
+  while (std::getline(header, line) && !line.starts_with("}")) {
+    list.push_back(line.substr(2, line.find_first_of(",/", 2) - 2));
+    while (list.back().ends_with(' ')) list.back().pop_back();
+  }
+  return list;
+}
+
+TEST(LimpidH, NamesThePlanesOfAllRolesInTheirOrder) {
+  std::vector<std::string> expected;
+  for (const Role& role : roles()) {
+    const std::string name = role.first == PlaneId::kBelowR ? "below" : std::string(role.name);
+    for (int i = 0; i < role.count; ++i) {
+      const char letter = (role.sanitise == Sanitise::kNormal ? "xyz" : "rgba")[i];
+      expected.push_back(
+          capitals("limpid_" + name + (role.count > 1 ? std::string("_") + letter : "")) + " = " +
+          std::to_string(index_of(role.first) + i));
+    }
+  }
+  EXPECT_EQ(enumerators("limpid_plane"), expected);
+}
+
+TEST(LimpidH, NamesAllAovsInTheirOrder) {
+  std::vector<std::string> expected{"LIMPID_OUT_R = 0", "LIMPID_OUT_G = 1", "LIMPID_OUT_B = 2",
+                                    "LIMPID_OUT_A = 3"};
+  for (const AovInfo& info : aovs()) {
+    const auto place = static_cast<int>(&info - aovs().data());
+    expected.push_back(capitals("limpid_out_" + std::string(info.name)) + " = " +
+                       std::to_string(4 + 3 * place));
+  }
+  EXPECT_EQ(enumerators("limpid_output"), expected);
 }
 
 }  // namespace

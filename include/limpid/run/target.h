@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -33,6 +34,12 @@ enum class Aov {
 };
 constexpr int kAovCount = 17;
 
+/// What a pixel of several samples shows.
+enum class Filter : std::uint8_t {
+  kMean,    ///< their mean: lights and shares
+  kMiddle,  ///< the sample nearest to the middle: lengths, places and directions have no mean
+};
+
 struct AovInfo {
   std::string_view name;      ///< of the layer
   std::string_view suffixes;  ///< a letter a channel: "RGB", "XYZ", "UV", "Y", "Z"
@@ -40,6 +47,8 @@ struct AovInfo {
   /// On dry pixels. There `transmitted` has the dry color instead, and the maps have the pixel's
   /// own place.
   float dry;
+  Storage storage;  ///< in files, unless all is stored as float
+  Filter filter;
   std::string_view about;
   /// Of the frame, as operators read them, of the plate or made (complete/completer.h), on all
   /// pixels; Role::missing where there are none.
