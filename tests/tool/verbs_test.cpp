@@ -43,6 +43,14 @@ TEST_F(VerbsTest, OperatorsListsTheChain) {
   });
 }
 
+/// As the enum has them: one of them left out would shift all after it.
+TEST_F(VerbsTest, OperatorsNamesTheStateThatEachUsesAndMakes) {
+  const Ran ran = limpid({"operators"});
+  EXPECT_THAT(ran.out, HasSubstr("taps -; uses -; makes normal, slope_variance\n"));
+  EXPECT_THAT(ran.out, HasSubstr("makes path, transmittance, transmitted, confidence\n"));
+  EXPECT_THAT(ran.out, ContainsRegex("makes [a-z_, ]*reflected, mirror_sources"));
+}
+
 TEST_F(VerbsTest, OperatorsListsTheParametersOfOne) {
   const Ran ran = limpid({"operators", "depth_fog"});
   EXPECT_EQ(ran.code, 0) << ran.err;

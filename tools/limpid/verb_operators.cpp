@@ -10,12 +10,9 @@ namespace limpid::tool {
 namespace {
 
 std::string state_text(StateSet set) {
-  constexpr const char* kNames[] = {"normal",        "prism",       "position",   "path",
-                                    "transmittance", "transmitted", "in_scatter", "sun_scatter",
-                                    "fresnel",       "reflected",   "highlight",  "confidence"};
   std::vector<std::string> names;
-  for (int i = 0; i < static_cast<int>(std::size(kNames)); ++i) {
-    if (set.has(static_cast<StatePart>(i))) names.emplace_back(kNames[i]);
+  for (std::size_t i = 0; i < std::size(kStatePartNames); ++i) {
+    if (set.has(static_cast<StatePart>(i))) names.emplace_back(kStatePartNames[i]);
   }
   return names.empty() ? "-" : join(names);
 }

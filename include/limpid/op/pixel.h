@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <iterator>
+#include <string_view>
 
 #include "limpid/core/enum_set.h"
 #include "limpid/core/vec.h"
@@ -25,6 +27,13 @@ enum class StatePart : std::uint8_t {
 };
 
 using StateSet = EnumSet<StatePart>;
+
+/// In the order of StatePart.
+inline constexpr std::string_view kStatePartNames[] = {
+    "normal",        "slope_variance", "prism",      "position",    "path",
+    "transmittance", "transmitted",    "in_scatter", "sun_scatter", "fresnel",
+    "reflected",     "mirror_sources", "highlight",  "confidence"};
+static_assert(std::size(kStatePartNames) == static_cast<std::size_t>(StatePart::kConfidence) + 1);
 
 inline constexpr StateSet kWholeState{
     StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
