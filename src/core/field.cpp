@@ -1,9 +1,10 @@
 #include "limpid/core/field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+
+#include "core/value_text.h"
 
 namespace limpid {
 namespace {
@@ -12,12 +13,6 @@ std::string number_text(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", x);
   return text;
-}
-
-std::string list_text(std::span<const double> numbers) {
-  std::vector<std::string> texts;
-  for (double x : numbers) texts.push_back(number_text(x));
-  return "[" + join(texts) + "]";
 }
 
 bool is_one_of(std::span<const std::string_view> words, const std::string* word) {
@@ -32,14 +27,7 @@ std::string slip(const std::string* word, const std::vector<std::string>& known)
 }  // namespace
 
 std::string to_string(const Value& value) {
-  if (const double* x = std::get_if<double>(&value)) return number_text(*x);
-  if (const std::string* word = std::get_if<std::string>(&value)) return *word;
-  if (const Rgb<double>* c = std::get_if<Rgb<double>>(&value)) {
-    return list_text(std::array{c->r, c->g, c->b});
-  }
-  std::vector<std::string> rows;
-  for (const std::vector<double>& row : std::get<Rows>(value)) rows.push_back(list_text(row));
-  return "[" + join(rows) + "]";
+  return value_text(value, number_text, [](const std::string& word) { return word; });
 }
 
 bool Condition::holds(std::string_view value, double number) const {

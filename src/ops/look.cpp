@@ -1,9 +1,9 @@
 #include "limpid/ops/look.h"
 
-#include <array>
-
 #include "limpid/core/error.h"
 #include "limpid/core/toml_text.h"
+
+#include "core/value_text.h"
 
 namespace limpid {
 namespace {
@@ -22,12 +22,6 @@ template <class L, class Visit>
 void for_each_table(L& look, Visit&& visit) {
   visit(Water::kName, Water::fields(), look.water);
   Chain::for_each([&]<class Op, int>() { visit(Op::kName, Op::fields(), look.template of<Op>()); });
-}
-
-std::string list_text(std::span<const double> numbers) {
-  std::vector<std::string> texts;
-  for (double x : numbers) texts.push_back(toml_text(x));
-  return "[" + join(texts) + "]";
 }
 
 /// What setting `field` brings with it.
@@ -56,17 +50,6 @@ bool holds(const Condition& condition, const std::vector<Parameter>& all, const 
   const Parameter* number = beside(all, p, condition.or_above_zero);
   return !other ||
          condition.holds(to_string(other->value), number ? std::get<double>(number->value) : 0);
-}
-
-std::string value_text(const Value& value) {
-  if (const double* x = std::get_if<double>(&value)) return toml_text(*x);
-  if (const std::string* word = std::get_if<std::string>(&value)) return toml_text(*word);
-  if (const Rgb<double>* c = std::get_if<Rgb<double>>(&value)) {
-    return list_text(std::array{c->r, c->g, c->b});
-  }
-  std::vector<std::string> rows;
-  for (const std::vector<double>& row : std::get<Rows>(value)) rows.push_back(list_text(row));
-  return "[" + join(rows) + "]";
 }
 
 }  // namespace
@@ -131,12 +114,14 @@ std::vector<std::string> unread_settings(const Look& look) {
 }
 
 std::string to_toml(const Look& look) {
+  const auto number = [](double x) { return toml_text(x); };
+  const auto word = [](const std::string& text) { return toml_text(text); };
   std::string text;
   std::string_view table;
   for (const Parameter& p : parameters(look)) {
     if (p.table != table) text += (text.empty() ? "[" : "\n[") + std::string(p.table) + "]\n";
     table = p.table;
-    text += std::string(p.name) + " = " + value_text(p.value) + "\n";
+    text += std::string(p.name) + " = " + value_text(p.value, number, word) + "\n";
   }
   return text;
 }
