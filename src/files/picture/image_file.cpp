@@ -252,7 +252,7 @@ void write_image8(const fs::path& path, const std::vector<View<const float>>& pl
 void write_image8(AtomicFiles& files, const fs::path& path,
                   const std::vector<View<const float>>& planes,
                   const std::map<std::string, std::string>& texts) {
-  format_of(path);
+  format_of(path);  // an extension that is not known is refused first
   if (planes.size() != 3 && planes.size() != 4) {
     throw Error(path.string() + ": " + std::to_string(planes.size()) + " planes: expected 3 or 4");
   }

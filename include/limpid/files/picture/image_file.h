@@ -19,11 +19,11 @@ struct ImageFile {
   bool straight_alpha = false;  ///< color is not multiplied by "A", as in any PNG with alpha
 };
 
-/// PNG and JPEG, known by their first bytes, are read by libpng and libjpeg-turbo; all other formats
-/// through OpenImageIO, which is loaded at the first of them (it takes 0.2 s and 135 MB). Throws
-/// Error for a file that is missing, damaged or over a limit, and when the format module is needed
-/// and is not installed or has no memory: it may be loaded where 112 MB (of which 32 MB are stacks)
-/// and, under `ulimit -v`, 448 MiB of addresses are left.
+/// PNG and JPEG, known by their first bytes, are read by libpng and libjpeg-turbo; all other
+/// formats through OpenImageIO, which is loaded at the first of them (it takes 0.2 s and 135 MB).
+/// Throws Error for a file that is missing, damaged or over a limit, and when the format module is
+/// needed and is not installed or has no memory: it may be loaded where 112 MB (of which 32 MB are
+/// stacks) and, under `ulimit -v`, 448 MiB of addresses are left.
 ImageFile read_image(const std::filesystem::path& path, const Limits& limits = {});
 
 /// Writes 8-bit RGB or RGBA (3 or 4 planes of one window, values 0 ... 1, already encoded for
