@@ -7,20 +7,23 @@
 #include "limpid/files/exr/deep_writer.h"
 #include "limpid/op/pass.h"
 
+#include "plan/operator_table.h"
+
 namespace limpid {
 namespace {
 
-using Fog = DepthFog::Params;
+/// As the last operator of the chain measures it that does.
+WayMeasure way_of(const Look& look) {
+  WayMeasure way;
+  for (const OperatorEntry& entry : operator_table()) way = entry.way(look).value_or(way);
+  return way;
+}
 
 /// How long the way through water without end is made: there it is as dense as it gets. Nothing
 /// where it takes no light.
-std::optional<double> endless_way(const Fog& fog) {
-  if (fog.model == DepthFog::Model::kLinear) {
-    if (fog.density == 0) return std::nullopt;
-    return (1 + std::max(fog.offset, 0.0)) / fog.density;
-  }
-  const Rgb<double> extinction = DepthFog::extinction(fog);
-  return deep_reach({extinction.r, extinction.g, extinction.b});
+std::optional<double> endless_way(const WayMeasure& way) {
+  const Rgb<double>& e = way.extinction;
+  return way.ends ? way.ends : deep_reach({e.r, e.g, e.b});
 }
 
 /// The front and the back of one pixel.
@@ -32,18 +35,17 @@ struct Extent {
 
 WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scene,
                          const Target& target) {
-  const Fog& fog = plan.look.of<DepthFog>();
-  const std::optional<double> endless = endless_way(fog);
-  const Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const WayMeasure way = way_of(plan.look);
+  const std::optional<double> endless = endless_way(way);
+  const WaterView view(scene, frame.display, swell_of(frame, plan.swell()));
   const View<float>&path = target.of(Aov::kPath)[0], &surface = target.of(Aov::kSurfaceDepth)[0];
 
   const auto extent_at = [&](const RowRays<double>& rays, int x, int y) -> Extent {
-    const double pixel_x = x - pass.corner.x + 0.5;
-    const bool in_water = begins_in_water(pass, rays, pixel_x) > 0;
-    const double front = in_water ? pass.near : surface.at(x, y);
+    const double pixel_x = x - view.corner.x + 0.5;
+    const bool in_water = begins_in_water(view, rays, pixel_x) > 0;
+    const double front = in_water ? view.near : surface.at(x, y);
     if (std::isinf(front)) return {front, front};
-    // In water the operator measures from the eye and along the ray, whatever its `distance`.
-    const bool along_axis = !in_water && fog.distance == DepthFog::Distance::kEye;
+    const bool along_axis = !in_water && way.along_axis;
     const Vec3<double> ray = rays.ray_at(pixel_x);
     const double way_per_depth = along_axis ? 1 : length(ray);
     const double back = (in_water ? 0 : front) + path.at(x, y) / way_per_depth;
@@ -56,7 +58,7 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
   const Rect work = frame.work();
   WaterExtent extent{Plane(work), Plane(work), {Plane(work), Plane(work), Plane(work)}};
   for (int y = work.y0; y < work.y1; ++y) {
-    const RowRays<double> rays(pass, y - pass.corner.y + 0.5);
+    const RowRays<double> rays(view, y - view.corner.y + 0.5);
     for (int x = work.x0; x < work.x1; ++x) {
       const Extent at = extent_at(rays, x, y);
       extent.front.view().at(x, y) = static_cast<float>(at.front);

@@ -290,4 +290,14 @@ DepthFog::Medium DepthFog::medium_of(const Params& params, const Pass& c) {
   return m;
 }
 
+WayMeasure DepthFog::way(const P& params) {
+  WayMeasure way{.along_axis = params.distance == Distance::kEye, .ends = {}};
+  if (params.model != Model::kLinear) {
+    way.extinction = extinction(params);
+  } else if (params.density > 0) {
+    way.ends = (1 + std::max(params.offset, 0.0)) / params.density;
+  }
+  return way;
+}
+
 }  // namespace limpid

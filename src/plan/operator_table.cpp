@@ -88,6 +88,10 @@ constexpr OperatorEntry entry_of() {
     if constexpr (requires(const P& p) { Op::swell(p); }) return Op::swell(look.of<Op>());
     return {};
   };
+  e.way = [](const Look& look) -> std::optional<WayMeasure> {
+    if constexpr (requires(const P& p) { Op::way(p); }) return Op::way(look.of<Op>());
+    return std::nullopt;
+  };
   e.ns = [](const Look& look, const Running& running) -> double {
     if constexpr (requires(const P& p) { Op::ns(p, running); }) {
       return Op::ns(look.of<Op>(), running);

@@ -30,6 +30,7 @@ struct OperatorEntry {
   PlaneSet (*wants)(const Look&, const AtHand&);
   bool (*lit_by_sky)(const Look&);
   Swell (*swell)(const Look&);
+  std::optional<WayMeasure> (*way)(const Look&);
   double (*ns)(const Look&, const Running&);
 };
 

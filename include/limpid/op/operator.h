@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <concepts>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -90,6 +91,14 @@ struct InReach {
   bool all_under = false;                           ///< every texel lies under water, for sure
 };
 
+/// How an operator measures the way through the water: what its path means.
+struct WayMeasure {
+  bool along_axis = false;  ///< of a view from the air: along the view's axis, else along the ray
+  /// Behind this length it is as dense as it gets; nothing where `extinction` alone says so.
+  std::optional<double> ends;
+  Rgb<double> extinction{0, 0, 0};  ///< what a unit of the way takes from the light; 0: nothing
+};
+
 /// Cells in which an operator need not run, for those that have a name.
 struct CellKind {
   std::string_view name, about;
@@ -138,6 +147,8 @@ struct CellKind {
 ///     bool lit_by_sky(const Params&);
 ///     // The waves that raise the water, if that is its affair: they live as long as the
 ///     parameters. Swell swell(const Params&);
+///     // How it measures StatePart::kPath, for what is made of the path (job/deep_output.h).
+///     WayMeasure way(const Params&);
 ///     // What it is expected to cost, in ns for each pixel (plan/predict.h). Default: 1.
 ///     double ns(const Params&, const Running&);
 template <class T>

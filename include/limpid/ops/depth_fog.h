@@ -97,6 +97,8 @@ struct DepthFog {
   /// How much the picture changes at most when the way through the water counts as endless and the
   /// light at its end as the pixel's own, for refraction is left out. 0 where no bit of it is left.
   static double beyond(const Params& params, const Pass& c, const Ranges& ranges);
+  /// In water it measures from the eye and along the ray, whatever its `distance`.
+  static WayMeasure way(const Params& params);
   /// What it makes of another place is in the bound of the operator that finds the place.
   static double displaced(const Params&, const Ranges&) { return 0; }
   static double ns(const Params& p, const Running&) { return p.model == Model::kLinear ? 0.6 : 9; }
