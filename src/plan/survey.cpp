@@ -64,6 +64,8 @@ Rect united(const Rect& a, const Rect& b) {
 }  // namespace
 
 struct Survey::Scan {
+  static_assert(std::tuple_size_v<Extremes> == kExtremeCount);
+
   Survey& survey;
   const Plan& plan;
   const Frame& frame;

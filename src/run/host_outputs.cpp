@@ -7,6 +7,8 @@
 
 #include "limpid/core/error.h"
 
+#include "run/shared_bytes.h"
+
 namespace limpid {
 namespace {
 
@@ -30,11 +32,9 @@ void validate(const HostOutput& view, int index, const Rect& work) {
   if (!view.window.contains(work)) {
     throw Error("picture: " + name_of(index) + " does not cover the frame");
   }
-  const auto narrow = [&](std::ptrdiff_t stride) {
-    return std::abs(stride) < bytes_of(view.sample);
-  };
-  if ((narrow(view.x_stride) && work.width() > 1) || (narrow(view.y_stride) && work.height() > 1)) {
-    throw Error("picture: " + name_of(index) + " has a stride of less than a sample");
+  if (shares_bytes(view, work)) {
+    throw Error("picture: " + name_of(index) +
+                " has strides by which pixels share bytes, expected a place for each");
   }
 }
 
@@ -48,12 +48,12 @@ void store_row(const float* from, const HostOutput& to, const Rect& work, int y,
 }
 
 /// Tiles would write over one another, in any order.
-void validate_apart(const HostOutputs& host) {
+void validate_apart(const HostOutputs& host, const Rect& work) {
   for (std::size_t i = 0; i < host.size(); ++i) {
     for (std::size_t j = 0; host[i] && j < i; ++j) {
-      if (host[i].data != host[j].data) continue;
-      throw Error("picture: " + name_of(static_cast<int>(i)) + " begins where " +
-                  name_of(static_cast<int>(j)) + " does, expected a place of its own");
+      if (!host[j] || !share_bytes(host[i], host[j], work)) continue;
+      throw Error("picture: " + name_of(static_cast<int>(i)) + " shares bytes with " +
+                  name_of(static_cast<int>(j)) + ", expected a place of its own");
     }
   }
 }
@@ -68,7 +68,7 @@ const Target& HostTarget::prepare(const HostOutputs& host, const Rect& work) {
       throw Error("picture: " + name_of(i) + " lacks its first channel");
     }
   }
-  validate_apart(host);
+  validate_apart(host, work);
   work_ = work;
   for (std::size_t i = 0; i < host.size(); ++i) {
     const HostOutput& view = host[i];

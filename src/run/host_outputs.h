@@ -20,8 +20,8 @@ using HostOutputs = std::array<HostOutput, kOutputCount>;
 /// after the first frame of a size.
 class HostTarget {
  public:
-  /// Throws Error for a view that does not cover `work`, whose pixels share memory, or that begins
-  /// where another does, and for an AOV without its first channel.
+  /// Throws Error for a view that does not cover `work`, or whose pixels share a byte with one
+  /// another or with those of another view, and for an AOV without its first channel.
   const Target& prepare(const HostOutputs& host, const Rect& work);
   /// What the runner left in planes of its own.
   void store(Executor& executor, const HalfTarget& half) const;

@@ -60,6 +60,20 @@ TEST(Field, TakesWhatIsDeclared) {
   EXPECT_EQ(refusal(5, Rows{{0.1, 1, 2, 3, 4}, {-100, 100, 0, 0, -5}}), "");
 }
 
+/// As a host may set it that casts a number.
+TEST(Field, ValuesWithoutAWordReadAsNumbersThatAreRefused) {
+  Params params;
+  for (const int value : {2, 77, -1}) {
+    params.shape = static_cast<Shape>(value);
+    const Value read = kFields[0].get(params);
+    EXPECT_EQ(read, Value(std::to_string(value)));
+    EXPECT_THAT(refusal(0, read), HasSubstr("expected one of round, flat"));
+  }
+  params.steps = -3;  // two words count down from -1
+  EXPECT_EQ(kFields[4].get(params), Value(-3.0));
+  EXPECT_THAT(refusal(4, -3.0), HasSubstr("expected a whole number"));
+}
+
 TEST(Field, RefusesWithOneSentence) {
   EXPECT_EQ(refusal(1, 10.5), "thing.size = 10.5: expected 0 ... 10 (m)");
   EXPECT_EQ(refusal(1, -1.0), "thing.size = -1: expected 0 ... 10 (m)");

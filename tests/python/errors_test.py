@@ -46,9 +46,9 @@ class Errors(unittest.TestCase):
         self.refused("stride of less than a sample", out=thin)
         gray = np.lib.stride_tricks.as_strided(np.zeros((HEIGHT, WIDTH), np.float32), (HEIGHT, WIDTH, 3),
                                                (4 * WIDTH, 4, 0))
-        self.refused("begins where color does", out=gray)
+        self.refused("shares bytes with color", out=gray)
         one = np.zeros((HEIGHT, WIDTH), np.float32)
-        self.refused("begins where AOV ", aovs={"path": one, "fresnel": one})
+        self.refused("shares bytes with AOV ", aovs={"path": one, "fresnel": one})
 
     def test_aovs(self):
         self.refused("'pth' is no AOV", aovs=["pth"])

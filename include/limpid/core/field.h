@@ -147,13 +147,17 @@ constexpr Field<detail::ParamsOf<M>> text(std::string_view name, std::string_vie
 }
 
 /// For an enum that counts from 0; `Words[i]` is the word for the value i. `Words` is a static
-/// array.
+/// array. A value without a word reads as its number, which no check lets pass.
 template <auto M, const auto& Words>
 constexpr Field<detail::ParamsOf<M>> choice(std::string_view name, std::string_view about) {
   using P = detail::ParamsOf<M>;
   using E = std::remove_cvref_t<decltype(std::declval<P>().*M)>;
   return {{name, "", FieldKind::kChoice, {}, Words, {}, 0, about},
-          [](const P& p) -> Value { return std::string(Words[static_cast<std::size_t>(p.*M)]); },
+          [](const P& p) -> Value {
+            const auto value = static_cast<std::size_t>(p.*M);
+            if (value >= std::size(Words)) return std::to_string(static_cast<int>(p.*M));
+            return std::string(Words[value]);
+          },
           [](P& p, const Value& v) {
             const std::string& word = std::get<std::string>(v);
             for (std::size_t i = 0; i < std::size(Words); ++i) {
