@@ -16,7 +16,9 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kWaves = 0, kPrism = 1, kRefraction = 2, kShadow = 4, kHighlight = 6;
+constexpr int kWaves = Chain::index_of<WaveNormals>(), kPrism = Chain::index_of<PrismSplit>(),
+              kRefraction = Chain::index_of<Refraction>(), kShadow = Chain::index_of<WaterShadow>(),
+              kHighlight = Chain::index_of<SunHighlight>();
 
 /// Water at depth 4 over a bottom at depth 6, lit, seen level from above: 3 x 5 cells, offsets by
 /// less than a cell.
