@@ -104,9 +104,10 @@ TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
   const Pass pass(world.scene, frame, 1.333, everything());
   Chain::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
-      // Not seen by pixels alone: a file's name, and of what is thin,
+      // Not seen by pixels alone: a file's name, a choice among one, and of what is thin,
       // complete/bottom_layer_test.cpp.
-      bool matters = field.kind == FieldKind::kText || field.name == "thickness";
+      const bool only = field.kind == FieldKind::kChoice && field.choices.size() == 1;
+      bool matters = only || field.kind == FieldKind::kText || field.name == "thickness";
       for (int seed = 0; seed < 60; ++seed) {
         const typename Op::Params params = some_params<Op>(seed);
         const std::vector<double> before = made_by<Op>(params, pass);
