@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <glm/geometric.hpp>
+
 #include "core/value_text.h"
 
 namespace limpid {
@@ -58,8 +60,31 @@ std::string columns_text(const FieldInfo& field) {
 
 namespace detail {
 
+glm::dvec3 unit_direction(const Rgb<double>& v) {
+  const glm::dvec3 direction(v.r, v.g, v.b);
+  if (std::abs(glm::dot(direction, direction) - 1) < 1e-14) return direction;
+  const double largest = std::max({std::abs(v.r), std::abs(v.g), std::abs(v.b)});
+  return glm::normalize(direction / largest);  // squares of large numbers would overflow
+}
+
+glm::dmat4 matrix_of_rows(const Rows& rows) {
+  glm::dmat4 matrix;  // GLM keeps columns
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) matrix[column][row] = rows[row][column];
+  }
+  return matrix;
+}
+
+Rows rows_of_matrix(const glm::dmat4& m) {
+  Rows rows;
+  for (int r = 0; r < 4; ++r) rows.push_back({m[0][r], m[1][r], m[2][r], m[3][r]});
+  return rows;
+}
+
 std::string range_text(const Range& range, std::string_view unit) {
   std::string text = number_text(range.min) + " ... " + number_text(range.max);
+  if (range.min == kFinite.min)
+    text = std::isinf(range.max) ? "a number or inf" : "a finite number";
   if (!unit.empty()) text += " (" + std::string(unit) + ")";
   return text;
 }
@@ -110,6 +135,26 @@ void check(std::string_view owner, const FieldInfo& field, const Value& value) {
       }
       break;
     }
+    case FieldKind::kDirection: {
+      const Rgb<double>* v = std::get_if<Rgb<double>>(&value);
+      if (!v || !inside(v->r) || !inside(v->g) || !inside(v->b) || *v == Rgb<double>{0, 0, 0}) {
+        fail("a vector that is not zero");
+      }
+      break;
+    }
+    case FieldKind::kMatrix: {
+      const Rows* rows = std::get_if<Rows>(&value);
+      const auto fits = [&](const std::vector<double>& row) {
+        return row.size() == 4 && std::all_of(row.begin(), row.end(), inside);
+      };
+      if (!rows || rows->size() != 4 || !std::all_of(rows->begin(), rows->end(), fits)) {
+        fail("4 rows of 4 finite numbers");
+      }
+      break;
+    }
+    case FieldKind::kFile:
+      if (!word || word->empty()) fail("FILE");
+      break;
   }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "limpid/core/error.h"
 #include "limpid/core/field.h"
+#include "limpid/core/toml_text.h"
 
 namespace limpid {
 
@@ -24,6 +26,13 @@ std::string value_text(const Value& value, NumberText&& number_text, WordText&& 
   std::vector<std::string> rows;
   for (const std::vector<double>& row : std::get<Rows>(value)) rows.push_back(list_text(row));
   return "[" + join(rows) + "]";
+}
+
+/// "name = value" and the end of the line, as TOML files have it; it reads back to the bit.
+inline std::string toml_line(std::string_view name, const Value& value) {
+  const auto number = [](double x) { return toml_text(x); };
+  const auto word = [](const std::string& text) { return toml_text(text); };
+  return std::string(name) + " = " + value_text(value, number, word) + "\n";
 }
 
 }  // namespace limpid

@@ -1,7 +1,6 @@
 #include "limpid/ops/look.h"
 
 #include "limpid/core/error.h"
-#include "limpid/core/toml_text.h"
 
 #include "core/value_text.h"
 
@@ -114,14 +113,12 @@ std::vector<std::string> unread_settings(const Look& look) {
 }
 
 std::string to_toml(const Look& look) {
-  const auto number = [](double x) { return toml_text(x); };
-  const auto word = [](const std::string& text) { return toml_text(text); };
   std::string text;
   std::string_view table;
   for (const Parameter& p : parameters(look)) {
     if (p.table != table) text += (text.empty() ? "[" : "\n[") + std::string(p.table) + "]\n";
     table = p.table;
-    text += std::string(p.name) + " = " + value_text(p.value, number, word) + "\n";
+    text += toml_line(p.name, p.value);
   }
   return text;
 }

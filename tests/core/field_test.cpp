@@ -1,6 +1,7 @@
 #include "limpid/core/field.h"
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -21,6 +22,10 @@ struct Params {
   std::string file;
   int steps = 3;
   std::vector<SineWave> waves;
+  glm::dvec3 way{0, 0, 1};
+  glm::dmat4 turn{1.0};
+  std::filesystem::path map = "plain.png";
+  double reach = 1;
 };
 constexpr std::string_view kShapes[] = {"round", "flat"};
 constexpr std::string_view kStepWords[] = {"march", "none"};
@@ -31,6 +36,10 @@ constexpr Field<Params> kFields[] = {
     text<&Params::file>("file", "Where it lies."),
     count_or_word<&Params::steps, kStepWords>("steps", "", {0, 64}, "How many."),
     table<&Params::waves>("waves", "", {-100, 100}, "What it swims on."),
+    direction<&Params::way>("way", "Where it looks."),
+    matrix<&Params::turn>("turn", "How it stands."),
+    file<&Params::map>("map", "What it wears."),
+    real<&Params::reach>("reach", "m", kFinite, "How far it sees."),
 };
 constexpr std::span<const Field<Params>> kAll = kFields;
 
@@ -45,6 +54,32 @@ std::string refusal(int field, const Value& value) {
   }
   EXPECT_EQ(kFields[field].get(params), value);
   return "";
+}
+
+TEST(Field, TakesDirectionsMatricesFilesAndAnyFiniteNumber) {
+  const double inf = std::numeric_limits<double>::infinity();
+  const Rows turned{{0, -1, 0, 5}, {1, 0, 0, 6}, {0, 0, 1, 7}, {0, 0, 0, 1}};
+  EXPECT_EQ(refusal(6, Rgb<double>{0, 0.6, -0.8}), "");
+  EXPECT_EQ(refusal(7, turned), "");
+  EXPECT_EQ(refusal(8, "a.png"), "");
+  EXPECT_EQ(refusal(9, kFinite.min), "");
+
+  Params params;
+  assign("thing", kFields[6], params, Rgb<double>{3e300, 0, -4e300});
+  EXPECT_NEAR(params.way.x, 0.6, 1e-15);
+  EXPECT_NEAR(params.way.z, -0.8, 1e-15);
+  assign("thing", kFields[7], params, turned);
+  EXPECT_EQ(params.turn[3], glm::dvec4(5, 6, 7, 1));  // the last column
+
+  EXPECT_EQ(refusal(6, Rgb<double>{0, 0, 0}),
+            "thing.way = [0, 0, 0]: expected a vector that is not zero");
+  EXPECT_THAT(refusal(6, Rgb<double>{0, inf, 0}), HasSubstr("[0, inf, 0]: expected"));
+  EXPECT_THAT(refusal(6, 1.0), HasSubstr("thing.way = 1: expected"));
+  EXPECT_EQ(refusal(7, Rows{{1, 2}}), "thing.turn = [[1, 2]]: expected 4 rows of 4 finite numbers");
+  EXPECT_THAT(refusal(7, Rows(3, {1, 2, 3, 4})), HasSubstr("expected 4 rows"));
+  EXPECT_THAT(refusal(7, Rows(4, {1, 2, 3, inf})), HasSubstr("expected 4 rows"));
+  EXPECT_EQ(refusal(8, ""), "thing.map = : expected FILE");
+  EXPECT_EQ(refusal(9, inf), "thing.reach = inf: expected a finite number (m)");
 }
 
 TEST(Field, TakesWhatIsDeclared) {

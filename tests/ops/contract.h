@@ -39,6 +39,9 @@ std::vector<Value> candidates(const Field<P>& field) {
       for (std::string_view word : field.choices) values.emplace_back(std::string(word));
       break;
     case FieldKind::kText:
+    case FieldKind::kDirection:  // of scenes, not of operators
+    case FieldKind::kMatrix:
+    case FieldKind::kFile:
       break;
     case FieldKind::kCountOrWord:
       for (double x : {field.range.min, field.range.max, 1.0}) {

@@ -32,6 +32,12 @@ std::string allowed_text(const Parameter& p) {
       return range + " | " + words;
     case FieldKind::kTable:
       return "[" + columns_text(p) + ", ...], each number " + range;
+    case FieldKind::kDirection:
+      return "[x, y, z], not all zero";
+    case FieldKind::kMatrix:
+      return "4 rows of 4 numbers, for column vectors";
+    case FieldKind::kFile:
+      return "FILE";
   }
   return {};
 }

@@ -55,6 +55,12 @@ const char* kind_name(FieldKind kind) {
       return "count or word";
     case FieldKind::kTable:
       return "table";
+    case FieldKind::kDirection:
+      return "direction";
+    case FieldKind::kMatrix:
+      return "matrix";
+    case FieldKind::kFile:
+      return "file";
   }
   return "";
 }

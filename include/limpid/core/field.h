@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,9 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 #include "limpid/core/error.h"
 #include "limpid/core/vec.h"
@@ -32,8 +36,8 @@ namespace limpid {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// What a field holds, as text files and the command line see it: a number, a word, a color, or the
-/// rows of a table.
+/// What a field holds, as text files and the command line see it: a number, a word, three numbers
+/// (a color or a direction), or rows of numbers (a table or a matrix).
 using Value = std::variant<double, std::string, Rgb<double>, Rows>;
 
 std::string to_string(const Value& value);
@@ -42,6 +46,10 @@ std::string to_string(const Value& value);
 struct Range {
   double min, max;
 };
+
+/// Of a number that may be any but NaN and the infinities.
+inline constexpr Range kFinite{std::numeric_limits<double>::lowest(),
+                               std::numeric_limits<double>::max()};
 
 /// When a parameter matters: where another one of the same struct holds one of some words. (That
 /// one may be a number, too: one that no word can be, or one whose text is among the words.)
@@ -58,7 +66,17 @@ struct Condition {
 /// "model = four_maps or slopes", "model = two_flows or wind above 0".
 std::string to_string(const Condition& condition);
 
-enum class FieldKind { kReal, kChoice, kColor, kText, kCountOrWord, kTable };
+enum class FieldKind {
+  kReal,
+  kChoice,
+  kColor,
+  kText,
+  kCountOrWord,
+  kTable,
+  kDirection,  ///< three finite numbers, not all zero; the member is made unit
+  kMatrix,     ///< four rows of four finite numbers, for column vectors
+  kFile,       ///< the name of a file, not empty
+};
 
 /// What is declared of a parameter, whatever struct it is a member of.
 struct FieldInfo {
@@ -115,6 +133,12 @@ template <auto M>
 using ParamsOf = typename MemberOf<decltype(M)>::Params;
 
 std::string range_text(const Range& range, std::string_view unit);
+
+/// `v` at length 1. What is unit to rounding stays as it is: a direction that was written out reads
+/// back the same.
+glm::dvec3 unit_direction(const Rgb<double>& v);
+glm::dmat4 matrix_of_rows(const Rows& rows);
+Rows rows_of_matrix(const glm::dmat4& matrix);
 
 /// Throws Error, beginning with "owner.name", unless `value` fits the declaration.
 void check(std::string_view owner, const FieldInfo& field, const Value& value);
@@ -206,6 +230,35 @@ constexpr Field<detail::ParamsOf<M>> table(std::string_view name, std::string_vi
               (p.*M).push_back(Row::from_row(row));
             }
           }};
+}
+
+/// A member of type glm::dvec3.
+template <auto M>
+constexpr Field<detail::ParamsOf<M>> direction(std::string_view name, std::string_view about) {
+  using P = detail::ParamsOf<M>;
+  return {{name, "", FieldKind::kDirection, kFinite, {}, {}, 0, about},
+          [](const P& p) -> Value {
+            return Rgb<double>{(p.*M).x, (p.*M).y, (p.*M).z};
+          },
+          [](P& p, const Value& v) { p.*M = detail::unit_direction(std::get<Rgb<double>>(v)); }};
+}
+
+/// A member of type glm::dmat4.
+template <auto M>
+constexpr Field<detail::ParamsOf<M>> matrix(std::string_view name, std::string_view about) {
+  using P = detail::ParamsOf<M>;
+  return {{name, "", FieldKind::kMatrix, kFinite, {}, {}, 0, about},
+          [](const P& p) -> Value { return detail::rows_of_matrix(p.*M); },
+          [](P& p, const Value& v) { p.*M = detail::matrix_of_rows(std::get<Rows>(v)); }};
+}
+
+/// A member of type std::filesystem::path.
+template <auto M>
+constexpr Field<detail::ParamsOf<M>> file(std::string_view name, std::string_view about) {
+  using P = detail::ParamsOf<M>;
+  return {{name, "", FieldKind::kFile, {}, {}, {}, 0, about},
+          [](const P& p) -> Value { return (p.*M).string(); },
+          [](P& p, const Value& v) { p.*M = std::get<std::string>(v); }};
 }
 
 /// Sets one parameter after checking kind, range and NaN. Throws Error that names `owner.field`,

@@ -70,6 +70,10 @@ Value random_value(std::mt19937& random, const Parameter& p) {
       }
       return rows;
     }
+    case FieldKind::kDirection:  // of scenes, not of looks
+    case FieldKind::kMatrix:
+    case FieldKind::kFile:
+      break;
   }
   return {};
 }
@@ -256,6 +260,35 @@ TEST(ApplySetting, TakesNumbersColorsWordsAndTexts) {
   EXPECT_EQ(look.of<WaveNormals>().map, fs::current_path() / "waves.png");
   apply_setting(look, "wave_normals.map=");
   EXPECT_EQ(look.of<WaveNormals>().map, "");
+}
+
+/// As TOML has them, or without the digit that it asks for.
+TEST(ApplySetting, NumbersNeedNoDigitBesideThePointAndMayBeginWithZeros) {
+  const std::pair<const char*, double> cases[] = {
+      {".5", 0.5},      {"-.5", -0.5}, {"+.5", 0.5},    {"2.", 2},
+      {"-2.e-1", -0.2}, {"007", 7},    {"-01.5", -1.5}, {"0.25", 0.25},
+      {"1e-05", 1e-5},  {"00.", 0},    {"1_0", 10},     {"100e-3", 0.1}};
+  for (const auto& [text, number] : cases) {
+    Look look;
+    apply_setting(look, "refraction.strength=" + std::string(text));
+    EXPECT_EQ(look.of<Refraction>().strength, number) << text;
+    apply_setting(look, "wave_normals.waves=[[1, " + std::string(text) + ", 2, 3, 4]]");
+    EXPECT_EQ(look.of<WaveNormals>().waves.at(0).k_x, number) << text;
+  }
+  Look look;
+  apply_setting(look, "depth_fog.color=.5,0., 01");
+  EXPECT_EQ(look.of<DepthFog>().color, (Rgb<double>{0.5, 0, 1}));
+  apply_setting(look, "refraction.steps=02");
+  EXPECT_EQ(look.of<Refraction>().steps, 2);
+  apply_setting(look, "refraction.steps=\"march\"");
+  EXPECT_LT(look.of<Refraction>().steps, 0);
+  apply_setting(look, "wave_normals.map=/a\xff.5\"\\b.png");  // no UTF-8, nothing is escaped
+  EXPECT_EQ(look.of<WaveNormals>().map, "/a\xff.5\"\\b.png");
+  for (const char* text : {".", "-.", "1.2.3", "0.1.", ".e5", "true", "1979-05-27", "\"1\""}) {
+    EXPECT_THAT(error_of([&] { apply_setting(look, "refraction.strength=" + std::string(text)); }),
+                HasSubstr(": expected a number"))
+        << text;
+  }
 }
 
 TEST(ApplySetting, ErrorsSayWhatWasExpectedAndLeaveTheLookAlone) {
