@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 
@@ -49,6 +52,18 @@ TEST_F(VerbsTest, OperatorsNamesTheStateThatEachUsesAndMakes) {
   EXPECT_THAT(ran.out, HasSubstr("taps -; uses -; makes normal, slope_variance\n"));
   EXPECT_THAT(ran.out, HasSubstr("makes position, path, transmitted, confidence\n"));
   EXPECT_THAT(ran.out, ContainsRegex("makes [a-z_, ]*reflected, mirror_sources"));
+}
+
+TEST_F(VerbsTest, OperatorsListsTheKeysOfScenesAsThePageHasThem) {
+  const Ran ran = limpid({"operators", "--scene"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, StartsWith("## [geometry]\n"));
+  EXPECT_THAT(ran.out, HasSubstr("\n| `radiance` | required | 0 ... 1e+09 |"));
+  std::ifstream page(std::filesystem::path(LIMPID_DATA) / "../docs/scene_files.md");
+  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  EXPECT_EQ(text.substr(std::min(text.find("## ["), text.size())), ran.out)
+      << "docs/scene_files.md ends with what `limpid operators --scene` prints";
+  expect_refused(limpid({"operators", "--scene", "depth_fog"}), {"name excludes --scene"}, 2);
 }
 
 TEST_F(VerbsTest, OperatorsListsTheParametersOfOne) {

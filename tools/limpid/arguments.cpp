@@ -406,9 +406,13 @@ Parsed parse(int argc, char** argv) {
   add_plates(inspect, a.inspect.plates, a.inspect.scene, a.inspect.layers, a.inspect.view);
 
   CLI::App& operators = *app.add_subcommand("operators", "The chain and its parameters");
-  operators.add_option("name", a.operators.name, "One operator")->option_text("NAME");
-  operators.add_option("--look", a.operators.look, "Show the values of a look")
-      ->option_text("NAME|FILE");
+  CLI::Option* name =
+      operators.add_option("name", a.operators.name, "One operator")->option_text("NAME");
+  CLI::Option* look = operators.add_option("--look", a.operators.look, "Show the values of a look")
+                          ->option_text("NAME|FILE");
+  operators.add_flag("--scene", a.operators.scene, "The keys of scene files instead")
+      ->excludes(name)
+      ->excludes(look);
 
   add_compare(app, a.compare);
   add_report(app, a.report);

@@ -74,6 +74,7 @@ struct InspectArguments {
 struct OperatorsArguments {
   std::string name;  ///< one operator, or "" for the table of all
   std::string look;
+  bool scene = false;              ///< the keys of scene files instead
   std::vector<std::string> verbs;  ///< where `help` asks, to which they are known, too
 };
 

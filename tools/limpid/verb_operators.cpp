@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "limpid/files/text/scene_keys.h"
 #include "limpid/plan/plan.h"
 
 #include "data_folder.h"
@@ -17,8 +18,9 @@ std::string state_text(StateSet set) {
   return names.empty() ? "-" : join(names);
 }
 
-std::string allowed_text(const Parameter& p) {
-  const std::string words = join({p.choices.begin(), p.choices.end()}, " | ");
+/// `either`: what stands between the words of a choice.
+std::string allowed_text(const FieldInfo& p, const std::string& either) {
+  const std::string words = join({p.choices.begin(), p.choices.end()}, either);
   const std::string range = detail::range_text(p.range, p.unit);
   switch (p.kind) {
     case FieldKind::kReal:
@@ -29,7 +31,7 @@ std::string allowed_text(const Parameter& p) {
     case FieldKind::kText:
       return {};
     case FieldKind::kCountOrWord:
-      return range + " | " + words;
+      return range + either + words;
     case FieldKind::kTable:
       return "[" + columns_text(p) + ", ...], each number " + range;
     case FieldKind::kDirection:
@@ -52,7 +54,7 @@ std::string used_text(const Parameter& p) {
 }
 
 void print_parameter(const Parameter& p) {
-  const std::string allowed = allowed_text(p) + used_text(p);
+  const std::string allowed = allowed_text(p, " | ") + used_text(p);
   std::printf("  %-12s = %-20s %s\n", std::string(p.name).c_str(), to_string(p.value).c_str(),
               std::string(p.about).c_str());
   const std::size_t first = allowed.starts_with(';') ? 2 : 0;  // a text may hold anything
@@ -65,9 +67,25 @@ void print_table(const std::vector<Parameter>& all, std::string_view table) {
   }
 }
 
+/// As docs/scene_files.md has them.
+int print_scene_tables() {
+  const char* separator = "";
+  for (const SceneTable& table : scene_tables()) {
+    std::printf("%s## [%s]\n\n%s\n\n| key | unset | values | what it is |\n|---|---|---|---|\n",
+                separator, std::string(table.name).c_str(), std::string(table.about).c_str());
+    for (const SceneKey& key : table.keys) {
+      std::printf("| `%s` | %s | %s | %s |\n", std::string(key.name).c_str(), key.unset.c_str(),
+                  allowed_text(key, ", ").c_str(), std::string(key.about).c_str());
+    }
+    separator = "\n";
+  }
+  return 0;
+}
+
 }  // namespace
 
 int operators_verb(const OperatorsArguments& a) {
+  if (a.scene) return print_scene_tables();
   const Look look = a.look.empty() ? Look{} : look_for(a.look);
   const std::vector<Parameter> all = parameters(look);
   std::vector<std::string> names{std::string(Water::kName)};

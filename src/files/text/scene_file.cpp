@@ -5,106 +5,56 @@
 #include <limits>
 #include <numbers>
 
-#include <glm/geometric.hpp>
-
 #include "limpid/core/frame.h"
-#include "limpid/core/toml_text.h"
+#include "limpid/files/text/scene_keys.h"
 
-#include "files/text/toml.h"
+#include "core/value_text.h"
+#include "files/text/scene_tables.h"
+#include "files/text/toml_value.h"
 
 namespace limpid {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kClips[] = {"gl", "d3d", "reversed"};
-constexpr std::string_view kDepths[] = {"eye", "ray", "inverse", "normalised", "device"};
-
 using Names = std::vector<std::string>;
 
-/// Four rows in the file; GLM keeps columns.
-glm::dmat4 matrix_of(const TomlNode& node) {
-  if (node.kind != TomlNode::Kind::kList || node.items.size() != 4) {
-    node.refuse("a list of 4 rows of 4 numbers");
+template <class P>
+std::vector<std::string> names_of(const FieldTable<P>& keys) {
+  Names names;
+  for (const Field<P>& field : keys.fields) names.emplace_back(field.name);
+  return names;
+}
+
+/// What the table says, and the defaults of the rest.
+template <class P>
+P read_table(const TomlNode& table, const FieldTable<P>& keys) {
+  table.expect_keys(names_of(keys));
+  if (!keys.required.empty() && !table.find(keys.required)) {
+    throw Error(table.place + table.path + ": expected " + std::string(keys.expected));
   }
-  glm::dmat4 matrix;
-  for (int row = 0; row < 4; ++row) {
-    const std::vector<double> entries = node.items[row].finite_numbers(4);
-    for (int column = 0; column < 4; ++column) matrix[column][row] = entries[column];
-  }
-  return matrix;
+  P params;
+  read_fields(table, keys.fields, params);
+  return params;
 }
 
-glm::dvec3 direction_of(const TomlNode& node) {
-  const std::vector<double> v = node.finite_numbers(3);
-  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-  if (largest == 0) node.refuse("a vector that is not zero");
-  const glm::dvec3 direction(v[0], v[1], v[2]);
-  // What is unit to rounding stays as it is: a direction that was written out reads back the same.
-  if (std::abs(glm::dot(direction, direction) - 1) < 1e-14) return direction;
-  return glm::normalize(direction / largest);
-}
-
-SineWave wave_of(const TomlNode& node) {
-  constexpr std::size_t kAll = std::size(SineWave::kColumns);
-  const bool complete = node.items.size() == kAll;
-  return SineWave::from_row(node.finite_numbers(complete ? kAll : SineWave::kLeastColumns));
-}
-
-/// "1025 waves: expected at most 1024", or "".
-std::string too_many(std::size_t waves) {
-  if (waves <= kMaxWaves) return "";
-  return std::to_string(waves) + " waves: expected at most " + std::to_string(kMaxWaves);
+void expect_few_waves(const WaterPlane& water) {
+  if (water.waves.size() <= kMaxWaves) return;
+  throw Error("water.waves: " + std::to_string(water.waves.size()) + " waves: expected at most " +
+              std::to_string(kMaxWaves));
 }
 
 WaterPlane water_of(const TomlNode& table) {
-  table.expect_keys(Names{"up", "height", "waves"});
-  WaterPlane water;
-  if (const TomlNode* up = table.find("up")) water.up = direction_of(*up);
-  if (const TomlNode* height = table.find("height")) water.height = height->finite_number();
-  if (const TomlNode* waves = table.find("waves")) {
-    if (waves->kind != TomlNode::Kind::kList)
-      waves->refuse("a list of [amplitude, k_x, k_y, phase]");
-    const std::string fault = too_many(waves->items.size());
-    if (!fault.empty()) throw Error(waves->place + waves->path + ": " + fault);
-    for (const TomlNode& wave : waves->items) water.waves.push_back(wave_of(wave));
-  }
-  return water;
-}
-
-Rgb<double> light_of(const TomlNode& node) {
-  const std::vector<double> c = node.finite_numbers(3);
-  const auto in_range = [](double x) { return x >= 0 && x <= Sun::kBrightest; };
-  if (!std::all_of(c.begin(), c.end(), in_range)) node.refuse("three numbers of 0 ... 1e9");
-  return {c[0], c[1], c[2]};
-}
-
-SkyLight sky_of(const TomlNode& table) {
-  table.expect_keys(Names{"radiance"});
-  const TomlNode* radiance = table.find("radiance");
-  if (!radiance) throw Error(table.place + "sky: expected its radiance, three numbers");
-  return {light_of(*radiance)};
-}
-
-Sun sun_of(const TomlNode& table) {
-  table.expect_keys(Names{"direction", "color", "diameter"});
-  Sun sun;
-  const TomlNode* direction = table.find("direction");
-  if (!direction) throw Error(table.place + "sun: expected a direction towards the sun");
-  sun.direction = direction_of(*direction);
-  if (const TomlNode* color = table.find("color")) sun.color = light_of(*color);
-  if (const TomlNode* diameter = table.find("diameter")) {
-    sun.diameter = diameter->finite_number();
-    if (!(sun.diameter >= Sun::kNarrowest && sun.diameter <= Sun::kWidest)) {
-      diameter->refuse("a number of degrees, 0.01 ... 90");
+  const TomlNode* waves = table.find("waves");
+  if (waves && waves->kind == TomlNode::Kind::kList) {  // of many rows the wrong one is named
+    constexpr std::size_t kAll = std::size(SineWave::kColumns);
+    for (const TomlNode& wave : waves->items) {
+      wave.finite_numbers(wave.items.size() == kAll ? kAll : SineWave::kLeastColumns);
     }
   }
-  return sun;
-}
-
-fs::path path_of(const TomlNode& node, const fs::path& folder) {
-  if (node.word().empty()) node.refuse("FILE");
-  return (folder / node.word()).lexically_normal();
+  const WaterPlane water = read_table(table, kWaterTable);
+  if (waves) at_place(waves->place, [&] { expect_few_waves(water); });
+  return water;
 }
 
 /// "FILE" or "FILE:CHANNELS" of a role.
@@ -116,52 +66,38 @@ std::string plate_of(const TomlNode& node, const fs::path& folder) {
 }
 
 void read_plates(const TomlNode& table, const fs::path& folder, SceneFile& file) {
-  Names known = {"environment", "environment_rotation"};
+  Names known = names_of(kPlatesTable);
   for (const Role& role : roles()) known.emplace_back(role.name);
   table.expect_keys(known);
-  for (const TomlNode& node : table.items) {
-    if (node.key == "environment") {
-      file.environment = path_of(node, folder);
-    } else if (node.key == "environment_rotation") {
-      if (!table.find("environment")) {
-        throw Error(node.key_place + node.path + ": expected an environment beside it");
-      }
-      file.environment_rotation = node.finite_number() * std::numbers::pi / 180;
-    } else {
-      file.plates[node.key] = plate_of(node, folder);
+  PlateKeys keys;
+  read_fields(table, kPlatesTable.fields, keys);
+  const TomlNode* environment = table.find("environment");
+  const TomlNode* rotation = table.find("environment_rotation");
+  if (rotation && !environment) {
+    throw Error(rotation->key_place + rotation->path + ": expected an environment beside it");
+  }
+  if (environment) file.environment = (folder / keys.environment).lexically_normal();
+  file.environment_rotation = keys.environment_rotation * std::numbers::pi / 180;
+  for (const Role& role : roles()) {
+    if (const TomlNode* node = table.find(role.name)) {
+      file.plates[node->key] = plate_of(*node, folder);
     }
   }
 }
 
-fs::path geometry_of(const TomlNode& table, const fs::path& folder) {
-  table.expect_keys(Names{"gltf"});
-  const TomlNode* gltf = table.find("gltf");
-  if (!gltf) throw Error(table.place + "geometry: expected gltf = FILE");
-  return (folder / gltf->word()).lexically_normal();
-}
-
 /// What the file says of near and far, whatever they are used for.
-void read_range(const TomlNode& table, SceneFile& file) {
-  const TomlNode* near = table.find("near");
+void read_range(const TomlNode& table, const CameraKeys& keys, SceneFile& file) {
   const TomlNode* far = table.find("far");
-  if (near) file.near = near->finite_number();
-  if (!far) return;
-  if (far->kind != TomlNode::Kind::kNumber || std::isnan(far->number)) {
-    far->refuse("a number or inf");
-  }
-  file.far = far->number;
-  if (!(*file.far > file.near.value_or(-std::numeric_limits<double>::infinity()))) {
-    far->refuse(near ? "more than near" : "a number or inf");
-  }
+  if (table.find("near")) file.near = keys.near;
+  if (far) file.far = keys.far;
+  if (file.near && file.far && !(*file.far > *file.near)) far->refuse("more than near");
 }
 
-void read_depth(const TomlNode& table, SceneFile& file) {
-  const TomlNode* node = table.find("depth");
-  if (!node) return;
-  file.depth = static_cast<DepthKind>(node->choice(kDepths));
+void read_depth(const TomlNode& table, const CameraKeys& keys, SceneFile& file) {
+  file.depth = keys.depth;
   const bool finite_range = file.near && file.far && std::isfinite(*file.far);
   if (file.depth == DepthKind::kNormalised && !finite_range) {
-    node->refuse("near and a finite far beside it");
+    table.find("depth")->refuse("near and a finite far beside it");
   }
 }
 
@@ -176,7 +112,7 @@ constexpr LensKey kLensKeys[] = {{"projection", CameraSpec::Lens::kProjection},
 constexpr const char* kLensNames = "projection, fov_x, fov_y and orthographic";
 
 /// The one key of the table that says how the camera projects, or nullptr.
-const TomlNode* lens_node(const TomlNode& table, CameraSpec& spec) {
+const TomlNode* lens_node(const TomlNode& table, CameraSpec::Lens& lens) {
   const TomlNode* found = nullptr;
   for (const LensKey& key : kLensKeys) {
     const TomlNode* node = table.find(key.name);
@@ -186,95 +122,94 @@ const TomlNode* lens_node(const TomlNode& table, CameraSpec& spec) {
                   kLensNames);
     }
     found = node;
-    spec.lens = key.lens;
+    lens = key.lens;
   }
   return found;
 }
 
 double field_of_view_of(const TomlNode& node) {
-  const double degrees = node.finite_number();
-  if (!(degrees > 0 && degrees < 180)) node.refuse("degrees above 0 and below 180");
-  return degrees * std::numbers::pi / 180;
+  if (!(node.number > 0 && node.number < 180)) node.refuse("degrees above 0 and below 180");
+  return node.number * std::numbers::pi / 180;
 }
 
-void read_lens(const TomlNode& node, const TomlNode& table, const SceneFile& file,
+void read_lens(const TomlNode& lens, const TomlNode& table, const SceneFile& file,
                CameraSpec& spec) {
-  if (spec.lens == CameraSpec::Lens::kProjection) {
-    spec.projection = matrix_of(node);
-    return;
-  }
+  if (spec.lens == CameraSpec::Lens::kProjection) return;
   const bool flat = spec.lens == CameraSpec::Lens::kOrthographic;
-  spec.extent = flat ? node.finite_number() : field_of_view_of(node);
+  spec.extent = flat ? lens.number : field_of_view_of(lens);
   if (file.depth == DepthKind::kDevice && !(file.near && file.far)) {
-    table.find("depth")->refuse("near and far beside " + node.key);
+    table.find("depth")->refuse("near and far beside " + lens.key);
   }
   spec.near = file.near.value_or(flat ? 0 : 0.01);
   spec.far = file.far.value_or(flat ? spec.near + 1e4 : std::numeric_limits<double>::infinity());
 }
 
-std::optional<CameraSpec> camera_of(const TomlNode& table, const SceneFile& file) {
-  CameraSpec spec;
+/// A view and a lens, or neither; then there is no `clip` either.
+void expect_pair(const TomlNode& table, const TomlNode* lens) {
   const TomlNode* view = table.find("view");
-  const TomlNode* lens = lens_node(table, spec);
   const TomlNode* clip = table.find("clip");
-  if (!view && !lens) {
-    if (clip) throw Error(clip->key_place + "camera.clip without a projection that it could be of");
-    return std::nullopt;
+  if (!view && !lens && clip) {
+    throw Error(clip->key_place + "camera.clip without a projection that it could be of");
   }
-  if (!lens)
+  if (view && !lens) {
     throw Error(view->key_place + "camera.view: expected one of " + kLensNames + " beside it");
-  if (!view) throw Error(lens->key_place + lens->path + ": expected a view beside it");
-  if (clip) spec.clip = static_cast<ClipSpace>(clip->choice(kClips));
-  spec.view = matrix_of(*view);
-  at_place(view->place, [&] {
+  }
+  if (lens && !view) throw Error(lens->key_place + lens->path + ": expected a view beside it");
+}
+
+void read_camera(const TomlNode& table, SceneFile& file) {
+  table.expect_keys(names_of(kCameraTable));
+  CameraSpec spec;
+  const TomlNode* lens = lens_node(table, spec.lens);
+  expect_pair(table, lens);
+  const CameraKeys keys = read_table(table, kCameraTable);
+  if (table.find("depth_nothing")) file.depth_nothing = keys.depth_nothing;
+  read_range(table, keys, file);
+  read_depth(table, keys, file);
+  if (!lens) return;
+  spec.view = keys.view;
+  spec.projection = keys.projection;
+  spec.clip = keys.clip;
+  at_place(table.find("view")->place, [&] {
     Camera{spec.view, perspective(1, 1, 1, 2, ClipSpace::kGl), ClipSpace::kGl}.validate();
   });
   read_lens(*lens, table, file, spec);
   at_place(lens->place, [&] { camera_for(spec, {1, 1}); });
-  return spec;
-}
-
-void read_camera(const TomlNode& table, SceneFile& file) {
-  table.expect_keys(Names{"view", "projection", "fov_x", "fov_y", "orthographic", "clip", "near",
-                          "far", "depth", "depth_nothing"});
-  if (const TomlNode* nothing = table.find("depth_nothing")) {
-    file.depth_nothing = nothing->finite_number();
-  }
-  read_range(table, file);
-  read_depth(table, file);
-  file.camera = camera_of(table, file);
+  file.camera = spec;
 }
 
 SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
-  root.expect_keys(Names{"geometry", "plates", "camera", "water", "sun", "sky", "scene"});
+  Names tables;
+  for (const SceneTable& table : scene_tables()) tables.emplace_back(table.name);
+  root.expect_keys(tables);
   SceneFile file;
   for (const TomlNode& table : root.items) {
-    if (table.key == "geometry") file.geometry = geometry_of(table, folder);
+    if (table.key == "geometry") {
+      file.geometry = (folder / read_table(table, kGeometryTable).gltf).lexically_normal();
+    }
     if (table.key == "plates") read_plates(table, folder, file);
     if (table.key == "camera") read_camera(table, file);
     if (table.key == "water") file.scene.water = water_of(table);
-    if (table.key == "sun") file.scene.sun = sun_of(table);
-    if (table.key == "sky") file.scene.sky = sky_of(table);
+    if (table.key == "sun") file.scene.sun = read_table(table, kSunTable);
+    if (table.key == "sky") file.scene.sky = read_table(table, kSkyTable);
     if (table.key == "scene") {
-      table.expect_keys(Names{"time"});
-      if (const TomlNode* time = table.find("time")) {
-        file.time = file.scene.time = time->finite_number();
-      }
+      file.scene.time = read_table(table, kSceneTable).time;
+      if (table.find("time")) file.time = file.scene.time;
     }
   }
   return file;
 }
 
-std::string list_text(const std::vector<double>& numbers) {
-  std::vector<std::string> texts;
-  for (double x : numbers) texts.push_back(toml_text(x));
-  return "[" + join(texts) + "]";
-}
-
-std::string matrix_text(const glm::dmat4& m) {
-  std::vector<std::string> rows;
-  for (int r = 0; r < 4; ++r) rows.push_back(list_text({m[0][r], m[1][r], m[2][r], m[3][r]}));
-  return "[" + join(rows) + "]";
+/// The keys of the table that are among `names`, or all.
+template <class P>
+std::string table_text(const FieldTable<P>& keys, const P& params,
+                       std::initializer_list<std::string_view> names = {}) {
+  std::string text = "[" + std::string(keys.name) + "]\n";
+  for (const Field<P>& field : keys.fields) {
+    const bool named = std::find(names.begin(), names.end(), field.name) != names.end();
+    if (named || names.size() == 0) text += toml_line(field.name, field.get(params));
+  }
+  return text;
 }
 
 }  // namespace
@@ -290,32 +225,20 @@ SceneFile scene_from_toml(const std::string& text, const std::string& name) {
 }
 
 std::string to_toml(const Scene& scene) {
-  std::string text = "[scene]\ntime = " + toml_text(scene.time) + "\n";
-  if (scene.camera) {
-    text += "[camera]\nview = " + matrix_text(scene.camera->view) +
-            "\nprojection = " + matrix_text(scene.camera->projection) + "\nclip = \"" +
-            std::string(kClips[static_cast<std::size_t>(scene.camera->clip)]) + "\"\n";
+  std::string text = table_text(kSceneTable, scene);
+  if (const std::optional<Camera>& camera = scene.camera) {
+    CameraKeys keys;
+    keys.view = camera->view;
+    keys.projection = camera->projection;
+    keys.clip = camera->clip;
+    text += table_text(kCameraTable, keys, {"view", "projection", "clip"});
   }
   if (scene.water) {
-    const WaterPlane& water = *scene.water;
-    const std::string fault = too_many(water.waves.size());
-    if (!fault.empty()) throw Error("water.waves: " + fault);
-    std::vector<std::string> waves;
-    for (const SineWave& wave : water.waves) waves.push_back(list_text(wave.to_row()));
-    text += "[water]\nup = " + list_text({water.up.x, water.up.y, water.up.z}) +
-            "\nheight = " + toml_text(water.height) + "\nwaves = [" + join(waves) + "]\n";
+    expect_few_waves(*scene.water);
+    text += table_text(kWaterTable, *scene.water);
   }
-  if (scene.sun) {
-    const glm::dvec3& d = scene.sun->direction;
-    const Rgb<double>& c = scene.sun->color;
-    text += "[sun]\ndirection = " + list_text({d.x, d.y, d.z}) +
-            "\ncolor = " + list_text({c.r, c.g, c.b}) +
-            "\ndiameter = " + toml_text(scene.sun->diameter) + "\n";
-  }
-  if (scene.sky) {
-    const Rgb<double>& c = scene.sky->radiance;
-    text += "[sky]\nradiance = " + list_text({c.r, c.g, c.b}) + "\n";
-  }
+  if (scene.sun) text += table_text(kSunTable, *scene.sun);
+  if (scene.sky) text += table_text(kSkyTable, *scene.sky);
   return text;
 }
 

@@ -247,14 +247,6 @@ std::vector<double> TomlNode::finite_numbers(std::size_t count) const {
   return numbers;
 }
 
-std::size_t TomlNode::choice(std::span<const std::string_view> words) const {
-  const std::vector<std::string> names(words.begin(), words.end());
-  if (kind != Kind::kText) refuse("one of " + join(names));
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) refuse("one of " + join(names) + did_you_mean(text, names));
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 TomlNode parse_toml(const std::filesystem::path& path) {
   return parse_toml_text(text_of_file(path), path.string());
 }

@@ -37,8 +37,6 @@ struct TomlNode {
   const std::string& word() const;
   /// Exactly `count` finite numbers.
   std::vector<double> finite_numbers(std::size_t count) const;
-  /// The index in `words` of the word that this is.
-  std::size_t choice(std::span<const std::string_view> words) const;
 };
 
 /// Calls `work`; an Error it throws gets `place` in front.

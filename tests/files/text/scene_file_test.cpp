@@ -1,12 +1,15 @@
 #include "limpid/files/text/scene_file.h"
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "limpid/files/text/scene_keys.h"
 
 #include "files/exr/written.h"
 
@@ -208,6 +211,7 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[geometry]\nglft = \"a.gltf\"\n", ":2:1:", "did you mean 'gltf'?"},
       {"[geometry]\n", ":1:", "expected gltf = FILE"},
       {"[water]\nwaves = [[0.1, 1, 2]]\n", ":2:10:", "water.waves[0]"},
+      {"[water]\nwaves = {a = 1}\n", ":2:9: ", "water.waves = a table: expected a list of [ampl"},
       {"[watr]\n",
        ":1:", "unknown table 'watr': expected one of geometry, plates, camera, water, sun"},
       {"water = 3\n", ":1:9: ", "water = 3: expected a table"},
@@ -231,14 +235,15 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[water]\nheight = inf\n", ":2:10: ", "water.height = inf: expected a finite number"},
       {"[sun]\ncolor = [1, 1, 1]\n", ":1:", "sun: expected a direction"},
       {"[sun]\ndirection = [0, 1, 0]\ndiameter = 0\n",
-       ":3:12: ", "expected a number of degrees, 0.01 ... 90"},
+       ":3:12: ", "sun.diameter = 0: expected 0.01 ... 90 (degrees)"},
       {"[sky]\n", ":1:", "sky: expected its radiance"},
-      {"[sky]\nradiance = [1, 1, -1]\n", ":2:12: ", "three numbers of 0 ... 1e9"},
+      {"[sky]\nradiance = [1, 1, -1]\n",
+       ":2:12: ", "sky.radiance = [1, 1, -1]: expected three numbers, each 0 ... 1e+09"},
       {"[sun]\ndirection = [0, inf, 0]\n", ":2:17: ", "expected a finite number"},
       {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, -1, 1]\n",
-       ":3:9: ", "three numbers of 0 ... 1e9"},
+       ":3:9: ", "three numbers, each 0 ... 1e+09"},
       {"[sun]\ndirection = [0, 1, 0]\ncolor = [1, 1, 1.001e9]\n",
-       ":3:9: ", "three numbers of 0 ... 1e9"},
+       ":3:9: ", "three numbers, each 0 ... 1e+09"},
       {"[camera]\nfovx = 40\n", ":2:1: ", "did you mean 'fov_x'?"},
       {"[camera]\nview = 1\n", ":2:1: ", "camera.view: expected one of projection, fov_x, fov_y"},
       {"[camera]\nfov_x = 40\n", ":2:1: ", "camera.fov_x: expected a view beside it"},
@@ -276,6 +281,50 @@ TEST(SceneFile, ErrorsGivePlaceAndWhatWasExpected) {
     EXPECT_THAT(sentence, StartsWith(path.string() + c.place)) << c.text;
     EXPECT_THAT(sentence, HasSubstr(c.says)) << c.text;
   }
+}
+
+/// Values of a wrong type and, by the kind of the key, NaN, infinity and other shapes.
+TEST(SceneFile, EveryKeyRefusesWhatItsDeclarationDoes) {
+  int values = 0;
+  for (const SceneTable& table : scene_tables()) {
+    for (const SceneKey& key : table.keys) {
+      const std::string name = std::string(table.name) + "." + std::string(key.name);
+      // What other keys must stand beside it.
+      std::string beside = "[" + std::string(table.name) + "]\n";
+      if (key.name == "environment_rotation") beside += "environment = \"a\"\n";
+      if (table.name == "sun" && key.name != "direction") beside += "direction = [0, 1, 0]\n";
+      const bool lens =
+          key.name == "projection" || key.name == "orthographic" || key.name.starts_with("fov_");
+      if (lens || key.name == "clip") beside += kView;
+      if (key.name == "view" || key.name == "clip") beside += "fov_x = 40\n";
+      const auto refused = [&](const std::string& value) {
+        ++values;
+        EXPECT_THAT(error_of([&] { scene_of(beside + std::string(key.name) + " = " + value); }),
+                    HasSubstr(": " + name))
+            << name << " = " << value;
+      };
+      refused("true");
+      refused(key.kind == FieldKind::kFile ? "\"\"" : "\"nonesuch\"");
+      if (key.kind == FieldKind::kReal) refused("nan");
+      if (key.kind == FieldKind::kReal && key.name != "far") refused("inf");
+      if (key.kind == FieldKind::kColor) refused("[1, 1, 1.001e9]");
+      if (key.kind == FieldKind::kDirection) refused("[0, 0, 0]");
+      if (key.kind == FieldKind::kMatrix) refused("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+      if (key.kind == FieldKind::kTable) refused("[[1, 2, 3, inf]]");
+    }
+  }
+  EXPECT_GT(values, 60);
+}
+
+TEST(SceneFile, TheExampleOfThePageIsRead) {
+  std::ifstream page(fs::path(LIMPID_DATA) / "../docs/scene_files.md");
+  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  const std::size_t begin = text.find("```toml\n"), end = text.find("\n```\n", begin);
+  ASSERT_LT(end, text.size());
+  const SceneFile file = scene_from_toml(text.substr(begin + 8, end - begin - 8), "page");
+  EXPECT_EQ(file.plates.at("depth"), "beauty.####.exr:ViewLayer.Depth.Z");
+  EXPECT_TRUE(file.camera && file.scene.sun);
+  EXPECT_TRUE(file.scene.has_waves());
 }
 
 TEST(CameraFor, RefusesPicturesWithoutShape) {

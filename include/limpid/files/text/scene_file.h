@@ -36,26 +36,8 @@ struct CameraSpec {
 /// device depth runs the other way than `clip` says.
 Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1);
 
-/// What a scene file (TOML) says:
-///
-///     [geometry] gltf: a scene to be rendered, relative to the scene file
-///     [plates]   a key a role of core/frame.h: "FILE" or "FILE:CHANNELS", relative to the scene
-///                file; environment: a picture of the surroundings (texture.h),
-///                environment_rotation: degrees from PlaneAxes::x to where its middle looks,
-///                counter-clockwise from above
-///     [camera]   view; projection, fov_x or fov_y (degrees) or orthographic (width); clip = gl,
-///                d3d, reversed; near, far; depth = eye, ray, inverse, normalised, device;
-///                depth_nothing: what depth planes hold where nothing was hit, if not a number that
-///                always means so (1e9 and above, inf, the far plane): 0, as a rule
-///     [water]    up, height, waves = [[amplitude, k_x, k_y, phase(, omega)], ...]
-///     [sun]      direction, color (0 ... 1e9), diameter (0.01 ... 90 degrees)
-///     [sky]      radiance (0 ... 1e9): of an even sky, which lights the water where there is no
-///                environment
-///     [scene]    time, in seconds: that of the picture, unless another one is asked for
-///
-/// Each table may be absent. Matrices are four rows, for column vectors; directions need not be
-/// unit. Without near and far a field of view gets 0.01 and infinity, an orthographic width 0 and
-/// 1e4: they matter for device depth only, which refuses to go without.
+/// What a scene file (TOML) says. The page docs/scene_files.md lists its tables and keys, which
+/// scene_keys.h has as data. Each table may be absent. Directions need not be unit.
 struct SceneFile {
   Scene scene;                       ///< water and sun; its camera comes from camera_for()
   std::optional<CameraSpec> camera;  ///< when there is a view

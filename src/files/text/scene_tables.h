@@ -1,0 +1,144 @@
+#pragma once
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include "limpid/core/field.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/optics/depth.h"
+
+/// @file
+/// The tables of scene files as data: what scene_file.cpp reads and writes, and scene_keys.cpp
+/// lists.
+
+namespace limpid {
+
+/// A table of the file, its keys the fields of P.
+template <class P>
+struct FieldTable {
+  std::string_view name, about;
+  std::span<const Field<P>> fields;
+  std::string_view required = {};  ///< a key that the table must have, or ""
+  std::string_view expected = {};  ///< that key in words
+};
+
+inline constexpr std::string_view kClips[] = {"gl", "d3d", "reversed"};
+inline constexpr std::string_view kDepths[] = {"eye", "ray", "inverse", "normalised", "device"};
+
+/// Tables that are members of no other struct, as they stand in the file; NaN for numbers that have
+/// no default.
+struct GeometryKeys {
+  std::filesystem::path gltf;
+};
+struct PlateKeys {
+  std::filesystem::path environment;
+  double environment_rotation = 0;
+};
+struct CameraKeys {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  glm::dmat4 view{1.0}, projection{1.0};
+  double fov_x = kNone, fov_y = kNone, orthographic = kNone;
+  ClipSpace clip = ClipSpace::kGl;
+  double near = kNone, far = kNone;
+  DepthKind depth = DepthKind::kEye;
+  double depth_nothing = kNone;
+};
+
+inline constexpr Field<GeometryKeys> kGeometryKeys[] = {
+    file<&GeometryKeys::gltf>("gltf", "The glTF 2.0 scene, .gltf or .glb."),
+};
+inline constexpr FieldTable<GeometryKeys> kGeometryTable{"geometry", "A scene to be rendered.",
+                                                         kGeometryKeys, "gltf", "gltf = FILE"};
+
+inline constexpr Field<PlateKeys> kPlateKeys[] = {
+    file<&PlateKeys::environment>("environment",
+                                  "A picture of the surroundings, lat-long or cube."),
+    real<&PlateKeys::environment_rotation>(
+        "environment_rotation", "degrees", kFinite,
+        "From the water plane's x axis to where the middle of the environment looks, "
+        "counter-clockwise from above."),
+};
+inline constexpr FieldTable<PlateKeys> kPlatesTable{
+    "plates",
+    "The buffers of a rendered frame, each FILE or FILE:CHANNELS, and a picture of its "
+    "surroundings.",
+    kPlateKeys};
+/// The roles of frames are keys of [plates], too.
+constexpr FieldInfo role_field(const Role& role) {
+  return {role.name, "", FieldKind::kFile, {}, {}, {}, 0, role.about};
+}
+
+inline constexpr Field<CameraKeys> kCameraKeys[] = {
+    matrix<&CameraKeys::view>("view",
+                              "From the world to the eye, which looks down -Z with +Y up; rigid."),
+    matrix<&CameraKeys::projection>("projection", "From the eye to clip space."),
+    real<&CameraKeys::fov_x>("fov_x", "degrees", kFinite,
+                             "Horizontal field of view, above 0 and below 180."),
+    real<&CameraKeys::fov_y>("fov_y", "degrees", kFinite,
+                             "Vertical field of view, above 0 and below 180."),
+    real<&CameraKeys::orthographic>("orthographic", "scene units", kFinite,
+                                    "Width of what a camera without perspective sees."),
+    choice<&CameraKeys::clip, kClips>("clip",
+                                      "Device depth from near to far: -1 to 1, 0 to 1 or 1 to 0."),
+    real<&CameraKeys::near>("near", "scene units", kFinite,
+                            "Near plane; without it 0.01 with a field of view, 0 with an "
+                            "orthographic width. Only device depth reads it, and normalised depth: "
+                            "they refuse to go without."),
+    real<&CameraKeys::far>(
+        "far", "scene units", {kFinite.min, std::numeric_limits<double>::infinity()},
+        "Far plane, beyond near; without it inf with a field of view, near + 1e4 "
+        "with an orthographic width."),
+    choice<&CameraKeys::depth, kDepths>(
+        "depth",
+        "What depth planes hold: the distance along the axis of view, along the ray, its inverse, "
+        "from near to far as 0 to 1, or device depth."),
+    real<&CameraKeys::depth_nothing>(
+        "depth_nothing", "", kFinite,
+        "What depth planes hold where nothing was hit, if not a number that always means so (1e9 "
+        "and above, inf, the far plane): 0, as a rule."),
+};
+inline constexpr FieldTable<CameraKeys> kCameraTable{
+    "camera",
+    "Where the frame was seen from: a view, and one of projection, fov_x, fov_y and "
+    "orthographic; and what its depth planes hold.",
+    kCameraKeys};
+
+inline constexpr Field<WaterPlane> kWaterKeys[] = {
+    direction<&WaterPlane::up>("up", "Normal of the water plane, of any length."),
+    real<&WaterPlane::height>("height", "scene units", kFinite,
+                              "Of the plane along up, from the origin."),
+    table<&WaterPlane::waves>(
+        "waves", "", kFinite,
+        "Sine waves of the surface, 1024 at most: amplitude in scene units, wave "
+        "vector in rad / scene unit, phase in rad, omega in rad / s; without "
+        "omega a wave has that of deep water."),
+};
+inline constexpr FieldTable<WaterPlane> kWaterTable{
+    "water", "The plane of the water, and waves that raise it.", kWaterKeys};
+
+inline constexpr Field<Sun> kSunKeys[] = {
+    direction<&Sun::direction>("direction", "Towards the sun, of any length."),
+    color<&Sun::color>("color", "", {0, Sun::kBrightest},
+                       "Red, green and blue: scales its radiance."),
+    real<&Sun::diameter>("diameter", "degrees", {Sun::kNarrowest, Sun::kWidest}, "Of its disc."),
+};
+inline constexpr FieldTable<Sun> kSunTable{"sun", "The light of the sun.", kSunKeys, "direction",
+                                           "a direction towards the sun"};
+
+inline constexpr Field<SkyLight> kSkyKeys[] = {
+    color<&SkyLight::radiance>("radiance", "", {0, Sun::kBrightest},
+                               "Red, green and blue, the same from everywhere."),
+};
+inline constexpr FieldTable<SkyLight> kSkyTable{
+    "sky", "An even sky, which lights the water where there is no environment.", kSkyKeys,
+    "radiance", "its radiance, three numbers"};
+
+inline constexpr Field<Scene> kSceneKeys[] = {
+    real<&Scene::time>("time", "s", kFinite,
+                       "Of the picture, unless another one is asked for; it moves the waves."),
+};
+inline constexpr FieldTable<Scene> kSceneTable{"scene", "What holds for all of it.", kSceneKeys};
+
+}  // namespace limpid
