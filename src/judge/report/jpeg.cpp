@@ -43,6 +43,4 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-std::string data_uri(const std::string& jpeg) { return "data:image/jpeg;base64," + base64(jpeg); }
-
 }  // namespace limpid

@@ -10,9 +10,6 @@ namespace limpid {
 /// display already (clamped; NaN becomes 0). The planes must have one window.
 std::string jpeg_of(const std::array<View<const float>, 3>& rgb, int quality = 88);
 
-/// Those bytes as a data: URI.
-std::string data_uri(const std::string& jpeg);
-
 /// RFC 4648, with padding.
 std::string base64(const std::string& bytes);
 

@@ -5,7 +5,7 @@
 #include "judge/compare/heat_map.h"
 #include "judge/report/jpeg.h"
 #include "judge/report/lagoon.h"
-#include "judge/report/markup.h"
+#include "judge/report/numbers.h"
 
 namespace limpid {
 namespace {
@@ -54,7 +54,7 @@ Figure heat_figure_of(std::string name, std::string caption,
                       const std::array<View<const float>, 3>& picture,
                       const std::array<View<const float>, 3>& judge) {
   return encoded(std::move(name), std::move(caption),
-                 heat_map(channels_of(picture, judge), {.maximum = 1, .decades = 3}));
+                 heat_map(channels_of(picture, judge), {.maximum = 1, .decades = kHeatDecades}));
 }
 
 }  // namespace limpid

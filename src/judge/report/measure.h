@@ -42,7 +42,7 @@ std::string costs_text(double ns_per_pixel, const PixelError& error);
 
 Figure figure_of(std::string name, std::string caption,
                  const std::array<View<const float>, 3>& linear);
-/// On the scale that the page shows: logarithmic, 10^-3 ... 1.
+/// On the scale that the page shows: logarithmic, kHeatDecades.
 Figure heat_figure_of(std::string name, std::string caption,
                       const std::array<View<const float>, 3>& picture,
                       const std::array<View<const float>, 3>& judge);

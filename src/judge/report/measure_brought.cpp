@@ -11,9 +11,9 @@
 #include "judge/report/brought.h"
 #include "judge/report/finer_water.h"
 #include "judge/report/lagoon.h"
-#include "judge/report/markup.h"
 #include "judge/report/measure.h"
 #include "judge/report/rounds.h"
+#include "judge/report/numbers.h"
 #include "judge/trace/truth.h"
 
 namespace limpid {

@@ -3,9 +3,9 @@
 #include "limpid/plan/survey.h"
 #include "limpid/run/fused.h"
 
-#include "judge/report/markup.h"
 #include "judge/report/measure.h"
 #include "judge/report/rounds.h"
+#include "judge/report/numbers.h"
 
 namespace limpid {
 namespace {

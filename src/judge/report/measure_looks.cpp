@@ -4,7 +4,6 @@
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
-#include "judge/report/markup.h"
 #include "judge/report/measure.h"
 #include "judge/report/rounds.h"
 

@@ -5,9 +5,9 @@
 
 #include "judge/report/choices.h"
 #include "judge/report/lagoon.h"
-#include "judge/report/markup.h"
 #include "judge/report/measure.h"
 #include "judge/report/rounds.h"
+#include "judge/report/numbers.h"
 
 namespace limpid {
 namespace {

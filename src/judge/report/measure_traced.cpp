@@ -12,9 +12,9 @@
 #include "judge/compare/temporal.h"
 #include "judge/report/choices.h"
 #include "judge/report/lagoon.h"
-#include "judge/report/markup.h"
 #include "judge/report/measure.h"
 #include "judge/report/rounds.h"
+#include "judge/report/numbers.h"
 #include "judge/trace/truth.h"
 
 namespace limpid {

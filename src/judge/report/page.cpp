@@ -1,54 +1,59 @@
 #include "judge/report/page.h"
 
-#include "judge/report/html_parts.h"
-#include "judge/report/markup.h"
-#include "judge/report/page_sections.h"
-#include "judge/report/page_style.h"
+#include <nlohmann/json.hpp>
+
+#include "judge/report/jpeg.h"
+#include "judge/report/report_json.h"
 
 namespace limpid {
 namespace {
 
-struct Link {
-  const char *id, *name;
-};
-constexpr Link kLinks[] = {
-    {"subjects", "Plates and scenes"},
-    {"runners", "Runners"},
-    {"looks", "Looks"},
-    {"truth", "Truth"},
-    {"traced", "Traced light"},
-    {"brought", "Buffers"},
-    {"choices", "Choices"},
-    {"budgets", "Error budgets"},
-    {"method", "Method"},
-    {"machine", "Machine"},
-};
+#include "judge/report/pages.inc"  // kReportPage and kHardPage, made by the build of the folder page
 
-std::string navigation(const std::string& body) {
-  std::string html = "<nav aria-label=\"sections\">";
-  for (const Link& link : kLinks) {
-    if (body.find("<section id=\"" + std::string(link.id) + "\"") == std::string::npos) continue;
-    html += "<a href=\"#" + std::string(link.id) + "\">" + link.name + "</a>";
+/// JSON that cannot end its <script>, and is XML, too.
+std::string without_markup(std::string_view json) {
+  std::string text;
+  for (char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else if (c == '>') {
+      text += "\\u003e";
+    } else if (c == '&') {
+      text += "\\u0026";
+    } else {
+      text += c;
+    }
   }
-  return html + "</nav>\n";
+  return text;
+}
+
+void put_in(std::string& page, const std::string& id, std::string_view json) {
+  const std::string place = "<script type=\"application/json\" id=\"" + id + "\">";
+  page.insert(page.find(place) + place.size(), without_markup(json));
+}
+
+std::string pictures(const Report& report) {
+  nlohmann::json groups;
+  for (const FigureGroup& group : kFigureGroups) {
+    nlohmann::json& files = groups[group.name] = nlohmann::json::array();
+    for (const Figure& figure : report.*group.figures) files.push_back(base64(figure.jpeg));
+  }
+  return groups.dump();
 }
 
 }  // namespace
 
 std::string to_html(const Report& report) {
-  const std::string body = subjects_section(report) + runners_section(report) +
-                           looks_section(report) + truth_section(report) + traced_section(report) +
-                           brought_section(report) + choices_section(report) +
-                           budgets_section(report) + method_section(report) + facts_section(report);
-  return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n") +
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
-         "<title>limpid report</title>\n<style>" + kPageStyle + "</style>\n</head>\n<body>\n" +
-         "<header>\n<h1>limpid: speed and error</h1>\n<p class=\"sub\">" + escaped(report.made) +
-         ", limpid " + escaped(report.build.version) + ", " + escaped(report.machine.processor) +
-         ", " + std::to_string(report.machine.cores) + " cores</p>\n" + summary(report) +
-         navigation(body) + "</header>\n<main>\n" + body +
-         "</main>\n<footer>Made by limpid report.</footer>\n<script>" + kPageScript +
-         "</script>\n</body>\n</html>\n";
+  std::string page(kReportPage);
+  put_in(page, "pictures", pictures(report));
+  put_in(page, "report", to_json(report));
+  return page;
+}
+
+std::string to_hard_html(std::string_view json) {
+  std::string page(kHardPage);
+  put_in(page, "report", json);
+  return page;
 }
 
 }  // namespace limpid

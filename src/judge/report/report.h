@@ -167,6 +167,20 @@ struct Report {
       model_figures, model_errors, brought_figures;
 };
 
+/// The lists of figures, and what report.json and the page call them.
+struct FigureGroup {
+  const char* name;
+  std::vector<Figure> Report::*figures;
+};
+inline constexpr FigureGroup kFigureGroups[] = {
+    {"subjects", &Report::subject_figures},   {"looks", &Report::look_figures},
+    {"look_errors", &Report::look_errors},    {"truth", &Report::truth_figures},
+    {"truth_errors", &Report::truth_errors},  {"traced", &Report::model_figures},
+    {"traced_errors", &Report::model_errors}, {"brought", &Report::brought_figures},
+};
+/// Heat maps among them are logarithmic, from 10^-kHeatDecades to 1.
+inline constexpr int kHeatDecades = 3;
+
 /// Measures. Throws Error for a folder that lacks what is to be measured, and for options that mean
 /// nothing.
 Report measure_report(const ReportOptions& options);

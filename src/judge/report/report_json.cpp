@@ -1,6 +1,11 @@
 #include "judge/report/report_json.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
+
+#include "judge/compare/heat_map.h"
+#include "judge/report/pareto.h"
 
 namespace limpid {
 namespace {
@@ -106,11 +111,61 @@ Json json_of(const BudgetRow& row) {
           {"full_share", row.full_share}};
 }
 
+Json json_of(const Figure& f) {
+  return {
+      {"name", f.name}, {"caption", f.caption}, {"width", f.size.width}, {"height", f.size.height}};
+}
+
 template <class Row>
 Json rows(const std::vector<Row>& list) {
   Json array = Json::array();
   for (const Row& row : list) array.push_back(json_of(row));
   return array;
+}
+
+/// Sets in each row under this key whether it is on the Pareto front; one without a time is not.
+template <class Row>
+void mark_front(Json& array, const char* key, const std::vector<Row>& list,
+                double (*error)(const Row&)) {
+  std::vector<Costs> costs;
+  for (const Row& row : list) {
+    costs.push_back({row.ns_per_pixel > 0 ? row.ns_per_pixel : HUGE_VAL, error(row)});
+  }
+  for (Json& row : array) row[key] = false;
+  for (const std::size_t i : pareto_front(costs)) array[i][key] = true;
+}
+
+Json truth_rows(const std::vector<TruthRow>& list) {
+  Json array = rows(list);
+  mark_front<TruthRow>(array, "on_front_wet", list, [](const TruthRow& row) { return row.wet; });
+  mark_front<TruthRow>(array, "on_front_in_frame", list,
+                       [](const TruthRow& row) { return row.in_frame; });
+  return array;
+}
+
+Json choice_rows(const std::vector<ChoiceRow>& list) {
+  Json array = rows(list);
+  mark_front<ChoiceRow>(array, "on_front", list,
+                        [](const ChoiceRow& row) { return row.error.mean; });
+  return array;
+}
+
+/// What the colors of heat maps mean: from 10^-decades to 1, evenly spaced, of 255.
+Json heat_scale() {
+  constexpr int kSteps = 8;
+  Json colors = Json::array();
+  for (int i = 0; i <= kSteps; ++i) {
+    Json rgb = Json::array();
+    for (const float c : heat_color(i / double{kSteps})) rgb.push_back(std::lround(255 * c));
+    colors.push_back(rgb);
+  }
+  return {{"decades", kHeatDecades}, {"colors", colors}};
+}
+
+Json figures(const Report& report) {
+  Json groups;
+  for (const FigureGroup& group : kFigureGroups) groups[group.name] = rows(report.*group.figures);
+  return groups;
 }
 
 }  // namespace
@@ -135,15 +190,17 @@ std::string to_json(const Report& report) {
                    {{"width", report.truth_size.width},
                     {"height", report.truth_size.height},
                     {"in_frame_share", report.truth_in_frame_share},
-                    {"rows", rows(report.truth)}}},
+                    {"rows", truth_rows(report.truth)}}},
                   {"models_beside_traced_light", rows(report.models)},
                   {"looks_by_what_is_brought",
                    {{"samples_a_pixel", kBroughtSamples * kBroughtSamples},
                     {"subjects", rows(report.brought_subjects)},
                     {"rows", rows(report.brought)}}},
                   {"choices_of_physical",
-                   {{"subject", report.choices_subject}, {"rows", rows(report.choices)}}},
-                  {"error_budgets", rows(report.budgets)}};
+                   {{"subject", report.choices_subject}, {"rows", choice_rows(report.choices)}}},
+                  {"error_budgets", rows(report.budgets)},
+                  {"figures", figures(report)},
+                  {"heat_scale", heat_scale()}};
   // Text from files may be no UTF-8.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

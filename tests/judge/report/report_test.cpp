@@ -11,12 +11,12 @@
 
 #include "limpid/core/error.h"
 
-#include "judge/report/html_parts.h"
 #include "judge/report/jpeg.h"
 #include "judge/report/made_report.h"
 #include "judge/report/page.h"
 #include "judge/report/report_json.h"
 #include "judge/report/rounds.h"
+#include "judge/report/numbers.h"
 
 namespace limpid {
 namespace {
@@ -24,8 +24,6 @@ namespace {
 using nlohmann::json;
 using test::made_report;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 namespace fs = std::filesystem;
 
@@ -41,12 +39,6 @@ std::string text_of(const fs::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
-}
-
-int count(const std::string& text, const std::string& part) {
-  int n = 0;
-  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
-  return n;
 }
 
 // ---- rows as JSON
@@ -91,9 +83,35 @@ TEST(ReportJson, HoldsEveryRow) {
   ASSERT_EQ(choices.size(), 2);
   EXPECT_TRUE(choices[0]["parameter"].is_null());
   EXPECT_EQ(choices[1]["value"], "0");
+  EXPECT_EQ(j["figures"]["subjects"],
+            json({{{"name", "pond"}, {"caption", "a caption"}, {"width", 64}, {"height", 36}}}));
+  EXPECT_EQ(j["figures"].size(), 8);
+  EXPECT_EQ(j["figures"]["brought"], json::array());
+  EXPECT_EQ(j["heat_scale"]["decades"], 3);
+  ASSERT_EQ(j["heat_scale"]["colors"].size(), 9);
+  EXPECT_EQ(j["heat_scale"]["colors"][0], json({68, 1, 84}));  // viridis
+  EXPECT_EQ(j["heat_scale"]["colors"][8], json({253, 231, 37}));
   ASSERT_EQ(j["error_budgets"].size(), 2);
   EXPECT_EQ(j["error_budgets"][1]["max_error"], 0.01);
   EXPECT_EQ(j["error_budgets"][1]["bound"], 0.0099);
+}
+
+TEST(ReportJson, SaysWhatIsOnTheFront) {
+  Report report = made_report();
+  report.truth.push_back({"slow and exact in frame", 200, 0.5, 0.001});
+  report.choices.push_back({"refraction.steps", "9", 120, {0.001, 0.1, 0.2, 0.3}});
+  report.choices.push_back({"refraction.steps", "8", 10, {HUGE_VAL, 0.1, 0.2, 0.3}});
+  const json j = json::parse(to_json(report));
+  const auto told = [](const json& rows, const char* key) {
+    std::vector<bool> on;
+    for (const json& row : rows) on.push_back(row[key]);
+    return on;
+  };
+  const json truth = j["refraction_beside_truth"]["rows"];
+  EXPECT_THAT(told(truth, "on_front_wet"), ElementsAre(false, true, true, false));
+  EXPECT_THAT(told(truth, "on_front_in_frame"), ElementsAre(false, true, true, true));
+  EXPECT_THAT(told(j["choices_of_physical"]["rows"], "on_front"),
+              ElementsAre(true, true, false, false));
 }
 
 TEST(ReportJson, InfinityIsNullAndNamesAreEscaped) {
@@ -104,75 +122,27 @@ TEST(ReportJson, InfinityIsNullAndNamesAreEscaped) {
   EXPECT_EQ(j["subjects"][0]["name"], "a \"pond\"\xef\xbf\xbd");
 }
 
-// ---- the page
+// ---- numbers to read
 
-TEST(ReportPage, NamesNothingOutsideItself) {
-  const std::string html = to_html(made_report());
-  EXPECT_THAT(html, Not(HasSubstr("http")));
-  EXPECT_THAT(html, Not(HasSubstr("@import")));
-  EXPECT_THAT(html, Not(HasSubstr("<link")));
-  EXPECT_EQ(count(html, "src="), count(html, "src=\"data:image/jpeg;base64,"));
-  EXPECT_EQ(count(html, "href="), count(html, "href=\"#"));
-  EXPECT_EQ(count(html, "url("), count(html, "url(#"));
-  for (const char* id : {"subjects", "runners", "looks", "truth", "brought", "choices", "budgets",
-                         "method", "machine"}) {
-    EXPECT_THAT(html, HasSubstr("<section id=\"" + std::string(id) + "\">"));
-    EXPECT_THAT(html, HasSubstr("href=\"#" + std::string(id) + "\""));
-  }
-  EXPECT_EQ(count(html, "<svg class=\"plot\""), 8);
+TEST(ShortNumber, HasThreeDigits) {
+  EXPECT_EQ(short_number(0), "0");
+  EXPECT_EQ(short_number(1), "1.00");
+  EXPECT_EQ(short_number(27.154), "27.2");
+  EXPECT_EQ(short_number(0.031049), "0.0310");
+  EXPECT_EQ(short_number(0.00099999), "0.00100");
+  EXPECT_EQ(short_number(999.6), "1000");
+  EXPECT_EQ(short_number(12345), "12345");
+  EXPECT_EQ(short_number(123456), "1.23·10⁵");
+  EXPECT_EQ(short_number(5.864e-7), "5.86·10⁻⁷");
+  EXPECT_EQ(short_number(-3.2e-12), "-3.20·10⁻¹²");
+  EXPECT_EQ(short_number(std::numeric_limits<double>::infinity()), "∞");
+  EXPECT_EQ(short_number(std::nan("")), "-");
 }
 
-TEST(ReportPage, NamesAreTextAndNotMarkup) {
-  const std::string html = to_html(made_report("<b>&\"'"));
-  EXPECT_THAT(html, HasSubstr("&lt;b&gt;&amp;&quot;&#39;"));
-  EXPECT_THAT(html, Not(HasSubstr("<b>&")));
-  EXPECT_THAT(html, HasSubstr("an &lt;abacus&gt;"));
-}
-
-TEST(ReportPage, WhatWasNotMeasuredHasNoSection) {
-  Report report = made_report();
-  report.truth.clear();
-  report.choices.clear();
-  report.brought.clear();
-  const std::string html = to_html(report);
-  EXPECT_THAT(html, Not(HasSubstr("id=\"truth\"")));
-  EXPECT_THAT(html, Not(HasSubstr("href=\"#truth\"")));
-  EXPECT_THAT(html, Not(HasSubstr("id=\"choices\"")));
-  EXPECT_THAT(html, Not(HasSubstr("id=\"brought\"")));
-}
-
-TEST(ReportPage, EachRowHasABufferMore) {
-  const std::string html = to_html(made_report());
-  const std::string rows = html.substr(html.find("<section id=\"brought\">"));
-  EXPECT_THAT(rows, HasSubstr("<td class=\"wrap\">color, depth</td>"));
-  EXPECT_THAT(rows, HasSubstr("<td class=\"wrap\">and shadow</td>"));
-  EXPECT_EQ(count(rows, "<td class=\"wrap\">and "), 4);    // of two looks
-  EXPECT_THAT(rows, HasSubstr("<td class=\"n\">-</td>"));  // no pixel is far
-}
-
-TEST(ReportPage, BudgetsThatChangeNothingAreSaidAndNotDrawn) {
-  Report report = made_report();
-  report.budgets[1].error = {};
-  const std::string html = to_html(report);
-  EXPECT_EQ(count(html, "<svg class=\"plot\""), 7);
-  EXPECT_THAT(html, HasSubstr("physical: no error that was allowed changed a pixel."));
-}
-
-TEST(ReportPage, AnInfiniteErrorStandsInTheTableAlone) {
-  Report report = made_report();
-  report.choices[1].error.mean = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(to_html(report), HasSubstr(">∞</td>"));
-}
-
-TEST(HtmlTable, SortsByNumbersAndMarksRows) {
-  HtmlTable table("a & b", {{"name", "", false}, {"time", "ns"}});
-  table.add({"x", Cell(0.25)}, true);
-  table.add({"y", percent(0.125, 1)});
-  const std::string html = table.html();
-  EXPECT_THAT(html, HasSubstr("<caption>a &amp; b</caption>"));
-  EXPECT_THAT(html, HasSubstr("<tr class=\"marked\"><td>x</td><td class=\"n\" "
-                              "data-v=\"0.25\">0.250</td></tr>"));
-  EXPECT_THAT(html, HasSubstr("data-v=\"0.125\">12.5 %</td>"));
+TEST(PlainNumber, HasTheDigitsItTakes) {
+  EXPECT_EQ(plain_number(0), "0");
+  EXPECT_EQ(plain_number(0.0005), "0.0005");
+  EXPECT_EQ(plain_number(2), "2");
 }
 
 // ---- pictures
