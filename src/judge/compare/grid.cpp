@@ -1,17 +1,37 @@
 #include "judge/compare/grid.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include <opencv2/imgproc.hpp>
 
 namespace limpid {
 namespace {
 
 template <class T>
+void add_scaled(const T* values, T by, T* sum, int count) {
+  for (int i = 0; i < count; ++i) sum[i] += by * values[i];
+}
+
+template <class T>
 Grid<T> filter(const Grid<T>& grid, const Kernel& across, const Kernel& down) {
-  const std::vector<T> x(across.begin(), across.end()), y(down.begin(), down.end());
-  Grid<T> result(grid.size());
-  cv::sepFilter2D(grid.mat(), result.mat(), -1, x, y, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  const auto [width, height] = grid.size();
+  const int left = static_cast<int>(across.size() / 2), above = static_cast<int>(down.size() / 2);
+  Grid<T> rows(grid.size()), result(grid.size());
+  if (grid.count() == 0) return result;
+  std::vector<T> row(width + across.size());  // with its ends repeated beyond them
+  for (int y = 0; y < height; ++y) {
+    for (std::size_t x = 0; x < row.size(); ++x) {
+      row[x] = grid.row(y)[std::clamp(static_cast<int>(x) - left, 0, width - 1)];
+    }
+    for (std::size_t k = 0; k < across.size(); ++k) {
+      add_scaled(row.data() + k, static_cast<T>(across[k]), rows.row(y), width);
+    }
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int k = 0; k < static_cast<int>(down.size()); ++k) {
+      add_scaled(rows.row(std::clamp(y + k - above, 0, height - 1)), static_cast<T>(down[k]),
+                 result.row(y), width);
+    }
+  }
   return result;
 }
 

@@ -2,13 +2,11 @@
 #include <cstddef>
 #include <vector>
 
-#include <opencv2/core/mat.hpp>
-
 #include "limpid/core/rect.h"
 
 namespace limpid {
 
-/// A plane of numbers in rows without gaps: memory of our own, so that OpenCV only filters it.
+/// A plane of numbers in rows without gaps.
 template <class T>
 class Grid {
  public:
@@ -20,9 +18,8 @@ class Grid {
   T& operator[](std::size_t i) { return values_[i]; }
   const T& operator[](std::size_t i) const { return values_[i]; }
 
-  cv::Mat mat() { return {size_.height, size_.width, cv::DataType<T>::type, values_.data()}; }
-  /// For reading only: OpenCV knows no matrix of constants.
-  cv::Mat mat() const { return const_cast<Grid*>(this)->mat(); }
+  T* row(int y) { return values_.data() + static_cast<std::size_t>(y) * size_.width; }
+  const T* row(int y) const { return values_.data() + static_cast<std::size_t>(y) * size_.width; }
 
  private:
   Size size_;

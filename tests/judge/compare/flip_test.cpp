@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <opencv2/core/utility.hpp>
 
 #include "limpid/core/error.h"
 
@@ -125,18 +124,6 @@ TEST(Flip, NumbersThatAreNoneAreTheWorstThereIs) {
   }
   EXPECT_EQ(flip({same.views(), too.views()}).max, 0);
   EXPECT_EQ(hdr_flip({same.views(), too.views()}).max, 0);
-}
-
-TEST(Flip, SameBitsWhateverOpenCvsThreads) {
-  const MetricsFixture fixture;
-  const int threads = cv::getNumThreads();
-  cv::setNumThreads(1);
-  const ErrorMap one = hdr_flip(fixture.pictures());
-  cv::setNumThreads(2);
-  const ErrorMap many = hdr_flip(fixture.pictures());
-  cv::setNumThreads(threads);
-  EXPECT_EQ(largest_difference(one.map.view(), many.map.view()), 0);
-  EXPECT_EQ(one.mean, many.mean);
 }
 
 TEST(Flip, TakesPicturesOfOnePixel) {
