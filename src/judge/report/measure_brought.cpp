@@ -12,8 +12,8 @@
 #include "judge/report/finer_water.h"
 #include "judge/report/lagoon.h"
 #include "judge/report/measure.h"
-#include "judge/report/rounds.h"
 #include "judge/report/numbers.h"
+#include "judge/report/rounds.h"
 #include "judge/trace/truth.h"
 
 namespace limpid {

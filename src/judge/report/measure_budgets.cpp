@@ -4,8 +4,8 @@
 #include "limpid/run/fused.h"
 
 #include "judge/report/measure.h"
-#include "judge/report/rounds.h"
 #include "judge/report/numbers.h"
+#include "judge/report/rounds.h"
 
 namespace limpid {
 namespace {

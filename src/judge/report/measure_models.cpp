@@ -6,8 +6,8 @@
 #include "judge/report/choices.h"
 #include "judge/report/lagoon.h"
 #include "judge/report/measure.h"
-#include "judge/report/rounds.h"
 #include "judge/report/numbers.h"
+#include "judge/report/rounds.h"
 
 namespace limpid {
 namespace {

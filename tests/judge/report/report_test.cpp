@@ -13,10 +13,10 @@
 
 #include "judge/report/jpeg.h"
 #include "judge/report/made_report.h"
+#include "judge/report/numbers.h"
 #include "judge/report/page.h"
 #include "judge/report/report_json.h"
 #include "judge/report/rounds.h"
-#include "judge/report/numbers.h"
 
 namespace limpid {
 namespace {
