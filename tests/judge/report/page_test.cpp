@@ -55,7 +55,7 @@ TEST(PageTable, ShowsNumbersMarksRowsAndSorts) {
     document.body.append(made);
     const names = () => Array.from(made.querySelectorAll("tbody tr")).map((r) => r.firstChild.textContent).join("");
     const html = made.innerHTML, orders = [];
-    for (const i of [1, 1, 0]) {
+    for (const i of [1, 1, 0, 0]) {
       made.querySelectorAll("button")[i].click();
       orders.push(names());
     }
@@ -70,9 +70,11 @@ TEST(PageTable, ShowsNumbersMarksRowsAndSorts) {
                               "0.250</td><td class=\"wrap\">&lt;i&gt;</td></tr>"));
   EXPECT_THAT(html, HasSubstr("<tr class=\"first\"><td>z</td><td class=\"n\">-</td>"));
   EXPECT_THAT(html, HasSubstr("data-v=\"0.125\">12.5 %</td>"));
-  EXPECT_EQ(seen["orders"][0].get<std::string>().find("yx"), 1);  // '-' before all numbers
+  EXPECT_EQ(seen["orders"][0], "zyx");  // '-' before all numbers
+  EXPECT_EQ(seen["orders"][1], "xyz");
   EXPECT_EQ(seen["orders"][2], "xyz");
-  EXPECT_EQ(seen["sorted"], "ascending");
+  EXPECT_EQ(seen["orders"][3], "zyx");
+  EXPECT_EQ(seen["sorted"], "descending");
   EXPECT_EQ(seen["apart"], 0);
 }
 
@@ -171,8 +173,8 @@ TEST(PagePlot, BeatenPointsAreHollow) {
   EXPECT_EQ(
       plotted("plot.points.push({time: 150, error: 0.2, series: 'a', label: 'worse', about: '',"
               " onFront: false})",
-              {".m.s0.on", ".m.s0:not(.on)"}),
-      json({2, 1}));
+              {".m.s0.on", ".m.s0:not(.on)", "=worse"}),
+      json({2, 1, 1}));
 }
 
 TEST(PagePlot, SeveralSeriesHaveALegendAndMayBeConnected) {
@@ -242,7 +244,7 @@ TEST(ReportPage, NamesNothingOutsideItself) {
 }
 
 TEST(ReportPage, NamesAreTextAndNotMarkup) {
-  const std::string name = "</script><b id='x'>&\"']]>", page = to_html(made_report(name));
+  const std::string name = "</script ><b id='x'>&\"']]>", page = to_html(made_report(name));
   EXPECT_THAT(page, Not(HasSubstr(name)));
   const json seen = asked(page,
                           "[report.subjects[0].name, document.getElementById('x'),"
