@@ -18,7 +18,7 @@
  * them may be 0. What later versions append is taken for 0 where an older caller does not have it;
  * a size that this library does not know is refused. Values of enums and limpid_channel never
  * change. A compositor is for one thread at a time; several may work at once. Files of looks are
- * read by limpid/load/look_file.h, in C++.
+ * read by limpid/files/text/look_file.h, in C++.
  */
 
 #include <stddef.h>

@@ -38,6 +38,7 @@ P read_table(const TomlNode& table, const FieldTable<P>& keys) {
   return params;
 }
 
+static_assert(kMaxWaves == 1024, "scene_tables.h says the number");
 void expect_few_waves(const WaterPlane& water) {
   if (water.waves.size() <= kMaxWaves) return;
   throw Error("water.waves: " + std::to_string(water.waves.size()) + " waves: expected at most " +

@@ -139,6 +139,7 @@ inline constexpr Field<Scene> kSceneKeys[] = {
     real<&Scene::time>("time", "s", kFinite,
                        "Of the picture, unless another one is asked for; it moves the waves."),
 };
-inline constexpr FieldTable<Scene> kSceneTable{"scene", "What holds for all of it.", kSceneKeys};
+inline constexpr FieldTable<Scene> kSceneTable{"scene", "What holds for the whole scene.",
+                                               kSceneKeys};
 
 }  // namespace limpid
