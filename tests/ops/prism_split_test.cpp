@@ -1,5 +1,6 @@
 #include "limpid/ops/prism_split.h"
 
+#include "ops/probe_strip.h"
 #include "ops/tray.h"
 
 namespace limpid {
@@ -41,6 +42,18 @@ TEST(PrismSplit, CalmWaterDoesNotSplit) {
   Tray tray = counting_tray();
   tray.buffers.normal({0, 1, 0});
   test::expect_rgb(rgb_of(tray.wet(), Aov::kTransmitted, 10, 20), {20010, 20010, 20010}, 0);
+}
+
+// The planner looks as far for what stands before the water: tilts are below 1.
+TEST(PrismSplit, ReachesAsFarAsTheSteepestTilt) {
+  const PrismSplit::Params params{PrismSplit::Model::kAxis, 0.25, 0};
+  test::ProbeStrip strip;
+  strip.pixels.push_back(test::random_pixel(1, {}));
+  strip.pixels[0].tilt = {1, 1};
+  const test::Buffers buffers = test::noisy_frame(rect_of({4, 3}));
+  PrismSplit::apply(params, Pass(test::simple_scene({4, 3}), buffers.frame, 1.333, {}), strip);
+  EXPECT_NEAR(strip.pixels[0].prism_r.x, PrismSplit::reach(params), 1e-12);
+  EXPECT_NEAR(strip.pixels[0].prism_b.y, PrismSplit::reach(params), 1e-12);
 }
 
 TEST(PrismSplit, ReflectionIsNotSplit) {

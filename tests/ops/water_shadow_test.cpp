@@ -56,6 +56,21 @@ TEST(WaterShadow, IsLookedUpWhereTheRefractedRayEnds) {
   EXPECT_NEAR(got.color(4, 1).r, 0.5, 1e-5);
 }
 
+// The planner counts on it where refraction is left out: the bound is met by the two shadows that
+// differ most.
+TEST(WaterShadow, IsDisplacedByNoMoreThanItsRangeAndByAllOfIt) {
+  Tray tray = half_shaded();
+  const auto with_shadow = [&](float shadow) {
+    tray.buffers.fill(PlaneId::kShadow, shadow);
+    return tray.wet().color(2, 1).r;
+  };
+  Ranges ranges;
+  ranges.shadow = {0.2, 0.9};
+  ranges.light = 0.5;  // the picture of half_shaded()
+  const double bound = WaterShadow::displaced(tray.look.of<WaterShadow>(), ranges);
+  EXPECT_NEAR(with_shadow(0.9f) - with_shadow(0.2f), bound, 1e-6);
+}
+
 TEST(WaterShadow, LeavesTheReflectionAlone) {
   Tray tray = half_shaded();
   for (int c = 0; c < 3; ++c) tray.buffers.fill(plane_after(PlaneId::kReflectionR, c), 1);
