@@ -11,6 +11,7 @@
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"
 #include "job/shared_textures.h"
+#include "plan/pass_of.h"
 
 namespace limpid {
 namespace {
@@ -205,10 +206,10 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   LoadedPlate loaded = prepared.plate.read(plan.planes - kUnsurveyed, scene, prepared.depth);
   loaded.frame.overscan = job.output.overscan;
   loaded.frame.validate();
-  const Pass pass(scene, loaded.frame, plan.look.water.ior, plan.made, plan.swell());
+  const Pass pass = pass_of(plan, scene, loaded.frame);
   Completer completer;
   const Frame frame = completer.complete(plan, loaded.frame, pass, executor, &job.output.simd);
-  const Pass whole(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Pass whole = pass_of(plan, scene, frame);
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
   surveyed.warnings = warnings_of(job, prepared.plate, plan);
   warn_of_picture(plan, frame, scene, surveyed.warnings);

@@ -11,6 +11,8 @@
 #include "limpid/core/toml_text.h"
 #include "limpid/op/raised_water.h"
 
+#include "plan/pass_of.h"
+
 namespace limpid {
 namespace {
 
@@ -189,7 +191,7 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
 
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings) {
-  const Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Pass pass = pass_of(plan, scene, frame);
   // What is to be said of the rest would be of another picture than the one that was meant.
   if (!warn_of_wet(frame, pass, warnings)) return;
   warn_of_depth(frame, warnings);
@@ -206,7 +208,7 @@ void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {
 Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene) {
   const bool rays = plan.look.of<Refraction>().model == Refraction::Model::kSnell;
   if (!plan.made.has(StatePart::kPosition) || !rays) return {};
-  const Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Pass pass = pass_of(plan, scene, frame);
   const auto bottom = fit_bottom(frame, pass);
   return bottom ? look_beyond(*bottom, frame, pass) : Beyond{};
 }

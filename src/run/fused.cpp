@@ -10,6 +10,7 @@
 
 #include "complete/completer.h"
 #include "complete/heights.h"
+#include "plan/pass_of.h"
 #include "run/checks.h"
 #include "run/fused_tile.h"
 #include "run/put_edges.h"
@@ -138,10 +139,9 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
                 " pixels: expected at least 1x1");
   }
   auto& [completer, survey, heights, cells] = *kept_;
-  const Frame frame = completer.complete(
-      plan, plate, Pass(scene, plate, plan.look.water.ior, plan.made, plan.swell()), executor,
-      &options.simd);
-  Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Frame frame =
+      completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &options.simd);
+  Pass pass = pass_of(plan, scene, frame);
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
   survey.make(plan, frame, pass, executor, options.simd);
   if (options.leaps) {

@@ -8,6 +8,7 @@
 
 #include "complete/completer.h"
 #include "op/plain_texture.h"
+#include "plan/pass_of.h"
 #include "run/checks.h"
 #include "run/put_edges.h"
 #include "run/show_planes.h"
@@ -245,9 +246,8 @@ void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, con
   check_run(plan, plate, scene, target);
   const std::unique_ptr<Executor> serial = make_executor(1);
   Completer completer;
-  const Frame frame = completer.complete(
-      plan, plate, Pass(scene, plate, plan.look.water.ior, plan.made, plan.swell()), *serial);
-  Pass pass(scene, frame, plan.look.water.ior, plan.made, plan.swell());
+  const Frame frame = completer.complete(plan, plate, pass_of(plan, scene, plate), *serial);
+  Pass pass = pass_of(plan, scene, frame);
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
   const Rect work = frame.work();
   ReferenceStrip strip(frame, work);
