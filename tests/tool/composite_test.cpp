@@ -312,7 +312,7 @@ TEST_F(CompositeTest, TheBrightestSunMakesNoInfinity) {
   }
   write_text("scene.toml", scene_of("[1, 1.1e9, 1]"));
   expect_no_composite({"plate.exr", "--scene", "scene.toml"},
-                      {"scene.toml", "color", "three numbers of 0 ... 1e9"});
+                      {"scene.toml", "color", "three numbers, each 0 ... 1e+09"});
 }
 
 TEST_F(CompositeTest, CountsWhatItReplaced) {
