@@ -6,10 +6,11 @@
 
 namespace limpid {
 
-/// work(y) for each row of a window, some rows a task. Hidden, for what headers instantiate of it is
-/// no symbol for hosts.
+/// work(y) for each row of a window, some rows a task. Hidden, for what headers instantiate of it
+/// is no symbol for hosts.
 template <class Work>
-[[gnu::visibility("hidden")]] void each_row(Executor& executor, const Rect& window, const Work& work) {
+[[gnu::visibility("hidden")]] void each_row(Executor& executor, const Rect& window,
+                                            const Work& work) {
   constexpr int kRows = 8;
   run_each(executor, (window.height() + kRows - 1) / kRows, [&](int index) {
     const int begin = window.y0 + index * kRows;

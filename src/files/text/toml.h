@@ -39,8 +39,8 @@ struct TomlNode {
   std::vector<double> finite_numbers(std::size_t count) const;
 };
 
-/// Calls `work`; an Error it throws gets `place` in front. Hidden, for what headers instantiate of it
-/// is no symbol for hosts.
+/// Calls `work`; an Error it throws gets `place` in front. Hidden, for what headers instantiate of
+/// it is no symbol for hosts.
 template <class Work>
 [[gnu::visibility("hidden")]] auto at_place(const std::string& place, Work&& work) {
   try {
