@@ -28,6 +28,13 @@ LIMPID_COUNTED void* operator new(std::size_t size) {
 LIMPID_COUNTED void* operator new[](std::size_t size) {
   return counted(size, alignof(std::max_align_t));
 }
+LIMPID_COUNTED void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return counted(size, alignof(std::max_align_t));
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 LIMPID_COUNTED void* operator new(std::size_t size, std::align_val_t a) {
   return counted(size, static_cast<std::size_t>(a));
 }

@@ -39,8 +39,8 @@ struct Storage {
 inline void PrintTo(const Storage& storage, std::ostream* out) { *out << storage.name; }
 
 inline std::string temporary(const std::string& name) {
-  const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  std::string path = test + "_" + name;
+  const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+  std::string path = std::string(test.test_suite_name()) + "_" + test.name() + "_" + name;
   for (char& c : path) {
     if (c == '/') c = '_';
   }
