@@ -5,7 +5,8 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/pass.h"
+
+#include "op/pass.h"
 
 namespace limpid {
 

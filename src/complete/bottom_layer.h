@@ -5,10 +5,10 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/bottom_layer.h"
-#include "limpid/op/pass.h"
 
 #include "complete/pull_push.h"
+#include "op/bottom_layer.h"
+#include "op/pass.h"
 
 namespace limpid {
 

@@ -11,11 +11,14 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "limpid/op/pixel_start.h"
 #include "limpid/ops/look.h"
 
 #include "complete/row_heights.h"
 #include "complete/sides_beyond.h"
+#include "op/pixel_start.h"
+#include "op/screen_ray.h"
+#include "op/seen_planes.h"
+#include "optics/refract.h"
 
 namespace limpid {
 namespace {

@@ -7,7 +7,8 @@
 
 #include "limpid/complete/beyond.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/pass.h"
+
+#include "op/pass.h"
 
 namespace limpid {
 

@@ -3,6 +3,8 @@
 #include <string_view>
 
 #include "complete/sky_radiance.h"
+#include "ops/depth_fog_kernel.h"
+#include "ops/wave_normals_kernel.h"
 
 namespace limpid {
 
@@ -51,7 +53,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
 void Completer::complete_waves(const Plan& plan, const Pass& pass, Executor& executor,
                                Frame& frame) {
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
-  const bool windy = WaveNormals::needs_wave_variance(waves);
+  const bool windy = Kernel<WaveNormals>::needs_wave_variance(waves);
   if (!plan.reads_wave_map || !frame.wave_map) return;
   if (waves.filter == WaveNormals::Filter::kNone && !windy) return;
   if (!frame.wave_map.levels) {
@@ -59,18 +61,22 @@ void Completer::complete_waves(const Plan& plan, const Pass& pass, Executor& exe
     frame.wave_map.levels = &level_maker_.levels();
   }
   if (windy) {
-    frame.wave_variance = WaveNormals::wave_variance(waves, *frame.wave_map.levels, pass.time);
+    frame.wave_variance =
+        Kernel<WaveNormals>::wave_variance(waves, *frame.wave_map.levels, pass.time);
   }
-  if (!WaveNormals::needs_slope_map(waves)) return;
-  slope_map_.make(*frame.wave_map.levels, WaveNormals::four_shifts(waves, pass.time), executor);
+  if (!Kernel<WaveNormals>::needs_slope_map(waves)) return;
+  slope_map_.make(*frame.wave_map.levels, Kernel<WaveNormals>::four_shifts(waves, pass.time),
+                  executor);
   frame.wave_slopes = &slope_map_.levels();
 }
 
 void Completer::complete_water(const Plan& plan, PlaneSet made, const Pass& pass,
                                Executor& executor, Frame& frame) {
   const DepthFog::Params& water = plan.look.of<DepthFog>();
-  if (!DepthFog::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter)) return;
-  frame.scattered_light = scattered_light_.make(DepthFog::scattering_water(water, pass)).data();
+  if (!Kernel<DepthFog>::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter))
+    return;
+  frame.scattered_light =
+      scattered_light_.make(Kernel<DepthFog>::scattering_water(water, pass)).data();
   if (plan.reads_environment && frame.environment)
     frame.sky_radiance = sky_radiance(frame.environment);
   if (made.empty()) return;

@@ -4,7 +4,6 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/texture_levels.h"
-#include "limpid/op/pass.h"
 #include "limpid/plan/plan.h"
 
 #include "complete/below_overscan.h"
@@ -18,6 +17,7 @@
 #include "complete/scattered_light.h"
 #include "complete/sky.h"
 #include "complete/slope_map.h"
+#include "op/pass.h"
 
 namespace limpid {
 

@@ -3,10 +3,10 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/op/continuation.h"
-#include "limpid/op/pass.h"
 
 #include "complete/bottom_plane.h"
+#include "op/continuation.h"
+#include "op/pass.h"
 
 namespace limpid {
 

@@ -4,8 +4,9 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/core/water_view.h"
-#include "limpid/op/raised_water.h"
+
+#include "core/water_view.h"
+#include "op/raised_water.h"
 
 namespace limpid {
 

@@ -4,9 +4,9 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/vec.h"
-#include "limpid/op/pass.h"
 
 #include "complete/row_heights.h"
+#include "op/pass.h"
 
 namespace limpid {
 

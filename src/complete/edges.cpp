@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "limpid/core/edge_cover.h"
 #include "limpid/core/plane.h"
 
 #include "complete/edge_blur.h"
 #include "complete/edge_matte.h"
 #include "complete/edge_picture.h"
 #include "complete/rows.h"
+#include "core/edge_cover.h"
 
 namespace limpid {
 namespace {

@@ -3,7 +3,8 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/pass.h"
+
+#include "op/pass.h"
 
 namespace limpid {
 

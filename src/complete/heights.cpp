@@ -7,6 +7,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "ops/fresnel_reflection_kernel.h"
+#include "ops/refraction_kernel.h"
+#include "ops/water_shadow_kernel.h"
 #include "plan/survey_scan.h"
 
 namespace limpid {
@@ -96,7 +99,7 @@ double share_of_way(const Plan& plan, const Frame& frame, const Pass& pass) {
   const bool same_window = !surface || surface.window == frame.plane(seen).window;
   const bool known =
       params.rejection == Refraction::Rejection::kShorten && kept_in_frame && same_window;
-  return known ? Refraction::kShareOfWay : 0;
+  return known ? Kernel<Refraction>::kShareOfWay : 0;
 }
 
 /// Whether all water that reaches up to `most` is seen from above: what stands higher is nearer.
@@ -118,7 +121,7 @@ void Heights::make(const Plan& plan, const Frame& frame, const Pass& pass, Execu
   }
   look_at_mirrored(plan, frame, pass, executor, target);
   const View<const float>& shadow = frame.plane(PlaneId::kSurfaceShadow);
-  if (!shadow || !WaterShadow::probes(plan.look.of<WaterShadow>(), plan.made)) return;
+  if (!shadow || !Kernel<WaterShadow>::probes(plan.look.of<WaterShadow>(), plan.made)) return;
   look_at(shadow.window, executor, shadows_, [&](const Rect& pixels, Blocks blocks, auto* to) {
     target.range(shadow, pixels, blocks, to);
   });
@@ -129,7 +132,7 @@ void Heights::make(const Plan& plan, const Frame& frame, const Pass& pass, Execu
 void Heights::look_at_mirrored(const Plan& plan, const Frame& frame, const Pass& pass,
                                Executor& executor, const ScanTarget& target) {
   const std::optional<PlaneId> plane =
-      FresnelReflection::marched(plan.look.of<FresnelReflection>(), pass);
+      Kernel<FresnelReflection>::marched(plan.look.of<FresnelReflection>(), pass);
   if (!plan.made.has(StatePart::kReflected) || !plane) return;
   const View<const float>& depth = frame.plane(*plane);
   const HeightError error = march_error(pass);

@@ -4,8 +4,9 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/pass.h"
 #include "limpid/plan/plan.h"
+
+#include "op/pass.h"
 
 namespace limpid {
 

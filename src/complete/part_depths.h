@@ -4,7 +4,8 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
-#include "limpid/core/water_view.h"
+
+#include "core/water_view.h"
 
 namespace limpid {
 

@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "limpid/core/water_view.h"
+#include "core/water_view.h"
 
 namespace limpid {
 

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "limpid/optics/absorption.h"
-#include "limpid/optics/fresnel.h"
-
 #include "complete/least_squares.h"
 #include "complete/slab.h"
+#include "optics/absorption.h"
+#include "optics/fresnel.h"
 
 namespace limpid {
 namespace {

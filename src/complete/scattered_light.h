@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/core/vec.h"
-#include "limpid/optics/scattered_light.h"
+
+#include "optics/scattered_light.h"
 
 namespace limpid {
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstddef>
 
-#include "limpid/optics/scattered_light.h"
+#include "optics/scattered_light.h"
 
 namespace limpid {
 

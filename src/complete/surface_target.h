@@ -2,7 +2,8 @@
 #include <string>
 
 #include "limpid/core/plane.h"
-#include "limpid/op/raised_water.h"
+
+#include "op/raised_water.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "limpid/core/toml_text.h"
+#include "core/toml_text.h"
 
 #include <charconv>
 #include <cstdio>

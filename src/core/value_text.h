@@ -6,7 +6,8 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/field.h"
-#include "limpid/core/toml_text.h"
+
+#include "core/toml_text.h"
 
 namespace limpid {
 

@@ -1,4 +1,4 @@
-#include "limpid/core/water_view.h"
+#include "core/water_view.h"
 
 #include <algorithm>
 #include <cmath>

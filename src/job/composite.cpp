@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "limpid/core/error.h"
-#include "limpid/core/toml_text.h"
 #include "limpid/files/exr/exr_camera.h"
 
 #include "complete/completer.h"
+#include "core/toml_text.h"
 #include "job/canvas.h"
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"

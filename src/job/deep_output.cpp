@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "limpid/files/exr/deep_writer.h"
-#include "limpid/op/pass.h"
 
+#include "op/pass.h"
 #include "plan/operator_table.h"
+#include "plan/pass_of.h"
 
 namespace limpid {
 namespace {
@@ -37,7 +38,7 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
                          const Target& target) {
   const WayMeasure way = way_of(plan.look);
   const std::optional<double> endless = endless_way(way);
-  const WaterView view(scene, frame.display, swell_of(frame, plan.swell()));
+  const WaterView view(scene, frame.display, swell_of(frame, swell_of(plan)));
   const View<float>&path = target.of(Aov::kPath)[0], &surface = target.of(Aov::kSurfaceDepth)[0];
 
   const auto extent_at = [&](const RowRays<double>& rays, int x, int y) -> Extent {

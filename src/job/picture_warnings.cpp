@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include "limpid/core/error.h"
-#include "limpid/core/toml_text.h"
-#include "limpid/op/raised_water.h"
 
+#include "core/toml_text.h"
+#include "op/raised_water.h"
 #include "plan/pass_of.h"
 
 namespace limpid {

@@ -5,10 +5,10 @@
 
 #include "limpid/core/error.h"
 #include "limpid/core/simd.h"
-#include "limpid/core/toml_text.h"
 #include "limpid/files/text/scene_file.h"
 #include "limpid/version.h"
 
+#include "core/toml_text.h"
 #include "files/content_hash.h"
 
 namespace limpid {

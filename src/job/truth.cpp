@@ -4,17 +4,18 @@
 #include <cstdio>
 #include <utility>
 
-#include "limpid/core/toml_text.h"
 #include "limpid/files/exr/exr_camera.h"
 #include "limpid/plate/texture.h"
 #include "limpid/raster/render_plate.h"
 
+#include "core/toml_text.h"
 #include "files/exr/exr_whole.h"
 #include "files/picture/whole_image.h"
 #include "job/canvas.h"
 #include "job/run_jobs.h"
 #include "job/scene_job.h"
 #include "job/shared_textures.h"
+#include "ops/wave_normals_kernel.h"
 
 namespace limpid {
 namespace {
@@ -24,7 +25,7 @@ TextureFiles textures_of(const Model& model, const Scene& scene, const TruthJob&
   TextureFiles files;
   const WaveNormals::Params& waves = job.look.of<WaveNormals>();
   const bool raised = renderable(model, scene).covers(kSurfaceNormalPlanes);
-  if (!raised && WaveNormals::needs(waves).wave_map) files.wave_map = waves.map;
+  if (!raised && Kernel<WaveNormals>::needs(waves).wave_map) files.wave_map = waves.map;
   const bool surroundings =
       job.light == TruthOptions::Light::kPaths ||
       job.look.of<FresnelReflection>().source == FresnelReflection::Source::kEnvironment;

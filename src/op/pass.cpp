@@ -1,4 +1,4 @@
-#include "limpid/op/pass.h"
+#include "op/pass.h"
 
 namespace limpid {
 namespace {

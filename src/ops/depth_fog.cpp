@@ -1,10 +1,9 @@
-#include "limpid/ops/depth_fog.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
+#include "ops/depth_fog_kernel.h"
 #include "ops/water_light.h"
 
 namespace limpid {
@@ -102,35 +101,35 @@ double veil(const P& params, double way) {
 std::span<const Field<P>> DepthFog::fields() { return kFields; }
 
 /// density 0 leaves every pixel as it is, unless a negative offset lifts the fog at distance 0.
-bool DepthFog::neutral(const Params& p, StateSet) {
+bool Kernel<DepthFog>::neutral(const Params& p, StateSet) {
   if (p.model == Model::kLinear) return p.alpha == 0 || (p.density == 0 && p.offset >= 0);
   return p.water_type == WaterType::kCustom && p.absorption == kBlack && p.scattering == kBlack &&
          p.crossing == Crossing::kNone;
 }
 
-Rgb<double> DepthFog::absorption(const Params& params) {
+Rgb<double> Kernel<DepthFog>::absorption(const Params& params) {
   if (params.water_type == WaterType::kCustom) return params.absorption;
   if (params.water_type == WaterType::kCase1) return case_1_water(params.murkiness).absorption;
   return water_optics(params.water_type).absorption;
 }
 
-Rgb<double> DepthFog::scattering(const Params& params) {
+Rgb<double> Kernel<DepthFog>::scattering(const Params& params) {
   const bool by_murkiness = params.water_type == WaterType::kCase1;
   return by_murkiness ? case_1_water(params.murkiness).scattering : params.scattering;
 }
 
-Rgb<double> DepthFog::extinction(const Params& params) {
+Rgb<double> Kernel<DepthFog>::extinction(const Params& params) {
   const bool transfers = params.model == Model::kRadiativeTransfer;
   const double wide = transfers ? 1 - narrow_share(params.anisotropy) : 1;
   return absorption(params) + wide * scattering(params);
 }
 
-bool DepthFog::wants_scattered_light(const P& params) {
+bool Kernel<DepthFog>::wants_scattered_light(const P& params) {
   return params.model == Model::kRadiativeTransfer &&
          (scattering(params) != kBlack || params.crossing == Crossing::kRadiance);
 }
 
-ScatteringWater DepthFog::scattering_water(const P& params, const Pass& c) {
+ScatteringWater Kernel<DepthFog>::scattering_water(const P& params, const Pass& c) {
   const WaterLight light = water_light(params, c, c.ior);
   return {.absorption = absorption(params),
           .scattering = scattering(params),
@@ -140,7 +139,7 @@ ScatteringWater DepthFog::scattering_water(const P& params, const Pass& c) {
           .surface = params.crossing == Crossing::kRadiance};
 }
 
-double DepthFog::bound(const P& params, const Pass& c, const Ranges& ranges) {
+double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ranges) {
   const double way = ranges.way.max, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
     return bound_product(veil(params, way), apart(params.color, ranges));
@@ -155,7 +154,7 @@ double DepthFog::bound(const P& params, const Pass& c, const Ranges& ranges) {
          m.most_often(way);
 }
 
-void DepthFog::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<DepthFog>::reckon(const P& params, const Pass& c, Ranges& ranges) {
   // Should refraction run, hit and path are its own; else they are the pixel's.
   Range way = c.made.has(StatePart::kPosition) ? ranges.hit : ranges.own;
   if (params.distance == Distance::kRefracted && c.made.has(StatePart::kPosition)) {
@@ -200,7 +199,7 @@ void DepthFog::reckon(const P& params, const Pass& c, Ranges& ranges) {
                     }) + often);
 }
 
-double DepthFog::beyond(const P& params, const Pass& c, const Ranges& ranges) {
+double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ranges) {
   const double way = ranges.way.min, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
     const double full = veil(params, HUGE_VAL);
@@ -220,7 +219,7 @@ double DepthFog::beyond(const P& params, const Pass& c, const Ranges& ranges) {
 }
 
 /// Each layer stands for all that are deeper.
-double DepthFog::Medium::beyond_often(double depth) const {
+double Kernel<DepthFog>::Medium::beyond_often(double depth) const {
   if (!often) return 0;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -233,7 +232,7 @@ double DepthFog::Medium::beyond_often(double depth) const {
   return most;
 }
 
-double DepthFog::Medium::most_often(double way) const {
+double Kernel<DepthFog>::Medium::most_often(double way) const {
   if (!often) return 0;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -251,7 +250,7 @@ double DepthFog::Medium::most_often(double way) const {
 
 /// The largest value of the phase function: views go down into the water at least as steeply as
 /// refraction leads them, and the sun stands above it.
-double DepthFog::brightest_phase(const P& params, const Pass& c, const Medium& m) {
+double Kernel<DepthFog>::brightest_phase(const P& params, const Pass& c, const Medium& m) {
   if (!m.sunlit) return 0;
   const double sink = refracted_cosine(0.0, 1 / c.ior);
   const double rise = glm::dot(m.to_sun, c.up);
@@ -260,7 +259,7 @@ double DepthFog::brightest_phase(const P& params, const Pass& c, const Medium& m
   return henyey_greenstein(least, params.anisotropy) * 1.0001;
 }
 
-DepthFog::Medium DepthFog::medium_of(const Params& params, const Pass& c) {
+Kernel<DepthFog>::Medium Kernel<DepthFog>::medium_of(const Params& params, const Pass& c) {
   const WaterLight light = water_light(params, c, c.ior);
   Medium m{};
   m.rate = extinction(params);
@@ -290,7 +289,7 @@ DepthFog::Medium DepthFog::medium_of(const Params& params, const Pass& c) {
   return m;
 }
 
-WayMeasure DepthFog::way(const P& params) {
+WayMeasure Kernel<DepthFog>::way(const P& params) {
   WayMeasure way{.along_axis = params.distance == Distance::kEye, .ends = {}};
   if (params.model != Model::kLinear) {
     way.extinction = extinction(params);

@@ -1,7 +1,7 @@
-#include "limpid/ops/fresnel_reflection.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "ops/fresnel_reflection_kernel.h"
 
 namespace limpid {
 namespace {
@@ -39,24 +39,24 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> FresnelReflection::fields() { return kFields; }
 
 /// F is at most 1. What planes and surroundings hold is not looked at.
-double FresnelReflection::bound(const P& params, const Pass&, const Ranges& ranges) {
+double Kernel<FresnelReflection>::bound(const P& params, const Pass&, const Ranges& ranges) {
   if (params.source != Source::kConstant) return HUGE_VAL;
   return std::max({params.color.r, params.color.g, params.color.b}) + ranges.light;
 }
 
-void FresnelReflection::reckon(const P& params, const Pass&, Ranges& ranges) {
+void Kernel<FresnelReflection>::reckon(const P& params, const Pass&, Ranges& ranges) {
   const bool known = params.source == Source::kConstant;
   ranges.above += known ? std::max({params.color.r, params.color.g, params.color.b}) : HUGE_VAL;
 }
 
-std::string_view FresnelReflection::prefer(P& params, const AtHand& has) {
+std::string_view Kernel<FresnelReflection>::prefer(P& params, const AtHand& has) {
   if (params.source != Source::kPlanar || !has.environment) return "";
   if (has.planes.covers(kReflectionPlanes)) return "";
   params.source = Source::kEnvironment;
   return "source environment: the frame has no reflection";
 }
 
-std::string_view FresnelReflection::looks_around(const P& params, const AtHand& has) {
+std::string_view Kernel<FresnelReflection>::looks_around(const P& params, const AtHand& has) {
   const bool planar = params.source == Source::kPlanar && has.planes.has(PlaneId::kReflectionValid);
   if (!has.environment || (!planar && params.source != Source::kAuto)) return "";
   return has.planes.covers(kReflectionPlanes)
@@ -64,14 +64,14 @@ std::string_view FresnelReflection::looks_around(const P& params, const AtHand& 
              : "environment where the picture does not show what is mirrored";
 }
 
-std::string_view FresnelReflection::warning(const P& params, const AtHand& has) {
+std::string_view Kernel<FresnelReflection>::warning(const P& params, const AtHand& has) {
   if (params.source != Source::kPlanar || params.lookup != Lookup::kRay) return "";
   if (has.planes.has(PlaneId::kReflectionDepth)) return "";
   return "the reflection has no depth: all that it shows is taken to be infinitely far; expected a "
          "reflection_depth, or fresnel_reflection.source = auto";
 }
 
-double FresnelReflection::ns(const P& p, const Running& running) {
+double Kernel<FresnelReflection>::ns(const P& p, const Running& running) {
   const bool cheap =
       p.reflectance != Reflectance::kRim && p.reflectance != Reflectance::kInversePower;
   const double formula = cheap ? 0.6 : 1.5;

@@ -1,7 +1,7 @@
-#include "limpid/ops/penetration.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "ops/penetration_kernel.h"
 
 namespace limpid {
 namespace {
@@ -26,7 +26,7 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> Penetration::fields() { return kFields; }
 
 /// What is let through, most where one looks down most, replaces as much of the finished surface.
-double Penetration::bound(const P& params, const Pass&, const Ranges& ranges) {
+double Kernel<Penetration>::bound(const P& params, const Pass&, const Ranges& ranges) {
   if (params.model == Model::kNone) return 0;
   const double through = params.amount * std::pow(ranges.cosine().max, params.power);
   const double away = 1 - std::clamp(params.alpha - through, 0.0, 1.0);

@@ -1,7 +1,7 @@
-#include "limpid/ops/prism_split.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "ops/prism_split_kernel.h"
 
 namespace limpid {
 namespace {
@@ -24,11 +24,11 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> PrismSplit::fields() { return kFields; }
 
 /// Each channel of a lookup becomes another that is in reach; its path stays the common one.
-double PrismSplit::bound(const P&, const Pass&, const Ranges& ranges) {
+double Kernel<PrismSplit>::bound(const P&, const Pass&, const Ranges& ranges) {
   return bound_product(ranges.through, ranges.contrast());
 }
 
-double PrismSplit::stretch(const P& params, const Pass& c) {
+double Kernel<PrismSplit>::stretch(const P& params, const Pass& c) {
   if (params.model != Model::kDispersion || c.ior <= 1) return 1;
   const Rgb<double> index = water_index_rgb();
   const double widest = std::max(std::abs(index.r - index.g), std::abs(index.b - index.g));

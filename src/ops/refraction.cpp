@@ -1,7 +1,7 @@
-#include "limpid/ops/refraction.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "ops/refraction_kernel.h"
 
 namespace limpid {
 namespace {
@@ -38,11 +38,11 @@ std::span<const Field<P>> Refraction::fields() { return kFields; }
 
 /// Without it another color in reach is seen. And the way through the water is another: how much
 /// that matters is not known here.
-double Refraction::bound(const P&, const Pass& c, const Ranges& ranges) {
+double Kernel<Refraction>::bound(const P&, const Pass& c, const Ranges& ranges) {
   return c.made.has(StatePart::kTransmittance) ? HUGE_VAL : ranges.contrast();
 }
 
-void Refraction::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<Refraction>::reckon(const P& params, const Pass& c, Ranges& ranges) {
   const Range surface = ranges.surface, seen = ranges.looked_up;
   const bool fades = params.off_frame == OffFrame::kFog;
   // Where not even a pixel's own texel of the layer below holds anything, the depth there is none.
@@ -82,7 +82,7 @@ void Refraction::reckon(const P& params, const Pass& c, Ranges& ranges) {
 
 /// With `snap` nothing that is looked up may lie before the water of the cell; with `shorten` every
 /// texel that is tapped must count. Of snell's rays with `shorten` more is asked.
-bool Refraction::foreground_free(const P& params, const InReach& reach) {
+bool Kernel<Refraction>::foreground_free(const P& params, const InReach& reach) {
   switch (params.rejection) {
     case Rejection::kNone:
       return false;
@@ -95,7 +95,7 @@ bool Refraction::foreground_free(const P& params, const InReach& reach) {
   return false;
 }
 
-double Refraction::ns(const P& p, const Running& running) {
+double Kernel<Refraction>::ns(const P& p, const Running& running) {
   const bool split = running.made.has(StatePart::kPrism);
   const double lookups = split ? 5 : 3;
   const double steps = p.model != Model::kSnell ? 0.5 : p.steps < 0 ? 90 : 4 + 8.0 * p.steps;

@@ -1,6 +1,6 @@
-#include "limpid/ops/sun_highlight.h"
-
 #include <algorithm>
+
+#include "ops/sun_highlight_kernel.h"
 
 namespace limpid {
 namespace {
@@ -24,7 +24,7 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> SunHighlight::fields() { return kFields; }
 
 /// Phong's lobes reach 1, and no mirror is brighter than the sun's disc.
-double SunHighlight::bound(const P& params, const Pass& c, const Ranges& ranges) {
+double Kernel<SunHighlight>::bound(const P& params, const Pass& c, const Ranges& ranges) {
   const double radius = c.sun.radius();
   const double lobe = params.model == Model::kSlopes
                           ? std::numbers::pi * kBrightestLobe / (radius * radius)
@@ -36,7 +36,7 @@ double SunHighlight::bound(const P& params, const Pass& c, const Ranges& ranges)
   return params.strength * lobe * light * (finds_shadow ? 1 : std::max(ranges.own_shadow.max, 0.0));
 }
 
-void SunHighlight::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<SunHighlight>::reckon(const P& params, const Pass& c, Ranges& ranges) {
   ranges.above += bound(params, c, ranges);
 }
 

@@ -5,8 +5,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "limpid/optics/crossing.h"
-#include "limpid/optics/fresnel.h"
+#include "ops/depth_fog_kernel.h"
+#include "optics/crossing.h"
+#include "optics/fresnel.h"
 
 namespace limpid {
 namespace {
@@ -17,12 +18,13 @@ bool transfers(const DepthFog::Params& params) {
 
 /// K: what light from above loses for each length of its way down.
 Rgb<double> falling_loss(const DepthFog::Params& params) {
-  if (transfers(params)) return DepthFog::extinction(params);
+  if (transfers(params)) return Kernel<DepthFog>::extinction(params);
   const WaterType type = params.water_type;
   const bool typed = type >= WaterType::kJerlovI && type <= WaterType::kJerlov9C;
   if (typed) return water_optics(type).down_attenuation;
   // What is scattered goes on forwards, mostly.
-  return DepthFog::absorption(params) + (1 - params.anisotropy) * DepthFog::scattering(params);
+  return Kernel<DepthFog>::absorption(params) +
+         (1 - params.anisotropy) * Kernel<DepthFog>::scattering(params);
 }
 
 }  // namespace
@@ -59,7 +61,7 @@ WaterLight water_light(const DepthFog::Params& params, const Pass& c, double ior
     light.beam = (enters ? (1 - lost) * cosine / inside : 0) * c.sun.color;
     light.to_sun = enters ? (c.sun.direction - cosine * c.up) / ior + inside * c.up : c.up;
   }
-  light.sun = std::numbers::pi * DepthFog::scattering(params) * light.beam;
+  light.sun = std::numbers::pi * Kernel<DepthFog>::scattering(params) * light.beam;
   return light;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 #include <glm/vec3.hpp>
 
-#include "limpid/op/pass.h"
 #include "limpid/ops/depth_fog.h"
+
+#include "op/pass.h"
 
 namespace limpid {
 

@@ -1,6 +1,6 @@
-#include "limpid/ops/water_shadow.h"
-
 #include <algorithm>
+
+#include "ops/water_shadow_kernel.h"
 
 namespace limpid {
 namespace {
@@ -19,7 +19,7 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> WaterShadow::fields() { return kFields; }
 
 /// `darken` takes strength (1 - shadow) of all light from below, `scatter` of the sun's alone.
-double WaterShadow::bound(const P& params, const Pass&, const Ranges& ranges) {
+double Kernel<WaterShadow>::bound(const P& params, const Pass&, const Ranges& ranges) {
   const auto off = [](const Range& shadow) { return std::max(1 - shadow.min, shadow.max - 1); };
   if (params.model == Model::kDarken) {
     return bound_product(params.strength * off(ranges.shadow), ranges.light);
@@ -28,7 +28,7 @@ double WaterShadow::bound(const P& params, const Pass&, const Ranges& ranges) {
                        ranges.sun_light);
 }
 
-double WaterShadow::displaced(const P& params, const Ranges& ranges) {
+double Kernel<WaterShadow>::displaced(const P& params, const Ranges& ranges) {
   const Range &there = ranges.shadow, &own = ranges.shadow_of_water;
   if (params.model == Model::kDarken) {
     return bound_product(params.strength * (there.max - there.min), ranges.light);

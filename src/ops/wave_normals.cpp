@@ -1,6 +1,6 @@
-#include "limpid/ops/wave_normals.h"
-
 #include <cmath>
+
+#include "ops/wave_normals_kernel.h"
 
 namespace limpid {
 namespace {
@@ -48,7 +48,8 @@ constexpr Field<P> kFields[] = {
 
 std::span<const Field<P>> WaveNormals::fields() { return kFields; }
 
-Sym2<double> WaveNormals::wave_variance(const P& params, const TextureLevels& map, double time) {
+Sym2<double> Kernel<WaveNormals>::wave_variance(const P& params, const TextureLevels& map,
+                                                double time) {
   switch (params.model) {
     case Model::kFourMaps:
     case Model::kSlopes:
@@ -68,15 +69,15 @@ Sym2<double> WaveNormals::wave_variance(const P& params, const TextureLevels& ma
 }
 
 /// All that comes after hangs on them.
-double WaveNormals::bound(const P&, const Pass&, const Ranges&) { return HUGE_VAL; }
+double Kernel<WaveNormals>::bound(const P&, const Pass&, const Ranges&) { return HUGE_VAL; }
 
-std::string_view WaveNormals::prefer(P& params, const AtHand& has) {
+std::string_view Kernel<WaveNormals>::prefer(P& params, const AtHand& has) {
   if (!has.planes.covers(kSurfaceNormalPlanes) || params.model == Model::kPlate) return "";
   params.model = Model::kPlate;
   return "model plate: the frame has surface normals";
 }
 
-double WaveNormals::ns(const P& p, const Running&) {
+double Kernel<WaveNormals>::ns(const P& p, const Running&) {
   const bool variance = p.filter == Filter::kVariance;
   switch (p.model) {
     case Model::kPlate:

@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
 
-#include "limpid/op/pass.h"
-#include "limpid/op/ranges.h"
 #include "limpid/plan/plan.h"
 #include "limpid/plan/survey.h"
+
+#include "op/operator.h"
+#include "op/pass.h"
+#include "op/ranges.h"
 
 namespace limpid {
 

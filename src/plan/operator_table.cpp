@@ -1,5 +1,7 @@
 #include "plan/operator_table.h"
 
+#include "ops/kernels.h"
+
 namespace limpid {
 namespace {
 
@@ -103,11 +105,23 @@ constexpr OperatorEntry entry_of() {
 
 constexpr std::array<OperatorEntry, Chain::kCount> kTable = [] {
   std::array<OperatorEntry, Chain::kCount> table{};
-  Chain::for_each([&]<class Op, int I>() { table[I] = entry_of<Op>(); });
+  Kernels::for_each([&]<class Op, int I>() { table[I] = entry_of<Op>(); });
   return table;
 }();
 
 }  // namespace
+
+std::span<const OperatorInfo> operators() {
+  static constexpr std::array<OperatorInfo, Chain::kCount> kInfos = [] {
+    std::array<OperatorInfo, Chain::kCount> infos{};
+    Kernels::for_each([&]<class Op, int I>() {
+      infos[I] = {Op::kName, Op::kAbout, Op::kUses, Op::kMakes,
+                  [](const Look& look) { return Op::reads(look.of<Op>()); }};
+    });
+    return infos;
+  }();
+  return kInfos;
+}
 
 const std::array<OperatorEntry, Chain::kCount>& operator_table() { return kTable; }
 

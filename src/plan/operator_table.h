@@ -2,6 +2,9 @@
 #include <array>
 
 #include "limpid/ops/look.h"
+#include "limpid/plan/plan.h"
+
+#include "op/operator.h"
 
 namespace limpid {
 

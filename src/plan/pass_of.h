@@ -1,13 +1,18 @@
 #pragma once
-#include "limpid/op/pass.h"
 #include "limpid/plan/plan.h"
 
+#include "op/pass.h"
+
 namespace limpid {
+
+/// What raises the water: waves of the plan's look or of the scene, where the surface is one of
+/// Plan::completed. Refers to the plan.
+Swell swell_of(const Plan& plan);
 
 /// The pass with which a plan runs over a frame. Throws Error as Pass does. Plan, scene and frame
 /// must live as long.
 inline Pass pass_of(const Plan& plan, const Scene& scene, const Frame& frame) {
-  return {scene, frame, plan.look.water.ior, plan.made, plan.swell()};
+  return {scene, frame, plan.look.water.ior, plan.made, swell_of(plan)};
 }
 
 }  // namespace limpid

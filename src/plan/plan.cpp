@@ -55,10 +55,10 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
   return plan;
 }
 
-Swell Plan::swell() const {
-  if (!completed.has(PlaneId::kSurfaceDepth)) return {};
+Swell swell_of(const Plan& plan) {
+  if (!plan.completed.has(PlaneId::kSurfaceDepth)) return {};
   for (const OperatorEntry& entry : operator_table()) {
-    if (const Swell swell = entry.swell(look); swell.raises) return swell;
+    if (const Swell swell = entry.swell(plan.look); swell.raises) return swell;
   }
   return {};
 }

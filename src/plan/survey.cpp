@@ -5,8 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "limpid/op/seen_planes.h"
-
+#include "op/seen_planes.h"
 #include "plan/cell_rules.h"
 #include "plan/operator_table.h"
 #include "plan/survey_scan.h"

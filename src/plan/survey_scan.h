@@ -3,8 +3,9 @@
 
 #include "limpid/core/plane.h"
 #include "limpid/core/rect.h"
-#include "limpid/core/water_view.h"
-#include "limpid/op/height_bound.h"
+
+#include "core/water_view.h"
+#include "op/height_bound.h"
 
 namespace limpid {
 

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "limpid/core/error.h"
-#include "limpid/core/toml_text.h"
 #include "limpid/files/exr/exr_camera.h"
 #include "limpid/files/picture/image_file.h"
 #include "limpid/files/text/scene_file.h"
 #include "limpid/plate/inspect.h"
 
+#include "core/toml_text.h"
 #include "files/exr/exr_header.h"
 #include "plate/layer_candidates.h"
 #include "plate/layer_views.h"

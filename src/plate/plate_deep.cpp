@@ -5,7 +5,8 @@
 
 #include "limpid/core/error.h"
 #include "limpid/files/exr/deep.h"
-#include "limpid/op/pass.h"
+
+#include "op/pass.h"
 
 namespace limpid {
 namespace {

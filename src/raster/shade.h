@@ -1,6 +1,5 @@
 #pragma once
-#include "limpid/optics/shading.h"
-
+#include "optics/shading.h"
 #include "raster/sample.h"
 
 /// From visible triangles to the planes of the picture. For inclusion by raster_target.cpp alone.

@@ -6,8 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "limpid/optics/waves.h"
-
+#include "optics/waves.h"
 #include "raster/shadow_map.h"
 
 namespace limpid {

@@ -34,11 +34,11 @@ constexpr const FusedTarget* kTargets[] = {
 /// State that somebody reads before it is made.
 StateSet begins_of(const Plan& plan, const Target& target) {
   StateSet begins, made, shown = kOutputTerms;
-  Chain::for_each([&]<class Op, int I>() {
-    if (!plan.keeps(I)) return;
-    begins = begins | (StateSet(Op::kUses) - made);
-    made = made | Op::kMakes;
-  });
+  for (int i = 0; i < Chain::kCount; ++i) {
+    if (!plan.keeps(i)) continue;
+    begins = begins | (operators()[i].uses - made);
+    made = made | operators()[i].makes;
+  }
   for (int a = 0; a < kAovCount; ++a) {
     if (target.aovs[a][0]) shown = shown | aovs()[a].parts;
   }
@@ -164,10 +164,10 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   job.cells = cells.data();
   job.cells_across = survey.across();
   job.begins = begins_of(plan, target);
-  Chain::for_each([&]<class Op, int I>() {
-    job.keeps[I] = plan.keeps(I);
-    job.makes[I] = Op::kMakes;
-  });
+  for (int i = 0; i < Chain::kCount; ++i) {
+    job.keeps[i] = plan.keeps(i);
+    job.makes[i] = operators()[i].makes;
+  }
   for (int i = 0; i < kPlaneCount; ++i) job.missing[i] = missing_value(static_cast<PlaneId>(i));
   for (int i = 0; i < kAovCount; ++i) job.dry_aov[i] = aovs()[i].dry;
   const View<const float>& depth = frame.plane(PlaneId::kDepth);

@@ -1,6 +1,6 @@
 #pragma once
-#include "limpid/op/pixel_start.h"
-
+#include "op/pixel_start.h"
+#include "run/aov_of.h"
 #include "run/fused_tile.h"
 #include "run/spot.h"
 #include "run/wrapped.h"

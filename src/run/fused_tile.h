@@ -3,9 +3,10 @@
 #include <cstdint>
 
 #include "limpid/core/frame.h"
-#include "limpid/op/pass.h"
 #include "limpid/plan/survey.h"
 #include "limpid/run/target.h"
+
+#include "op/pass.h"
 
 namespace limpid {
 

@@ -2,6 +2,7 @@
 // All that is instantiated here depends on the Lane type of the set, so that no function compiled
 // for one machine can be linked into the path of another.
 #include "core/target_name.h"
+#include "ops/kernels.h"
 #include "run/flush_denormals.h"
 #include "run/fused_strip.h"
 
@@ -68,7 +69,7 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
   if (needs.opaque) strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
   if (wet) {
     const Pass& pass = context_of(job, needs);
-    Chain::for_each([&]<class Op, int I>() {
+    Kernels::for_each([&]<class Op, int I>() {
       if (!job.keeps[I] || !needs.needs(I)) return;
       Op::apply(std::get<typename Op::Params>(job.plan.look.operators), pass, strip);
       laps.charge(I);

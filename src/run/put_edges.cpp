@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "limpid/core/edge_cover.h"
-
 #include "complete/rows.h"
+#include "core/edge_cover.h"
 
 namespace limpid {
 namespace {

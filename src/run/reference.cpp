@@ -3,12 +3,13 @@
 #include <cmath>
 #include <vector>
 
-#include "limpid/op/pass.h"
-#include "limpid/op/pixel_start.h"
-
 #include "complete/completer.h"
+#include "op/pass.h"
+#include "op/pixel_start.h"
 #include "op/plain_texture.h"
+#include "ops/kernels.h"
 #include "plan/pass_of.h"
+#include "run/aov_of.h"
 #include "run/checks.h"
 #include "run/put_edges.h"
 #include "run/show_planes.h"
@@ -255,7 +256,7 @@ void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, con
   for (int y = work.y0; y < work.y1; ++y) {
     strip.set_row(y);
     begin_row(pass, frame, work, y, strip.pixels(), wet);
-    Chain::for_each([&]<class Op, int I>() {
+    Kernels::for_each([&]<class Op, int I>() {
       if (plan.keeps(I)) Op::apply(plan.look.of<Op>(), pass, strip);
     });
     for (int x = work.x0; x < work.x1; ++x) {

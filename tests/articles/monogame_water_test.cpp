@@ -1,6 +1,5 @@
-#include "limpid/optics/fresnel.h"
-
 #include "articles/article.h"
+#include "optics/fresnel.h"
 #include "raster/mirror.h"
 
 /// "How to create Water shader in Monogame XNA": planes clipped at the water, a DuDv map looked up

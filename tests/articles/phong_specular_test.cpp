@@ -1,7 +1,7 @@
-#include "limpid/optics/shading.h"
 #include "limpid/raster/rasterise.h"
 
 #include "articles/article.h"
+#include "optics/shading.h"
 #include "raster/raster_scenes.h"
 
 /// The article on specular light by Phong's model: ambient + diffuse + specular, for the raster

@@ -1,7 +1,6 @@
-#include "limpid/optics/fresnel.h"
-#include "limpid/optics/waves.h"
-
 #include "articles/article.h"
+#include "optics/fresnel.h"
+#include "optics/waves.h"
 
 /// Rito15's water, a Unity surface shader: two flows of a normal map, a cube map mirrored by the
 /// inverse power of V.n, Blinn-Phong, sine waves, penetration.

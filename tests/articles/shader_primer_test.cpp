@@ -1,6 +1,5 @@
-#include "limpid/optics/shading.h"
-
 #include "articles/article.h"
+#include "optics/shading.h"
 #include "raster/raster_scenes.h"
 
 /// The shader primer, chapters 4 (light), 5 (diffuse and specular maps) and 6 (toon): the materials

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/simd.h"
-#include "limpid/optics/waves.h"
 #include "limpid/plan/plan.h"
 
+#include "op/pass.h"
+#include "optics/waves.h"
+#include "plan/pass_of.h"
 #include "support.h"
 
 namespace limpid {
@@ -69,7 +71,7 @@ struct Made {
   Made(const Scene& s, const std::string* simd, const Look& look = sines(), int threads = 1)
       : scene(s),
         plan(make_plan(look, test::inputs_of(frame, s))),
-        pass(scene, frame, look.water.ior, plan.made, plan.swell()),
+        pass(scene, frame, look.water.ior, plan.made, swell_of(plan)),
         strength(look.of<WaveNormals>().strength) {
     surface.make(frame, pass, *make_executor(threads), simd);
   }

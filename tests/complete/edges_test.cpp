@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/core/edge_cover.h"
-
 #include "complete/post.h"
+#include "core/edge_cover.h"
 
 // Pixels that show water and something before it.
 

@@ -4,6 +4,7 @@
 
 #include "limpid/core/simd.h"
 
+#include "ops/refraction_kernel.h"
 #include "plan/landscape.h"
 
 namespace limpid {
@@ -155,7 +156,7 @@ TEST(Heights, AreNotFarAbove) {
   EXPECT_NEAR(whole.deepest, 1.5, 0.1);
   EXPECT_NEAR(part.deepest, 1.5, 0.03);
   // A ray's end 0.4 of the way from the surface to which is there: but for the same errors.
-  EXPECT_NEAR(part.covers, -1.5 / Refraction::kShareOfWay, 0.1);
+  EXPECT_NEAR(part.covers, -1.5 / Kernel<Refraction>::kShareOfWay, 0.1);
 }
 
 TEST(Heights, WhatStandsHigherThanTheWaterDoesNotCount) {

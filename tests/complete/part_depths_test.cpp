@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "op/pass.h"
 #include "support.h"
 
 // The plate's surface, on the rays of parts of its pixels.

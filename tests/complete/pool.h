@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "op/pass.h"
 #include "support.h"
 
 namespace limpid::test {

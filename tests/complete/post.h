@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "op/pass.h"
 #include "support.h"
 
 namespace limpid::test {

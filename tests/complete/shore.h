@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "complete/mirror_depth.h"
+#include "op/pass.h"
 #include "support.h"
 
 namespace limpid::test {

@@ -1,7 +1,6 @@
 #include <numbers>
 
-#include "limpid/ops/depth_fog.h"
-
+#include "ops/depth_fog_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/tray.h"
 
@@ -320,7 +319,7 @@ Pixel<double> fogged(const DepthFog::Params& params, const Scene& scene, StateSe
   const Tray tray({1, 1});
   test::ProbeStrip strip;
   strip.pixels.push_back(pixel);
-  DepthFog::apply(params, Pass(scene, tray.buffers.frame, kN, made), strip);
+  Kernel<DepthFog>::apply(params, Pass(scene, tray.buffers.frame, kN, made), strip);
   return strip.pixels[0];
 }
 

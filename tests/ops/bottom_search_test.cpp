@@ -1,9 +1,8 @@
-#include "limpid/op/bottom_search.h"
+#include "op/bottom_search.h"
 
 #include <gtest/gtest.h>
 
-#include "limpid/op/pixel_start.h"
-
+#include "op/pixel_start.h"
 #include "support.h"
 
 namespace limpid {

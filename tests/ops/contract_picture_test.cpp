@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "ops/contract.h"
+#include "ops/kernels.h"
 
 // What every operator of the chain promises, seen in pictures of noise.
 
@@ -27,7 +28,7 @@ bool same_bits(const Picture& a, const Picture& b) {
 Plan eager_plan(const Look& look, const World& world) {
   const Inputs inputs = test::inputs_of(world.buffers.frame, world.scene);
   Plan plan = make_plan(look, inputs, test::all_state());
-  Chain::for_each([&]<class Op, int I>() {
+  Kernels::for_each([&]<class Op, int I>() {
     if (plan.operators[I].verdict == Verdict::kAbsent) return;
     plan.operators[I].verdict = Verdict::kKept;
     plan.made = plan.made | Op::kMakes;
@@ -46,10 +47,10 @@ TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
   std::set<std::string_view> dropped;
   for (bool plate_normals : {false, true}) {
     const World world(plate_normals);
-    Chain::for_each([&]<class Op, int I>() {
+    Kernels::for_each([&]<class Op, int I>() {
       for_each_params<Op>([&](const auto& params, const std::string& what) {
         Look look = test::article_look();
-        look.of<PrismSplit>().strength = std::is_same_v<Op, Refraction> ? 0 : 0.01;
+        look.of<PrismSplit>().strength = std::is_same_v<Op, Kernel<Refraction>> ? 0 : 0.01;
         look.of<Op>() = params;
         const Plan plan =
             make_plan(look, test::inputs_of(world.buffers.frame, world.scene), test::all_state());
@@ -67,7 +68,7 @@ TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
 TEST(Contract, SaneInputMakesNoNan) {
   for (bool plate_normals : {false, true}) {
     const World world(plate_normals);
-    Chain::for_each([&]<class Op, int>() {
+    Kernels::for_each([&]<class Op, int>() {
       for_each_params<Op>([&](const auto& params, const std::string& what) {
         Look look = test::article_look();
         look.of<PrismSplit>().strength = 0.01;
@@ -90,7 +91,7 @@ TEST(Contract, SaneInputMakesNoNan) {
 TEST(Contract, FloatAgreesWithDoubleAndTilesWithTheWhole) {
   for (bool plate_normals : {false, true}) {
     const World world(plate_normals);
-    Chain::for_each([&]<class Op, int>() {
+    Kernels::for_each([&]<class Op, int>() {
       for (int seed = 0; seed < 10; ++seed) {
         Look look = test::article_look();
         look.of<Op>() = random_params<Op>(seed);
@@ -116,7 +117,7 @@ TEST(Contract, FloatAgreesWithDoubleAndTilesWithTheWhole) {
 
 TEST(Contract, PlanesThatThePlanDoesNotReadDoNotMatter) {
   const World world;
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     Look look = test::still_look();
     look.of<Op>() = typename Op::Params{};
     const Inputs all = test::inputs_of(world.buffers.frame, world.scene);
@@ -125,8 +126,8 @@ TEST(Contract, PlanesThatThePlanDoesNotReadDoNotMatter) {
     plan.made = {};
     plan.planes =
         kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};
-    Chain::for_each([&]<class Other, int J>() {
-      const bool on = std::is_same_v<Other, Op> || std::is_same_v<Other, WaveNormals>;
+    Kernels::for_each([&]<class Other, int J>() {
+      const bool on = std::is_same_v<Other, Op> || std::is_same_v<Other, Kernel<WaveNormals>>;
       plan.operators[J].verdict = on ? Verdict::kKept : Verdict::kUnread;
       if (!on) return;
       plan.made = plan.made | Other::kMakes;

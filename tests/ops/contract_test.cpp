@@ -11,6 +11,7 @@
 #include "limpid/core/error.h"
 
 #include "complete/scattered_light.h"
+#include "ops/kernels.h"
 #include "ops/probe_strip.h"
 
 // What every operator of the chain promises, tested by the act of being in the chain: what it
@@ -55,7 +56,7 @@ TEST(Contract, NamesAndSentences) {
     return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") ==
                                 std::string_view::npos;
   };
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     EXPECT_TRUE(identifier(Op::kName)) << Op::kName;
     EXPECT_TRUE(names.insert(Op::kName).second) << Op::kName;
     EXPECT_TRUE(std::string_view(Op::kAbout).ends_with(".")) << Op::kName;
@@ -73,7 +74,7 @@ TEST(Contract, NamesAndSentences) {
 
 TEST(Contract, DefaultsAreInRangeAndValuesRoundTrip) {
   EXPECT_NO_THROW(Look().validate());
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
       for (const Value& value : candidates(field)) {
         Look look;
@@ -109,7 +110,7 @@ TEST(Contract, OutOfRangeIsRefusedByName) {
     return std::vector<double>{std::nextafter(range.min, -kInfinity),
                                std::nextafter(range.max, kInfinity), kNan, kInfinity, -kInfinity};
   };
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
       if (field.kind == FieldKind::kReal) {
         EXPECT_LT(field.range.min, field.range.max) << label<Op>(field.name);
@@ -146,7 +147,7 @@ TEST(Contract, OutOfRangeIsRefusedByName) {
 }
 
 TEST(Contract, NeedsArePlanesThatAreRead) {
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for_each_params<Op>([](const auto& params, const std::string& what) {
       EXPECT_TRUE(Op::reads(params).covers(Op::needs(params).planes)) << what;
     });
@@ -172,7 +173,7 @@ StateSet everything() {
 }
 
 TEST(Contract, OnlyDeclaredStateIsMade) {
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     const StateSet may_change = Op::kMakes;
     for_each_params<Op>([&](const auto& params, const std::string& what) {
       const ProbeStrip strip = probed<Op>(params, everything(), everything());
@@ -189,7 +190,7 @@ TEST(Contract, OnlyDeclaredStateIsMade) {
 }
 
 TEST(Contract, OnlyDeclaredStateIsUsed) {
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     StateSet hidden;  // neither used nor made: what it holds must not matter
     for (StatePart part : test::kStateParts) {
       if (!Op::kUses.has(part) && !Op::kMakes.has(part)) hidden = hidden | StateSet{part};
@@ -220,7 +221,7 @@ TEST(Contract, OnlyDeclaredStateIsUsed) {
 }
 
 TEST(Contract, OnlyDeclaredPlanesAreTapped) {
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for_each_params<Op>([&](const auto& params, const std::string& what) {
       const ProbeStrip strip = probed<Op>(params, everything(), everything());
       EXPECT_TRUE(Op::reads(params).covers(strip.tapped)) << what;
@@ -252,7 +253,7 @@ TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
   const auto sum = [](const Pixel<double>& p) {
     return p.transmitted + p.in_scatter + p.reflected + p.highlight;
   };
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for (int seed = 0; seed < 200; ++seed) {
       const typename Op::Params params = random_params<Op>(seed);
       ProbeStrip plain, brighter;
@@ -285,7 +286,7 @@ TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
 
 TEST(Contract, BoundsAreNoNumbersBelowZero) {
   const Pass pass = probe_context(everything());
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for_each_params<Op>([&](const auto& params, const std::string& what) {
       Ranges nothing_known;
       EXPECT_GE(Op::bound(params, pass, nothing_known), 0) << what;
@@ -315,14 +316,14 @@ TEST(Contract, TapsStayWithinTheDeclaredReach) {
     double reach = 0;
     for (int i = 0; i < 8; ++i) strip.pixels.push_back(test::random_pixel(100 * seed + i, {}));
     const Pass pass = probe_context(everything());
-    Chain::for_each([&]<class Op, int>() {
+    Kernels::for_each([&]<class Op, int>() {
       const typename Op::Params params = random_params<Op>(seed);
       EXPECT_GE(Op::reach(params), 0) << Op::kName;
       reach += Op::reach(params);
       Op::apply(params, pass, strip);
       for (Pixel<double>& p : strip.pixels) {  // plate normals of the probe are noise, not unit
         const Vec3<double> n = normalize_or<double>(p.normal, {0, 1, 0});
-        if (std::is_same_v<Op, WaveNormals>) p.normal = n, p.tilt = {n.x, n.z};
+        if (std::is_same_v<Op, Kernel<WaveNormals>>) p.normal = n, p.tilt = {n.x, n.z};
       }
       EXPECT_LE(strip.farthest, reach + 1e-9) << Op::kName;
     });
@@ -332,14 +333,14 @@ TEST(Contract, TapsStayWithinTheDeclaredReach) {
 TEST(Contract, NeutralParametersAreTheIdentity) {
   std::set<std::string_view> seen;
   StateSet made;  // by the operators before, once none of them and once all
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for (StateSet before : {StateSet{}, made}) {
       for_each_params<Op>([&](const auto& params, const std::string& what) {
         if (!Op::neutral(params, before)) return;
         seen.insert(Op::kName);
         // Refraction reads the pixel's own depth and color again, which the probe cannot know: see
         // the pictures below.
-        if (std::is_same_v<Op, Refraction>) return;
+        if (std::is_same_v<Op, Kernel<Refraction>>) return;
         const ProbeStrip strip = probed<Op>(params, before, before);
         for (int i = 0; i < 32; ++i) {
           for (StatePart part : test::kStateParts) {

@@ -1,5 +1,4 @@
-#include "limpid/ops/depth_fog.h"
-
+#include "ops/depth_fog_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/tray.h"
 
@@ -115,7 +114,7 @@ TEST(DepthFog, RefractedDistanceOfAFlatBottom) {
     p.dry_depth = p.hit_depth = 3 + depth / std::cos(angle) / p.ray_length;
     p.path = 0.7;
     params.distance = distance;
-    DepthFog::apply(params, Pass(tray.scene, tray.buffers.frame, 1.333, made), strip);
+    Kernel<DepthFog>::apply(params, Pass(tray.scene, tray.buffers.frame, 1.333, made), strip);
     return p.path;
   };
   constexpr double kDegree = std::numbers::pi / 180;

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/ops/fresnel_reflection.h"
-#include "limpid/ops/wave_normals.h"
-
+#include "ops/fresnel_reflection_kernel.h"
 #include "ops/probe_strip.h"
+#include "ops/wave_normals_kernel.h"
 
 // What waves too small for a pixel do to what it mirrors, and what a plate's normals tell of them.
 
@@ -41,7 +40,7 @@ Pixel<double> mirrored(Pixel<double> p, FresnelReflection::Facets facets) {
   params.facets = facets;
   test::ProbeStrip strip;
   strip.pixels.push_back(p);
-  FresnelReflection::apply(params, context_of(), strip);
+  Kernel<FresnelReflection>::apply(params, context_of(), strip);
   return strip.pixels[0];
 }
 
@@ -140,7 +139,7 @@ TEST(PlateNormals, TellWhatAPixelCannotResolveByTheirNeighbours) {
     strip.normals.at[k] = normalize_or<double>(
         vec3_of<double>(c.up) + -slope * vec3_of<double>(c.map_y), vec3_of<double>(c.up));
   }
-  WaveNormals::apply(params, c, strip);
+  Kernel<WaveNormals>::apply(params, c, strip);
   EXPECT_EQ(strip.pixel.normal.x, strip.normals[4].x);
   EXPECT_EQ(strip.pixel.normal.z, strip.normals[4].z);
   EXPECT_NEAR(strip.pixel.slope_variance.yy, 0.5 * 0.04, 1e-12);
@@ -148,7 +147,7 @@ TEST(PlateNormals, TellWhatAPixelCannotResolveByTheirNeighbours) {
   EXPECT_NEAR(strip.pixel.slope_variance.xy, 0, 1e-12);
   for (const auto filter : {WaveNormals::Filter::kNone, WaveNormals::Filter::kMip}) {
     params.filter = filter;
-    WaveNormals::apply(params, c, strip);
+    Kernel<WaveNormals>::apply(params, c, strip);
     EXPECT_EQ(strip.pixel.slope_variance.yy, 0);
     EXPECT_EQ(strip.pixel.normal.z, strip.normals[4].z);
   }

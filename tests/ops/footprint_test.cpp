@@ -1,14 +1,13 @@
-#include "limpid/op/footprint.h"
+#include "op/footprint.h"
 
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "limpid/op/pixel_start.h"
-#include "limpid/ops/wave_normals.h"
-
+#include "op/pixel_start.h"
 #include "ops/probe_strip.h"
+#include "ops/wave_normals_kernel.h"
 
 // What one pixel sees of the water, and what becomes of waves in it.
 
@@ -174,7 +173,7 @@ TEST(Sines, WhatAPixelCannotResolveBecomesVariance) {
                               {at.x + dot(vec3_of<double>(c.map_x), vec3_of<double>(c.eye)),
                                at.y + dot(vec3_of<double>(c.map_y), vec3_of<double>(c.eye))},
                               footprint(c, strip.pixels[0]));
-    WaveNormals::apply(params, c, strip);
+    Kernel<WaveNormals>::apply(params, c, strip);
     const Pixel<double>& p = strip.pixels[0];
     const double up = dot(p.normal, vec3_of<double>(c.up));
     EXPECT_NEAR(-dot(p.normal, vec3_of<double>(c.map_x)) / up, seen.mean.x, 2e-5) << y;

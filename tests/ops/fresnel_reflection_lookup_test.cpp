@@ -1,6 +1,7 @@
 #include "limpid/ops/fresnel_reflection.h"
 
 #include "ops/tray.h"
+#include "optics/refract.h"
 
 // Where the mirror is looked up, and what must not be seen in it.
 

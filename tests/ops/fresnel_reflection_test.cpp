@@ -1,8 +1,7 @@
-#include "limpid/ops/fresnel_reflection.h"
-
 #include <cmath>
 #include <utility>
 
+#include "ops/fresnel_reflection_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/tray.h"
 
@@ -243,7 +242,7 @@ TEST(FresnelReflection, TheWaterInFrontOfTheUndersideStaysInFront) {
     p.in_scatter = {0.3, 0.3, 0.3};
     strip.pixels.push_back(p);
   }
-  FresnelReflection::apply(params, pass, strip);
+  Kernel<FresnelReflection>::apply(params, pass, strip);
   const double f = 0.0203731, t = 0.6 * (1 - f), s = 0.3 * (1 - f);
   const Pixel<double>&below = strip.pixels[0], &within = strip.pixels[1], &above = strip.pixels[2];
   test::expect_rgb(below.transmitted, {t, t, t});

@@ -1,5 +1,4 @@
-#include "limpid/ops/penetration.h"
-
+#include "ops/penetration_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/tray.h"
 
@@ -49,14 +48,14 @@ TEST(Penetration, EveryPartOfTheSurfaceIsBlended) {
   const test::Buffers buffers = test::noisy_frame(rect_of(size));
   const Pass pass(test::simple_scene(size), buffers.frame, 1.333, {});
   const Penetration::Params params = view_angle(1, 0.8, 2);
-  Penetration::apply(params, pass, strip);
+  Kernel<Penetration>::apply(params, pass, strip);
   test::expect_rgb(p.in_scatter, {0.4, 0.2, 0.1}, 1e-12);
   test::expect_rgb(p.reflected, {8, 16, 24}, 1e-12);
   test::expect_rgb(p.highlight, {80, 160, 240}, 1e-12);
   // What the probe gives for the dry color comes on top, by a fifth.
   test::ProbeStrip of_dry;
   of_dry.pixels.push_back(black);
-  Penetration::apply(params, pass, of_dry);
+  Kernel<Penetration>::apply(params, pass, of_dry);
   const Rgb<double> let_through = of_dry.pixels[0].transmitted;
   EXPECT_GT(let_through.r, 0);
   test::expect_rgb(p.transmitted - let_through, 0.8 * before.transmitted, 1e-12);

@@ -1,5 +1,4 @@
-#include "limpid/ops/prism_split.h"
-
+#include "ops/prism_split_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/tray.h"
 
@@ -51,9 +50,10 @@ TEST(PrismSplit, ReachesAsFarAsTheSteepestTilt) {
   strip.pixels.push_back(test::random_pixel(1, {}));
   strip.pixels[0].tilt = {1, 1};
   const test::Buffers buffers = test::noisy_frame(rect_of({4, 3}));
-  PrismSplit::apply(params, Pass(test::simple_scene({4, 3}), buffers.frame, 1.333, {}), strip);
-  EXPECT_NEAR(strip.pixels[0].prism_r.x, PrismSplit::reach(params), 1e-12);
-  EXPECT_NEAR(strip.pixels[0].prism_b.y, PrismSplit::reach(params), 1e-12);
+  Kernel<PrismSplit>::apply(params, Pass(test::simple_scene({4, 3}), buffers.frame, 1.333, {}),
+                            strip);
+  EXPECT_NEAR(strip.pixels[0].prism_r.x, Kernel<PrismSplit>::reach(params), 1e-12);
+  EXPECT_NEAR(strip.pixels[0].prism_b.y, Kernel<PrismSplit>::reach(params), 1e-12);
 }
 
 TEST(PrismSplit, ReflectionIsNotSplit) {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/op/pass.h"
-
+#include "op/pass.h"
+#include "op/pixel.h"
 #include "support.h"
 
 namespace limpid::test {

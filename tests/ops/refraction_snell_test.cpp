@@ -4,9 +4,9 @@
 #include <glm/geometric.hpp>
 
 #include "limpid/ops/refraction.h"
-#include "limpid/optics/water_index.h"
 
 #include "ops/tray.h"
+#include "optics/water_index.h"
 
 // Model `snell` against closed forms: a camera 2 above calm water, a bottom that is a plane.
 

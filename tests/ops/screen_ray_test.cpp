@@ -1,7 +1,8 @@
-#include "limpid/op/screen_ray.h"
+#include "op/screen_ray.h"
 
 #include <gtest/gtest.h>
 
+#include "op/pixel.h"
 #include "support.h"
 
 namespace limpid {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ops/contract.h"
+#include "ops/kernels.h"
 #include "ops/probe_strip.h"
 
 // What the tables say of when a parameter matters, against what the operators do.
@@ -30,7 +31,7 @@ const Field<typename Op::Params>* field_named(std::string_view name) {
 }
 
 TEST(UsedWhen, ConditionsNameWordsOfTheSameOperator) {
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
       for (const Condition& condition : field.used_when) {
         if (condition.key.empty()) continue;
@@ -102,7 +103,7 @@ TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
   const test::World world;
   Frame frame = world.buffers.frame;
   const Pass pass(world.scene, frame, 1.333, everything());
-  Chain::for_each([&]<class Op, int>() {
+  Kernels::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
       // Not seen by pixels alone: a file's name, a choice among one, and of what is thin,
       // complete/bottom_layer_test.cpp.

@@ -1,6 +1,5 @@
-#include "limpid/ops/water_shadow.h"
-
 #include "ops/tray.h"
+#include "ops/water_shadow_kernel.h"
 
 namespace limpid {
 namespace {
@@ -67,7 +66,7 @@ TEST(WaterShadow, IsDisplacedByNoMoreThanItsRangeAndByAllOfIt) {
   Ranges ranges;
   ranges.shadow = {0.2, 0.9};
   ranges.light = 0.5;  // the picture of half_shaded()
-  const double bound = WaterShadow::displaced(tray.look.of<WaterShadow>(), ranges);
+  const double bound = Kernel<WaterShadow>::displaced(tray.look.of<WaterShadow>(), ranges);
   EXPECT_NEAR(with_shadow(0.9f) - with_shadow(0.2f), bound, 1e-6);
 }
 

@@ -1,12 +1,11 @@
 #include <cstring>
 
-#include "limpid/op/pass.h"
-#include "limpid/op/pixel_start.h"
-#include "limpid/ops/wave_normals.h"
-
 #include "complete/slope_map.h"
 #include "judge/trace/one_pixel.h"
+#include "op/pass.h"
+#include "op/pixel_start.h"
 #include "ops/tray.h"
+#include "ops/wave_normals_kernel.h"
 
 namespace limpid {
 namespace {
@@ -122,10 +121,10 @@ struct Striped {
     LevelMaker maker;
     maker.make(tray.buffers.frame.wave_map);
     SlopeMap slopes;
-    slopes.make(maker.levels(), WaveNormals::four_shifts(params, 1), *make_executor(1));
+    slopes.make(maker.levels(), Kernel<WaveNormals>::four_shifts(params, 1), *make_executor(1));
     Frame frame = tray.buffers.frame;
     frame.wave_slopes = &slopes.levels();
-    frame.wave_variance = WaveNormals::wave_variance(params, maker.levels(), 1);
+    frame.wave_variance = Kernel<WaveNormals>::wave_variance(params, maker.levels(), 1);
     Pass pass(tray.scene, frame, 1.33, kWholeState);
     pass.part.origin_dx = width * pass.rays.origin_dx;
     pass.part.origin_dy = width * pass.rays.origin_dy;
@@ -134,7 +133,7 @@ struct Striped {
     begin_pixel(pass, rays, 4.5, 1.0, 10.0, 14.0, pixel);
     begin_state(kWholeState, pass, Rgb<double>{}, pixel);
     trace::OnePixel strip{pixel};
-    WaveNormals::apply(params, pass, strip);
+    Kernel<WaveNormals>::apply(params, pass, strip);
     return pixel;
   }
 

@@ -2,9 +2,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "limpid/optics/waves.h"
-
 #include "ops/tray.h"
+#include "optics/waves.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "limpid/optics/absorption.h"
+#include "optics/absorption.h"
 
 #include <algorithm>
 #include <cmath>

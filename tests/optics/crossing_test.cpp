@@ -1,8 +1,8 @@
-#include "limpid/optics/crossing.h"
+#include "optics/crossing.h"
 
 #include <gtest/gtest.h>
 
-#include "limpid/optics/fresnel.h"
+#include "optics/fresnel.h"
 
 namespace limpid {
 namespace {

@@ -1,4 +1,4 @@
-#include "limpid/optics/fog.h"
+#include "optics/fog.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "limpid/optics/fresnel.h"
+#include "optics/fresnel.h"
 
 #include <cmath>
 #include <numbers>

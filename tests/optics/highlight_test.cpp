@@ -1,4 +1,4 @@
-#include "limpid/optics/highlight.h"
+#include "optics/highlight.h"
 
 #include <algorithm>
 #include <cmath>

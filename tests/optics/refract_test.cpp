@@ -1,4 +1,4 @@
-#include "limpid/optics/refract.h"
+#include "optics/refract.h"
 
 #include <cmath>
 #include <numbers>

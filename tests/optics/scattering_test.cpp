@@ -1,4 +1,4 @@
-#include "limpid/optics/scattering.h"
+#include "optics/scattering.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "limpid/optics/surroundings.h"
+#include "optics/surroundings.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,12 +1,12 @@
-#include "limpid/optics/water_index.h"
+#include "optics/water_index.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "limpid/optics/fresnel.h"
-#include "limpid/optics/refract.h"
+#include "optics/fresnel.h"
+#include "optics/refract.h"
 
 namespace limpid {
 namespace {

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/optics/highlight.h"
-
+#include "optics/highlight.h"
 #include "optics/lane_value.h"
 #include "support.h"
 

@@ -1,4 +1,4 @@
-#include "limpid/optics/waves.h"
+#include "optics/waves.h"
 
 #include <cmath>
 #include <numbers>

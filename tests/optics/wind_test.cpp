@@ -1,4 +1,4 @@
-#include "limpid/optics/wind.h"
+#include "optics/wind.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "limpid/op/ranges.h"
-
+#include "op/ranges.h"
+#include "ops/depth_fog_kernel.h"
+#include "ops/kernels.h"
+#include "ops/water_shadow_kernel.h"
 #include "plan/patchy_frame.h"
 
 // What an operator declares as its bound, on whole frames whose ranges are found pixel by pixel,
@@ -104,7 +106,7 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     Plan plan = whole;
     const auto drop = [](Plan& from, int op) { from.operators[op].verdict = Verdict::kInvisible; };
     // Never what finds the way that others measure. Drawn by name, whatever else is in the chain.
-    Chain::for_each([&]<class Op, int I>() {
+    Kernels::for_each([&]<class Op, int I>() {
       int draw = 0;
       for (const char letter : Op::kName) draw += letter;
       if (I != kFinder && plan.keeps(I) && test::noise(seed, draw, 5) < 0.3f) drop(plan, I);
@@ -115,7 +117,7 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     ranges.hit = ranges.own;
     ranges.path = {0, 0};
     ranges.light = ranges.brightest();
-    Chain::for_each([&]<class Op, int I>() {
+    Kernels::for_each([&]<class Op, int I>() {
       if constexpr (requires { Op::reckon(plan.look.of<Op>(), pass, ranges); }) {
         if (whole.keeps(I)) Op::reckon(plan.look.of<Op>(), pass, ranges);
       }
@@ -123,12 +125,12 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     const bool fog = plan.keeps<DepthFog>();
     if (!fog) ranges.through = 1;
     const Picture all = test::picture_of(plan, frame, scene, test::by_reference);
-    Chain::for_each([&]<class Op, int I>() {
+    Kernels::for_each([&]<class Op, int I>() {
       if (!plan.keeps(I)) return;
       ++known[I].runs;
       double bound = Op::bound(plan.look.of<Op>(), pass, ranges);
-      if (std::is_same_v<Op, Refraction> && plan.keeps<WaterShadow>()) {
-        bound += WaterShadow::displaced(plan.look.of<WaterShadow>(), ranges);
+      if (std::is_same_v<Op, Kernel<Refraction>> && plan.keeps<WaterShadow>()) {
+        bound += Kernel<WaterShadow>::displaced(plan.look.of<WaterShadow>(), ranges);
       }
       ASSERT_GE(bound, 0) << Op::kName;
       if (!std::isfinite(bound)) return;
@@ -141,9 +143,9 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
       if (bound > 0) known[I].closest = std::max(known[I].closest, change / bound);
     });
     if (!fog || !plan.keeps<Refraction>()) continue;
-    double beyond = DepthFog::beyond(plan.look.of<DepthFog>(), pass, ranges);
+    double beyond = Kernel<DepthFog>::beyond(plan.look.of<DepthFog>(), pass, ranges);
     if (plan.keeps<WaterShadow>())
-      beyond += WaterShadow::displaced(plan.look.of<WaterShadow>(), ranges);
+      beyond += Kernel<WaterShadow>::displaced(plan.look.of<WaterShadow>(), ranges);
     if (!std::isfinite(beyond)) continue;
     CellNeeds opaque;
     opaque.opaque = true;
@@ -157,8 +159,8 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
   EXPECT_EQ(known[Chain::index_of<WaveNormals>()].finite, 0) << "all hangs on the normals";
   // Bounds that are never nearly met are no use.
   int ran = 0;
-  Chain::for_each([&]<class Op, int I>() {
-    if (std::is_same_v<Op, WaveNormals> || known[I].runs == 0) return;
+  Kernels::for_each([&]<class Op, int I>() {
+    if (std::is_same_v<Op, Kernel<WaveNormals>> || known[I].runs == 0) return;
     ++ran;
     EXPECT_GT(known[I].finite, 10) << Op::kName;
     EXPECT_GT(known[I].closest, 0.4) << Op::kName;

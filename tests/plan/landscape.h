@@ -1,4 +1,5 @@
 #pragma once
+#include "op/pass.h"
 #include "plan/patchy_frame.h"
 
 /// Water over a bottom that is mostly smooth, as rays meet it: for marches, which noise would end

@@ -5,6 +5,7 @@
 
 #include "limpid/core/simd.h"
 
+#include "op/pass.h"
 #include "plan/surveyed.h"
 
 namespace limpid {

@@ -6,6 +6,7 @@
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
+#include "op/pass.h"
 #include "support.h"
 
 /// A survey as plainly as it can be obeyed: for each kind of cell the whole picture is run without

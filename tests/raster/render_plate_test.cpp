@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/optics/waves.h"
+
+#include "optics/waves.h"
 
 namespace limpid {
 namespace {

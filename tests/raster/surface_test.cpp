@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "limpid/optics/shading.h"
-
+#include "optics/shading.h"
 #include "raster_scenes.h"
 
 namespace limpid {

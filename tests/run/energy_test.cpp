@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "limpid/files/text/look_file.h"
-#include "limpid/optics/fresnel.h"
-#include "limpid/optics/highlight.h"
 
+#include "optics/fresnel.h"
+#include "optics/highlight.h"
 #include "support.h"
 
 // What the water gives back of the light, by the whole chain in both runners.

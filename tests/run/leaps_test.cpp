@@ -7,6 +7,7 @@
 #include "limpid/core/simd.h"
 #include "limpid/files/text/look_file.h"
 
+#include "op/pass.h"
 #include "plan/landscape.h"
 
 /// A march that leaves out looks (FusedOptions::leaps) against one that does not.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "op/pass.h"
 #include "support.h"
 
 // The mean of the parts of a pixel resolves waves that one sample does not.

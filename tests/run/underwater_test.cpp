@@ -8,9 +8,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "limpid/optics/fresnel.h"
-#include "limpid/optics/waves.h"
-
+#include "optics/fresnel.h"
+#include "optics/waves.h"
 #include "support.h"
 
 // A camera in the water, or half in it: by the whole chain, in both runners.

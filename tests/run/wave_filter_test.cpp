@@ -6,6 +6,7 @@
 #include "limpid/files/text/look_file.h"
 #include "limpid/plate/texture.h"
 
+#include "op/pass.h"
 #include "support.h"
 
 namespace limpid {

@@ -1,4 +1,4 @@
-#include "limpid/optics/wind.h"
+#include "optics/wind.h"
 
 #include <cmath>
 
@@ -7,6 +7,7 @@
 #include "limpid/plate/texture.h"
 
 #include "ops/tray.h"
+#include "ops/wave_normals_kernel.h"
 
 // What a wind makes of the map that the looks have.
 
@@ -143,8 +144,8 @@ TEST(WindOnMaps, WavesRunAsFastAsTheirLength) {
       params.wind = wind;
       params.tile_size = tile;
       params.direction = 60;
-      const FourShifts begin = WaveNormals::four_shifts(params, 0);
-      const FourShifts later = WaveNormals::four_shifts(params, 2);
+      const FourShifts begin = Kernel<WaveNormals>::four_shifts(params, 0);
+      const FourShifts later = Kernel<WaveNormals>::four_shifts(params, 2);
       const Vec2<double> ahead = towards(60);
       double aside_of_all = 0, ahead_of_all = 0;
       for (int i = 0; i < 4; ++i) {

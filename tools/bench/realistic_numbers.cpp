@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "limpid/op/pass.h"
+#include "op/pass.h"
 
 namespace limpid::bench {
 

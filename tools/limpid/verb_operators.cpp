@@ -89,17 +89,16 @@ int operators_verb(const OperatorsArguments& a) {
   const Look look = a.look.empty() ? Look{} : look_for(a.look);
   const std::vector<Parameter> all = parameters(look);
   std::vector<std::string> names{std::string(Water::kName)};
-  Chain::for_each([&]<class Op, int>() { names.emplace_back(Op::kName); });
+  for (const OperatorInfo& op : operators()) names.emplace_back(op.name);
 
   if (a.name.empty()) {
     std::printf("In the order in which they run; what each taps, needs of the state, and makes:\n");
-    Chain::for_each([&]<class Op, int>() {
-      std::printf("\n%-19s %s\n", std::string(Op::kName).c_str(), std::string(Op::kAbout).c_str());
-      std::printf("%-19s   taps %s; uses %s; makes %s\n", "",
-                  roles_text(Op::reads(look.of<Op>())).c_str(), state_text(Op::kUses).c_str(),
-                  state_text(Op::kMakes).c_str());
-      print_table(all, Op::kName);
-    });
+    for (const OperatorInfo& op : operators()) {
+      std::printf("\n%-19s %s\n", std::string(op.name).c_str(), std::string(op.about).c_str());
+      std::printf("%-19s   taps %s; uses %s; makes %s\n", "", roles_text(op.reads(look)).c_str(),
+                  state_text(op.uses).c_str(), state_text(op.makes).c_str());
+      print_table(all, op.name);
+    }
     std::printf("\n%-19s %s\n", std::string(Water::kName).c_str(),
                 std::string(Water::kAbout).c_str());
     print_table(all, Water::kName);

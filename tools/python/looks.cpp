@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limpid/core/error.h"
+#include "limpid/plan/plan.h"
 
 #include "values.h"
 
@@ -147,9 +148,9 @@ py::dict dict_of(const Look& look) {
 py::list operators() {
   const Look look;
   py::list all;
-  Chain::for_each([&]<class Op, int>() {
-    all.append(table_of(Op::kName, Op::kAbout, Op::reads(look.of<Op>())));
-  });
+  for (const OperatorInfo& op : limpid::operators()) {
+    all.append(table_of(op.name, op.about, op.reads(look)));
+  }
   all.append(table_of(Water::kName, Water::kAbout, {}));
   return all;
 }

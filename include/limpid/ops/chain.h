@@ -1,9 +1,8 @@
 #pragma once
-#include <span>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
-#include "limpid/op/operator.h"
 #include "limpid/ops/depth_fog.h"
 #include "limpid/ops/fresnel_reflection.h"
 #include "limpid/ops/penetration.h"
@@ -16,20 +15,21 @@
 /// @file
 /// THE list of operators, in the order in which they run.
 ///
-/// To add an operator: its header (formula) and source (table of parameters) in ops/, a test in
-/// tests/ops/, its include above and its name in Chain below. `tools/dev new-op NAME` makes the
-/// files. Look keys, `limpid operators`, plan entry, reference and fused passes and contract tests
-/// then come by themselves.
+/// An operator is four files: its header here (what it models, its parameters), its kernel (the
+/// formula) and its source (table of parameters, bound) in src/ops, its test in tests/ops.
+/// `tools/dev new-op NAME` makes them. To add it: its include above and its name in Chain below,
+/// its kernel's include in src/ops/kernels.h. Look keys, `limpid operators`, plan entry, reference
+/// and fused passes and contract tests then come by themselves.
 ///
 /// To add a model to an operator: a value in its enum and the word for it in its table (same place
 /// in both), its branch in apply(), its formula in optics/ when it has one, new parameters as
 /// members and table rows, and what it reads in reads() and needs(). Nothing outside the operator's
-/// two files and its test changes, unless the model needs an input that no frame has had before:
-/// that is a role in core/frame.h. What the planner asks of an operator is in op/operator.h.
+/// files changes, unless the model needs an input that no frame has had before: that is a role in
+/// core/frame.h. What the planner asks of an operator is in src/op/operator.h.
 
 namespace limpid {
 
-template <Operator... Ops>
+template <class... Ops>
 struct OperatorList {
   static constexpr int kCount = sizeof...(Ops);
   using AllParams = std::tuple<typename Ops::Params...>;

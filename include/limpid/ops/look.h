@@ -29,11 +29,11 @@ struct Look {
   Chain::AllParams operators;
   std::string file;  ///< that it was read from, absolute, or ""
 
-  template <Operator Op>
+  template <class Op>
   typename Op::Params& of() {
     return std::get<typename Op::Params>(operators);
   }
-  template <Operator Op>
+  template <class Op>
   const typename Op::Params& of() const {
     return std::get<typename Op::Params>(operators);
   }

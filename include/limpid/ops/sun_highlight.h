@@ -1,9 +1,8 @@
 #pragma once
-#include <numbers>
+#include <span>
+#include <string_view>
 
-#include "limpid/op/mirror_search.h"
-#include "limpid/op/operator.h"
-#include "limpid/optics/highlight.h"
+#include "limpid/core/field.h"
 
 namespace limpid {
 
@@ -39,79 +38,7 @@ struct SunHighlight {
 
   static constexpr std::string_view kName = "sun_highlight";
   static constexpr std::string_view kAbout = "Glint of the sun, masked by its shadow.";
-  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kSlopeVariance};
-  static constexpr StateSet kMakes{StatePart::kHighlight};
   static std::span<const Field<Params>> fields();
-  static PlaneSet reads(const Params& p) {
-    const PlaneId other = p.model == Model::kSlopes ? PlaneId::kDepth : PlaneId::kShadow;
-    return {other, PlaneId::kSurfaceShadow};
-  }
-  static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
-  static double reach(const Params& p) { return p.model == Model::kSlopes ? HUGE_VAL : 0; }
-  static bool neutral(const Params& p, StateSet) { return p.strength == 0; }
-  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
-
-  static constexpr bool kLooksAbove = true;
-  static double ns(const Params& p, const Running&) {
-    return p.model == Model::kGgx ? 2.5 : p.model == Model::kSlopes ? 4 : 2;
-  }
-
-  template <class Strip>
-  static void apply(const Params& params, const Pass& c, Strip& strip) {
-    using F = typename Strip::Number;
-    const bool physical = params.model == Model::kGgx || params.model == Model::kSlopes;
-    const double scale = params.strength * (physical ? std::numbers::pi : 1);
-    const Rgb<F> light{F(scale * c.sun.color.r), F(scale * c.sun.color.g),
-                       F(scale * c.sun.color.b)};
-    if (params.model == Model::kSlopes && !c.planes.has(PlaneId::kSurfaceShadow)) {
-      return strip.probe([&](Pixel<F>& p, const auto& tap) {
-        F seen = select(p.side > F(0.5), lobe(params, c, p), F(0));
-        if_any(seen > F(0), [&] { seen = select(is_shadowed(c, p, tap), F(0), seen); });
-        p.highlight = seen * light;
-      });
-    }
-    const PlaneId shadow =
-        c.planes.has(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
-    strip.own(shadow, [&](Pixel<F>& p, F visible) {
-      const F lit = select(p.side > F(0.5), visible, F(0));
-      p.highlight = (lobe(params, c, p) * lit) * light;
-    });
-  }
-
- private:
-  /// Whether something that the picture shows stands between the surface point and the sun.
-  template <class F, class Tap>
-  static auto is_shadowed(const Pass& c, const Pixel<F>& p, const Tap& tap) {
-    constexpr MirrorSteps kSteps{16, 0.06, 0.03};
-    const ScreenRay<F> ray(c, p, vec3_of<F>(c.sun.direction));
-    const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
-    return MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p, ray, kSteps,
-                                       above)
-               .hit > F(0.5);
-  }
-
-  template <class F>
-  static LIMPID_INLINE F lobe(const Params& params, const Pass& c, const Pixel<F>& p) {
-    const Vec3<F> n = p.normal, v = p.to_viewer, l = vec3_of<F>(c.sun.direction);
-    const auto faces_sun = dot(n, l) > F(0);
-    switch (params.model) {
-      case Model::kPhong:
-        return select(faces_sun, phong_lobe(n, v, l, params.power), F(0));
-      case Model::kBlinnPhong:
-        return select(faces_sun, blinn_phong_lobe(n, v, l, params.power), F(0));
-      case Model::kGgx:
-        if (params.roughness == 0) return sun_disc_lobe(n, v, l, F(c.ior));
-        return sun_glint_lobe(n, v, l, F(params.roughness), F(c.ior));
-      case Model::kSlopes: {
-        const F rough(0.5 * params.roughness * params.roughness);
-        const Sym2<F> spread = p.slope_variance + Sym2<F>{rough, F(0), rough};
-        return wave_glint_lobe(n, v, l, vec3_of<F>(c.up), vec3_of<F>(c.map_x), vec3_of<F>(c.map_y),
-                               spread, F(c.sun.radius()), F(c.ior));
-      }
-    }
-    return F(0);
-  }
 };
 
 }  // namespace limpid

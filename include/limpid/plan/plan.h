@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "limpid/core/frame.h"
-#include "limpid/core/scene.h"
-#include "limpid/op/pass.h"
-#include "limpid/op/pixel.h"
+#include "limpid/core/state.h"
 #include "limpid/ops/look.h"
 #include "limpid/plan/completers.h"
 
@@ -37,6 +35,15 @@ struct PlannedOperator {
   std::string reason;          ///< one phrase, "" for a plain kKept
   std::string_view rule = {};  ///< that decided, "" for a plain kKept
 };
+
+/// An operator of the chain, as it is declared.
+struct OperatorInfo {
+  std::string_view name, about;
+  StateSet uses, makes;
+  PlaneSet (*reads)(const Look& look);  ///< every plane that it may look up
+};
+/// In chain order.
+std::span<const OperatorInfo> operators();
 
 /// A rule of the planner: what it is called and what it does.
 struct RuleInfo {
@@ -70,16 +77,12 @@ struct Plan {
   /// Whether one is lit by the sky: the environment's, else that of the scene.
   bool lit_by_sky = false;
 
-  /// What raises the water: waves of this look or of the scene, where the surface is one of
-  /// `completed`. Refers to this plan.
-  Swell swell() const;
-
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
-  template <Operator Op>
+  template <class Op>
   const PlannedOperator& of() const {
     return operators[Chain::index_of<Op>()];
   }
-  template <Operator Op>
+  template <class Op>
   bool keeps() const {
     return keeps(Chain::index_of<Op>());
   }

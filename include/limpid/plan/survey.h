@@ -8,10 +8,11 @@
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/pass.h"
 #include "limpid/plan/plan.h"
 
 namespace limpid {
+
+struct Pass;  // what all pixels of a run have in common: the runners make it
 
 /// What the wet pixels of a cell of the picture need of the plan.
 ///

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <optional>
 
-#include "limpid/core/toml_text.h"
+#include "core/toml_text.h"
 
 namespace limpid {
 namespace {

@@ -1,11 +1,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "limpid/op/pass.h"
-#include "limpid/optics/waves.h"
-
 #include "judge/hard/hard_case.h"
 #include "judge/hard/sea.h"
+#include "op/pass.h"
+#include "optics/waves.h"
 
 namespace limpid {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "limpid/op/footprint.h"
-#include "limpid/op/pass.h"
-#include "limpid/op/pixel_start.h"
+#include "op/footprint.h"
+#include "op/pass.h"
+#include "op/pixel_start.h"
 
 namespace limpid {
 namespace {

@@ -6,6 +6,7 @@
 #include "judge/report/measure.h"
 #include "judge/report/numbers.h"
 #include "judge/report/rounds.h"
+#include "op/pass.h"
 
 namespace limpid {
 namespace {

@@ -5,8 +5,9 @@
 #include <glm/vec3.hpp>
 
 #include "limpid/core/vec.h"
-#include "limpid/op/pass.h"
-#include "limpid/optics/refract.h"
+
+#include "op/pass.h"
+#include "optics/refract.h"
 
 /// Ways of light. All positions of the tracer are relative to the eye, which keeps them exact near
 /// it.

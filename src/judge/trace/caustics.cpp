@@ -4,10 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "limpid/optics/fresnel.h"
-
 #include "judge/trace/bend.h"
 #include "judge/trace/samples.h"
+#include "optics/fresnel.h"
 
 namespace limpid::trace {
 namespace {

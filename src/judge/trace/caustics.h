@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "limpid/core/executor.h"
-#include "limpid/core/water_view.h"
 
+#include "core/water_view.h"
 #include "judge/trace/eye.h"
 #include "judge/trace/medium.h"
 #include "judge/trace/solid.h"

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <numbers>
 
-#include "limpid/optics/absorption.h"
-#include "limpid/optics/fresnel.h"
-#include "limpid/optics/refract.h"
-
 #include "judge/trace/chances.h"
 #include "judge/trace/directions.h"
 #include "judge/trace/mean_light.h"
 #include "judge/trace/samples.h"
+#include "optics/absorption.h"
+#include "optics/fresnel.h"
+#include "optics/refract.h"
 
 namespace limpid {
 namespace {

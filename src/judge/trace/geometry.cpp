@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpid/optics/fresnel.h"
-
 #include "judge/trace/bend.h"
+#include "optics/fresnel.h"
 
 namespace limpid::trace {
 namespace {

@@ -1,6 +1,7 @@
 #include "judge/trace/medium.h"
 
-#include "limpid/optics/water_index.h"
+#include "ops/depth_fog_kernel.h"
+#include "optics/water_index.h"
 
 namespace limpid::trace {
 namespace {
@@ -15,8 +16,8 @@ Rgb<double> shares(const Rgb<double>& part, const Rgb<double>& whole) {
 Medium::Medium(const Pass& pass, const Look& look, TruthOptions::Light light) {
   DepthFog::Params fog = look.of<DepthFog>();
   if (light == TruthOptions::Light::kPaths) fog.model = DepthFog::Model::kBeerLambert;
-  const Rgb<double> scattering = DepthFog::scattering(fog);
-  rate = DepthFog::extinction(fog);
+  const Rgb<double> scattering = Kernel<DepthFog>::scattering(fog);
+  rate = Kernel<DepthFog>::extinction(fog);
   albedo = shares(scattering, rate);
   ambient = scattering * fog.ambient;
   anisotropy = fog.anisotropy;

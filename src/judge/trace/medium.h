@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "limpid/op/pass.h"
 #include "limpid/ops/look.h"
 
 #include "judge/trace/truth.h"
+#include "op/pass.h"
 #include "ops/water_light.h"
 
 namespace limpid::trace {

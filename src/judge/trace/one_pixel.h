@@ -1,9 +1,11 @@
 #pragma once
 #include <cmath>
+#include <utility>
 
 #include "limpid/core/frame.h"
-#include "limpid/op/pixel.h"
 
+#include "op/height_bound.h"
+#include "op/pixel.h"
 #include "op/plain_texture.h"
 
 namespace limpid::trace {

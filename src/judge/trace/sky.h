@@ -1,9 +1,8 @@
 #pragma once
-#include "limpid/core/water_view.h"
-#include "limpid/optics/surroundings.h"
-
+#include "core/water_view.h"
 #include "judge/trace/beam.h"
 #include "op/plain_texture.h"
+#include "optics/surroundings.h"
 
 namespace limpid::trace {
 

@@ -5,7 +5,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "limpid/optics/shading.h"
+#include "optics/shading.h"
 
 namespace limpid::trace {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 #include <algorithm>
 
-#include "limpid/core/water_view.h"
-
+#include "core/water_view.h"
 #include "judge/trace/medium.h"
 #include "judge/trace/solid.h"
+#include "optics/absorption.h"
 
 namespace limpid::trace {
 

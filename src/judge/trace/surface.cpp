@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "judge/trace/one_pixel.h"
+#include "ops/wave_normals_kernel.h"
 #include "raster/water_surface.h"
 
 namespace limpid::trace {
 namespace {
 
 bool makes_waves(const WaveNormals::Params& waves, const Texture& wave_map) {
-  return waves.strength != 0 && (wave_map || !WaveNormals::needs(waves).wave_map);
+  return waves.strength != 0 && (wave_map || !Kernel<WaveNormals>::needs(waves).wave_map);
 }
 
 /// A ray meets a point of the waves: there is no footprint to filter them by.
@@ -85,7 +86,7 @@ glm::dvec3 Surface::normal_at(const glm::dvec3& point) const {
   pixel.surface_point = formula_of(point);
   pixel.normal = formula_of(pass_.up);
   OnePixel strip{pixel};
-  WaveNormals::apply(waves_, pass_, strip);
+  Kernel<WaveNormals>::apply(waves_, pass_, strip);
   return glm_of(pixel.normal);
 }
 

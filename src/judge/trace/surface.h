@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "limpid/core/frame.h"
-#include "limpid/op/pass.h"
 #include "limpid/ops/look.h"
 #include "limpid/raster/model.h"
 
 #include "judge/trace/triangles.h"
+#include "op/pass.h"
 
 namespace limpid::trace {
 

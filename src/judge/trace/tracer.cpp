@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "limpid/optics/fresnel.h"
-#include "limpid/optics/scattering.h"
-
 #include "judge/trace/bend.h"
 #include "judge/trace/one_pixel.h"
+#include "ops/sun_highlight_kernel.h"
+#include "optics/fresnel.h"
+#include "optics/scattering.h"
 
 namespace limpid::trace {
 namespace {
@@ -296,13 +296,13 @@ Rgb<double> Tracer::background(const glm::dvec3& direction, const View& view) co
 
 Rgb<double> Tracer::highlight(const SurfacePoint& at, const glm::dvec3& to_viewer) const {
   const SunHighlight::Params& params = look_.of<SunHighlight>();
-  if (!pass_.has_sun || SunHighlight::neutral(params, {})) return kBlack;
+  if (!pass_.has_sun || Kernel<SunHighlight>::neutral(params, {})) return kBlack;
   Pixel<double> pixel{};
   pixel.side = 1;
   pixel.to_viewer = formula_of(to_viewer);
   pixel.normal = formula_of(at.normal);
   OnePixel strip{pixel};
-  SunHighlight::apply(params, pass_, strip);
+  Kernel<SunHighlight>::apply(params, pass_, strip);
   const bool faces = glm::dot(at.normal, sun_.to_sun) > 0;
   if (pixel.highlight == kBlack || !faces) return kBlack;
   return solid_.blocks({at.point, sun_.to_sun}) ? kBlack : pixel.highlight;

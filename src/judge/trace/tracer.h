@@ -1,6 +1,4 @@
 #pragma once
-#include "limpid/op/pass.h"
-
 #include "judge/trace/medium.h"
 #include "judge/trace/samples.h"
 #include "judge/trace/solid.h"
@@ -8,6 +6,7 @@
 #include "judge/trace/surface.h"
 #include "judge/trace/truth.h"
 #include "judge/trace/walk.h"
+#include "op/pass.h"
 
 namespace limpid::trace {
 

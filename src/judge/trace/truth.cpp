@@ -10,6 +10,7 @@
 
 #include "judge/trace/geometry.h"
 #include "judge/trace/mean_light.h"
+#include "ops/wave_normals_kernel.h"
 #include "raster/check_rendered.h"
 #include "run/each_once.h"
 
@@ -62,12 +63,12 @@ Frame frame_of(const Scene& scene, const Look& look, const TruthOptions& options
   frame.display = rect_of(options.size);
   frame.wave_map = options.wave_map;
   const WaveNormals::Params& waves = look.of<WaveNormals>();
-  if (frame.wave_map && WaveNormals::needs_wave_variance(waves)) {
+  if (frame.wave_map && Kernel<WaveNormals>::needs_wave_variance(waves)) {
     LevelMaker maker;
     if (!frame.wave_map.levels) maker.make(frame.wave_map);
     const TextureLevels* levels = frame.wave_map.levels;
     frame.wave_variance =
-        WaveNormals::wave_variance(waves, levels ? *levels : maker.levels(), scene.time);
+        Kernel<WaveNormals>::wave_variance(waves, levels ? *levels : maker.levels(), scene.time);
   }
   return frame;
 }

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpid/optics/absorption.h"
-#include "limpid/optics/fresnel.h"
-
 #include "judge/trace/bend.h"
 #include "judge/trace/directions.h"
+#include "optics/absorption.h"
+#include "optics/fresnel.h"
 
 namespace limpid::trace {
 namespace {

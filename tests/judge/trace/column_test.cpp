@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/optics/absorption.h"
-#include "limpid/optics/fresnel.h"
-#include "limpid/optics/refract.h"
+#include "optics/absorption.h"
+#include "optics/fresnel.h"
+#include "optics/refract.h"
 
 namespace limpid::test {
 namespace {

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "limpid/optics/water_index.h"
-
 #include "judge/trace/trace_scenes.h"
+#include "optics/water_index.h"
 
 /// Calm water over a level floor, where everything has a closed form, worked out here by hand.
 

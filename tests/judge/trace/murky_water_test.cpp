@@ -4,10 +4,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "limpid/optics/fresnel.h"
-
 #include "judge/trace/column.h"
 #include "ops/tray.h"
+#include "optics/fresnel.h"
 
 // depth_fog.model = radiative_transfer beside walks of light through the same water, over a level
 // bottom, with and without a surface that reflects.

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/optics/fresnel.h"
 
 #include "judge/trace/column.h"
 #include "judge/trace/trace_scenes.h"
+#include "optics/fresnel.h"
 
 /// Light by random ways through a model: beside the column, which has closed forms for judges, and
 /// beside the closed forms of one scattering.

@@ -2,7 +2,8 @@
 #include <cmath>
 
 #include "limpid/core/frame.h"
-#include "limpid/op/block_pyramid.h"
+
+#include "op/block_pyramid.h"
 
 namespace limpid {
 

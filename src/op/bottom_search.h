@@ -1,8 +1,9 @@
 #pragma once
-#include "limpid/op/bottom_layer.h"
-#include "limpid/op/pass.h"
-#include "limpid/op/screen_ray.h"
-#include "limpid/op/seen_planes.h"
+#include "op/bottom_layer.h"
+#include "op/pass.h"
+#include "op/pixel.h"
+#include "op/screen_ray.h"
+#include "op/seen_planes.h"
 
 /// @file
 /// Where a ray under the water meets what the depth plane shows.

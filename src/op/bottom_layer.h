@@ -1,5 +1,6 @@
 #pragma once
-#include "limpid/op/pass.h"
+#include "op/pass.h"
+#include "op/pixel.h"
 
 /// @file
 /// The bottom where nobody rendered it: behind what stands in the water, or before it.

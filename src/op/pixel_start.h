@@ -1,6 +1,8 @@
 #pragma once
-#include "limpid/core/water_view.h"
-#include "limpid/op/pixel.h"
+#include "limpid/core/state.h"
+
+#include "core/water_view.h"
+#include "op/pixel.h"
 
 /// @file
 /// What a pixel is before the first operator, for all runners.

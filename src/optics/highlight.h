@@ -2,7 +2,8 @@
 #include <numbers>
 
 #include "limpid/core/vec.h"
-#include "limpid/optics/fresnel.h"
+
+#include "optics/fresnel.h"
 
 /// @file
 /// Lobes of a sun highlight. All vectors unit: n the normal, v to the viewer, l to the light. The

@@ -2,7 +2,8 @@
 #include <cmath>
 
 #include "limpid/core/frame.h"
-#include "limpid/op/pixel.h"
+
+#include "op/pixel.h"
 
 /// @file
 /// Bilinear lookups in which only some texels count: those below the surface for refraction, those

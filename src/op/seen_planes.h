@@ -1,5 +1,5 @@
 #pragma once
-#include "limpid/op/pass.h"
+#include "op/pass.h"
 
 namespace limpid {
 

@@ -1,5 +1,6 @@
 #pragma once
-#include "limpid/op/bottom_search.h"
+#include "op/bottom_search.h"
+#include "op/pixel.h"
 
 /// @file
 /// What a ray sees under the water that leaves the picture.

@@ -1,6 +1,6 @@
 #pragma once
-#include "limpid/op/pass.h"
-#include "limpid/op/screen_ray.h"
+#include "op/pass.h"
+#include "op/screen_ray.h"
 
 /// @file
 /// Where a mirrored ray meets what a depth plane shows.

@@ -3,10 +3,11 @@
 
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/core/state.h"
 #include "limpid/core/texture_levels.h"
-#include "limpid/core/water_view.h"
-#include "limpid/op/height_bound.h"
-#include "limpid/op/pixel.h"
+
+#include "core/water_view.h"
+#include "op/height_bound.h"
 
 namespace limpid {
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "limpid/core/vec.h"
-#include "limpid/optics/highlight.h"
+
+#include "optics/highlight.h"
 
 /// @file
 /// How dry surfaces answer the sun: the materials of the raster pass (Shading in raster/model.h).

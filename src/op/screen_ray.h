@@ -1,5 +1,6 @@
 #pragma once
-#include "limpid/op/pass.h"
+#include "op/pass.h"
+#include "op/pixel.h"
 
 /// @file
 /// What operators know of the screen: where a ray that leaves the surface passes over it, and how

@@ -7,9 +7,11 @@
 
 #include "limpid/core/field.h"
 #include "limpid/core/frame.h"
-#include "limpid/op/pass.h"
-#include "limpid/op/pixel.h"
-#include "limpid/op/ranges.h"
+#include "limpid/core/state.h"
+
+#include "op/pass.h"
+#include "op/pixel.h"
+#include "op/ranges.h"
 
 /// @file
 /// The operator contract.
@@ -103,6 +105,11 @@ struct WayMeasure {
 struct CellKind {
   std::string_view name, about;
 };
+
+/// What an operator does to pixels: ops/NAME_kernel.h has that of `Op`, whose parameters the public
+/// header limpid/ops/NAME.h declares. It is an Operator, derived from `Op`.
+template <class Op>
+struct Kernel;
 
 /// What an operator must tell of itself. `bound` is a promise: left out, whichever of the other
 /// operators run, it changes no channel of the picture by more than this where `ranges` hold (0:

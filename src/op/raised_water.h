@@ -2,7 +2,7 @@
 #include <numbers>
 #include <vector>
 
-#include "limpid/core/water_view.h"
+#include "core/water_view.h"
 
 /// @file
 /// Where rays meet water that sine waves raise and lower.

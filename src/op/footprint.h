@@ -1,6 +1,6 @@
 #pragma once
-#include "limpid/core/water_view.h"
-#include "limpid/op/pixel.h"
+#include "core/water_view.h"
+#include "op/pixel.h"
 
 namespace limpid {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "limpid/optics/absorption.h"
+#include "optics/absorption.h"
 
 /// @file
 /// Sunlight that water scatters into a view, once.

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <iterator>
+#include <string_view>
+
+#include "limpid/core/enum_set.h"
+
+namespace limpid {
+
+/// The parts of a pixel's running state. Operators declare which they use and which they make.
+enum class StatePart : std::uint8_t {
+  kNormal,         ///< wave normal and its tilt
+  kSlopeVariance,  ///< of the waves that the pixel cannot resolve
+  kPrism,          ///< how far each color channel departs from the common path
+  kPosition,       ///< where in the dry picture the refracted rays end
+  kPath,           ///< length of the way through the water
+  kTransmittance,  ///< share of light that survives that way
+  kTransmitted,    ///< light from below the surface
+  kInScatter,      ///< light scattered into the view by the water
+  kSunScatter,     ///< the sun's share of it
+  kFresnel,        ///< reflectance
+  kReflected,      ///< light mirrored by the surface
+  kMirrorSources,  ///< what the mirrored light was taken from
+  kHighlight,      ///< the sun's glint
+  kConfidence,     ///< 1 where the lookup is real, 0 where it is invented
+};
+
+using StateSet = EnumSet<StatePart>;
+
+/// In the order of StatePart.
+inline constexpr std::string_view kStatePartNames[] = {
+    "normal",        "slope_variance", "prism",      "position",    "path",
+    "transmittance", "transmitted",    "in_scatter", "sun_scatter", "fresnel",
+    "reflected",     "mirror_sources", "highlight",  "confidence"};
+static_assert(std::size(kStatePartNames) == static_cast<std::size_t>(StatePart::kConfidence) + 1);
+
+inline constexpr StateSet kWholeState{
+    StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
+    StatePart::kPosition,    StatePart::kPath,          StatePart::kTransmittance,
+    StatePart::kTransmitted, StatePart::kInScatter,     StatePart::kSunScatter,
+    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kMirrorSources,
+    StatePart::kHighlight,   StatePart::kConfidence};
+
+/// The terms whose sum is the picture.
+inline constexpr StateSet kOutputTerms{StatePart::kTransmitted, StatePart::kInScatter,
+                                       StatePart::kReflected, StatePart::kHighlight};
+
+}  // namespace limpid

@@ -1,0 +1,265 @@
+#pragma once
+#include "limpid/ops/depth_fog.h"
+
+#include "op/operator.h"
+#include "optics/fog.h"
+#include "optics/refract.h"
+#include "optics/scattered_light.h"
+#include "optics/scattering.h"
+
+namespace limpid {
+
+/// What DepthFog does to pixels.
+template <>
+struct Kernel<DepthFog> : DepthFog {
+  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted};
+  static constexpr StateSet kMakes{StatePart::kPath, StatePart::kTransmittance,
+                                   StatePart::kTransmitted, StatePart::kInScatter,
+                                   StatePart::kSunScatter};
+  static PlaneSet reads(const Params& p) {
+    return wants_scattered_light(p) ? kAlbedoPlanes : PlaneSet{};
+  }
+  static PlaneSet wants(const Params& p, const AtHand&) { return reads(p); }
+  static Needs needs(const Params&) { return {}; }
+  static double reach(const Params&) { return 0; }
+  static bool neutral(const Params& p, StateSet);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  /// How much the picture changes at most when the way through the water counts as endless and the
+  /// light at its end as the pixel's own, for refraction is left out. 0 where no bit of it is left.
+  static double beyond(const Params& params, const Pass& c, const Ranges& ranges);
+  /// In water it measures from the eye and along the ray, whatever its `distance`.
+  static WayMeasure way(const Params& params);
+  /// What it makes of another place is in the bound of the operator that finds the place.
+  static double displaced(const Params&, const Ranges&) { return 0; }
+  static double ns(const Params& p, const Running&) { return p.model == Model::kLinear ? 0.6 : 9; }
+  /// What a unit of the way takes from the light: a + b of beer_lambert, less the narrow peak of
+  /// radiative_transfer.
+  static Rgb<double> extinction(const Params& params);
+  static Rgb<double> absorption(const Params& params);
+  static Rgb<double> scattering(const Params& params);
+  /// Whether light that is scattered more than once is to be made for a frame, and of what water.
+  static bool wants_scattered_light(const Params& params);
+  static bool lit_by_sky(const Params& params) { return wants_scattered_light(params); }
+  static ScatteringWater scattering_water(const Params& params, const Pass& c);
+
+  template <class Strip>
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    strip.each([&](Pixel<F>& p) { p.path = way_length(params.distance, c, p); });
+    if (params.model == Model::kLinear) {
+      linear(params, strip);
+    } else {
+      beer_lambert(params, c, strip);
+    }
+  }
+
+ private:
+  /// What the pixels of a frame have in common.
+  struct Medium {
+    Rgb<double> rate;      ///< a + b
+    Rgb<double> down;      ///< K / cos_sun: what sunlight loses for each depth
+    Rgb<double> ambient;   ///< b ambient
+    Rgb<double> sun;       ///< b E'
+    glm::dvec3 to_sun;     ///< unit, in the water
+    double bottom, water;  ///< crossing, of the bottom's light and of the sun's in-scatter
+    bool glows, sunlit;    ///< whether there is in-scatter of each kind
+    /// Of light that is scattered more than once, of red, green, blue; null without.
+    const ScatteredLight* often;
+    Rgb<double> beam, sky;         ///< E' / pi, and the sky's radiance in the water
+    double cosine;                 ///< of the beam with the vertical
+    Rgb<double> dry_sun, dry_sky;  ///< what `transmitted` has of a white level floor
+    double square;                 ///< of the anisotropy
+    bool scatters, turns;          ///< whether light is scattered, and unevenly
+
+    static std::array<double, 3> channels(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
+    std::array<double, 3> rates() const { return channels(rate); }
+    std::array<double, 3> downs() const { return channels(down); }
+    std::array<double, 3> beams() const { return channels(beam); }
+    std::array<double, 3> skies() const { return channels(sky); }
+    std::array<double, 3> dry_suns() const { return channels(dry_sun); }
+    std::array<double, 3> dry_skies() const { return channels(dry_sky); }
+    /// The largest radiance that ways up to a length show of it; and how far it is at most from
+    /// that of endless water, from a depth on.
+    double most_often(double way) const;
+    double beyond_often(double depth) const;
+  };
+  static Medium medium_of(const Params& params, const Pass& c);
+  static double brightest_phase(const Params& params, const Pass& c, const Medium& medium);
+
+  template <class F>
+  static LIMPID_INLINE Rgb<F> rgb_of(const Rgb<double>& c) {
+    return {F(c.r), F(c.g), F(c.b)};
+  }
+
+  template <class F>
+  static LIMPID_INLINE F way_length(Distance distance, const Pass& c, const Pixel<F>& p) {
+    F d = max(p.hit_depth - p.surface_depth, F(0));
+    if (distance != Distance::kEye) d = p.ray_length * d;
+    if (distance == Distance::kRefracted) {
+      const F cosine = max(abs(dot(p.to_viewer, vec3_of<F>(c.up))), F(1e-6));  // against inf * 0
+      d = c.made.has(StatePart::kPosition) ? p.path
+                                           : d * cosine / refracted_cosine(cosine, F(1 / c.ior));
+    }
+    if (!c.submersible) return d;
+    const F straight = p.ray_length * select(p.side < F(0), p.surface_depth, p.dry_depth);
+    return select(p.side > F(0), d, straight);
+  }
+
+  template <class Strip>
+  static void linear(const Params& params, Strip& strip) {
+    using F = typename Strip::Number;
+    const F density(params.density), offset(params.offset), alpha(params.alpha);
+    const Rgb<F> color = rgb_of<F>(params.color);
+    strip.each([&](Pixel<F>& p) {
+      const F veil = alpha * (F(1) - linear_fog(p.path, density, offset));
+      const F clear = F(1) - veil;
+      p.transmittance = {clear, clear, clear};
+      p.transmitted = clear * p.transmitted;
+      p.in_scatter = veil * color;
+      p.sun_near = p.sun_far = p.sun_often = {F(0), F(0), F(0)};
+      p.sun_entry = {F(0), F(0), F(0)};
+      p.sun_way = F(0);
+    });
+  }
+
+  template <class Strip>
+  static void beer_lambert(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const Medium medium = medium_of(params, c);
+    const Rgb<F> rate = rgb_of<F>(medium.rate), down = rgb_of<F>(medium.down);
+    const Rgb<F> ambient = rgb_of<F>(medium.ambient), sun = rgb_of<F>(medium.sun);
+    const Vec3<F> up = vec3_of<F>(c.up), to_sun = vec3_of<F>(medium.to_sun);
+    const F eta(1 / c.ior), anisotropy(params.anisotropy), bottom(medium.bottom),
+        water(medium.water), per_rise(medium.sunlit ? 1 / std::max(medium.cosine, 0.02) : 0);
+    const F eye_depth(c.eye_above < 0 ? -c.eye_above : 0);
+    const auto make = [&](Pixel<F>& p, const Vec3<F>& albedo) {
+      // Of the view in the water: away from the viewer.
+      const auto from_air = p.side > F(0);
+      const Vec3<F> view =
+          select(from_air, refract(p.to_viewer, up, eta).direction, F(-1) * p.to_viewer);
+      const F length = min(p.path, F(3e38)), fall = F(0) - dot(view, up);
+      const F sink = select(from_air, max(fall, F(0)), fall);  // against rounding
+      const F begin = select(from_air, F(0), eye_depth);
+      const Way<F> way{length, sink, begin, max(begin + sink * length, F(0))};
+
+      p.transmittance = transmittance(length, rate);
+      // What is above the surface, seen from below, is not lit through the water.
+      const F under = select(p.side < F(0), F(0), way.end);
+      const Rgb<F> fallen = transmittance(under, down);
+      const Rgb<F> lit = select(from_air, bottom, F(1)) * fallen;
+      p.transmitted = lit * p.transmittance * p.transmitted;
+
+      p.in_scatter = p.sun_near = p.sun_far = p.sun_often = {F(0), F(0), F(0)};
+      if (medium.glows) {
+        const Rgb<F>& left = p.transmittance;
+        p.in_scatter = ambient * Rgb<F>{column_light(rate.r, length, left.r),
+                                        column_light(rate.g, length, left.g),
+                                        column_light(rate.b, length, left.b)};
+      }
+      const F turned = dot(to_sun, view);
+      p.sun_entry = select(from_air, view + (sink * per_rise) * to_sun, {F(0), F(0), F(0)});
+      p.sun_way = F(0);
+      if (medium.sunlit) {
+        const F seen = select(from_air, water, F(1)) * henyey_greenstein(turned, anisotropy);
+        // sun_left() of ways that begin at the surface and go down, as all from the air do: what
+        // the light of their end loses, to it and from it.
+        Rgb<F> left = p.transmittance * fallen;
+        if (any(!from_air)) {
+          left = select(from_air, left,
+                        {sun_left(way, rate.r, down.r), sun_left(way, rate.g, down.g),
+                         sun_left(way, rate.b, down.b)});
+        }
+        const SunColumn<F> red = sun_column(way, rate.r, down.r, left.r);
+        const SunColumn<F> green = sun_column(way, rate.g, down.g, left.g);
+        const SunColumn<F> blue = sun_column(way, rate.b, down.b, left.b);
+        const Rgb<F> light = seen * (sun * Rgb<F>{red.light, green.light, blue.light});
+        p.sun_far = light * Rgb<F>{red.far_share, green.far_share, blue.far_share};
+        p.sun_near = light - p.sun_far;
+        // Of endless ways the share is no number of a float any more.
+        const F fading = max(rate.g + down.g * sink, F(1e-30));
+        p.sun_way = select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
+        p.in_scatter = p.in_scatter + light;
+      }
+      if (medium.often) add_often(medium, way, turned, fallen, albedo, p);
+    };
+    if (medium.often && c.planes.covers(kAlbedoPlanes)) {
+      strip.own3(PlaneId::kAlbedoR, make);
+    } else {
+      strip.each([&](Pixel<F>& p) { make(p, {F(0), F(0), F(0)}); });
+    }
+  }
+
+  /// Sun and sky, of one channel.
+  template <class F>
+  struct Often {
+    F sun, sky;
+  };
+
+  /// Light that is scattered more than once, and of the bottom what `transmitted` lacks.
+  template <class F>
+  static LIMPID_INLINE void add_often(const Medium& m, const Way<F>& way, F turned,
+                                      const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
+    const auto from_air = p.side > F(0);
+    const F doubly = m.turns ? henyey_greenstein(turned, F(m.square)) : F(0);
+    const std::array<F, 4> shapes{F(1), way.sink, turned, doubly};
+    const Rgb<F>& left = p.transmittance;
+    Often<F> red = often_down(m, 0, way, shapes, fallen.r, left.r, albedo.x);
+    Often<F> green = often_down(m, 1, way, shapes, fallen.g, left.g, albedo.y);
+    Often<F> blue = often_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
+    if (any(!from_air)) {
+      const auto choose = [&](Often<F>& down, const Often<F>& inside) {
+        down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
+      };
+      choose(red, often_inside(m, 0, way));
+      choose(green, often_inside(m, 1, way));
+      choose(blue, often_inside(m, 2, way));
+    }
+    p.sun_often = {red.sun, green.sun, blue.sun};
+    const Rgb<F> all = p.in_scatter + p.sun_often + Rgb<F>{red.sky, green.sky, blue.sky};
+    p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
+  }
+
+  /// Of a view from the air. `fallen` and `left`: what is left of the beam at the end of the way,
+  /// and of its light at the viewer.
+  template <class F>
+  static LIMPID_INLINE Often<F> often_down(const Medium& m, std::size_t channel, const Way<F>& way,
+                                           const std::array<F, 4>& shapes, F fallen, F left,
+                                           F albedo) {
+    const ScatteredLight& light = m.often[channel];
+    const std::array<F, 2> even{shapes[0], shapes[1]};
+    const F x = layer_variable(min(F(m.rates()[channel]) * way.end, F(1e6)));
+    const F beam(m.beams()[channel]), sky(m.skies()[channel]), water(m.water);
+    Often<F> up{F(0), F(0)};
+    if (m.scatters) {
+      const F many = m.turns ? layer_power(light.sun, shapes, x)
+                             : layer_power(std::array{light.sun[0], light.sun[1]}, even, x);
+      up = {beam * (F(1) - fallen * left) * many, sky * layer_power(light.sky, even, x)};
+    }
+    const F reflects = min(max(albedo, F(0)), F(ScatteredLight::kMostAlbedo));
+    const F passing = left + layer_power(light.passing, even, x);
+    const F back = F(light.back_at_once) + layer_power(light.back, x);
+    const F seen = reflects * passing / (F(1) - reflects * back);
+    const F sunlit = F(m.cosine) * fallen + layer_power(light.sun_below, x);
+    const F skylit = F(light.sky_at_once) + layer_power(light.sky_below, x);
+    const F had = reflects * fallen * left;
+    // What `transmitted` has of the sky's light went down as the sun's, and may be too much.
+    return {
+        water * up.sun + max(water * (seen * beam * sunlit) - had * F(m.dry_suns()[channel]), F(0)),
+        water * (up.sky + seen * sky * skylit) - had * F(m.dry_skies()[channel])};
+  }
+
+  /// Of a view that begins in the water.
+  template <class F>
+  static LIMPID_INLINE Often<F> often_inside(const Medium& m, std::size_t channel,
+                                             const Way<F>& way) {
+    const ScatteredLight& light = m.often[channel];
+    const F rate(m.rates()[channel]);
+    const F even = sun_column(way, rate, F(light.even_rate)).light;
+    const F falling = sun_column(way, rate, F(m.downs()[channel])).light;
+    return {F(m.beams()[channel]) * max(F(light.even_sun) * even + F(light.beam) * falling, F(0)),
+            F(m.skies()[channel] * light.even_sky) * even};
+  }
+};
+
+}  // namespace limpid

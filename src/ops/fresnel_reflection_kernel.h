@@ -1,0 +1,412 @@
+#pragma once
+#include <optional>
+
+#include "limpid/ops/fresnel_reflection.h"
+
+#include "op/mirror_search.h"
+#include "op/operator.h"
+#include "op/screen_ray.h"
+#include "op/valid_lookup.h"
+#include "optics/fresnel.h"
+#include "optics/refract.h"
+#include "optics/surroundings.h"
+
+namespace limpid {
+
+/// What FresnelReflection does to pixels.
+template <>
+struct Kernel<FresnelReflection> : FresnelReflection {
+  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kSlopeVariance,
+                                  StatePart::kTransmittance, StatePart::kTransmitted,
+                                  StatePart::kInScatter};
+  static constexpr StateSet kMakes{StatePart::kFresnel, StatePart::kReflected,
+                                   StatePart::kMirrorSources, StatePart::kTransmitted,
+                                   StatePart::kInScatter};
+  static PlaneSet reads(const Params& p) {
+    PlaneSet planes;
+    if (p.source == Source::kAuto) planes = kColorPlanes | PlaneSet{PlaneId::kDepth} | kSkyPlanes;
+    if (p.source == Source::kAuto || p.source == Source::kPlanar) {
+      planes = planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid};
+      if (p.lookup == Lookup::kRay) planes = planes | PlaneSet{PlaneId::kReflectionDepth};
+    }
+    return planes;
+  }
+  static PlaneSet wants(const Params& p, const AtHand& has) {
+    if (p.source != Source::kAuto) return {};
+    if (has.planes.covers(kReflectionPlanes)) {
+      if (p.lookup == Lookup::kOffset) return {};
+      return {PlaneId::kReflectionDepth, PlaneId::kReflectionValid};
+    }
+    return has.environment ? PlaneSet{} : kSkyPlanes;
+  }
+  static Needs needs(const Params& p) {
+    return {.planes = p.source == Source::kPlanar ? kReflectionPlanes : PlaneSet{},
+            .environment = p.source == Source::kEnvironment};
+  }
+  static double reach(const Params& p) {
+    if (p.source == Source::kAuto) return HUGE_VAL;
+    if (p.source != Source::kPlanar) return 0;
+    return p.lookup == Lookup::kRay ? HUGE_VAL : abs(p.strength);
+  }
+  static bool neutral(const Params&, StateSet) { return false; }
+  /// The depth plane that mirrored rays are marched over, or none.
+  static std::optional<PlaneId> marched(const Params& params, const Pass& c) {
+    if (params.source != Source::kAuto) return {};
+    if (!reads_planes(params, c)) return PlaneId::kDepth;
+    const bool follows = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
+    if (!follows || c.submersible) return {};
+    return PlaneId::kReflectionDepth;
+  }
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+
+  static constexpr bool kLooksAbove = true;
+  /// What it dims is light that has been counted.
+  static double displaced(const Params&, const Ranges&) { return 0; }
+  /// A picture of the surroundings is the next best mirror.
+  static std::string_view prefer(Params& params, const AtHand& has);
+  /// What the mirror did not see comes from the surroundings, where there is a picture of them.
+  static std::string_view looks_around(const Params& params, const AtHand& has);
+  /// Of a reflection without a depth: a ray over it ends where things infinitely far are.
+  static std::string_view warning(const Params& params, const AtHand& has);
+  static double ns(const Params& params, const Running& running);
+
+  template <class Strip>
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    if (params.facets == Facets::kSpread && c.made.has(StatePart::kSlopeVariance)) {
+      return strip.probe([&](Pixel<F>& p, const auto& tap) { mirror_facets(params, c, p, tap); });
+    }
+    strip.each([&](Pixel<F>& p) { p.fresnel = reflectance(params, c, p, p.normal); });
+    if (params.source == Source::kConstant) {
+      return strip.each([&](Pixel<F>& p) {
+        tell(c, from_far<F>(), p);
+        blend(c, p.fresnel * constant<F>(params), p);
+      });
+    }
+    if (looks_once(params, c)) {
+      return strip.bilinear_rgb(
+          PlaneId::kReflectionR,
+          [&](const Pixel<F>& p) {
+            return params.lookup == Lookup::kRay
+                       ? place_at(c, p, image_ray(c, p, p.normal), F(HUGE_VAL))
+                       : F(params.strength) * p.tilt;
+          },
+          [&](Pixel<F>& p, Rgb<F> mirrored) {
+            tell(c, from_reflection<F>(), p);
+            blend(c, p.fresnel * mirrored, p);
+          });
+    }
+    strip.probe([&](Pixel<F>& p, const auto& tap) {
+      const Mirrored<F> seen = mirrored(params, c, p, tap, p.normal, p.tilt);
+      tell(c, seen.sources, p);
+      blend(c, p.fresnel * seen.light, p);
+    });
+  }
+
+ private:
+  template <class F>
+  static LIMPID_INLINE F from_above(const Params& params, const Pass& c, const Pixel<F>& p,
+                                    Vec3<F> n) {
+    const F cosine = dot(p.to_viewer, n);
+    switch (params.reflectance) {
+      case Reflectance::kRim:
+        return fresnel_rim(cosine, params.power);
+      case Reflectance::kLinear:
+        return fresnel_linear(dot(p.to_viewer, vec3_of<F>(c.up)));
+      case Reflectance::kInversePower:
+        return fresnel_inverse_power(cosine, F(params.intensity), params.power);
+      case Reflectance::kSchlick:
+        return fresnel_schlick(cosine, F(params.f0));
+      case Reflectance::kExact:
+        break;
+    }
+    return fresnel_exact(cosine, F(c.ior));
+  }
+
+  template <class F>
+  static LIMPID_INLINE F reflectance(const Params& params, const Pass& c, const Pixel<F>& p,
+                                     Vec3<F> n) {
+    const F above = from_above(params, c, p, n);
+    if (!c.submersible) return above;
+    const F below = fresnel_exact(F(0) - dot(p.to_viewer, n), F(1 / c.ior));
+    return select(p.side > F(0), above, select(p.side < F(0), below, F(0)));
+  }
+
+  /// Light, and where it was taken from: Pixel::mirror_sources.
+  template <class F>
+  struct Mirrored {
+    Rgb<F> light, sources;
+  };
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_reflection() {
+    return {F(1), F(0), F(0)};
+  }
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_far() {
+    return {F(0), F(0), F(1)};
+  }
+  template <class F>
+  static LIMPID_INLINE void tell(const Pass& c, Rgb<F> sources, Pixel<F>& p) {
+    if (c.made.has(StatePart::kMirrorSources)) p.mirror_sources = sources;
+  }
+
+  /// What is left of the light from below, and what is mirrored, the reflectance in it.
+  template <class F>
+  static LIMPID_INLINE void blend(const Pass& c, Rgb<F> reflected, Pixel<F>& p) {
+    const F through = F(1) - p.fresnel;
+    p.transmitted = through * p.transmitted;
+    p.reflected = reflected;
+    const Rgb<F> dimmed = through * p.in_scatter;
+    if (!c.submersible) {
+      p.in_scatter = dimmed;
+      return;
+    }
+    const auto below = p.side < F(0);
+    p.in_scatter = select(below, p.in_scatter, dimmed);
+    p.reflected = select(below, p.transmittance * p.reflected, p.reflected);
+  }
+
+  // --- facets -----------------------------------------------------------------------------------
+
+  /// Reflectance times mirrored light, and the reflectance, of the mean facet or, where the pixel
+  /// cannot resolve the waves, averaged over three facets: Gauss and Hermite's nodes of a Gaussian
+  /// of slopes, along the view, which is where the mean changes most.
+  template <class F, class Tap>
+  static void mirror_facets(const Params& params, const Pass& c, Pixel<F>& p, const Tap& tap) {
+    const Vec3<F> up = vec3_of<F>(c.up);
+    const Vec3<F> level = p.to_viewer - dot(up, p.to_viewer) * up;
+    const Vec3<F> away = normalize_or(level, vec3_of<F>(c.b));
+    const F variance = along(
+        p.slope_variance, Vec2<F>{dot(away, vec3_of<F>(c.map_x)), dot(away, vec3_of<F>(c.map_y))});
+    const auto seen = [&](Vec3<F> facet, F& fresnel) {
+      const Vec3<F> n = bent(c, p, facet);
+      fresnel = reflectance(params, c, p, n);
+      const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
+      return mirrored(params, c, p, tap, n, tilt);
+    };
+    const Mirrored<F> mean = seen(p.normal, p.fresnel);
+    Rgb<F> light = p.fresnel * mean.light, sources = mean.sources;
+    const auto rough = variance > F(kLeastVariance);
+    if_any(rough, [&] {
+      const F lean = sqrt(F(3) * max(variance, F(0))) * dot(up, p.normal);
+      F fresnel_a, fresnel_b;
+      const Vec3<F> step = lean * away;
+      const Mirrored<F> a = seen(normalize_or(p.normal + step, p.normal), fresnel_a);
+      const Mirrored<F> b = seen(normalize_or(p.normal - step, p.normal), fresnel_b);
+      const F middle(2.0 / 3), side(1.0 / 6);
+      const Rgb<F> sides = fresnel_a * a.light + fresnel_b * b.light;
+      light = select(rough, middle * light + side * sides, light);
+      sources = select(rough, middle * sources + side * (a.sources + b.sources), sources);
+      p.fresnel = select(rough, middle * p.fresnel + side * (fresnel_a + fresnel_b), p.fresnel);
+    });
+    tell(c, sources, p);
+    blend(c, light, p);
+  }
+  static constexpr double kLeastVariance = 1e-4;
+
+  /// A facet whose mirrored ray would go into the water, leaned until it goes along it: no such
+  /// light comes from the waves of a flat plane. From below, as it is.
+  template <class F>
+  static LIMPID_INLINE Vec3<F> bent(const Pass& c, const Pixel<F>& p, Vec3<F> facet) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, facet);
+    const auto sunk = dot(up, ray) < F(0) && p.side > F(0);
+    return select(sunk, normalize_or(p.to_viewer + lifted(ray, up), facet), facet);
+  }
+
+  // --- what is mirrored -------------------------------------------------------------------------
+
+  template <class F>
+  static LIMPID_INLINE Rgb<F> constant(const Params& params) {
+    return {F(params.color.r), F(params.color.g), F(params.color.b)};
+  }
+
+  static bool reads_planes(const Params& params, const Pass& c) {
+    return params.source == Source::kPlanar ||
+           (params.source == Source::kAuto && c.planes.covers(kReflectionPlanes));
+  }
+  /// Whether the place of the lookup is known before any.
+  static bool looks_once(const Params& params, const Pass& c) {
+    const bool depths = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
+    return reads_planes(params, c) && !depths && !c.planes.has(PlaneId::kReflectionValid) &&
+           !c.submersible;
+  }
+
+  /// By the facet n, whose tilt is that of the operator wave_normals.
+  template <class F, class Tap>
+  static Mirrored<F> mirrored(const Params& params, const Pass& c, const Pixel<F>& p,
+                              const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
+    if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
+    if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
+    if (!reads_planes(params, c)) return seen_in_picture(params, c, p, tap, n);
+    const Vec2<F> shift =
+        params.lookup == Lookup::kRay ? follow(params, c, p, tap, n) : F(params.strength) * tilt;
+    return seen_at(c, p, tap, n, shift);
+  }
+
+  /// The mirrored ray, unit, on the viewer's side of the surface.
+  template <class F>
+  static LIMPID_INLINE Vec3<F> mirrored_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, n);
+    return c.submersible ? lifted(ray, select(p.side < F(0), F(-1) * up, up)) : lifted(ray, up);
+  }
+
+  template <class F, class Tap>
+  static LIMPID_INLINE Rgb<F> surroundings(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                           Vec3<F> n) {
+    const Vec3<F> ray = mirrored_ray(c, p, n);
+    return tap.lat_long_rgb(c.environment,
+                            lat_long(dot(vec3_of<F>(c.map_x), ray), dot(vec3_of<F>(c.map_y), ray),
+                                     dot(vec3_of<F>(c.up), ray)));
+  }
+
+  // --- the reflection planes --------------------------------------------------------------------
+
+  /// The mirrored ray as the planes show it: in the mirrored scene it goes down into the mirror.
+  template <class F>
+  static LIMPID_INLINE ScreenRay<F> image_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, n);
+    return ScreenRay<F>(c, p, ray - (F(2) * dot(up, ray)) * up);
+  }
+
+  /// The shift at s scene units along the ray, or at the planes' edge before that.
+  template <class F>
+  static LIMPID_INLINE Vec2<F> place_at(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
+                                        F s) {
+    const Vec2<F> shift = ray.shift_at(s);
+    return min(reach_in(c.reflection, p.uv, shift), F(1)) * shift;
+  }
+
+  /// Where the mirrored ray ends.
+  template <class F, class Tap>
+  static Vec2<F> follow(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
+                        Vec3<F> n) {
+    const ScreenRay<F> ray = image_ray(c, p, n);
+    F way(HUGE_VAL);
+    if (!c.planes.has(PlaneId::kReflectionDepth)) return place_at(c, p, ray, way);
+    // Beside the water's level a march over flat rays is decided by roundings.
+    if (marched(params, c)) return march(c, p, tap, ray);
+    constexpr int kSteps = 3;
+    way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
+    for (int i = 0; i < kSteps; ++i) way = distance_to(c, p, tap, place_at(c, p, ray, way), way);
+    return place_at(c, p, ray, way);
+  }
+
+  /// From the surface point to what the planes show at `shift`; `otherwise` where that is not
+  /// valid. Depths are mixed as 1 / depth, which is even across a plane and finite beside the sky.
+  template <class F, class Tap>
+  static F distance_to(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift,
+                       F otherwise) {
+    const auto quad = tap.quad(shift);
+    const Four<F> counts = valid<F>(c, tap, quad);
+    const Four<F> depths = tap.read(PlaneId::kReflectionDepth, quad);
+    F inverse = F(0), weight = F(0);
+    for (int k = 0; k < 4; ++k) {
+      const F share = quad.weight(k) * counts[k];
+      inverse = inverse + share / max(depths[k], F(1e-6));
+      weight = weight + share;
+    }
+    const auto seen = weight > F(1e-3);
+    return select(seen, length(way_to(c, p, shift, weight / max(inverse, F(1e-30)))), otherwise);
+  }
+
+  /// The same by a march in the depth of the mirrored scene. A ray that meets nothing there ends
+  /// infinitely far, should the planes show something that far in its place. Else it is the last
+  /// such place on the way there that counts, or the pixel itself.
+  template <class F, class Tap>
+  static Vec2<F> march(const Pass& c, const Pixel<F>& p, const Tap& tap, const ScreenRay<F>& ray) {
+    const auto all = [](Vec2<F>, F depth) { return depth > F(0); };
+    const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kReflectionDepth, c.reflection,
+                                                   F(c.eye_above), p, ray, kImageSteps, all);
+    const Vec2<F> far = place_at(c, p, ray, F(HUGE_VAL));
+    Vec2<F> landing = select(found.hit > F(0.5), place_at(c, p, ray, found.way), far);
+    const auto wrong = [&](Vec2<F> shift) {
+      const F seen = tap.nearest(PlaneId::kReflectionDepth, shift);
+      const F way = (seen - ray.depth) / ray.depth_step;
+      const Vec2<F> off = place_at(c, p, ray, max(way, F(0))) - shift;
+      const F x = F(c.size.x) * off.x, y = F(c.size.y) * off.y;
+      return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
+    };
+    const auto strays = found.hit < F(0.5) && wrong(far);
+    if_any(strays, [&] {
+      F open = select(strays, F(1), F(0));
+      steps<F>(0, 6, [&](auto i) {
+        const Vec2<F> at = (F(0.85) - F(0.15) * Loop<F>::ratio(i, 1)) * far;
+        const auto good = open > F(0.5) && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
+        landing = select(good, at, landing);
+        open = select(good, F(0), open);
+        return open > F(0.5);
+      });
+      landing = select(open > F(0.5), Vec2<F>{F(0), F(0)}, landing);
+    });
+    return landing;
+  }
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03};
+  static constexpr double kWrong = 4;  ///< pixels
+
+  /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest.
+  template <class F, class Tap>
+  static Mirrored<F> seen_in_picture(const Params& params, const Pass& c, const Pixel<F>& p,
+                                     const Tap& tap, Vec3<F> n) {
+    const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
+    const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
+    const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p,
+                                                   ray, kPictureSteps, above);
+    const Vec2<F> shift = select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
+    const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
+    const Rgb<F> beyond = far_away(params, c, p, tap, n, ray);
+    return {beyond + found.hit * (seen - beyond), {F(0), found.hit, F(1) - found.hit}};
+  }
+
+  /// What the frame, or else the look, has of things infinitely far.
+  template <class F, class Tap>
+  static Rgb<F> far_away(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
+                         Vec3<F> n, const ScreenRay<F>& ray) {
+    if (c.environment) return surroundings(c, p, tap, n);
+    if (!c.planes.covers(kSkyPlanes)) return constant<F>(params);
+    return bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)));
+  }
+
+  template <class F, class Tap>
+  static Rgb<F> bilinear_rgb(const Tap& tap, PlaneId first, Vec2<F> shift) {
+    const auto quad = tap.quad(shift);
+    const auto mean = [&](int channel) {
+      const Four<F> texels = tap.read(plane_after(first, channel), quad);
+      F sum = F(0);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * texels[k];
+      return sum;
+    };
+    return {mean(0), mean(1), mean(2)};
+  }
+
+  template <class F, class Tap, class Quad>
+  static LIMPID_INLINE Four<F> valid(const Pass& c, const Tap& tap, const Quad& quad) {
+    if (!c.planes.has(PlaneId::kReflectionValid)) return {F(1), F(1), F(1), F(1)};
+    Four<F> seen = tap.read(PlaneId::kReflectionValid, quad);
+    for (F& share : seen.at) share = select(share >= F(0.5), F(1), F(0));
+    return seen;
+  }
+
+  template <class F, class Tap>
+  static Mirrored<F> seen_at(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                             Vec2<F> shift) {
+    const auto taps =
+        valid_taps(tap, shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
+    Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
+                taps.read(tap, PlaneId::kReflectionB)};
+    F lacks = taps.some_made_up ? F(1) - taps.weight() : F(0);
+    Rgb<F> sources = from_reflection<F>();
+    if (c.submersible) {
+      const auto other_side = p.side * F(c.eye_above) < F(0);
+      seen = select(other_side, p.transmitted, seen);
+      sources = select(other_side, {F(0), F(1), F(0)}, sources);
+      lacks = select(other_side, F(0), lacks);
+    }
+    const auto lacking = lacks > F(1e-5);
+    if (!c.environment || !any(lacking)) return {seen, sources};
+    const F far = select(lacking, lacks, F(0));
+    return {seen + far * surroundings(c, p, tap, n), {sources.r - far, sources.g, far}};
+  }
+};
+
+}  // namespace limpid

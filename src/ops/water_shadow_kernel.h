@@ -1,0 +1,119 @@
+#pragma once
+#include "limpid/ops/water_shadow.h"
+
+#include "op/operator.h"
+#include "op/screen_ray.h"
+
+namespace limpid {
+
+/// What WaterShadow does to pixels.
+template <>
+struct Kernel<WaterShadow> : WaterShadow {
+  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kTransmitted,
+                                  StatePart::kInScatter, StatePart::kSunScatter};
+  static constexpr StateSet kMakes{StatePart::kTransmitted, StatePart::kInScatter};
+  static PlaneSet reads(const Params& p) {
+    return p.model == Model::kScatter ? PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow}
+                                      : PlaneSet{PlaneId::kShadow};
+  }
+  static Needs needs(const Params&) { return {.planes = {PlaneId::kShadow}}; }
+  /// Beyond what refraction reaches: sunlight may enter anywhere.
+  static double reach(const Params& p) { return p.model == Model::kScatter ? HUGE_VAL : 0; }
+  /// Whether it looks the shadow on the surface up, of frames that have it.
+  static bool probes(const Params& p, StateSet made) {
+    return p.model == Model::kScatter && !neutral(p, made);
+  }
+  static bool neutral(const Params& p, StateSet made) {
+    return p.strength == 0 || (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
+  }
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  /// When the shadow is looked up elsewhere in reach, or as if no sunlight were scattered at the
+  /// end of the way.
+  static double displaced(const Params& params, const Ranges& ranges);
+
+  static constexpr CellKind kSkipped{"lit", "no shadow falls on the water"};
+  static double ns(const Params& p, const Running&) {
+    return p.model == Model::kDarken ? 1.2 : 1.6;
+  }
+
+  template <class Strip>
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const F strength(params.strength);
+    const auto where = [](const Pixel<F>& p) { return p.shift; };
+    if (params.model == Model::kDarken) {
+      strip.bilinear(PlaneId::kShadow, where, [&](Pixel<F>& p, F shadow) {
+        const F keep = F(1) - strength * (F(1) - shadow);
+        p.transmitted = keep * p.transmitted;
+        p.in_scatter = keep * p.in_scatter;
+      });
+      return;
+    }
+    const auto take = [&](Pixel<F>& p, F shade, Rgb<F> lit) {
+      const Rgb<F> left = p.in_scatter - strength * shade * lit;
+      p.in_scatter = {max(left.r, F(0)), max(left.g, F(0)), max(left.b, F(0))};
+    };
+    if (c.planes.has(PlaneId::kSurfaceShadow)) {
+      strip.probe([&](Pixel<F>& p, const auto& tap) { scatter(c, p, tap, take); });
+      return;
+    }
+    strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_near); });
+    strip.bilinear(PlaneId::kShadow, where,
+                   [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_far + p.sun_often); });
+  }
+
+ private:
+  static constexpr int kParts = 4, kAround = 4;
+
+  template <class F, class Tap, class Take>
+  static LIMPID_INLINE void scatter(const Pass& c, Pixel<F>& p, const Tap& tap, Take&& take) {
+    // Lit all over, what is taken away is 0 to the last bit.
+    const auto is_lit = [&](Vec2<F> from, Vec2<F> to) {
+      return tap.range(PlaneId::kSurfaceShadow, tap.wet(), from, to).low >= 1;
+    };
+    const auto shade = [&](Vec2<F> shift) {
+      F sum(0);
+      const auto quad = tap.quad(shift);
+      const Four<F> lit = tap.read(PlaneId::kSurfaceShadow, quad);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * (F(1) - lit[k]);
+      return sum;
+    };
+    const F mean = p.sun_way, whole = min(p.path, F(1e30));
+    const ScreenRay<F> line(c, p, p.sun_entry);
+    if (!is_lit(Vec2<F>{F(0), F(0)}, line.shift_at(whole))) {
+      // All parts send as much in clear water, where the mean way is half of the whole; they fade
+      // exponentially in murky water.
+      const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
+      constexpr double kFading[kParts] = {0.1335, 0.4700, 0.9808,
+                                          2.0794};  // -log(1 - (i + 1/2) / 4)
+      F near_shade(0), far_shade(0), near_sum(0), far_sum(0);
+      for (int i = 0; i < kParts; ++i) {
+        const F even((2 * i + 1) / double(kParts)), fading(kFading[i]);
+        const F way = min(mean * (fading + even_share * (even - fading)), whole);
+        const F there = way / max(whole, F(1e-30)), lost = shade(line.shift_at(way));
+        near_shade = near_shade + (F(1) - there) * lost, near_sum = near_sum + (F(1) - there);
+        far_shade = far_shade + there * lost, far_sum = far_sum + there;
+      }
+      take(p, near_shade / max(near_sum, F(1e-6)), p.sun_near);
+      take(p, far_shade / max(far_sum, F(1e-6)), p.sun_far);
+    }
+    const Rgb<F>& often = p.sun_often;
+    if (!any(often.r + often.g + often.b > F(0))) return;
+    // Around where light of the mean way entered, as far away as that.
+    const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+    Vec2<F> around[kAround], low, high;
+    for (int i = 0; i < kAround; ++i) {
+      const Vec3<F> side = i % 2 == 0 ? map_x : map_y;
+      const ScreenRay<F> ray(c, p, p.sun_entry + F(i < 2 ? 1 : -1) * side);
+      const Vec2<F> at = around[i] = ray.shift_at(mean);
+      low = i == 0 ? at : Vec2<F>{min(low.x, at.x), min(low.y, at.y)};
+      high = i == 0 ? at : Vec2<F>{max(high.x, at.x), max(high.y, at.y)};
+    }
+    if (is_lit(low, high)) return;
+    F lost(0);
+    for (const Vec2<F>& shift : around) lost = lost + F(1.0 / kAround) * shade(shift);
+    take(p, lost, p.sun_often);
+  }
+};
+
+}  // namespace limpid

@@ -1,0 +1,434 @@
+#pragma once
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "limpid/ops/wave_normals.h"
+
+#include "op/footprint.h"
+#include "op/operator.h"
+#include "optics/wind.h"
+
+namespace limpid {
+
+/// What WaveNormals does to pixels.
+template <>
+struct Kernel<WaveNormals> : WaveNormals {
+  static constexpr StateSet kUses{};
+  static constexpr StateSet kMakes{StatePart::kNormal, StatePart::kSlopeVariance};
+  static PlaneSet reads(const Params& p) {
+    return p.model == Model::kPlate ? kSurfaceNormalPlanes : PlaneSet{};
+  }
+  static Needs needs(const Params& p) {
+    const bool from_map = p.model != Model::kPlate && p.model != Model::kSines;
+    return {.planes = reads(p), .wave_map = from_map};
+  }
+  /// Waves that are known raise the water. A plate knows its surface better; maps and the frame's
+  /// normals say how it leans, not how high it is.
+  static PlaneSet wants(const Params& p, const AtHand& has) {
+    const bool known = p.model == Model::kSines && (!p.waves.empty() || has.waves);
+    return known && p.strength != 0 ? PlaneSet{PlaneId::kSurfaceDepth} : PlaneSet{};
+  }
+  static double reach(const Params&) { return 0; }
+  static bool neutral(const Params& p, StateSet) {
+    return p.model != Model::kPlate && p.strength == 0;
+  }
+  /// Whether it reads Pass::wave_slopes.
+  static bool needs_slope_map(const Params& p) {
+    return p.model == Model::kSlopes && p.filter != Filter::kNone;
+  }
+  /// How far maps have drifted at a time in s, in periods of tile_size.
+  LIMPID_INLINE static double drift(const Params& params, double time) {
+    return params.speed * time / params.tile_size;
+  }
+  /// Where the lookups of four_maps and slopes are then.
+  LIMPID_INLINE static FourShifts four_shifts(const Params& params, double time) {
+    if (params.wind > 0) {
+      FourShifts shifts;
+      for (int i = 0; i < 4; ++i) {
+        shifts.of[i] = kTrains[i].begin - run(params, kTrains[i], time);
+      }
+      return shifts;
+    }
+    const double move = drift(params, time);
+    return {{{move, 0}, {-move, 0}, {0, move}, {0, -move}}};
+  }
+  /// Whether it reads Pass::wave_variance.
+  static bool needs_wave_variance(const Params& p) { return p.wind > 0 && needs(p).wave_map; }
+  /// Of these waves at strength 1 without the wind's scale, at a time in s.
+  static Sym2<double> wave_variance(const Params& params, const TextureLevels& map, double time);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  /// Normals that came with the plate are better than any that could be made up.
+  static std::string_view prefer(Params& params, const AtHand& has);
+  static Swell swell(const Params& params) { return {true, params.waves, params.strength}; }
+  static double ns(const Params& params, const Running& running);
+
+  template <class Strip>
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const bool variance = params.filter == Filter::kVariance;
+    if (!variance || (params.model != Model::kPlate && params.model != Model::kSines)) {
+      strip.each([](Pixel<F>& p) { p.slope_variance = {F(0), F(0), F(0)}; });
+    }
+    switch (params.model) {
+      case Model::kPlate:
+        if (variance) {
+          plate_with_neighbours(c, strip);
+        } else {
+          strip.own3(PlaneId::kSurfaceNormalX, [](Pixel<F>& p, Vec3<F> n) { p.normal = n; });
+        }
+        break;
+      case Model::kFourMaps:
+        four_maps(params, c, strip);
+        break;
+      case Model::kTwoFlows:
+        two_flows(params, c, strip);
+        break;
+      case Model::kDudv:
+        return dudv(params, c, strip);
+      case Model::kSines:
+        sines(params, c, strip);
+        break;
+      case Model::kSlopes:
+        slopes(params, c, strip);
+        break;
+    }
+    const Vec3<F> t = vec3_of<F>(c.t), b = vec3_of<F>(c.b);
+    strip.each([&](Pixel<F>& p) { p.tilt = {dot(p.normal, t), F(0) - dot(p.normal, b)}; });
+  }
+
+ private:
+  /// Waves of one length, in tiles, that run along `course`: ahead of the wind and aside. Their
+  /// lookup begins so many periods on, so that no two see the same.
+  struct Train {
+    double length;
+    Vec2<double> course, begin;
+  };
+  static constexpr Train kAhead{0.125, {1, 0}, {0, 0}};
+  static constexpr Train kTrains[4] = {{0.25, {0.965926, 0.258819}, {0, 0}},
+                                       {0.176777, {0.906308, -0.422618}, {0.7549, 0.5698}},
+                                       {0.125, {0.766044, 0.642788}, {0.5098, 0.1397}},
+                                       {0.088388, {0.766044, -0.642788}, {0.2647, 0.7095}}};
+
+  /// Unit, along the axes of the map.
+  LIMPID_INLINE static Vec2<double> downwind(const Params& params) {
+    const double angle = params.direction * (std::numbers::pi / 180);
+    return {std::cos(angle), std::sin(angle)};
+  }
+  /// How far waves have run at a time in s, in periods of tile_size.
+  LIMPID_INLINE static Vec2<double> run(const Params& params, const Train& train, double time) {
+    const Vec2<double> ahead = downwind(params), aside{-ahead.y, ahead.x};
+    const double speed = phase_speed(train.length * params.tile_size);
+    const Vec2<double> of_skin = skin_drift(params.wind) * ahead;
+    return time / params.tile_size *
+           (of_skin + speed * (train.course.x * ahead + train.course.y * aside));
+  }
+  /// What the wind multiplies slopes by, along it and across it.
+  LIMPID_INLINE static Vec2<double> wind_factors(const Params& params, const Pass& c) {
+    const Vec2<double> ahead = downwind(params);
+    const WindSlopes wanted = wind_slopes(params.wind);
+    const auto factor = [&](Vec2<double> axis, double square) {
+      const double is = along(c.wave_variance, axis);
+      return is > kFlattest ? std::sqrt(square / is) : 1.0;
+    };
+    return {factor(ahead, wanted.along), factor({-ahead.y, ahead.x}, wanted.across)};
+  }
+  static constexpr double kFlattest = 4e-5;  ///< bytes one step apart vary by 3e-5
+
+  /// Vectors in the axes of the map, and what they vary, to what they are under the wind.
+  template <class Strip>
+  static void stretch(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    if (!(params.wind > 0)) return;
+    const Vec2<double> ahead = downwind(params), factors = wind_factors(params, c);
+    const double more = factors.x - factors.y;  // factors.y everywhere, and more ahead
+    const F xx(factors.y + more * ahead.x * ahead.x), xy(more * ahead.x * ahead.y);
+    const F yy(factors.y + more * ahead.y * ahead.y);
+    strip.each([&](Pixel<F>& p) {
+      const F x = p.normal.x, y = p.normal.y;
+      p.normal.x = xx * x + xy * y;
+      p.normal.y = xy * x + yy * y;
+    });
+    if (params.model != Model::kSlopes || params.filter != Filter::kVariance) return;
+    strip.each([&](Pixel<F>& p) {
+      const Sym2<F> v = p.slope_variance;
+      const F mixed = xx * (xy * v.xx + yy * v.xy) + xy * (xy * v.xy + yy * v.yy);
+      p.slope_variance = {max(along(v, Vec2<F>{xx, xy}), F(0)), mixed,
+                          max(along(v, Vec2<F>{xy, yy}), F(0))};
+    });
+  }
+
+  /// A pixel's normal is one sample of the waves in it; how much its neighbours differ tells what
+  /// else is there. Half of their variance, for they are farther apart than what the pixel sees.
+  template <class Strip>
+  static void plate_with_neighbours(const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const Vec3<F> up = vec3_of<F>(c.up), x = vec3_of<F>(c.map_x), y = vec3_of<F>(c.map_y);
+    strip.around3(PlaneId::kSurfaceNormalX, [&](Pixel<F>& p, const Around<F>& normals) {
+      p.normal = normals[4];
+      Vec2<F> mean{F(0), F(0)};
+      Sym2<F> square{F(0), F(0), F(0)};
+      for (int k = 0; k < 9; ++k) {
+        const Vec3<F> n = normals[k];
+        const F weight((k % 3 == 1 ? 2 : 1) * (k / 3 == 1 ? 2 : 1) / 16.0);
+        const F per_up = F(-1) / max(dot(n, up), F(kLeastUp));
+        const Vec2<F> slope{per_up * dot(n, x), per_up * dot(n, y)};
+        mean = mean + weight * slope;
+        square = square + weight * Sym2<F>{slope.x * slope.x, slope.x * slope.y, slope.y * slope.y};
+      }
+      const Sym2<F> of_mean{mean.x * mean.x, mean.x * mean.y, mean.y * mean.y};
+      const Sym2<F> spread = F(0.5) * (square + F(-1) * of_mean);
+      p.slope_variance = {max(spread.xx, F(0)), spread.xy, max(spread.yy, F(0))};
+    });
+  }
+  static constexpr double kLeastUp = 0.05;  ///< no slope passes 20
+
+  // While the models gather, p.normal holds their sums, in the axes of the map.
+
+  template <class Strip>
+  static void four_maps(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    measure(params.filter != Filter::kNone, params, c, strip);
+    drifting_four(params, c, strip, [&](const Place<F>& place) {
+      strip.tiled_rgb(c.wave_map, Wide<F>{}, place, [](Pixel<F>& p, Rgb<F> map) {
+        p.normal = p.normal + Vec3<F>{map.r, map.g, map.b};
+      });
+    });
+    strip.each([&](Pixel<F>& p) {  // four colors in 0 ... 1: their mean decodes as sum / 2 - 1
+      p.normal = F(0.5) * p.normal - Vec3<F>{F(1), F(1), F(1)};
+    });
+    blend_from_calm(params, c, strip);
+  }
+
+  template <class Strip>
+  static void two_flows(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const Vec2<double> flow = drift(params, c.time) * downwind(params);
+    const bool windy = params.wind > 0;
+    const Vec2<double> first = windy ? -1.0 * run(params, kAhead, c.time) : flow;
+    const Vec2<double> second = windy ? -0.5 * run(params, kTrains[0], c.time) : -0.3 * flow;
+    measure(params.filter != Filter::kNone, params, c, strip);
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, first),
+                    [](Pixel<F>& p, Rgb<F> map) {
+                      p.normal = {map.r, map.g, map.b};
+                    });
+    strip.tiled_rgb(c.wave_map, Wide<F>{0.5}, Place<F>(params, c, 0.5, second),
+                    [](Pixel<F>& p, Rgb<F> map) {
+                      // ((2 c1 - 1) + (2 c2 - 1) / 2) / 2
+                      const Vec3<F> both = p.normal + F(0.5) * Vec3<F>{map.r, map.g, map.b};
+                      p.normal = both - Vec3<F>{F(0.75), F(0.75), F(0.75)};
+                    });
+    blend_from_calm(params, c, strip);
+  }
+
+  template <class Strip>
+  static void dudv(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const double move = drift(params, c.time);
+    const bool windy = params.wind > 0;
+    const Vec2<double> first =
+        windy ? -1.0 * run(params, kTrains[2], c.time) : Vec2<double>{move, 0};
+    const Vec2<double> second = windy ? -1.0 * run(params, kAhead, c.time) : Vec2<double>{0, move};
+    measure(params.filter != Filter::kNone, params, c, strip);
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, first),
+                    [](Pixel<F>& p, Rgb<F> map) {
+                      p.normal = F(0.01) * Vec3<F>{map.r, map.g, F(0)};
+                    });
+    const Place<F> place(params, c, 1, second);
+    const Vec2<double> factors = windy ? wind_factors(params, c) : Vec2<double>{1, 1};
+    const double steeper = windy ? std::hypot(factors.x, factors.y) / std::numbers::sqrt2 : 1;
+    const F strength(params.strength * steeper);
+    strip.tiled_rgb(
+        c.wave_map, Wide<F>{},
+        [&](const Pixel<F>& p) {
+          return place(p) + Vec2<F>{p.normal.x, p.normal.y};
+        },
+        [&](Pixel<F>& p, Rgb<F> map) {
+          const F x = F(2) * map.r - F(1), y = F(2) * map.g - F(1);
+          const auto scaled = [&](F v) { return min(max(lerp(F(0), v, strength), F(-1)), F(1)); };
+          p.normal = {x, y, map.b};
+          p.tilt = {scaled(x), scaled(y)};
+        });
+    blend_from_calm(params, c, strip);
+  }
+
+  template <class Strip>
+  static void sines(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    constexpr double kTurn = 2 * std::numbers::pi;
+    const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+    const bool variance = params.filter == Filter::kVariance;
+    strip.each([&](Pixel<F>& p) {
+      p.normal = {F(0), F(0), F(0)};
+      if (variance) p.slope_variance = {F(0), F(0), F(0)};
+    });
+    for (const SineWave& wave : params.waves.empty() ? c.waves : params.waves) {
+      // Phases in turns, those below the eye reduced in double.
+      const F begin(c.phase_at_eye(wave) / kTurn);
+      const Vec3<F> step = F(wave.k_x / kTurn) * map_x + F(wave.k_y / kTurn) * map_y;
+      const auto steepest = [&](double k) {
+        return F(min(max(wave.amplitude * k, -kSteepest), kSteepest));
+      };
+      const F slope_x = steepest(wave.k_x), slope_y = steepest(wave.k_y);
+      const Vec2<F> k{F(wave.k_x), F(wave.k_y)};
+      strip.each([&](Pixel<F>& p) {
+        const F turns = begin + dot(p.surface_point, step);
+        // Too far for a float to tell crest from trough: they average out.
+        const auto known = abs(turns) < F(1e6);
+        const F within = select(known, turns - floor(turns), F(0));
+        const F cosine = select(known, cos(F(kTurn) * within), F(0));
+        F rise = cosine;
+        if (variance) {
+          // Of a wave that is many radians wide in the pixel, e^-40 is left: nothing.
+          const F q = select(known, min(max(along(footprint(c, p), k), F(0)), F(40)), F(40));
+          if_any(q > F(kLeastRadians), [&] {
+            const F kept = exp(F(-0.5) * q), square = kept * kept;
+            const F twice = F(2) * cosine * cosine - F(1);
+            const F lost = F(0.5) * (F(1) + twice * square * square) - cosine * cosine * square;
+            const F unseen = select(q > F(kLeastRadians), max(lost, F(0)), F(0));
+            rise = select(q > F(kLeastRadians), kept * cosine, cosine);
+            p.slope_variance =
+                p.slope_variance +
+                unseen * Sym2<F>{slope_x * slope_x, slope_x * slope_y, slope_y * slope_y};
+          });
+        }
+        p.normal = p.normal - Vec3<F>{rise * slope_x, rise * slope_y, F(0)};
+      });
+    }
+    if (variance) {
+      const F scale(params.strength * params.strength);
+      strip.each([&](Pixel<F>& p) { p.slope_variance = scale * p.slope_variance; });
+    }
+    lean(params.strength, c, strip);
+  }
+  /// Square of the radians of a wave in a pixel below which all of it is resolved.
+  static constexpr double kLeastRadians = 1e-3;
+
+  /// Where a pixel is 1 to 2 texels wide, the four lookups pass into one of the slope map.
+  template <class Strip>
+  static void slopes(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const bool filtered = needs_slope_map(params) && c.wave_slopes;
+    measure(filtered, params, c, strip);
+    drifting_four(params, c, strip, [&](const Place<F>& place) {
+      const auto resolved = [](const Pixel<F>& p) { return p.tilt.x < F(2); };
+      strip.tiled_rgb_if(c.wave_map, resolved, place, [](Pixel<F>& p, Rgb<F> map) {
+        const F per_z = F(1) / max(F(2) * map.b - F(1), F(0.05));
+        const Vec3<F> leans{(F(2) * map.r - F(1)) * per_z, (F(2) * map.g - F(1)) * per_z, F(0)};
+        p.normal = p.normal + leans;
+      });
+    });
+    if (filtered) far_slopes(params, c, strip);
+    stretch(params, c, strip);
+    lean(0.25 * params.strength, c, strip);
+  }
+
+  template <class Strip>
+  static void far_slopes(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const F per_map_texel(1 / c.wave_slopes->map_texels);
+    const F scale(params.filter == Filter::kVariance ? params.strength * params.strength : 0);
+    strip.tiled_slopes_if(
+        *c.wave_slopes, [](const Pixel<F>& p) { return p.tilt.x > F(1); },
+        [&](const Pixel<F>& p) { return per_map_texel * max(p.tilt.x, F(2)); },
+        Place<F>(params, c, 1, {0, 0}),
+        [&](Pixel<F>& p, SlopeMoments<F> far) {
+          const F width = p.tilt.x;
+          const F share = saturate(width - F(1));
+          const Vec2<F> near{F(0.25) * p.normal.x, F(0.25) * p.normal.y};
+          const auto all = width >= F(2), some = width > F(1);
+          const Vec2<F> mean = select(all, far.mean, near + share * (far.mean - near));
+          const auto variance = [&](F near_xy, F far_xy, F mean_xy) {
+            return scale * (select(all, far_xy, lerp(near_xy, far_xy, share)) - mean_xy);
+          };
+          const F xx = variance(near.x * near.x, far.square.xx, mean.x * mean.x);
+          const F xy = variance(near.x * near.y, far.square.xy, mean.x * mean.y);
+          const F yy = variance(near.y * near.y, far.square.yy, mean.y * mean.y);
+          p.normal.x = select(some, F(4) * mean.x, p.normal.x);
+          p.normal.y = select(some, F(4) * mean.y, p.normal.y);
+          p.slope_variance = {select(some, max(xx, F(0)), F(0)), select(some, xy, F(0)),
+                              select(some, max(yy, F(0)), F(0))};
+        });
+  }
+
+  /// While a model looks up a map, p.tilt.x says how many of its texels the pixel is wide: 0
+  /// without a filter.
+  template <class Strip>
+  static void measure(bool filtered, const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    if (!filtered) return strip.each([](Pixel<F>& p) { p.tilt.x = F(0); });
+    const Rect& window = c.wave_map.channels[0].window;
+    const Vec2<double> texels{window.width() / params.tile_size,
+                              window.height() / params.tile_size};
+    strip.each([&](Pixel<F>& p) { p.tilt.x = texels_wide(footprint(c, p), texels, kNarrowest); });
+  }
+  /// Of a footprint's length that its width counts at least: four times as long as wide is what
+  /// engines' filters give a pixel with four lookups, and one lookup may not blur more.
+  static constexpr double kNarrowest = 0.25;
+
+  /// In texels of a map that is tiled so densely.
+  template <class F>
+  struct Wide {
+    double tiling = 1;
+    LIMPID_INLINE F operator()(const Pixel<F>& p) const { return F(tiling) * p.tilt.x; }
+  };
+
+  /// look_up(place) for the four places of four_maps, which add to p.normal.
+  template <class Strip, class LookUp>
+  static void drifting_four(const Params& params, const Pass& c, Strip& strip, LookUp&& look_up) {
+    using F = typename Strip::Number;
+    strip.each([&](Pixel<F>& p) { p.normal = {F(0), F(0), F(0)}; });
+    const FourShifts shifts = four_shifts(params, c.time);
+    for (const Vec2<double>& shift : shifts.of) look_up(Place<F>(params, c, 1, shift));
+  }
+
+  /// From a vector in the axes of the map to the normal: normalize(lerp(up, vector, strength)).
+  template <class Strip>
+  static void blend_from_calm(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y), up = vec3_of<F>(c.up);
+    const F strength(params.strength);
+    stretch(params, c, strip);
+    strip.each([&](Pixel<F>& p) {
+      const Vec3<F> n = p.normal.x * map_x + p.normal.y * map_y + p.normal.z * up;
+      p.normal = normalize_or(up + strength * (n - up), up);
+    });
+  }
+
+  /// From downhill slopes along the axes of the map to the normal.
+  template <class Strip>
+  static void lean(double scale, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y), up = vec3_of<F>(c.up);
+    const F s(scale);
+    strip.each([&](Pixel<F>& p) {
+      p.normal = normalize_or(up + (s * p.normal.x) * map_x + (s * p.normal.y) * map_y, up);
+    });
+  }
+
+  static constexpr double kSteepest = 1e9;  ///< slope of one wave; its square is finite in float
+
+  /// Where a pixel lies in the map, in periods since the world's origin; kept small in double
+  /// before it becomes a float.
+  template <class F>
+  struct Place {
+    F u0, v0;
+    Vec3<F> u_step, v_step;
+
+    Place(const Params& params, const Pass& c, double tiling, Vec2<double> moved) {
+      const double scale = tiling / params.tile_size;
+      const auto begin = [&](const glm::dvec3& axis, double move) {
+        const double at = c.eye.x * axis.x + c.eye.y * axis.y + c.eye.z * axis.z;
+        const double rest = std::fmod(at * scale, 1.0) + std::fmod(move, 1.0);
+        return F(rest - std::floor(rest));
+      };
+      u0 = begin(c.map_x, moved.x), v0 = begin(c.map_y, moved.y);
+      u_step = F(scale) * vec3_of<F>(c.map_x), v_step = F(scale) * vec3_of<F>(c.map_y);
+    }
+    LIMPID_INLINE Vec2<F> operator()(const Pixel<F>& p) const {
+      return {u0 + dot(p.surface_point, u_step), v0 + dot(p.surface_point, v_step)};
+    }
+  };
+};
+
+}  // namespace limpid
