@@ -112,7 +112,7 @@ StateSet shown_by(std::uint32_t chosen) {
 
 }  // namespace
 
-struct Compositor::State {
+struct __attribute__((visibility("hidden"))) Compositor::State {
   Conventions conventions;
   Look look;
   CompositorOptions options;

@@ -57,7 +57,7 @@ struct Kernel {
 
 }  // namespace
 
-struct Edges::State {
+struct __attribute__((visibility("hidden"))) Edges::State {
   std::array<Kernel, EdgeBlur::kWidths + 1> kernels;
   EdgeCover cover;
   std::array<Plane, 4> planes;                          ///< R G B depth

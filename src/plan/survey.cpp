@@ -62,7 +62,7 @@ Rect united(const Rect& a, const Rect& b) {
 
 }  // namespace
 
-struct Survey::Scan {
+struct __attribute__((visibility("hidden"))) Survey::Scan {
   static_assert(std::tuple_size_v<Extremes> == kExtremeCount);
 
   Survey& survey;

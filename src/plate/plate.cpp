@@ -55,7 +55,7 @@ std::vector<std::filesystem::path> files_of(const PlateRequest& request) {
   return {files.begin(), files.end()};
 }
 
-struct Plate::State {
+struct __attribute__((visibility("hidden"))) Plate::State {
   Limits limits;
   std::vector<PlateFile> files;
   LayerChoices choices;

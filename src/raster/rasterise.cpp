@@ -127,7 +127,7 @@ ShadeJob shade_job(const RasterView& view, const Screen& screen, const RasterLig
 }  // namespace
 }  // namespace raster
 
-struct Rasteriser::State {
+struct __attribute__((visibility("hidden"))) Rasteriser::State {
   explicit State(const Model& model) : prepared(model) {}
 
   raster::PreparedModel prepared;

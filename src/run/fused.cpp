@@ -110,7 +110,7 @@ struct Tiles {
 
 }  // namespace
 
-struct FusedRunner::Kept {
+struct __attribute__((visibility("hidden"))) FusedRunner::Kept {
   Completer completer;
   Survey survey;
   Heights heights;

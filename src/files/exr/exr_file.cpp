@@ -149,7 +149,7 @@ void check_same(const Imf::MultiPartInputFile& image, const std::vector<ExrHeade
 
 }  // namespace
 
-struct ExrFile::State {
+struct __attribute__((visibility("hidden"))) ExrFile::State {
   State(const std::filesystem::path& path, const Limits& chosen)
       : file(std::make_shared<FileHandle>(path)), stream(file), limits(chosen) {
     headers = read_exr_headers(stream, limits);
