@@ -21,7 +21,7 @@
 namespace limpid {
 namespace {
 
-static_assert(LIMPID_ALBEDO_B + 1 == kPlaneCount);
+static_assert(LIMPID_SUN_COLOR_B + 1 == kPlaneCount);
 static_assert(LIMPID_OUT_SKY + 3 == 4 + 3 * kAovCount);
 
 /// Only looks at `size` of it, the rest being 0.

@@ -87,7 +87,10 @@ typedef enum limpid_plane {
   LIMPID_SKY_B = 22,
   LIMPID_ALBEDO_R = 23,
   LIMPID_ALBEDO_G = 24,
-  LIMPID_ALBEDO_B = 25
+  LIMPID_ALBEDO_B = 25,
+  LIMPID_SUN_COLOR_R = 26,
+  LIMPID_SUN_COLOR_G = 27,
+  LIMPID_SUN_COLOR_B = 28
 } limpid_plane;
 
 /** What is written. Channel i of an AOV (x y z, r g b, u v) is its value + i. */

@@ -38,6 +38,8 @@ constexpr Role kRoles[] = {
      "the sky as it would be seen if nothing stood before it"},
     {"albedo", PlaneId::kAlbedoR, 3, 0, Sanitise::kColor, "", "", Storage::kHalf,
      "share of the light that the bottom throws back, around each pixel"},
+    {"sun_color", PlaneId::kSunColorR, 3, 0, Sanitise::kColor, "sun_color", "R G B", Storage::kHalf,
+     "what the dry picture shows of the sun's direct light alone: 0 in shadow"},
 };
 
 }  // namespace

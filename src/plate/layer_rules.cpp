@@ -44,6 +44,10 @@ constexpr LayerRule kRules[] = {
     {kLayer, "below_color",      "below color|below colour",  kMirror,    "a layer of the water"},
     {kLayer, "below_depth",      "below depth",               kLength,    "a layer of the water"},
     {kLayer, "surface_shadow",   "water shadow",              kMask,      "a layer of the water"},
+    {kLayer, "sun_color",        "sun color|sun colour",      kMirror,    "a layer of the sun's light"},
+    {kLayer, "sun_color",        "combined sun",              kMirror,    "Blender's light group"},
+    {kLayer, "sun_color",        "diffuse direct sun",        kMirror,    "Arnold's light group"},
+    {kLayer, "sun_color",        "directdiffuse sun",         kMirror,    "Karma's light tag"},
 
     {kFileName, "",               "reflection shadow|water reflection shadow|reflection normal|"
                                   "water reflection normal",   kAny,        "not of the dry scene"},
@@ -52,6 +56,7 @@ constexpr LayerRule kRules[] = {
     {kFileName, "below_color",      "below color|below colour", kMirror,     "file name"},
     {kFileName, "below_depth",      "below depth",              kGrayLength, "file name"},
     {kFileName, "surface_shadow",   "water shadow",             kMask,       "file name"},
+    {kFileName, "sun_color",        "sun color|sun colour",     kMirror,     "file name"},
     {kFileName, "",               "reflection|water reflection", "Z|X Y Z", "not of the dry scene"},
     {kFileName, "",               "normal|normals|position|mist|albedo|motion|vector|crypto|cryptomatte",
                                                                kAny,        "nothing that is used"},
@@ -76,6 +81,7 @@ constexpr LayerRule kRules[] = {
     {kGiven, "below_color",    "combined|color|colour|rgba|rgb|beauty|c", kMirror,     "what is below alone"},
     {kGiven, "below_depth",    "depth|z",                                 kGrayLength, "what is below alone"},
     {kGiven, "surface_shadow", "shadow|shadow matte|shadow mask",         kMask,       "the water alone"},
+    {kGiven, "sun_color",      "combined|color|colour|rgba|rgb|beauty|c", kMirror,     "the sun's light alone"},
     {kGiven, "color",          "", "R G B A|R G B|Y|*", "any"},
     {kGiven, "depth",          "", kGrayLength,         "any"},
     {kGiven, "shadow",         "", "Y|V|R|Z|*",         "any"},
@@ -87,6 +93,7 @@ constexpr LayerRule kRules[] = {
     {kGiven, "below_color",    "", "R G B|Y|*",         "any"},
     {kGiven, "below_depth",    "", kGrayLength,         "any"},
     {kGiven, "surface_shadow", "", "Y|V|R|Z|*",         "any"},
+    {kGiven, "sun_color",      "", "R G B|Y|*",         "any"},
 };
 // clang-format on
 

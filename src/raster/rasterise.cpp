@@ -91,6 +91,17 @@ ShadowView shadow_view(const ShadowMap& map, const glm::dvec3& eye) {
   return v;
 }
 
+/// Materials that answer the sun, and nothing else.
+std::vector<MaterialView> answers_to_sun(std::vector<MaterialView> materials) {
+  for (MaterialView& m : materials) {
+    const bool unlit = m.shading == Shading::kFlat || m.shading == Shading::kTextured;
+    std::fill(std::begin(m.ambient), std::end(m.ambient), 0.0f);
+    std::fill(std::begin(m.emission), std::end(m.emission), 0.0f);
+    if (unlit) std::fill(std::begin(m.base), std::end(m.base), 0.0f);
+  }
+  return materials;
+}
+
 /// All but where the buffers of the scene are.
 ShadeJob shade_job(const RasterView& view, const Screen& screen, const RasterLighting& lighting,
                    const Model& model, RasterWanted wanted, RasterImage& image) {
@@ -106,7 +117,7 @@ ShadeJob shade_job(const RasterView& view, const Screen& screen, const RasterLig
   copy(rays.ray_at(x, y), job.ray);
   copy(rays.ray_dx, job.ray_dx);
   copy(rays.ray_dy, job.ray_dy);
-  copy(model.background, job.background);
+  if (!lighting.sun_alone) copy(model.background, job.background);
   const glm::dvec3& sun = lighting.sun.direction;
   copy(Rgb<double>{sun.x, sun.y, sun.z}, job.sun_direction);
   copy(lighting.sun.color, job.sun_color);
@@ -137,6 +148,7 @@ struct __attribute__((visibility("hidden"))) Rasteriser::State {
   std::vector<raster::GroupView> views;
   raster::Buffer<raster::Corner> corners;
   raster::Buffer<raster::Attributes> attributes;
+  std::vector<raster::MaterialView> sun_materials;      ///< of a picture of the sun's light alone
   std::vector<raster::MoreAttributes> more_attributes;  ///< one a corner, or empty
 
   std::uint32_t transform_vertices(const raster::RasterTarget& target, Executor& executor);
@@ -275,6 +287,10 @@ void Rasteriser::draw(const RasterView& view, const RasterLighting& lighting, Ra
   job.attributes = s.attributes.data();
   job.more = s.more_attributes.empty() ? nullptr : s.more_attributes.data();
   job.materials = s.prepared.materials.data();
+  if (lighting.sun_alone) {
+    s.sun_materials = raster::answers_to_sun(s.prepared.materials);
+    job.materials = s.sun_materials.data();
+  }
   const int down = (view.window.height() + raster::kTile - 1) / raster::kTile;
   run_each(executor, job.tiles_across * down, [&](int index) { target.draw_tile(job, index); });
 }

@@ -44,7 +44,7 @@ class PlateRenderer {
     plate_.frame.display = display_;
     plate_.planes.resize(kPlaneCount);
     lighting_.sun = scene.sun.value_or(Sun{{0, 1, 0}, {0, 0, 0}});
-    const PlaneSet sunlit = kColorPlanes | kReflectionPlanes | kBelowColorPlanes |
+    const PlaneSet sunlit = kColorPlanes | kReflectionPlanes | kBelowColorPlanes | kSunColorPlanes |
                             PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
     if (scene.sun && !(wanted & sunlit).empty()) {
       shadow_map_ = make_shadow_map(model, *scene.sun, std::nullopt, options.shadow_map_size,
@@ -67,6 +67,14 @@ class PlateRenderer {
     }
     if (planes.depth) keep(PlaneId::kDepth, std::move(image.depth));
     if (planes.shadow) keep(PlaneId::kShadow, std::move(image.shadow));
+  }
+
+  /// By the same shading as the dry picture, which is never darker then.
+  void draw_sunlight() {
+    lighting_.sun_alone = true;
+    RasterImage image = draw(*scene_.camera, {.color = true});
+    lighting_.sun_alone = false;
+    keep_color(PlaneId::kSunColorR, image);
   }
 
   void draw_reflection(PlaneSet wanted) {
@@ -180,7 +188,9 @@ PlaneSet renderable(const Model& model, const Scene& scene) {
   if (!scene.water)
     throw Error("no water plane found: expected a scene with [water] up and height");
   PlaneSet planes = kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth};
-  if (scene.sun) planes = planes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
+  if (scene.sun) {
+    planes = planes | kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
+  }
   if (scene.camera && sees_mirror(*scene.camera, *scene.water)) {
     planes =
         planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
@@ -202,6 +212,7 @@ RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderO
   if (!sees_mirror(*scene.camera, *scene.water)) wanted = wanted - kMirrorPlanes;
   PlateRenderer renderer(model, scene, options, wanted, executor);
   if (wanted.meets(kDryPlanes)) renderer.draw_dry(wanted);
+  if (wanted.meets(kSunColorPlanes) && scene.sun) renderer.draw_sunlight();
   if (wanted.meets(kMirrorPlanes)) renderer.draw_reflection(wanted);
   if (wanted.meets(kBelowPlanes)) renderer.draw_below(wanted);
   if (wanted.meets(kSurfacePlanes)) renderer.draw_surface(wanted);

@@ -71,7 +71,9 @@ TEST(Roles, ReadSensiblyOutsideTheirWindow) {
   EXPECT_TRUE(std::isinf(role_named("depth").missing));
   EXPECT_TRUE(std::isinf(role_named("surface_depth").missing));
   EXPECT_EQ(role_named("shadow").missing, 1);
+  EXPECT_EQ(role_named("sun_color").missing, 0) << "as in shadow";
   EXPECT_EQ(role_named("reflection").planes(), kReflectionPlanes);
+  EXPECT_EQ(role_named("sun_color").planes(), kSunColorPlanes);
 }
 
 TEST(Roles, UnknownNameGetsTheNearest) {

@@ -60,6 +60,7 @@ not found
   surface_shadow    visibility of the sun at the water surface
   sky               the sky as it would be seen if nothing stood before it
   albedo            share of the light that the bottom throws back, around each pixel
+  sun_color         what the dry picture shows of the sun's direct light alone: 0 in shadow
 )");
 }
 
@@ -106,6 +107,7 @@ not found
   surface_shadow    visibility of the sun at the water surface
   sky               the sky as it would be seen if nothing stood before it
   albedo            share of the light that the bottom throws back, around each pixel
+  sun_color         what the dry picture shows of the sun's direct light alone: 0 in shadow
 not used
   reflection_shadow.exr
 )");

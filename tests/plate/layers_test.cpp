@@ -261,10 +261,11 @@ TEST(FindLayers, TheOnlyPartMayBeCalledAnything) {
 
 TEST(FindLayers, OurOwnNames) {
   EXPECT_EQ(
-      found({"below.B",      "below.G",      "below.R",      "below.Z",      "color.A",
-             "color.B",      "color.G",      "color.R",      "depth.Z",      "reflection.A",
-             "reflection.B", "reflection.G", "reflection.R", "reflection.Z", "shadow.Y",
-             "surface.NX",   "surface.NY",   "surface.NZ",   "surface.Z",    "surface_shadow.Y"}),
+      found({"below.B",      "below.G",      "below.R",         "below.Z",      "color.A",
+             "color.B",      "color.G",      "color.R",         "depth.Z",      "reflection.A",
+             "reflection.B", "reflection.G", "reflection.R",    "reflection.Z", "shadow.Y",
+             "sun_color.B",  "sun_color.G",  "sun_color.R",     "surface.NX",   "surface.NY",
+             "surface.NZ",   "surface.Z",    "surface_shadow.Y"}),
       "color: color.R color.G color.B color.A\n"
       "depth: depth.Z\n"
       "shadow: shadow.Y\n"
@@ -275,7 +276,8 @@ TEST(FindLayers, OurOwnNames) {
       "reflection_depth: reflection.Z\n"
       "below_color: below.R below.G below.B\n"
       "below_depth: below.Z\n"
-      "surface_shadow: surface_shadow.Y\n");
+      "surface_shadow: surface_shadow.Y\n"
+      "sun_color: sun_color.R sun_color.G sun_color.B\n");
 }
 
 TEST(FindLayers, RolesAreLayersByTheirNames) {
@@ -291,6 +293,21 @@ TEST(FindLayers, RolesAreLayersByTheirNames) {
             "reflection_depth: View.Water Reflection Depth.Z\n"
             "below_color: View.Below Colour.R View.Below Colour.G View.Below Colour.B\n"
             "surface_shadow: View.Surface Shadow.Y\n");
+}
+
+TEST(FindLayers, ThePictureOfTheSunsLightAlone) {
+  const auto layer = [](const std::string& name) {
+    return Names{name + ".A", name + ".B", name + ".G", name + ".R"};
+  };
+  for (const std::string name :
+       {"View.Sun Color", "ViewLayer.Combined_Sun", "diffuse_direct_sun", "directdiffuse_sun"}) {
+    EXPECT_EQ(found(layer(name)), "sun_color: " + name + ".R " + name + ".G " + name + ".B\n");
+  }
+  EXPECT_EQ(found(kRgba, "shot_SunColor.0007.exr"), "sun_color: R G B\n");
+  for (const std::string name :
+       {"ViewLayer.Combined_Lamp", "ViewLayer.DiffDir", "diffuse_direct_sky", "sun"}) {
+    EXPECT_EQ(found(layer(name)), "") << name;
+  }
 }
 
 // The alpha of a mirrored picture from elsewhere is no mask of what is real.

@@ -50,12 +50,13 @@ class PlateFiles {
 const std::vector<std::string> kDryChannels = {"color.R", "color.G", "color.B", "depth.Z"};
 const std::vector<std::string> kMaskChannels = {"reflection.A", "surface_shadow.Y"};
 const std::vector<std::string> kColorChannels = {"reflection.R", "reflection.G", "reflection.B",
-                                                 "below.R",      "below.G",      "below.B"};
+                                                 "below.R",      "below.G",      "below.B",
+                                                 "sun_color.R",  "sun_color.G",  "sun_color.B"};
 const std::vector<std::string> kDepthChannels = {"surface.Z", "reflection.Z", "below.Z"};
 
 constexpr PlaneId kDepthPlanes[] = {PlaneId::kDepth, PlaneId::kSurfaceDepth,
                                     PlaneId::kReflectionDepth, PlaneId::kBelowDepth};
-const PlaneSet kWaterPlanes = kReflectionPlanes | kBelowPlanes |
+const PlaneSet kWaterPlanes = kReflectionPlanes | kBelowPlanes | kSunColorPlanes |
                               PlaneSet{PlaneId::kSurfaceDepth, PlaneId::kReflectionValid,
                                        PlaneId::kReflectionDepth, PlaneId::kSurfaceShadow};
 
@@ -192,11 +193,11 @@ TEST(Plate, PlanesOfAFrameStayWithinTheLimitsTogether) {
     const Plate plate = Plate::open(request);
     return test::error_of([&] { plate.read(plate.planes(), {}, {}); });
   };
-  files.request.limits.max_memory = 15 * 64 * 512 * 4;
+  files.request.limits.max_memory = 18 * 64 * 512 * 4;
   EXPECT_EQ(error(files.request), "");
   files.request.limits.max_memory -= 1;
   EXPECT_THAT(error(files.request), testing::EndsWith(": the planes of the frame need more memory "
-                                                      "than the limit of 1966079 bytes"));
+                                                      "than the limit of 2359295 bytes"));
 
   PlateFiles afar({1 << 29, 0, (1 << 29) + 2, 2});
   afar.add({"surface.Z"}, 4, "afar.exr");

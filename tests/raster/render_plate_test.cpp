@@ -73,6 +73,7 @@ Scene over_basin() {
 const PlaneSet kMirror =
     kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
 const PlaneSet kEverything = kColorPlanes | kMirror | kBelowPlanes | kSurfaceNormalPlanes |
+                             kSunColorPlanes |
                              PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kShadow,
                                       PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow};
 
@@ -139,9 +140,9 @@ TEST(RenderPlate, WhatIsMaskedAwayIsInNoPlane) {
     if (!without.frame.plane(id)) continue;
     EXPECT_EQ(different_pixels(masked, without, id), 0) << i;
   }
-  for (const PlaneId id :
-       {PlaneId::kColorR, PlaneId::kDepth, PlaneId::kShadow, PlaneId::kBelowR, PlaneId::kBelowDepth,
-        PlaneId::kReflectionR, PlaneId::kReflectionDepth, PlaneId::kSurfaceShadow}) {
+  for (const PlaneId id : {PlaneId::kColorR, PlaneId::kDepth, PlaneId::kShadow, PlaneId::kBelowR,
+                           PlaneId::kBelowDepth, PlaneId::kReflectionR, PlaneId::kReflectionDepth,
+                           PlaneId::kSurfaceShadow, PlaneId::kSunColorR}) {
     EXPECT_GT(different_pixels(there, without, id), 50) << index_of(id);
   }
 }
@@ -155,7 +156,8 @@ TEST(RenderPlate, WhatIsBlendedIsInAllColorsAndByItsOpacityInTheRest) {
     const PlaneId id = static_cast<PlaneId>(i);
     if (!without.frame.plane(id)) continue;
     const bool color =
-        (kColorPlanes | kReflectionPlanes | kBelowPlanes).has(id) && id != PlaneId::kBelowDepth;
+        (kColorPlanes | kReflectionPlanes | kBelowPlanes | kSunColorPlanes).has(id) &&
+        id != PlaneId::kBelowDepth;
     if (color) {
       EXPECT_GT(different_pixels(thin, without, id), 50) << i;
       EXPECT_GT(different_pixels(thick, opaque, id), 50) << i;
@@ -307,6 +309,79 @@ TEST(RenderPlate, DrawsOnlyWhatIsWanted) {
       }
     }
   }
+}
+
+TEST(RenderPlate, TheSunsShareIsNoMoreThanTheColorAndNoneInShadow) {
+  const RenderedPlate plate = every_plane(basin_with_wall(AlphaMode::kOpaque, 1));
+  int dark = 0, less = 0, sky = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const bool seen = std::isfinite(plate.frame.plane(PlaneId::kDepth).at(x, y));
+      const bool shadow = plate.frame.plane(PlaneId::kShadow).at(x, y) == 0;
+      for (int c = 0; c < 3; ++c) {
+        const float color = plate.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+        const float sun = plate.frame.plane(plane_after(PlaneId::kSunColorR, c)).at(x, y);
+        EXPECT_LE(sun, color);
+        if (!seen || shadow) {
+          EXPECT_EQ(sun, 0) << x << ", " << y;
+          EXPECT_GT(color, 0);
+        } else {
+          EXPECT_GT(sun, 0) << x << ", " << y;
+          EXPECT_LT(sun, color);
+        }
+      }
+      dark += seen && shadow;
+      less += seen && !shadow;
+      sky += !seen;
+    }
+  }
+  EXPECT_GT(dark, 100);
+  EXPECT_GT(less, 1000);
+  EXPECT_GT(sky, 100);
+}
+
+/// The basin with a wall that is glossy, where nothing but the sun shines.
+Model sunlit_basin(AlphaMode mode) {
+  Model model = basin_with_wall(mode, 0.4);
+  for (Material& m : model.materials) m.ambient = {0, 0, 0};
+  model.materials[3].shading = Shading::kPhong;
+  model.materials[3].specular = {0.5, 0.4, 0.3};
+  model.materials[2].shading = Shading::kToon;
+  model.background = {0, 0, 0};
+  return model;
+}
+
+TEST(RenderPlate, TheSunsShareIsAllWhereNothingElseShines) {
+  for (const AlphaMode mode : {AlphaMode::kOpaque, AlphaMode::kMask, AlphaMode::kBlend}) {
+    const RenderedPlate plate = every_plane(sunlit_basin(mode));
+    for (int c = 0; c < 3; ++c) {
+      for (int y = 0; y < kSize.height; ++y) {
+        EXPECT_EQ(std::memcmp(plate.frame.plane(plane_after(PlaneId::kColorR, c)).row(y),
+                              plate.frame.plane(plane_after(PlaneId::kSunColorR, c)).row(y),
+                              sizeof(float) * kSize.width),
+                  0);
+      }
+    }
+  }
+}
+
+TEST(RenderPlate, TheSunsShareHasNothingThatShinesByItself) {
+  Model dull = sunlit_basin(AlphaMode::kOpaque), bright = dull;
+  for (Model* model : {&dull, &bright}) model->materials[1].shading = Shading::kFlat;
+  dull.materials[1].base_color = {0, 0, 0};
+  bright.materials[3].emission = {2, 3, 4};
+  bright.background = {1, 1, 1};
+  const RenderedPlate sun = every_plane(dull), all = every_plane(bright);
+  EXPECT_EQ(different_pixels(sun, all, PlaneId::kSunColorR), 0);
+  EXPECT_GT(different_pixels(sun, all, PlaneId::kColorR), 500);
+}
+
+TEST(RenderPlate, WithoutASunItHasNoShare) {
+  Scene scene = over_basin();
+  scene.sun.reset();
+  EXPECT_FALSE(render_basin(scene).frame.plane(PlaneId::kSunColorR));
+  EXPECT_FALSE(renderable(basin(), scene).meets(kSunColorPlanes));
+  EXPECT_TRUE(renderable(basin(), over_basin()).covers(kSunColorPlanes));
 }
 
 TEST(RenderPlate, OverscanContinuesThePicture) {

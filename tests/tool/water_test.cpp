@@ -50,11 +50,12 @@ TEST_F(WaterTest, RenderedPlatesExplainThemselves) {
             0);
   const Ran ran = limpid({"inspect", "rendered.exr"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  for (const char* line : {"color +color.R G B A", "depth +depth.Z", "shadow +shadow.Y",
-                           "reflection +reflection.R G B", "surface_depth +surface.Z",
-                           "surface_normal +surface.NX NY NZ", "reflection_valid +reflection.A",
-                           "reflection_depth +reflection.Z", "below_color +below.R G B",
-                           "below_depth +below.Z", "surface_shadow +surface_shadow.Y"}) {
+  for (const char* line :
+       {"color +color.R G B A", "depth +depth.Z", "shadow +shadow.Y",
+        "reflection +reflection.R G B", "surface_depth +surface.Z",
+        "surface_normal +surface.NX NY NZ", "reflection_valid +reflection.A",
+        "reflection_depth +reflection.Z", "below_color +below.R G B", "below_depth +below.Z",
+        "surface_shadow +surface_shadow.Y", "sun_color +sun_color.R G B"}) {
     EXPECT_THAT(ran.out, ContainsRegex(line));
   }
   EXPECT_THAT(iinfo("rendered.exr"), HasSubstr("worldToCamera"));

@@ -41,8 +41,11 @@ enum class PlaneId : std::uint8_t {
   kAlbedoR,
   kAlbedoG,
   kAlbedoB,
+  kSunColorR,
+  kSunColorG,
+  kSunColorB,
 };
-constexpr int kPlaneCount = 26;
+constexpr int kPlaneCount = 29;
 constexpr int index_of(PlaneId id) { return static_cast<int>(id); }
 /// The plane `step` places after `id`, as in plane_after(kColorR, 2) = kColorB.
 constexpr PlaneId plane_after(PlaneId id, int step) {
@@ -105,6 +108,9 @@ inline constexpr PlaneSet kSurfaceNormalPlanes{PlaneId::kSurfaceNormalX, PlaneId
 inline constexpr PlaneSet kSkyPlanes{PlaneId::kSkyR, PlaneId::kSkyG, PlaneId::kSkyB};
 
 inline constexpr PlaneSet kAlbedoPlanes{PlaneId::kAlbedoR, PlaneId::kAlbedoG, PlaneId::kAlbedoB};
+
+inline constexpr PlaneSet kSunColorPlanes{PlaneId::kSunColorR, PlaneId::kSunColorG,
+                                          PlaneId::kSunColorB};
 
 inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, PlaneId::kBelowB,
                                        PlaneId::kBelowDepth};

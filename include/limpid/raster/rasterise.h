@@ -35,6 +35,7 @@ struct RasterView {
 struct RasterLighting {
   Sun sun;
   const ShadowMap* shadow = nullptr;  ///< without it nothing casts a shadow
+  bool sun_alone = false;  ///< no ambient light, nothing that emits or is unlit, no background
 };
 
 /// Which planes a pass makes.

@@ -29,7 +29,8 @@ struct RenderedPlate {
 /// What the camera sees, from a model: its own source of buffers for who has no renderer at hand.
 /// Draws only the passes that `wanted` needs.
 ///
-/// Color, depth and shadow of the dry scene, from above the water or in it. The mirrored scene cut
+/// Color, depth and shadow of the dry scene, from above the water or in it; the sun's share of that
+/// color, in which the sky and what is unlit or emits are black. The mirrored scene cut
 /// at the water (mirror.h), its eye depth along the mirrored ray, and where it is real: 1 for a
 /// front face or the sky, 0 where it looks into what the water cut open. An eye below the calm
 /// plane sees the mirror's underside; one in the plane sees none, and these planes stay empty.
@@ -37,7 +38,8 @@ struct RenderedPlate {
 /// plane there. Depth and normals of the water's own meshes, raised and lowered by
 /// scene.water.waves, seen from either side, and the sun's visibility there; without a water mesh
 /// depth and normals stay empty, as the chain derives them from the calm plane, and the shadow is
-/// that on the calm plane. Without a sun there is ambient light alone, and no surface shadow.
+/// that on the calm plane. Without a sun there is ambient light alone, and neither its
+/// share nor a surface shadow.
 ///
 /// Throws Error when the scene lacks camera or water, the sun is below the horizon, or a size is
 /// out of bounds.

@@ -13,7 +13,7 @@ namespace {
 
 const PlaneSet kSteps[] = {
     kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth},
-    {PlaneId::kShadow},
+    PlaneSet{PlaneId::kShadow} | kSunColorPlanes,
     kReflectionPlanes,
     {PlaneId::kReflectionDepth, PlaneId::kReflectionValid},
     kSurfaceNormalPlanes | kBelowPlanes | PlaneSet{PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow},

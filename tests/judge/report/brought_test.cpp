@@ -33,7 +33,8 @@ TEST(Brought, OneBufferAfterTheOther) {
   for (const Role& role : roles()) all = all | role.planes();
   EXPECT_THAT(
       added(all),
-      ElementsAre("color, depth", "shadow", "reflection", "reflection_valid, reflection_depth",
+      ElementsAre("color, depth", "shadow, sun_color", "reflection",
+                  "reflection_valid, reflection_depth",
                   "surface_depth, surface_normal, below_color, below_depth, surface_shadow"));
   PlaneSet before;
   for (const Brought& step : brought_one_by_one(all)) {

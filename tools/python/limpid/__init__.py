@@ -124,6 +124,7 @@ class Compositor:
             reflection_depth: np.ndarray | None = None, below_color: np.ndarray | None = None,
             below_depth: np.ndarray | None = None, surface_shadow: np.ndarray | None = None,
             sky: np.ndarray | None = None, albedo: np.ndarray | None = None,
+            sun_color: np.ndarray | None = None,
             sky_radiance: Sequence[float] | None = None,
             display: Sequence[int] | None = None, out: np.ndarray | None = None, dtype: str = "float32",
             aovs: Sequence[str] | Mapping[str, np.ndarray | None] | None = None) -> Any:
@@ -149,6 +150,7 @@ class Compositor:
         surface_shadow: (rows, columns), shadow at the water surface
         sky: (rows, columns, 3), the sky as it would be seen if nothing stood before it
         albedo: (rows, columns, 3), share of the light that the bottom throws back, around each pixel
+        sun_color: (rows, columns, 3), what color shows of the sun's direct light alone: 0 in shadow
         display: (x0, y0, x1, y1), the pixels of color that the camera's picture has; the rest is
             overscan, which is looked up, but not computed
         out: where to write, float32 or float16, 3 or 4 channels, any strides; may be color itself
@@ -162,7 +164,7 @@ class Compositor:
                   "surface_depth": surface_depth, "surface_normal": surface_normal,
                   "reflection_valid": reflection_valid, "reflection_depth": reflection_depth,
                   "below_color": below_color, "below_depth": below_depth, "surface_shadow": surface_shadow,
-                  "sky": sky, "albedo": albedo}
+                  "sky": sky, "albedo": albedo, "sun_color": sun_color}
         planes = {name: array for name, array in planes.items()
                   if array is not None or name in ("color", "depth")}
         try:
