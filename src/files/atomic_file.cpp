@@ -60,8 +60,9 @@ bool is_temporary_name(std::string_view name) {
   return skip_number() && (name.empty() || name.front() == '.');
 }
 
-/// Locks a file that was just made. False when somebody tidied it away in between: he had locked
-/// it, or it has no name any more. Where nobody tidies there is nothing to lock.
+/// Locks a file that was just made. False when another process has tidied it away in between: that
+/// process had locked the file, or the file has no name any more. Where no process tidies there is
+/// nothing to lock.
 bool locked(int descriptor) {
   if (!is_local(descriptor)) return true;
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
@@ -170,6 +171,15 @@ AtomicFile::~AtomicFile() {
   ::unlink(temporary_.c_str());
   Unfinished::all().files.erase(temporary_);
   ::close(descriptor_);
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw not_written(path_, errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
 }
 
 void AtomicFile::flush() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "limpid/core/error.h"
@@ -24,8 +25,9 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::filesystem::path& temporary() const { return temporary_; }
-  /// Call it when the temporary file is written and closed: its bytes are on the disk. Throws
-  /// Error.
+  /// Adds bytes to the temporary file. Throws Error.
+  void write(std::string_view bytes);
+  /// Call it when the temporary file is written: its bytes are on the disk. Throws Error.
   void flush();
   /// The same, and it gets its name. Throws Error.
   void commit();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cstdint>
 #include <exception>
 #include <fstream>
@@ -205,18 +204,6 @@ std::string encode(const fs::path& path, Rect window, int channels, const std::u
   return encode_tiff(path, window, channels, pixels);
 }
 
-void write_whole(AtomicFiles& files, const fs::path& path, const std::string& bytes) {
-  const fs::path temporary = files.add(path).temporary();
-  errno = 0;
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) {
-    const int cause = errno;
-    throw Error(path.string() + ": cannot be written (" + describe(cause) + ")", fault_of(cause));
-  }
-}
-
 }  // namespace
 
 ImageFile read_image(const fs::path& path, const Limits& limits) {
@@ -263,8 +250,9 @@ void write_image8(AtomicFiles& files, const fs::path& path,
     }
   }
   const std::vector<std::uint8_t> pixels = interleaved(planes);
-  write_whole(files, path,
-              encode(path, window, static_cast<int>(planes.size()), pixels.data(), texts));
+  const std::string bytes =
+      encode(path, window, static_cast<int>(planes.size()), pixels.data(), texts);
+  files.add(path).write(bytes);
 }
 
 void expect_image8(const fs::path& path) {

@@ -1,7 +1,5 @@
 #include "judge/report/report_files.h"
 
-#include <fstream>
-
 #include "limpid/core/error.h"
 
 #include "files/atomic_file.h"
@@ -20,10 +18,7 @@ void make_folder_for(const std::filesystem::path& folder, const std::vector<std:
 
 void write_whole(const std::filesystem::path& path, const std::string& text) {
   AtomicFiles files;
-  std::ofstream stream(files.add(path).temporary(), std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (!stream) throw Error(path.string() + ": cannot be written (disk full?)", Fault::kRetry);
+  files.add(path).write(text);
   files.commit();
 }
 
