@@ -27,7 +27,6 @@ class JobSlot : public FrameSlot {
   void begin(int frame) override { job_ = job_of_(frame); }
   void read(Executor&) override {
     Stopwatch watch;
-    expect_apart(kind_.files(job_));
     typename Kind::Prepared prepared = kind_.prepare(job_);
     kind_.expect_writable(job_);
     record_ = kind_.record(job_, std::as_const(prepared));
@@ -66,6 +65,7 @@ typename Kind::Report run_job(Kind kind, const typename Kind::Job& job, Executor
   const OnFrameOf<typename Kind::Report> keep = [&](const SequenceProgress&, const auto& made) {
     report = made;
   };
+  expect_apart(kind.files(job));
   JobSlot<Kind> slot(kind, job_of, keep);
   slot.begin(0);
   slot.read(executor);
@@ -78,7 +78,6 @@ typename Kind::Report run_job(Kind kind, const typename Kind::Job& job, Executor
 template <JobKind Kind>
 void run_jobs(Kind kind, const Sequence& sequence, const JobOfFrame<typename Kind::Job>& job_of,
               const OnFrameOf<typename Kind::Report>& on_frame, Executor& executor) {
-  check(sequence);
   expect_apart(sequence.frames, [&](int frame) { return kind.files(job_of(frame)); });
   const auto make_slot = [&]() -> std::unique_ptr<FrameSlot> {
     return std::make_unique<JobSlot<Kind>>(kind, job_of, on_frame);
