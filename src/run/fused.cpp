@@ -150,16 +150,15 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
     pass.mirrored = heights.mirrored();
     pass.lit = heights.lit();
   }
-  const auto context_for = [&](bool open, bool grounded) {
+  const auto pass_for = [&](bool open, bool grounded) {
     Pass of_cell = pass;
     of_cell.foreground = !open;
     of_cell.bottomless = !grounded;
     return of_cell;
   };
-  const std::array<Pass, FusedJob::kContexts> contexts{
-      context_for(false, false), context_for(true, false), context_for(false, true),
-      context_for(true, true)};
-  FusedJob job{plan, frame, contexts[0], contexts.data(), target};
+  const std::array<Pass, FusedJob::kPasses> passes{pass_for(false, false), pass_for(true, false),
+                                                   pass_for(false, true), pass_for(true, true)};
+  FusedJob job{plan, frame, passes[0], passes.data(), target};
   pair_cells(survey, cells);
   job.cells = cells.data();
   job.cells_across = survey.across();

@@ -27,7 +27,7 @@ struct FusedJob {
   const Plan& plan;
   const Frame& frame;
   const Pass& pass;
-  const Pass* contexts;  ///< the same as cells need it, see kContexts
+  const Pass* passes;  ///< the same as cells need it, see kPasses
   const Target& target;
   const CellNeeds* cells = nullptr;  ///< Survey, rows of them from the corner of Frame::work()
   int cells_across = 0;
@@ -42,7 +42,7 @@ struct FusedJob {
   bool writes_aovs = false;    ///< whether the target has any
   StopClock* clock = nullptr;  ///< only for a run that is timed
 
-  static constexpr int kContexts = 4;  ///< open or not, and 2 more where grounded
+  static constexpr int kPasses = 4;  ///< open or not, and 2 more where grounded
 };
 
 /// The fused pass as compiled for one instruction set.

@@ -37,8 +37,8 @@ LIMPID_LANES_INLINE bool same(const CellNeeds& a, const CellNeeds& b) {
          a.grounded == b.grounded;
 }
 
-LIMPID_LANES_INLINE const Pass& context_of(const FusedJob& job, const CellNeeds& needs) {
-  return job.contexts[(needs.open ? 1 : 0) + (needs.grounded ? 2 : 0)];
+LIMPID_LANES_INLINE const Pass& pass_for(const FusedJob& job, const CellNeeds& needs) {
+  return job.passes[(needs.open ? 1 : 0) + (needs.grounded ? 2 : 0)];
 }
 
 LIMPID_LANES_INLINE Segment segment_from(const FusedJob& job, const Rect& tile, int x, int y) {
@@ -68,7 +68,7 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
   // Refraction is skipped, so this is what it leaves to the others.
   if (needs.opaque) strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
   if (wet) {
-    const Pass& pass = context_of(job, needs);
+    const Pass& pass = pass_for(job, needs);
     Kernels::for_each([&]<class Op, int I>() {
       if (!job.keeps[I] || !needs.needs(I)) return;
       Op::apply(std::get<typename Op::Params>(job.plan.look.operators), pass, strip);
