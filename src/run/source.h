@@ -1,7 +1,7 @@
 #pragma once
 #include "limpid/core/frame.h"
 
-#include "run/fetch.h"
+#include "core/fetch.h"
 
 /// Channels as lanes read them. For inclusion by lanes_target.cpp alone.
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/lanes.h"
 
-/// Texels at places that differ from lane to lane. For inclusion by lanes_target.cpp alone.
+/// Texels at places that differ from lane to lane. For inclusion by the *_target.cpp files alone.
 ///
 /// Lanes are loaded one by one: on Zen 4 that takes half the time of the gather instruction, and
 /// two neighbours at once, as bilinear filtering wants them, a third of two gathers.
