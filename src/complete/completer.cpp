@@ -47,6 +47,17 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   if (refraction.looks_behind()) {
     whole.bottom_layer = bottom_layer_.make(whole, pass, executor);
   }
+  if (plan.keeps<Caustics>()) {
+    Pass now = pass;
+    now.planes = whole.present();
+    now.wave_variance = whole.wave_variance;
+    const DepthFog::Params& water = plan.look.of<DepthFog>();
+    const bool scatters = plan.keeps<DepthFog>() && water.model != DepthFog::Model::kLinear;
+    const Rgb<double> scattering =
+        scatters ? Kernel<DepthFog>::scattering(water) : Rgb<double>{0, 0, 0};
+    whole.caustics =
+        caustics_.make(plan.look.of<WaveNormals>(), scattering, whole, now, executor, simd);
+  }
   return whole;
 }
 

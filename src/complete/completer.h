@@ -9,6 +9,7 @@
 #include "complete/below_overscan.h"
 #include "complete/bottom_albedo.h"
 #include "complete/bottom_layer.h"
+#include "complete/caustics.h"
 #include "complete/continuation.h"
 #include "complete/displaced_surface.h"
 #include "complete/edges.h"
@@ -26,10 +27,10 @@ namespace limpid {
 /// part of each pixel that is seen; parts pixels that something before the water covers in part;
 /// draws a layer below the water on as far as color and depth go; makes the continuation of the
 /// bottom for rays that leave the picture, the layer of the bottom for those that end behind
-/// something, and the light that the water scatters more than once. Each only where the plan asks
-/// for it. Once a frame, before its pixels; operators read the result as they read the plate's
-/// planes. The result does not depend on the number of threads. Keeps its memory from frame to
-/// frame.
+/// something, the light that the water scatters more than once, and the table of sunlight that
+/// waves focus on the bottom. Each only where the plan asks for it. Once a frame, before its
+/// pixels; operators read the result as they read the plate's planes. The result does not depend on
+/// the number of threads. Keeps its memory from frame to frame.
 class Completer {
  public:
   /// The frame with what was made; its views hold until the next call. `context` is that of the
@@ -55,6 +56,7 @@ class Completer {
   SlopeMap slope_map_;
   ScatteredLightMaker scattered_light_;
   BottomAlbedo bottom_albedo_;
+  CausticsMaker caustics_;
 };
 
 }  // namespace limpid

@@ -59,7 +59,8 @@
 /// tap.range(plane, lanes, from, to) likewise what Pass::mirrored or Pass::lit says of a
 /// plane. tap.wet() are the lanes whose pixels are wet: what the others look up is thrown away.
 /// tap.lat_long_rgb(texture, at) is bilinear in a map of all directions (optics/surroundings.h): it
-/// goes round in x and ends at the poles in y.
+/// goes round in x and ends at the poles in y. tap.grid(view, at) is bilinear in a table of numbers
+/// that nobody rendered, `at` in texels from the centre of its first one; it ends at its edges.
 
 namespace limpid {
 
@@ -115,7 +116,7 @@ struct Kernel;
 /// operators run, it changes no channel of the picture by more than this where `ranges` hold (0:
 /// not a bit of it, and what makes nothing but kOutputTerms leaves those as they are). HUGE_VAL
 /// where nothing is known. So that bounds add up, an operator passes on of the light before it a
-/// share of at most 1.
+/// share of at most 1, or widens Ranges::color by what more it passes on.
 ///
 /// What it may tell besides, as static members; whoever reads them takes the default where an
 /// operator has none:

@@ -42,7 +42,8 @@ Pass::Pass(const Scene& scene, const Frame& frame, double index, StateSet parts,
       scattered_light(frame.scattered_light),
       made(parts),
       continuation(frame.continuation),
-      bottom_layer(frame.bottom_layer) {
+      bottom_layer(frame.bottom_layer),
+      caustics(frame.caustics) {
   has_sky = frame.sky_radiance || scene.sky;
   sky = frame.sky_radiance.value_or(scene.sky.value_or(SkyLight{}).radiance);
   dry = bounds_of(frame, kColorPlanes | PlaneSet{PlaneId::kDepth});

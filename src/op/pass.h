@@ -55,6 +55,7 @@ struct Pass : WaterView {
   RangeBound lit = {};               ///< likewise, of the shadow on the surface
   const Continuation* continuation;  ///< of the bottom beyond the picture, or null
   const BottomLayer* bottom_layer;   ///< of the bottom behind what stands before it, or null
+  const CausticsTable* caustics;     ///< null where nobody has made it: it is not known
 };
 
 }  // namespace limpid

@@ -36,6 +36,7 @@ struct Ranges {
   double sun_light = 0;     ///< largest part of in_scatter that the sun lights
   double sun_far = 0;       ///< and of that, the part at the end of the way
   double above = 0;         ///< largest |reflected + highlight|
+  double focused = 0;       ///< how much focused sunlight changes what is looked up, at most
 
   /// cos of the angle between the view and the calm surface's normal.
   Range cosine() const {

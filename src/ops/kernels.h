@@ -2,6 +2,7 @@
 #include "limpid/ops/chain.h"
 
 #include "op/operator.h"
+#include "ops/caustics_kernel.h"
 #include "ops/depth_fog_kernel.h"
 #include "ops/fresnel_reflection_kernel.h"
 #include "ops/penetration_kernel.h"

@@ -206,6 +206,12 @@ class FusedStrip {
     LIMPID_LANES_INLINE Rgb<Lane> lat_long_rgb(const Texture& map, Vec2<Lane> at) const {
       return wrapped_rgb<false>(map, at);
     }
+    LIMPID_LANES_INLINE Lane grid(const View<const float>& table, Vec2<Lane> at) const {
+      const Source source(table, 0);
+      Lane value;
+      sample<1, true>(&source, Spot(source, at), &value);
+      return value;
+    }
 
    private:
     template <class Cell>

@@ -148,6 +148,9 @@ class ReferenceStrip {
     Rgb<double> lat_long_rgb(const Texture& map, Vec2<double> at) const {
       return lat_long_rgb_at(map, at);
     }
+    double grid(const View<const float>& table, Vec2<double> at) const {
+      return grid_at(table, at);
+    }
   };
 
   template <class Fn>

@@ -21,6 +21,11 @@ struct Spot {
     const VI own = count_from(x - s.window.x0);
     upper_left = Places(s.index(hn::Add(own, column), hn::Add(hn::Set(kDI, y - s.window.y0), row)));
   }
+  /// At texels from the centre of the first one.
+  LIMPID_LANES_INLINE Spot(const Source& s, Vec2<Lane> at) {
+    const VI column = along(Lane(0), s.width(), at.x, u), row = along(Lane(0), s.height(), at.y, v);
+    upper_left = Places(s.index(column, row));
+  }
 
  private:
   /// From the pixel itself; `first` is where the window begins, seen from there.

@@ -7,6 +7,7 @@
 
 #include "op/pass.h"
 #include "op/pixel.h"
+#include "op/plain_texture.h"
 #include "support.h"
 
 namespace limpid::test {
@@ -121,6 +122,9 @@ class ProbeStrip {
     static SeenHeights heights(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
     static SeenRange range(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
     static bool wet() { return true; }
+    static double grid(const View<const float>& table, Vec2<double> at) {
+      return grid_at(table, at);
+    }
     Rgb<double> lat_long_rgb(const Texture&, Vec2<double> at) const {
       strip.environment_tapped = true;
       EXPECT_TRUE(at.y >= 0 && at.y <= 1) << at.y;

@@ -5,6 +5,7 @@
 
 #include "ops/contract.h"
 #include "ops/kernels.h"
+#include "ops/noise_caustics.h"
 #include "ops/probe_strip.h"
 
 // What the tables say of when a parameter matters, against what the operators do.
@@ -102,13 +103,16 @@ typename Op::Params some_params(int seed) {
 TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
   const test::World world;
   Frame frame = world.buffers.frame;
+  const test::NoiseCaustics caustics;
+  frame.caustics = &caustics.table;
   const Pass pass(world.scene, frame, 1.333, everything());
   Kernels::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
-      // Not seen by pixels alone: a file's name, a choice among one, and of what is thin,
-      // complete/bottom_layer_test.cpp.
+      // Not seen by pixels alone: a file's name, a choice among one, of what is thin,
+      // complete/bottom_layer_test.cpp, and of frames without sun_color, ops/caustics_test.cpp.
       const bool only = field.kind == FieldKind::kChoice && field.choices.size() == 1;
-      bool matters = only || field.kind == FieldKind::kText || field.name == "thickness";
+      bool matters = only || field.kind == FieldKind::kText || field.name == "thickness" ||
+                     field.name == "sun_share";
       for (int seed = 0; seed < 60; ++seed) {
         const typename Op::Params params = some_params<Op>(seed);
         const std::vector<double> before = made_by<Op>(params, pass);

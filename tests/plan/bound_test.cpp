@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "complete/completer.h"
 #include "op/ranges.h"
 #include "ops/depth_fog_kernel.h"
 #include "ops/kernels.h"
@@ -111,7 +112,9 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
       for (const char letter : Op::kName) draw += letter;
       if (I != kFinder && plan.keeps(I) && test::noise(seed, draw, 5) < 0.3f) drop(plan, I);
     });
-    const Pass pass(scene, frame, plan.look.water.ior, plan.made);
+    Pass pass(scene, frame, plan.look.water.ior, plan.made);
+    Completer completer;
+    pass.caustics = completer.complete(whole, frame, pass, *make_executor(1)).caustics;
     Ranges ranges;
     if (!ranges_of(frame, pass, ranges)) continue;
     ranges.hit = ranges.own;
@@ -163,7 +166,10 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     if (std::is_same_v<Op, Kernel<WaveNormals>> || known[I].runs == 0) return;
     ++ran;
     EXPECT_GT(known[I].finite, 10) << Op::kName;
-    EXPECT_GT(known[I].closest, 0.4) << Op::kName;
+    // The brightest place of a table of noise hardly ever meets the brightest texel: see
+    // ops/caustics_test.cpp.
+    const bool of_table = std::is_same_v<Op, Kernel<Caustics>>;
+    EXPECT_GT(known[I].closest, of_table ? 0.1 : 0.4) << Op::kName;
   });
   EXPECT_GE(ran, 7) << "patchy_look() varies them";
   EXPECT_GT(hidden.finite, 100);

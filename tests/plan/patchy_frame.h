@@ -69,12 +69,20 @@ inline Buffers patchy_frame(Rect display, int seed) {
     b.set(PlaneId::kSurfaceShadow,
           [&](int x, int y) { return patch(x, y, seed) < 0.5f ? 1.0f : 0.0f; });
   }
+  const double lean = any(0, 0, 38) < 0.2f ? 0.02 : 0.6;
   for (int c = 0; c < 3; ++c) {
     b.set(plane_after(PlaneId::kSurfaceNormalX, c), [&](int x, int y) {
-      const double sx = 0.6 * any(x, y, 30) - 0.3, sz = 0.6 * any(x, y, 31) - 0.3;
+      const double sx = lean * (any(x, y, 30) - 0.5), sz = lean * (any(x, y, 31) - 0.5);
       const double n[] = {sx, 1, sz}, length = std::sqrt(sx * sx + 1 + sz * sz);
       return static_cast<float>(n[c] / length);
     });
+  }
+  if (any(0, 0, 37) < 0.3f) {
+    for (int c = 0; c < 3; ++c) {
+      b.set(plane_after(PlaneId::kSunColorR, c), [&](int x, int y) {
+        return 0.8f * b.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+      });
+    }
   }
   if (any(0, 0, 32) < 0.25f) {
     for (int c = 0; c < 3; ++c) {
@@ -137,6 +145,7 @@ inline Look patchy_look(int seed) {
   Penetration::Params& through = look.of<Penetration>();
   through.model = static_cast<Penetration::Model>(one_of(2));
   through.amount = any() < 0.5 ? 0.01 * any() : any();
+  look.of<Caustics>() = {any() < 0.5 ? 0 : any(), any(), static_cast<Caustics::Shadows>(one_of(2))};
   return look;
 }
 

@@ -22,7 +22,7 @@ class StmapTest : public ToolTest {
               0);
     write_text("clear.toml",
                "[wave_normals]\nmap = \"waves.exr\"\ntile_size = 3.0\n\n"
-               "[prism_split]\ngain = 5.0\n\n"
+               "[prism_split]\ngain = 5.0\n\n[caustics]\nstrength = 0.0\n\n"
                "[depth_fog]\nwater_type = \"custom\"\nabsorption = [0, 0, 0]\n"
                "scattering = [0, 0, 0]\ncrossing = \"none\"\n\n"
                "[fresnel_reflection]\nsource = \"constant\"\n");

@@ -116,6 +116,7 @@ inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, Plane
                                        PlaneId::kBelowDepth};
 
 struct BottomLayer;
+struct CausticsTable;
 struct Continuation;
 struct EdgeCover;
 struct ScatteredLight;
@@ -166,6 +167,8 @@ struct Frame {
   const Continuation* continuation = nullptr;
   /// Of the bottom behind what stands before it; null, or made by complete/.
   const BottomLayer* bottom_layer = nullptr;
+  /// The sun's light on the bottom, as waves focus it; null, or made by complete/.
+  const CausticsTable* caustics = nullptr;
   /// What stands before the water, of deep samples: red, green, blue, premultiplied, and alpha, its
   /// share of the pixel. None or all are there, and cover work(); `color` then shows it, too.
   std::array<View<const float>, 4> before_water;

@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "limpid/ops/caustics.h"
 #include "limpid/ops/depth_fog.h"
 #include "limpid/ops/fresnel_reflection.h"
 #include "limpid/ops/penetration.h"
@@ -52,7 +53,7 @@ struct OperatorList {
   }
 };
 
-using Chain = OperatorList<WaveNormals, PrismSplit, Refraction, DepthFog, WaterShadow,
+using Chain = OperatorList<WaveNormals, PrismSplit, Refraction, Caustics, DepthFog, WaterShadow,
                            FresnelReflection, SunHighlight, Penetration>;
 
 }  // namespace limpid

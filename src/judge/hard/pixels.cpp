@@ -81,7 +81,8 @@ Worst brightness(const HardWorld& world) {
   for (HardFrame* made : {&frame, &bright}) {
     made->drop(PlaneId::kReflectionValid);  // the surroundings would stand in, as bright as ever
   }
-  for (const PlaneId first : {PlaneId::kColorR, PlaneId::kReflectionR, PlaneId::kBelowR}) {
+  for (const PlaneId first :
+       {PlaneId::kColorR, PlaneId::kReflectionR, PlaneId::kBelowR, PlaneId::kSunColorR}) {
     for (int c = 0; c < 3; ++c) {
       const View<float> plane = bright.plane(plane_after(first, c));
       for (int y = 0; y < kSize.height; ++y) {

@@ -52,6 +52,7 @@ Look Lagoon::with_its_water(Look look) {
   fog.scattering = fog.ambient = {0, 0, 0};
   fog.sunlight = DepthFog::Sunlight::kStraight;
   fog.crossing = DepthFog::Crossing::kNone;
+  look.of<Caustics>().strength = 0;       // Cycles' water lets sunlight through straight
   look.of<SunHighlight>().roughness = 0;  // the sea mirrors the sun's disc
   return look;
 }

@@ -26,6 +26,7 @@ Measuring scattered_once(Measuring measuring) {
   const auto change = [](Look& look) {
     DepthFog::Params& fog = look.of<DepthFog>();
     if (fog.model == DepthFog::Model::kRadiativeTransfer) fog.model = DepthFog::Model::kBeerLambert;
+    look.of<Caustics>().strength = 0;
   };
   change(measuring.physical);
   for (Look& look : measuring.looks) change(look);

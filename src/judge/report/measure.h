@@ -31,8 +31,8 @@ struct Measuring {
   }
 };
 
-/// The same with light that water scatters once, as a truth without noise has it, in looks that
-/// scatter it more often.
+/// The same with light that water scatters once and waves do not focus, as a truth without noise
+/// has it, in looks that scatter it more often.
 Measuring scattered_once(Measuring measuring);
 
 /// With `clip` larger values, as of glints, count as Lagoon::kBrightest.

@@ -1,0 +1,274 @@
+#include "complete/wave_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "complete/rows.h"
+#include "op/plain_texture.h"
+
+namespace limpid {
+namespace {
+
+/// Places of the surface as pixels of the operator that makes the waves. There is no frame: planes
+/// read as absent ones do.
+class Places {
+ public:
+  using Number = double;
+
+  explicit Places(std::span<Pixel<double>> pixels) : pixels_(pixels) {}
+
+  template <class Fn>
+  void each(Fn&& fn) {
+    for (Pixel<double>& p : pixels_) fn(p);
+  }
+  template <class Into>
+  void own3(PlaneId, Into&& into) {
+    for (Pixel<double>& p : pixels_) into(p, Vec3<double>{0, 0, 0});
+  }
+  template <class Into>
+  void around3(PlaneId, Into&& into) {
+    for (Pixel<double>& p : pixels_) into(p, Around<double>{});
+  }
+  template <class Where, class Into>
+  void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
+    for (Pixel<double>& p : pixels_) into(p, tiled_rgb_at(texture, where(p)));
+  }
+  template <class Width, class Where, class Into>
+  void tiled_rgb(const Texture& texture, Width&& width, Where&& where, Into&& into) {
+    for (Pixel<double>& p : pixels_) into(p, tiled_rgb_at(texture, where(p), width(p)));
+  }
+  template <class Wanted, class Where, class Into>
+  void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where, Into&& into) {
+    for (Pixel<double>& p : pixels_) {
+      if (wanted(p)) into(p, tiled_rgb_at(texture, where(p)));
+    }
+  }
+  template <class Wanted, class Width, class Where, class Into>
+  void tiled_slopes_if(const SlopeLevels& levels, Wanted&& wanted, Width&& width, Where&& where,
+                       Into&& into) {
+    for (Pixel<double>& p : pixels_) {
+      if (wanted(p)) into(p, tiled_slopes_at(levels, where(p), width(p)));
+    }
+  }
+
+ private:
+  std::span<Pixel<double>> pixels_;
+};
+
+/// Along map_x and map_y. What stands upright leans as the steepest waves do.
+Vec2<double> slopes_of(const Pass& c, const Vec3<double>& n) {
+  constexpr double kLeastUp = 0.05;
+  const double up = std::max(dot(n, vec3_of<double>(c.up)), kLeastUp);
+  return {-dot(n, vec3_of<double>(c.map_x)) / up, -dot(n, vec3_of<double>(c.map_y)) / up};
+}
+
+}  // namespace
+
+bool WaveRows::make(const WaveNormals::Params& waves, const Frame& frame, const Pass& pass,
+                    Executor& executor) {
+  frame_ = &frame, pass_ = &pass;
+  raised_ = pass.raised;
+  sines_.clear();
+  slope_ = curvature_ = 0;
+  shortest_ = HUGE_VAL, longest_ = 0;
+  const bool of_scene =
+      waves.model == WaveNormals::Model::kPlate && waves.waves.empty() && !pass.waves.empty();
+  if (waves.model == WaveNormals::Model::kSines) {
+    take_sines(waves.waves.empty() ? pass.waves : waves.waves, waves.strength);
+  } else if (of_scene) {
+    take_sines(pass.waves, 1);
+  } else if (waves.model == WaveNormals::Model::kPlate) {
+    source_ = Source::kNormals;
+    if (frame.present().covers(kSurfaceNormalPlanes)) measure_normals();
+  } else if (frame.wave_map) {
+    source_ = Source::kTile;
+    make_tile(waves, executor);
+    measure_tile();
+  }
+  return slope_ > 0;
+}
+
+void WaveRows::take_sines(std::span<const SineWave> waves, double strength) {
+  source_ = Source::kSines;
+  double slope = 0, curvature = 0;
+  for (SineWave wave : waves) {
+    const double k = std::hypot(wave.k_x, wave.k_y);
+    wave.amplitude *= strength;
+    if (!(wave.amplitude != 0 && k > 0)) continue;
+    sines_.push_back(wave);
+    const double steepness = wave.amplitude * k;
+    slope += 0.5 * steepness * steepness;
+    curvature += 0.5 * steepness * steepness * k * k;
+    shortest_ = std::min(shortest_, 2 * std::numbers::pi / k);
+    longest_ = std::max(longest_, 2 * std::numbers::pi / k);
+  }
+  slope_ = std::sqrt(slope), curvature_ = std::sqrt(curvature);
+}
+
+void WaveRows::row(double x, double y, double step, int count, const CausticsTarget& target,
+                   std::vector<SineOfRow>& room, const SurfaceRow& to) const {
+  std::fill_n(to.height, count, 0.0f);
+  if (source_ == Source::kTile) return row_of_tile(x, y, step, count, to);
+  if (source_ == Source::kNormals) return row_of_normals(x, y, step, count, to);
+  std::fill_n(to.slope_x, count, 0.0f);
+  std::fill_n(to.slope_y, count, 0.0f);
+  room.clear();
+  for (const SineWave& wave : sines_) {
+    room.push_back({pass_->phase_at_eye(wave) + wave.k_y * y + wave.k_x * x, wave.k_x * step,
+                    static_cast<float>(raised_ ? wave.amplitude : 0),
+                    static_cast<float>(wave.amplitude * wave.k_x),
+                    static_cast<float>(wave.amplitude * wave.k_y)});
+  }
+  target.add_sines(room, count, to);
+}
+
+// --- maps ---------------------------------------------------------------------------------------
+
+/// One period of what the model makes of the map; two_flows looks one of its maps up half as
+/// densely.
+void WaveRows::make_tile(const WaveNormals::Params& waves, Executor& executor) {
+  const Pass& c = *pass_;
+  WaveNormals::Params plain = waves;
+  plain.filter = WaveNormals::Filter::kNone;
+  period_ = waves.tile_size * (waves.model == WaveNormals::Model::kTwoFlows ? 2 : 1);
+  const auto place = [&](const glm::dvec3& axis) {
+    const double at = std::fmod(glm::dot(c.eye, axis), period_);
+    return at < 0 ? at + period_ : at;
+  };
+  tile_at_ = {place(c.map_x), place(c.map_y)};
+  tile_.resize(2 * static_cast<std::size_t>(kTile + 1) * (kTile + 1));
+  const Vec3<double> up = vec3_of<double>(c.up);
+  each_row(executor, {0, 0, kTile + 1, kTile + 1}, [&](int y) {
+    std::array<Pixel<double>, kTile + 1> pixels{};
+    for (int x = 0; x <= kTile; ++x) {
+      Pixel<double>& p = pixels[static_cast<std::size_t>(x)];
+      const glm::dvec3 point = (period_ * x / kTile - tile_at_.x) * c.map_x +
+                               (period_ * y / kTile - tile_at_.y) * c.map_y - c.eye_above * c.up;
+      p.surface_point = vec3_of<double>(point);
+      p.normal = p.to_viewer = up;
+      p.side = 1;
+    }
+    Places places(pixels);
+    Kernel<WaveNormals>::apply(plain, c, places);
+    float* to = tile_.data() + 2 * static_cast<std::size_t>(y) * (kTile + 1);
+    for (const Pixel<double>& p : pixels) {
+      const Vec2<double> slope = slopes_of(c, p.normal);
+      *to++ = static_cast<float>(slope.x);
+      *to++ = static_cast<float>(slope.y);
+    }
+  });
+}
+
+void WaveRows::measure_tile() {
+  double slope = 0, change = 0, mean_x = 0, mean_y = 0;
+  const auto at = [&](int x, int y) {
+    return tile_.data() + 2 * (static_cast<std::ptrdiff_t>(y) * (kTile + 1) + x);
+  };
+  for (int y = 0; y < kTile; ++y) {
+    for (int x = 0; x < kTile; ++x) {
+      const float *here = at(x, y), *right = at(x + 1, y), *below = at(x, y + 1);
+      slope += here[0] * here[0] + here[1] * here[1];
+      mean_x += here[0], mean_y += here[1];
+      const double gained = (right[0] - here[0]) + (below[1] - here[1]);
+      change += gained * gained;
+    }
+  }
+  const double texel = period_ / kTile, count = double(kTile) * kTile;
+  mean_x /= count, mean_y /= count;
+  slope_ = std::sqrt(slope / count);
+  const double varies = std::sqrt(std::max(slope / count - mean_x * mean_x - mean_y * mean_y, 0.0));
+  curvature_ = std::sqrt(change / count) / texel;
+  shortest_ = std::max(4 * texel, curvature_ > 0 ? 2 * std::numbers::pi * varies / curvature_ : 0);
+  longest_ = period_;
+}
+
+void WaveRows::row_of_tile(double x, double y, double step, int count, const SurfaceRow& to) const {
+  const double texels = kTile / period_;
+  const auto wrapped = [&](double at) {
+    const double turns = at / period_;
+    return (turns - std::floor(turns)) * kTile;
+  };
+  const double row = wrapped(y + tile_at_.y);
+  const int y0 = std::min(static_cast<int>(row), kTile - 1);
+  const float v = static_cast<float>(row - y0);
+  const float* upper = tile_.data() + 2 * static_cast<std::ptrdiff_t>(y0) * (kTile + 1);
+  const float* lower = upper + 2 * (kTile + 1);
+  double column = wrapped(x + tile_at_.x);
+  const double advance = step * texels;
+  for (int i = 0; i < count; ++i) {
+    const int x0 = std::min(static_cast<int>(column), kTile - 1);
+    const float u = static_cast<float>(column - x0);
+    const float *a = upper + 2 * x0, *b = lower + 2 * x0;
+    const auto mixed = [&](int k) {
+      const float top = a[k] + u * (a[k + 2] - a[k]), bottom = b[k] + u * (b[k + 2] - b[k]);
+      return top + v * (bottom - top);
+    };
+    to.slope_x[i] = mixed(0);
+    to.slope_y[i] = mixed(1);
+    column += advance;
+    while (column >= kTile) column -= kTile;
+  }
+}
+
+// --- the frame's own normals --------------------------------------------------------------------
+
+void WaveRows::measure_normals() {
+  const Pass& c = *pass_;
+  const Rect window = frame_->plane(PlaneId::kSurfaceNormalX).window;
+  const auto slopes = [&](int x, int y) {
+    const auto at = [&](int k) -> double {
+      return frame_->plane(plane_after(PlaneId::kSurfaceNormalX, k)).at(x, y);
+    };
+    return slopes_of(c, {at(0), at(1), at(2)});
+  };
+  constexpr int kStep = 4;
+  double slope = 0, change = 0, count = 0;
+  for (int y = window.y0; y + 1 < window.y1; y += kStep) {
+    const RowRays<double> rays(c, y - c.corner.y + 0.5);
+    for (int x = window.x0; x + 1 < window.x1; x += kStep) {
+      const double depth = rays.calm_depth(x - c.corner.x + 0.5);
+      if (!(depth < 1e30)) continue;
+      const double pixel = glm::length(c.rays.origin_dx) + depth * glm::length(c.rays.ray_dx);
+      const Vec2<double> here = slopes(x, y), right = slopes(x + 1, y);
+      slope += here.x * here.x + here.y * here.y;
+      const double over = std::hypot(right.x - here.x, right.y - here.y) / std::max(pixel, 1e-30);
+      change += over * over;
+      count += 1;
+    }
+  }
+  if (!(count > 0)) return;
+  slope_ = std::sqrt(slope / count);
+  curvature_ = std::sqrt(change / count);
+  shortest_ = curvature_ > 0 ? 2 * std::numbers::pi * slope_ / curvature_ : HUGE_VAL;
+  longest_ = 16 * shortest_;
+}
+
+void WaveRows::row_of_normals(double x, double y, double step, int count,
+                              const SurfaceRow& to) const {
+  const Pass& c = *pass_;
+  const std::array<View<const float>, 3> normal{frame_->plane(PlaneId::kSurfaceNormalX),
+                                                frame_->plane(PlaneId::kSurfaceNormalY),
+                                                frame_->plane(PlaneId::kSurfaceNormalZ)};
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 point = (x + i * step) * c.map_x + y * c.map_y - c.eye_above * c.up -
+                             c.rays.origin;  // that of the picture's corner, where uv is 0
+    const double w = c.w_origin + c.w_depth * glm::dot(c.forward, point);
+    const double at_x = glm::dot(c.to_u, point) / w * c.size.x + c.corner.x - 0.5;
+    const double at_y = glm::dot(c.to_v, point) / w * c.size.y + c.corner.y - 0.5;
+    const Rect& window = normal[0].window;
+    const bool seen = w > 0 && at_x >= window.x0 && at_x <= window.x1 - 1 && at_y >= window.y0 &&
+                      at_y <= window.y1 - 1;
+    to.slope_x[i] = to.slope_y[i] = 0;
+    if (!seen) continue;
+    const Vec2<double> place{at_x - window.x0, at_y - window.y0};
+    const Vec2<double> slope = slopes_of(
+        c, {grid_at(normal[0], place), grid_at(normal[1], place), grid_at(normal[2], place)});
+    to.slope_x[i] = static_cast<float>(slope.x);
+    to.slope_y[i] = static_cast<float>(slope.y);
+  }
+}
+
+}  // namespace limpid

@@ -1,0 +1,58 @@
+#pragma once
+#include <vector>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/frame.h"
+#include "limpid/core/plane.h"
+
+#include "complete/caustics_target.h"
+#include "op/pass.h"
+#include "ops/wave_normals_kernel.h"
+
+namespace limpid {
+
+/// The water's surface where no pixel shows it: its height and its slopes at places along rows of
+/// the calm surface, by the waves that the look has. Of sines both; of tiling maps the slopes,
+/// whatever model adds them up, from a tile of them; of the frame's own normals the scene's sines,
+/// where it has any, else their slopes, in the picture, and calm water beyond it. Without a height
+/// the water is as high as calm water, as it is for the pixels.
+class WaveRows {
+ public:
+  /// False where the water is calm. The frame, the pass and the waves must live as long.
+  bool make(const WaveNormals::Params& waves, const Frame& frame, const Pass& pass,
+            Executor& executor);
+
+  /// The root mean square of the slope, of its change over a length (the curvature of both
+  /// directions added up), and the length below which nothing changes much.
+  double slope() const { return slope_; }
+  double curvature() const { return curvature_; }
+  double shortest() const { return shortest_; }
+  double longest() const { return longest_; }
+
+  /// Of `count` places, `step` apart along map_x, from (x, y) on, in scene units from the point of
+  /// the calm surface below the eye. Rows have room for 16 more, `room` for
+  /// the sines.
+  void row(double x, double y, double step, int count, const CausticsTarget& target,
+           std::vector<SineOfRow>& room, const SurfaceRow& to) const;
+
+ private:
+  void make_tile(const WaveNormals::Params& waves, Executor& executor);
+  void measure_tile();
+  void measure_normals();
+  void take_sines(std::span<const SineWave> waves, double strength);
+  void row_of_tile(double x, double y, double step, int count, const SurfaceRow& to) const;
+  void row_of_normals(double x, double y, double step, int count, const SurfaceRow& to) const;
+
+  enum class Source { kSines, kTile, kNormals } source_ = Source::kSines;
+  const Frame* frame_ = nullptr;
+  const Pass* pass_ = nullptr;
+  std::vector<SineWave> sines_;
+  bool raised_ = false;
+  static constexpr int kTile = 256;  ///< texels along a side of the tile
+  std::vector<float> tile_;          ///< slopes x y; the first column and row once more at the end
+  double period_ = 0;                ///< of the tile, in scene units
+  glm::dvec2 tile_at_{0, 0};         ///< the eye's place in it
+  double slope_ = 0, curvature_ = 0, shortest_ = 0, longest_ = 0;
+};
+
+}  // namespace limpid

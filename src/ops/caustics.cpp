@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "ops/caustics_kernel.h"
+
+namespace limpid {
+namespace {
+
+using P = Caustics::Params;
+
+constexpr std::string_view kShadows[] = {"straight", "refracted"};
+
+constexpr Field<P> kFields[] = {
+    real<&P::strength>("strength", "", {0, 10}, "0 none, 1 as much as the waves focus."),
+    real<&P::sun_share>("sun_share", "", {0, 1},
+                        "Of the bottom's light, the sun's part, where no sky is known."),
+    choice<&P::shadows, kShadows>("shadows",
+                                  "Where the sun's shadows on the bottom are, given sun_color, "
+                                  "shadow and surface_shadow."),
+};
+
+}  // namespace
+
+std::span<const Field<P>> Caustics::fields() { return kFields; }
+
+std::string_view Kernel<Caustics>::prefer(P& params, const AtHand& has) {
+  const PlaneSet wanted = kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
+  if (params.shadows == Shadows::kStraight || has.planes.covers(wanted)) return "";
+  params.shadows = Shadows::kStraight;
+  return "shadows on the bottom stay where straight light casts them";
+}
+
+Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& c) {
+  const glm::dvec3& to_sun = c.sun.direction;
+  Light light{};
+  light.rise = std::max(glm::dot(to_sun, c.up), 0.0);
+  light.sine = std::sqrt(std::max(1 - light.rise * light.rise, 0.0));
+  light.level = {glm::dot(to_sun, c.map_x), glm::dot(to_sun, c.map_y)};
+  light.known = c.planes.covers(kSunColorPlanes);
+  light.moves = params.shadows == Shadows::kRefracted && light.known && light.rise > 1e-3 &&
+                c.planes.covers(PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
+  if (light.known && c.caustics) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      light.around[i] = c.caustics->sun_over_rest[i] / (1 + c.caustics->sun_over_rest[i]);
+    }
+  }
+  const Rgb<double>& color = c.sun.color;
+  light.sun = {light.rise * color.r, light.rise * color.g, light.rise * color.b};
+  light.even = {c.sky.r, c.sky.g, c.sky.b};
+  if (!c.has_sky) {
+    light.sun.fill(params.sun_share);
+    light.even.fill(1 - params.sun_share);
+  }
+  return light;
+}
+
+/// Of what comes from below the fog leaves a share.
+double Kernel<Caustics>::bound(const P& params, const Pass&, const Ranges& ranges) {
+  return displaced(params, ranges);
+}
+
+/// Looked up elsewhere, or not at all.
+double Kernel<Caustics>::displaced(const P&, const Ranges& ranges) {
+  return bound_product(ranges.through, ranges.focused);
+}
+
+/// The table tells how much brighter or darker the sun's share may become; where shadows move, all
+/// of it may come or go.
+void Kernel<Caustics>::reckon(const P& params, const Pass& c, Ranges& ranges) {
+  ranges.focused = 0;
+  const Light light = light_of(params, c);
+  const double gain = c.caustics ? params.strength * (c.caustics->most - 1) : HUGE_VAL;
+  const double loss = c.caustics ? params.strength * (1 - std::max(c.caustics->least, 0.0)) : 1;
+  // What lies behind something counts as lit.
+  const double lit = SeenPlanes::of(c).below ? 1 : ranges.shadow.max;
+  double change = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double share = 1;
+    if (!light.known) {
+      const double direct = bound_product(lit, light.sun[i]);
+      share = direct / std::max(direct + light.even[i], 1e-30);
+    }
+    change = std::max(change, bound_product(share, std::max(gain, loss)));
+    const bool all_lit = ranges.shadow.min >= 1 && ranges.shadow_of_water.min >= 1;
+    if (!light.moves || all_lit) continue;
+    const double most = c.caustics ? std::max(c.caustics->sun_over_rest[i], 1.0) : HUGE_VAL;
+    change = std::max({change, 1.0, bound_product(most, 1 + gain)});
+  }
+  change *= 1.0001;
+  ranges.focused = bound_product(change, ranges.brightest());
+  for (Range& color : ranges.color) {
+    const double more = bound_product(change, std::max(std::abs(color.min), std::abs(color.max)));
+    color = {color.min - more, color.max + more};
+  }
+}
+
+}  // namespace limpid

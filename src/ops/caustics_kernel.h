@@ -1,0 +1,196 @@
+#pragma once
+#include <array>
+
+#include "limpid/ops/caustics.h"
+
+#include "op/caustics_table.h"
+#include "op/operator.h"
+#include "op/screen_ray.h"
+#include "op/seen_planes.h"
+#include "optics/refract.h"
+
+namespace limpid {
+
+/// What Caustics does to pixels.
+template <>
+struct Kernel<Caustics> : Caustics {
+  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kPosition,
+                                  StatePart::kPath, StatePart::kTransmitted};
+  static constexpr StateSet kMakes{StatePart::kTransmitted};
+  static PlaneSet reads(const Params& p) {
+    if (p.strength == 0) return {};
+    const PlaneSet lit = kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kDepth};
+    return p.shadows == Shadows::kRefracted
+               ? lit | PlaneSet{PlaneId::kSurfaceShadow, PlaneId::kSurfaceDepth}
+               : lit;
+  }
+  static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
+  /// Where refraction has looked, and where sunlight enters.
+  static double reach(const Params& p) {
+    return p.strength != 0 && p.shadows == Shadows::kRefracted ? HUGE_VAL : 0;
+  }
+  static bool neutral(const Params& p, StateSet made) {
+    const bool calm = !made.has(StatePart::kNormal);
+    return p.strength == 0 || !made.has(StatePart::kPosition) ||
+           (calm && p.shadows == Shadows::kStraight);
+  }
+  static std::string_view prefer(Params& params, const AtHand& has);
+  static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  /// Of the light from below, what later bounds are made of.
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  static double displaced(const Params& params, const Ranges& ranges);
+
+  static constexpr CellKind kSkipped{"even", "no sunlight is focused"};
+  static double ns(const Params& p, const Running&) {
+    return p.shadows == Shadows::kRefracted ? 34 : 22;
+  }
+
+  template <class Strip>
+  static void apply(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    if (!c.caustics || params.strength == 0) return;
+    const CausticsTable& table = *c.caustics;
+    const Light light = light_of(params, c);
+    if (table.count == 0 && !light.moves) return;
+    const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+    const SeenPlanes planes = SeenPlanes::of(c);
+    const bool split = c.made.has(StatePart::kPrism), shadowed = c.planes.has(PlaneId::kShadow);
+    strip.probe([&](Pixel<F>& p, const auto& tap) {
+      const F surface = F(c.eye_above) + dot(up, p.surface_point);
+      // Seen from within the water the view is straight.
+      const Vec3<F> straight = p.surface_point + way_to(c, p, p.shift, p.hit_depth);
+      const auto from_air = p.side > F(0.5);
+      const auto has_way = p.path > F(0) && p.path < F(1e20);
+      const auto seen_bottom = p.side > F(-0.5) && p.hit_depth < F(1e30) && (!from_air || has_way);
+      if (!any(seen_bottom)) return;
+      const Aim<F> aim = aim_of(c, p, F(c.ior));
+      const F drop = select(seen_bottom && from_air, p.path * aim.fall, F(0));
+      const F along = dot(vec3_of<F>(c.forward), aim.direction);
+      const F eye_depth =
+          select(from_air, p.surface_depth + min(p.path, F(1e6)) * along, p.hit_depth);
+      const F texel = caustics_texel(c, eye_depth, abs(dot(up, p.to_viewer)));
+      const F deep = select(from_air, drop - surface, F(0) - (F(c.eye_above) + dot(up, straight)));
+      const auto lit_bottom = seen_bottom && deep > F(0);
+      const F depth = select(lit_bottom, deep, F(0));
+
+      const auto end_of = [&](const Aim<F>& way) {
+        return select(from_air, p.surface_point + (drop / way.fall) * way.direction, straight);
+      };
+      /// Where calm water lets sunlight in that comes to a place.
+      const auto entry_of = [&](Vec3<F> end, F index) {
+        const F sine = F(light.sine) / index;
+        const F aside = depth / (index * sqrt(F(1) - sine * sine));
+        return Vec2<F>{dot(map_x, end) + aside * F(light.level.x),
+                       dot(map_y, end) + aside * F(light.level.y)};
+      };
+      // Of the layer below nobody says what the sun does where something stands before it.
+      const F dry = planes.below ? mixed(tap, PlaneId::kDepth, p.shift) : p.hit_depth;
+      const auto hidden = dry < F(kSameDepth) * p.hit_depth;
+      const F of_plane = shadowed ? mixed(tap, PlaneId::kShadow, p.shift) : F(1);
+      const F lit = select(hidden, F(1), of_plane);
+      F arrives(1);  // share of the sun's light that comes to the bottom, where shadows move
+      if (light.moves) {
+        const Vec3<F> end = end_of(aim);
+        const F per_rise(1 / light.rise);
+        const Vec2<F> level{dot(map_x, end) + depth * per_rise * F(light.level.x),
+                            dot(map_y, end) + depth * per_rise * F(light.level.y)};
+        arrives = moved(c, p, tap, entry_of(end, F(c.ior)), level, lit, hidden);
+      }
+      const auto channel = [&](int k, F index, Vec2<F> shift, F& transmitted) {
+        const auto i = static_cast<std::size_t>(k);
+        Aim<F> own = aim;
+        if (split && any(abs(index) > F(0))) own = aim_of(c, p, F(c.ior) + index);
+        const Vec2<F> entry = entry_of(end_of(own), F(c.ior) + index);
+        F strength(params.strength);
+        if (table.scattered[i] > 0) strength = strength * exp(F(-table.scattered[i]) * depth);
+        F focused = F(1) + strength * (caustics_at(table, tap, entry, texel) - F(1));
+        F sun(0);
+        if (light.known) {
+          const F shown = mixed(tap, plane_after(PlaneId::kSunColorR, k), shift);
+          const F as_around = F(light.around[i]) * transmitted;
+          sun = min(max(select(hidden, as_around, shown), F(0)), max(transmitted, F(0)));
+        } else {
+          const F direct = lit * F(light.sun[i]);
+          sun = direct / max(direct + F(light.even[i]), F(1e-30)) * transmitted;
+        }
+        const F rest = transmitted - sun;
+        F whole = sun;
+        if (light.moves) {
+          whole = arrives * (sun + (F(1) - lit) * max(rest, F(0)) * F(table.sun_over_rest[i]));
+          // Whether the sun shines there is in the layer's color already.
+          whole = select(hidden, sun, whole);
+          focused = select(hidden, F(1) + arrives * (focused - F(1)), focused);
+        }
+        transmitted = select(lit_bottom, rest + focused * whole, transmitted);
+      };
+      channel(0, p.dispersion.r, p.shift_r, p.transmitted.r);
+      channel(1, p.dispersion.g, p.shift_g, p.transmitted.g);
+      channel(2, p.dispersion.b, p.shift_b, p.transmitted.b);
+    });
+  }
+
+ private:
+  struct Light {
+    std::array<double, 3> sun, even;  ///< on a level bottom, but for a common factor
+    double rise, sine;                ///< of the angle between the sun and the level, the vertical
+    Vec2<double> level;               ///< the direction to the sun along map_x and map_y
+    bool known, moves;                ///< frames say what the sun's light is, and where it enters
+    std::array<double, 3> around;     ///< share of the light of sunlit bottoms, where that is known
+  };
+  static Light light_of(const Params& params, const Pass& c);
+  static constexpr double kSameDepth = 0.98;
+
+  template <class F, class Tap>
+  static LIMPID_INLINE F mixed(const Tap& tap, PlaneId plane, Vec2<F> shift) {
+    const auto quad = tap.quad(shift);
+    const Four<F> values = tap.read(plane, quad);
+    F sum(0);
+    for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
+    return sum;
+  }
+
+  /// The share of the sun's light that comes to a place on the bottom, refracted. Its light enters
+  /// at `entry`; straight, it would at `level`; `lit` is what the straight light's share is, unless
+  /// that is `hidden`.
+  template <class F, class Tap, class Mask>
+  static LIMPID_INLINE F moved(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> entry,
+                               Vec2<F> level, F lit, Mask hidden) {
+    const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+    const auto shift_to = [&](Vec2<F> at) {
+      const Vec3<F> point = at.x * map_x + at.y * map_y - F(c.eye_above) * up;
+      return ScreenRay<F>(c, p, point - p.surface_point).shift_at(F(1));
+    };
+    const Vec2<F> enters = shift_to(entry), would = shift_to(level);
+    F above = mixed(tap, PlaneId::kSurfaceShadow, enters);
+    if (c.planes.has(PlaneId::kSurfaceDepth)) {  // no light enters where there is no water
+      above = select(nothing(tap.nearest(PlaneId::kSurfaceDepth, enters)), F(0), above);
+    }
+    const F straight = mixed(tap, PlaneId::kSurfaceShadow, would);
+    // What the surface's shadow does not explain is cast in the water.
+    const F cast = select(straight > F(0.05), min(lit / max(straight, F(0.05)), F(1)), F(1));
+    const F below = select(hidden, F(1), F(1) + known_at(c, p, would) * (cast - F(1)));
+    return lit + known_at(c, p, enters) * (above * below - lit);
+  }
+
+  /// 1 in the picture, 0 beyond it, between near its edge.
+  template <class F>
+  static LIMPID_INLINE F known_at(const Pass& c, const Pixel<F>& p, Vec2<F> shift) {
+    const F x = p.uv.x + shift.x, y = p.uv.y + shift.y;
+    const F inside = min(min(x - F(c.dry.low.x), F(c.dry.high.x) - x),
+                         min(y - F(c.dry.low.y), F(c.dry.high.y) - y));
+    return saturate(F(20) * inside);
+  }
+
+  template <class F>
+  struct Aim {
+    Vec3<F> direction;
+    F fall;  ///< distance from the calm surface gained per unit of way
+  };
+  template <class F>
+  static LIMPID_INLINE Aim<F> aim_of(const Pass& c, const Pixel<F>& p, F index) {
+    const Vec3<F> direction = refract(p.to_viewer, p.normal, F(1) / index).direction;
+    return {direction, max(F(0) - dot(vec3_of<F>(c.up), direction), F(0.02))};
+  }
+};
+
+}  // namespace limpid
