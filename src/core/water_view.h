@@ -13,7 +13,14 @@ namespace limpid {
 
 template <class F>
 LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v) {
-  return {F(v.x), F(v.y), F(v.z)};
+  return {given<F>(v.x), given<F>(v.y), given<F>(v.z)};
+}
+template <class F>
+LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3&& v) = delete;
+/// Of a vector that lies nowhere; see given().
+template <class F>
+LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v, const char* name) {
+  return {given<F>(v.x, name, 0), given<F>(v.y, name, 1), given<F>(v.z, name, 2)};
 }
 
 /// The waves that raise the water of a frame.
@@ -64,8 +71,8 @@ struct WaterView {
   /// Depth after projection, 0 at the near plane, 1 at the far plane or at infinity.
   template <class F>
   LIMPID_INLINE F device_depth(F eye_depth) const {
-    return (F(device_offset) + F(device_scale) * eye_depth) /
-           (F(w_origin) + F(w_depth) * eye_depth);
+    return (given<F>(device_offset) + given<F>(device_scale) * eye_depth) /
+           (given<F>(w_origin) + given<F>(w_depth) * eye_depth);
   }
 
   /// Phase of a wave below the eye, in rad, within a turn.
@@ -81,10 +88,11 @@ struct RowRays {
   F calm_over, calm_over_dx, calm_under, calm_under_dx;
   F window;  ///< eye depth where the view begins, should it be able to begin in the water; else 0
 
+  RowRays() = default;  ///< for whoever has them already
   RowRays(const WaterView& view, double y)
-      : origin(vec3_of<F>(view.rays.origin + y * view.rays.origin_dy)),
+      : origin(vec3_of<F>(view.rays.origin + y * view.rays.origin_dy, "row.origin")),
         origin_dx(vec3_of<F>(view.rays.origin_dx)),
-        ray(vec3_of<F>(view.rays.ray + y * view.rays.ray_dy)),
+        ray(vec3_of<F>(view.rays.ray + y * view.rays.ray_dy, "row.ray")),
         ray_dx(vec3_of<F>(view.rays.ray_dx)),
         v(F(y / view.size.y)),
         calm_over(F(-view.eye_above - dot(view.up, view.rays.origin + y * view.rays.origin_dy))),
@@ -115,13 +123,16 @@ struct RowRays {
 template <class F>
 LIMPID_INLINE F begins_in_water(const WaterView& view, const RowRays<F>& row, F x) {
   if (!view.submersible) return F(0);
-  const Vec3<F> start = F(view.near) * row.ray_at(x);  // relative to the eye
-  F height = F(view.eye_above) + dot(vec3_of<F>(view.up), start);
+  const Vec3<F> start = given<F>(view.near) * row.ray_at(x);  // relative to the eye
+  F height = given<F>(view.eye_above) + dot(vec3_of<F>(view.up), start);
   const Vec3<F> map_x = vec3_of<F>(view.map_x), map_y = vec3_of<F>(view.map_y);
   if (!view.raised) return select(height < F(0), F(1), F(0));
+  int nth = -1;
   for (const SineWave& wave : view.waves) {
-    const F along = F(wave.k_x) * dot(start, map_x) + F(wave.k_y) * dot(start, map_y);
-    height = height - F(view.wave_scale * wave.amplitude) * sin(F(view.phase_at_eye(wave)) + along);
+    ++nth;
+    const F along = given<F>(wave.k_x) * dot(start, map_x) + given<F>(wave.k_y) * dot(start, map_y);
+    height = height - given<F>(view.wave_scale * wave.amplitude, "waves.height", nth) *
+                          sin(given<F>(view.phase_at_eye(wave), "waves.phase", nth) + along);
   }
   return select(height < F(0), F(1), F(0));
 }

@@ -47,12 +47,13 @@ class BottomLayerTaps {
   /// Between the centres of the outermost texels, for the lookup goes round in x.
   Vec2<F> place(Vec2<F> shift) const {
     const auto& window = layer_.shape.channels[0].window;
-    const auto kept = [](double size, F at) {
-      return min(max(at, F(0.5 / size)), F(1 - 0.5 / size));
+    const auto kept = [](double size, F at, int axis) {
+      return min(max(at, given<F>(0.5 / size, "bottom_layer.first", axis)),
+                 given<F>(1 - 0.5 / size, "bottom_layer.last", axis));
     };
-    const F x = F(layer_.scale.x) * (p_.uv.x + shift.x) + F(layer_.offset.x);
-    const F y = F(layer_.scale.y) * (p_.uv.y + shift.y) + F(layer_.offset.y);
-    return {kept(window.width(), x), kept(window.height(), y)};
+    const F x = given<F>(layer_.scale.x) * (p_.uv.x + shift.x) + given<F>(layer_.offset.x);
+    const F y = given<F>(layer_.scale.y) * (p_.uv.y + shift.y) + given<F>(layer_.offset.y);
+    return {kept(window.width(), x, 0), kept(window.height(), y, 1)};
   }
 
   const BottomLayer& layer_;

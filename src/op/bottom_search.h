@@ -24,8 +24,8 @@ class BottomSearch {
   /// `expected` goes from one search to the next one beside it, 0 before the first: how far the ray
   /// may be expected to go. It saves looks and changes no result.
   LIMPID_INLINE BottomSearch(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel,
-                             const Tap& taps, const ScreenRay<F>& way, F falls, double thickness,
-                             int& expected)
+                             const Tap& taps, const ScreenRay<F>& way, F falls,
+                             const double& thickness, int& expected)
       : c_(pass),
         planes_(seen),
         p_(pixel),
@@ -38,7 +38,7 @@ class BottomSearch {
   /// k times as deep as the bottom that the last guess has found, from that at the pixel itself on.
   Found iterate(int steps) const {
     F way = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
-    for (int i = 0; i < steps; ++i) way = to_level(way);
+    repeat<F>(steps, [&] { way = to_level(way); });
     const auto meets = way < F(1e20);
     // From below it is the sky that is met without end, and that is seen.
     return {select(meets, way, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
@@ -59,11 +59,38 @@ class BottomSearch {
     const F first = min(ray_.share_at(shallow, most), F(1.0 / kSteps));
     const auto wet = tap_.wet();
     F before = F(0), after = F(1), found = F(0), hidden = F(0);
-    int goal = 0, next_leap = c_.heights.known ? 1 : kSteps + 1;  // the step at which to try one
-    int next_doubt = next_leap;  // and to ask whether anything may be met yet
-    for (int i = 0; i <= kSteps; ++i) {
+    // Looks at a share t of the way; those go on that have met nothing.
+    const auto look_at = [&](F t, F texels, bool begins) {
       const auto open = wet && found < F(0.5);
-      if (i >= next_leap) {
+      const F way = ray_.at_share(t, most);
+      Sight at = look(way);
+      at.behind = select(open, at.behind, F(-1));
+      const F hides = past(at, texels);
+      auto hit = at.behind >= F(0) && hides < F(0.5);
+      if (begins) hit = hit || passes_level_near(way);
+      // A bottom that rises steeply looks like something that hides it, until its edge is found.
+      const auto doubtful = open && hidden < F(0.5) && at.behind >= F(0) && !hit;
+      if_any(doubtful, [&] {
+        const F edge = ray_.at_share(edge_between(before, t, most), most);
+        hit = hit || (doubtful && past(look(edge), F(2)) < F(0.5));
+      });
+      after = select(open && hit, t, after);
+      before = select(open && !hit, t, before);
+      hidden = select(open && !hit, select(is_free(at), F(0), F(1)), hidden);
+      found = select(hit, F(1), found);
+      return wet && found < F(0.5);
+    };
+    if_any(look_at(first, F(2), true), [&] {
+      int goal = 0, next_leap = c_.heights.known ? 1 : kSteps + 1;  // the step at which to try one
+      int next_doubt = next_leap;  // and after which to ask whether anything may be met yet
+      const auto leap = [&](int i) {
+        const auto open = wet && found < F(0.5);
+        if (i > next_doubt && !any(open && hidden < F(0.5))) {
+          const F way = ray_.at_share(F(double(i - 1) / kSteps), most);
+          if (stays_behind(open, way, most, stride)) return kSteps + 1;
+          next_doubt = i - 1 + kLooksBetweenDoubts;
+        }
+        if (i < next_leap) return i;
         // The first ones almost to where the rays before have met the bottom, or else to where the
         // level of that at the pixel itself is met.
         const auto steps_to_level = [&] {
@@ -73,32 +100,14 @@ class BottomSearch {
         if (i == 1) goal = (expected_ > 0 ? expected_ : steps_to_level()) - 1;
         i = leap_from(i, goal, open, most);
         next_leap = i + kLooksBetweenLeaps;
-      }
-      const F t = i == 0 ? first : F(double(i) / kSteps);
-      const F way = ray_.at_share(t, most);
-      Sight at = look(way);
-      at.behind = select(open, at.behind, F(-1));
-      const F hides = past(at, i == 0 ? F(2) : stride);
-      auto hit = at.behind >= F(0) && hides < F(0.5);
-      if (i == 0) hit = hit || passes_level_near(way);
-      // A bottom that rises steeply looks like something that hides it, until its edge is found.
-      const auto doubtful = open && hidden < F(0.5) && at.behind >= F(0) && !hit;
-      if (any(doubtful)) {
-        const F edge = ray_.at_share(edge_between(before, t, most), most);
-        hit = hit || (doubtful && past(look(edge), F(2)) < F(0.5));
-      }
-      after = select(open && hit, t, after);
-      before = select(open && !hit, t, before);
-      hidden = select(open && !hit, select(is_free(at), F(0), F(1)), hidden);
-      found = select(hit, F(1), found);
-      const auto still = wet && found < F(0.5);
-      if (!any(still)) break;
-      if (i >= next_doubt && !any(still && hidden < F(0.5))) {
-        if (stays_behind(still, way, most, stride)) break;
-        next_doubt = i + kLooksBetweenDoubts;
-      }
+        return i;
+      };
+      steps<F>(1, kSteps + 1, leap,
+               [&](auto i) { return look_at(Loop<F>::ratio(i, kSteps), stride, false); });
+    });
+    if (c_.heights.known) {
+      expected_ = static_cast<int>(kSteps * least(select(wet, after, F(1))));
     }
-    expected_ = static_cast<int>(kSteps * least(select(wet, after, F(1))));
     after = edge_between(before, after, most);
     const F met = ray_.at_share(after, most);
     // The bisection may have gone to the edge of what hides the bottom.
@@ -111,11 +120,13 @@ class BottomSearch {
     const F texel = F(1.5) / pixels;
     F way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
                 ray_.at_share(min(after + texel, F(1)), most));
-    if (any(wet && !seen)) {
+    if_any(wet && !seen, [&] {
       const F guess = iterate(kGuesses).way;
       const auto hides = wet && !seen && (meets || hidden > F(0.5));
-      way = select(seen, way, any(hides) ? select(hides, end_behind(guess, most), guess) : guess);
-    }
+      F unseen = guess;
+      if_any(hides, [&] { unseen = select(hides, end_behind(guess, most), guess); });
+      way = select(seen, way, unseen);
+    });
     return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
   }
 
@@ -133,7 +144,7 @@ class BottomSearch {
   template <class Lanes>
   int leap_from(int i, int goal, Lanes open, F most) const {
     const F top = surface_height();
-    if (any(open && top > F(c_.heights.most))) return i;
+    if (any(open && top > given<F>(c_.heights.most))) return i;
     const auto way_to = [&](int step) { return ray_.at_share(F(double(step) / kSteps), most); };
     Vec2<F> from = ray_.shift_at(way_to(i));
     int length = kLeap;
@@ -160,7 +171,7 @@ class BottomSearch {
 
   /// Of the surface point, above the calm surface.
   LIMPID_INLINE F surface_height() const {
-    return F(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
+    return given<F>(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
   }
 
   /// Whether rays that have passed behind something stay far behind all that they still pass, by
@@ -224,10 +235,10 @@ class BottomSearch {
     const auto room = [&](F way) {
       return surface_height() + layer.shape(ray_.shift_at(way)).drop - way * fall_;
     };
-    const F end = min(most, F(c_.bottom_layer->most_drop) / fall_);
+    const F end = min(most, given<F>(c_.bottom_layer->most_drop) / fall_);
     F before = F(0), after = end, room_before = room(F(0)), room_after = F(0), found = F(0);
-    for (int i = 1; i <= kStepsBehind && any(found < F(0.5)); ++i) {
-      const F way = ray_.at_share(F(double(i) / kStepsBehind), end);
+    steps<F>(1, kStepsBehind + 1, [&](auto i) {
+      const F way = ray_.at_share(Loop<F>::ratio(i, kStepsBehind), end);
       const F here = room(way);
       const auto open = found < F(0.5);
       const auto hit = open && here <= F(0);
@@ -236,9 +247,10 @@ class BottomSearch {
       before = select(open && !hit, way, before);
       room_before = select(open && !hit, here, room_before);
       found = select(hit, F(1), found);
-    }
+      return found < F(0.5);
+    });
     F met = after;
-    for (int i = 0; i < kSecants; ++i) {
+    repeat<F>(kSecants, [&] {
       const F share = room_before / max(room_before - room_after, F(1e-20));
       met = before + saturate(share) * (after - before);
       const F here = room(met);
@@ -247,7 +259,7 @@ class BottomSearch {
       room_after = select(hit, here, room_after);
       before = select(hit, before, met);
       room_before = select(hit, room_before, here);
-    }
+    });
     const F level = max(end + room_after / fall_, F(0));
     const F way = select(found > F(0.5), met, level);
     // What stands in the water may hide itself: its level goes on.
@@ -260,12 +272,12 @@ class BottomSearch {
   /// Where the ray passes behind what is seen, between two shares of its way on screen, the later
   /// of which is behind.
   LIMPID_INLINE F edge_between(F before, F after, F most) const {
-    for (int i = 0; i < 6; ++i) {
+    repeat<F>(6, [&] {
       const F t = F(0.5) * (before + after);
       const auto hit = look(ray_.at_share(t, most)).behind >= F(0);
       after = select(hit, t, after);
       before = select(hit, before, t);
-    }
+    });
     return after;
   }
 
@@ -273,27 +285,31 @@ class BottomSearch {
   /// missed by as much as its depth changes from texel to texel, so many of which are forgiven. A
   /// thing of which the thickness is known hides what is behind that.
   LIMPID_INLINE F past(const Sight& at, F texels) const {
-    if (!any(at.behind >= F(0))) return F(0);
-    const F calm = min(calm_depth_at(c_, p_, at.shift), at.own);
-    const F step = calm_depth_step(c_, p_, at.shift);
-    const F slack = F(kHiding) * (at.own - calm) + texels * step;
-    const F hides = select(at.behind > slack, F(1), F(0));
-    const auto doubtful = at.behind > F(0.5) * step && at.behind <= slack;
-    if (!c_.bottom_layer || !any(doubtful)) return hides;
-    return select(doubtful, is_behind_thin(at), hides);
+    F hides(0);
+    if_any(at.behind >= F(0), [&] {
+      const F calm = min(calm_depth_at(c_, p_, at.shift), at.own);
+      const F step = calm_depth_step(c_, p_, at.shift);
+      const F slack = F(kHiding) * (at.own - calm) + texels * step;
+      hides = select(at.behind > slack, F(1), F(0));
+      if (!c_.bottom_layer) return;
+      const auto doubtful = at.behind > F(0.5) * step && at.behind <= slack;
+      if_any(doubtful, [&] { hides = select(doubtful, is_behind_thin(at), hides); });
+    });
+    return hides;
   }
   [[gnu::noinline]] F is_behind_thin(const Sight& at) const {
     const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
     const auto shape = layer.shape(at.shift);
     const auto stands = shape.thinness > F(0) && p_.side > F(0) &&
                         at.drop < F(BottomLayer::kOfBottom) * (surface_height() + shape.drop);
-    const F thickness = thickness_ <= 0 ? F(1) / max(shape.thinness, F(1e-30)) : F(thickness_);
+    const F thickness =
+        thickness_ <= 0 ? F(1) / max(shape.thinness, F(1e-30)) : given<F>(thickness_);
     return select(stands && at.behind > thickness, F(1), F(0));
   }
 
   /// In pixels.
   LIMPID_INLINE F length_on_screen(Vec2<F> shift) const {
-    const F x = F(c_.size.x) * shift.x, y = F(c_.size.y) * shift.y;
+    const F x = given<F>(c_.size.x) * shift.x, y = given<F>(c_.size.y) * shift.y;
     return sqrt(x * x + y * y);
   }
 
@@ -337,9 +353,9 @@ class BottomSearch {
   /// of depths need not show it. A beach that rises out of the water there would show nothing
   /// later.
   LIMPID_INLINE auto passes_level_near(F way) const {
-    const auto near = length_on_screen(ray_.shift_at(way)) < F(2);
-    if (!any(near)) return near;
-    return near && to_level(way) < way;
+    auto passes = length_on_screen(ray_.shift_at(way)) < F(2);
+    if_any(passes, [&] { passes = passes && to_level(way) < way; });
+    return passes;
   }
 
   const Pass& c_;
@@ -348,7 +364,7 @@ class BottomSearch {
   const Tap& tap_;
   const ScreenRay<F>& ray_;
   F fall_;
-  double thickness_;
+  const double& thickness_;
   int& expected_;
 };
 

@@ -20,8 +20,8 @@ struct CausticsTable {
     View<const float> light;
     /// Of the centre of the first texel: along map_x and map_y from the point of the calm surface
     /// below the eye, in scene units.
-    glm::dvec2 corner;
-    double texel;  ///< in scene units
+    glm::dvec2 corner{0, 0};
+    double texel = 1;  ///< in scene units
   };
   int count = 0;  ///< 0: the light is 1 everywhere
   std::array<Level, kMostLevels> levels;
@@ -39,10 +39,11 @@ struct CausticsTable {
 /// longer than wide there.
 template <class F>
 LIMPID_INLINE F caustics_texel(const WaterView& c, F depth, F cosine) {
-  const auto length = [](const glm::dvec3& v) {
-    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+  const auto length = [](const glm::dvec3& v, const char* name) {
+    return given<F>(std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z), name);
   };
-  const F wide = F(length(c.rays.origin_dx)) + depth * F(length(c.rays.ray_dx));
+  const F wide = length(c.rays.origin_dx, "camera.origin_width") +
+                 depth * length(c.rays.ray_dx, "camera.ray_width");
   return wide / sqrt(max(cosine, F(0.05)));
 }
 
@@ -54,14 +55,16 @@ F caustics_at(const CausticsTable& table, const Tap& tap, Vec2<F> entry, F texel
   F light(0), rest(1);
   for (int k = 0; k < table.count; ++k) {
     const CausticsTable::Level& level = table.levels[static_cast<std::size_t>(k)];
-    const F per_texel(1 / level.texel), wider(table.scale / level.texel);
-    const Vec2<F> at{(entry.x - F(level.corner.x)) * per_texel,
-                     (entry.y - F(level.corner.y)) * per_texel};
-    const auto inside = [](F place, int texels) {
-      return saturate(F(0.25) * min(place, F(texels - 1) - place));
+    const F per_texel = given<F>(1 / level.texel, "caustics.per_texel", k);
+    const F wider = given<F>(table.scale / level.texel, "caustics.wider", k);
+    const Vec2<F> at{(entry.x - given<F>(level.corner.x)) * per_texel,
+                     (entry.y - given<F>(level.corner.y)) * per_texel};
+    const auto inside = [](F place, F last) {
+      return saturate(F(0.25) * min(place, last - place));
     };
-    const F within =
-        inside(at.x, level.light.window.width()) * inside(at.y, level.light.window.height());
+    const auto& window = level.light.window;
+    const F within = inside(at.x, given<F>(window.width() - 1, "caustics.last_x", k)) *
+                     inside(at.y, given<F>(window.height() - 1, "caustics.last_y", k));
     const F share = rest * within * saturate(F(2) - texel * wider);
     if_any(share > F(0),
            [&] { light = light + select(share > F(0), share * tap.grid(level.light, at), F(0)); });

@@ -50,12 +50,12 @@ class BeyondPicture {
   /// `guess` is the way to where the ray would end by what is seen in the picture.
   Seen look(F guess) const {
     const F calm = way_to_plane(F(0), guess);
-    const F share = exp(F(-on_.settle) * pixels_beyond(ray_.shift_at(calm)));
+    const F share = exp((F(0) - given<F>(on_.settle)) * pixels_beyond(ray_.shift_at(calm)));
     const F way = way_to_plane(share * lift_at_edge(guess), guess);
     const Vec2<F> end = ray_.shift_at(way), at = along_to_edge(end);
     const F gone = length_on_screen(at - end);
     const Texels texels = texels_at(at);
-    const F kept = texels.share * exp(F(-on_.fade) * gone);
+    const F kept = texels.share * exp((F(0) - given<F>(on_.fade)) * gone);
     const Rgb<F> far = tap_.lat_long_rgb(on_.colors, {round_edge(at), F(0.5)});
     return {way, at, far + kept * (texels.color - far)};
   }
@@ -63,13 +63,13 @@ class BeyondPicture {
  private:
   /// In pixels, at most a million.
   F length_on_screen(Vec2<F> shift) const {
-    const F x = F(c_.size.x) * shift.x, y = F(c_.size.y) * shift.y;
+    const F x = given<F>(c_.size.x) * shift.x, y = given<F>(c_.size.y) * shift.y;
     return min(sqrt(x * x + y * y), F(1e6));
   }
   Vec2<F> kept_in(Vec2<F> shift) const {
     const Bounds& b = planes_.bounds;
-    return {min(max(shift.x, F(b.low.x) - p_.uv.x), F(b.high.x) - p_.uv.x),
-            min(max(shift.y, F(b.low.y) - p_.uv.y), F(b.high.y) - p_.uv.y)};
+    return {min(max(shift.x, given<F>(b.low.x) - p_.uv.x), given<F>(b.high.x) - p_.uv.x),
+            min(max(shift.y, given<F>(b.low.y) - p_.uv.y), given<F>(b.high.y) - p_.uv.y)};
   }
   F pixels_beyond(Vec2<F> shift) const { return length_on_screen(shift - kept_in(shift)); }
 
@@ -78,9 +78,9 @@ class BeyondPicture {
   F way_to_plane(F lift, F guess) const {
     const Vec3<F> normal = vec3_of<F>(on_.normal);
     const F nears = F(0) - dot(normal, direction_);
-    const F over = dot(normal, p_.surface_point) - F(on_.offset) - lift;
+    const F over = dot(normal, p_.surface_point) - given<F>(on_.offset) - lift;
     const F way = select(nears > F(0.02), over / max(nears, F(0.02)), guess);
-    return max(way, F(on_.least_drop) / fall_);
+    return max(way, given<F>(on_.least_drop) / fall_);
   }
 
   /// How far over the plane the bottom lies that is seen where the ray leaves the picture; 0 where
@@ -90,23 +90,25 @@ class BeyondPicture {
     const Vec2<F> edge = min(reach_in(planes_.bounds, p_.uv, end), F(1)) * end;
     const F depth = tap_.nearest(planes_.depth, edge);
     const Vec3<F> there = p_.surface_point + way_to(c_, p_, edge, depth);
-    const F lift = dot(vec3_of<F>(on_.normal), there) - F(on_.offset);
-    const auto bottom = depth < F(1e30) && abs(lift) < F(on_.lift);
+    const F lift = dot(vec3_of<F>(on_.normal), there) - given<F>(on_.offset);
+    const auto bottom = depth < F(1e30) && abs(lift) < given<F>(on_.lift);
     return select(bottom, lift, F(0));
   }
 
   /// Where the line along the bottom that ends with the ray enters the picture.
   Vec2<F> along_to_edge(Vec2<F> end) const {
-    const F step = F(c_.w_depth * dot_of(c_.forward, on_.along));
-    const Vec2<F> across{F(dot_of(c_.to_u, on_.along)) - (p_.uv.x + end.x) * step,
-                         F(dot_of(c_.to_v, on_.along)) - (p_.uv.y + end.y) * step};
+    const F step = given<F>(c_.w_depth * dot_of(c_.forward, on_.along), "continuation.w_along");
+    const Vec2<F> across{
+        given<F>(dot_of(c_.to_u, on_.along), "continuation.u_along") - (p_.uv.x + end.x) * step,
+        given<F>(dot_of(c_.to_v, on_.along), "continuation.v_along") - (p_.uv.y + end.y) * step};
     const Vec2<F> lacks = kept_in(end) - end;
     const auto times = [](F lack, F pace) {
       return select(abs(pace) > F(1e-12), lack / select(abs(pace) > F(1e-12), pace, F(1)), F(0));
     };
     const F x = times(lacks.x, across.x), y = times(lacks.y, across.y);
     const auto one_way = x * y >= F(0);
-    const F main = select(abs(lacks.x) * F(c_.size.x) > abs(lacks.y) * F(c_.size.y), x, y);
+    const F main =
+        select(abs(lacks.x) * given<F>(c_.size.x) > abs(lacks.y) * given<F>(c_.size.y), x, y);
     const F both = select(abs(x) > abs(y), x, y);
     const F by = select(one_way, both, main);
     // A line that is nearly parallel to the edge would come from anywhere.
@@ -140,8 +142,10 @@ class BeyondPicture {
   /// Where a place is in Continuation::colors.
   F round_edge(Vec2<F> shift) const {
     const Bounds& b = planes_.bounds;
-    const F x = saturate((p_.uv.x + shift.x - F(b.low.x)) / F(std::max(b.high.x - b.low.x, 1e-9)));
-    const F y = saturate((p_.uv.y + shift.y - F(b.low.y)) / F(std::max(b.high.y - b.low.y, 1e-9)));
+    const F x = saturate((p_.uv.x + shift.x - given<F>(b.low.x)) /
+                         given<F>(std::max(b.high.x - b.low.x, 1e-9), "continuation.width"));
+    const F y = saturate((p_.uv.y + shift.y - given<F>(b.low.y)) /
+                         given<F>(std::max(b.high.y - b.low.y, 1e-9), "continuation.height"));
     const F left = x, right = F(1) - x, top = y, bottom = F(1) - y;
     const F beside = select(left < right, F(0.75) + F(0.25) * bottom, F(0.25) + F(0.25) * top);
     const F over = select(top < bottom, F(0.25) * left, F(0.5) + F(0.25) * right);

@@ -35,9 +35,12 @@ template <class F>
 LIMPID_INLINE F texels_wide(Sym2<F> footprint, Vec2<double> texels, double share) {
   // Kept to what a float can square.
   const auto kept = [](F x) { return min(max(x, F(-1e12)), F(1e12)); };
-  const F xx = kept(F(12 * texels.x * texels.x) * footprint.xx);
-  const F xy = kept(F(12 * texels.x * texels.y) * footprint.xy);
-  const F yy = kept(F(12 * texels.y * texels.y) * footprint.yy);
+  const auto square = [&](double a, double b, int place) {
+    return given<F>(12 * a * b, "wave_map.texels_square", place);
+  };
+  const F xx = kept(square(texels.x, texels.x, 0) * footprint.xx);
+  const F xy = kept(square(texels.x, texels.y, 1) * footprint.xy);
+  const F yy = kept(square(texels.y, texels.y, 2) * footprint.yy);
   const F middle = F(0.5) * (xx + yy), half = F(0.5) * (xx - yy);
   const F apart = sqrt(half * half + xy * xy);
   const F least = max(middle - apart, F(0)), most = middle + apart;

@@ -65,8 +65,8 @@ class MirrorSearch {
       });
       return high;
     };
-    const auto share_of = [&](int step) {
-      const F even(double(step) / how.steps);
+    const auto share_of = [&](auto step) {
+      const F even = Loop<F>::ratio(step, how.steps);
       return F(0.5) * (even + even * even);
     };
     // Whether all steps after `begin` up to `last_one` need no look: what they pass is farther away
@@ -89,12 +89,10 @@ class MirrorSearch {
     const auto wet = tap.wet();
     F before = F(0), met = F(0), found = F(0), last = F(0);
     int length = how.steps, next_ask = 1, asks = how.steps / 4;
-    for (int i = 1; i <= how.steps; ++i) {
-      const auto open = wet && found < F(0.5);
-      if (!any(open)) break;
+    const auto leap = [&](int i) {
       while (i >= next_ask && i <= how.steps && asks-- > 0) {
         const int after = i - 1 + length < how.steps ? i - 1 + length : how.steps;
-        if (after > i && passes(i - 1, after, open)) {
+        if (after > i && passes(i - 1, after, wet && found < F(0.5))) {
           last = share_of(after);
           i = after + 1;
         } else if (length >= 2 * kLeastLeap) {
@@ -103,7 +101,10 @@ class MirrorSearch {
           next_ask = i + how.steps / 4;
         }
       }
-      if (i > how.steps) break;
+      return i;
+    };
+    const auto step = [&](auto i) {
+      const auto open = wet && found < F(0.5);
       const F t = share_of(i);
       const F seen = seen_at(t);
       const auto hit = open && within(t, seen);
@@ -121,7 +122,9 @@ class MirrorSearch {
         found = select(enters, F(1), found);
       });
       last = t;
-    }
+      return wet && found < F(0.5);
+    };
+    if_any(wet, [&] { steps<F>(1, how.steps + 1, leap, step); });
     if_any(found > F(0.5), [&] { met = edge(before, met, within); });
     return {select(found > F(0.5), ray.at_share(met, most), F(HUGE_VAL)), found};
   }

@@ -49,6 +49,20 @@
 /// is a mask: where it does not hold, nothing may have been looked up, or `into` may have been
 /// called as well, for other pixels of the vector, and keeps what it does there by select().
 ///
+/// What operators do is run on double and on lanes, and written down as a shader, too
+/// (src/shade/record.h). So for numbers of the type F
+///
+///   - a number decides no branch of C++: what to do where a mask holds, or how often, is said by
+///     if_any(), repeat() and steps() (core/number.h). any() may leave out what would change
+///     nothing;
+///   - a body of those changes numbers and masks that live outside of it, nothing else, and may be
+///     run several times;
+///   - a mask stays a mask: auto, never bool;
+///   - numbers of scene, look, frame and time enter by given(), F() is for the formula's own.
+///
+/// A branch of C++ on a parameter or on what the frame has is no such branch: it makes another
+/// shader. tests/shade records every operator with every model and runs what was written down.
+///
 /// A probe looks up as often as it likes, one pixel (or vector of pixels) at a time; the samplers
 /// above know all lookups of a strip beforehand and are faster. tap.nearest(plane, shift) is the
 /// texel there. tap.quad(shift) are the four texels that bilinear filtering mixes, k = 0 ... 3:

@@ -40,7 +40,7 @@ template <class F>
 LIMPID_INLINE void begin_pixel(const WaterView& view, const RowRays<F>& row, F x, F side,
                                F surface_depth, F dry_depth, Pixel<F>& p) {
   const Vec3<F> ray = row.ray_at(x);
-  p.uv = {x * F(1.0 / view.size.x), row.v};
+  p.uv = {x * given<F>(1.0 / view.size.x, "camera.column"), row.v};
   p.ray_length = length(ray);
   p.to_viewer = (F(-1) / p.ray_length) * ray;
   p.surface_point = row.origin_at(x) + surface_depth * ray;

@@ -22,8 +22,8 @@ struct ScreenRay {
   LIMPID_INLINE ScreenRay(const WaterView& c, const Pixel<F>& p, Vec3<F> direction) {
     depth = p.surface_depth;
     depth_step = dot(vec3_of<F>(c.forward), direction);
-    w = max(F(c.w_origin) + F(c.w_depth) * depth, F(kLeastW));
-    w_step = F(c.w_depth) * depth_step;
+    w = max(given<F>(c.w_origin) + given<F>(c.w_depth) * depth, F(kLeastW));
+    w_step = given<F>(c.w_depth) * depth_step;
     across = {dot(vec3_of<F>(c.to_u), direction) - p.uv.x * w_step,
               dot(vec3_of<F>(c.to_v), direction) - p.uv.y * w_step};
   }
@@ -60,22 +60,24 @@ template <class F>
 LIMPID_INLINE F height_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
   const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
   const F over = dot(vec3_of<F>(c.up), p.surface_point) - p.surface_depth * under;
-  const F there_under = under + shift.x * F(c.under_step.x) + shift.y * F(c.under_step.y);
-  const F there_over = over + shift.x * F(c.over_step.x) + shift.y * F(c.over_step.y);
-  return F(c.eye_above) + there_over + min(depth, F(1e30)) * there_under;
+  const F there_under =
+      under + shift.x * given<F>(c.under_step.x) + shift.y * given<F>(c.under_step.y);
+  const F there_over = over + shift.x * given<F>(c.over_step.x) + shift.y * given<F>(c.over_step.y);
+  return given<F>(c.eye_above) + there_over + min(depth, F(1e30)) * there_under;
 }
 
 /// The way from the pixel's surface point to what is seen at `shift` from the pixel at eye depth
 /// `depth` (+inf counts as 1e30). From differences, like a ScreenRay.
 template <class F>
 LIMPID_INLINE Vec3<F> way_to(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
-  const auto across = [&](const glm::dvec3& dx, const glm::dvec3& dy) {
-    return shift.x * vec3_of<F>(double(c.size.x) * dx) +
-           shift.y * vec3_of<F>(double(c.size.y) * dy);
-  };
+  const Rays& rays = c.rays;
+  const double width = c.size.x, height = c.size.y;
+  const Vec3<F> origin = shift.x * vec3_of<F>(width * rays.origin_dx, "camera.origin_across") +
+                         shift.y * vec3_of<F>(height * rays.origin_dy, "camera.origin_down");
+  const Vec3<F> ray = shift.x * vec3_of<F>(width * rays.ray_dx, "camera.ray_across") +
+                      shift.y * vec3_of<F>(height * rays.ray_dy, "camera.ray_down");
   const F far = min(depth, F(1e30));
-  return (p.ray_length * (p.surface_depth - far)) * p.to_viewer +
-         across(c.rays.origin_dx, c.rays.origin_dy) + far * across(c.rays.ray_dx, c.rays.ray_dy);
+  return (p.ray_length * (p.surface_depth - far)) * p.to_viewer + origin + far * ray;
 }
 
 /// How many times `across` fits between uv and the edge that it leads to. Rounding that leads over
@@ -86,8 +88,8 @@ LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
     const F room = select(step > F(0), high - at, at - low);
     return (max(room, F(0)) + F(1e-5)) / max(abs(step), F(1e-20));
   };
-  return min(along(uv.x, F(b.low.x), F(b.high.x), across.x),
-             along(uv.y, F(b.low.y), F(b.high.y), across.y));
+  return min(along(uv.x, given<F>(b.low.x), given<F>(b.high.x), across.x),
+             along(uv.y, given<F>(b.low.y), given<F>(b.high.y), across.y));
 }
 
 /// Eye depth at which the ray of the picture at `shift` from the pixel is `drop` below the calm
@@ -96,8 +98,10 @@ template <class F>
 LIMPID_INLINE F depth_at_drop(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F drop) {
   const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
   const F over = dot(vec3_of<F>(c.up), p.surface_point) - p.surface_depth * under;
-  const F falls = F(0) - (under + shift.x * F(c.under_step.x) + shift.y * F(c.under_step.y));
-  const F above = F(c.eye_above) + over + shift.x * F(c.over_step.x) + shift.y * F(c.over_step.y);
+  const F falls =
+      F(0) - (under + shift.x * given<F>(c.under_step.x) + shift.y * given<F>(c.under_step.y));
+  const F above = given<F>(c.eye_above) + over + shift.x * given<F>(c.over_step.x) +
+                  shift.y * given<F>(c.over_step.y);
   const auto meets = (above + drop) * falls > F(0);
   return select(meets, (above + drop) / select(meets, falls, F(1)), F(HUGE_VAL));
 }
@@ -111,7 +115,7 @@ LIMPID_INLINE F calm_depth_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shi
 /// How much calm_depth_at changes from one row of pixels to the next.
 template <class F>
 LIMPID_INLINE F calm_depth_step(const WaterView& c, const Pixel<F>& p, Vec2<F> shift) {
-  const F row(1.0 / c.size.y);
+  const F row = given<F>(1.0 / c.size.y, "camera.row");
   const F here = min(calm_depth_at(c, p, shift), F(1e30));
   const F below = min(calm_depth_at(c, p, Vec2<F>{shift.x, shift.y + row}), F(1e30));
   return abs(here - below);

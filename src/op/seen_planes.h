@@ -7,7 +7,7 @@ namespace limpid {
 /// it and the view does not begin in the water.
 struct SeenPlanes {
   PlaneId color, depth;
-  Bounds bounds;
+  const Bounds& bounds;
   bool below;  ///< holds what lies under the crests of the water alone, +inf where there is nothing
 
   static SeenPlanes of(const Pass& pass) {

@@ -23,7 +23,7 @@ struct ValidTaps {
   F share;                                 ///< of `there`: 1 real, 0 made up
   F filled;                                ///< of what stands in, which is not in the planes
   Vec2<F> place;                           ///< where most of the lookup comes from
-  bool some_made_up;
+  decltype(F() < F()) made_up;             ///< where `shortened` counts
 
   /// 1 but for rounding; less where not even the last resort was bearable.
   F weight() const {
@@ -34,8 +34,9 @@ struct ValidTaps {
 
   template <class Tap>
   F read(const Tap& tap, PlaneId plane) const {
-    const F sum = weighted(weight_there, tap.read(plane, there));
-    return some_made_up ? sum + weighted(weight_shortened, tap.read(plane, shortened)) : sum;
+    F sum = weighted(weight_there, tap.read(plane, there));
+    if_any(made_up, [&] { sum = sum + weighted(weight_shortened, tap.read(plane, shortened)); });
+    return sum;
   }
 
   /// For depths: +inf where infinite ones prevail, and no 0 x inf.
@@ -46,7 +47,8 @@ struct ValidTaps {
       return depths;
     };
     F sum = weighted(weight_there, finite(tap.read(plane, there)));
-    if (some_made_up) sum = sum + weighted(weight_shortened, finite(tap.read(plane, shortened)));
+    if_any(made_up,
+           [&] { sum = sum + weighted(weight_shortened, finite(tap.read(plane, shortened))); });
     return select(sum < F(1e28), sum, F(HUGE_VAL));
   }
 
@@ -76,8 +78,8 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
   constexpr int kSteps = 8, kHalvings = 6;
   F low = F(0), high = F(1), share_low = F(1), share_high = share_there;
   F found = F(0);
-  for (int i = kSteps - 1; i > 0; --i) {
-    const F t = F(double(i) / kSteps);
+  steps<F>(1, kSteps, [&](auto i) {
+    const F t = Loop<F>::ratio(kSteps - i, kSteps);
     const F share = valid_share(tap, t * shift, valid);
     const auto open = found < F(0.5);
     const auto good = share >= F(0.5);
@@ -86,9 +88,9 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
     high = select(open && !good, t, high);
     share_high = select(open && !good, share, share_high);
     found = select(good, F(1), found);
-    if (!any(found < F(0.5))) break;
-  }
-  for (int i = 0; i < kHalvings; ++i) {
+    return found < F(0.5);
+  });
+  repeat<F>(kHalvings, [&] {
     const F t = F(0.5) * (low + high);
     const F share = valid_share(tap, t * shift, valid);
     const auto good = share >= F(0.5);
@@ -96,7 +98,7 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
     share_low = select(good, share, share_low);
     high = select(good, high, t);
     share_high = select(good, share_high, share);
-  }
+  });
   const F fall = share_low - share_high;
   const F t = low + (high - low) * saturate((share_low - F(0.5)) / max(fall, F(1e-6)));
   // On steps wider than a texel the secant may land where nothing is valid.
@@ -104,31 +106,12 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
   return select(lands, t, low) * shift;
 }
 
-/// The taps for a lookup at `shift`. Of what is missing there, the share fill(lanes) is left to the
-/// caller, as `filled`. Should nothing on the way be `valid`, what is `bearable` there stands in
-/// for it: the pixel's own texel is always that. Where never(lanes) can tell that nothing is valid
-/// on the way of those lanes, nothing is looked for.
-template <class F, class Tap, class Valid, class Bearable, class Fill, class Never>
-auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable, Fill&& fill,
-                Never&& never) {
-  using Quad = decltype(tap.quad(shift));
-  const Quad there = tap.quad(shift);
-  ValidTaps<F, Quad> taps{there, there, {}, {}, F(0), F(0), shift, false};
-  const Four<F> valid_there = valid(there);
-  for (int k = 0; k < 4; ++k) {
-    taps.weight_there.at[k] = there.weight(k) * valid_there[k];
-    taps.share = taps.share + taps.weight_there[k];
-    taps.weight_shortened.at[k] = F(0);
-  }
-  auto whole = taps.share > F(1 - 1e-6);
-  if (!any(!whole)) return taps;
-  const F fills = fill(!whole);
-  taps.filled = select(whole, F(0), fills * max(F(1) - taps.share, F(0)));
-  whole = whole || fills >= F(1);
-  taps.some_made_up = any(!whole);
-  if (!taps.some_made_up) return taps;
+/// What stands in for the texels that are missing where `taps.made_up` holds: see valid_taps().
+template <class F, class Tap, class Taps, class Valid, class Bearable, class Never>
+LIMPID_INLINE void make_up(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable,
+                           Never&& never, Taps& taps) {
   const Vec2<F> shortened =
-      never(!whole) ? Vec2<F>{F(0), F(0)} : last_valid(tap, shift, taps.share, valid);
+      never(taps.made_up) ? Vec2<F>{F(0), F(0)} : last_valid(tap, shift, taps.share, valid);
   taps.place = select(taps.share + taps.filled >= F(0.5), shift, shortened);
   taps.shortened = tap.quad(shortened);
   // Half of the weight is valid there, unless nothing on the way is.
@@ -146,8 +129,35 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
   taps.filled = select(alone, F(1) - taps.share, taps.filled);
   const F scale = max(F(1) - taps.share - taps.filled, F(0)) / max(valid_weight, F(1e-6));
   for (int k = 0; k < 4; ++k) {
-    taps.weight_shortened.at[k] = select(whole, F(0), scale * taps.weight_shortened[k]);
+    taps.weight_shortened.at[k] = select(taps.made_up, scale * taps.weight_shortened[k], F(0));
   }
+}
+
+/// The taps for a lookup at `shift`. Of what is missing there, the share fill(lanes) is left to the
+/// caller, as `filled`. Should nothing on the way be `valid`, what is `bearable` there stands in
+/// for it: the pixel's own texel is always that. Where never(lanes) can tell that nothing is valid
+/// on the way of those lanes, nothing is looked for.
+template <class F, class Tap, class Valid, class Bearable, class Fill, class Never>
+auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable, Fill&& fill,
+                Never&& never) {
+  using Quad = decltype(tap.quad(shift));
+  const Quad there = tap.quad(shift);
+  ValidTaps<F, Quad> taps{there, there, {}, {}, F(0), F(0), shift, {}};
+  const Four<F> valid_there = valid(there);
+  for (int k = 0; k < 4; ++k) {
+    taps.weight_there.at[k] = there.weight(k) * valid_there[k];
+    taps.share = taps.share + taps.weight_there[k];
+    taps.weight_shortened.at[k] = F(0);
+  }
+  auto whole = taps.share > F(1 - 1e-6);
+  taps.made_up = !whole;
+  if_any(taps.made_up, [&] {
+    const F fills = fill(!whole);
+    taps.filled = select(whole, F(0), fills * max(F(1) - taps.share, F(0)));
+    whole = whole || fills >= F(1);
+    taps.made_up = !whole;
+    if_any(taps.made_up, [&] { make_up<F>(tap, shift, valid, bearable, never, taps); });
+  });
   return taps;
 }
 

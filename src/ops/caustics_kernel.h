@@ -54,78 +54,88 @@ struct Kernel<Caustics> : Caustics {
     if (table.count == 0 && !light.moves) return;
     const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
     const SeenPlanes planes = SeenPlanes::of(c);
+    const Vec2<F> sunwards{given<F>(light.level.x, "caustics.sunwards", 0),
+                           given<F>(light.level.y, "caustics.sunwards", 1)};
     const bool split = c.made.has(StatePart::kPrism), shadowed = c.planes.has(PlaneId::kShadow);
     strip.probe([&](Pixel<F>& p, const auto& tap) {
-      const F surface = F(c.eye_above) + dot(up, p.surface_point);
+      const F surface = given<F>(c.eye_above) + dot(up, p.surface_point);
       // Seen from within the water the view is straight.
       const Vec3<F> straight = p.surface_point + way_to(c, p, p.shift, p.hit_depth);
       const auto from_air = p.side > F(0.5);
       const auto has_way = p.path > F(0) && p.path < F(1e20);
       const auto seen_bottom = p.side > F(-0.5) && p.hit_depth < F(1e30) && (!from_air || has_way);
-      if (!any(seen_bottom)) return;
-      const Aim<F> aim = aim_of(c, p, F(c.ior));
-      const F drop = select(seen_bottom && from_air, p.path * aim.fall, F(0));
-      const F along = dot(vec3_of<F>(c.forward), aim.direction);
-      const F eye_depth =
-          select(from_air, p.surface_depth + min(p.path, F(1e6)) * along, p.hit_depth);
-      const F texel = caustics_texel(c, eye_depth, abs(dot(up, p.to_viewer)));
-      const F deep = select(from_air, drop - surface, F(0) - (F(c.eye_above) + dot(up, straight)));
-      const auto lit_bottom = seen_bottom && deep > F(0);
-      const F depth = select(lit_bottom, deep, F(0));
+      if_any(seen_bottom, [&] {
+        const Aim<F> aim = aim_of(c, p, given<F>(c.ior));
+        const F drop = select(seen_bottom && from_air, p.path * aim.fall, F(0));
+        const F along = dot(vec3_of<F>(c.forward), aim.direction);
+        const F eye_depth =
+            select(from_air, p.surface_depth + min(p.path, F(1e6)) * along, p.hit_depth);
+        const F texel = caustics_texel(c, eye_depth, abs(dot(up, p.to_viewer)));
+        const F deep =
+            select(from_air, drop - surface, F(0) - (given<F>(c.eye_above) + dot(up, straight)));
+        const auto lit_bottom = seen_bottom && deep > F(0);
+        const F depth = select(lit_bottom, deep, F(0));
 
-      const auto end_of = [&](const Aim<F>& way) {
-        return select(from_air, p.surface_point + (drop / way.fall) * way.direction, straight);
-      };
-      /// Where calm water lets sunlight in that comes to a place.
-      const auto entry_of = [&](Vec3<F> end, F index) {
-        const F sine = F(light.sine) / index;
-        const F aside = depth / (index * sqrt(F(1) - sine * sine));
-        return Vec2<F>{dot(map_x, end) + aside * F(light.level.x),
-                       dot(map_y, end) + aside * F(light.level.y)};
-      };
-      // Of the layer below nobody says what the sun does where something stands before it.
-      const F dry = planes.below ? mixed(tap, PlaneId::kDepth, p.shift) : p.hit_depth;
-      const auto hidden = dry < F(kSameDepth) * p.hit_depth;
-      const F of_plane = shadowed ? mixed(tap, PlaneId::kShadow, p.shift) : F(1);
-      const F lit = select(hidden, F(1), of_plane);
-      F arrives(1);  // share of the sun's light that comes to the bottom, where shadows move
-      if (light.moves) {
-        const Vec3<F> end = end_of(aim);
-        const F per_rise(1 / light.rise);
-        const Vec2<F> level{dot(map_x, end) + depth * per_rise * F(light.level.x),
-                            dot(map_y, end) + depth * per_rise * F(light.level.y)};
-        arrives = moved(c, p, tap, entry_of(end, F(c.ior)), level, lit, hidden);
-      }
-      const auto channel = [&](int k, F index, Vec2<F> shift, F& transmitted) {
-        const auto i = static_cast<std::size_t>(k);
-        Aim<F> own = aim;
-        if (split && any(abs(index) > F(0))) own = aim_of(c, p, F(c.ior) + index);
-        const Vec2<F> entry = entry_of(end_of(own), F(c.ior) + index);
-        F strength(params.strength);
-        if (table.scattered[i] > 0) strength = strength * exp(F(-table.scattered[i]) * depth);
-        F focused = F(1) + strength * (caustics_at(table, tap, entry, texel) - F(1));
-        F sun(0);
-        if (light.known) {
-          const F shown = mixed(tap, plane_after(PlaneId::kSunColorR, k), shift);
-          const F as_around = F(light.around[i]) * transmitted;
-          sun = min(max(select(hidden, as_around, shown), F(0)), max(transmitted, F(0)));
-        } else {
-          const F direct = lit * F(light.sun[i]);
-          sun = direct / max(direct + F(light.even[i]), F(1e-30)) * transmitted;
-        }
-        const F rest = transmitted - sun;
-        F whole = sun;
+        const auto end_of = [&](const Aim<F>& way) {
+          return select(from_air, p.surface_point + (drop / way.fall) * way.direction, straight);
+        };
+        /// Where calm water lets sunlight in that comes to a place.
+        const auto entry_of = [&](Vec3<F> end, F index) {
+          const F sine = given<F>(light.sine, "caustics.sine") / index;
+          const F aside = depth / (index * sqrt(F(1) - sine * sine));
+          return Vec2<F>{dot(map_x, end) + aside * sunwards.x,
+                         dot(map_y, end) + aside * sunwards.y};
+        };
+        // Of the layer below nobody says what the sun does where something stands before it.
+        const F dry = planes.below ? mixed(tap, PlaneId::kDepth, p.shift) : p.hit_depth;
+        const auto hidden = dry < F(kSameDepth) * p.hit_depth;
+        const F of_plane = shadowed ? mixed(tap, PlaneId::kShadow, p.shift) : F(1);
+        const F lit = select(hidden, F(1), of_plane);
+        F arrives(1);  // share of the sun's light that comes to the bottom, where shadows move
         if (light.moves) {
-          whole = arrives * (sun + (F(1) - lit) * max(rest, F(0)) * F(table.sun_over_rest[i]));
-          // Whether the sun shines there is in the layer's color already.
-          whole = select(hidden, sun, whole);
-          focused = select(hidden, F(1) + arrives * (focused - F(1)), focused);
+          const Vec3<F> end = end_of(aim);
+          const F per_rise = given<F>(1 / light.rise, "caustics.per_rise");
+          const Vec2<F> level{dot(map_x, end) + depth * per_rise * sunwards.x,
+                              dot(map_y, end) + depth * per_rise * sunwards.y};
+          arrives = moved(c, p, tap, entry_of(end, given<F>(c.ior)), level, lit, hidden);
         }
-        transmitted = select(lit_bottom, rest + focused * whole, transmitted);
-      };
-      channel(0, p.dispersion.r, p.shift_r, p.transmitted.r);
-      channel(1, p.dispersion.g, p.shift_g, p.transmitted.g);
-      channel(2, p.dispersion.b, p.shift_b, p.transmitted.b);
+        const auto channel = [&](int k, F index, Vec2<F> shift, F& transmitted) {
+          const auto i = static_cast<std::size_t>(k);
+          Aim<F> own = aim;
+          if (split) {
+            if_any(abs(index) > F(0), [&] { own = aim_of(c, p, given<F>(c.ior) + index); });
+          }
+          const Vec2<F> entry = entry_of(end_of(own), given<F>(c.ior) + index);
+          F strength = given<F>(params.strength);
+          if (table.scattered[i] > 0)
+            strength =
+                strength * exp(given<F>(-table.scattered[i], "caustics.scattered", k) * depth);
+          F focused = F(1) + strength * (caustics_at(table, tap, entry, texel) - F(1));
+          F sun(0);
+          if (light.known) {
+            const F shown = mixed(tap, plane_after(PlaneId::kSunColorR, k), shift);
+            const F as_around = given<F>(light.around[i], "caustics.around", k) * transmitted;
+            sun = min(max(select(hidden, as_around, shown), F(0)), max(transmitted, F(0)));
+          } else {
+            const F direct = lit * given<F>(light.sun[i], "caustics.sun", k);
+            sun = direct / max(direct + given<F>(light.even[i], "caustics.even", k), F(1e-30)) *
+                  transmitted;
+          }
+          const F rest = transmitted - sun;
+          F whole = sun;
+          if (light.moves) {
+            whole =
+                arrives * (sun + (F(1) - lit) * max(rest, F(0)) * given<F>(table.sun_over_rest[i]));
+            // Whether the sun shines there is in the layer's color already.
+            whole = select(hidden, sun, whole);
+            focused = select(hidden, F(1) + arrives * (focused - F(1)), focused);
+          }
+          transmitted = select(lit_bottom, rest + focused * whole, transmitted);
+        };
+        channel(0, p.dispersion.r, p.shift_r, p.transmitted.r);
+        channel(1, p.dispersion.g, p.shift_g, p.transmitted.g);
+        channel(2, p.dispersion.b, p.shift_b, p.transmitted.b);
+      });
     });
   }
 
@@ -157,7 +167,7 @@ struct Kernel<Caustics> : Caustics {
                                Vec2<F> level, F lit, Mask hidden) {
     const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
     const auto shift_to = [&](Vec2<F> at) {
-      const Vec3<F> point = at.x * map_x + at.y * map_y - F(c.eye_above) * up;
+      const Vec3<F> point = at.x * map_x + at.y * map_y - given<F>(c.eye_above) * up;
       return ScreenRay<F>(c, p, point - p.surface_point).shift_at(F(1));
     };
     const Vec2<F> enters = shift_to(entry), would = shift_to(level);
@@ -176,8 +186,8 @@ struct Kernel<Caustics> : Caustics {
   template <class F>
   static LIMPID_INLINE F known_at(const Pass& c, const Pixel<F>& p, Vec2<F> shift) {
     const F x = p.uv.x + shift.x, y = p.uv.y + shift.y;
-    const F inside = min(min(x - F(c.dry.low.x), F(c.dry.high.x) - x),
-                         min(y - F(c.dry.low.y), F(c.dry.high.y) - y));
+    const F inside = min(min(x - given<F>(c.dry.low.x), given<F>(c.dry.high.x) - x),
+                         min(y - given<F>(c.dry.low.y), given<F>(c.dry.high.y) - y));
     return saturate(F(20) * inside);
   }
 

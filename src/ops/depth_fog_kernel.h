@@ -88,8 +88,8 @@ struct Kernel<DepthFog> : DepthFog {
   static double brightest_phase(const Params& params, const Pass& c, const Medium& medium);
 
   template <class F>
-  static LIMPID_INLINE Rgb<F> rgb_of(const Rgb<double>& c) {
-    return {F(c.r), F(c.g), F(c.b)};
+  static LIMPID_INLINE Rgb<F> rgb_of(const Rgb<double>& c, const char* name) {
+    return {given<F>(c.r, name, 0), given<F>(c.g, name, 1), given<F>(c.b, name, 2)};
   }
 
   template <class F>
@@ -98,8 +98,9 @@ struct Kernel<DepthFog> : DepthFog {
     if (distance != Distance::kEye) d = p.ray_length * d;
     if (distance == Distance::kRefracted) {
       const F cosine = max(abs(dot(p.to_viewer, vec3_of<F>(c.up))), F(1e-6));  // against inf * 0
-      d = c.made.has(StatePart::kPosition) ? p.path
-                                           : d * cosine / refracted_cosine(cosine, F(1 / c.ior));
+      d = c.made.has(StatePart::kPosition)
+              ? p.path
+              : d * cosine / refracted_cosine(cosine, given<F>(1 / c.ior, "water.per_ior"));
     }
     if (!c.submersible) return d;
     const F straight = p.ray_length * select(p.side < F(0), p.surface_depth, p.dry_depth);
@@ -109,8 +110,10 @@ struct Kernel<DepthFog> : DepthFog {
   template <class Strip>
   static void linear(const Params& params, Strip& strip) {
     using F = typename Strip::Number;
-    const F density(params.density), offset(params.offset), alpha(params.alpha);
-    const Rgb<F> color = rgb_of<F>(params.color);
+    const F density = given<F>(params.density), offset = given<F>(params.offset);
+    const F alpha = given<F>(params.alpha);
+    const Rgb<F> color{given<F>(params.color.r), given<F>(params.color.g),
+                       given<F>(params.color.b)};
     strip.each([&](Pixel<F>& p) {
       const F veil = alpha * (F(1) - linear_fog(p.path, density, offset));
       const F clear = F(1) - veil;
@@ -127,12 +130,17 @@ struct Kernel<DepthFog> : DepthFog {
   static void beer_lambert(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Medium medium = medium_of(params, c);
-    const Rgb<F> rate = rgb_of<F>(medium.rate), down = rgb_of<F>(medium.down);
-    const Rgb<F> ambient = rgb_of<F>(medium.ambient), sun = rgb_of<F>(medium.sun);
-    const Vec3<F> up = vec3_of<F>(c.up), to_sun = vec3_of<F>(medium.to_sun);
-    const F eta(1 / c.ior), anisotropy(params.anisotropy), bottom(medium.bottom),
-        water(medium.water), per_rise(medium.sunlit ? 1 / std::max(medium.cosine, 0.02) : 0);
-    const F eye_depth(c.eye_above < 0 ? -c.eye_above : 0);
+    const Rgb<F> rate = rgb_of<F>(medium.rate, "depth_fog.rate"),
+                 down = rgb_of<F>(medium.down, "depth_fog.down");
+    const Rgb<F> ambient = rgb_of<F>(medium.ambient, "depth_fog.ambient_light"),
+                 sun = rgb_of<F>(medium.sun, "depth_fog.sun_light");
+    const Vec3<F> up = vec3_of<F>(c.up), to_sun = vec3_of<F>(medium.to_sun, "depth_fog.to_sun");
+    const F eta = given<F>(1 / c.ior, "water.per_ior"), anisotropy = given<F>(params.anisotropy);
+    const F bottom = given<F>(medium.bottom, "depth_fog.bottom");
+    const F water = given<F>(medium.water, "depth_fog.water");
+    const F per_rise =
+        given<F>(medium.sunlit ? 1 / std::max(medium.cosine, 0.02) : 0, "depth_fog.per_rise");
+    const F eye_depth = given<F>(c.eye_above < 0 ? -c.eye_above : 0, "camera.eye_below");
     const auto make = [&](Pixel<F>& p, const Vec3<F>& albedo) {
       // Of the view in the water: away from the viewer.
       const auto from_air = p.side > F(0);
@@ -165,11 +173,11 @@ struct Kernel<DepthFog> : DepthFog {
         // sun_left() of ways that begin at the surface and go down, as all from the air do: what
         // the light of their end loses, to it and from it.
         Rgb<F> left = p.transmittance * fallen;
-        if (any(!from_air)) {
+        if_any(!from_air, [&] {
           left = select(from_air, left,
                         {sun_left(way, rate.r, down.r), sun_left(way, rate.g, down.g),
                          sun_left(way, rate.b, down.b)});
-        }
+        });
         const SunColumn<F> red = sun_column(way, rate.r, down.r, left.r);
         const SunColumn<F> green = sun_column(way, rate.g, down.g, left.g);
         const SunColumn<F> blue = sun_column(way, rate.b, down.b, left.b);
@@ -201,20 +209,21 @@ struct Kernel<DepthFog> : DepthFog {
   static LIMPID_INLINE void add_often(const Medium& m, const Way<F>& way, F turned,
                                       const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
     const auto from_air = p.side > F(0);
-    const F doubly = m.turns ? henyey_greenstein(turned, F(m.square)) : F(0);
+    const F doubly =
+        m.turns ? henyey_greenstein(turned, given<F>(m.square, "depth_fog.square")) : F(0);
     const std::array<F, 4> shapes{F(1), way.sink, turned, doubly};
     const Rgb<F>& left = p.transmittance;
     Often<F> red = often_down(m, 0, way, shapes, fallen.r, left.r, albedo.x);
     Often<F> green = often_down(m, 1, way, shapes, fallen.g, left.g, albedo.y);
     Often<F> blue = often_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
-    if (any(!from_air)) {
+    if_any(!from_air, [&] {
       const auto choose = [&](Often<F>& down, const Often<F>& inside) {
         down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
       };
       choose(red, often_inside(m, 0, way));
       choose(green, often_inside(m, 1, way));
       choose(blue, often_inside(m, 2, way));
-    }
+    });
     p.sun_often = {red.sun, green.sun, blue.sun};
     const Rgb<F> all = p.in_scatter + p.sun_often + Rgb<F>{red.sky, green.sky, blue.sky};
     p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
@@ -227,9 +236,13 @@ struct Kernel<DepthFog> : DepthFog {
                                            const std::array<F, 4>& shapes, F fallen, F left,
                                            F albedo) {
     const ScatteredLight& light = m.often[channel];
+    const int place = static_cast<int>(channel);
     const std::array<F, 2> even{shapes[0], shapes[1]};
-    const F x = layer_variable(min(F(m.rates()[channel]) * way.end, F(1e6)));
-    const F beam(m.beams()[channel]), sky(m.skies()[channel]), water(m.water);
+    const F x = layer_variable(
+        min(given<F>(m.rates()[channel], "depth_fog.rate", place) * way.end, F(1e6)));
+    const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
+    const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
+    const F water = given<F>(m.water, "depth_fog.water");
     Often<F> up{F(0), F(0)};
     if (m.scatters) {
       const F many = m.turns ? layer_power(light.sun, shapes, x)
@@ -238,15 +251,19 @@ struct Kernel<DepthFog> : DepthFog {
     }
     const F reflects = min(max(albedo, F(0)), F(ScatteredLight::kMostAlbedo));
     const F passing = left + layer_power(light.passing, even, x);
-    const F back = F(light.back_at_once) + layer_power(light.back, x);
+    const F back = given<F>(light.back_at_once) + layer_power(light.back, x);
     const F seen = reflects * passing / (F(1) - reflects * back);
-    const F sunlit = F(m.cosine) * fallen + layer_power(light.sun_below, x);
-    const F skylit = F(light.sky_at_once) + layer_power(light.sky_below, x);
+    const F sunlit =
+        given<F>(m.cosine, "depth_fog.cosine") * fallen + layer_power(light.sun_below, x);
+    const F skylit = given<F>(light.sky_at_once) + layer_power(light.sky_below, x);
     const F had = reflects * fallen * left;
     // What `transmitted` has of the sky's light went down as the sun's, and may be too much.
     return {
-        water * up.sun + max(water * (seen * beam * sunlit) - had * F(m.dry_suns()[channel]), F(0)),
-        water * (up.sky + seen * sky * skylit) - had * F(m.dry_skies()[channel])};
+        water * up.sun + max(water * (seen * beam * sunlit) -
+                                 had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
+                             F(0)),
+        water * (up.sky + seen * sky * skylit) -
+            had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
   }
 
   /// Of a view that begins in the water.
@@ -254,11 +271,14 @@ struct Kernel<DepthFog> : DepthFog {
   static LIMPID_INLINE Often<F> often_inside(const Medium& m, std::size_t channel,
                                              const Way<F>& way) {
     const ScatteredLight& light = m.often[channel];
-    const F rate(m.rates()[channel]);
-    const F even = sun_column(way, rate, F(light.even_rate)).light;
-    const F falling = sun_column(way, rate, F(m.downs()[channel])).light;
-    return {F(m.beams()[channel]) * max(F(light.even_sun) * even + F(light.beam) * falling, F(0)),
-            F(m.skies()[channel] * light.even_sky) * even};
+    const int place = static_cast<int>(channel);
+    const F rate = given<F>(m.rates()[channel], "depth_fog.rate", place);
+    const F even = sun_column(way, rate, given<F>(light.even_rate)).light;
+    const F falling =
+        sun_column(way, rate, given<F>(m.downs()[channel], "depth_fog.down", place)).light;
+    return {given<F>(m.beams()[channel], "depth_fog.beam", place) *
+                max(given<F>(light.even_sun) * even + given<F>(light.beam) * falling, F(0)),
+            given<F>(m.skies()[channel] * light.even_sky, "depth_fog.even_sky", place) * even};
   }
 };
 

@@ -90,7 +90,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
           [&](const Pixel<F>& p) {
             return params.lookup == Lookup::kRay
                        ? place_at(c, p, image_ray(c, p, p.normal), F(HUGE_VAL))
-                       : F(params.strength) * p.tilt;
+                       : given<F>(params.strength) * p.tilt;
           },
           [&](Pixel<F>& p, Rgb<F> mirrored) {
             tell(c, from_reflection<F>(), p);
@@ -115,13 +115,13 @@ struct Kernel<FresnelReflection> : FresnelReflection {
       case Reflectance::kLinear:
         return fresnel_linear(dot(p.to_viewer, vec3_of<F>(c.up)));
       case Reflectance::kInversePower:
-        return fresnel_inverse_power(cosine, F(params.intensity), params.power);
+        return fresnel_inverse_power(cosine, given<F>(params.intensity), params.power);
       case Reflectance::kSchlick:
-        return fresnel_schlick(cosine, F(params.f0));
+        return fresnel_schlick(cosine, given<F>(params.f0));
       case Reflectance::kExact:
         break;
     }
-    return fresnel_exact(cosine, F(c.ior));
+    return fresnel_exact(cosine, given<F>(c.ior));
   }
 
   template <class F>
@@ -129,7 +129,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
                                      Vec3<F> n) {
     const F above = from_above(params, c, p, n);
     if (!c.submersible) return above;
-    const F below = fresnel_exact(F(0) - dot(p.to_viewer, n), F(1 / c.ior));
+    const F below = fresnel_exact(F(0) - dot(p.to_viewer, n), given<F>(1 / c.ior, "water.per_ior"));
     return select(p.side > F(0), above, select(p.side < F(0), below, F(0)));
   }
 
@@ -218,7 +218,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
 
   template <class F>
   static LIMPID_INLINE Rgb<F> constant(const Params& params) {
-    return {F(params.color.r), F(params.color.g), F(params.color.b)};
+    return {given<F>(params.color.r), given<F>(params.color.g), given<F>(params.color.b)};
   }
 
   static bool reads_planes(const Params& params, const Pass& c) {
@@ -239,8 +239,8 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
     if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
     if (!reads_planes(params, c)) return seen_in_picture(params, c, p, tap, n);
-    const Vec2<F> shift =
-        params.lookup == Lookup::kRay ? follow(params, c, p, tap, n) : F(params.strength) * tilt;
+    const Vec2<F> shift = params.lookup == Lookup::kRay ? follow(params, c, p, tap, n)
+                                                        : given<F>(params.strength) * tilt;
     return seen_at(c, p, tap, n, shift);
   }
 
@@ -288,7 +288,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     if (marched(params, c)) return march(c, p, tap, ray);
     constexpr int kSteps = 3;
     way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
-    for (int i = 0; i < kSteps; ++i) way = distance_to(c, p, tap, place_at(c, p, ray, way), way);
+    repeat<F>(kSteps, [&] { way = distance_to(c, p, tap, place_at(c, p, ray, way), way); });
     return place_at(c, p, ray, way);
   }
 
@@ -317,14 +317,14 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   static Vec2<F> march(const Pass& c, const Pixel<F>& p, const Tap& tap, const ScreenRay<F>& ray) {
     const auto all = [](Vec2<F>, F depth) { return depth > F(0); };
     const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kReflectionDepth, c.reflection,
-                                                   F(c.eye_above), p, ray, kImageSteps, all);
+                                                   given<F>(c.eye_above), p, ray, kImageSteps, all);
     const Vec2<F> far = place_at(c, p, ray, F(HUGE_VAL));
     Vec2<F> landing = select(found.hit > F(0.5), place_at(c, p, ray, found.way), far);
     const auto wrong = [&](Vec2<F> shift) {
       const F seen = tap.nearest(PlaneId::kReflectionDepth, shift);
       const F way = (seen - ray.depth) / ray.depth_step;
       const Vec2<F> off = place_at(c, p, ray, max(way, F(0))) - shift;
-      const F x = F(c.size.x) * off.x, y = F(c.size.y) * off.y;
+      const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
       return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
     };
     const auto strays = found.hit < F(0.5) && wrong(far);
@@ -350,8 +350,8 @@ struct Kernel<FresnelReflection> : FresnelReflection {
                                      const Tap& tap, Vec3<F> n) {
     const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
     const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
-    const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p,
-                                                   ray, kPictureSteps, above);
+    const auto found = MirrorSearch<F, Tap>::march(
+        tap, PlaneId::kDepth, c.dry, given<F>(c.eye_above), p, ray, kPictureSteps, above);
     const Vec2<F> shift = select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
     const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
     const Rgb<F> beyond = far_away(params, c, p, tap, n, ray);
@@ -394,18 +394,23 @@ struct Kernel<FresnelReflection> : FresnelReflection {
         valid_taps(tap, shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
     Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
                 taps.read(tap, PlaneId::kReflectionB)};
-    F lacks = taps.some_made_up ? F(1) - taps.weight() : F(0);
+    F lacks(0);
+    if_any(taps.made_up, [&] { lacks = F(1) - taps.weight(); });
     Rgb<F> sources = from_reflection<F>();
     if (c.submersible) {
-      const auto other_side = p.side * F(c.eye_above) < F(0);
+      const auto other_side = p.side * given<F>(c.eye_above) < F(0);
       seen = select(other_side, p.transmitted, seen);
       sources = select(other_side, {F(0), F(1), F(0)}, sources);
       lacks = select(other_side, F(0), lacks);
     }
+    if (!c.environment) return {seen, sources};
     const auto lacking = lacks > F(1e-5);
-    if (!c.environment || !any(lacking)) return {seen, sources};
-    const F far = select(lacking, lacks, F(0));
-    return {seen + far * surroundings(c, p, tap, n), {sources.r - far, sources.g, far}};
+    if_any(lacking, [&] {
+      const F far = select(lacking, lacks, F(0));
+      seen = seen + far * surroundings(c, p, tap, n);
+      sources = {sources.r - far, sources.g, far};
+    });
+    return {seen, sources};
   }
 };
 

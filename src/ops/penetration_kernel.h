@@ -27,7 +27,7 @@ struct Kernel<Penetration> : Penetration {
     using F = typename Strip::Number;
     if (params.model == Model::kNone) return;
     const Vec3<F> up = vec3_of<F>(c.up);
-    const F alpha(params.alpha), amount(params.amount);
+    const F alpha = given<F>(params.alpha), amount = given<F>(params.amount);
     strip.own3(PlaneId::kColorR, [&](Pixel<F>& p, Vec3<F> dry) {
       const F seen_through = amount * pow(saturate(dot(p.to_viewer, up)), params.power);
       const auto lets_through = p.side > F(0.5) && !nothing(p.dry_depth);

@@ -31,14 +31,17 @@ struct Kernel<PrismSplit> : PrismSplit {
   static void apply(const Params& params, const Pass&, Strip& strip) {
     using F = typename Strip::Number;
     if (params.model == Model::kDispersion) {
-      const F red(params.gain * (water_index(kRedWavelength) - water_index(kGreenWavelength)));
-      const F blue(params.gain * (water_index(kBlueWavelength) - water_index(kGreenWavelength)));
+      const double green = water_index(kGreenWavelength);
+      const F red = given<F>(params.gain * (water_index(kRedWavelength) - green),
+                             "prism_split.dispersion", 0);
+      const F blue = given<F>(params.gain * (water_index(kBlueWavelength) - green),
+                              "prism_split.dispersion", 2);
       return strip.each([&](Pixel<F>& p) {
         p.prism_r = p.prism_g = p.prism_b = {F(0), F(0)};
         p.dispersion = {red, F(0), blue};
       });
     }
-    const F strength(params.strength);
+    const F strength = given<F>(params.strength);
     strip.each([&](Pixel<F>& p) {
       const Vec2<F> s = strength * p.tilt;
       p.prism_r = {s.x, F(0)};

@@ -89,7 +89,7 @@ struct Kernel<Refraction> : Refraction {
     if (!params.goes_on() || !c.continuation) return;
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       // Nothing off the frame is sure.
-      if (any(p.confidence <= F(0))) go_on_off_frame(c, planes, p, tap);
+      if_any(p.confidence <= F(0), [&] { go_on_off_frame(c, planes, p, tap); });
     });
   }
 
@@ -109,7 +109,8 @@ struct Kernel<Refraction> : Refraction {
   template <class Strip>
   static void aim_by_offset(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    const F strength(params.strength), per_index(c.ior > 1 ? 1 / (c.ior - 1) : 0);
+    const F strength = given<F>(params.strength);
+    const F per_index = given<F>(c.ior > 1 ? 1 / (c.ior - 1) : 0, "refraction.per_index");
     const bool dudv = params.model == Model::kDudvOffset;
     strip.each([&](Pixel<F>& p) {
       p.shift = strength * p.tilt;
@@ -147,7 +148,7 @@ struct Kernel<Refraction> : Refraction {
   static void aim_by_snell(const Params& params, const Pass& c, const SeenPlanes& planes,
                            Strip& strip) {
     using F = typename Strip::Number;
-    const F ior(c.ior);
+    const F ior = given<F>(c.ior);
     const bool split = c.made.has(StatePart::kPrism);
     int expected = 0;
     strip.probe([&](Pixel<F>& p, const auto& tap) {
@@ -164,10 +165,13 @@ struct Kernel<Refraction> : Refraction {
       p.confidence = select(goes, found.sure, F(1));
       if (!split) return place_channels(p.shift, p.shift, p.shift, p);
       const auto channel = [&](F index) {
-        if (!any(abs(index) > F(0))) return p.shift;
-        const Bent<F> own = bend(c, p, ior + index);
-        const ScreenRay<F> own_ray(c, p, own.direction);
-        return select(goes, own_ray.shift_at(found.way * bent.fall / own.fall), none);
+        Vec2<F> shift = p.shift;
+        if_any(abs(index) > F(0), [&] {
+          const Bent<F> own = bend(c, p, ior + index);
+          const ScreenRay<F> own_ray(c, p, own.direction);
+          shift = select(goes, own_ray.shift_at(found.way * bent.fall / own.fall), none);
+        });
+        return shift;
       };
       place_channels(channel(p.dispersion.r), channel(p.dispersion.g), channel(p.dispersion.b), p);
     });
@@ -193,8 +197,8 @@ struct Kernel<Refraction> : Refraction {
   template <class F>
   static LIMPID_INLINE void fog_off_frame(const Bounds& b, Pixel<F>& p) {
     const auto beyond = [](F at, F low, F high) { return max(max(low - at, at - high), F(0)); };
-    const F over = max(beyond(p.uv.x + p.shift.x, F(b.low.x), F(b.high.x)),
-                       beyond(p.uv.y + p.shift.y, F(b.low.y), F(b.high.y)));
+    const F over = max(beyond(p.uv.x + p.shift.x, given<F>(b.low.x), given<F>(b.high.x)),
+                       beyond(p.uv.y + p.shift.y, given<F>(b.low.y), given<F>(b.high.y)));
     const F kept = saturate(F(1) - F(20) * over);
     p.transmitted = kept * p.transmitted;
     p.path = select(kept > F(0), p.path / max(kept, F(1e-30)), F(HUGE_VAL));
@@ -205,21 +209,22 @@ struct Kernel<Refraction> : Refraction {
   template <class F, class Tap>
   [[gnu::noinline]] static void go_on_off_frame(const Pass& c, const SeenPlanes& planes,
                                                 Pixel<F>& p, const Tap& tap) {
-    const Bent<F> bent = bend(c, p, F(c.ior));
+    const Bent<F> bent = bend(c, p, given<F>(c.ior));
     const ScreenRay<F> ray(c, p, bent.direction);
     const auto ends = bent.goes > F(0.5) && p.side > F(0) && p.path < F(1e20);
     const auto off =
         ends && p.confidence <= F(0) && reach_in(planes.bounds, p.uv, ray.shift_at(p.path)) < F(1);
-    if (!any(off)) return;
-    const BeyondPicture<F, Tap> beyond(c, planes, p, tap, ray, bent.direction, bent.fall);
-    const auto seen = beyond.look(select(off, p.path, F(1)));
-    p.path = select(off, seen.way, p.path);
-    p.hit_depth = select(off, ray.depth_at(seen.way), p.hit_depth);
-    p.transmitted = select(off, seen.color, p.transmitted);
-    p.shift = select(off, seen.shift, p.shift);
-    p.shift_r = select(off, seen.shift, p.shift_r);
-    p.shift_g = select(off, seen.shift, p.shift_g);
-    p.shift_b = select(off, seen.shift, p.shift_b);
+    if_any(off, [&] {
+      const BeyondPicture<F, Tap> beyond(c, planes, p, tap, ray, bent.direction, bent.fall);
+      const auto seen = beyond.look(select(off, p.path, F(1)));
+      p.path = select(off, seen.way, p.path);
+      p.hit_depth = select(off, ray.depth_at(seen.way), p.hit_depth);
+      p.transmitted = select(off, seen.color, p.transmitted);
+      p.shift = select(off, seen.shift, p.shift);
+      p.shift_r = select(off, seen.shift, p.shift_r);
+      p.shift_g = select(off, seen.shift, p.shift_g);
+      p.shift_b = select(off, seen.shift, p.shift_b);
+    });
   }
 
   // --- what is seen there -----------------------------------------------------------------------
@@ -246,9 +251,10 @@ struct Kernel<Refraction> : Refraction {
   [[gnu::noinline]] static void snap_from_empty(const SeenPlanes& planes, Pixel<F>& p,
                                                 const Tap& tap) {
     const auto empty = nothing(p.hit_depth);
-    if (!any(empty)) return;
-    const auto hidden = empty && !nothing(tap.nearest(PlaneId::kDepth, p.shift));
-    go_back(hidden, tap.nearest(planes.depth, Vec2<F>{F(0), F(0)}), p);
+    if_any(empty, [&] {
+      const auto hidden = empty && !nothing(tap.nearest(PlaneId::kDepth, p.shift));
+      go_back(hidden, tap.nearest(planes.depth, Vec2<F>{F(0), F(0)}), p);
+    });
   }
 
   /// Where `lanes`, the water has no end.
@@ -310,9 +316,10 @@ struct Kernel<Refraction> : Refraction {
                                                   Pixel<F>& p, const Tap& tap) {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     const auto mend = [&](const auto& taps, PlaneId plane, F& value) {
-      if (!any(taps.lost > F(0))) return;
-      const F kept = select(taps.lost < F(0.5), taps.read(tap, plane), F(0));
-      value = select(taps.lost > F(0), kept, value);
+      if_any(taps.lost > F(0), [&] {
+        const F kept = select(taps.lost < F(0.5), taps.read(tap, plane), F(0));
+        value = select(taps.lost > F(0), kept, value);
+      });
     };
     const auto common = counted(planes, p, tap, p.shift);
     if (c.made.has(StatePart::kPrism)) {
@@ -324,12 +331,13 @@ struct Kernel<Refraction> : Refraction {
       mend(common, green, p.transmitted.g);
       mend(common, blue, p.transmitted.b);
     }
-    if (!any(common.lost > F(0))) return;
     const auto some = common.lost > F(0);
-    const F behind = common.depth_behind(p.surface_depth);
-    p.hit_depth = select(some && nothing(p.hit_depth), behind, p.hit_depth);
-    p.confidence = p.confidence * (F(1) - common.lost);
-    see_no_end(common.lost >= F(0.5) || (some && nothing(p.hit_depth)), p);
+    if_any(some, [&] {
+      const F behind = common.depth_behind(p.surface_depth);
+      p.hit_depth = select(some && nothing(p.hit_depth), behind, p.hit_depth);
+      p.confidence = p.confidence * (F(1) - common.lost);
+      see_no_end(common.lost >= F(0.5) || (some && nothing(p.hit_depth)), p);
+    });
   }
 
   template <class Strip>
@@ -382,16 +390,18 @@ struct Kernel<Refraction> : Refraction {
         const F depth = depths[k];
         F surface =
             surface_plane ? surfaces[k] : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
-        if (surface_plane && planes.below && any(surface > F(1e30))) {
+        if (surface_plane && planes.below) {
           // The layer goes on under the shore, the water that is drawn does not.
-          const F calm = calm_depth_at(c, p, tap.place(planes.depth, quad, k));
-          surface = select(surface > F(1e30), calm, surface);
+          if_any(surface > F(1e30), [&] {
+            const F calm = calm_depth_at(c, p, tap.place(planes.depth, quad, k));
+            surface = select(surface > F(1e30), calm, surface);
+          });
         }
         if (surface_plane && c.surface_ends) {
           // Its outermost texels tell nothing of the water beyond them.
           const Vec2<F> place = tap.place(planes.depth, quad, k);
           const auto known = reach_in(c.surface, p.uv, place) >= F(1);
-          if (any(!known)) surface = select(known, surface, calm_depth_at(c, p, place));
+          if_any(!known, [&] { surface = select(known, surface, calm_depth_at(c, p, place)); });
         }
         if (c.submersible) {
           // Where the view begins in the water, what lies there has no surface before it.
@@ -415,15 +425,19 @@ struct Kernel<Refraction> : Refraction {
       // Not over what stands in the water, which may hide itself, nor where what the layer shows
       // is itself far before the end of the ray.
       const auto fill = [&](const auto& lanes) {
-        if (!layer || !any(lanes && p.side > F(0))) return F(0);
-        const BottomLayerTaps<F, Tap> taps(*layer, p, tap);
-        const Vec2<F> here{F(0), F(0)};
-        const auto fills =
-            p.side > F(0) && taps.is_bottom(here, F(0) - height_at(c, p, here, p.dry_depth));
-        const F calm = min(calm_depth_at(c, p, shift), ray_end);
-        const F way = ray_end - calm;
-        const F deeper = depth_at_drop(c, p, shift, taps.shape(shift).drop) - calm - F(0.3) * way;
-        return select(fills, saturate(F(5) * deeper / max(way, F(1e-3) * ray_end)), F(0));
+        F fills(0);
+        if (!layer) return fills;
+        if_any(lanes && p.side > F(0), [&] {
+          const BottomLayerTaps<F, Tap> taps(*layer, p, tap);
+          const Vec2<F> here{F(0), F(0)};
+          const auto bottom =
+              p.side > F(0) && taps.is_bottom(here, F(0) - height_at(c, p, here, p.dry_depth));
+          const F calm = min(calm_depth_at(c, p, shift), ray_end);
+          const F way = ray_end - calm;
+          const F deeper = depth_at_drop(c, p, shift, taps.shape(shift).drop) - calm - F(0.3) * way;
+          fills = select(bottom, saturate(F(5) * deeper / max(way, F(1e-3) * ray_end)), F(0));
+        });
+        return fills;
       };
       // Over a layer below that is empty, or holds only what stands higher than all water.
       const auto never = [&](const auto& lanes) {
@@ -433,8 +447,11 @@ struct Kernel<Refraction> : Refraction {
       return valid_taps(tap, shift, valid, bearable, fill, never);
     };
     const auto behind = [&](const auto& taps, Vec2<F> shift) {
-      if (!layer || !any(taps.filled > F(0))) return Rgb<F>{F(0), F(0), F(0)};
-      return taps.filled * BottomLayerTaps<F, Tap>(*layer, p, tap).color(shift);
+      Rgb<F> color{F(0), F(0), F(0)};
+      if (!layer) return color;
+      if_any(taps.filled > F(0),
+             [&] { color = taps.filled * BottomLayerTaps<F, Tap>(*layer, p, tap).color(shift); });
+      return color;
     };
     const auto depth_of = [&](const auto& taps) {
       const F depth = taps.read_depth(tap, planes.depth);
@@ -459,9 +476,10 @@ struct Kernel<Refraction> : Refraction {
       const auto taps_r = taps_at(p.shift_r);
       const auto taps_b = taps_at(p.shift_b);
       // Mostly green is where the common path is, and nothing is to be looked up again.
-      const bool apart =
-          any(abs(p.shift.x - green_shift.x) > F(0)) || any(abs(p.shift.y - green_shift.y) > F(0));
-      const auto taps_common = apart ? taps_at(p.shift) : taps;
+      const auto apart =
+          abs(p.shift.x - green_shift.x) > F(0) || abs(p.shift.y - green_shift.y) > F(0);
+      auto taps_common = taps;
+      if_any(apart, [&] { taps_common = taps_at(p.shift); });
       p.transmitted.r = color(taps_r, red, behind(taps_r, p.shift_r).r, own.r);
       p.transmitted.b = color(taps_b, blue, behind(taps_b, p.shift_b).b, own.b);
       p.shift_r = taps_r.place;
@@ -489,15 +507,16 @@ struct Kernel<Refraction> : Refraction {
                                              const Pixel<F>& p, const Tap& tap) {
     if (!c.heights.known) return false;
     const F end = min(p.hit_depth, F(1e30));
-    const auto texel = [&](const glm::dvec2& step) {
-      return F(std::abs(step.x) / c.size.x + std::abs(step.y) / c.size.y);
+    const auto texel = [&](const glm::dvec2& step, const char* name) {
+      return given<F>(std::abs(step.x) / c.size.x + std::abs(step.y) / c.size.y, name);
     };
     const auto lowest = [](F a, F b, F d) { return min(min(a, b), d); };
     const auto greatest_of = [](F a, F b, F d) { return max(max(a, b), d); };
     const Vec2<F>&r = p.shift_r, &g = p.shift_g, &b = p.shift_b;
     const F height = lowest(height_at(c, p, r, end), height_at(c, p, g, end),
                             min(height_at(c, p, b, end), height_at(c, p, p.shift, end)));
-    const F surely = height - texel(c.over_step) - end * texel(c.under_step);
+    const F surely = height - texel(c.over_step, "camera.over_texel") -
+                     end * texel(c.under_step, "camera.under_texel");
     const Vec2<F> low{lowest(r.x, g.x, min(b.x, p.shift.x)), lowest(r.y, g.y, min(b.y, p.shift.y))};
     const Vec2<F> high{greatest_of(r.x, g.x, max(b.x, p.shift.x)),
                        greatest_of(r.y, g.y, max(b.y, p.shift.y))};
@@ -518,13 +537,16 @@ struct Kernel<Refraction> : Refraction {
   template <class F, class Tap>
   static F share_of_nothing(const SeenPlanes& planes, const Pixel<F>& p, const Tap& tap) {
     const auto taps = counted(planes, p, tap, p.shift);
-    if (!planes.below || !any(taps.lost > F(0))) return taps.lost;
-    const Four<F> dry = tap.read(PlaneId::kDepth, taps.quad);
-    F share = F(0);
-    for (int k = 0; k < 4; ++k) {
-      const auto gone = nothing(taps.depths[k]) && nothing(dry[k]);
-      share = share + select(gone, taps.quad.weight(k), F(0));
-    }
+    F share = taps.lost;
+    if (!planes.below) return share;
+    if_any(taps.lost > F(0), [&] {
+      const Four<F> dry = tap.read(PlaneId::kDepth, taps.quad);
+      share = F(0);
+      for (int k = 0; k < 4; ++k) {
+        const auto gone = nothing(taps.depths[k]) && nothing(dry[k]);
+        share = share + select(gone, taps.quad.weight(k), F(0));
+      }
+    });
     return share;
   }
 
@@ -540,7 +562,8 @@ struct Kernel<Refraction> : Refraction {
   template <class F>
   static LIMPID_INLINE void measure_path(const Pass& c, Pixel<F>& p) {
     const F cosine = abs(dot(vec3_of<F>(c.up), p.to_viewer));
-    const F bent = refracted_cosine(cosine, select(p.side > F(0), F(1 / c.ior), F(c.ior)));
+    const F bent = refracted_cosine(
+        cosine, select(p.side > F(0), given<F>(1 / c.ior, "water.per_ior"), given<F>(c.ior)));
     const F straight = p.ray_length * max(p.hit_depth - p.surface_depth, F(0));
     p.path = straight * cosine / max(bent, F(0.02));
   }

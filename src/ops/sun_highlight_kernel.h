@@ -34,8 +34,10 @@ struct Kernel<SunHighlight> : SunHighlight {
     using F = typename Strip::Number;
     const bool physical = params.model == Model::kGgx || params.model == Model::kSlopes;
     const double scale = params.strength * (physical ? std::numbers::pi : 1);
-    const Rgb<F> light{F(scale * c.sun.color.r), F(scale * c.sun.color.g),
-                       F(scale * c.sun.color.b)};
+    const Rgb<double>& sun = c.sun.color;
+    const Rgb<F> light{given<F>(scale * sun.r, "sun_highlight.light", 0),
+                       given<F>(scale * sun.g, "sun_highlight.light", 1),
+                       given<F>(scale * sun.b, "sun_highlight.light", 2)};
     if (params.model == Model::kSlopes && !c.planes.has(PlaneId::kSurfaceShadow)) {
       return strip.probe([&](Pixel<F>& p, const auto& tap) {
         F seen = select(p.side > F(0.5), lobe(params, c, p), F(0));
@@ -58,8 +60,8 @@ struct Kernel<SunHighlight> : SunHighlight {
     constexpr MirrorSteps kSteps{16, 0.06, 0.03};
     const ScreenRay<F> ray(c, p, vec3_of<F>(c.sun.direction));
     const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
-    return MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, F(c.eye_above), p, ray, kSteps,
-                                       above)
+    return MirrorSearch<F, Tap>::march(tap, PlaneId::kDepth, c.dry, given<F>(c.eye_above), p, ray,
+                                       kSteps, above)
                .hit > F(0.5);
   }
 
@@ -73,13 +75,14 @@ struct Kernel<SunHighlight> : SunHighlight {
       case Model::kBlinnPhong:
         return select(faces_sun, blinn_phong_lobe(n, v, l, params.power), F(0));
       case Model::kGgx:
-        if (params.roughness == 0) return sun_disc_lobe(n, v, l, F(c.ior));
-        return sun_glint_lobe(n, v, l, F(params.roughness), F(c.ior));
+        if (params.roughness == 0) return sun_disc_lobe(n, v, l, given<F>(c.ior));
+        return sun_glint_lobe(n, v, l, given<F>(params.roughness), given<F>(c.ior));
       case Model::kSlopes: {
-        const F rough(0.5 * params.roughness * params.roughness);
+        const double square = params.roughness * params.roughness;
+        const F rough = given<F>(0.5 * square, "sun_highlight.variance");
         const Sym2<F> spread = p.slope_variance + Sym2<F>{rough, F(0), rough};
         return wave_glint_lobe(n, v, l, vec3_of<F>(c.up), vec3_of<F>(c.map_x), vec3_of<F>(c.map_y),
-                               spread, F(c.sun.radius()), F(c.ior));
+                               spread, given<F>(c.sun.radius(), "sun.radius"), given<F>(c.ior));
       }
     }
     return F(0);

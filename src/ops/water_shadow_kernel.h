@@ -39,7 +39,7 @@ struct Kernel<WaterShadow> : WaterShadow {
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    const F strength(params.strength);
+    const F strength = given<F>(params.strength);
     const auto where = [](const Pixel<F>& p) { return p.shift; };
     if (params.model == Model::kDarken) {
       strip.bilinear(PlaneId::kShadow, where, [&](Pixel<F>& p, F shadow) {
@@ -98,21 +98,22 @@ struct Kernel<WaterShadow> : WaterShadow {
       take(p, far_shade / max(far_sum, F(1e-6)), p.sun_far);
     }
     const Rgb<F>& often = p.sun_often;
-    if (!any(often.r + often.g + often.b > F(0))) return;
-    // Around where light of the mean way entered, as far away as that.
-    const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
-    Vec2<F> around[kAround], low, high;
-    for (int i = 0; i < kAround; ++i) {
-      const Vec3<F> side = i % 2 == 0 ? map_x : map_y;
-      const ScreenRay<F> ray(c, p, p.sun_entry + F(i < 2 ? 1 : -1) * side);
-      const Vec2<F> at = around[i] = ray.shift_at(mean);
-      low = i == 0 ? at : Vec2<F>{min(low.x, at.x), min(low.y, at.y)};
-      high = i == 0 ? at : Vec2<F>{max(high.x, at.x), max(high.y, at.y)};
-    }
-    if (is_lit(low, high)) return;
-    F lost(0);
-    for (const Vec2<F>& shift : around) lost = lost + F(1.0 / kAround) * shade(shift);
-    take(p, lost, p.sun_often);
+    if_any(often.r + often.g + often.b > F(0), [&] {
+      // Around where light of the mean way entered, as far away as that.
+      const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
+      Vec2<F> around[kAround], low, high;
+      for (int i = 0; i < kAround; ++i) {
+        const Vec3<F> side = i % 2 == 0 ? map_x : map_y;
+        const ScreenRay<F> ray(c, p, p.sun_entry + F(i < 2 ? 1 : -1) * side);
+        const Vec2<F> at = around[i] = ray.shift_at(mean);
+        low = i == 0 ? at : Vec2<F>{min(low.x, at.x), min(low.y, at.y)};
+        high = i == 0 ? at : Vec2<F>{max(high.x, at.x), max(high.y, at.y)};
+      }
+      if (is_lit(low, high)) return;
+      F lost(0);
+      for (const Vec2<F>& shift : around) lost = lost + F(1.0 / kAround) * shade(shift);
+      take(p, lost, p.sun_often);
+    });
   }
 };
 

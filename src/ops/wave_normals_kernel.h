@@ -142,8 +142,10 @@ struct Kernel<WaveNormals> : WaveNormals {
     if (!(params.wind > 0)) return;
     const Vec2<double> ahead = downwind(params), factors = wind_factors(params, c);
     const double more = factors.x - factors.y;  // factors.y everywhere, and more ahead
-    const F xx(factors.y + more * ahead.x * ahead.x), xy(more * ahead.x * ahead.y);
-    const F yy(factors.y + more * ahead.y * ahead.y);
+    const char* name = "wave_normals.stretch";
+    const F xx = given<F>(factors.y + more * ahead.x * ahead.x, name, 0);
+    const F xy = given<F>(more * ahead.x * ahead.y, name, 1);
+    const F yy = given<F>(factors.y + more * ahead.y * ahead.y, name, 2);
     strip.each([&](Pixel<F>& p) {
       const F x = p.normal.x, y = p.normal.y;
       p.normal.x = xx * x + xy * y;
@@ -208,11 +210,11 @@ struct Kernel<WaveNormals> : WaveNormals {
     const Vec2<double> first = windy ? -1.0 * run(params, kAhead, c.time) : flow;
     const Vec2<double> second = windy ? -0.5 * run(params, kTrains[0], c.time) : -0.3 * flow;
     measure(params.filter != Filter::kNone, params, c, strip);
-    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, first),
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 0, 1, first),
                     [](Pixel<F>& p, Rgb<F> map) {
                       p.normal = {map.r, map.g, map.b};
                     });
-    strip.tiled_rgb(c.wave_map, Wide<F>{0.5}, Place<F>(params, c, 0.5, second),
+    strip.tiled_rgb(c.wave_map, Wide<F>{0.5}, Place<F>(params, c, 1, 0.5, second),
                     [](Pixel<F>& p, Rgb<F> map) {
                       // ((2 c1 - 1) + (2 c2 - 1) / 2) / 2
                       const Vec3<F> both = p.normal + F(0.5) * Vec3<F>{map.r, map.g, map.b};
@@ -230,14 +232,14 @@ struct Kernel<WaveNormals> : WaveNormals {
         windy ? -1.0 * run(params, kTrains[2], c.time) : Vec2<double>{move, 0};
     const Vec2<double> second = windy ? -1.0 * run(params, kAhead, c.time) : Vec2<double>{0, move};
     measure(params.filter != Filter::kNone, params, c, strip);
-    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 1, first),
+    strip.tiled_rgb(c.wave_map, Wide<F>{}, Place<F>(params, c, 0, 1, first),
                     [](Pixel<F>& p, Rgb<F> map) {
                       p.normal = F(0.01) * Vec3<F>{map.r, map.g, F(0)};
                     });
-    const Place<F> place(params, c, 1, second);
+    const Place<F> place(params, c, 1, 1, second);
     const Vec2<double> factors = windy ? wind_factors(params, c) : Vec2<double>{1, 1};
     const double steeper = windy ? std::hypot(factors.x, factors.y) / std::numbers::sqrt2 : 1;
-    const F strength(params.strength * steeper);
+    const F strength = given<F>(params.strength * steeper, "wave_normals.steepness");
     strip.tiled_rgb(
         c.wave_map, Wide<F>{},
         [&](const Pixel<F>& p) {
@@ -262,15 +264,19 @@ struct Kernel<WaveNormals> : WaveNormals {
       p.normal = {F(0), F(0), F(0)};
       if (variance) p.slope_variance = {F(0), F(0), F(0)};
     });
+    int nth = -1;
     for (const SineWave& wave : params.waves.empty() ? c.waves : params.waves) {
+      ++nth;
       // Phases in turns, those below the eye reduced in double.
-      const F begin(c.phase_at_eye(wave) / kTurn);
-      const Vec3<F> step = F(wave.k_x / kTurn) * map_x + F(wave.k_y / kTurn) * map_y;
+      const F begin = given<F>(c.phase_at_eye(wave) / kTurn, "waves.begin", nth);
+      const Vec3<F> step = given<F>(wave.k_x / kTurn, "waves.turns_x", nth) * map_x +
+                           given<F>(wave.k_y / kTurn, "waves.turns_y", nth) * map_y;
       const auto steepest = [&](double k) {
-        return F(min(max(wave.amplitude * k, -kSteepest), kSteepest));
+        return min(max(wave.amplitude * k, -kSteepest), kSteepest);
       };
-      const F slope_x = steepest(wave.k_x), slope_y = steepest(wave.k_y);
-      const Vec2<F> k{F(wave.k_x), F(wave.k_y)};
+      const F slope_x = given<F>(steepest(wave.k_x), "waves.slope_x", nth);
+      const F slope_y = given<F>(steepest(wave.k_y), "waves.slope_y", nth);
+      const Vec2<F> k{given<F>(wave.k_x), given<F>(wave.k_y)};
       strip.each([&](Pixel<F>& p) {
         const F turns = begin + dot(p.surface_point, step);
         // Too far for a float to tell crest from trough: they average out.
@@ -296,7 +302,7 @@ struct Kernel<WaveNormals> : WaveNormals {
       });
     }
     if (variance) {
-      const F scale(params.strength * params.strength);
+      const F scale = given<F>(params.strength * params.strength, "wave_normals.square");
       strip.each([&](Pixel<F>& p) { p.slope_variance = scale * p.slope_variance; });
     }
     lean(params.strength, c, strip);
@@ -326,24 +332,26 @@ struct Kernel<WaveNormals> : WaveNormals {
   template <class Strip>
   static void far_slopes(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    const F per_map_texel(1 / c.wave_slopes->map_texels);
-    const F scale(params.filter == Filter::kVariance ? params.strength * params.strength : 0);
+    const F per_map_texel = given<F>(1 / c.wave_slopes->map_texels, "wave_map.per_texel");
+    const bool variance = params.filter == Filter::kVariance;
+    const F scale =
+        given<F>(variance ? params.strength * params.strength : 0, "wave_normals.filtered_square");
     strip.tiled_slopes_if(
         *c.wave_slopes, [](const Pixel<F>& p) { return p.tilt.x > F(1); },
         [&](const Pixel<F>& p) { return per_map_texel * max(p.tilt.x, F(2)); },
-        Place<F>(params, c, 1, {0, 0}),
+        Place<F>(params, c, 4, 1, {0, 0}),
         [&](Pixel<F>& p, SlopeMoments<F> far) {
           const F width = p.tilt.x;
           const F share = saturate(width - F(1));
           const Vec2<F> near{F(0.25) * p.normal.x, F(0.25) * p.normal.y};
           const auto all = width >= F(2), some = width > F(1);
           const Vec2<F> mean = select(all, far.mean, near + share * (far.mean - near));
-          const auto variance = [&](F near_xy, F far_xy, F mean_xy) {
+          const auto unseen = [&](F near_xy, F far_xy, F mean_xy) {
             return scale * (select(all, far_xy, lerp(near_xy, far_xy, share)) - mean_xy);
           };
-          const F xx = variance(near.x * near.x, far.square.xx, mean.x * mean.x);
-          const F xy = variance(near.x * near.y, far.square.xy, mean.x * mean.y);
-          const F yy = variance(near.y * near.y, far.square.yy, mean.y * mean.y);
+          const F xx = unseen(near.x * near.x, far.square.xx, mean.x * mean.x);
+          const F xy = unseen(near.x * near.y, far.square.xy, mean.x * mean.y);
+          const F yy = unseen(near.y * near.y, far.square.yy, mean.y * mean.y);
           p.normal.x = select(some, F(4) * mean.x, p.normal.x);
           p.normal.y = select(some, F(4) * mean.y, p.normal.y);
           p.slope_variance = {select(some, max(xx, F(0)), F(0)), select(some, xy, F(0)),
@@ -379,7 +387,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     using F = typename Strip::Number;
     strip.each([&](Pixel<F>& p) { p.normal = {F(0), F(0), F(0)}; });
     const FourShifts shifts = four_shifts(params, c.time);
-    for (const Vec2<double>& shift : shifts.of) look_up(Place<F>(params, c, 1, shift));
+    for (int i = 0; i < 4; ++i) look_up(Place<F>(params, c, i, 1, shifts.of[i]));
   }
 
   /// From a vector in the axes of the map to the normal: normalize(lerp(up, vector, strength)).
@@ -387,7 +395,7 @@ struct Kernel<WaveNormals> : WaveNormals {
   static void blend_from_calm(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y), up = vec3_of<F>(c.up);
-    const F strength(params.strength);
+    const F strength = given<F>(params.strength);
     stretch(params, c, strip);
     strip.each([&](Pixel<F>& p) {
       const Vec3<F> n = p.normal.x * map_x + p.normal.y * map_y + p.normal.z * up;
@@ -400,7 +408,7 @@ struct Kernel<WaveNormals> : WaveNormals {
   static void lean(double scale, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y), up = vec3_of<F>(c.up);
-    const F s(scale);
+    const F s = given<F>(scale, "wave_normals.lean");
     strip.each([&](Pixel<F>& p) {
       p.normal = normalize_or(up + (s * p.normal.x) * map_x + (s * p.normal.y) * map_y, up);
     });
@@ -415,15 +423,18 @@ struct Kernel<WaveNormals> : WaveNormals {
     F u0, v0;
     Vec3<F> u_step, v_step;
 
-    Place(const Params& params, const Pass& c, double tiling, Vec2<double> moved) {
+    /// `nth` tells the places of one model apart.
+    Place(const Params& params, const Pass& c, int nth, double tiling, Vec2<double> moved) {
       const double scale = tiling / params.tile_size;
-      const auto begin = [&](const glm::dvec3& axis, double move) {
+      const auto begin = [&](const glm::dvec3& axis, double move, const char* name) {
         const double at = c.eye.x * axis.x + c.eye.y * axis.y + c.eye.z * axis.z;
         const double rest = std::fmod(at * scale, 1.0) + std::fmod(move, 1.0);
-        return F(rest - std::floor(rest));
+        return given<F>(rest - std::floor(rest), name, nth);
       };
-      u0 = begin(c.map_x, moved.x), v0 = begin(c.map_y, moved.y);
-      u_step = F(scale) * vec3_of<F>(c.map_x), v_step = F(scale) * vec3_of<F>(c.map_y);
+      u0 = begin(c.map_x, moved.x, "wave_map.begin_u");
+      v0 = begin(c.map_y, moved.y, "wave_map.begin_v");
+      const F tiles = given<F>(scale, "wave_map.tiles", nth);
+      u_step = tiles * vec3_of<F>(c.map_x), v_step = tiles * vec3_of<F>(c.map_y);
     }
     LIMPID_INLINE Vec2<F> operator()(const Pixel<F>& p) const {
       return {u0 + dot(p.surface_point, u_step), v0 + dot(p.surface_point, v_step)};

@@ -93,8 +93,8 @@ LIMPID_INLINE F layer_variable(F depth) {
 /// x (p0 + x (p1 + ...)).
 template <class F>
 LIMPID_INLINE F layer_power(const ScatteredLight::Power& p, F x) {
-  F sum(p[ScatteredLight::kDegree - 1]);
-  for (int i = ScatteredLight::kDegree - 2; i >= 0; --i) sum = F(p[i]) + x * sum;
+  F sum = given<F>(p[ScatteredLight::kDegree - 1]);
+  for (int i = ScatteredLight::kDegree - 2; i >= 0; --i) sum = given<F>(p[i]) + x * sum;
   return x * sum;
 }
 
@@ -104,8 +104,8 @@ LIMPID_INLINE F layer_power(const std::array<ScatteredLight::Power, N>& p,
                             const std::array<F, N>& shapes, F x) {
   F sum(0);
   for (int i = ScatteredLight::kDegree - 1; i >= 0; --i) {
-    F coefficient = F(p[0][i]) * shapes[0];
-    for (std::size_t k = 1; k < N; ++k) coefficient = coefficient + F(p[k][i]) * shapes[k];
+    F coefficient = given<F>(p[0][i]) * shapes[0];
+    for (std::size_t k = 1; k < N; ++k) coefficient = coefficient + given<F>(p[k][i]) * shapes[k];
     sum = coefficient + x * sum;
   }
   return x * sum;

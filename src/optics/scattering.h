@@ -40,7 +40,8 @@ LIMPID_INLINE SunColumn<F> sun_column(const Way<F>& way, F rate, F down, F left)
   const F first = select(brightens, rate * way.length + down * way.end, down * way.begin);
   const F share = far_share(abs(total), way.length, left);
   F light = column_light(abs(total), way.length, left);
-  if (any(first > F(0))) light = exp(F(0) - first) * light;  // none from the air: it begins at 0
+  // None from the air: it begins at 0.
+  if_any(first > F(0), [&] { light = exp(F(0) - first) * light; });
   return {light, select(brightens, F(1) - share, share)};
 }
 template <class F>

@@ -7,7 +7,11 @@
 /// the reference runs them on `double` (this header), the fused pass on SIMD lanes, which bring
 /// functions of the same names in their own namespace. A comparison gives `bool` for `double` and a
 /// lane mask for lanes, so formulas choose with select() and branch on numbers only by if_any(),
-/// repeat() and steps(). Masks stay masks: a `bool` made of one would be that of all lanes.
+/// repeat() and steps(). Masks stay masks: a `bool` made of one would be that of all lanes. A third
+/// kind of number computes nothing and writes down what formulas do (src/shade/recorder.h).
+///
+/// F(0.5) is a constant of the formula. What scene, look, frame or time say enters by given(),
+/// which a recording keeps as a number with a name.
 
 #define LIMPID_INLINE inline __attribute__((always_inline))
 
@@ -48,9 +52,11 @@ struct Loop {
     for (int i = 0; i < count; ++i) body();
   }
   /// body(i) for i = begin ... end - 1, as long as any lane of the mask that it returns goes on.
-  template <class Body>
-  static LIMPID_INLINE void steps(int begin, int end, Body&& body) {
-    for (int i = begin; i < end; ++i) {
+  /// Before it, leap(i) is the i to go on with, or one of `end` or more to be done: a later one
+  /// where the bodies between would change nothing.
+  template <class Leap, class Body>
+  static LIMPID_INLINE void steps(int begin, int end, Leap&& leap, Body&& body) {
+    for (int i = leap(begin); i < end; i = leap(i + 1)) {
       if (!any(body(i))) break;
     }
   }
@@ -64,7 +70,34 @@ LIMPID_INLINE void repeat(int count, Body&& body) {
 }
 template <class F, class Body>
 LIMPID_INLINE void steps(int begin, int end, Body&& body) {
-  Loop<F>::steps(begin, end, body);
+  Loop<F>::steps(
+      begin, end, [](int i) { return i; }, body);
+}
+template <class F, class Leap, class Body>
+LIMPID_INLINE void steps(int begin, int end, Leap&& leap, Body&& body) {
+  Loop<F>::steps(begin, end, leap, body);
+}
+
+/// What a number type makes of a number of the frame. One that records formulas brings its own.
+template <class F>
+struct Given {
+  static LIMPID_INLINE F known(double x, const void*) { return F(x); }
+  static LIMPID_INLINE F named(double x, const char*, int) { return F(x); }
+};
+
+/// A number that belongs to scene, look, frame or time, as it lies in the object that has it: a
+/// recording finds its name by its address.
+template <class F, class T>
+LIMPID_INLINE F given(const T& x) {
+  return Given<F>::known(static_cast<double>(x), &x);
+}
+/// One that was made from such numbers lies nowhere: it needs a name, "water.per_ior", or one and a
+/// place in a list. What has the same name is the same number.
+template <class F, class T>
+F given(const T&& x) = delete;
+template <class F>
+LIMPID_INLINE F given(double x, const char* name, int place = -1) {
+  return Given<F>::named(x, name, place);
 }
 
 /// Clamped to 0 ... 1.
