@@ -6,11 +6,11 @@
 #include "complete/completer.h"
 #include "op/pass.h"
 #include "op/pixel_start.h"
-#include "op/plain_texture.h"
 #include "ops/kernels.h"
 #include "plan/pass_of.h"
 #include "run/aov_of.h"
 #include "run/checks.h"
+#include "run/plain_taps.h"
 #include "run/put_edges.h"
 #include "run/show_planes.h"
 
@@ -24,7 +24,7 @@ class ReferenceStrip {
   using Number = double;
 
   ReferenceStrip(const Frame& frame, const Rect& work)
-      : frame_(frame), display_(frame.display), x0_(work.x0), pixels_(work.width()) {}
+      : frame_(frame), x0_(work.x0), pixels_(work.width()) {}
 
   void set_row(int y) { y_ = y; }
   std::vector<Pixel<double>>& pixels() { return pixels_; }
@@ -36,25 +36,24 @@ class ReferenceStrip {
 
   template <class Into>
   void own(PlaneId plane, Into&& into) {
-    for_all([&](Pixel<double>& p, int x) { into(p, texel(plane, x, y_)); });
+    probe([&](Pixel<double>& p, const PlainTaps& tap) { into(p, tap.own(plane)); });
   }
 
   template <class Into>
   void own3(PlaneId first, Into&& into) {
-    for_all([&](Pixel<double>& p, int x) {
-      into(p, Vec3<double>{texel(first, x, y_), texel(plane_after(first, 1), x, y_),
-                           texel(plane_after(first, 2), x, y_)});
+    probe([&](Pixel<double>& p, const PlainTaps& tap) {
+      into(p, Vec3<double>{tap.own(first), tap.own(plane_after(first, 1)),
+                           tap.own(plane_after(first, 2))});
     });
   }
 
   template <class Into>
   void around3(PlaneId first, Into&& into) {
-    for_all([&](Pixel<double>& p, int x) {
+    probe([&](Pixel<double>& p, const PlainTaps& tap) {
       Around<double> values;
       for (int k = 0; k < 9; ++k) {
-        const int column = x + k % 3 - 1, row = y_ + k / 3 - 1;
-        values.at[k] = {texel(first, column, row), texel(plane_after(first, 1), column, row),
-                        texel(plane_after(first, 2), column, row)};
+        values.at[k] = {tap.beside(first, k), tap.beside(plane_after(first, 1), k),
+                        tap.beside(plane_after(first, 2), k)};
       }
       into(p, values);
     });
@@ -62,23 +61,20 @@ class ReferenceStrip {
 
   template <class Where, class Into>
   void nearest(PlaneId plane, Where&& where, Into&& into) {
-    for_all([&](Pixel<double>& p, int x) {
-      const Vec2<double> at = position(where(p), x);
-      into(p, texel(plane, clamped_floor(at.x + 0.5), clamped_floor(at.y + 0.5)));
-    });
+    probe([&](Pixel<double>& p, const PlainTaps& tap) { into(p, tap.nearest(plane, where(p))); });
   }
 
   template <class Where, class Into>
   void bilinear(PlaneId plane, Where&& where, Into&& into) {
-    for_all([&](Pixel<double>& p, int x) { into(p, bilinear_at(plane, position(where(p), x))); });
+    probe([&](Pixel<double>& p, const PlainTaps& tap) { into(p, tap.bilinear(plane, where(p))); });
   }
 
   template <class Where, class Into>
   void bilinear_rgb(PlaneId first, Where&& where, Into&& into) {
-    for_all([&](Pixel<double>& p, int x) {
-      const Vec2<double> at = position(where(p), x);
-      into(p, Rgb<double>{bilinear_at(first, at), bilinear_at(plane_after(first, 1), at),
-                          bilinear_at(plane_after(first, 2), at)});
+    probe([&](Pixel<double>& p, const PlainTaps& tap) {
+      const Vec2<double> shift = where(p);
+      into(p, Rgb<double>{tap.bilinear(first, shift), tap.bilinear(plane_after(first, 1), shift),
+                          tap.bilinear(plane_after(first, 2), shift)});
     });
   }
 
@@ -109,87 +105,15 @@ class ReferenceStrip {
     }
   }
 
-  /// Four texels around a place.
-  struct Quad {
-    int x, y;
-    double u, v;
-    double weight(int k) const { return (k & 1 ? u : 1 - u) * (k & 2 ? v : 1 - v); }
-  };
-
-  /// What a probe may look up for the pixel x of this row.
-  struct Tap {
-    const ReferenceStrip& strip;
-    int x;
-
-    double nearest(PlaneId plane, Vec2<double> shift) const {
-      const Vec2<double> at = strip.position(shift, x);
-      return strip.texel(plane, clamped_floor(at.x + 0.5), clamped_floor(at.y + 0.5));
-    }
-    Quad quad(Vec2<double> shift) const {
-      const Vec2<double> at = strip.position(shift, x);
-      return {clamped_floor(at.x), clamped_floor(at.y), at.x - std::floor(at.x),
-              at.y - std::floor(at.y)};
-    }
-    Four<double> read(PlaneId plane, const Quad& q) const {
-      return {strip.texel(plane, q.x, q.y), strip.texel(plane, q.x + 1, q.y),
-              strip.texel(plane, q.x, q.y + 1), strip.texel(plane, q.x + 1, q.y + 1)};
-    }
-    Vec2<double> place(PlaneId plane, const Quad& q, int k) const {
-      const Rect& w = strip.frame_.plane(plane).window;
-      const int column = std::clamp(q.x + (k & 1), w.x0, w.x1 - 1);
-      const int row = std::clamp(q.y + (k >> 1), w.y0, w.y1 - 1);
-      return {double(column - x) / strip.display_.width(),
-              double(row - strip.y_) / strip.display_.height()};
-    }
-    /// The judge looks at each step.
-    static SeenHeights heights(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
-    static SeenRange range(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
-    static bool wet() { return true; }
-    Rgb<double> lat_long_rgb(const Texture& map, Vec2<double> at) const {
-      return lat_long_rgb_at(map, at);
-    }
-    double grid(const View<const float>& table, Vec2<double> at) const {
-      return grid_at(table, at);
-    }
-  };
-
   template <class Fn>
   void probe(Fn&& fn) {
-    for_all([&](Pixel<double>& p, int x) { fn(p, Tap{*this, x}); });
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+      fn(pixels_[i], PlainTaps(frame_, x0_ + static_cast<int>(i), y_));
+    }
   }
 
  private:
-  template <class Fn>
-  void for_all(Fn&& fn) {
-    for (std::size_t i = 0; i < pixels_.size(); ++i) fn(pixels_[i], x0_ + static_cast<int>(i));
-  }
-
-  /// Texel coordinates (centres at integers) of a shift from the pixel x of this row.
-  Vec2<double> position(Vec2<double> shift, int x) const {
-    return {x + shift.x * display_.width(), y_ + shift.y * display_.height()};
-  }
-
-  static int clamped_floor(double v) {
-    return static_cast<int>(std::floor(max(min(v, 1e9), -1e9)));
-  }
-
-  double texel(PlaneId plane, int x, int y) const {
-    const View<const float>& view = frame_.plane(plane);
-    if (!view) return missing_value(plane);
-    return view.at(std::clamp(x, view.window.x0, view.window.x1 - 1),
-                   std::clamp(y, view.window.y0, view.window.y1 - 1));
-  }
-
-  double bilinear_at(PlaneId plane, Vec2<double> at) const {
-    const int x = clamped_floor(at.x), y = clamped_floor(at.y);
-    const double u = at.x - std::floor(at.x), v = at.y - std::floor(at.y);
-    const double upper = lerp(texel(plane, x, y), texel(plane, x + 1, y), u);
-    const double lower = lerp(texel(plane, x, y + 1), texel(plane, x + 1, y + 1), u);
-    return lerp(upper, lower, v);
-  }
-
   const Frame& frame_;
-  Rect display_;
   int x0_, y_ = 0;
   std::vector<Pixel<double>> pixels_;
 };

@@ -125,6 +125,45 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
   verb.add_flag("-n", a.dry_run, "Print the plan, write nothing");
 }
 
+void add_shader(CLI::App& app, ShaderArguments& a) {
+  CLI::App& verb = *app.add_subcommand("shader", "Write a look as a shader for other programs");
+  verb.add_option("--look", a.water.look, "Look by name, or a look file (default: physical)")
+      ->option_text("NAME|FILE");
+  verb.add_option("--set", a.water.settings, "One parameter: operator.parameter=value (repeatable)")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
+  verb.add_option("--lang", a.language, "glsl glsl-es hlsl msl spirv (default: glsl)")
+      ->option_text("NAME");
+  verb.add_option("--planes", a.planes,
+                  "Buffers that the host has besides color and depth, as shadow,surface_depth")
+      ->option_text("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb.add_option("--scene", a.scene,
+                  "Scene file: its water, waves, sun, sky and environment; without --planes the "
+                  "frame that its plates hold, whose buffers are then written, too")
+      ->option_text("FILE.toml");
+  verb.add_option("--main", a.main,
+                  "Add a main(): none, compute or fragment (default: none, the function alone)")
+      ->option_text("STAGE");
+  verb.add_option("--function", a.function, "Name of the function (default: limpid_water)")
+      ->option_text("NAME");
+  verb.add_option("--descriptor-set", a.descriptor_set, "Of all that it declares (default: 0)")
+      ->option_text("N")
+      ->check(whole_number_in(0, 31));
+  verb.add_option("--first-binding", a.first_binding, "Bindings count from here (default: 0)")
+      ->option_text("N")
+      ->check(whole_number_in(0, 1000));
+  verb.add_option("--aov", a.aovs, "Return these terms, too, as path,normal")
+      ->option_text("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb.add_option("-o", a.output,
+                  "File to write, with FILE.json and its maps beside it (default: the text alone, "
+                  "to the standard output)")
+      ->option_text("FILE");
+}
+
 void add_composite(CLI::App& verb, CompositeArguments& a) {
   add_plates(verb, a.plates, a.scene, a.layers, a.view);
   verb.add_option("--depth-kind", a.depth_kind,
@@ -416,6 +455,7 @@ Parsed parse(int argc, char** argv) {
 
   add_compare(app, a.compare);
   add_report(app, a.report);
+  add_shader(app, a.shader);
 
   std::string help_verb;
   CLI::App& help = *app.add_subcommand("help", "Help of a verb, or of an operator");
@@ -463,6 +503,7 @@ Parsed parse(int argc, char** argv) {
            : inspect.parsed()   ? Verb::kInspect
            : operators.parsed() ? Verb::kOperators
            : app.got_subcommand("compare") ? Verb::kCompare
+           : app.got_subcommand("shader")  ? Verb::kShader
                                            : Verb::kReport;
   return parsed;
 }

@@ -93,6 +93,14 @@ struct ReportArguments {
   bool hard = false;
 };
 
+struct ShaderArguments {
+  std::string language = "glsl", main = "none", function = "limpid_water";
+  std::vector<std::string> planes, aovs;
+  int descriptor_set = 0, first_binding = 0;
+  std::string scene, output;
+  WaterOptions water;
+};
+
 enum class Verb {
   kNone,
   kComposite,
@@ -104,6 +112,7 @@ enum class Verb {
   kOperators,
   kCompare,
   kReport,
+  kShader,
 };
 
 struct Arguments {
@@ -116,6 +125,7 @@ struct Arguments {
   OperatorsArguments operators;
   CompareArguments compare;
   ReportArguments report;
+  ShaderArguments shader;
 };
 
 /// Parses argv. When there is nothing left to do (help, version, wrong usage) it has printed what

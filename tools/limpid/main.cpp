@@ -64,6 +64,8 @@ int run(const limpid::tool::Arguments& a) {
       return operators_verb(a.operators);
     case Verb::kCompare:
       return compare_verb(a.compare, a.common);
+    case Verb::kShader:
+      return shader_verb(a.shader, a.common);
     case Verb::kReport:
       return report_verb(a.report, a.common);
     case Verb::kNone:

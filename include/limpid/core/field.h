@@ -98,6 +98,7 @@ template <class P>
 struct Field : FieldInfo {
   Value (*get)(const P&);
   void (*set)(P&, const Value&);  ///< unchecked: go through assign()
+  const void* (*home)(const P&);  ///< where the member lies
 
   /// The same, but read only where the parameter `key` is one of these words; once or twice.
   constexpr Field when(std::string_view key, std::initializer_list<std::string_view> words) const {
@@ -150,7 +151,8 @@ constexpr Field<detail::ParamsOf<M>> real(std::string_view name, std::string_vie
   using P = detail::ParamsOf<M>;
   return {{name, unit, FieldKind::kReal, range, {}, {}, 0, about},
           [](const P& p) -> Value { return p.*M; },
-          [](P& p, const Value& v) { p.*M = std::get<double>(v); }};
+          [](P& p, const Value& v) { p.*M = std::get<double>(v); },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 template <auto M>
@@ -159,7 +161,8 @@ constexpr Field<detail::ParamsOf<M>> color(std::string_view name, std::string_vi
   using P = detail::ParamsOf<M>;
   return {{name, unit, FieldKind::kColor, range, {}, {}, 0, about},
           [](const P& p) -> Value { return p.*M; },
-          [](P& p, const Value& v) { p.*M = std::get<Rgb<double>>(v); }};
+          [](P& p, const Value& v) { p.*M = std::get<Rgb<double>>(v); },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 template <auto M>
@@ -167,7 +170,8 @@ constexpr Field<detail::ParamsOf<M>> text(std::string_view name, std::string_vie
   using P = detail::ParamsOf<M>;
   return {{name, "", FieldKind::kText, {}, {}, {}, 0, about},
           [](const P& p) -> Value { return p.*M; },
-          [](P& p, const Value& v) { p.*M = std::get<std::string>(v); }};
+          [](P& p, const Value& v) { p.*M = std::get<std::string>(v); },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 /// For an enum that counts from 0; `Words[i]` is the word for the value i. `Words` is a static
@@ -187,7 +191,8 @@ constexpr Field<detail::ParamsOf<M>> choice(std::string_view name, std::string_v
             for (std::size_t i = 0; i < std::size(Words); ++i) {
               if (Words[i] == word) p.*M = static_cast<E>(i);
             }
-          }};
+          },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 /// An int that counts, or -1 - i for the word `Words[i]`: `steps = 4` or `steps = "march"`. `Words`
@@ -208,7 +213,8 @@ constexpr Field<detail::ParamsOf<M>> count_or_word(std::string_view name, std::s
             for (int i = 0; i < kWords; ++i) {
               if (v == Value(std::string(Words[i]))) p.*M = -1 - i;
             }
-          }};
+          },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 /// A vector of rows of numbers, each number in the range: `waves = [[0.05, 1, 0, 0]]`. The type of
@@ -229,7 +235,8 @@ constexpr Field<detail::ParamsOf<M>> table(std::string_view name, std::string_vi
             for (const std::vector<double>& row : std::get<Rows>(v)) {
               (p.*M).push_back(Row::from_row(row));
             }
-          }};
+          },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 /// A member of type glm::dvec3.
@@ -240,7 +247,8 @@ constexpr Field<detail::ParamsOf<M>> direction(std::string_view name, std::strin
           [](const P& p) -> Value {
             return Rgb<double>{(p.*M).x, (p.*M).y, (p.*M).z};
           },
-          [](P& p, const Value& v) { p.*M = detail::unit_direction(std::get<Rgb<double>>(v)); }};
+          [](P& p, const Value& v) { p.*M = detail::unit_direction(std::get<Rgb<double>>(v)); },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 /// A member of type glm::dmat4.
@@ -249,7 +257,8 @@ constexpr Field<detail::ParamsOf<M>> matrix(std::string_view name, std::string_v
   using P = detail::ParamsOf<M>;
   return {{name, "", FieldKind::kMatrix, kFinite, {}, {}, 0, about},
           [](const P& p) -> Value { return detail::rows_of_matrix(p.*M); },
-          [](P& p, const Value& v) { p.*M = detail::matrix_of_rows(std::get<Rows>(v)); }};
+          [](P& p, const Value& v) { p.*M = detail::matrix_of_rows(std::get<Rows>(v)); },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 /// A member of type std::filesystem::path.
@@ -258,7 +267,8 @@ constexpr Field<detail::ParamsOf<M>> file(std::string_view name, std::string_vie
   using P = detail::ParamsOf<M>;
   return {{name, "", FieldKind::kFile, {}, {}, {}, 0, about},
           [](const P& p) -> Value { return (p.*M).string(); },
-          [](P& p, const Value& v) { p.*M = std::get<std::string>(v); }};
+          [](P& p, const Value& v) { p.*M = std::get<std::string>(v); },
+          [](const P& p) -> const void* { return &(p.*M); }};
 }
 
 /// Sets one parameter after checking kind, range and NaN. Throws Error that names `owner.field`,

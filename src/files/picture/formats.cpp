@@ -1,52 +1,17 @@
 #include "files/picture/formats.h"
 
-#include <cstdlib>
 #include <filesystem>
-#include <vector>
-
-#include <dlfcn.h>
 
 #include "limpid/core/error.h"
 
 #include "core/memory.h"
 #include "core/threads.h"
+#include "files/module_file.h"
 
 namespace limpid::formats {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kFile = "limpid_formats.so";
-
-/// The build tree has the module where an installed tree has it.
-std::vector<fs::path> module_folders() {
-  if (const char* named = std::getenv("LIMPID_MODULE_DIR")) return {named};
-  std::vector<fs::path> bases;
-  std::error_code ignored;
-  if (const fs::path program = fs::read_symlink("/proc/self/exe", ignored); !program.empty()) {
-    bases.push_back(program.parent_path());
-  }
-  // A relative name would be looked for in the current folder: anybody's.
-  if (Dl_info here; dladdr(reinterpret_cast<const void*>(&module), &here) != 0 &&
-                    fs::path(here.dli_fname).is_absolute()) {
-    const fs::path library = fs::path(here.dli_fname).parent_path();
-    if (bases.empty() || bases.front() != library) bases.push_back(library);
-  }
-  std::vector<fs::path> folders;
-  for (const fs::path& base : bases) {
-    for (const fs::path& folder :
-         {base, base / "limpid", base / ".." / LIMPID_LIBRARY_FOLDER / "limpid"}) {
-      folders.push_back(folder.lexically_normal());
-    }
-  }
-  return folders;
-}
-
-void* symbol(void* library, const fs::path& path, const char* name) {
-  void* found = dlsym(library, name);
-  if (found == nullptr) throw Error(path.string() + ": expected a function " + name);
-  return found;
-}
 
 /// Libraries of OpenImageIO 2.4 crash as they are loaded where memory or threads end: log4cplus,
 /// which comes with them, begins four threads. With all that a first picture of 960x540 needs, they
@@ -68,30 +33,16 @@ void expect_room(const std::string& wanted_for) {
 
 Module load(const fs::path& path, const std::string& wanted_for) {
   expect_room(wanted_for);
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw Error(std::string("cannot load the format module: ") + dlerror());
-  const auto abi =
-      reinterpret_cast<decltype(&limpid_formats_abi)>(symbol(library, path, "limpid_formats_abi"));
-  if (abi() != kFormatsAbi) {
-    throw Error(path.string() + ": format module of version " + std::to_string(abi()) +
-                ": expected " + std::to_string(kFormatsAbi));
-  }
+  void* library = open_module(path, "format", kFormatsAbi);
   return {reinterpret_cast<decltype(&limpid_formats_read)>(
-              symbol(library, path, "limpid_formats_read")),
+              module_function(library, path, "limpid_formats_read")),
           reinterpret_cast<decltype(&limpid_formats_write8)>(
-              symbol(library, path, "limpid_formats_write8"))};
+              module_function(library, path, "limpid_formats_write8"))};
 }
 
 Module find(const std::string& wanted_for) {
-  std::vector<std::string> searched;
-  for (const fs::path& folder : module_folders()) {
-    std::error_code ignored;
-    if (fs::exists(folder / kFile, ignored)) return load(folder / kFile, wanted_for);
-    searched.push_back(folder.string());
-  }
-  throw Error(wanted_for + ": formats other than EXR, PNG and JPEG need " + kFile +
-              ", which is not in " + join(searched, " or ") +
-              " (the environment variable LIMPID_MODULE_DIR names its folder)");
+  const std::string needs = wanted_for + ": formats other than EXR, PNG and JPEG need";
+  return load(module_file("limpid_formats.so", needs), wanted_for);
 }
 
 }  // namespace

@@ -1,0 +1,107 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/plan/plan.h"
+#include "limpid/run/target.h"
+
+/// @file
+/// A look as a shader, for engines that put water into a picture themselves. The operators of the
+/// plan are written down (nothing is written twice by hand) and printed as one function; what
+/// belongs to a frame are numbers in a uniform block and textures. After OpenColorIO's
+/// GpuShaderDesc: text, declarations, values and names through one object.
+
+namespace limpid {
+
+/// How a shader is to be printed.
+struct ShaderOptions {
+  enum class Stage {
+    kFunction,  ///< declarations and the function alone, for a shader of the host
+    kCompute,   ///< and a main() for groups of 16 x 8 pixels, that writes images
+    kFragment,  ///< and a main() for a pixel of a full-screen triangle
+  };
+  Stage stage = Stage::kFunction;
+  std::string function = "limpid_water";  ///< a word of letters, digits and _
+  int set = 0;                            ///< descriptor set of all that is declared, 0 ... 31
+  int first_binding = 0;                  ///< they count from here, 0 ... 1000
+  std::vector<Aov> aovs = {};             ///< that the function returns besides the picture
+};
+
+/// A number of the uniform block, in float.
+struct ShaderNumber {
+  std::string name;    ///< "refraction.strength": what it is; in the text with _ for . and [
+  std::size_t offset;  ///< in bytes
+  float value;         ///< of the frame
+  /// Of a parameter of the look that stands in the shader as it is: what it may be set to. Others
+  /// are worked out for each frame, see numbers().
+  std::optional<Range> range;
+};
+
+/// A sampler2D of the text, read by texelFetch alone, without a filter.
+struct ShaderTexture {
+  enum class Source {
+    kPlanes,  ///< of the frame: channels r g b a are those of `role`, windows are in the block
+    kRows,    ///< rows(): numbers of each row of the picture
+    kMade,    ///< a map of the look, or made for the frame, planes included: see texels
+  };
+  std::string name;  ///< "limpid_depth"
+  int binding;
+  Source source;
+  std::string role;  ///< of planes, made ones included: "depth", "color"
+  int channels;      ///< that are read, 1 ... 4
+  int width = 0, height = 0;
+  /// kMade: `channels` floats a texel, row after row.
+  std::vector<float> texels = {};
+};
+
+/// An image (compute) or output (fragment) that main() writes: in the order of the binding or
+/// location. The first is the picture.
+struct ShaderOutput {
+  std::string name;  ///< "color", "path": of the AOV
+  int channels;
+  int binding;  ///< or location
+};
+
+/// One shader for one look, and the values that a frame gives it.
+class ShaderText {
+ public:
+  /// Records the plan for a frame that the completers have not seen; they make here what the plan
+  /// asks for. The text is the same for any size, time and position of the camera, as long as the
+  /// frame has the same planes and textures, the scene as many waves, and the camera does not pass
+  /// between air and water. Throws Error for options out of their range, and where run_reference()
+  /// would.
+  ShaderText(const Plan& plan, const Frame& frame, const Scene& scene,
+             const ShaderOptions& options = {});
+
+  /// GLSL 4.50 for Vulkan. The function takes the pixel (in the coordinates of Frame::planes) and
+  /// returns a struct with `color` and the AOVs.
+  const std::string& text() const { return text_; }
+  const ShaderOptions& options() const { return options_; }
+  /// 16 hexadecimal digits of the text: equal for equal texts.
+  const std::string& id() const { return id_; }
+  /// The uniform block, std140: `block_size` bytes at `block_binding`.
+  int block_binding() const { return block_binding_; }
+  const std::vector<std::byte>& block() const { return block_; }
+  const std::vector<ShaderNumber>& numbers() const { return numbers_; }
+  const std::vector<ShaderTexture>& textures() const { return textures_; }
+  const std::vector<ShaderOutput>& outputs() const { return outputs_; }
+  /// Pixels that the shader makes: Frame::work().
+  const Rect& work() const { return work_; }
+
+ private:
+  ShaderOptions options_;
+  std::string text_, id_;
+  int block_binding_ = 0;
+  std::vector<std::byte> block_;
+  std::vector<ShaderNumber> numbers_;
+  std::vector<ShaderTexture> textures_;
+  std::vector<ShaderOutput> outputs_;
+  Rect work_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,40 @@
+#pragma once
+#include <set>
+#include <string>
+
+#include "shade/recording.h"
+
+namespace limpid {
+
+/// What the statements of a program call and declare, found while they are printed.
+struct GlslNeeds {
+  std::set<NodeOp> ops;
+  std::set<std::pair<NodeOp, int>> lookups;  ///< of a plane or a texture
+  std::set<int> powers;                      ///< whole exponents
+  bool power = false;                        ///< any other
+  bool infinity = false;
+};
+
+/// A recording as the statements of a GLSL function body. Numbers of the frame are
+/// `limpid.NAME`, NAME as glsl_name() makes it; lookups are calls of limpid_NAME (glsl_lookups.h).
+class GlslBody {
+ public:
+  explicit GlslBody(const Recording& recording);
+  const std::string& text() const { return text_; }
+  const GlslNeeds& needs() const { return needs_; }
+  /// The expression of an output, after the statements.
+  const std::string& output(std::size_t i) const { return outputs_[i]; }
+
+ private:
+  std::string text_;
+  GlslNeeds needs_;
+  std::vector<std::string> outputs_;
+};
+
+/// "waves.phase[2]" -> "waves_phase_2".
+std::string glsl_name(const std::string& name);
+/// "depth", "color": of the role that has the plane; and the letter of its channel in a texel.
+std::string role_word(PlaneId plane);
+char channel_letter(PlaneId plane);
+
+}  // namespace limpid

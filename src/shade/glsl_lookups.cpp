@@ -1,0 +1,291 @@
+#include "shade/glsl_lookups.h"
+
+namespace limpid {
+namespace {
+
+/// `text` with each # replaced by `word`.
+std::string with(const std::string& text, const std::string& word) {
+  std::string all;
+  for (const char c : text) c == '#' ? all += word : all += c;
+  return all;
+}
+
+constexpr const char* kPlaces = R"(
+ivec2 limpid_pixel;
+
+float limpid_column() { return float(limpid_pixel.x - limpid.display.x) + 0.5; }
+vec2 limpid_size() { return vec2(limpid.display.zw); }
+ivec2 limpid_at(vec2 texels) {
+  return limpid_pixel + ivec2(clamp(texels, vec2(-4e6), vec2(4e6)));
+}
+vec4 limpid_quad(vec2 shift) {
+  vec2 place = shift * limpid_size();
+  vec2 corner = floor(place);
+  return vec4(corner, place - corner);
+}
+)";
+
+constexpr const char* kRow = R"(
+float limpid_row(int k) {
+  return texelFetch(limpid_rows, ivec2(k, limpid_pixel.y - limpid.work.y), 0).r;
+}
+)";
+
+constexpr const char* kPlane = R"(
+vec4 limpid_texel_#(ivec2 place) {
+  ivec4 window = limpid.window_#;
+  return texelFetch(limpid_#, clamp(place, window.xy, window.zw - 1) - window.xy, 0);
+}
+)";
+constexpr const char* kNearest = R"(vec4 limpid_nearest_#(vec2 shift) {
+  return limpid_texel_#(limpid_at(floor(shift * limpid_size() + 0.5)));
+}
+)";
+constexpr const char* kBilinear = R"(vec4 limpid_bilinear_#(vec2 shift) {
+  vec4 quad = limpid_quad(shift);
+  ivec2 corner = limpid_at(quad.xy);
+  vec4 a = limpid_texel_#(corner), b = limpid_texel_#(corner + ivec2(1, 0));
+  vec4 c = limpid_texel_#(corner + ivec2(0, 1)), d = limpid_texel_#(corner + ivec2(1, 1));
+  vec4 upper = a + quad.z * (b - a), lower = c + quad.z * (d - c);
+  return upper + quad.w * (lower - upper);
+}
+)";
+constexpr const char* kPlace = R"(vec2 limpid_place_#(vec4 quad, ivec2 k) {
+  ivec4 window = limpid.window_#;
+  ivec2 place = clamp(limpid_at(quad.xy) + k, window.xy, window.zw - 1);
+  return vec2(place - limpid_pixel) / limpid_size();
+}
+)";
+
+/// Of one channel, # the role and @ the channel.
+constexpr const char* kRead = R"(vec4 limpid_read_#_@(vec4 quad) {
+  ivec2 corner = limpid_at(quad.xy);
+  return vec4(limpid_texel_#(corner).@, limpid_texel_#(corner + ivec2(1, 0)).@,
+              limpid_texel_#(corner + ivec2(0, 1)).@, limpid_texel_#(corner + ivec2(1, 1)).@);
+}
+)";
+
+/// Four texels of a picture that repeats in x and, where `both`, in y.
+constexpr const char* kWrapped = R"(
+vec3 limpid_wrapped(sampler2D map, vec2 place, bool both) {
+  ivec2 size = textureSize(map, 0);
+  vec2 fraction = max(place - floor(place), 0.0);
+  if (!both) fraction.y = place.y;
+  vec2 texels = fraction * vec2(size) - 0.5;
+  vec2 corner = floor(texels), w = texels - corner;
+  ivec2 a = ivec2(corner), b = a + 1;
+  a = ivec2(a.x < 0 ? size.x - 1 : a.x, both && a.y < 0 ? size.y - 1 : clamp(a.y, 0, size.y - 1));
+  b = ivec2(b.x >= size.x ? 0 : b.x, both && b.y >= size.y ? 0 : clamp(b.y, 0, size.y - 1));
+  vec3 upper_left = texelFetch(map, a, 0).rgb;
+  vec3 upper_right = texelFetch(map, ivec2(b.x, a.y), 0).rgb;
+  vec3 lower_left = texelFetch(map, ivec2(a.x, b.y), 0).rgb;
+  vec3 lower_right = texelFetch(map, b, 0).rgb;
+  vec3 upper = upper_left + w.x * (upper_right - upper_left);
+  vec3 lower = lower_left + w.x * (lower_right - lower_left);
+  return upper + w.y * (lower - upper);
+}
+)";
+
+/// Levels lie one after the other, width and height + 1 with the first column and row once more, in
+/// a texture whose rows are as wide as it is. `level` is width, height and the first texel.
+constexpr const char* kLevels = R"(
+vec4 limpid_level_texel(sampler2D levels, int index) {
+  int width = textureSize(levels, 0).x;
+  return texelFetch(levels, ivec2(index % width, index / width), 0);
+}
+vec4 limpid_level(sampler2D levels, ivec4 level, vec2 periods) {
+  vec2 texels = max(periods - floor(periods), 0.0) * vec2(level.xy) - 0.5;
+  vec2 corner = floor(texels), w = texels - corner;
+  ivec2 a = ivec2(corner);
+  a = ivec2(a.x < 0 ? level.x - 1 : a.x, a.y < 0 ? level.y - 1 : a.y);
+  int pitch = level.x + 1, first = level.z + a.y * pitch + a.x;
+  vec4 upper_left = limpid_level_texel(levels, first);
+  vec4 upper_right = limpid_level_texel(levels, first + 1);
+  vec4 lower_left = limpid_level_texel(levels, first + pitch);
+  vec4 lower_right = limpid_level_texel(levels, first + pitch + 1);
+  vec4 upper = upper_left + w.x * (upper_right - upper_left);
+  vec4 lower = lower_left + w.x * (lower_right - lower_left);
+  return upper + w.y * (lower - upper);
+}
+)";
+
+/// Of two levels: see between_levels() in op/plain_texture.h.
+constexpr const char* kBetween = R"(vec4 limpid_between_#(float width, vec2 periods) {
+  int last = limpid.counts.@ - 1;
+  int level = min(int(floor(log2(width))), last);
+  float between = width / exp2(float(level)) - 1.0;
+  float rest = level == last ? 0.0 : clamp(4.0 * between - 1.5, 0.0, 1.0);
+  vec4 near = limpid_level(limpid_#, limpid.levels_#[level], periods);
+  if (rest <= 0.0) return near;
+  vec4 far = limpid_level(limpid_#, limpid.levels_#[min(level + 1, last)], periods);
+  return near + rest * (far - near);
+}
+)";
+constexpr const char* kTiledWide = R"(vec3 limpid_tiled_wide(vec2 periods, float width) {
+  float share = clamp(4.0 * width - 5.5, 0.0, 1.0);
+  if (share <= 0.0) return limpid_wrapped(limpid_wave_map, periods, true);
+  vec3 far = limpid_between_wave_levels(max(0.5 * width, 1.0), periods).rgb;
+  if (share >= 1.0) return far;
+  vec3 near = limpid_wrapped(limpid_wave_map, periods, true);
+  return near + share * (far - near);
+}
+)";
+constexpr const char* kSlopeMean = R"(vec2 limpid_slope_mean(vec2 periods, float width) {
+  return limpid_between_slope_means(max(width, 1.0), periods).rg;
+}
+)";
+constexpr const char* kSlopeSquare = R"(vec3 limpid_slope_square(vec2 periods, float width) {
+  return limpid_between_slope_squares(max(width, 1.0), periods).rgb;
+}
+)";
+
+/// A table that ends at its edges; all levels lie in one texture, one under the other.
+constexpr const char* kGrid = R"(
+float limpid_grid(ivec4 level, vec2 texels) {
+  vec2 place = clamp(texels, vec2(0.0), vec2(level.xy - 1));
+  ivec2 a = min(ivec2(place), max(level.xy - 2, 0)), b = min(a + 1, level.xy - 1);
+  vec2 w = place - vec2(a);
+  ivec2 first = ivec2(0, level.z);
+  float upper_left = texelFetch(limpid_caustics, first + a, 0).r;
+  float upper_right = texelFetch(limpid_caustics, first + ivec2(b.x, a.y), 0).r;
+  float lower_left = texelFetch(limpid_caustics, first + ivec2(a.x, b.y), 0).r;
+  float lower_right = texelFetch(limpid_caustics, first + b, 0).r;
+  float upper = upper_left + w.x * (upper_right - upper_left);
+  float lower = lower_left + w.x * (lower_right - lower_left);
+  return upper + w.y * (lower - upper);
+}
+)";
+
+std::string power_text(int whole) {
+  const std::string name = "limpid_power_" + std::to_string(whole);
+  std::string text = "float " + name + "(float x) {\n  float power = x, result = 1.0;\n";
+  for (int left = whole;;) {
+    if (left & 1) text += "  result *= power;\n";
+    left >>= 1;
+    if (left == 0) break;
+    text += "  power *= power;\n";
+  }
+  return text + "  return result;\n}\n";
+}
+
+}  // namespace
+
+std::string plane_sampler(PlaneId plane) { return "limpid_" + role_word(plane); }
+
+std::string texture_sampler(int texture) {
+  switch (static_cast<TextureId>(texture)) {
+    case TextureId::kWaveMap:
+      return "limpid_wave_map";
+    case TextureId::kWaveSlopes:
+      return "limpid_slope_means";
+    case TextureId::kEnvironment:
+      return "limpid_environment";
+    case TextureId::kContinuation:
+      return "limpid_continuation";
+    case TextureId::kBottomColors:
+      return "limpid_bottom_colors";
+    case TextureId::kBottomShape:
+      return "limpid_bottom_shape";
+    default:
+      return "limpid_caustics";
+  }
+}
+
+std::string glsl_lookups(const GlslNeeds& needs) {
+  std::string text;
+  const auto op = [&](NodeOp which) { return needs.ops.count(which) > 0; };
+  if (needs.infinity) text += "#define limpid_infinity uintBitsToFloat(0x7f800000u)\n";
+  text += kPlaces;
+  if (op(NodeOp::kRow)) text += kRow;
+  std::set<std::string> done;
+  const auto once = [&](const std::string& words) {
+    if (done.insert(words).second) text += words;
+  };
+  for (const auto& [verb, what] : needs.lookups) {
+    if (verb < NodeOp::kOwn || verb > NodeOp::kPlace) continue;
+    once(with(kPlane, role_word(static_cast<PlaneId>(what))));
+  }
+  bool wraps = false, levels = false, grids = false;
+  for (const auto& [verb, what] : needs.lookups) {
+    const std::string role =
+        verb >= NodeOp::kOwn && verb <= NodeOp::kPlace ? role_word(static_cast<PlaneId>(what)) : "";
+    const auto between = [&](const std::string& name, char count) {
+      std::string words = with(kBetween, name);
+      words.replace(words.find('@'), 1, 1, count);
+      once(words);
+    };
+    if (!wraps &&
+        (verb == NodeOp::kTiled || verb == NodeOp::kTiledWide || verb == NodeOp::kLatLong)) {
+      text += kWrapped;
+      wraps = true;
+    }
+    if (!levels && verb >= NodeOp::kTiledWide && verb <= NodeOp::kSlopeSquare) {
+      text += kLevels;
+      levels = true;
+    }
+    switch (verb) {
+      case NodeOp::kNearest:
+        once(with(kNearest, role));
+        break;
+      case NodeOp::kBilinear:
+      case NodeOp::kBilinear3:
+        once(with(kBilinear, role));
+        break;
+      case NodeOp::kPlace:
+        once(with(kPlace, role));
+        break;
+      case NodeOp::kRead: {
+        std::string words;
+        for (const char c : with(kRead, role)) {
+          words += c == '@' ? channel_letter(static_cast<PlaneId>(what)) : c;
+        }
+        once(words);
+        break;
+      }
+      case NodeOp::kTiled:
+        once(
+            "vec3 limpid_tiled(vec2 periods) {\n"
+            "  return limpid_wrapped(limpid_wave_map, periods, true);\n}\n");
+        break;
+      case NodeOp::kTiledWide:
+        between("wave_levels", 'x');
+        once(kTiledWide);
+        break;
+      case NodeOp::kSlopeMean:
+        between("slope_means", 'y');
+        once(kSlopeMean);
+        break;
+      case NodeOp::kSlopeSquare:
+        between("slope_squares", 'y');
+        once(kSlopeSquare);
+        break;
+      case NodeOp::kLatLong:
+        once("vec3 limpid_lat_long_" + std::to_string(what) + "(vec2 place) {\n  return " +
+             "limpid_wrapped(" + texture_sampler(what) + ", place, false);\n}\n");
+        break;
+      case NodeOp::kGrid:
+        if (!grids) text += kGrid;
+        grids = true;
+        once("float limpid_grid_" + std::to_string(what) + "(vec2 texels) {\n" +
+             "  return limpid_grid(limpid.levels_caustics[" +
+             std::to_string(what - static_cast<int>(TextureId::kCaustics)) + "], texels);\n}\n");
+        break;
+      default:
+        break;
+    }
+  }
+  if (op(NodeOp::kAtan2)) {
+    text +=
+        "float limpid_atan2(float y, float x) {\n"
+        "  return x == 0.0 && y == 0.0 ? 0.0 : atan(y, x);\n}\n";
+  }
+  for (const int whole : needs.powers) text += power_text(whole);
+  if (needs.power) {
+    text +=
+        "float limpid_power(float x, float p) {\n  if (p <= 0.0) return 1.0;\n"
+        "  return x > 1e-37 ? exp2(p * log2(x)) : 0.0;\n}\n";
+  }
+  return text;
+}
+
+}  // namespace limpid

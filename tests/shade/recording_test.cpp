@@ -1,0 +1,89 @@
+#include <cmath>
+#include <map>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "limpid/files/text/look_file.h"
+
+#include "ops/contract.h"
+#include "plan/landscape.h"
+#include "shade/recorded.h"
+#include "shade/symbol.h"
+
+/// What operators do, written down: the program is what run_reference() does, and it has no number
+/// of the frame in it.
+
+namespace limpid {
+namespace {
+
+using test::Below;
+using test::Buffers;
+using test::Recorded;
+
+constexpr const char* kLooks[] = {"physical", "fast", "realistic", "monogame", "rito"};
+
+Look shipped(const std::string& name) {
+  return load_look(std::string(LIMPID_DATA) + "/looks/" + name + ".toml");
+}
+
+/// With all their models, and parameters from all over their ranges, between the others as they
+/// are by default.
+TEST(Recording, OfEveryOperatorWithEveryModelIsTheReference) {
+  Chain::for_each([]<class Op, int I>() {
+    for (int seed = 0; seed < 24; ++seed) {
+      const test::World world(seed % 2 == 0);
+      Look look;
+      look.of<Op>() = test::random_params<Op>(seed);
+      const Recorded recorded(look, world.buffers.frame, world.scene);
+      recorded.expect_reference(5);
+      if (HasFatalFailure()) FAIL() << Op::kName << ", seed " << seed;
+    }
+  });
+}
+
+TEST(Recording, OfShippedLooksIsTheReferenceOverLandscapes) {
+  int seed = 0;
+  for (const char* name : kLooks) {
+    for (const Below below : {Below::kNone, Below::kHoles}) {
+      for (const bool surface : {false, true}) {
+        ++seed;
+        const Size size{72, 40};
+        Scene scene = test::simple_scene(size);
+        scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0.1, 1.6, -1), {0, 1, 0});
+        scene.sky = SkyLight{{0.4, 0.5, 0.6}};
+        scene.time = 1.7;
+        Buffers b = test::landscape(rect_of(size), scene, seed, surface, below);
+        const test::NoiseMap map(16, 8);
+        b.frame.wave_map = map.texture;
+        const Recorded recorded(shipped(name), b.frame, scene);
+        recorded.expect_reference(2);
+        if (HasFatalFailure()) FAIL() << name << ", landscape " << seed;
+      }
+    }
+  }
+}
+
+TEST(Recording, OfAViewThatBeginsInTheWaterIsTheReference) {
+  for (const char* name : kLooks) {
+    const Size size{60, 40};
+    Scene scene = test::simple_scene(size);
+    scene.water->waves = {{0.02, 3, 1, 0.4, 2}, {0.01, -1, 5, 1.4, 3}};
+    scene.camera->view = glm::lookAt(glm::dvec3(0, 0.03, 0), glm::dvec3(0.1, 0.02, -1), {0, 1, 0});
+    scene.time = 2.5;
+    Buffers b(rect_of(size));
+    for (int c = 0; c < 3; ++c) {
+      b.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) { return test::noise(x, y, c); });
+    }
+    b.set(PlaneId::kDepth, [](int x, int y) { return 1 + 6 * test::noise(x / 3, y / 3, 9); });
+    const test::NoiseMap map(16, 8);
+    b.frame.wave_map = map.texture;
+    const Recorded recorded(shipped(name), b.frame, scene);
+    EXPECT_TRUE(recorded.pass().submersible);
+    recorded.expect_reference();
+    if (HasFatalFailure()) FAIL() << name;
+  }
+}
+
+}  // namespace
+}  // namespace limpid
