@@ -129,7 +129,9 @@ class Printer {
 
   std::string power(const Node& node) {
     const Node& exponent = at(node.args[1]);
-    const int whole = exponent.op == NodeOp::kLiteral && exponent.number <= 256
+    // A device's exp2 and log2 are coarse; a chain of products is off by p / 2^24.
+    constexpr double kLongest = 65536;
+    const int whole = exponent.op == NodeOp::kLiteral && exponent.number <= kLongest
                           ? static_cast<int>(exponent.number)
                           : 0;
     if (whole > 0 && whole == exponent.number) {

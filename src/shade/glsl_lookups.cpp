@@ -156,6 +156,26 @@ float limpid_grid(ivec4 level, vec2 texels) {
 }
 )";
 
+/// Abramowitz & Stegun 1964, "Handbook of Mathematical Functions", 4.4.49: within 2e-8 of the
+/// arctangent of 0 ... 1, laid out around the turn as lanes have it. What GLSL has is coarse on
+/// some devices.
+constexpr const char* kAtan2 = R"(float limpid_atan2(float y, float x) {
+  float across = abs(x), up = abs(y);
+  float t = min(across, up) / max(max(across, up), 1e-37), s = t * t;
+  float sum = 0.0028662257 * s - 0.0161657367;
+  sum = 0.0429096138 + s * sum;
+  sum = -0.0752896400 + s * sum;
+  sum = 0.1065626393 + s * sum;
+  sum = -0.1420889944 + s * sum;
+  sum = 0.1999355085 + s * sum;
+  sum = -0.3333314528 + s * sum;
+  float octant = t + t * s * sum;
+  float quarter = up > across ? 1.57079633 - octant : octant;
+  float turned = x < 0.0 ? 3.14159265 - quarter : quarter;
+  return y < 0.0 ? -turned : turned;
+}
+)";
+
 std::string power_text(int whole) {
   const std::string name = "limpid_power_" + std::to_string(whole);
   std::string text = "float " + name + "(float x) {\n  float power = x, result = 1.0;\n";
@@ -274,11 +294,7 @@ std::string glsl_lookups(const GlslNeeds& needs) {
         break;
     }
   }
-  if (op(NodeOp::kAtan2)) {
-    text +=
-        "float limpid_atan2(float y, float x) {\n"
-        "  return x == 0.0 && y == 0.0 ? 0.0 : atan(y, x);\n}\n";
-  }
+  if (op(NodeOp::kAtan2)) text += kAtan2;
   for (const int whole : needs.powers) text += power_text(whole);
   if (needs.power) {
     text +=

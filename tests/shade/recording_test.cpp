@@ -4,10 +4,9 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "limpid/files/text/look_file.h"
-
 #include "ops/contract.h"
 #include "plan/landscape.h"
+#include "shade/bundled.h"
 #include "shade/recorded.h"
 #include "shade/symbol.h"
 
@@ -20,12 +19,6 @@ namespace {
 using test::Below;
 using test::Buffers;
 using test::Recorded;
-
-constexpr const char* kLooks[] = {"physical", "fast", "realistic", "monogame", "rito"};
-
-Look shipped(const std::string& name) {
-  return load_look(std::string(LIMPID_DATA) + "/looks/" + name + ".toml");
-}
 
 /// With all their models, and parameters from all over their ranges, between the others as they
 /// are by default.
@@ -44,7 +37,7 @@ TEST(Recording, OfEveryOperatorWithEveryModelIsTheReference) {
 
 TEST(Recording, OfShippedLooksIsTheReferenceOverLandscapes) {
   int seed = 0;
-  for (const char* name : kLooks) {
+  for (const char* name : test::kShippedLooks) {
     for (const Below below : {Below::kNone, Below::kHoles}) {
       for (const bool surface : {false, true}) {
         ++seed;
@@ -56,7 +49,7 @@ TEST(Recording, OfShippedLooksIsTheReferenceOverLandscapes) {
         Buffers b = test::landscape(rect_of(size), scene, seed, surface, below);
         const test::NoiseMap map(16, 8);
         b.frame.wave_map = map.texture;
-        const Recorded recorded(shipped(name), b.frame, scene);
+        const Recorded recorded(test::shipped_look(name), b.frame, scene);
         recorded.expect_reference(2);
         if (HasFatalFailure()) FAIL() << name << ", landscape " << seed;
       }
@@ -64,8 +57,20 @@ TEST(Recording, OfShippedLooksIsTheReferenceOverLandscapes) {
   }
 }
 
+TEST(Recording, OfShippedLooksIsTheReferenceOverBundledScenes) {
+  test::for_each_bundled({96, 54}, [](const std::string& name, Subject& subject) {
+    for (const char* look_name : test::kShippedLooks) {
+      const Look look = test::shipped_look(look_name);
+      const Frame frame = subject.frame_for(subject.plan(look));
+      const Recorded recorded(look, frame, subject.scene());
+      recorded.expect_reference(static_cast<int>(frame.work().area() / 700));
+      if (HasFatalFailure()) FAIL() << look_name << ", " << name;
+    }
+  });
+}
+
 TEST(Recording, OfAViewThatBeginsInTheWaterIsTheReference) {
-  for (const char* name : kLooks) {
+  for (const char* name : test::kShippedLooks) {
     const Size size{60, 40};
     Scene scene = test::simple_scene(size);
     scene.water->waves = {{0.02, 3, 1, 0.4, 2}, {0.01, -1, 5, 1.4, 3}};
@@ -78,7 +83,7 @@ TEST(Recording, OfAViewThatBeginsInTheWaterIsTheReference) {
     b.set(PlaneId::kDepth, [](int x, int y) { return 1 + 6 * test::noise(x / 3, y / 3, 9); });
     const test::NoiseMap map(16, 8);
     b.frame.wave_map = map.texture;
-    const Recorded recorded(shipped(name), b.frame, scene);
+    const Recorded recorded(test::shipped_look(name), b.frame, scene);
     EXPECT_TRUE(recorded.pass().submersible);
     recorded.expect_reference();
     if (HasFatalFailure()) FAIL() << name;

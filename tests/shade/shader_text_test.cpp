@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "limpid/core/error.h"
-#include "limpid/files/text/look_file.h"
 
 #include "ops/contract.h"
+#include "shade/bundled.h"
 
 /// The text of a shader and the values beside it. That it computes the right thing is shown where
 /// it runs.
@@ -18,10 +18,6 @@ namespace limpid {
 namespace {
 
 using Stage = ShaderOptions::Stage;
-
-Look shipped(const std::string& name) {
-  return load_look(std::string(LIMPID_DATA) + "/looks/" + name + ".toml");
-}
 
 ShaderText text_of(const Look& look, const test::World& world, const ShaderOptions& options = {}) {
   const Frame& frame = world.buffers.frame;
@@ -46,8 +42,9 @@ struct OtherWorld : test::World {
 TEST(ShaderText, IsTheSameForAnySizeTimeAndPlace) {
   const test::World here(false);
   const OtherWorld there;
-  for (const char* name : {"physical", "fast", "realistic", "monogame", "rito"}) {
-    const ShaderText a = text_of(shipped(name), here), b = text_of(shipped(name), there);
+  for (const char* name : test::kShippedLooks) {
+    const ShaderText a = text_of(test::shipped_look(name), here),
+                     b = text_of(test::shipped_look(name), there);
     EXPECT_EQ(a.id(), b.id()) << name;
     EXPECT_EQ(a.text(), b.text()) << name;
     EXPECT_NE(a.block(), b.block()) << name;
@@ -58,7 +55,7 @@ TEST(ShaderText, IsTheSameForAnySizeTimeAndPlace) {
 /// A parameter that is set to another value above 0 is another number of the block, by its name.
 TEST(ShaderText, HasParametersAsNumbers) {
   const test::World world(false);
-  Look look = shipped("realistic");
+  Look look = test::shipped_look("realistic");
   const ShaderText before = text_of(look, world);
   const double strength = 0.5 * look.of<Refraction>().strength;
   look.set("refraction", "strength", strength);
@@ -86,7 +83,7 @@ TEST(ShaderText, HasParametersAsNumbers) {
 TEST(ShaderText, DeclaresEachNameAndPlaceOnce) {
   const test::World world(false);
   const ShaderText text = text_of(
-      shipped("physical"), world,
+      test::shipped_look("physical"), world,
       {.stage = Stage::kCompute, .set = 2, .first_binding = 5, .aovs = {Aov::kPath, Aov::kNormal}});
   EXPECT_EQ(text.block_binding(), 5);
   std::set<int> places{text.block_binding()};
@@ -126,7 +123,7 @@ TEST(ShaderText, ReadsOnlyWhatTheLookNeeds) {
     EXPECT_NE(texture.role, "shadow");
     EXPECT_NE(texture.role, "albedo");
   }
-  EXPECT_LT(text.text().size(), text_of(shipped("physical"), world).text().size() / 4);
+  EXPECT_LT(text.text().size(), text_of(test::shipped_look("physical"), world).text().size() / 4);
 }
 
 TEST(ShaderText, RefusesWhatItCannotPrint) {
