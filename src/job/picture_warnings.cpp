@@ -11,6 +11,7 @@
 
 #include "core/toml_text.h"
 #include "op/raised_water.h"
+#include "optics/refract.h"
 #include "plan/pass_of.h"
 
 namespace limpid {
@@ -187,6 +188,52 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
   }
 }
 
+/// Where sunlight enters that calm water lets down to what the picture shows of the bottom: how
+/// much of it lies beyond the frame's own normals, if the waves are these and nothing else tells of
+/// them.
+void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
+                   std::vector<std::string>& warnings) {
+  const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+  const bool of_frame = waves.model == WaveNormals::Model::kPlate && waves.waves.empty() &&
+                        c.waves.empty() && frame.present().covers(kSurfaceNormalPlanes);
+  const double rise = glm::dot(c.sun.direction, c.up);
+  if (!of_frame || !plan.keeps<Caustics>() || plan.look.of<Caustics>().strength == 0 ||
+      !c.has_sun || !(rise > 1e-3)) {
+    return;
+  }
+  const glm::dvec3 to_sun = c.sun.direction - rise * c.up;
+  const glm::dvec3 aside = -1 / (c.ior * refracted_cosine(rise, 1 / c.ior)) * to_sun;
+  const Rect work = frame.work();
+  const Rect& normals = frame.plane(PlaneId::kSurfaceNormalX).window;
+  int lit = 0, beyond = 0;
+  const int step = std::clamp(std::min(work.width(), work.height()) / 64, 1, kCoarse);
+  for (int y = work.y0; y < work.y1; y += step) {
+    for (int x = work.x0; x < work.x1; x += step) {
+      const double at_x = x - c.corner.x + 0.5, at_y = y - c.corner.y + 0.5;
+      const double depth = frame.plane(PlaneId::kDepth).at(x, y);
+      if (!(depth > 0 && depth < HUGE_VAL)) continue;
+      const glm::dvec3 bottom = c.rays.origin_at(at_x, at_y) + depth * c.rays.ray_at(at_x, at_y);
+      const double under = -(c.eye_above + glm::dot(c.up, bottom));
+      if (!(under > 0)) continue;
+      const glm::dvec3 entry = bottom + under * (c.up - aside) - c.rays.origin;
+      const double w = c.w_origin + c.w_depth * glm::dot(c.forward, entry);
+      const double column = glm::dot(c.to_u, entry) / w * c.size.x + c.corner.x;
+      const double row = glm::dot(c.to_v, entry) / w * c.size.y + c.corner.y;
+      ++lit;
+      beyond += !(w > 0 && column >= normals.x0 && column <= normals.x1 && row >= normals.y0 &&
+                  row <= normals.y1);
+    }
+  }
+  constexpr double kMuch = 0.1;  // a rim of less is hardly missed
+  if (lit == 0 || beyond < kMuch * lit) return;
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.0f %%", 100.0 * beyond / lit);
+  warnings.push_back(
+      "the sunlight of " + std::string(percent) +
+      " of the bottom enters beyond the picture's own normals, where the water "
+      "counts as calm, and has no caustics; expected overscan, or the scene's waves");
+}
+
 }  // namespace
 
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
@@ -198,6 +245,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_glass(frame, warnings);
   warn_of_sun(plan, frame, pass, warnings);
   warn_of_scale(plan, frame, pass, warnings);
+  warn_of_light(plan, frame, pass, warnings);
 }
 
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {

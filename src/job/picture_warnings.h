@@ -20,6 +20,9 @@ namespace limpid {
 /// - The reflection shows the sun's disc, which the highlight adds, too.
 /// - A period of the tiling waves is smaller than two of the nearest water's pixels, or so large
 ///   that the whole picture shows a hundredth of it; or waves are higher than the camera.
+/// - Of caustics by the frame's own normals: the light of a tenth of the bottom or more enters
+/// where
+///   the frame has none.
 ///
 /// Looks at few pixels, unless it is all wet or all dry.
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,

@@ -96,5 +96,42 @@ TEST(PictureWarnings, WavesOverTheCamera) {
   EXPECT_THAT(evening.warnings(), testing::Contains(HasSubstr("the waves reach 3")));
 }
 
+/// An orthographic camera that looks straight down on 64 x 48 of calm water, whose normals the
+/// frame has, 4 over a bottom; sun at 0.6 of the vertical from the right: light goes 3 aside.
+struct Noon : Evening {
+  Noon() {
+    Camera camera;
+    camera.view = glm::lookAt(glm::dvec3(0, 10, 0), glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -1));
+    camera.projection = orthographic(64, 48, 0.1, 50, ClipSpace::kGl);
+    scene.camera = camera;
+    scene.sun = Sun{.direction = {0.8, 0.6, 0}};
+    look.of<WaveNormals>() = {};
+    look.of<WaveNormals>().model = WaveNormals::Model::kPlate;
+    look.of<Caustics>().strength = 1;
+    for (int i = 0; i < 3; ++i) {
+      buffers.fill(plane_after(PlaneId::kSurfaceNormalX, i), i == 1 ? 1.0f : 0.0f);
+    }
+    lie(4);
+  }
+  /// The bottom; a stone looks out of the water.
+  void lie(float deep) {
+    buffers.set(PlaneId::kDepth, [=](int x, int y) { return x < 2 && y < 2 ? 9 : 10 + deep; });
+  }
+};
+
+TEST(PictureWarnings, LightEntersBeyondTheFramesNormals) {
+  const auto beyond = testing::Contains(HasSubstr("enters beyond the picture's own normals"));
+  Noon noon;
+  EXPECT_THAT(noon.warnings(), testing::Not(beyond));  // 3 of 64 columns
+  noon.lie(16);                                        // 12 of 64
+  EXPECT_THAT(noon.warnings(),
+              testing::Contains(HasSubstr("the sunlight of 19 % of the bottom enters beyond")));
+  noon.scene.water->waves = {{0.01, 1, 0, 0, 1}};
+  EXPECT_THAT(noon.warnings(), testing::Not(beyond));
+  noon.scene.water->waves.clear();
+  noon.look.of<Caustics>().strength = 0;
+  EXPECT_THAT(noon.warnings(), testing::Not(beyond));
+}
+
 }  // namespace
 }  // namespace limpid
