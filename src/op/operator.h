@@ -60,6 +60,9 @@
 ///   - a mask stays a mask: auto, never bool;
 ///   - numbers of scene, look, frame and time enter by given(), F() is for the formula's own.
 ///
+/// What is the same for red, green and blue is written once, with each(), pick() and only(): a
+/// shader is a loop then, not three times as long.
+///
 /// A branch of C++ on a parameter or on what the frame has is no such branch: it makes another
 /// shader. tests/shade records every operator with every model and runs what was written down.
 ///

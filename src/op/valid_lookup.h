@@ -161,6 +161,15 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
   return taps;
 }
 
+/// Of no weight at all, for whoever finds out later.
+template <class F, class Tap>
+LIMPID_INLINE auto no_taps(const Tap& tap, Vec2<F> shift) {
+  using Quad = decltype(tap.quad(shift));
+  const Quad there = tap.quad(shift);
+  const Four<F> none{F(0), F(0), F(0), F(0)};
+  return ValidTaps<F, Quad>{there, there, none, none, F(0), F(0), shift, F(0) > F(0)};
+}
+
 template <class F, class Tap, class Valid>
 auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid) {
   return valid_taps(

@@ -99,42 +99,58 @@ struct Kernel<Caustics> : Caustics {
                               dot(map_y, end) + depth * per_rise * sunwards.y};
           arrives = moved(c, p, tap, entry_of(end, given<F>(c.ior)), level, lit, hidden);
         }
-        const auto channel = [&](int k, F index, Vec2<F> shift, F& transmitted) {
-          const auto i = static_cast<std::size_t>(k);
+        const auto& scattered = table.scattered;
+        const bool scatters = scattered[0] > 0 || scattered[1] > 0 || scattered[2] > 0;
+        const auto of_channel = [&](auto i, const std::array<double, 3>& values, const char* name) {
+          return pick<F>(i, given<F>(values[0], name, 0), given<F>(values[1], name, 1),
+                         given<F>(values[2], name, 2));
+        };
+        Rgb<F> made = p.transmitted;
+        each<F>(3, [&](auto i) {
+          const F index = pick<F>(i, p.dispersion.r, p.dispersion.g, p.dispersion.b);
+          const Vec2<F> shift{pick<F>(i, p.shift_r.x, p.shift_g.x, p.shift_b.x),
+                              pick<F>(i, p.shift_r.y, p.shift_g.y, p.shift_b.y)};
+          const F transmitted = pick<F>(i, p.transmitted.r, p.transmitted.g, p.transmitted.b);
           Aim<F> own = aim;
           if (split) {
             if_any(abs(index) > F(0), [&] { own = aim_of(c, p, given<F>(c.ior) + index); });
           }
           const Vec2<F> entry = entry_of(end_of(own), given<F>(c.ior) + index);
           F strength = given<F>(params.strength);
-          if (table.scattered[i] > 0)
-            strength =
-                strength * exp(given<F>(-table.scattered[i], "caustics.scattered", k) * depth);
+          if (scatters) {
+            const F rate = of_channel(i, scattered, "caustics.scattered");
+            strength = strength * exp((F(0) - rate) * depth);
+          }
           F focused = F(1) + strength * (caustics_at(table, tap, entry, texel) - F(1));
           F sun(0);
           if (light.known) {
-            const F shown = mixed(tap, plane_after(PlaneId::kSunColorR, k), shift);
-            const F as_around = given<F>(light.around[i], "caustics.around", k) * transmitted;
+            F shown(0);
+            for (int k = 0; k < 3; ++k) {
+              only<F>(i, k,
+                      [&] { shown = mixed(tap, plane_after(PlaneId::kSunColorR, k), shift); });
+            }
+            const F as_around = of_channel(i, light.around, "caustics.around") * transmitted;
             sun = min(max(select(hidden, as_around, shown), F(0)), max(transmitted, F(0)));
           } else {
-            const F direct = lit * given<F>(light.sun[i], "caustics.sun", k);
-            sun = direct / max(direct + given<F>(light.even[i], "caustics.even", k), F(1e-30)) *
-                  transmitted;
+            const F direct = lit * of_channel(i, light.sun, "caustics.sun");
+            const F even = of_channel(i, light.even, "caustics.even");
+            sun = direct / max(direct + even, F(1e-30)) * transmitted;
           }
           const F rest = transmitted - sun;
           F whole = sun;
           if (light.moves) {
-            whole =
-                arrives * (sun + (F(1) - lit) * max(rest, F(0)) * given<F>(table.sun_over_rest[i]));
+            const F over_rest = of_channel(i, table.sun_over_rest, "caustics.sun_over_rest");
+            whole = arrives * (sun + (F(1) - lit) * max(rest, F(0)) * over_rest);
             // Whether the sun shines there is in the layer's color already.
             whole = select(hidden, sun, whole);
             focused = select(hidden, F(1) + arrives * (focused - F(1)), focused);
           }
-          transmitted = select(lit_bottom, rest + focused * whole, transmitted);
-        };
-        channel(0, p.dispersion.r, p.shift_r, p.transmitted.r);
-        channel(1, p.dispersion.g, p.shift_g, p.transmitted.g);
-        channel(2, p.dispersion.b, p.shift_b, p.transmitted.b);
+          const F all = select(lit_bottom, rest + focused * whole, transmitted);
+          only<F>(i, 0, [&] { made.r = all; });
+          only<F>(i, 1, [&] { made.g = all; });
+          only<F>(i, 2, [&] { made.b = all; });
+        });
+        p.transmitted = made;
       });
     });
   }

@@ -185,20 +185,39 @@ struct Kernel<FresnelReflection> : FresnelReflection {
       const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
       return mirrored(params, c, p, tap, n, tilt);
     };
-    const Mirrored<F> mean = seen(p.normal, p.fresnel);
-    Rgb<F> light = p.fresnel * mean.light, sources = mean.sources;
     const auto rough = variance > F(kLeastVariance);
-    if_any(rough, [&] {
+    const auto leaned = [&](double way) {
       const F lean = sqrt(F(3) * max(variance, F(0))) * dot(up, p.normal);
-      F fresnel_a, fresnel_b;
-      const Vec3<F> step = lean * away;
-      const Mirrored<F> a = seen(normalize_or(p.normal + step, p.normal), fresnel_a);
-      const Mirrored<F> b = seen(normalize_or(p.normal - step, p.normal), fresnel_b);
+      return normalize_or(p.normal + F(way) * (lean * away), p.normal);
+    };
+    const Rgb<F> black{F(0), F(0), F(0)};
+    Rgb<F> light = black, sources = black, side_light = black, side_sources = black;
+    F side_fresnel(0);
+    steps<F>(0, 3, [&](auto i) {
+      Vec3<F> facet = p.normal;
+      only<F>(i, 1, [&] { facet = leaned(1); });
+      only<F>(i, 2, [&] { facet = leaned(-1); });
+      F fresnel(0);
+      const Mirrored<F> one = seen(facet, fresnel);
+      only<F>(i, 0, [&] {
+        p.fresnel = fresnel;
+        light = fresnel * one.light, sources = one.sources;
+      });
+      only<F>(i, 1, [&] {
+        side_fresnel = fresnel;
+        side_light = fresnel * one.light, side_sources = one.sources;
+      });
+      only<F>(i, 2, [&] {
+        side_fresnel = side_fresnel + fresnel;
+        side_light = side_light + fresnel * one.light, side_sources = side_sources + one.sources;
+      });
+      return rough;
+    });
+    if_any(rough, [&] {
       const F middle(2.0 / 3), side(1.0 / 6);
-      const Rgb<F> sides = fresnel_a * a.light + fresnel_b * b.light;
-      light = select(rough, middle * light + side * sides, light);
-      sources = select(rough, middle * sources + side * (a.sources + b.sources), sources);
-      p.fresnel = select(rough, middle * p.fresnel + side * (fresnel_a + fresnel_b), p.fresnel);
+      light = select(rough, middle * light + side * side_light, light);
+      sources = select(rough, middle * sources + side * side_sources, sources);
+      p.fresnel = select(rough, middle * p.fresnel + side * side_fresnel, p.fresnel);
     });
     tell(c, sources, p);
     blend(c, light, p);

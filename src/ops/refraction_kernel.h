@@ -461,38 +461,50 @@ struct Kernel<Refraction> : Refraction {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.
     const Rgb<F> own = p.transmitted;
-    const auto color = [&](const auto& taps, PlaneId plane, F filled, F stays) {
-      const F sum = taps.read(tap, plane) + filled;
+    const auto color = [&](const auto& taps, F read, F filled, F stays) {
+      const F sum = read + filled;
       return select(taps.weight() > F(0.5), of_whole<kBottomless>(taps, sum), stays);
     };
     const F lost = kBottomless && !all_count ? share_of_nothing(planes, p, tap) : F(0);
-    const Vec2<F> green_shift = p.shift_g;
-    const auto taps = taps_at(p.shift_g);
-    const Rgb<F> filled = behind(taps, p.shift_g);
-    p.shift_g = taps.place;
-    p.transmitted.g = color(taps, green, filled.g, own.g);
-    F share = taps.share, weight = kBottomless ? taps.weight() : F(1);
+    F share(1), weight(1);
     if (c.made.has(StatePart::kPrism)) {
-      const auto taps_r = taps_at(p.shift_r);
-      const auto taps_b = taps_at(p.shift_b);
+      const Vec2<F> r = p.shift_r, g = p.shift_g, b = p.shift_b;
+      F shares[3] = {F(0), F(0), F(0)};
+      auto taps_common = no_taps<F>(tap, g);
+      each<F>(3, [&](auto i) {
+        const Vec2<F> shift{pick<F>(i, r.x, g.x, b.x), pick<F>(i, r.y, g.y, b.y)};
+        const auto taps = taps_at(shift);
+        const Rgb<F> filled = behind(taps, shift);
+        const auto channel = [&](int k, PlaneId plane, F filled_k, F stays, Vec2<F>& place,
+                                 F& transmitted) {
+          only<F>(i, k, [&] {
+            transmitted = color(taps, taps.read(tap, plane), filled_k, stays);
+            place = taps.place;
+            shares[k] = taps.share;
+          });
+        };
+        channel(0, red, filled.r, own.r, p.shift_r, p.transmitted.r);
+        channel(1, green, filled.g, own.g, p.shift_g, p.transmitted.g);
+        channel(2, blue, filled.b, own.b, p.shift_b, p.transmitted.b);
+        only<F>(i, 1, [&] { taps_common = taps; });
+      });
       // Mostly green is where the common path is, and nothing is to be looked up again.
-      const auto apart =
-          abs(p.shift.x - green_shift.x) > F(0) || abs(p.shift.y - green_shift.y) > F(0);
-      auto taps_common = taps;
+      const auto apart = abs(p.shift.x - g.x) > F(0) || abs(p.shift.y - g.y) > F(0);
       if_any(apart, [&] { taps_common = taps_at(p.shift); });
-      p.transmitted.r = color(taps_r, red, behind(taps_r, p.shift_r).r, own.r);
-      p.transmitted.b = color(taps_b, blue, behind(taps_b, p.shift_b).b, own.b);
-      p.shift_r = taps_r.place;
-      p.shift_b = taps_b.place;
       p.shift = taps_common.place;
       p.hit_depth = depth_of(taps_common);
       if (kBottomless) weight = taps_common.weight();
-      share = F(1.0 / 3) * (taps_r.share + taps.share + taps_b.share);
+      share = F(1.0 / 3) * (shares[0] + shares[1] + shares[2]);
     } else {
-      p.shift = p.shift_r = p.shift_b = taps.place;
-      p.transmitted.r = color(taps, red, filled.r, own.r);
-      p.transmitted.b = color(taps, blue, filled.b, own.b);
+      const auto taps = taps_at(p.shift_g);
+      const Rgb<F> filled = behind(taps, p.shift_g);
+      p.transmitted.r = color(taps, taps.read(tap, red), filled.r, own.r);
+      p.transmitted.g = color(taps, taps.read(tap, green), filled.g, own.g);
+      p.transmitted.b = color(taps, taps.read(tap, blue), filled.b, own.b);
+      p.shift = p.shift_r = p.shift_g = p.shift_b = taps.place;
       p.hit_depth = depth_of(taps);
+      share = taps.share;
+      if (kBottomless) weight = taps.weight();
     }
     p.confidence = p.confidence * share;
     if (!kBottomless || all_count) return;

@@ -85,9 +85,6 @@ void Homes::add_made(const Pass& pass) {
       add(at("caustics.corner_x", k), table->levels[k].corner.x);
       add(at("caustics.corner_y", k), table->levels[k].corner.y);
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-      add(at("caustics.sun_over_rest", i), table->sun_over_rest[i]);
-    }
   }
   if (const ScatteredLight* lights = pass.scattered_light) {
     static_assert(sizeof(ScatteredLight) % sizeof(double) == 0);

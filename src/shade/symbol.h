@@ -119,6 +119,24 @@ struct Loop<Symbol> {
     Recorder::current().loop(begin, end,
                              [&](int index) { return body(Index{Symbol::of(index)}).node(); });
   }
+  template <class Body>
+  static void each(int count, Body&& body) {
+    Recorder::current().loop(0, count, [&](int index) {
+      body(Index{Symbol::of(index)});
+      return -1;
+    });
+  }
+  static SymbolMask is(const Index& i, int k) {
+    return i.value > Symbol(k - 0.5) && i.value < Symbol(k + 0.5);
+  }
+  template <class Body>
+  static void only(const Index& i, int k, Body&& body) {
+    Recorder::current().if_any(is(i, k).node(), body);
+  }
+  static Symbol pick(const Index& i, const Symbol& first, const Symbol& second,
+                     const Symbol& third) {
+    return select(i.value < Symbol(0.5), first, select(i.value < Symbol(1.5), second, third));
+  }
   static Symbol ratio(const Index& i, int n) { return i.value / Symbol(double(n)); }
   static Symbol ratio(int i, int n) { return Symbol(double(i) / n); }
 };

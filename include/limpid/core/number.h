@@ -60,6 +60,21 @@ struct Loop {
       if (!any(body(i))) break;
     }
   }
+  /// body(i) for i = 0 ... count - 1: the same for each, as for red, green and blue. What is
+  /// written down then is a loop, and no longer for being run three times.
+  template <class Body>
+  static LIMPID_INLINE void each(int count, Body&& body) {
+    for (int i = 0; i < count; ++i) body(i);
+  }
+  /// body() where i, which a body was given, is k.
+  template <class Body>
+  static LIMPID_INLINE void only(int i, int k, Body&& body) {
+    if (i == k) body();
+  }
+  /// That of the numbers which is the i-th.
+  static LIMPID_INLINE F pick(int i, F first, F second, F third) {
+    return i == 0 ? first : i == 1 ? second : third;
+  }
   /// i / n, of an i that a body was given.
   static LIMPID_INLINE F ratio(int i, int n) { return F(double(i) / n); }
 };
@@ -76,6 +91,19 @@ LIMPID_INLINE void steps(int begin, int end, Body&& body) {
 template <class F, class Leap, class Body>
 LIMPID_INLINE void steps(int begin, int end, Leap&& leap, Body&& body) {
   Loop<F>::steps(begin, end, leap, body);
+}
+
+template <class F, class Body>
+LIMPID_INLINE void each(int count, Body&& body) {
+  Loop<F>::each(count, body);
+}
+template <class F, class I, class Body>
+LIMPID_INLINE void only(I i, int k, Body&& body) {
+  Loop<F>::only(i, k, body);
+}
+template <class F, class I>
+LIMPID_INLINE F pick(I i, F first, F second, F third) {
+  return Loop<F>::pick(i, first, second, third);
 }
 
 /// What a number type makes of a number of the frame. One that records formulas brings its own.
