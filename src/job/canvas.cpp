@@ -9,6 +9,7 @@
 #include "complete/rows.h"
 #include "files/exr/exr_whole.h"
 #include "files/picture/whole_image.h"
+#include "job/held_gpu.h"
 #include "run/each_once.h"
 
 namespace limpid {
@@ -125,10 +126,17 @@ void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
   for (int i = 1; i <= choice.wave_samples; ++i) {
     seen.part = {(middle + i) % choice.wave_samples,
                  choice.wave_samples};  // the middle one comes last
-    if (choice.runner == Runner::kReference) {
-      run_reference(plan, frame, seen, target_);
-    } else {
-      runner_.run(plan, frame, seen, target_, executor, {.simd = choice.simd, .times = times});
+    switch (choice.runner) {
+      case Runner::kReference:
+        run_reference(plan, frame, seen, target_);
+        break;
+      case Runner::kGpu:
+        if (!gpu_) gpu_.emplace(gpu_options(choice));
+        gpu_->run(plan, frame, seen, target_, executor);
+        break;
+      case Runner::kFused:
+        runner_.run(plan, frame, seen, target_, executor, {.simd = choice.simd, .times = times});
+        break;
     }
     if (choice.wave_samples > 1) take_mean(i, executor);
   }

@@ -5,6 +5,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/files/exr/deep_writer.h"
 #include "limpid/files/exr/exr_writer.h"
+#include "limpid/gpu/gpu_runner.h"
 #include "limpid/job/output.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/fused.h"
@@ -72,7 +73,8 @@ class Canvas {
   std::vector<Plane> means_;  ///< of parts of pixels
   Target target_;
   FusedRunner runner_;
-  WaterExtent extent_;  ///< of what is painted, if a deep file is to be written
+  std::optional<GpuRunner> gpu_;  ///< once it has painted
+  WaterExtent extent_;            ///< of what is painted, if a deep file is to be written
 };
 
 /// The canvas that is kept, if it fits, or a new one in its place.

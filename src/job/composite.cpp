@@ -8,6 +8,7 @@
 #include "complete/completer.h"
 #include "core/toml_text.h"
 #include "job/canvas.h"
+#include "job/held_gpu.h"
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"
 #include "job/shared_textures.h"
@@ -134,7 +135,7 @@ class CompositeKind {
     }
     if (depth.nothing) inputs += "depth_nothing = " + toml_text(*depth.nothing) + "\n";
     inputs += plate.inputs_text(plan.planes) + texture_inputs(textures, textures_);
-    Record record = record_of(scene, inputs, picture_options(job.output));
+    Record record = record_of(scene, inputs, picture_options(job.output, gpu_.name(job.output)));
     add_look(record, job.look, plan);
     return record;
   }
@@ -192,6 +193,7 @@ class CompositeKind {
 
  private:
   SharedTextures textures_;
+  HeldGpu gpu_;
 };
 
 }  // namespace
@@ -222,7 +224,8 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
 
 MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor) {
   if (job.output.runner != Runner::kFused) {
-    throw Error("runner reference: expected fused, for operators are timed in that one alone",
+    throw Error("runner " + std::string(runner_name(job.output.runner)) +
+                    ": expected fused, for operators are timed in that one alone",
                 Fault::kUsage);
   }
   CompositeKind kind;

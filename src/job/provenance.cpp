@@ -141,10 +141,11 @@ std::string texture_inputs(const TextureFiles& files, SharedTextures& textures) 
   return text;
 }
 
-std::string picture_options(const OutputChoice& choice) {
-  const bool fused = choice.runner == Runner::kFused;
-  return line("runner", toml_text(std::string(fused ? "fused" : "reference"))) +
-         (fused ? simd_line("simd", choice.simd) : "") +
+std::string picture_options(const OutputChoice& choice, const std::string& gpu) {
+  const bool lanes = choice.runner != Runner::kReference;
+  return line("runner", toml_text(std::string(runner_name(choice.runner)))) +
+         (lanes ? simd_line("simd", choice.simd) : "") +
+         (gpu.empty() ? "" : line("gpu", toml_text(gpu))) +
          line("max_error", toml_text(choice.max_error)) +
          (choice.wave_samples > 1 ? line("wave_samples", std::to_string(choice.wave_samples))
                                   : "") +

@@ -6,6 +6,7 @@
 #include "limpid/files/exr/exr_camera.h"
 
 #include "job/canvas.h"
+#include "job/held_gpu.h"
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"
 #include "job/scene_job.h"
@@ -72,8 +73,9 @@ class WaterKind {
     const std::string inputs = model_inputs(model_, job.render) +
                                "samples = " + std::to_string(job.samples) + "\n" +
                                texture_inputs(prepared.textures, textures_);
-    Record record = record_of(prepared.scene, inputs,
-                              raster_options(job.render.simd) + picture_options(job.output));
+    const std::string options =
+        raster_options(job.render.simd) + picture_options(job.output, gpu_.name(job.output));
+    Record record = record_of(prepared.scene, inputs, options);
     add_look(record, job.look, prepared.plan);
     return record;
   }
@@ -132,6 +134,7 @@ class WaterKind {
  private:
   HashedModel model_;
   SharedTextures textures_;
+  HeldGpu gpu_;
 };
 
 }  // namespace

@@ -40,6 +40,9 @@ Recording record(const Plan& plan, const Pass& frame_pass, std::span<const Aov> 
   CausticsTable table;
   if (pass.caustics) {
     table = *pass.caustics;
+    for (int k = table.count; k < CausticsTable::kMostLevels; ++k) {
+      table.levels[static_cast<std::size_t>(k)] = {};  // which may be left from another frame
+    }
     table.count = CausticsTable::kMostLevels;
     pass.caustics = &table;
   }
@@ -60,6 +63,8 @@ Recording record(const Plan& plan, const Pass& frame_pass, std::span<const Aov> 
   const PixelStart<Symbol> start(pass, row, x, water, dry, SymbolMask(true));
 
   Rgb<Symbol> picture = color;
+  // Water is opaque; where there is none the plate's own alpha is.
+  Symbol alpha = pass.planes.has(PlaneId::kColorA) ? strip.own_at(PlaneId::kColorA) : Symbol(1.0);
   const Vec2<Symbol> uv{x * given<Symbol>(1.0 / pass.size.x, "camera.column"), row.v};
   std::vector<Vec3<Symbol>> shown;
   for (const Aov aov : list) {
@@ -76,12 +81,14 @@ Recording record(const Plan& plan, const Pass& frame_pass, std::span<const Aov> 
     });
     recorder.title("picture");
     picture = p.beauty();
+    alpha = Symbol(1.0);
     for (std::size_t i = 0; i < list.size(); ++i) shown[i] = aov_of(p, list[i]);
   });
 
   recorder.output("color.r", picture.r.node());
   recorder.output("color.g", picture.g.node());
   recorder.output("color.b", picture.b.node());
+  recorder.output("color.a", alpha.node());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(list[i])];
     const Symbol* parts[] = {&shown[i].x, &shown[i].y, &shown[i].z};

@@ -51,7 +51,7 @@ class Recorded {
         if (next++ % step != 0) continue;
         const std::vector<double>& got = interpreter.run(x, y);
         const Rgb<double> color = judge.color(x, y);
-        std::vector<double> wanted{color.r, color.g, color.b};
+        std::vector<double> wanted{color.r, color.g, color.b, judge.target.alpha.at(x, y)};
         for (const Aov aov : made_aovs()) {
           const auto& info = aovs()[static_cast<std::size_t>(aov)];
           for (std::size_t k = 0; k < info.suffixes.size(); ++k) {

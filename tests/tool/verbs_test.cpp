@@ -135,7 +135,8 @@ TEST_F(VerbsTest, AWrongValueIsWrongUsage) {
   expect_wrong({"--threads", "-3"}, {"--threads -3: expected a whole number, 0 ... 1024"});
   expect_wrong({"--aov", "fresnell"}, {"'fresnell' is no AOV", "did you mean 'fresnel'?"});
   expect_wrong({"--aov", "all,fresnell"}, {"'fresnell' is no AOV", "did you mean 'fresnel'?"});
-  expect_wrong({"--runner", "fast"}, {"--runner fast: expected fused or reference"});
+  expect_wrong({"--runner", "fast"},
+               {"'fast' is no runner: expected one of fused, reference, gpu"});
   expect_wrong({"--max-error", "-0.001"}, {"--max-error -0.001: expected a finite number from 0"});
   expect_wrong({"--max-error", "nan"}, {"--max-error nan: expected a finite number from 0 up"});
   expect_wrong({"--max-error", "inf"}, {"--max-error inf: expected a finite number from 0 up"});

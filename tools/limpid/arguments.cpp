@@ -121,7 +121,10 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--deep", a.deep,
                   "Also write the water as deep samples, always compressed by zips")
       ->option_text("OUT.exr");
-  verb.add_option("--runner", a.runner, "fused (fast) or reference (double)")->option_text("NAME");
+  verb.add_option("--runner", a.runner, "fused (fast), gpu (by Vulkan) or reference (double)")
+      ->option_text("NAME");
+  verb.add_option("--gpu", a.gpu, "A part of the GPU's name (default: the fastest kind)")
+      ->option_text("NAME");
   verb.add_flag("-n", a.dry_run, "Print the plan, write nothing");
 }
 

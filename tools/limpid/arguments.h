@@ -21,7 +21,7 @@ struct WaterOptions {
   std::optional<double> time;
   double max_error = 0;
   bool strict = false;
-  std::string output, preview, deep, runner = "fused", simd, compression = "piz";
+  std::string output, preview, deep, runner = "fused", simd, gpu, compression = "piz";
   bool store_float = false, dry_run = false;
 };
 

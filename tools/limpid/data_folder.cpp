@@ -41,6 +41,13 @@ std::vector<std::filesystem::path> look_folders() {
   return folders;
 }
 
+std::filesystem::path cache_folder() {
+  const char* const folder = std::getenv("XDG_CACHE_HOME");
+  if (folder && *folder) return std::filesystem::path(folder) / "limpid";
+  const char* const home = std::getenv("HOME");
+  return home && *home ? std::filesystem::path(home) / ".cache/limpid" : std::filesystem::path();
+}
+
 Look look_for(std::string_view name_or_file) { return look_named(name_or_file, look_folders()); }
 
 }  // namespace limpid::tool

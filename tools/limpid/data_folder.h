@@ -14,6 +14,9 @@ std::filesystem::path data_folder();
 /// Folders that hold looks, best first: those of the same two.
 std::vector<std::filesystem::path> look_folders();
 
+/// Where what can be made again is kept: $XDG_CACHE_HOME/limpid, else $HOME/.cache/limpid, else "".
+std::filesystem::path cache_folder();
+
 /// A look by name or file.
 Look look_for(std::string_view name_or_file);
 

@@ -30,12 +30,6 @@ std::vector<Aov> aov_list(const std::vector<std::string>& names) {
   return list;
 }
 
-Runner runner_named(const std::string& name) {
-  if (name == "fused") return Runner::kFused;
-  if (name == "reference") return Runner::kReference;
-  throw Error("--runner " + name + ": expected fused or reference", Fault::kUsage);
-}
-
 /// "" for the best that the machine has.
 std::string simd_named(const std::string& name, Runner runner) {
   if (name.empty()) return name;
@@ -51,10 +45,10 @@ std::string simd_named(const std::string& name, Runner runner) {
 }
 
 double max_error_of(const WaterOptions& a, Runner runner) {
-  if (a.max_error > 0 && runner == Runner::kReference) {
+  if (a.max_error > 0 && runner != Runner::kFused) {
     char text[96];
-    std::snprintf(text, sizeof text, "--max-error %g: the reference runner leaves nothing out",
-                  a.max_error);
+    std::snprintf(text, sizeof text, "--max-error %g: the %s runner leaves nothing out",
+                  a.max_error, std::string(runner_name(runner)).c_str());
     throw Error(text, Fault::kUsage);
   }
   return a.max_error;
@@ -144,6 +138,11 @@ OutputChoice output_of(const WaterOptions& a) {
   output.aovs = aov_list(a.aovs);
   output.runner = runner_named(a.runner);
   output.simd = simd_named(a.simd, output.runner);
+  if (!a.gpu.empty() && output.runner != Runner::kGpu) {
+    throw Error("--gpu " + a.gpu + ": expected --runner gpu beside it", Fault::kUsage);
+  }
+  output.gpu = a.gpu;
+  output.gpu_cache = cache_folder();
   output.max_error = max_error_of(a, output.runner);
   output.strict = a.strict;
   output.picture = exr_named("-o", a.output);

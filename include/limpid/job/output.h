@@ -1,13 +1,23 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limpid/run/target.h"
 
 namespace limpid {
 
-enum class Runner { kFused, kReference };
+enum class Runner {
+  kFused,      ///< run/fused.h: the fast one
+  kReference,  ///< run/reference.h: the judge
+  kGpu,        ///< gpu/gpu_runner.h
+};
+
+/// "fused", "reference", "gpu".
+std::string_view runner_name(Runner runner);
+/// Throws Error with the nearest name.
+Runner runner_named(std::string_view name);
 
 /// How a picture is computed and what is written of it.
 ///
@@ -27,8 +37,8 @@ enum class Runner { kFused, kReference };
 ///                        files and models by a hash of their contents (ExrFile::content_hash)
 ///     limpid/scene_hash  such a hash of the two texts before it, one after the other: the same for
 ///                        the same picture before look and options
-///     limpid/options     how it was computed and stored: runner, instruction set, AOVs,
-///                        compression
+///     limpid/options     how it was computed and stored: runner, instruction set, GPU and driver,
+///                        AOVs, compression
 ///     limpid/noise       of a ray-traced picture of more than one path a pixel: standard errors of
 ///                        its colors over the colors, both in the mean (TruthPicture)
 ///
@@ -41,6 +51,9 @@ struct OutputChoice {
   std::vector<Aov> aovs;
   Runner runner = Runner::kFused;
   std::string simd;  ///< "" for the best
+  /// Of Runner::kGpu, as in GpuOptions.
+  std::string gpu = {};
+  std::filesystem::path gpu_cache = {};
   /// What the fused runner may leave out, together, changes no channel of a pixel by more (white =
   /// 1): Plan::max_error.
   double max_error = 0;

@@ -20,14 +20,15 @@ HardRow measured(const HardCase& hard, const HardWorld& world) {
 }  // namespace
 
 struct HardSuite::State {
-  State(const std::filesystem::path& data, int threads) : world(data, threads) {}
+  State(const std::filesystem::path& data, int threads, const GpuOptions* gpu)
+      : world(data, threads, gpu) {}
 
   HardWorld world;
   HardCases cases = hard_cases();
 };
 
-HardSuite::HardSuite(const std::filesystem::path& data, int threads)
-    : state_(std::make_unique<State>(data, threads)) {}
+HardSuite::HardSuite(const std::filesystem::path& data, int threads, const GpuOptions* gpu)
+    : state_(std::make_unique<State>(data, threads, gpu)) {}
 HardSuite::HardSuite(HardSuite&&) noexcept = default;
 HardSuite& HardSuite::operator=(HardSuite&&) noexcept = default;
 HardSuite::~HardSuite() = default;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "limpid/gpu/gpu_runner.h"
+
 namespace limpid {
 
 /// A hard case, measured: an input at the edge of what numbers can say, and what became of it. What
@@ -25,12 +27,14 @@ struct HardRow {
 
 /// All hard cases. Bounds come from theory (quantisation, roundings counted, closed forms in long
 /// double) or are 0. Where a chain is run it is run by `reference` and by `fused` on every
-/// instruction set that the machine has, and with every look of the data folder where any will do.
+/// instruction set that the machine has, by a GPU if one is named, and with every look of the data
+/// folder where any will do.
 class HardSuite {
  public:
   /// Reads the looks of a data folder. `threads` as for make_executor(); the numbers do not depend
-  /// on them. Throws Error where there are no looks.
-  explicit HardSuite(const std::filesystem::path& data, int threads = 1);
+  /// on them. Throws Error where there are no looks, and as GpuRunner.
+  explicit HardSuite(const std::filesystem::path& data, int threads = 1,
+                     const GpuOptions* gpu = nullptr);
   HardSuite(HardSuite&&) noexcept;
   HardSuite& operator=(HardSuite&&) noexcept;
   ~HardSuite();

@@ -19,6 +19,7 @@ namespace limpid {
 namespace {
 
 constexpr const char* kReference = "reference";
+constexpr const char* kGpu = "gpu";
 
 template <class Fn>
 void fill(Plane& plane, Size size, Fn&& value) {
@@ -71,7 +72,7 @@ bool HardPicture::has_water() const {
 
 View<float> HardPicture::added() { return planes_.emplace_back(window_).view(); }
 
-HardWorld::HardWorld(const std::filesystem::path& data, int threads)
+HardWorld::HardWorld(const std::filesystem::path& data, int threads, const GpuOptions* gpu)
     : runners_{kReference}, executor_(make_executor(threads)) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
@@ -82,6 +83,10 @@ HardWorld::HardWorld(const std::filesystem::path& data, int threads)
   std::sort(files.begin(), files.end());
   for (const std::filesystem::path& file : files) looks_.push_back(load_look(file));
   for (const std::string& simd : simd_targets()) runners_.push_back(simd);
+  if (gpu) {
+    gpu_ = std::make_unique<GpuRunner>(*gpu);
+    runners_.push_back(kGpu);
+  }
   for (int c = 0; c < 3; ++c) {
     fill(waves_[c], {16, 8},
          [c](int x, int y) { return c == 2 ? 0.9f : 0.3f + 0.4f * hard_noise(x, y, 60 + c); });
@@ -112,6 +117,8 @@ HardPicture HardWorld::run(const std::string& runner, const Look& look, const Ha
   HardPicture picture(whole.work());
   if (runner == kReference) {
     run_reference(plan, whole, scene, picture.target);
+  } else if (runner == kGpu) {
+    gpu_->run(plan, whole, scene, picture.target, *executor_);
   } else {
     run_fused(plan, whole, scene, picture.target, *executor_, {.simd = runner});
   }

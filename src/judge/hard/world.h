@@ -8,6 +8,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/gpu/gpu_runner.h"
 #include "limpid/ops/look.h"
 #include "limpid/run/target.h"
 
@@ -95,12 +96,12 @@ class HardPicture {
 /// What the cases share: the looks of a data folder, made-up maps, and all ways to run a chain.
 class HardWorld {
  public:
-  HardWorld(const std::filesystem::path& data, int threads);
+  HardWorld(const std::filesystem::path& data, int threads, const GpuOptions* gpu);
 
   const std::vector<Look>& looks() const { return looks_; }
   /// Throws Error for a name that is not there.
   const Look& look(const std::string& name) const;
-  /// "reference", then the instruction sets of the fused runner.
+  /// "reference", then the instruction sets of the fused runner, then "gpu", if there is one.
   const std::vector<std::string>& runners() const { return runners_; }
   /// Maps of the frame that it lacks are the made-up ones.
   HardPicture run(const std::string& runner, const Look& look, const HardFrame& frame,
@@ -111,6 +112,7 @@ class HardWorld {
   std::vector<std::string> runners_;
   std::array<Plane, 3> waves_, sky_;
   std::unique_ptr<Executor> executor_;
+  std::unique_ptr<GpuRunner> gpu_;
 };
 
 /// Every plane of a frame, made of noise: wavy normals, a bottom that rises through the surface in

@@ -1,11 +1,11 @@
-#include "limpid/job/shader.h"
+#include "limpid/gpu/shader_languages.h"
 
 #include <cstring>
 
 #include "limpid/core/error.h"
 
 #include "files/module_file.h"
-#include "job/shader/shaders_abi.h"
+#include "gpu/shaders_abi.h"
 
 namespace limpid {
 namespace {
@@ -36,7 +36,7 @@ std::string translated(const std::string& glsl, Stage stage, ShadersLanguage lan
 std::string with_entry_point(const ShaderText& shader) {
   if (shader.options().stage != Stage::kFunction) return shader.text();
   return shader.text() + "\nlayout(location = 0) out vec4 limpid_out_color;\nvoid main() {\n" +
-         "  limpid_out_color = vec4(" + shader.options().function + "(ivec2(0)).color, 1.0);\n}\n";
+         "  limpid_out_color = " + shader.options().function + "(ivec2(0)).color;\n}\n";
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <spirv_cross/spirv_cross_c.h>
 
-#include "job/shader/shaders_abi.h"
+#include "gpu/shaders_abi.h"
 
 namespace {
 

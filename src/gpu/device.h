@@ -1,0 +1,80 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "limpid/core/rect.h"
+
+#include "gpu/vulkan.h"
+#include "shade/program.h"
+
+namespace limpid {
+
+class GpuPipeline;
+
+/// A device: the handles that everything on it is made with, and the pipelines that it keeps. Any
+/// threads may use it at once.
+class GpuDevice {
+ public:
+  /// One that a host has opened; it stays the host's. Throws Error as open().
+  GpuDevice(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice physical,
+            VkDevice device);
+  ~GpuDevice();
+  GpuDevice(const GpuDevice&) = delete;
+  GpuDevice& operator=(const GpuDevice&) = delete;
+
+  /// Opens one; all who ask for the same one at a time have it together. `name` is a part of its
+  /// name, in any case, or "" for the first of the fastest kind. Throws Error where there is none,
+  /// or none that promises what shaders rely on: Vulkan 1.2, and infinity among floats.
+  static std::shared_ptr<GpuDevice> open(const std::string& name);
+  /// Names of all that open() would open, those of the fastest kind first.
+  static std::vector<std::string> names();
+
+  const Vulkan& vk() const { return vk_; }
+  VkDevice handle() const { return device_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  /// "NVIDIA H100 80GB HBM3 (NVIDIA 580.159)": the device, and its driver.
+  const std::string& name() const { return name_; }
+  std::uint32_t family() const { return family_; }  ///< of its queues
+
+  /// Runs commands and waits for their end. Queues are handed out in turn.
+  void submit(VkCommandBuffer commands, VkFence fence);
+
+  /// Device memory for what needs it, of the first kind that has all of `must`, if there is one
+  /// with all of `may` besides. Throws Error.
+  VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags must,
+                          VkMemoryPropertyFlags may = 0) const;
+
+  /// The pipeline of a program: made when it is first asked for, or read from a file of the folder
+  /// `cache`, if that is not empty, where a pipeline that is made is left, too.
+  std::shared_ptr<const GpuPipeline> pipeline(const ShaderProgram& program,
+                                              const std::filesystem::path& cache);
+
+ private:
+  GpuDevice() = default;
+  void take(VkPhysicalDevice physical);
+
+  Vulkan vk_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  bool own_ = false;
+  VkPhysicalDeviceLimits limits_{};
+  VkPhysicalDeviceMemoryProperties memory_{};
+  std::string name_, uuid_;
+  std::uint32_t family_ = 0;
+  struct Queue {
+    VkQueue handle = VK_NULL_HANDLE;
+    std::mutex busy;
+  };
+  std::vector<std::unique_ptr<Queue>> queues_;
+  std::size_t next_queue_ = 0;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const GpuPipeline>> pipelines_;
+};
+
+}  // namespace limpid

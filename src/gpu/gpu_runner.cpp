@@ -1,0 +1,198 @@
+#include "limpid/gpu/gpu_runner.h"
+
+#include <array>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "complete/completer.h"
+#include "complete/rows.h"
+#include "gpu/bindings.h"
+#include "gpu/commands.h"
+#include "gpu/memory.h"
+#include "plan/pass_of.h"
+#include "run/checks.h"
+#include "run/put_edges.h"
+#include "run/show_planes.h"
+
+namespace limpid {
+namespace {
+
+/// AOVs that the shader is to make; the others show planes.
+std::vector<Aov> made_aovs(const Target& target) {
+  std::vector<Aov> list;
+  for (int i = 0; i < kAovCount; ++i) {
+    const Aov aov = static_cast<Aov>(i);
+    const bool made = aovs()[static_cast<std::size_t>(i)].planes.empty();
+    if (made && target.of(aov)[0]) list.push_back(aov);
+  }
+  return list;
+}
+
+VkBufferImageCopy whole(const GpuImage& image) {
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = {static_cast<std::uint32_t>(image.size().width),
+                      static_cast<std::uint32_t>(image.size().height), 1};
+  return copy;
+}
+
+/// A picture on the device, and the memory through which it comes or goes.
+struct Passage {
+  GpuImage image;
+  GpuBuffer buffer;
+
+  void fit(const std::shared_ptr<GpuDevice>& device, Size size, int channels,
+           VkImageUsageFlags image_use, VkBufferUsageFlags buffer_use) {
+    const int stored = channels == 1 ? 1 : 4;
+    if (image.size() == size && image.channels() == stored) return;
+    *this = {};  // before another is made
+    image = GpuImage(device, size, stored, image_use);
+    buffer = GpuBuffer(device, image.bytes(), buffer_use);
+  }
+};
+
+}  // namespace
+
+struct __attribute__((visibility("hidden"))) GpuRunner::Kept {
+  explicit Kept(const GpuOptions& chosen)
+      : options(chosen), device(GpuDevice::open(chosen.device)), commands(device) {}
+
+  void fit(const ShaderProgram& program);
+  void fill(const ShaderProgram& program, Executor& executor);
+  void compute(const ShaderProgram& program);
+  void store(const ShaderProgram& program, const std::vector<Aov>& made, const Target& target,
+             Executor& executor) const;
+
+  GpuOptions options;
+  std::shared_ptr<GpuDevice> device;
+  GpuCommands commands;
+  Completer completer;
+  std::string id;  ///< of the program that is bound
+  GpuBindings bindings;
+  GpuBuffer block;
+  std::map<std::string, Passage> inputs;  ///< by the names of the program's textures
+  std::vector<Passage> outputs;
+};
+
+/// Pipeline and memory for the program.
+void GpuRunner::Kept::fit(const ShaderProgram& program) {
+  if (id != program.id) {
+    id.clear();
+    bindings = {};
+    bindings = GpuBindings(device, device->pipeline(program, options.cache), program);
+    std::erase_if(inputs, [&](const auto& input) {
+      return std::none_of(program.textures.begin(), program.textures.end(),
+                          [&](const auto& texture) { return texture.name == input.first; });
+    });
+    outputs.resize(program.outputs.size());
+    if (block.size() < program.block.size()) {
+      block = GpuBuffer(device, program.block.size(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    }
+    bindings.bind_block(program.block_binding, block.handle());
+    id = program.id;
+  }
+  for (const ProgramTexture& texture : program.textures) {
+    Passage& input = inputs[texture.name];
+    input.fit(device, {texture.width, texture.height}, texture.channels,
+              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+              VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    bindings.bind_texture(texture.binding, input.image.view(), kRead.layout);
+  }
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    outputs[i].fit(device, program.work.size(), 4,
+                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                   VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    bindings.bind_output(program.outputs[i].binding, outputs[i].image.view());
+  }
+}
+
+void GpuRunner::Kept::fill(const ShaderProgram& program, Executor& executor) {
+  std::memcpy(block.bytes(), program.block.data(), program.block.size());
+  for (const ProgramTexture& texture : program.textures) {
+    const Passage& input = inputs.at(texture.name);
+    const int step = input.image.channels();
+    const std::ptrdiff_t row = std::ptrdiff_t{step} * texture.width;
+    each_row(executor, {0, 0, texture.width, texture.height},
+             [&](int y) { texture.fill(y, input.buffer.floats() + row * y, step); });
+  }
+}
+
+void GpuRunner::Kept::compute(const ShaderProgram& program) {
+  const Vulkan& vk = device->vk();
+  commands.run([&](VkCommandBuffer c) {
+    for (const auto& [name, input] : inputs) {
+      turn(vk, c, input.image.handle(), kUnused, kCopiedTo);
+      const VkBufferImageCopy copy = whole(input.image);
+      vk.vkCmdCopyBufferToImage(c, input.buffer.handle(), input.image.handle(), kCopiedTo.layout, 1,
+                                &copy);
+      turn(vk, c, input.image.handle(), kCopiedTo, kRead);
+    }
+    for (const Passage& output : outputs) turn(vk, c, output.image.handle(), kUnused, kWritten);
+    bindings.dispatch(c, program.work.size());
+    for (const Passage& output : outputs) {
+      turn(vk, c, output.image.handle(), kWritten, kCopiedFrom);
+      const VkBufferImageCopy copy = whole(output.image);
+      vk.vkCmdCopyImageToBuffer(c, output.image.handle(), kCopiedFrom.layout,
+                                output.buffer.handle(), 1, &copy);
+    }
+    auto seen = vulkan_struct<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+    seen.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    seen.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+    vk.vkCmdPipelineBarrier(c, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                            &seen, 0, nullptr, 0, nullptr);
+  });
+}
+
+void GpuRunner::Kept::store(const ShaderProgram& program, const std::vector<Aov>& made,
+                            const Target& target, Executor& executor) const {
+  const Rect work = program.work;
+  const auto store_row = [&](const Passage& from, std::size_t channel, const View<float>& to,
+                             int y) {
+    if (!to) return;
+    const float* four = from.buffer.floats() + 4 * std::ptrdiff_t{work.width()} * (y - work.y0) +
+                        static_cast<std::ptrdiff_t>(channel);
+    float* row = &to.at(work.x0, y);
+    for (int x = 0; x < work.width(); ++x) row[x * to.x_stride] = four[4 * std::ptrdiff_t{x}];
+  };
+  each_row(executor, work, [&](int y) {
+    for (std::size_t k = 0; k < 3; ++k) store_row(outputs[0], k, target.color[k], y);
+    store_row(outputs[0], 3, target.alpha, y);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      const std::array<View<float>, 3>& views = target.of(made[i]);
+      for (std::size_t k = 0; k < 3; ++k) store_row(outputs[i + 1], k, views[k], y);
+    }
+  });
+}
+
+GpuRunner::GpuRunner(const GpuOptions& options) : kept_(std::make_unique<Kept>(options)) {}
+GpuRunner::GpuRunner(GpuRunner&&) noexcept = default;
+GpuRunner& GpuRunner::operator=(GpuRunner&&) noexcept = default;
+GpuRunner::~GpuRunner() = default;
+
+const std::string& GpuRunner::device() const { return kept_->device->name(); }
+
+void GpuRunner::run(const Plan& plan, const Frame& plate, const Scene& scene, const Target& target,
+                    Executor& executor) {
+  check_run(plan, plate, scene, target);
+  Kept& k = *kept_;
+  const Frame frame =
+      k.completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &k.options.simd);
+  Pass pass = pass_of(plan, scene, frame);
+  if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
+  const std::vector<Aov> made = made_aovs(target);
+  ShaderOptions options;
+  options.stage = ShaderOptions::Stage::kCompute;
+  options.aovs = made;
+  const ShaderProgram program = program_of(plan, plate, frame, pass, options);
+  k.fit(program);
+  k.fill(program, executor);
+  k.compute(program);
+  k.store(program, made, target, executor);
+  put_edges(frame, target, executor);
+  show_planes(plan, frame, target, executor);
+}
+
+std::vector<std::string> gpu_devices() { return GpuDevice::names(); }
+
+}  // namespace limpid

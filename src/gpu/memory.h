@@ -1,0 +1,61 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+
+#include "limpid/core/rect.h"
+
+#include "gpu/device.h"
+
+namespace limpid {
+
+/// Bytes that both the device and this program reach.
+class GpuBuffer {
+ public:
+  GpuBuffer() = default;
+  GpuBuffer(std::shared_ptr<const GpuDevice> device, std::size_t size, VkBufferUsageFlags usage);
+  ~GpuBuffer();
+  GpuBuffer(GpuBuffer&& other) noexcept;
+  GpuBuffer& operator=(GpuBuffer&& other) noexcept;
+
+  VkBuffer handle() const { return buffer_; }
+  std::byte* bytes() const { return bytes_; }
+  float* floats() const { return reinterpret_cast<float*>(bytes_); }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::shared_ptr<const GpuDevice> device_;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  std::byte* bytes_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// A picture of the device's own, of one or four floats a pixel.
+class GpuImage {
+ public:
+  GpuImage() = default;
+  /// Throws Error for a picture larger than the device knows.
+  GpuImage(std::shared_ptr<const GpuDevice> device, Size size, int channels,
+           VkImageUsageFlags usage);
+  ~GpuImage();
+  GpuImage(GpuImage&& other) noexcept;
+  GpuImage& operator=(GpuImage&& other) noexcept;
+
+  VkImage handle() const { return image_; }
+  VkImageView view() const { return view_; }
+  Size size() const { return size_; }
+  int channels() const { return channels_; }
+  std::size_t bytes() const {
+    return sizeof(float) * static_cast<std::size_t>(channels_) * size_.width * size_.height;
+  }
+
+ private:
+  std::shared_ptr<const GpuDevice> device_;
+  VkImage image_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  VkImageView view_ = VK_NULL_HANDLE;
+  Size size_;
+  int channels_ = 0;
+};
+
+}  // namespace limpid

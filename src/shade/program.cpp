@@ -1,0 +1,455 @@
+#include "shade/program.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+
+#include "limpid/core/error.h"
+
+#include "op/bottom_layer.h"
+#include "op/caustics_table.h"
+#include "op/continuation.h"
+#include "shade/glsl_lookups.h"
+#include "shade/record.h"
+
+namespace limpid {
+namespace {
+
+constexpr int kLevels = LevelSizes::kMost;
+
+void check(const ShaderOptions& options) {
+  const std::string& name = options.function;
+  const bool word = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+                    std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                      return c < 128 && (std::isalnum(c) || c == '_');
+                    });
+  if (!word || name.find("__") != std::string::npos || name.starts_with("gl_")) {
+    throw Error("'" + name + "' is no name for a function: expected letters, digits and _");
+  }
+  if (options.set < 0 || options.set > 31) {
+    throw Error("descriptor set " + std::to_string(options.set) + " is out of 0 ... 31");
+  }
+  if (options.first_binding < 0 || options.first_binding > 1000) {
+    throw Error("first binding " + std::to_string(options.first_binding) + " is out of 0 ... 1000");
+  }
+}
+
+/// Fowler, Noll & Vo 1991, "FNV hash", 1a of 64 bits.
+std::string id_of(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
+
+/// What lies in the uniform block, as std140 has it: scalars at their own size, vectors of four at
+/// 16 bytes.
+class UniformBlock {
+ public:
+  void add(const std::string& name, const glm::ivec4& value) {
+    declare("ivec4 " + name, &value, sizeof value);
+  }
+  void add(const std::string& name, const std::vector<glm::ivec4>& values) {
+    declare("ivec4 " + name + "[" + std::to_string(values.size()) + "]", values.data(),
+            values.size() * sizeof(glm::ivec4));
+  }
+  /// After all of those; at which offset.
+  std::size_t add(const std::string& name, float value) {
+    const std::size_t offset = bytes_.size();
+    declare("float " + name, &value, sizeof value);
+    return offset;
+  }
+  const std::string& text() const { return text_; }
+  std::vector<std::byte> take() {
+    bytes_.resize((bytes_.size() + 15) / 16 * 16);
+    return std::move(bytes_);
+  }
+
+ private:
+  void declare(const std::string& member, const void* data, std::size_t size) {
+    text_ += "  " + member + ";\n";
+    const auto* from = static_cast<const std::byte*>(data);
+    bytes_.insert(bytes_.end(), from, from + size);
+  }
+  std::string text_;
+  std::vector<std::byte> bytes_;
+};
+
+glm::ivec4 corners(const Rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
+
+/// Puts the text and its values together.
+class Writer {
+ public:
+  /// `frame` is what completers made of `plate`.
+  Writer(const Plan& plan, const Frame& plate, const Frame& frame, const Pass& pass,
+         const ShaderOptions& options)
+      : plan_(plan),
+        plate_(plate),
+        frame_(frame),
+        pass_(pass),
+        options_(options),
+        recording_(record(plan, pass, options.aovs)),
+        body_(recording_) {}
+
+  ShaderProgram write() {
+    to_.work = frame_.work();
+    to_.block_binding = options_.first_binding;
+    next_ = options_.first_binding + 1;
+    add_outputs();
+    add_planes();
+    add_rows();
+    add_textures();
+    add_levels();
+    add_numbers();
+    to_.text = head() + struct_text() + glsl_lookups(body_.needs()) + function() + main();
+    to_.id = id_of(to_.text);
+    to_.block = block_.take();
+    return std::move(to_);
+  }
+
+ private:
+  std::string layout(int binding) const {
+    return "set = " + std::to_string(options_.set) + ", binding = " + std::to_string(binding);
+  }
+
+  void add_outputs() {
+    const auto add = [&](std::string name, int channels) {
+      const bool image = options_.stage == ShaderOptions::Stage::kCompute;
+      const int place = static_cast<int>(to_.outputs.size());
+      to_.outputs.push_back({std::move(name), channels, image ? next_++ : place});
+    };
+    add("color", 4);
+    for (const Aov aov : options_.aovs) {
+      const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
+      if (!info.planes.empty()) {
+        throw Error("the AOV " + std::string(info.name) +
+                    " shows a buffer of the frame: a shader has none to make");
+      }
+      add(std::string(info.name), static_cast<int>(info.suffixes.size()));
+    }
+  }
+
+  using Fill = decltype(ProgramTexture::fill);
+  ProgramTexture& declare(std::string name, ShaderTexture::Source source, int channels, Size size,
+                          Fill fill) {
+    samplers_ += "layout(" + layout(next_) + ") uniform sampler2D " + name + ";\n";
+    ProgramTexture texture;
+    texture.name = std::move(name);
+    texture.binding = next_++;
+    texture.source = source;
+    texture.channels = channels;
+    texture.width = size.width, texture.height = size.height;
+    texture.fill = std::move(fill);
+    to_.textures.push_back(std::move(texture));
+    return to_.textures.back();
+  }
+
+  /// Rows of a window, a channel of each view; 0 where a view does not reach.
+  static Fill rows_of(std::vector<View<const float>> views) {
+    const Rect window = views[0].window;
+    return [views = std::move(views), window](int row_index, float* row, int step) {
+      const int y = window.y0 + row_index;
+      for (std::size_t k = 0; k < views.size(); ++k) {
+        const View<const float>& view = views[k];
+        const bool reaches = y >= view.window.y0 && y < view.window.y1;
+        const int begin = reaches ? std::max(window.x0, view.window.x0) : window.x1;
+        const int end = reaches ? std::min(window.x1, view.window.x1) : window.x1;
+        float* to = row + k;
+        for (int x = window.x0; x < begin; ++x, to += step) *to = 0;
+        const float* from = begin < end ? &view.at(begin, y) : nullptr;
+        for (int x = begin; x < end; ++x, to += step) *to = from[(x - begin) * view.x_stride];
+        for (int x = std::max(begin, end); x < window.x1; ++x, to += step) *to = 0;
+      }
+    };
+  }
+
+  void add_planes() {
+    block_.add("work", corners(to_.work));
+    block_.add("display", glm::ivec4(pass_.corner.x, pass_.corner.y, pass_.size.x, pass_.size.y));
+    const PlaneSet read = recording_.planes();
+    for (const Role& role : roles()) {
+      std::vector<View<const float>> views;
+      for (int k = role.count - 1; k >= 0; --k) {
+        const PlaneId plane = plane_after(role.first, k);
+        if (read.has(plane) || !views.empty()) views.push_back(frame_.plane(plane));
+      }
+      if (views.empty()) continue;
+      std::reverse(views.begin(), views.end());
+      const std::string name(role.name);
+      const Rect window = views[0].window;
+      for (std::size_t k = 0; k < views.size(); ++k) {
+        // Of alpha the pixel reads its own alone.
+        const bool own = plane_after(role.first, static_cast<int>(k)) == PlaneId::kColorA;
+        if (own || views[k].window == window) continue;
+        throw Error("the channels of " + name + " have windows of their own: a shader reads them " +
+                    "as one texture");
+      }
+      const auto source =
+          is_made(role, views) ? ShaderTexture::Source::kMade : ShaderTexture::Source::kPlanes;
+      declare(plane_sampler(role.first), source, static_cast<int>(views.size()), window.size(),
+              rows_of(views))
+          .role = name;
+      block_.add("window_" + name, corners(window));
+    }
+  }
+
+  /// Whether the plate does not have them, or has them otherwise.
+  bool is_made(const Role& role, const std::vector<View<const float>>& views) const {
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      const PlaneId plane = plane_after(role.first, static_cast<int>(k));
+      if (plate_.plane(plane).data != views[k].data) return true;
+    }
+    return false;
+  }
+
+  void add_rows() {
+    if (body_.needs().ops.count(NodeOp::kRow) == 0) return;
+    const auto fill = [&pass = pass_, y0 = to_.work.y0](int y, float* row, int step) {
+      const RowRays<double> r(pass, y0 + y - pass.corner.y + 0.5);
+      for (const double x : {r.origin.x, r.origin.y, r.origin.z, r.ray.x, r.ray.y, r.ray.z, r.v,
+                             r.calm_over, r.calm_under}) {
+        *row = static_cast<float>(x);
+        row += step;
+      }
+    };
+    declare("limpid_rows", ShaderTexture::Source::kRows, 1, {kRowValues, to_.work.height()}, fill);
+  }
+
+  bool looks_up(NodeOp op) const {
+    const auto& lookups = body_.needs().lookups;
+    return std::any_of(lookups.begin(), lookups.end(),
+                       [&](const auto& lookup) { return lookup.first == op; });
+  }
+  bool looks_up(NodeOp op, TextureId id) const {
+    return body_.needs().lookups.count({op, static_cast<int>(id)}) > 0;
+  }
+
+  void add_texture(TextureId id, const Texture& texture) {
+    declare(texture_sampler(static_cast<int>(id)), ShaderTexture::Source::kMade, 3,
+            texture.channels[0].window.size(),
+            rows_of({texture.channels.begin(), texture.channels.end()}));
+  }
+
+  void add_textures() {
+    if (looks_up(NodeOp::kTiled) || looks_up(NodeOp::kTiledWide)) {
+      add_texture(TextureId::kWaveMap, pass_.wave_map);
+    }
+    if (looks_up(NodeOp::kLatLong, TextureId::kEnvironment)) {
+      add_texture(TextureId::kEnvironment, pass_.environment);
+    }
+    if (looks_up(NodeOp::kLatLong, TextureId::kContinuation)) {
+      add_texture(TextureId::kContinuation, pass_.continuation->colors);
+    }
+    if (looks_up(NodeOp::kLatLong, TextureId::kBottomColors)) {
+      add_texture(TextureId::kBottomColors, pass_.bottom_layer->colors);
+    }
+    if (looks_up(NodeOp::kLatLong, TextureId::kBottomShape)) {
+      add_texture(TextureId::kBottomShape, pass_.bottom_layer->shape);
+    }
+  }
+
+  /// Levels one after the other, in rows of a texture; behind the last texel stand zeros.
+  template <class TexelOf>
+  void add_level_texture(const std::string& name, const LevelSizes& sizes, int channels,
+                         TexelOf texel_of) {
+    constexpr int kWidth = 2048;
+    const auto texels = static_cast<int>(sizes.texels);
+    const int width = std::min(kWidth, texels);
+    const auto fill = [=](int y, float* row, int step) {
+      for (int x = 0; x < width; ++x) {
+        const int i = y * width + x;
+        float* texel = row + std::ptrdiff_t{x} * step;
+        if (i < texels) {
+          texel_of(i, texel);
+        } else {
+          std::fill_n(texel, channels, 0.0f);
+        }
+      }
+    };
+    declare(name, ShaderTexture::Source::kMade, channels, {width, (texels + width - 1) / width},
+            fill);
+  }
+  static std::vector<glm::ivec4> corners_of(const LevelSizes& sizes) {
+    std::vector<glm::ivec4> levels(kLevels, glm::ivec4(0));
+    for (int k = 0; k < sizes.count; ++k) {
+      levels[static_cast<std::size_t>(k)] = {sizes.width[k], sizes.height[k], sizes.first[k], 0};
+    }
+    return levels;
+  }
+
+  void add_levels() {
+    glm::ivec4 counts(0);
+    const bool wide = looks_up(NodeOp::kTiledWide);
+    const bool mean = looks_up(NodeOp::kSlopeMean), square = looks_up(NodeOp::kSlopeSquare);
+    if (wide) {
+      const TextureLevels& levels = *pass_.wave_map.levels;
+      counts.x = levels.sizes.count;
+      add_level_texture("limpid_wave_levels", levels.sizes, 3, [&levels](int i, float* texel) {
+        const std::uint32_t rgb = levels.texels[i];
+        texel[0] = static_cast<float>(rgb & 2047) / 2047;
+        texel[1] = static_cast<float>(rgb >> 11 & 2047) / 2047;
+        texel[2] = static_cast<float>(rgb >> 22) / 511;
+      });
+    }
+    const auto moments = [&](const std::string& name, int first, int channels) {
+      const SlopeLevels& levels = *pass_.wave_slopes;
+      counts.y = levels.sizes.count;
+      add_level_texture(name, levels.sizes, channels, [=, &levels](int i, float* texel) {
+        for (int c = 0; c < channels; ++c) texel[c] = levels.planes[first + c][i];
+      });
+    };
+    if (mean) moments("limpid_slope_means", 0, 2);
+    if (square) moments("limpid_slope_squares", 2, 3);
+    if (wide || mean || square) block_.add("counts", counts);
+    if (wide) block_.add("levels_wave_levels", corners_of(pass_.wave_map.levels->sizes));
+    if (mean) block_.add("levels_slope_means", corners_of(pass_.wave_slopes->sizes));
+    if (square) block_.add("levels_slope_squares", corners_of(pass_.wave_slopes->sizes));
+    if (looks_up(NodeOp::kGrid)) add_caustics();
+  }
+
+  /// One level under the other, each as wide as the widest; the light of calm water beside them.
+  void add_caustics() {
+    const CausticsTable& table = *pass_.caustics;
+    std::vector<glm::ivec4> levels(CausticsTable::kMostLevels, glm::ivec4(0));
+    int width = 1, height = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(table.count); ++k) {
+      const Rect& window = table.levels[k].light.window;
+      levels[k] = {window.width(), window.height(), height, 0};
+      width = std::max(width, window.width());
+      height += window.height();
+    }
+    const auto fill = [=, &table](int y, float* row, int step) {
+      for (int x = 0; x < width; ++x) row[std::ptrdiff_t{x} * step] = 1;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(table.count); ++k) {
+        const int own = y - levels[k].z;
+        if (own < 0 || own >= levels[k].y) continue;
+        const View<const float>& light = table.levels[k].light;
+        for (int x = 0; x < levels[k].x; ++x) {
+          row[std::ptrdiff_t{x} * step] = light.at(light.window.x0 + x, light.window.y0 + own);
+        }
+      }
+    };
+    declare("limpid_caustics", ShaderTexture::Source::kMade, 1, {width, std::max(height, 1)}, fill);
+    block_.add("levels_caustics", levels);
+  }
+
+  void add_numbers() {
+    const std::map<std::string, Range> ranges = ranges_of(plan_.look);
+    for (const GivenNumber& given : recording_.given) {
+      const float value = static_cast<float>(given.value);
+      const std::size_t offset = block_.add(glsl_name(given.name), value);
+      const auto range = ranges.find(given.name);
+      to_.numbers.push_back({given.name, offset, value,
+                             range == ranges.end() ? std::nullopt : std::optional(range->second)});
+    }
+  }
+  /// Of the parameters that are numbers.
+  static std::map<std::string, Range> ranges_of(const Look& look) {
+    std::map<std::string, Range> ranges;
+    for (const Parameter& parameter : parameters(look)) {
+      const std::string name = std::string(parameter.table) + "." + std::string(parameter.name);
+      if (parameter.kind == FieldKind::kReal) ranges[name] = parameter.range;
+      if (parameter.kind != FieldKind::kColor) continue;
+      for (const char* channel : {".r", ".g", ".b"}) ranges[name + channel] = parameter.range;
+    }
+    return ranges;
+  }
+
+  std::string head() const {
+    std::string text = "#version 450\n// " + title() + "\n";
+    if (options_.stage == ShaderOptions::Stage::kCompute) {
+      text += "layout(local_size_x = 16, local_size_y = 8) in;\n";
+    }
+    text += "layout(std140, " + layout(to_.block_binding) + ") uniform LimpidNumbers {\n" +
+            block_.text() + "} limpid;\n";
+    return text + samplers_;
+  }
+  std::string title() const {
+    std::string kept;
+    for (const PlannedOperator& op : plan_.operators) {
+      if (op.verdict == Verdict::kKept) kept += (kept.empty() ? "" : ", ") + std::string(op.name);
+    }
+    return "Water, by limpid: " + (kept.empty() ? "nothing to do" : kept) + ".";
+  }
+
+  static std::string type_of(int channels) {
+    return channels == 1 ? "float" : "vec" + std::to_string(channels);
+  }
+  std::string struct_text() const {
+    std::string text = "\nstruct LimpidPixel {\n";
+    for (const ShaderOutput& output : to_.outputs) {
+      text += "  " + type_of(output.channels) + " " + glsl_name(output.name) + ";\n";
+    }
+    return text + "};\n\n";
+  }
+
+  std::string function() const {
+    std::string text = "\nLimpidPixel " + options_.function +
+                       "(ivec2 pixel) {\n  limpid_pixel = pixel;\n" + body_.text() +
+                       "  return LimpidPixel(";
+    std::size_t next = 0;
+    for (const ShaderOutput& output : to_.outputs) {
+      if (next > 0) text += ", ";
+      std::string values;
+      for (int k = 0; k < output.channels; ++k) {
+        values += (k > 0 ? ", " : "") + body_.output(next++);
+      }
+      text += output.channels == 1 ? values : type_of(output.channels) + "(" + values + ")";
+    }
+    return text + ");\n}\n";
+  }
+
+  std::string main() const {
+    using Stage = ShaderOptions::Stage;
+    if (options_.stage == Stage::kFunction) return "";
+    const bool compute = options_.stage == Stage::kCompute;
+    std::string declared, written;
+    for (const ShaderOutput& output : to_.outputs) {
+      const std::string name = "limpid_out_" + glsl_name(output.name);
+      const std::string value = "made." + glsl_name(output.name);
+      std::string four = value;
+      if (output.channels == 1) four = "vec4(" + value + ", 0.0, 0.0, 1.0)";
+      if (output.channels == 2) four = "vec4(" + value + ", 0.0, 1.0)";
+      if (output.channels == 3) four = "vec4(" + value + ", 1.0)";
+      if (compute) {
+        declared += "layout(" + layout(output.binding) + ", rgba32f) writeonly uniform image2D " +
+                    name + ";\n";
+        written += "  imageStore(" + name + ", pixel - limpid.work.xy, " + four + ");\n";
+      } else {
+        declared +=
+            "layout(location = " + std::to_string(output.binding) + ") out vec4 " + name + ";\n";
+        written += "  " + name + " = " + four + ";\n";
+      }
+    }
+    const std::string from =
+        compute ? "  ivec2 pixel = limpid.work.xy + ivec2(gl_GlobalInvocationID.xy);\n"
+                  "  if (any(greaterThanEqual(pixel, limpid.work.zw))) return;\n"
+                : "  ivec2 pixel = limpid.work.xy + ivec2(gl_FragCoord.xy);\n";
+    return "\n" + declared + "\nvoid main() {\n" + from +
+           "  LimpidPixel made = " + options_.function + "(pixel);\n" + written + "}\n";
+  }
+
+  ShaderProgram to_;
+  const Plan& plan_;
+  const Frame& plate_;
+  const Frame& frame_;
+  const Pass& pass_;
+  const ShaderOptions& options_;
+  Recording recording_;
+  GlslBody body_;
+  UniformBlock block_;
+  std::string samplers_;
+  int next_ = 0;
+};
+
+}  // namespace
+
+ShaderProgram program_of(const Plan& plan, const Frame& plate, const Frame& frame, const Pass& pass,
+                         const ShaderOptions& options) {
+  check(options);
+  return Writer(plan, plate, frame, pass, options).write();
+}
+
+}  // namespace limpid
