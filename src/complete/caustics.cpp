@@ -54,17 +54,19 @@ const CausticsTarget& caustics_target(const std::string& simd) {
 const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
                                          const Rgb<double>& scattering, const Frame& frame,
                                          const Pass& pass, Executor& executor,
-                                         const std::string* simd) {
+                                         const std::string* simd, double deepest) {
   const CausticsTarget& target = caustics_target(simd ? *simd : "scalar");
   table_.count = 0;
   table_.least = table_.most = 1;
   table_.scale = 1;
+  table_.depth = deepest;
+  table_.first = within_water() ? CausticsTable::kMostLevels : 0;
   const glm::dvec3& direction = pass.sun.direction;
   Sunlight sun{};
   sun.to_sun = {glm::dot(direction, pass.map_x), glm::dot(direction, pass.map_y),
                 glm::dot(direction, pass.up)};
   if (!pass.has_sun || !(sun.to_sun.z > 1e-3) || !(pass.ior > 1)) return &table_;
-  weigh_sun(frame, pass);
+  if (!within_water()) weigh_sun(frame, pass);
   if (!waves_.make(waves, frame, pass, executor)) return &table_;
   sun.ior = pass.ior;
   const double sink = refracted_cosine(sun.to_sun.z, 1 / sun.ior);
@@ -148,27 +150,35 @@ void CausticsMaker::look(const Frame& frame, const Pass& c, const Sunlight& sun,
       const int x = window.x0 + column * step;
       const double at_x = x - c.corner.x + 0.5, far = depth.at(x, y);
       *to = {};
-      if (!(far > 0 && far < 1e30)) continue;
+      const bool hit = far < 1e30;
+      if (!(far > 0 && (hit || within_water()))) continue;
       const glm::dvec3 ray = c.rays.ray_at(at_x, at_y), origin = c.rays.origin_at(at_x, at_y);
-      const glm::dvec3 point = origin + far * ray;
-      const double under = -(c.eye_above + glm::dot(c.up, point));
-      if (!(under > 0)) continue;
-      const auto entry = [&](const glm::dvec3& p) {
-        return glm::dvec2(glm::dot(c.map_x, p), glm::dot(c.map_y, p)) - under * sun.aside;
+      const double fall = -glm::dot(c.up, ray), length = glm::length(ray);
+      const bool from_air = fall > 0 && c.eye_above > 0;
+      if (!hit && !from_air) continue;
+      const double begin = from_air ? (c.eye_above + glm::dot(c.up, origin)) / fall : 0;
+      const glm::dvec3 point = origin + (hit ? far : begin) * ray;
+      const double bottom = hit ? -(c.eye_above + glm::dot(c.up, point)) : table_.depth;
+      if (!(bottom > 0)) continue;
+      const double under = std::min(bottom, table_.depth);
+      const auto entry = [&](const glm::dvec3& p, double sunk) {
+        return glm::dvec2(glm::dot(c.map_x, p), glm::dot(c.map_y, p)) - sunk * sun.aside;
       };
-      const glm::dvec2 let_in = entry(point);
+      const glm::dvec2 let_in = entry(point, hit ? bottom : 0);
       to->x = static_cast<float>(let_in.x), to->y = static_cast<float>(let_in.y);
       to->depth = static_cast<float>(under);
-      const double fall = -glm::dot(c.up, ray), length = glm::length(ray);
       const double cosine = std::abs(fall) / length;
-      glm::dvec3 seen = point;
-      if (fall > 0 && c.eye_above > 0) {
-        const double surface = (c.eye_above + glm::dot(c.up, origin)) / fall;
+      glm::dvec3 seen = point, enters = point;
+      const double reached = within_water() ? std::min(bottom, 2 * table_.depth) : bottom;
+      if (from_air) {
         const double sink = refracted_cosine(cosine, 1 / c.ior);
         const glm::dvec3 level = ray / length + cosine * c.up;
-        seen = origin + surface * ray + (under / (c.ior * sink)) * level;
+        enters = origin + begin * ray;
+        seen = enters + (reached / (c.ior * sink)) * level;
       }
-      const glm::dvec2 let_in_seen = entry(seen);
+      const glm::dvec2 let_in_seen = entry(seen, reached);
+      const glm::dvec2 first = within_water() && from_air ? entry(enters, 0) : let_in_seen;
+      to->enters_x = static_cast<float>(first.x), to->enters_y = static_cast<float>(first.y);
       to->seen_x = static_cast<float>(let_in_seen.x),
       to->seen_y = static_cast<float>(let_in_seen.y);
       to->texel = static_cast<float>(caustics_texel(c, glm::dot(c.forward, seen), cosine));
@@ -195,7 +205,8 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
       wanted_.begin() + static_cast<std::ptrdiff_t>(kFine * static_cast<double>(wanted_.size()));
   std::nth_element(wanted_.begin(), fine, wanted_.end());
   const double disc = 2 * mean * std::max(sun.along, sun.across);
-  const double widest = std::max(waves.shortest(), 0.1 * waves.longest());
+  // Views go across the light of the water, and see the mean of much of it.
+  const double widest = std::max(waves.shortest(), (within_water() ? 0.5 : 0.1) * waves.longest());
   for (double scale = 1; scale < 1e6; scale *= std::numbers::sqrt2) {
     const double finest = std::max({scale * *fine, disc, 1e-9});
     if (!lay_out(waves, pass, sun, scale, static_cast<int>(std::floor(std::log2(finest))), widest,
@@ -227,9 +238,11 @@ bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
     for (std::size_t k = 0; k < samples_.size(); k += kEvery) {
       const Sample& s = samples_[k];
       const double wanted = scale * s.texel;
-      if (!(s.depth > 0) || wanted > 2 * texel || (i > 0 && wanted < 0.5 * texel)) continue;
-      const glm::dvec2 at(s.seen_x, s.seen_y);
-      low = glm::min(low, at), high = glm::max(high, at);
+      const bool finer = i > 0 && wanted < 0.5 * texel && !within_water();
+      if (!(s.depth > 0) || wanted > 2 * texel || finer) continue;
+      for (const glm::dvec2 at : {glm::dvec2(s.seen_x, s.seen_y), {s.enters_x, s.enters_y}}) {
+        low = glm::min(low, at), high = glm::max(high, at);
+      }
       depth += s.depth, seen += 1;
     }
     if (!(seen > 0)) continue;

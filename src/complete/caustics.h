@@ -20,16 +20,18 @@ namespace limpid {
 /// The bottom's depth is that of the frame's planes, over the place where calm water lets light in,
 /// drawn on where nobody sees it; where two bottoms lie below one place, their mean. Light goes to
 /// the table bilinearly; a filter of three texels along each axis undoes what that blurs, and blurs
-/// by the sun's disc. The same for any number of threads. Keeps its memory from frame to frame.
+/// by the sun's disc. The same for any number of threads. Keeps its memory from frame to frame. 20
+/// to 35 ms for 1920x1080 pixels on one thread, that of the bottom as that in the water.
 class CausticsMaker {
  public:
   /// A table without levels where the sun is down, or the waves focus less than kLeastContrast of
   /// its light. Until the next call. `simd` as in FusedOptions; without it one ray at a
   /// time. `scattering` is that of the water, 1/scene unit: light that is scattered on its way down
-  /// is taken for spread over all of the bottom.
+  /// is taken for spread over all of the bottom. Where the bottom is deeper than `deepest` the
+  /// table is of that depth, and of what views from the air see down to twice as deep.
   const CausticsTable* make(const WaveNormals::Params& waves, const Rgb<double>& scattering,
                             const Frame& frame, const Pass& pass, Executor& executor,
-                            const std::string* simd = nullptr);
+                            const std::string* simd = nullptr, double deepest = HUGE_VAL);
 
   static constexpr double kLeastContrast = 0.002;
 
@@ -39,6 +41,7 @@ class CausticsMaker {
     float x, y, depth;     ///< where calm water lets light in that goes there; 0: not under water
     float seen_x, seen_y;  ///< the same of what a pixel of the water sees
     float texel;           ///< how wide it wants them; 0: the pixel is dry
+    float enters_x, enters_y;  ///< where it begins to see them: there, or where it enters the water
   };
   static constexpr int kBands = 4;   ///< of a level, each splatted on its own
   static constexpr int kCoarse = 2;  ///< texels of the table along a cell of `bottom`
@@ -72,6 +75,7 @@ class CausticsMaker {
   };
 
   void weigh_sun(const Frame& frame, const Pass& pass);
+  bool within_water() const { return table_.depth < HUGE_VAL; }
   void look(const Frame& frame, const Pass& pass, const Sunlight& sun, Executor& executor);
   void lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun);
   bool lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun, double scale,

@@ -4,6 +4,7 @@
 
 #include "complete/sky_radiance.h"
 #include "ops/depth_fog_kernel.h"
+#include "ops/water_shadow_kernel.h"
 #include "ops/wave_normals_kernel.h"
 
 namespace limpid {
@@ -47,7 +48,9 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   if (refraction.looks_behind()) {
     whole.bottom_layer = bottom_layer_.make(whole, pass, executor);
   }
-  if (plan.keeps<Caustics>()) {
+  const WaterShadow::Params& shade = plan.look.of<WaterShadow>();
+  const bool shafts = plan.keeps<WaterShadow>() && Kernel<WaterShadow>::wants_shafts(shade);
+  if (plan.keeps<Caustics>() || shafts) {
     Pass now = pass;
     now.planes = whole.present();
     now.wave_variance = whole.wave_variance;
@@ -55,8 +58,16 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     const bool scatters = plan.keeps<DepthFog>() && water.model != DepthFog::Model::kLinear;
     const Rgb<double> scattering =
         scatters ? Kernel<DepthFog>::scattering(water) : Rgb<double>{0, 0, 0};
-    whole.caustics =
-        caustics_.make(plan.look.of<WaveNormals>(), scattering, whole, now, executor, simd);
+    const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+    light_ = {};
+    if (plan.keeps<Caustics>()) {
+      light_ = *caustics_.make(waves, scattering, whole, now, executor, simd);
+    }
+    if (shafts) {
+      light_.in_water = shafts_.make(waves, scattering, whole, now, executor, simd,
+                                     Kernel<DepthFog>::lit_depth(water, now));
+    }
+    whole.caustics = &light_;
   }
   return whole;
 }

@@ -56,7 +56,8 @@ class Completer {
   SlopeMap slope_map_;
   ScatteredLightMaker scattered_light_;
   BottomAlbedo bottom_albedo_;
-  CausticsMaker caustics_;
+  CausticsMaker caustics_, shafts_;
+  CausticsTable light_;  ///< of both
 };
 
 }  // namespace limpid

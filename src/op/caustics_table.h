@@ -24,6 +24,7 @@ struct CausticsTable {
     double texel = 1;  ///< in scene units
   };
   int count = 0;  ///< 0: the light is 1 everywhere
+  int first = 0;  ///< place of the first level among those of all tables of a frame
   std::array<Level, kMostLevels> levels;
   double scale = 1;  ///< times that of caustics_texel() is what texels are wide
   /// Of sunlit bottoms: the sun's light over the rest, of frames with sun_color; else 0.
@@ -32,6 +33,10 @@ struct CausticsTable {
   /// sinks, of red, green, blue.
   std::array<double, 3> scattered{};
   double least = 1, most = 1;  ///< no value is smaller or larger
+  /// The same light where nothing is deeper than `depth`, for what it lights on its way; null where
+  /// nobody asks for it.
+  const CausticsTable* in_water = nullptr;
+  double depth = HUGE_VAL;
 };
 
 /// How wide, in scene units, texels shall be where the bottom is seen at eye depth `depth`, by a
@@ -55,16 +60,17 @@ F caustics_at(const CausticsTable& table, const Tap& tap, Vec2<F> entry, F texel
   F light(0), rest(1);
   for (int k = 0; k < table.count; ++k) {
     const CausticsTable::Level& level = table.levels[static_cast<std::size_t>(k)];
-    const F per_texel = given<F>(1 / level.texel, "caustics.per_texel", k);
-    const F wider = given<F>(table.scale / level.texel, "caustics.wider", k);
+    const int nth = table.first + k;
+    const F per_texel = given<F>(1 / level.texel, "caustics.per_texel", nth);
+    const F wider = given<F>(table.scale / level.texel, "caustics.wider", nth);
     const Vec2<F> at{(entry.x - given<F>(level.corner.x)) * per_texel,
                      (entry.y - given<F>(level.corner.y)) * per_texel};
     const auto inside = [](F place, F last) {
       return saturate(F(0.25) * min(place, last - place));
     };
     const auto& window = level.light.window;
-    const F within = inside(at.x, given<F>(window.width() - 1, "caustics.last_x", k)) *
-                     inside(at.y, given<F>(window.height() - 1, "caustics.last_y", k));
+    const F within = inside(at.x, given<F>(window.width() - 1, "caustics.last_x", nth)) *
+                     inside(at.y, given<F>(window.height() - 1, "caustics.last_y", nth));
     const F share = rest * within * saturate(F(2) - texel * wider);
     if_any(share > F(0),
            [&] { light = light + select(share > F(0), share * tap.grid(level.light, at), F(0)); });

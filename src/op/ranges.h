@@ -37,6 +37,7 @@ struct Ranges {
   double sun_far = 0;       ///< and of that, the part at the end of the way
   double above = 0;         ///< largest |reflected + highlight|
   double focused = 0;       ///< how much focused sunlight changes what is looked up, at most
+  double shafts = 0;        ///< and what the sun lights of in_scatter
 
   /// cos of the angle between the view and the calm surface's normal.
   Range cosine() const {

@@ -129,6 +129,10 @@ bool Kernel<DepthFog>::wants_scattered_light(const P& params) {
          (scattering(params) != kBlack || params.crossing == Crossing::kRadiance);
 }
 
+double Kernel<DepthFog>::lit_depth(const P& params, const Pass& c) {
+  return 1 / std::max(extinction(params).g + water_light(params, c, c.ior).down.g, 1e-6);
+}
+
 ScatteringWater Kernel<DepthFog>::scattering_water(const P& params, const Pass& c) {
   const WaterLight light = water_light(params, c, c.ior);
   return {.absorption = absorption(params),

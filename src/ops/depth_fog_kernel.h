@@ -41,6 +41,9 @@ struct Kernel<DepthFog> : DepthFog {
   /// Whether light that is scattered more than once is to be made for a frame, and of what water.
   static bool wants_scattered_light(const Params& params);
   static bool lit_by_sky(const Params& params) { return wants_scattered_light(params); }
+  /// How deep, in the mean, sunlight is scattered that comes straight up out of endless water, of
+  /// green; in scene units.
+  static double lit_depth(const Params& params, const Pass& c);
   static ScatteringWater scattering_water(const Params& params, const Pass& c);
 
   template <class Strip>

@@ -3,20 +3,24 @@
 
 #include "op/operator.h"
 #include "op/screen_ray.h"
+#include "ops/light_of_way.h"
 
 namespace limpid {
 
 /// What WaterShadow does to pixels.
 template <>
 struct Kernel<WaterShadow> : WaterShadow {
-  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kTransmitted,
+  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted,
                                   StatePart::kInScatter, StatePart::kSunScatter};
   static constexpr StateSet kMakes{StatePart::kTransmitted, StatePart::kInScatter};
   static PlaneSet reads(const Params& p) {
     return p.model == Model::kScatter ? PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow}
                                       : PlaneSet{PlaneId::kShadow};
   }
-  static Needs needs(const Params&) { return {.planes = {PlaneId::kShadow}}; }
+  static Needs needs(const Params& p) {
+    return {.planes = wants_shafts(p) ? PlaneSet{} : PlaneSet{PlaneId::kShadow}};
+  }
+  static bool wants_shafts(const Params& p) { return p.model == Model::kScatter && p.shafts > 0; }
   /// Beyond what refraction reaches: sunlight may enter anywhere.
   static double reach(const Params& p) { return p.model == Model::kScatter ? HUGE_VAL : 0; }
   /// Whether it looks the shadow on the surface up, of frames that have it.
@@ -24,16 +28,18 @@ struct Kernel<WaterShadow> : WaterShadow {
     return p.model == Model::kScatter && !neutral(p, made);
   }
   static bool neutral(const Params& p, StateSet made) {
-    return p.strength == 0 || (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
+    return (p.strength == 0 && !wants_shafts(p)) ||
+           (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
+  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
   /// When the shadow is looked up elsewhere in reach, or as if no sunlight were scattered at the
   /// end of the way.
   static double displaced(const Params& params, const Ranges& ranges);
 
   static constexpr CellKind kSkipped{"lit", "no shadow falls on the water"};
   static double ns(const Params& p, const Running&) {
-    return p.model == Model::kDarken ? 1.2 : 1.6;
+    return p.model == Model::kDarken ? 1.2 : wants_shafts(p) ? 26 : 1.6;
   }
 
   template <class Strip>
@@ -53,17 +59,34 @@ struct Kernel<WaterShadow> : WaterShadow {
       const Rgb<F> left = p.in_scatter - strength * shade * lit;
       p.in_scatter = {max(left.r, F(0)), max(left.g, F(0)), max(left.b, F(0))};
     };
+    const CausticsTable* table = c.caustics ? c.caustics->in_water : nullptr;
+    const bool focused = wants_shafts(params) && table && table->count > 0;
     if (c.planes.has(PlaneId::kSurfaceShadow)) {
       strip.probe([&](Pixel<F>& p, const auto& tap) { scatter(c, p, tap, take); });
+      if (focused) add_shafts(params, c, strip);
       return;
     }
+    if (focused) add_shafts(params, c, strip);
+    if (!c.planes.has(PlaneId::kShadow)) return;
     strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_near); });
     strip.bilinear(PlaneId::kShadow, where,
                    [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_far + p.sun_often); });
   }
 
  private:
-  static constexpr int kParts = 4, kAround = 4;
+  static constexpr int kAround = 4;
+  static double brightened(const Params& params, const Pass& c, const Ranges& ranges);
+
+  template <class Strip>
+  static void add_shafts(const Params& params, const Pass& c, Strip& strip) {
+    using F = typename Strip::Number;
+    const F strength = given<F>(params.strength), shafts = given<F>(params.shafts);
+    strip.probe([&](Pixel<F>& p, const auto& tap) {
+      const LightOfWay<F> more = light_of_way(c, p, tap, strength);
+      const Rgb<F> all = p.in_scatter + shafts * (more.near * p.sun_near + more.far * p.sun_far);
+      p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
+    });
+  }
 
   template <class F, class Tap, class Take>
   static LIMPID_INLINE void scatter(const Pass& c, Pixel<F>& p, const Tap& tap, Take&& take) {
@@ -84,11 +107,9 @@ struct Kernel<WaterShadow> : WaterShadow {
       // All parts send as much in clear water, where the mean way is half of the whole; they fade
       // exponentially in murky water.
       const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
-      constexpr double kFading[kParts] = {0.1335, 0.4700, 0.9808,
-                                          2.0794};  // -log(1 - (i + 1/2) / 4)
       F near_shade(0), far_shade(0), near_sum(0), far_sum(0);
-      for (int i = 0; i < kParts; ++i) {
-        const F even((2 * i + 1) / double(kParts)), fading(kFading[i]);
+      for (int i = 0; i < kWayPlaces; ++i) {
+        const F even((2 * i + 1) / double(kWayPlaces)), fading(kWayFading[i]);
         const F way = min(mean * (fading + even_share * (even - fading)), whole);
         const F there = way / max(whole, F(1e-30)), lost = shade(line.shift_at(way));
         near_shade = near_shade + (F(1) - there) * lost, near_sum = near_sum + (F(1) - there);

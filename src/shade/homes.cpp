@@ -80,10 +80,11 @@ void Homes::add_made(const Pass& pass) {
     add("bottom_layer.offset[0]", layer->offset.x), add("bottom_layer.offset[1]", layer->offset.y);
     add("bottom_layer.most_drop", layer->most_drop);
   }
-  if (const CausticsTable* table = pass.caustics) {
+  for (const CausticsTable* table = pass.caustics; table; table = table->in_water) {
     for (std::size_t k = 0; k < CausticsTable::kMostLevels; ++k) {
-      add(at("caustics.corner_x", k), table->levels[k].corner.x);
-      add(at("caustics.corner_y", k), table->levels[k].corner.y);
+      const std::size_t place = static_cast<std::size_t>(table->first) + k;
+      add(at("caustics.corner_x", place), table->levels[k].corner.x);
+      add(at("caustics.corner_y", place), table->levels[k].corner.y);
     }
   }
   if (const ScatteredLight* lights = pass.scattered_light) {

@@ -204,9 +204,11 @@ void Interpreter::run_node(int id, const At& at) {
     case NodeOp::kLatLong:
       return three(lat_long_rgb_at(texture(), shift()));
     case NodeOp::kGrid: {
-      const auto level =
-          static_cast<std::size_t>(node.what - static_cast<int>(TextureId::kCaustics));
-      return number(grid_at(pass_.caustics->levels[level].light, shift()));
+      const int place = node.what - static_cast<int>(TextureId::kCaustics);
+      const CausticsTable* table = pass_.caustics;
+      while (place >= table->first + CausticsTable::kMostLevels) table = table->in_water;
+      const auto level = static_cast<std::size_t>(place - table->first);
+      return number(grid_at(table->levels[level].light, shift()));
     }
   }
 }

@@ -309,25 +309,35 @@ class Writer {
     if (looks_up(NodeOp::kGrid)) add_caustics();
   }
 
-  /// One level under the other, each as wide as the widest; the light of calm water beside them.
+  /// One level under the other, of all tables, each as wide as the widest; the light of calm water
+  /// beside them.
   void add_caustics() {
-    const CausticsTable& table = *pass_.caustics;
-    std::vector<glm::ivec4> levels(CausticsTable::kMostLevels, glm::ivec4(0));
+    struct Level {
+      const View<const float>* light;
+      int top;
+    };
+    std::vector<Level> all;
+    const std::size_t tables = pass_.caustics->in_water ? 2 : 1;
+    std::vector<glm::ivec4> levels(tables * CausticsTable::kMostLevels, glm::ivec4(0));
     int width = 1, height = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(table.count); ++k) {
-      const Rect& window = table.levels[k].light.window;
-      levels[k] = {window.width(), window.height(), height, 0};
-      width = std::max(width, window.width());
-      height += window.height();
+    for (const CausticsTable* table = pass_.caustics; table; table = table->in_water) {
+      for (int k = 0; k < table->count; ++k) {
+        const View<const float>& light = table->levels[static_cast<std::size_t>(k)].light;
+        const Size size = light.window.size();
+        all.push_back({&light, height});
+        levels[static_cast<std::size_t>(table->first + k)] = {size.width, size.height, height, 0};
+        width = std::max(width, size.width);
+        height += size.height;
+      }
     }
-    const auto fill = [=, &table](int y, float* row, int step) {
+    const auto fill = [=](int y, float* row, int step) {
       for (int x = 0; x < width; ++x) row[std::ptrdiff_t{x} * step] = 1;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(table.count); ++k) {
-        const int own = y - levels[k].z;
-        if (own < 0 || own >= levels[k].y) continue;
-        const View<const float>& light = table.levels[k].light;
-        for (int x = 0; x < levels[k].x; ++x) {
-          row[std::ptrdiff_t{x} * step] = light.at(light.window.x0 + x, light.window.y0 + own);
+      for (const Level& level : all) {
+        const Rect& window = level.light->window;
+        const int own = window.y0 + y - level.top;
+        if (own < window.y0 || own >= window.y1) continue;
+        for (int x = 0; x < window.width(); ++x) {
+          row[std::ptrdiff_t{x} * step] = level.light->at(window.x0 + x, own);
         }
       }
     };

@@ -37,14 +37,17 @@ Recording record(const Plan& plan, const Pass& frame_pass, std::span<const Aov> 
   // How many levels a table of caustics has is the frame's affair: the program knows them all, and
   // those that are not there are nowhere.
   Pass pass = frame_pass;
-  CausticsTable table;
-  if (pass.caustics) {
-    table = *pass.caustics;
+  CausticsTable tables[2];  // that of the bottom, and that in the water
+  const CausticsTable** named = &pass.caustics;
+  for (CausticsTable& table : tables) {
+    if (!*named) break;
+    table = **named;
     for (int k = table.count; k < CausticsTable::kMostLevels; ++k) {
       table.levels[static_cast<std::size_t>(k)] = {};  // which may be left from another frame
     }
     table.count = CausticsTable::kMostLevels;
-    pass.caustics = &table;
+    *named = &table;
+    named = &table.in_water;
   }
   const Homes homes(plan, pass);
   Recorder recorder(homes);

@@ -86,7 +86,7 @@ enum class TextureId : std::uint8_t {
   kContinuation,
   kBottomColors,
   kBottomShape,
-  kCaustics,  ///< the first level; the others follow
+  kCaustics,  ///< the first level; the others follow, each by CausticsTable::first
 };
 
 struct Node {

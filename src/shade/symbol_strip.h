@@ -176,9 +176,11 @@ class SymbolStrip {
     throw Error("an operator looks up a texture that no shader knows");
   }
   int id_of(const View<const float>& table) const {
-    for (int k = 0; pass_.caustics && k < pass_.caustics->count; ++k) {
-      const auto& level = pass_.caustics->levels[static_cast<std::size_t>(k)];
-      if (&table == &level.light) return static_cast<int>(TextureId::kCaustics) + k;
+    for (const CausticsTable* all = pass_.caustics; all; all = all->in_water) {
+      for (int k = 0; k < all->count; ++k) {
+        const auto& level = all->levels[static_cast<std::size_t>(k)];
+        if (&table == &level.light) return static_cast<int>(TextureId::kCaustics) + all->first + k;
+      }
     }
     throw Error("an operator looks up a table that no shader knows");
   }

@@ -132,8 +132,17 @@ TEST_F(Gpu, IsAsNearTheReferenceAsTheFusedRunner) {
   int seed = 100;
   for (const char* name : test::kShippedLooks) {
     for (const Below below : {Below::kNone, Below::kHoles}) {
-      const Land land(++seed, below);
-      expect_near(*runner, *executor, look_named(name), land.buffers.frame, land.scene, name);
+      Land land(++seed, below);
+      Look look = look_named(name);
+      expect_near(*runner, *executor, look, land.buffers.frame, land.scene, name);
+      if (name != std::string("physical")) continue;
+      // Murky, with the sun behind the viewer, so that shafts are seen.
+      land.scene.sun->direction = {0, 0.6, 0.8};
+      look.of<DepthFog>().model = DepthFog::Model::kBeerLambert;
+      look.of<DepthFog>().scattering = {0.5, 0.5, 0.5};
+      look.of<DepthFog>().anisotropy = 0;
+      look.of<WaterShadow>().shafts = 1;
+      expect_near(*runner, *executor, look, land.buffers.frame, land.scene, "murky, with shafts");
     }
   }
 }

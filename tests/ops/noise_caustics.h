@@ -4,7 +4,8 @@
 
 namespace limpid::test {
 
-/// Light of 0 ... 3, or a bit below 0 as a sharpened table has it, in two levels around the eye.
+/// Light of 0 ... 3, or a bit below 0 as a sharpened table has it, in two levels around the eye;
+/// the same in the water.
 struct NoiseCaustics {
   NoiseCaustics() {
     table.count = 2;
@@ -17,9 +18,15 @@ struct NoiseCaustics {
       const double texel = 0.25 * (i + 1);
       table.levels[static_cast<std::size_t>(i)] = {plane.view(), {-25 * texel, -20 * texel}, texel};
     }
+    water = table;
+    water.depth = 0.5;
+    water.first = CausticsTable::kMostLevels;
+    table.in_water = &water;
   }
+  NoiseCaustics(const NoiseCaustics&) = delete;
+  NoiseCaustics& operator=(const NoiseCaustics&) = delete;
   Plane fine{rect_of({50, 40})}, coarse{rect_of({50, 40})};
-  CausticsTable table;
+  CausticsTable table, water;
 };
 
 }  // namespace limpid::test

@@ -254,7 +254,10 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
   }
   if (random.has(StatePart::kPath)) p.path = 2 + number();
   if (random.has(StatePart::kTransmittance)) p.transmittance = 0.5 * rgb();
-  if (random.has(StatePart::kSunScatter)) p.sun_near = 0.1 * rgb(), p.sun_far = 0.1 * rgb();
+  if (random.has(StatePart::kSunScatter)) {
+    p.sun_near = 0.1 * rgb(), p.sun_far = 0.1 * rgb();
+    p.sun_entry = {0.3, 0, 0.2}, p.sun_way = 0.8;
+  }
   if (random.has(StatePart::kTransmitted)) p.transmitted = rgb();
   if (random.has(StatePart::kInScatter)) p.in_scatter = rgb();
   if (random.has(StatePart::kFresnel)) p.fresnel = 0.5 + 0.5 * number();

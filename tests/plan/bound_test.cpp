@@ -98,6 +98,7 @@ struct Known {
 TEST(Bound, NoOperatorMattersMoreThanItSays) {
   std::array<Known, Chain::kCount> known;
   Known hidden;
+  int with_shafts = 0;
   for (int seed = 0; seed < 400; ++seed) {
     const Rect display = rect_of({40, 30});
     const test::Buffers buffers = test::patchy_frame(display, seed);
@@ -125,6 +126,8 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
         if (whole.keeps(I)) Op::reckon(plan.look.of<Op>(), pass, ranges);
       }
     });
+    const CausticsTable* in_water = pass.caustics ? pass.caustics->in_water : nullptr;
+    with_shafts += plan.keeps<WaterShadow>() && in_water && in_water->count > 0;
     const bool fog = plan.keeps<DepthFog>();
     if (!fog) ranges.through = 1;
     const Picture all = test::picture_of(plan, frame, scene, test::by_reference);
@@ -172,6 +175,7 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     EXPECT_GT(known[I].closest, of_table ? 0.1 : 0.4) << Op::kName;
   });
   EXPECT_GE(ran, 7) << "patchy_look() varies them";
+  EXPECT_GT(with_shafts, 20);
   EXPECT_GT(hidden.finite, 100);
   EXPECT_GT(hidden.closest, 0.99);
 }

@@ -23,11 +23,20 @@ namespace limpid {
 /// and v_far are means of these, by how far they lie from its two ends; v_often is the mean of
 /// four places, one free path around the middle one. Else v_near is the shadow at the pixel
 /// itself, and v_far, as v_often, that at uv'.
+///
+/// `shafts`, of `scatter`: sunlight that the waves focus is as uneven in the water as on the
+/// bottom, and so is what it sends once scattered: in_scatter += shafts (e_near sun_near + e_far
+/// sun_far), seen from the air. e is v (E - 1) in the mean of four places of the way: E the sun's
+/// light over that under calm water, at the mean depth that the glow comes from or at the bottom,
+/// as caustics.h has it, where the light of the place entered, as wide as the way goes aside in
+/// that part of it; v as above, with `strength`. Above that depth E - 1 grows with the depth, and
+/// the share that the water scatters on the way down is even. 0 none, 1 as the waves focus.
 struct WaterShadow {
   enum class Model { kDarken, kScatter };
   struct Params {
     Model model = Model::kScatter;
     double strength = 1;
+    double shafts = 0;
   };
 
   static constexpr std::string_view kName = "water_shadow";
