@@ -50,8 +50,9 @@ void GpuBindings::bind_block(int binding, VkBuffer buffer) const {
   write(binding, kBlockType, &info, nullptr);
 }
 
-void GpuBindings::bind_texture(int binding, VkImageView view, VkImageLayout layout) const {
-  const VkDescriptorImageInfo info{pipeline_->sampler(), view, layout};
+void GpuBindings::bind_texture(int binding, VkImageView view, VkImageLayout layout,
+                               VkSampler sampler) const {
+  const VkDescriptorImageInfo info{sampler ? sampler : pipeline_->sampler(), view, layout};
   write(binding, kTextureType, nullptr, &info);
 }
 

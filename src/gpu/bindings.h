@@ -18,7 +18,9 @@ class GpuBindings {
 
   const GpuPipeline* pipeline() const { return pipeline_.get(); }
   void bind_block(int binding, VkBuffer buffer) const;
-  void bind_texture(int binding, VkImageView view, VkImageLayout layout) const;
+  /// Read by texel, unless a sampler is given.
+  void bind_texture(int binding, VkImageView view, VkImageLayout layout,
+                    VkSampler sampler = VK_NULL_HANDLE) const;
   void bind_output(int binding, VkImageView view) const;  ///< in layout general
   /// A thread for each pixel.
   void dispatch(VkCommandBuffer commands, Size size) const;

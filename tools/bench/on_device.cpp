@@ -1,0 +1,137 @@
+#include "on_device.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "complete/rows.h"
+#include "rows.h"
+
+namespace limpid::bench {
+namespace {
+
+VkSampler linear_sampler(const GpuDevice& device, VkSamplerAddressMode mode) {
+  auto info = vulkan_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+  info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+  info.addressModeU = info.addressModeV = info.addressModeW = mode;
+  VkSampler sampler = VK_NULL_HANDLE;
+  expect(device.vk().vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+  return sampler;
+}
+
+VkBufferImageCopy whole(const GpuImage& image) {
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = {static_cast<std::uint32_t>(image.size().width),
+                      static_cast<std::uint32_t>(image.size().height), 1};
+  return copy;
+}
+
+}  // namespace
+
+OnDevice::OnDevice(std::shared_ptr<GpuDevice> device, const ShaderProgram& program,
+                   Executor& executor, bool filter, const std::string& tiled)
+    : device_(std::move(device)),
+      size_(program.work.size()),
+      commands_(device_),
+      bindings_(device_, device_->pipeline(program, {}), program),
+      block_(device_, program.block.size(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) {
+  if (filter) {
+    clamped_ = linear_sampler(*device_, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    tiled_ = linear_sampler(*device_, VK_SAMPLER_ADDRESS_MODE_REPEAT);
+  }
+  std::memcpy(block_.bytes(), program.block.data(), program.block.size());
+  bindings_.bind_block(program.block_binding, block_.handle());
+  for (const ProgramTexture& texture : program.textures) {
+    GpuImage image(device_, {texture.width, texture.height}, texture.channels,
+                   VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    GpuBuffer buffer(device_, image.bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const int step = image.channels();
+    each_row(executor, {0, 0, texture.width, texture.height}, [&](int y) {
+      texture.fill(y, buffer.floats() + std::ptrdiff_t{step} * texture.width * y, step);
+    });
+    bindings_.bind_texture(texture.binding, image.view(), kRead.layout,
+                           texture.name == tiled ? tiled_ : clamped_);
+    inputs_.push_back({std::move(image), std::move(buffer)});
+  }
+  for (const ShaderOutput& output : program.outputs) {
+    GpuImage image(device_, size_, 4, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    GpuBuffer buffer(device_, image.bytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    bindings_.bind_output(output.binding, image.view());
+    outputs_.push_back({std::move(image), std::move(buffer)});
+  }
+  commands_.run([&](VkCommandBuffer c) {
+    upload(c);
+    for (const Passage& output : outputs_) {
+      turn(device_->vk(), c, output.image.handle(), kUnused, kWritten);
+    }
+    bindings_.dispatch(c, size_);
+  });
+}
+
+OnDevice::~OnDevice() {
+  for (const VkSampler sampler : {clamped_, tiled_}) {
+    device_->vk().vkDestroySampler(device_->handle(), sampler, nullptr);
+  }
+}
+
+void OnDevice::upload(VkCommandBuffer c) const {
+  const Vulkan& vk = device_->vk();
+  for (const Passage& input : inputs_) {
+    turn(vk, c, input.image.handle(), kUnused, kCopiedTo);
+    const VkBufferImageCopy copy = whole(input.image);
+    vk.vkCmdCopyBufferToImage(c, input.buffer.handle(), input.image.handle(), kCopiedTo.layout, 1,
+                              &copy);
+    turn(vk, c, input.image.handle(), kCopiedTo, kRead);
+  }
+}
+
+void OnDevice::download(VkCommandBuffer c) const {
+  const Vulkan& vk = device_->vk();
+  for (const Passage& output : outputs_) {
+    turn(vk, c, output.image.handle(), kWritten, kCopiedFrom);
+    const VkBufferImageCopy copy = whole(output.image);
+    vk.vkCmdCopyImageToBuffer(c, output.image.handle(), kCopiedFrom.layout, output.buffer.handle(),
+                              1, &copy);
+    turn(vk, c, output.image.handle(), kCopiedFrom, kWritten);
+  }
+}
+
+double OnDevice::seconds_of_run(const std::function<void(VkCommandBuffer)>& write) {
+  return seconds_of([&] { commands_.run(write); });
+}
+
+double OnDevice::shader_seconds(int times) {
+  const auto run = [&](int count) {
+    return seconds_of_run([&](VkCommandBuffer c) {
+      for (int i = 0; i < count; ++i) {
+        turn(device_->vk(), c, outputs_[0].image.handle(), kWritten, kWritten);
+        bindings_.dispatch(c, size_);
+      }
+    });
+  };
+  const double one = run(1);
+  return (run(1 + times) - one) / times;
+}
+
+double OnDevice::bus_seconds() {
+  return seconds_of_run([&](VkCommandBuffer c) {
+    upload(c);
+    download(c);
+  });
+}
+
+std::size_t OnDevice::bytes() const {
+  std::size_t sum = 0;
+  for (const Passage& input : inputs_) sum += input.buffer.size();
+  for (const Passage& output : outputs_) sum += output.buffer.size();
+  return sum;
+}
+
+std::vector<float> OnDevice::picture() {
+  commands_.run([&](VkCommandBuffer c) { download(c); });
+  const GpuBuffer& buffer = outputs_[0].buffer;
+  return {buffer.floats(), buffer.floats() + buffer.size() / sizeof(float)};
+}
+
+}  // namespace limpid::bench

@@ -1,0 +1,52 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpid/core/executor.h"
+
+#include "gpu/bindings.h"
+#include "gpu/commands.h"
+#include "gpu/memory.h"
+#include "shade/program.h"
+
+namespace limpid::bench {
+
+/// A program and its textures on a device, to be run as often as one likes.
+class OnDevice {
+ public:
+  /// With `filter` textures are read by the device's own bilinear filter, tiling where their name
+  /// is of `tiled`.
+  OnDevice(std::shared_ptr<GpuDevice> device, const ShaderProgram& program, Executor& executor,
+           bool filter = false, const std::string& tiled = "");
+  ~OnDevice();
+
+  /// Of one run of the shader, data on the device: those of `times` in a row over their number.
+  double shader_seconds(int times);
+  /// Of carrying all textures to the device and the pictures back, and nothing else.
+  double bus_seconds();
+  /// What textures, picture and AOVs hold.
+  std::size_t bytes() const;
+  /// Four floats a pixel of the first output.
+  std::vector<float> picture();
+
+ private:
+  struct Passage {
+    GpuImage image;
+    GpuBuffer buffer;
+  };
+  void upload(VkCommandBuffer c) const;
+  void download(VkCommandBuffer c) const;
+  double seconds_of_run(const std::function<void(VkCommandBuffer)>& write);
+
+  std::shared_ptr<GpuDevice> device_;
+  Size size_;
+  GpuCommands commands_;
+  GpuBindings bindings_;
+  GpuBuffer block_;
+  VkSampler clamped_ = VK_NULL_HANDLE, tiled_ = VK_NULL_HANDLE;
+  std::vector<Passage> inputs_, outputs_;
+};
+
+}  // namespace limpid::bench

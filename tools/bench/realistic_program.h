@@ -1,0 +1,16 @@
+#pragma once
+#include "limpid/core/frame.h"
+#include "limpid/core/scene.h"
+#include "limpid/ops/look.h"
+
+#include "shade/program.h"
+
+namespace limpid::bench {
+
+/// The rival's shader of the look `realistic` (llvmpipe_shader.h) for Vulkan: the same text, a
+/// thread a pixel instead of a fragment.
+ShaderProgram realistic_program(const Look& look, const Frame& frame, const Scene& scene);
+/// Of its textures the one that tiles.
+inline constexpr const char* kRealisticMap = "map_texture";
+
+}  // namespace limpid::bench
