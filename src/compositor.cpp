@@ -53,24 +53,6 @@ void validate(const Rect& window) {
   }
 }
 
-/// `name` as in "a normal map".
-void validate(const Texture& texture, const std::string& name) {
-  const Rect& window = texture.channels[0].window;
-  for (const View<const float>& channel : texture.channels) {
-    if (!channel || window.empty() || channel.window != window) {
-      throw Error(name + ": expected three channels of one size");
-    }
-    for (int y = window.y0; y < window.y1; ++y) {
-      for (int x = window.x0; x < window.x1; ++x) {
-        if (!std::isfinite(channel.at(x, y))) {
-          throw Error(name + ": NaN or infinity at (" + std::to_string(x) + ", " +
-                      std::to_string(y) + ")");
-        }
-      }
-    }
-  }
-}
-
 HostOutputs outputs_of(const HostPicture& picture) {
   HostOutputs all;
   std::size_t next = 0;
@@ -211,7 +193,7 @@ void Compositor::set_look(const Look& look) {
 const Look& Compositor::look() const { return state_->look; }
 
 void Compositor::set_wave_map(const Texture& map) {
-  if (map) validate(map, "wave map");
+  if (map) map.validate("wave map");
   State& s = *state_;
   s.wave_map_bytes = map ? pack_bytes(map) : std::vector<std::uint32_t>{};
   s.frame.wave_map = map;
@@ -222,7 +204,7 @@ void Compositor::set_wave_map(const Texture& map) {
 }
 
 void Compositor::set_environment(const Texture& environment) {
-  if (environment) validate(environment, "environment");
+  if (environment) environment.validate("environment");
   state_->frame.environment = environment;
   state_->forget_plan();
 }

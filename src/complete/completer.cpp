@@ -8,6 +8,22 @@
 #include "ops/wave_normals_kernel.h"
 
 namespace limpid {
+namespace {
+
+/// What the completer of this name is to make of a plane that is there is a mended one.
+PlaneSet made_by(std::string_view name, const Plan& plan, const Frame& frame) {
+  for (const CompleterInfo& completer : completers()) {
+    if (completer.name != name || !frame.present().covers(completer.inputs)) continue;
+    return plan.completed & ((completer.makes - frame.present()) | completer.mends);
+  }
+  return {};
+}
+
+void take(PlaneSet made, PlaneId plane, const Plane& with, Frame& frame) {
+  if (made.has(plane)) frame.planes[index_of(plane)] = with.view();
+}
+
+}  // namespace
 
 Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass,
                           Executor& executor, const std::string* simd) {
@@ -16,32 +32,19 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   if (plan.planes.covers(kBelowPlanes) && frame.present().covers(kBelowPlanes)) {
     below_overscan_.widen(whole, pass, executor);
   }
-  // What a completer is to make of a plane that is there is a mended one.
-  const auto made_by = [&](std::string_view name) {
-    for (const CompleterInfo& completer : completers()) {
-      if (completer.name != name || !frame.present().covers(completer.inputs)) continue;
-      return plan.completed & ((completer.makes - frame.present()) | completer.mends);
-    }
-    return PlaneSet{};
-  };
-  const auto take = [&](PlaneSet made, PlaneId plane, const Plane& with) {
-    if (made.has(plane)) whole.planes[index_of(plane)] = with.view();
-  };
-  if (const PlaneSet made = made_by("displaced_surface"); !made.empty()) {
-    displaced_surface_.make(whole, pass, executor, simd);
-    take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth());
-  }
+  complete_surface(made_by("displaced_surface", plan, frame), pass, executor, simd, whole);
   if (plan.look.water.edges == Water::Edges::kMixed) edges_.make(whole, pass, executor);
-  if (const PlaneSet made = made_by("mirror_depth"); !made.empty()) {
+  if (const PlaneSet made = made_by("mirror_depth", plan, frame); !made.empty()) {
     mirror_depth_.make(whole, pass, executor);
-    take(made, PlaneId::kReflectionDepth, mirror_depth_.depth());
-    take(made, PlaneId::kReflectionValid, mirror_depth_.valid());
+    take(made, PlaneId::kReflectionDepth, mirror_depth_.depth(), whole);
+    take(made, PlaneId::kReflectionValid, mirror_depth_.valid(), whole);
   }
-  if (const PlaneSet made = made_by("sky"); !made.empty() && sky_.make(whole, executor)) {
-    for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i));
+  if (const PlaneSet made = made_by("sky", plan, frame);
+      !made.empty() && sky_.make(whole, executor)) {
+    for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i), whole);
   }
   complete_waves(plan, pass, executor, whole);
-  complete_water(plan, made_by("bottom_albedo"), pass, executor, whole);
+  complete_water(plan, made_by("bottom_albedo", plan, frame), pass, executor, whole);
   const Refraction::Params& refraction = plan.look.of<Refraction>();
   if (!plan.made.has(StatePart::kPosition)) return whole;
   if (refraction.goes_on()) whole.continuation = continuation_maker_.make(whole, pass);
@@ -70,6 +73,49 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     whole.caustics = &light_;
   }
   return whole;
+}
+
+Frame Completer::complete_windows(const Plan& plan, const Frame& frame, const Pass& pass,
+                                  Executor& executor, const std::string& simd) {
+  Frame whole = frame;
+  complete_surface(made_by("displaced_surface", plan, frame), pass, executor, &simd, whole);
+  complete_waves(plan, pass, executor, whole);
+  complete_water(plan, {}, pass, executor, whole);
+  return whole;
+}
+
+std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
+  std::vector<std::string> phrases;
+  if (plan.look.water.edges == Water::Edges::kMixed) {
+    phrases.emplace_back("mixed edges (water.edges)");
+  }
+  for (const CompleterInfo& completer : completers()) {
+    const bool of_windows = completer.name == "displaced_surface";
+    if (of_windows || !plan.completed.meets(completer.makes | completer.mends)) continue;
+    phrases.push_back("the planes of " + std::string(completer.name));
+  }
+  if (plan.planes.covers(kBelowPlanes)) {
+    phrases.emplace_back("the layer below the water beyond the picture");
+  }
+  if (!plan.made.has(StatePart::kPosition)) return phrases;
+  if (plan.look.of<Refraction>().goes_on()) {
+    phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
+  }
+  if (plan.look.of<Refraction>().looks_behind()) {
+    phrases.emplace_back("the bottom behind what hides it (refraction.rejection)");
+  }
+  if (plan.keeps<Caustics>()) phrases.emplace_back("caustics");
+  if (plan.keeps<WaterShadow>() && Kernel<WaterShadow>::wants_shafts(plan.look.of<WaterShadow>())) {
+    phrases.emplace_back("shafts (water_shadow.shafts)");
+  }
+  return phrases;
+}
+
+void Completer::complete_surface(PlaneSet made, const Pass& pass, Executor& executor,
+                                 const std::string* simd, Frame& frame) {
+  if (made.empty()) return;
+  displaced_surface_.make(frame, pass, executor, simd);
+  take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth(), frame);
 }
 
 void Completer::complete_waves(const Plan& plan, const Pass& pass, Executor& executor,

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
@@ -38,8 +39,16 @@ class Completer {
   /// `simd` as in FusedOptions; without it formulas run in double.
   Frame complete(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                  const std::string* simd = nullptr);
+  /// The same of a frame whose planes tell their windows alone, for their pixels lie elsewhere:
+  /// what is made of pixels (made_of_pixels()) is not made.
+  Frame complete_windows(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
+                         const std::string& simd);
+  /// What a plan asks for that is made of pixels, a phrase each.
+  static std::vector<std::string> made_of_pixels(const Plan& plan);
 
  private:
+  void complete_surface(PlaneSet made, const Pass& pass, Executor& executor,
+                        const std::string* simd, Frame& frame);
   void complete_waves(const Plan& plan, const Pass& pass, Executor& executor, Frame& frame);
   void complete_water(const Plan& plan, PlaneSet made, const Pass& pass, Executor& executor,
                       Frame& frame);

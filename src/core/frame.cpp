@@ -1,5 +1,6 @@
 #include "limpid/core/frame.h"
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -89,6 +90,23 @@ Rect Frame::work() const {
     if (view) all = intersection(all, view.window);
   }
   return all.contains(picture) ? all : picture;
+}
+
+void Texture::validate(const std::string& name) const {
+  const Rect& window = channels[0].window;
+  for (const View<const float>& channel : channels) {
+    if (!channel || window.empty() || channel.window != window) {
+      throw Error(name + ": expected three channels of one size");
+    }
+    for (int y = window.y0; y < window.y1; ++y) {
+      for (int x = window.x0; x < window.x1; ++x) {
+        if (!std::isfinite(channel.at(x, y))) {
+          throw Error(name + ": NaN or infinity at (" + std::to_string(x) + ", " +
+                      std::to_string(y) + ")");
+        }
+      }
+    }
+  }
 }
 
 void Frame::validate() const {

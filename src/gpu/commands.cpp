@@ -39,7 +39,12 @@ void GpuCommands::run(const std::function<void(VkCommandBuffer)>& write) {
   auto begin = vulkan_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   expect(vk.vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
-  write(commands_);
+  try {
+    write(commands_);
+  } catch (...) {
+    vk.vkEndCommandBuffer(commands_);  // as the next begin expects it
+    throw;
+  }
   expect(vk.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
   device_->submit(commands_, fence_);
 }

@@ -142,7 +142,7 @@ const Candidate& chosen(const std::vector<Candidate>& all, const std::string& na
 
 GpuDevice::GpuDevice(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice physical,
                      VkDevice device)
-    : device_(device) {
+    : instance_(instance), device_(device) {
   vk_.load_instance(get, instance);
   vk_.load_device(device);
   take(physical);
@@ -160,6 +160,7 @@ void GpuDevice::take(VkPhysicalDevice physical) {
   if (const std::string fault = candidate.fault(); !fault.empty()) {
     throw Error("the GPU cannot be used: " + candidate.name() + " " + fault);
   }
+  physical_ = physical;
   limits_ = candidate.properties.limits;
   name_ = candidate.name() + " (" + candidate.driver + ")";
   uuid_ = candidate.uuid;

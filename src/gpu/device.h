@@ -36,6 +36,8 @@ class GpuDevice {
   static std::vector<std::string> names();
 
   const Vulkan& vk() const { return vk_; }
+  VkInstance instance() const { return instance_; }
+  VkPhysicalDevice physical() const { return physical_; }
   VkDevice handle() const { return device_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   /// "NVIDIA H100 80GB HBM3 (NVIDIA 580.159)": the device, and its driver.
@@ -61,6 +63,7 @@ class GpuDevice {
 
   Vulkan vk_;
   VkInstance instance_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;
   bool own_ = false;
   VkPhysicalDeviceLimits limits_{};

@@ -9,7 +9,7 @@
 #include "complete/rows.h"
 #include "gpu/bindings.h"
 #include "gpu/commands.h"
-#include "gpu/memory.h"
+#include "gpu/passage.h"
 #include "plan/pass_of.h"
 #include "run/checks.h"
 #include "run/put_edges.h"
@@ -28,29 +28,6 @@ std::vector<Aov> made_aovs(const Target& target) {
   }
   return list;
 }
-
-VkBufferImageCopy whole(const GpuImage& image) {
-  VkBufferImageCopy copy{};
-  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  copy.imageExtent = {static_cast<std::uint32_t>(image.size().width),
-                      static_cast<std::uint32_t>(image.size().height), 1};
-  return copy;
-}
-
-/// A picture on the device, and the memory through which it comes or goes.
-struct Passage {
-  GpuImage image;
-  GpuBuffer buffer;
-
-  void fit(const std::shared_ptr<GpuDevice>& device, Size size, int channels,
-           VkImageUsageFlags image_use, VkBufferUsageFlags buffer_use) {
-    const int stored = channels == 1 ? 1 : 4;
-    if (image.size() == size && image.channels() == stored) return;
-    *this = {};  // before another is made
-    image = GpuImage(device, size, stored, image_use);
-    buffer = GpuBuffer(device, image.bytes(), buffer_use);
-  }
-};
 
 }  // namespace
 
@@ -94,15 +71,11 @@ void GpuRunner::Kept::fit(const ShaderProgram& program) {
   }
   for (const ProgramTexture& texture : program.textures) {
     Passage& input = inputs[texture.name];
-    input.fit(device, {texture.width, texture.height}, texture.channels,
-              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-              VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    input.fit_input(device, texture);
     bindings.bind_texture(texture.binding, input.image.view(), kRead.layout);
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    outputs[i].fit(device, program.work.size(), 4,
-                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                   VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    outputs[i].fit_output(device, program.work.size());
     bindings.bind_output(program.outputs[i].binding, outputs[i].image.view());
   }
 }
@@ -110,32 +83,17 @@ void GpuRunner::Kept::fit(const ShaderProgram& program) {
 void GpuRunner::Kept::fill(const ShaderProgram& program, Executor& executor) {
   std::memcpy(block.bytes(), program.block.data(), program.block.size());
   for (const ProgramTexture& texture : program.textures) {
-    const Passage& input = inputs.at(texture.name);
-    const int step = input.image.channels();
-    const std::ptrdiff_t row = std::ptrdiff_t{step} * texture.width;
-    each_row(executor, {0, 0, texture.width, texture.height},
-             [&](int y) { texture.fill(y, input.buffer.floats() + row * y, step); });
+    inputs.at(texture.name).fill(texture, executor);
   }
 }
 
 void GpuRunner::Kept::compute(const ShaderProgram& program) {
   const Vulkan& vk = device->vk();
   commands.run([&](VkCommandBuffer c) {
-    for (const auto& [name, input] : inputs) {
-      turn(vk, c, input.image.handle(), kUnused, kCopiedTo);
-      const VkBufferImageCopy copy = whole(input.image);
-      vk.vkCmdCopyBufferToImage(c, input.buffer.handle(), input.image.handle(), kCopiedTo.layout, 1,
-                                &copy);
-      turn(vk, c, input.image.handle(), kCopiedTo, kRead);
-    }
+    for (const auto& [name, input] : inputs) input.upload(vk, c);
     for (const Passage& output : outputs) turn(vk, c, output.image.handle(), kUnused, kWritten);
     bindings.dispatch(c, program.work.size());
-    for (const Passage& output : outputs) {
-      turn(vk, c, output.image.handle(), kWritten, kCopiedFrom);
-      const VkBufferImageCopy copy = whole(output.image);
-      vk.vkCmdCopyImageToBuffer(c, output.image.handle(), kCopiedFrom.layout,
-                                output.buffer.handle(), 1, &copy);
-    }
+    for (const Passage& output : outputs) output.download(vk, c);
     auto seen = vulkan_struct<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     seen.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
     seen.dstAccessMask = VK_ACCESS_HOST_READ_BIT;

@@ -49,12 +49,12 @@ GpuBuffer& GpuBuffer::operator=(GpuBuffer&& other) noexcept {
   return *this;
 }
 
-GpuImage::GpuImage(std::shared_ptr<const GpuDevice> device, Size size, int channels,
+GpuImage::GpuImage(std::shared_ptr<const GpuDevice> device, Size size, VkFormat format,
                    VkImageUsageFlags usage)
     : GpuImage() {  // as above
   device_ = std::move(device);
   size_ = size;
-  channels_ = channels == 1 ? 1 : 4;
+  format_ = format;
   const Vulkan& vk = device_->vk();
   const VkDevice d = device_->handle();
   const auto most = device_->limits().maxImageDimension2D;
@@ -64,7 +64,7 @@ GpuImage::GpuImage(std::shared_ptr<const GpuDevice> device, Size size, int chann
   }
   auto info = vulkan_struct<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
   info.imageType = VK_IMAGE_TYPE_2D;
-  info.format = channels_ == 1 ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
+  info.format = format;
   info.extent = {static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height),
                  1};
   info.mipLevels = info.arrayLayers = 1;
@@ -78,7 +78,7 @@ GpuImage::GpuImage(std::shared_ptr<const GpuDevice> device, Size size, int chann
   auto view = vulkan_struct<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
   view.image = image_;
   view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-  view.format = info.format;
+  view.format = format;
   view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   expect(vk.vkCreateImageView(d, &view, nullptr, &view_), "vkCreateImageView");
 }
@@ -99,7 +99,7 @@ GpuImage& GpuImage::operator=(GpuImage&& other) noexcept {
   std::swap(memory_, other.memory_);
   std::swap(view_, other.view_);
   std::swap(size_, other.size_);
-  std::swap(channels_, other.channels_);
+  std::swap(format_, other.format_);
   return *this;
 }
 

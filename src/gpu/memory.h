@@ -30,12 +30,12 @@ class GpuBuffer {
   std::size_t size_ = 0;
 };
 
-/// A picture of the device's own, of one or four floats a pixel.
+/// A picture of the device's own.
 class GpuImage {
  public:
   GpuImage() = default;
   /// Throws Error for a picture larger than the device knows.
-  GpuImage(std::shared_ptr<const GpuDevice> device, Size size, int channels,
+  GpuImage(std::shared_ptr<const GpuDevice> device, Size size, VkFormat format,
            VkImageUsageFlags usage);
   ~GpuImage();
   GpuImage(GpuImage&& other) noexcept;
@@ -44,10 +44,7 @@ class GpuImage {
   VkImage handle() const { return image_; }
   VkImageView view() const { return view_; }
   Size size() const { return size_; }
-  int channels() const { return channels_; }
-  std::size_t bytes() const {
-    return sizeof(float) * static_cast<std::size_t>(channels_) * size_.width * size_.height;
-  }
+  VkFormat format() const { return format_; }
 
  private:
   std::shared_ptr<const GpuDevice> device_;
@@ -55,7 +52,7 @@ class GpuImage {
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
   VkImageView view_ = VK_NULL_HANDLE;
   Size size_;
-  int channels_ = 0;
+  VkFormat format_ = VK_FORMAT_UNDEFINED;
 };
 
 }  // namespace limpid

@@ -424,7 +424,8 @@ class Writer {
       if (output.channels == 2) four = "vec4(" + value + ", 0.0, 1.0)";
       if (output.channels == 3) four = "vec4(" + value + ", 1.0)";
       if (compute) {
-        declared += "layout(" + layout(output.binding) + ", rgba32f) writeonly uniform image2D " +
+        declared += "layout(" + layout(output.binding) +
+                    (options_.half ? ", rgba16f" : ", rgba32f") + ") writeonly uniform image2D " +
                     name + ";\n";
         written += "  imageStore(" + name + ", pixel - limpid.work.xy, " + four + ");\n";
       } else {

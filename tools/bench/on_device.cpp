@@ -4,7 +4,6 @@
 #include <cstring>
 #include <utility>
 
-#include "complete/rows.h"
 #include "rows.h"
 
 namespace limpid::bench {
@@ -17,14 +16,6 @@ VkSampler linear_sampler(const GpuDevice& device, VkSamplerAddressMode mode) {
   VkSampler sampler = VK_NULL_HANDLE;
   expect(device.vk().vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
   return sampler;
-}
-
-VkBufferImageCopy whole(const GpuImage& image) {
-  VkBufferImageCopy copy{};
-  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  copy.imageExtent = {static_cast<std::uint32_t>(image.size().width),
-                      static_cast<std::uint32_t>(image.size().height), 1};
-  return copy;
 }
 
 }  // namespace
@@ -43,22 +34,16 @@ OnDevice::OnDevice(std::shared_ptr<GpuDevice> device, const ShaderProgram& progr
   std::memcpy(block_.bytes(), program.block.data(), program.block.size());
   bindings_.bind_block(program.block_binding, block_.handle());
   for (const ProgramTexture& texture : program.textures) {
-    GpuImage image(device_, {texture.width, texture.height}, texture.channels,
-                   VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    GpuBuffer buffer(device_, image.bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    const int step = image.channels();
-    each_row(executor, {0, 0, texture.width, texture.height}, [&](int y) {
-      texture.fill(y, buffer.floats() + std::ptrdiff_t{step} * texture.width * y, step);
-    });
-    bindings_.bind_texture(texture.binding, image.view(), kRead.layout,
+    Passage& input = inputs_.emplace_back();
+    input.fit_input(device_, texture);
+    input.fill(texture, executor);
+    bindings_.bind_texture(texture.binding, input.image.view(), kRead.layout,
                            texture.name == tiled ? tiled_ : clamped_);
-    inputs_.push_back({std::move(image), std::move(buffer)});
   }
   for (const ShaderOutput& output : program.outputs) {
-    GpuImage image(device_, size_, 4, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    GpuBuffer buffer(device_, image.bytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    bindings_.bind_output(output.binding, image.view());
-    outputs_.push_back({std::move(image), std::move(buffer)});
+    Passage& picture = outputs_.emplace_back();
+    picture.fit_output(device_, size_);
+    bindings_.bind_output(output.binding, picture.image.view());
   }
   commands_.run([&](VkCommandBuffer c) {
     upload(c);
@@ -76,25 +61,11 @@ OnDevice::~OnDevice() {
 }
 
 void OnDevice::upload(VkCommandBuffer c) const {
-  const Vulkan& vk = device_->vk();
-  for (const Passage& input : inputs_) {
-    turn(vk, c, input.image.handle(), kUnused, kCopiedTo);
-    const VkBufferImageCopy copy = whole(input.image);
-    vk.vkCmdCopyBufferToImage(c, input.buffer.handle(), input.image.handle(), kCopiedTo.layout, 1,
-                              &copy);
-    turn(vk, c, input.image.handle(), kCopiedTo, kRead);
-  }
+  for (const Passage& input : inputs_) input.upload(device_->vk(), c);
 }
 
 void OnDevice::download(VkCommandBuffer c) const {
-  const Vulkan& vk = device_->vk();
-  for (const Passage& output : outputs_) {
-    turn(vk, c, output.image.handle(), kWritten, kCopiedFrom);
-    const VkBufferImageCopy copy = whole(output.image);
-    vk.vkCmdCopyImageToBuffer(c, output.image.handle(), kCopiedFrom.layout, output.buffer.handle(),
-                              1, &copy);
-    turn(vk, c, output.image.handle(), kCopiedFrom, kWritten);
-  }
+  for (const Passage& output : outputs_) output.download(device_->vk(), c);
 }
 
 double OnDevice::seconds_of_run(const std::function<void(VkCommandBuffer)>& write) {

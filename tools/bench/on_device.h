@@ -8,7 +8,7 @@
 
 #include "gpu/bindings.h"
 #include "gpu/commands.h"
-#include "gpu/memory.h"
+#include "gpu/passage.h"
 #include "shade/program.h"
 
 namespace limpid::bench {
@@ -32,10 +32,6 @@ class OnDevice {
   std::vector<float> picture();
 
  private:
-  struct Passage {
-    GpuImage image;
-    GpuBuffer buffer;
-  };
   void upload(VkCommandBuffer c) const;
   void download(VkCommandBuffer c) const;
   double seconds_of_run(const std::function<void(VkCommandBuffer)>& write);

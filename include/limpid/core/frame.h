@@ -134,6 +134,9 @@ struct Texture {
   /// then makes them anew for each frame.
   const TextureLevels* levels = nullptr;
   explicit operator bool() const { return static_cast<bool>(channels[0]); }
+
+  /// Throws Error, which begins with `name`, for channels of several sizes, NaN and infinity.
+  void validate(const std::string& name) const;
 };
 
 /// What Texture::bytes points to: width + 1 texels in each of height + 1 rows, the first column and

@@ -30,6 +30,7 @@ struct ShaderOptions {
   int set = 0;                            ///< descriptor set of all that is declared, 0 ... 31
   int first_binding = 0;                  ///< they count from here, 0 ... 1000
   std::vector<Aov> aovs = {};             ///< that the function returns besides the picture
+  bool half = false;  ///< images that a compute main() writes hold halves (rgba16f)
 };
 
 /// A number of the uniform block, in float.
