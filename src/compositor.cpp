@@ -53,6 +53,13 @@ void validate(const Rect& window) {
   }
 }
 
+void validate(const HostFrame& host) {
+  validate(host.display);
+  if (host.display.empty())
+    throw Error("frame: the display window is empty, expected at least 1x1");
+  for (const HostInput& view : host.planes) validate(view.window);
+}
+
 HostOutputs outputs_of(const HostPicture& picture) {
   HostOutputs all;
   std::size_t next = 0;
@@ -73,15 +80,27 @@ struct PlannedFor {
 };
 static_assert(kAovCount <= 32);
 
-PlannedFor planned_for(const HostFrame& host, const HostPicture& picture) {
+PlannedFor planned_for(const HostFrame& host, std::uint32_t aovs) {
   PlannedFor wanted;
+  wanted.aovs = aovs;
   for (int i = 0; i < kPlaneCount; ++i) {
     if (host.planes[i]) wanted.planes = wanted.planes | PlaneSet{static_cast<PlaneId>(i)};
   }
-  for (int a = 0; a < kAovCount; ++a) wanted.aovs |= (picture.aovs[a][0] ? 1u : 0u) << a;
   wanted.sun = host.scene.sun.has_value();
   wanted.waves = host.scene.has_waves();
   return wanted;
+}
+
+std::uint32_t aovs_of(const HostPicture& picture) {
+  std::uint32_t aovs = 0;
+  for (int a = 0; a < kAovCount; ++a) aovs |= (picture.aovs[a][0] ? 1u : 0u) << a;
+  return aovs;
+}
+
+std::uint32_t aovs_of(const ShaderOptions& options) {
+  std::uint32_t aovs = 0;
+  for (const Aov aov : options.aovs) aovs |= 1u << static_cast<int>(aov);
+  return aovs;
 }
 
 StateSet shown_by(std::uint32_t chosen) {
@@ -131,16 +150,20 @@ struct __attribute__((visibility("hidden"))) Compositor::State {
     if (conventions.depth == DepthKind::kDevice) expect_clip_direction(*scene.camera);
   }
 
-  void make_plan(const PlannedFor& wanted) {
-    if (plan && made_for == wanted) return;
-    plan.reset();
-    plan = limpid::make_plan(look,
+  Plan plan_for(const PlannedFor& wanted, double max_error) const {
+    return limpid::make_plan(look,
                              {.planes = wanted.planes,
                               .wave_map = static_cast<bool>(frame.wave_map),
                               .sun = wanted.sun,
                               .environment = static_cast<bool>(frame.environment),
                               .waves = wanted.waves},
-                             shown_by(wanted.aovs), options.max_error);
+                             shown_by(wanted.aovs), max_error);
+  }
+
+  void make_plan(const PlannedFor& wanted) {
+    if (plan && made_for == wanted) return;
+    plan.reset();
+    plan = plan_for(wanted, options.max_error);
     made_for = wanted;
   }
 
@@ -212,14 +235,11 @@ void Compositor::set_environment(const Texture& environment) {
 void Compositor::run(const HostFrame& host, const HostPicture& picture) {
   State& s = *state_;
   s.ran = false;
-  validate(host.display);
-  if (host.display.empty())
-    throw Error("frame: the display window is empty, expected at least 1x1");
+  validate(host);
   const HostOutputs outputs = outputs_of(picture);
-  for (const HostInput& view : host.planes) validate(view.window);
   for (const HostOutput& view : outputs) validate(view.window);
   s.enter_scene(host.scene);
-  s.make_plan(planned_for(host, picture));
+  s.make_plan(planned_for(host, aovs_of(picture)));
   s.frame.display = host.display;
   s.replaced = s.planes.enter(host.planes, s.plan->planes, s.rules(host.planes, outputs),
                               *s.executor, s.frame);
@@ -228,6 +248,19 @@ void Compositor::run(const HostFrame& host, const HostPicture& picture) {
   s.runner.run(*s.plan, s.frame, s.scene, target, *s.executor, {.simd = s.options.simd});
   s.target.store(*s.executor, *s.half);
   s.ran = true;
+}
+
+ShaderText Compositor::shader(const HostFrame& host, const ShaderOptions& options) {
+  State& s = *state_;
+  validate(host);
+  s.enter_scene(host.scene);
+  const Plan plan = s.plan_for(planned_for(host, aovs_of(options)), 0);
+  s.frame.display = host.display;
+  Frame frame = s.frame;
+  EnteredPlanes planes;
+  planes.enter(host.planes, plan.planes, s.rules(host.planes, {}), *s.executor, frame);
+  frame.validate();
+  return ShaderText(plan, frame, s.scene, options);
 }
 
 const Plan& Compositor::plan() const {

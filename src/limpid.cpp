@@ -9,11 +9,13 @@
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include "limpid/compositor.h"
 #include "limpid/core/error.h"
+#include "limpid/shade/shader_text.h"
 #include "limpid/version.h"
 
 /// The C functions: structs of C turned into those of compositor.h, exceptions into a status.
@@ -36,6 +38,14 @@ Struct known(const Struct* given, const char* name) {
   }
   std::memcpy(&whole, given, given->size);
   return whole;
+}
+
+/// Fills as much of the caller's struct as the caller knows.
+template <class Struct>
+void tell(Struct whole, Struct* to, const char* name) {
+  if (!to) throw Error(std::string(name) + " is NULL, expected a place for one");
+  whole.size = known(to, name).size;
+  std::memcpy(to, &whole, whole.size);
 }
 
 template <class Enum>
@@ -137,6 +147,40 @@ Texture texture_of(const limpid_texture* given, const char* name) {
   return texture;
 }
 
+ShaderOptions shader_options_of(const limpid_shader_options* given) {
+  const limpid_shader_options o = known(given, "limpid_shader_options");
+  ShaderOptions options;
+  options.stage = named(o.stage, ShaderOptions::Stage::kFragment, "limpid_shader_options.stage");
+  if (o.function) options.function = o.function;
+  options.set = o.set;
+  options.first_binding = o.first_binding;
+  const std::string name = "limpid_shader_options.aovs";
+  if (o.aov_count > 0 && !o.aovs) throw Error(name + " is NULL, expected values of limpid_output");
+  for (std::size_t i = 0; i < o.aov_count; ++i) {
+    const int first = o.aovs[i];
+    const auto refuse = [&](const std::string& why) {
+      throw Error(name + "[" + std::to_string(i) + "] = " + std::to_string(first) + why);
+    };
+    if (first < LIMPID_OUT_TRANSMITTED || first > LIMPID_OUT_SKY ||
+        (first - LIMPID_OUT_TRANSMITTED) % 3 != 0) {
+      refuse(": expected the first channel of an AOV");
+    }
+    const auto aov = static_cast<Aov>((first - LIMPID_OUT_TRANSMITTED) / 3);
+    if (std::find(options.aovs.begin(), options.aovs.end(), aov) != options.aovs.end()) {
+      refuse(": it is there already");
+    }
+    options.aovs.push_back(aov);
+  }
+  return options;
+}
+
+template <class Thing>
+const Thing& at(const std::vector<Thing>& list, std::size_t index, const char* name) {
+  if (index < list.size()) return list[index];
+  throw Error(std::string(name) + " " + std::to_string(index) + " of a shader that has " +
+              std::to_string(list.size()));
+}
+
 /// Runs body(); what it throws becomes a status and, by say(), a sentence.
 template <class Body, class Say>
 limpid_status guarded(Body&& body, Say&& say) noexcept {
@@ -158,22 +202,32 @@ limpid_status guarded(Body&& body, Say&& say) noexcept {
   }
 }
 
+/// Of the last call that went wrong.
+struct Message {
+  char text[1024] = "";
+
+  /// Keeps what may go wrong, and never allocates.
+  template <class Body>
+  limpid_status guarded(Body&& body) noexcept {
+    return limpid::guarded(body,
+                           [&](const char* why) { std::strncpy(text, why, sizeof text - 1); });
+  }
+};
+
 }  // namespace
 }  // namespace limpid
+
+struct limpid_shader {
+  limpid::ShaderText made;
+  limpid::Message message = {};
+};
 
 struct limpid_compositor {
   std::unique_ptr<limpid::Executor> executor;
   limpid::Compositor compositor;
   bool row_major;
   limpid::HostFrame frame;  ///< of the last run: keeps the memory of waves
-  char message[1024] = "";
-
-  /// Keeps what may go wrong, and never allocates.
-  template <class Body>
-  limpid_status guarded(Body&& body) noexcept {
-    return limpid::guarded(
-        body, [&](const char* why) { std::strncpy(message, why, sizeof message - 1); });
-  }
+  limpid::Message message = {};
 
   void set(const char* table, const char* key, const limpid::Value& value) {
     limpid::Look look = compositor.look();
@@ -226,10 +280,10 @@ struct limpid_compositor {
 
 namespace {
 
-/// Runs body() on a compositor that is there.
-template <class Body>
-limpid_status on(limpid_compositor* compositor, Body&& body) noexcept {
-  return compositor ? compositor->guarded(body) : LIMPID_REFUSED;
+/// Runs body() on a compositor or a shader that is there.
+template <class Handle, class Body>
+limpid_status on(Handle* handle, Body&& body) noexcept {
+  return handle ? handle->message.guarded(body) : LIMPID_REFUSED;
 }
 
 /// As limpid_look_text() says.
@@ -280,7 +334,7 @@ limpid_status limpid_create(const limpid_conventions* conventions, const limpid_
 void limpid_destroy(limpid_compositor* compositor) { delete compositor; }
 
 const char* limpid_message(const limpid_compositor* compositor) {
-  return compositor ? compositor->message : "compositor is NULL";
+  return compositor ? compositor->message.text : "compositor is NULL";
 }
 
 limpid_status limpid_set_number(limpid_compositor* compositor, const char* table, const char* key,
@@ -368,5 +422,77 @@ size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t 
 size_t limpid_replaced_text(const limpid_compositor* compositor, char* text, size_t size) {
   return copy_text(text, size, [&] {
     return compositor ? compositor->compositor.replaced().to_text() : std::string();
+  });
+}
+
+limpid_status limpid_create_shader(limpid_compositor* compositor, const limpid_frame* frame,
+                                   const limpid_shader_options* options, limpid_shader** shader) {
+  if (shader) *shader = nullptr;
+  return on(compositor, [&] {
+    using namespace limpid;
+    if (!shader) throw Error("shader is NULL, expected a place for one");
+    if (!frame) throw Error("frame is NULL");
+    const limpid_frame host = known(frame, "limpid_frame");
+    const ShaderOptions wanted = shader_options_of(options);
+    compositor->enter(host);
+    *shader = new limpid_shader{compositor->compositor.shader(compositor->frame, wanted)};
+  });
+}
+
+void limpid_destroy_shader(limpid_shader* shader) { delete shader; }
+
+const char* limpid_shader_message(const limpid_shader* shader) {
+  return shader ? shader->message.text : "shader is NULL";
+}
+
+limpid_status limpid_get_shader(limpid_shader* shader, limpid_shader_info* info) {
+  return on(shader, [&] {
+    const limpid::ShaderText& made = shader->made;
+    limpid_shader_info whole{};
+    whole.text = made.text().c_str();
+    whole.id = made.id().c_str();
+    whole.function = made.options().function.c_str();
+    whole.stage = static_cast<int32_t>(made.options().stage);
+    whole.set = made.options().set;
+    whole.block_binding = made.block_binding();
+    whole.block = made.block().data();
+    whole.block_size = made.block().size();
+    whole.number_count = made.numbers().size();
+    whole.texture_count = made.textures().size();
+    whole.output_count = made.outputs().size();
+    const limpid::Rect& work = made.work();
+    whole.x0 = work.x0, whole.y0 = work.y0, whole.x1 = work.x1, whole.y1 = work.y1;
+    limpid::tell(whole, info, "limpid_shader_info");
+  });
+}
+
+limpid_status limpid_get_shader_number(limpid_shader* shader, size_t index,
+                                       limpid_shader_number* number) {
+  return on(shader, [&] {
+    const limpid::ShaderNumber& of = limpid::at(shader->made.numbers(), index, "number");
+    const limpid::Range range = of.range.value_or(limpid::Range{});
+    limpid::tell({0, of.name.c_str(), of.offset, of.value, of.range.has_value(),
+                  of.range ? range.min : 0, of.range ? range.max : 0},
+                 number, "limpid_shader_number");
+  });
+}
+
+limpid_status limpid_get_shader_texture(limpid_shader* shader, size_t index,
+                                        limpid_shader_texture* texture) {
+  return on(shader, [&] {
+    const limpid::ShaderTexture& of = limpid::at(shader->made.textures(), index, "texture");
+    const int plane = of.role.empty() ? -1 : limpid::index_of(limpid::role_named(of.role).first);
+    limpid::tell(
+        {0, of.name.c_str(), of.binding, static_cast<int32_t>(of.source), of.role.c_str(), plane,
+         of.channels, of.width, of.height, of.texels.empty() ? nullptr : of.texels.data()},
+        texture, "limpid_shader_texture");
+  });
+}
+
+limpid_status limpid_get_shader_output(limpid_shader* shader, size_t index,
+                                       limpid_shader_output* output) {
+  return on(shader, [&] {
+    const limpid::ShaderOutput& of = limpid::at(shader->made.outputs(), index, "output");
+    limpid::tell({0, of.name.c_str(), of.channels, of.binding}, output, "limpid_shader_output");
   });
 }

@@ -13,6 +13,7 @@
 #include "limpid/optics/depth.h"
 #include "limpid/plan/plan.h"
 #include "limpid/run/target.h"
+#include "limpid/shade/shader_text.h"
 
 /// @file
 /// limpid as a post stage of another program: buffers of the host in, a wet picture in its own
@@ -112,6 +113,15 @@ class Compositor {
   /// farther out than 2^29 pixels, and for a picture that does not cover the frame. Throws
   /// std::bad_alloc in a first frame only.
   void run(const HostFrame& frame, const HostPicture& picture);
+
+  /// The look as it is set now as one shader for frames like this one, with the values of this one:
+  /// the plan that run() would make for it, with the AOVs of `options`. Textures of source kPlanes
+  /// are for the host to bind and hold what Frame says, whatever the conventions are: eye depth,
+  /// unit normals, row 0 at the top. Without max_error, and no edge is mixed. Each call records and
+  /// prints anew, about ten milliseconds, and makes on one thread what nobody rendered. Changes
+  /// nothing of what run(), plan() and replaced() give. Throws Error as run() does for a frame, and
+  /// as ShaderText.
+  ShaderText shader(const HostFrame& frame, const ShaderOptions& options = {});
 
   /// Of the last frame: what ran and why, and what was replaced because it meant nothing. Throws
   /// Error where that one was refused, or the look or a texture has been set since.

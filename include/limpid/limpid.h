@@ -17,8 +17,8 @@
  * Structs begin with their size as the caller knows it, which the macros below set; all the rest of
  * them may be 0. What later versions append is taken for 0 where an older caller does not have it;
  * a size that this library does not know is refused. Values of enums and limpid_channel never
- * change. A compositor is for one thread at a time; several may work at once. Files of looks are
- * read by limpid/files/text/look_file.h, in C++.
+ * change. A compositor is for one thread at a time, and so is a shader; several may work at once.
+ * Files of looks are read by limpid/files/text/look_file.h, in C++.
  */
 
 #include <stddef.h>
@@ -208,7 +208,91 @@ typedef struct limpid_texture {
 #define LIMPID_TEXTURE \
   { sizeof(limpid_texture), NULL, 0, 0, 0, 0 }
 
+/** What the text of a shader has besides declarations and the function. */
+typedef enum limpid_shader_stage {
+  LIMPID_SHADER_FUNCTION = 0, /**< nothing: for a shader of the host */
+  LIMPID_SHADER_COMPUTE = 1,  /**< a main() for groups of 16 x 8 pixels, that writes images */
+  LIMPID_SHADER_FRAGMENT = 2  /**< a main() for a pixel of a full-screen triangle */
+} limpid_shader_stage;
+
+/** How a shader is to be printed: limpid::ShaderOptions. */
+typedef struct limpid_shader_options {
+  size_t size;
+  int32_t stage;         /**< limpid_shader_stage */
+  const char* function;  /**< a word of letters, digits and _; NULL: limpid_water */
+  int32_t set;           /**< descriptor set of all that is declared, 0 ... 31 */
+  int32_t first_binding; /**< they count from here, 0 ... 1000 */
+  /** That the function returns besides the picture: the first channel of each (LIMPID_OUT_PATH, not
+   * LIMPID_OUT_PATH + 1), each at most once. */
+  const int32_t* aovs;
+  size_t aov_count;
+} limpid_shader_options;
+#define LIMPID_SHADER_OPTIONS \
+  { sizeof(limpid_shader_options), 0, NULL, 0, 0, NULL, 0 }
+
+/** Where the values of a shader's texture come from. */
+typedef enum limpid_texture_source {
+  LIMPID_TEXTURE_PLANES = 0, /**< the host's planes of `role`, in the channels r g b a */
+  LIMPID_TEXTURE_ROWS = 1,   /**< texels: numbers of each row of the picture */
+  LIMPID_TEXTURE_MADE = 2    /**< texels: a map of the look, or made for the frame */
+} limpid_texture_source;
+
+/** A shader and its uniform block: limpid::ShaderText. */
+typedef struct limpid_shader_info {
+  size_t size;
+  const char* text; /**< GLSL 4.50 for Vulkan */
+  const char* id;   /**< 16 hexadecimal digits, equal for equal texts */
+  const char* function;
+  int32_t stage; /**< limpid_shader_stage */
+  int32_t set;
+  int32_t block_binding;
+  const void* block; /**< std140, with the values of the frame */
+  size_t block_size; /**< bytes */
+  size_t number_count, texture_count, output_count;
+  int32_t x0, y0, x1, y1; /**< pixels that the shader makes */
+} limpid_shader_info;
+#define LIMPID_SHADER_INFO \
+  { sizeof(limpid_shader_info), NULL, NULL, NULL, 0, 0, 0, NULL, 0, 0, 0, 0, 0, 0, 0, 0 }
+
+/** A float of the uniform block. */
+typedef struct limpid_shader_number {
+  size_t size;
+  const char* name;  /**< "refraction.strength"; in the text with _ for . and [ */
+  size_t offset;     /**< bytes */
+  float value;       /**< of the frame */
+  int32_t has_range; /**< of a parameter that stands in the shader as it is: what it may be */
+  double least, most;
+} limpid_shader_number;
+#define LIMPID_SHADER_NUMBER \
+  { sizeof(limpid_shader_number), NULL, 0, 0, 0, 0, 0 }
+
+/** A sampler2D of the text, read by texelFetch alone, without a filter. */
+typedef struct limpid_shader_texture {
+  size_t size;
+  const char* name; /**< "limpid_depth" */
+  int32_t binding;
+  int32_t source;   /**< limpid_texture_source */
+  const char* role; /**< of planes, made ones included: "depth", "color"; else "" */
+  int32_t plane;    /**< limpid_plane of its channel r; -1 where there is no role */
+  int32_t channels; /**< that are read, 1 ... 4 */
+  int32_t width, height;
+  const float* texels; /**< `channels` floats each, row after row; NULL for the host's planes */
+} limpid_shader_texture;
+#define LIMPID_SHADER_TEXTURE \
+  { sizeof(limpid_shader_texture), NULL, 0, 0, NULL, 0, 0, 0, 0, NULL }
+
+/** What main() writes. The first is the picture. */
+typedef struct limpid_shader_output {
+  size_t size;
+  const char* name; /**< "color", "path": of the AOV */
+  int32_t channels;
+  int32_t binding; /**< of the image; the location of a fragment's */
+} limpid_shader_output;
+#define LIMPID_SHADER_OUTPUT \
+  { sizeof(limpid_shader_output), NULL, 0, 0 }
+
 typedef struct limpid_compositor limpid_compositor;
+typedef struct limpid_shader limpid_shader;
 
 /** "MAJOR.MINOR.PATCH" of the library that runs. */
 LIMPID_API const char* limpid_version(void);
@@ -258,6 +342,35 @@ LIMPID_API size_t limpid_look_text(const limpid_compositor* compositor, char* te
 LIMPID_API size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_replaced_text(const limpid_compositor* compositor, char* text,
                                        size_t size);
+
+/** The look, with its maps, as one shader for frames like this one, and the values of this one:
+ * limpid::Compositor::shader(). The same text, so the same shader, serves any size, time and camera
+ * while the planes that are there, the number of waves and the side of the water that the camera is
+ * on stay; for each frame one is made anew and its block and textures are taken. NULL for options:
+ * the defaults. Textures of LIMPID_TEXTURE_PLANES are the host's to bind, and hold eye depth, unit
+ * normals and row 0 at the top, whatever the conventions are. The shader does not need the
+ * compositor any more. Where it does not return LIMPID_OK, *shader is NULL and limpid_message() of
+ * the compositor has the reason. */
+LIMPID_API limpid_status limpid_create_shader(limpid_compositor* compositor,
+                                              const limpid_frame* frame,
+                                              const limpid_shader_options* options,
+                                              limpid_shader** shader);
+LIMPID_API void limpid_destroy_shader(limpid_shader* shader); /**< NULL is fine */
+
+/** As limpid_message(), of the calls below. */
+LIMPID_API const char* limpid_shader_message(const limpid_shader* shader);
+
+/** They fill a struct as far as its size says, which stays. What it points at is the shader's, and
+ * is there until that is destroyed. LIMPID_REFUSED for an index that is not below the count; the
+ * struct stays as it was then. Numbers come by rising offset, textures by rising binding, outputs
+ * in the order in which they were asked for. */
+LIMPID_API limpid_status limpid_get_shader(limpid_shader* shader, limpid_shader_info* info);
+LIMPID_API limpid_status limpid_get_shader_number(limpid_shader* shader, size_t index,
+                                                  limpid_shader_number* number);
+LIMPID_API limpid_status limpid_get_shader_texture(limpid_shader* shader, size_t index,
+                                                   limpid_shader_texture* texture);
+LIMPID_API limpid_status limpid_get_shader_output(limpid_shader* shader, size_t index,
+                                                  limpid_shader_output* output);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,7 @@
 #include "limpid/limpid.h"
 
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -13,6 +14,7 @@
 #include "limpid/version.h"
 
 #include "embed/host.h"
+#include "embed/limpid_c.h"
 
 /// The C functions, called as C calls them.
 
@@ -20,77 +22,11 @@ namespace limpid {
 namespace {
 
 using test::Picture;
+using test::c::channel;
+using test::c::kSize;
+using test::c::LimpidC;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-constexpr Size kSize{37, 23};
-
-limpid_channel channel(int what, const View<const float>& view) {
-  return {what,
-          LIMPID_FLOAT,
-          const_cast<float*>(view.data),
-          4 * view.x_stride,
-          4 * view.y_stride,
-          0,
-          0,
-          0,
-          0};
-}
-
-/// A frame of noise and a picture for it, in C's words.
-class LimpidC : public testing::Test {
- protected:
-  LimpidC() : buffers(test::noisy_frame(rect_of(kSize))), out(rect_of(kSize)) {
-    const Scene scene = test::simple_scene(kSize);
-    for (int i = 0; i < kPlaneCount; ++i) planes.push_back(channel(i, buffers.frame.planes[i]));
-    for (int c = 0; c < 3; ++c) outputs.push_back(channel(c, out.target.color[c]));
-    outputs.push_back(channel(LIMPID_OUT_A, out.target.alpha));
-    frame.size = sizeof frame;
-    frame.width = kSize.width;
-    frame.height = kSize.height;
-    frame.planes = planes.data();
-    frame.plane_count = planes.size();
-    set_matrix(frame.view, scene.camera->view);
-    set_matrix(frame.projection, scene.camera->projection);
-    frame.water_up[1] = 2;  // need not be unit
-    frame.has_sun = 1;
-    for (int i = 0; i < 3; ++i) {
-      frame.sun_direction[i] = 3 * scene.sun->direction[i];
-    }
-    frame.sun_color[0] = scene.sun->color.r;
-    frame.sun_color[1] = scene.sun->color.g;
-    frame.sun_color[2] = scene.sun->color.b;
-    picture.size = sizeof picture;
-    picture.outputs = outputs.data();
-    picture.output_count = outputs.size();
-    conventions.sane = 1;
-    limpid_create(&conventions, nullptr, &water, nullptr, 0);
-  }
-  ~LimpidC() override { limpid_destroy(water); }
-
-  static void set_matrix(double* to, const glm::dmat4& m) {
-    std::memcpy(to, glm::value_ptr(m), sizeof m);
-  }
-  std::vector<float> expected(const Look& look) {
-    Scene scene = test::simple_scene(kSize);
-    scene.sun->direction = glm::normalize(3.0 * scene.sun->direction);
-    return test::judged(look, buffers.frame, scene);
-  }
-  void expect_refused(const char* why) {
-    const std::vector<float> before = out.values();
-    EXPECT_EQ(limpid_run(water, &frame, &picture), LIMPID_REFUSED);
-    EXPECT_THAT(limpid_message(water), HasSubstr(why));
-    EXPECT_EQ(out.values(), before);
-  }
-
-  test::Buffers buffers;
-  Picture out;
-  std::vector<limpid_channel> planes, outputs;
-  limpid_frame frame{};
-  limpid_picture picture{};
-  limpid_conventions conventions = LIMPID_CONVENTIONS;
-  limpid_compositor* water = nullptr;
-};
 
 TEST_F(LimpidC, GivesTheBitsOfTheFusedRunner) {
   ASSERT_NE(water, nullptr);

@@ -1,5 +1,7 @@
 """Arrays as OpenImageIO reads them give what the tool makes of the files, to the bit."""
+import json
 import pathlib
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -31,6 +33,25 @@ class Lagoon(unittest.TestCase):
             wet = limpid.composite(**self.frame, look=look, wave_map=read_float(look["wave_normals"]["map"]),
                                    environment=read_float(DATA.parent / "maps/sky.hdr"))
             np.testing.assert_array_equal(wet, self.tools(name), err_msg=name)
+
+    def test_shader(self):
+        path = pathlib.Path(self.folder.name) / "water.comp"
+        subprocess.run([TOOL, "shader", "--scene", DATA / "lagoon/lagoon.toml", "--look", "physical", "--main",
+                        "compute", "--aov", "path", "-o", path], check=True, capture_output=True)
+        told = json.loads(pathlib.Path(f"{path}.json").read_text())
+        water = limpid.Compositor(look=limpid.load_look("physical"),
+                                  environment=read_float(DATA.parent / "maps/sky.hdr"))
+        shader = water.shader(**self.frame, stage="compute", aovs=["path"])
+        self.assertEqual(shader.text, path.read_text())
+        self.assertEqual(shader.id, told["id"])
+        self.assertEqual(shader.block, struct.pack(f"{len(told['block']['words'])}I", *told["block"]["words"]))
+        self.assertEqual([number.name for number in shader.numbers], [n["name"] for n in told["block"]["numbers"]])
+        self.assertEqual([texture.binding for texture in shader.textures], [t["binding"] for t in told["textures"]])
+        made = [texture for texture in shader.textures if texture.texels is not None]
+        self.assertIn("limpid_environment", [texture.name for texture in made])
+        for texture in made:
+            pixels = read(f"{path}.{texture.name}.exr").reshape(texture.texels.shape)
+            np.testing.assert_array_equal(texture.texels, pixels, err_msg=texture.name)
 
     def test_maps(self):
         # Without the plate's normals the waves come from the tiling map.

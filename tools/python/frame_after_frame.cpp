@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "looks.h"
+#include "shaders.h"
 #include "values.h"
 
 namespace limpid::python {
@@ -71,6 +72,35 @@ Sample sample_of(const std::string& dtype) {
 /// The array that is given, or a fresh one.
 py::object array_or_new(const py::object& given, Size size, int channels, Sample sample) {
   return given.is_none() ? py::object(new_array(size, channels, sample)) : given;
+}
+
+/// Planes lie where their arrays are.
+struct ArrayFrame {
+  HostFrame frame;
+  Rect window;   ///< of color, that the camera's picture has
+  int channels;  ///< of color
+};
+
+ArrayFrame frame_of(const py::dict& planes, const py::dict& scene, const py::object& display) {
+  const Picture color = picture_of(planes["color"], "color");
+  const int channels = color.channels;
+  if (channels != 3 && channels != 4) expect(color, "color", color.size, 4);
+  ArrayFrame made{{}, display_of(display, color.size), channels};
+  HostFrame& frame = made.frame;
+  frame.display = rect_of(made.window.size());
+  frame.scene = scene_of(scene);
+  for (const auto& [name, array] : planes) {
+    const Role& role = role_named(word_of(name, "a plane"));
+    const std::string role_name(role.name);
+    const bool is_color = role.first == PlaneId::kColorR;
+    const Picture picture = picture_of(array, role_name);
+    expect(picture, role_name, color.size, is_color ? channels : role.count);
+    for (int c = 0; c < picture.channels; ++c) {
+      frame.plane(plane_after(role.first, c)) =
+          input_of(picture, c, -made.window.x0, -made.window.y0);
+    }
+  }
+  return made;
 }
 
 /// From here to the end of its block nobody else may use the compositor. Under the interpreter's
@@ -147,24 +177,7 @@ py::tuple FrameAfterFrame::run(const py::dict& planes, const py::dict& scene,
                                const py::object& display, const py::object& out,
                                const std::string& dtype, const py::dict& aov_arrays) {
   const Busy busy(busy_);
-  const Picture color = picture_of(planes["color"], "color");
-  const int channels = color.channels;
-  if (channels != 3 && channels != 4) expect(color, "color", color.size, 4);
-  const Rect window = display_of(display, color.size);
-
-  HostFrame frame;
-  frame.display = rect_of(window.size());
-  frame.scene = scene_of(scene);
-  for (const auto& [name, array] : planes) {
-    const Role& role = role_named(word_of(name, "a plane"));
-    const std::string role_name(role.name);
-    const bool is_color = role.first == PlaneId::kColorR;
-    const Picture picture = picture_of(array, role_name);
-    expect(picture, role_name, color.size, is_color ? channels : role.count);
-    for (int c = 0; c < picture.channels; ++c) {
-      frame.plane(plane_after(role.first, c)) = input_of(picture, c, -window.x0, -window.y0);
-    }
-  }
+  const auto [frame, window, channels] = frame_of(planes, scene, display);
 
   HostPicture picture;
   const py::object wet = array_or_new(out, window.size(), channels, sample_of(dtype));
@@ -190,6 +203,18 @@ py::tuple FrameAfterFrame::run(const py::dict& planes, const py::dict& scene,
     compositor_->run(frame, picture);
   }
   return py::make_tuple(wet, aovs_made);
+}
+
+py::dict FrameAfterFrame::shader(const py::dict& planes, const py::dict& scene,
+                                 const py::object& display, const py::dict& keywords) {
+  const Busy busy(busy_);
+  const HostFrame frame = frame_of(planes, scene, display).frame;
+  const ShaderOptions options = shader_options_of(keywords);
+  const ShaderText made = [&] {
+    const py::gil_scoped_release unlocked;
+    return compositor_->shader(frame, options);
+  }();
+  return dict_of(made);
 }
 
 py::tuple FrameAfterFrame::plan() const {

@@ -31,6 +31,10 @@ class FrameAfterFrame {
                       const pybind11::object& display, const pybind11::object& out,
                       const std::string& dtype, const pybind11::dict& aovs);
 
+  /// The frame as run() takes it, and keywords of shader_options_of(); what dict_of() makes of it.
+  pybind11::dict shader(const pybind11::dict& planes, const pybind11::dict& scene,
+                        const pybind11::object& display, const pybind11::dict& options);
+
   /// (list of (name, verdict, reason, rule), list of roles that are read, text).
   pybind11::tuple plan() const;
   pybind11::dict replaced() const;

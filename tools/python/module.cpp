@@ -98,6 +98,7 @@ PYBIND11_MODULE(_limpid, module) {
       .def("set_wave_map", &C::set_wave_map)
       .def("set_environment", &C::set_environment)
       .def("run", &C::run)
+      .def("shader", &C::shader)
       .def("plan", &C::plan)
       .def("replaced", &C::replaced);
 }

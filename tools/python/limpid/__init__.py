@@ -21,6 +21,7 @@ expected; arguments of a wrong type are TypeErrors where they are no arrays.
 """
 from __future__ import annotations
 
+import dataclasses
 import os
 import pathlib
 import tomllib
@@ -32,8 +33,9 @@ import numpy as np
 from . import _limpid
 from ._limpid import Error, __version__
 
-__all__ = ["Camera", "Compositor", "Error", "Plan", "PlannedOperator", "aovs", "composite", "full_look",
-           "load_look", "look_at", "look_to_toml", "operators", "orthographic", "perspective", "roles"]
+__all__ = ["Camera", "Compositor", "Error", "Plan", "PlannedOperator", "Shader", "ShaderNumber", "ShaderOutput",
+           "ShaderTexture", "aovs", "composite", "full_look", "load_look", "look_at", "look_to_toml", "operators",
+           "orthographic", "perspective", "roles"]
 
 Error.__module__ = "limpid"
 Error.__doc__ = "What the library refuses, in one sentence that says what was expected."
@@ -63,6 +65,53 @@ class Plan(tuple):
 
     def __str__(self) -> str:
         return self.text
+
+
+class ShaderNumber(NamedTuple):
+    """A float of a shader's uniform block."""
+    name: str  #: "refraction.strength"; in the text with _ for . and [
+    offset: int  #: in bytes
+    value: float  #: of the frame
+    range: tuple[float, float] | None  #: what a parameter that stands in the shader as it is may be
+
+
+class ShaderTexture(NamedTuple):
+    """A sampler2D of a shader, read by texelFetch alone, without a filter."""
+    name: str  #: "limpid_depth"
+    binding: int
+    source: str  #: planes: the frame's, for the host to bind; rows: of each row; made: a map, or made for the frame
+    role: str | None  #: of planes, made ones included: "depth", "color"
+    channels: int  #: that are read, 1 ... 4
+    width: int
+    height: int
+    texels: np.ndarray | None  #: (rows, columns[, channels]) float32, read-only; None for planes
+
+
+class ShaderOutput(NamedTuple):
+    """An image (compute) or output (fragment) that main() writes. The first is the picture."""
+    name: str  #: "color", "path": of the AOV
+    channels: int
+    binding: int  #: or location
+
+
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
+class Shader:
+    """A look as one shader, and the values that a frame gives it; see Compositor.shader.
+
+    Textures of source "planes" hold eye depth, unit normals and row 0 at the top, whatever the
+    compositor's arrays hold.
+    """
+    text: str  #: GLSL 4.50 for Vulkan
+    id: str  #: 16 hexadecimal digits of the text: equal for equal texts
+    stage: str
+    function: str
+    set: int
+    block_binding: int
+    block: bytes  #: the uniform block, std140, with the values of the frame
+    numbers: tuple[ShaderNumber, ...]  #: of the block
+    textures: tuple[ShaderTexture, ...]
+    outputs: tuple[ShaderOutput, ...]
+    work: tuple[int, int, int, int]  #: pixels that the shader makes: x0, y0, x1, y1
 
 
 class Compositor:
@@ -158,24 +207,46 @@ class Compositor:
         aovs: names of aovs() ("stmap" for its three), or a dict that has arrays for some of them
             (rows, columns[, channels]), None for the others
         """
-        water = dict(water) if isinstance(water, Mapping) else water
-        sun = dict(sun) if isinstance(sun, Mapping) else sun
         planes = {"color": color, "depth": depth, "shadow": shadow, "reflection": reflection,
                   "surface_depth": surface_depth, "surface_normal": surface_normal,
                   "reflection_valid": reflection_valid, "reflection_depth": reflection_depth,
                   "below_color": below_color, "below_depth": below_depth, "surface_shadow": surface_shadow,
                   "sky": sky, "albedo": albedo, "sun_color": sun_color}
-        planes = {name: array for name, array in planes.items()
-                  if array is not None or name in ("color", "depth")}
-        try:
-            view, projection = camera
-        except (TypeError, ValueError):
-            raise Error(f"camera is a {type(camera).__name__}, expected view and projection") from None
-        scene = {"view": view, "projection": projection, "water": water, "sun": sun,
-                 "sky_radiance": sky_radiance, "time": time}
+        scene = _scene(camera, water, sun, sky_radiance, time)
         dtype = dtype if isinstance(dtype, str) else np.dtype(dtype).name
-        wet, made = self._core.run(planes, scene, display, out, dtype, _aov_arrays(aovs))
+        wet, made = self._core.run(_present(planes), scene, display, out, dtype, _aov_arrays(aovs))
         return wet if aovs is None else (wet, made)
+
+    def shader(self, *, color: np.ndarray, depth: np.ndarray, camera: Camera, water: Mapping,
+               sun: Mapping | None = None, time: float = 0.0, sky_radiance: Sequence[float] | None = None,
+               display: Sequence[int] | None = None, stage: str = "function", function: str = "limpid_water",
+               set: int = 0, first_binding: int = 0, aovs: Sequence[str] | None = None,
+               **planes: np.ndarray | None) -> Shader:
+        """The look, with its maps, as one shader for frames like this one, and the values of this one.
+
+        The text is the same for any size, time and camera, as long as the frame has the same arrays, the
+        water as many waves, and the camera does not pass between air and water. max_error does not count,
+        and no edge is mixed. What run, plan and replaced give does not change. Other languages than GLSL:
+        `limpid shader --lang`.
+
+        color ... display: as in run, and all other arrays of it as `planes`
+        stage: "function" (declarations and the function alone), "compute" (and a main() for groups of
+            16 x 8 pixels, that writes images) or "fragment" (and a main() for a pixel of a full-screen
+            triangle)
+        function: its name, a word of letters, digits and _
+        set: descriptor set of all that is declared, 0 ... 31
+        first_binding: bindings count from here, 0 ... 1000
+        aovs: names of aovs() that the function returns besides the picture
+        """
+        for name in planes.keys() - {role["name"] for role in roles()}:
+            raise TypeError(f"shader() got an unexpected keyword argument '{name}'")
+        scene = _scene(camera, water, sun, sky_radiance, time)
+        options = {"stage": stage, "function": function, "set": set, "first_binding": first_binding,
+                   "aovs": list(_aov_arrays(aovs))}
+        made = self._core.shader(_present({"color": color, "depth": depth, **planes}), scene, display, options)
+        for name, kind in (("numbers", ShaderNumber), ("textures", ShaderTexture), ("outputs", ShaderOutput)):
+            made[name] = tuple(kind(*values) for values in made[name])
+        return Shader(**made)
 
     @property
     def plan(self) -> Plan:
@@ -282,6 +353,22 @@ def _plain(look: Any) -> dict:
     if not isinstance(look, Mapping):
         raise Error(f"look is a {type(look).__name__}, expected a dict of dicts")
     return {name: dict(table) if isinstance(table, Mapping) else table for name, table in look.items()}
+
+
+def _present(planes: dict[str, Any]) -> dict[str, Any]:
+    """Without those that a frame need not have and has not."""
+    return {name: array for name, array in planes.items() if array is not None or name in ("color", "depth")}
+
+
+def _scene(camera: Any, water: Any, sun: Any, sky_radiance: Any, time: Any) -> dict[str, Any]:
+    try:
+        view, projection = camera
+    except (TypeError, ValueError):
+        raise Error(f"camera is a {type(camera).__name__}, expected view and projection") from None
+    return {"view": view, "projection": projection,
+            "water": dict(water) if isinstance(water, Mapping) else water,
+            "sun": dict(sun) if isinstance(sun, Mapping) else sun,
+            "sky_radiance": sky_radiance, "time": time}
 
 
 def _aov_arrays(wanted: Any) -> dict[str, np.ndarray | None]:
