@@ -168,10 +168,12 @@ void GpuDevice::take(VkPhysicalDevice physical) {
   vk_.vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
 }
 
-std::vector<std::string> GpuDevice::names() {
-  std::vector<std::string> list;
+std::vector<GpuInfo> GpuDevice::known() {
+  std::vector<GpuInfo> list;
   for (const Candidate& candidate : Instance().candidates()) {
-    if (candidate.fault().empty()) list.push_back(candidate.name());
+    if (!candidate.fault().empty()) continue;
+    const bool software = candidate.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    list.push_back({candidate.name(), software});
   }
   return list;
 }

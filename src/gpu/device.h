@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limpid/core/rect.h"
+#include "limpid/gpu/gpu_runner.h"
 
 #include "gpu/vulkan.h"
 #include "shade/program.h"
@@ -32,8 +33,8 @@ class GpuDevice {
   /// name, in any case, or "" for the first of the fastest kind. Throws Error where there is none,
   /// or none that promises what shaders rely on: Vulkan 1.2, and infinity among floats.
   static std::shared_ptr<GpuDevice> open(const std::string& name);
-  /// Names of all that open() would open, those of the fastest kind first.
-  static std::vector<std::string> names();
+  /// All that open() would open, those of the fastest kind first.
+  static std::vector<GpuInfo> known();
 
   const Vulkan& vk() const { return vk_; }
   VkInstance instance() const { return instance_; }

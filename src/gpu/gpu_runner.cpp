@@ -9,6 +9,7 @@
 #include "complete/rows.h"
 #include "gpu/bindings.h"
 #include "gpu/commands.h"
+#include "gpu/gpu_load.h"
 #include "gpu/passage.h"
 #include "plan/pass_of.h"
 #include "run/checks.h"
@@ -18,13 +19,11 @@
 namespace limpid {
 namespace {
 
-/// AOVs that the shader is to make; the others show planes.
-std::vector<Aov> made_aovs(const Target& target) {
+/// AOVs that are wanted.
+std::vector<Aov> aovs_of(const Target& target) {
   std::vector<Aov> list;
   for (int i = 0; i < kAovCount; ++i) {
-    const Aov aov = static_cast<Aov>(i);
-    const bool made = aovs()[static_cast<std::size_t>(i)].planes.empty();
-    if (made && target.of(aov)[0]) list.push_back(aov);
+    if (target.aovs[static_cast<std::size_t>(i)][0]) list.push_back(static_cast<Aov>(i));
   }
   return list;
 }
@@ -138,19 +137,16 @@ void GpuRunner::run(const Plan& plan, const Frame& plate, const Scene& scene, co
       k.completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &k.options.simd);
   Pass pass = pass_of(plan, scene, frame);
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
-  const std::vector<Aov> made = made_aovs(target);
-  ShaderOptions options;
-  options.stage = ShaderOptions::Stage::kCompute;
-  options.aovs = made;
+  const ShaderOptions options = compute_shader(aovs_of(target));
   const ShaderProgram program = program_of(plan, plate, frame, pass, options);
   k.fit(program);
   k.fill(program, executor);
   k.compute(program);
-  k.store(program, made, target, executor);
+  k.store(program, options.aovs, target, executor);
   put_edges(frame, target, executor);
   show_planes(plan, frame, target, executor);
 }
 
-std::vector<std::string> gpu_devices() { return GpuDevice::names(); }
+std::vector<GpuInfo> gpu_devices() { return GpuDevice::known(); }
 
 }  // namespace limpid

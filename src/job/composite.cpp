@@ -7,6 +7,7 @@
 
 #include "complete/completer.h"
 #include "core/toml_text.h"
+#include "gpu/gpu_load.h"
 #include "job/canvas.h"
 #include "job/held_gpu.h"
 #include "job/picture_warnings.h"
@@ -205,14 +206,26 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   const Scene& scene = prepared.scene;
   SurveyedPlan surveyed{std::move(prepared.plan), {}, {}, {}};
   const Plan& plan = surveyed.plan;
-  LoadedPlate loaded = prepared.plate.read(plan.planes - kUnsurveyed, scene, prepared.depth);
+  const bool gpu = job.output.runner == Runner::kGpu;
+  LoadedPlate loaded =
+      prepared.plate.read(gpu ? plan.planes : plan.planes - kUnsurveyed, scene, prepared.depth);
   loaded.frame.overscan = job.output.overscan;
   loaded.frame.validate();
+  SharedTextures textures;
+  HeldTextures held;
+  if (gpu) held = textures.load(prepared.textures, job.plate.limits);
+  held.show_in(loaded.frame);
   const Pass pass = pass_of(plan, scene, loaded.frame);
   Completer completer;
   const Frame frame = completer.complete(plan, loaded.frame, pass, executor, &job.output.simd);
-  const Pass whole = pass_of(plan, scene, frame);
+  Pass whole = pass_of(plan, scene, frame);
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
+  if (gpu) {
+    if (!plan.reads_environment) whole.environment = {};
+    const ShaderProgram program =
+        program_of(plan, loaded.frame, frame, whole, compute_shader(computed_aovs(job.output)));
+    surveyed.gpu = gpu_load_text(plan, program);
+  }
   surveyed.warnings = warnings_of(job, prepared.plate, plan);
   warn_of_picture(plan, frame, scene, surveyed.warnings);
   warn_of_deep_glass(loaded.transparent, surveyed.warnings);

@@ -272,10 +272,10 @@ TEST_F(Gpu, RefusesDevicesThatAreNotThere) {
   EXPECT_EQ(refusal({.device = "no such device"})
                 .find("no GPU has 'no such device' in its name: expected a part of one of "),
             0u);
-  const std::vector<std::string> names = gpu_devices();
-  ASSERT_FALSE(names.empty());
-  EXPECT_EQ(refusal({.device = names[0]}), "");
-  EXPECT_EQ(runner->device().find(names[0]), 0u);
+  const std::vector<GpuInfo> known = gpu_devices();
+  ASSERT_FALSE(known.empty());
+  EXPECT_EQ(refusal({.device = known[0].name}), "");
+  EXPECT_EQ(runner->device().find(known[0].name), 0u);
 }
 
 TEST_F(Gpu, RefusesFramesThatAreTooLarge) {

@@ -35,12 +35,13 @@ TEST_F(GpuToolTest, GivesThePictureOfTheReference) {
   composed("gpu.exr", {"--runner", "gpu", "--float", "--aov", "all"});
   EXPECT_TRUE(same("gpu.exr", "reference.exr", 3e-4));
   EXPECT_TRUE(std::filesystem::is_directory(folder_ / "cache/limpid"));
-  composed("again.exr", {"--runner", "gpu", "--float", "--aov", "all", "--gpu", gpu_devices()[0]});
+  composed("again.exr",
+           {"--runner", "gpu", "--float", "--aov", "all", "--gpu", gpu_devices()[0].name});
   EXPECT_EQ(text_of("again.exr"), text_of("gpu.exr"));
   const auto options = ExrFile::open(folder_ / "gpu.exr").text_attribute(0, "limpid/options");
   ASSERT_TRUE(options.has_value());
   EXPECT_THAT(*options, HasSubstr("runner = \"gpu\"\n"));
-  EXPECT_THAT(*options, HasSubstr("gpu = \"" + gpu_devices()[0] + " ("));
+  EXPECT_THAT(*options, HasSubstr("gpu = \"" + gpu_devices()[0].name + " ("));
 }
 
 /// Deep samples and samples of the waves, as by the fused runner.
@@ -88,6 +89,21 @@ TEST_F(GpuToolTest, FramesOfASequenceAreThoseAlone) {
     EXPECT_NE(text_of("w." + frame + ".exr"), "");
     EXPECT_EQ(text_of("w." + frame + ".exr"), text_of("alone." + frame + ".exr"));
   }
+}
+
+TEST_F(GpuToolTest, PlanSaysWhatRunsWhere) {
+  const auto plan = [&](const Words& more) {
+    Words words{"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = limpid(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.out;
+  };
+  const std::string said = plan({"--runner", "gpu", "--set", "water.edges=mixed"});
+  EXPECT_THAT(said, testing::ContainsRegex("on the GPU  shader [0-9a-f]+ of [0-9]+ numbers and "
+                                           "[0-9]+ textures; [0-9.]+ MB there and 0.0 MB back"));
+  EXPECT_THAT(said, testing::ContainsRegex("on the CPU  .*mixed edges"));
+  EXPECT_THAT(plan({}), testing::Not(HasSubstr("on the GPU")));
 }
 
 TEST_F(GpuToolTest, RefusesWhatItCannotDo) {

@@ -114,6 +114,11 @@ void add_preview(CLI::App& verb, WaterOptions& a) {
       ->option_text("OUT.png");
 }
 
+void add_runner(CLI::App& verb, WaterOptions& a) {
+  verb.add_option("--runner", a.runner, "fused (fast), gpu (by Vulkan) or reference (double)")
+      ->option_text("NAME");
+}
+
 void add_picture(CLI::App& verb, WaterOptions& a) {
   add_file(verb, a);
   add_simd(verb, a);
@@ -121,8 +126,7 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--deep", a.deep,
                   "Also write the water as deep samples, always compressed by zips")
       ->option_text("OUT.exr");
-  verb.add_option("--runner", a.runner, "fused (fast), gpu (by Vulkan) or reference (double)")
-      ->option_text("NAME");
+  add_runner(verb, a);
   verb.add_option("--gpu", a.gpu, "A part of the GPU's name (default: the fastest kind)")
       ->option_text("NAME");
   verb.add_flag("-n", a.dry_run, "Print the plan, write nothing");
@@ -308,6 +312,9 @@ void add_report(CLI::App& app, ReportArguments& a) {
       ->option_text("N")
       ->check(whole_number_in(1, kMostRounds));
   verb.add_flag("--quick", a.quick, "Small pictures, few rounds: to see that it works");
+  verb.add_option("--gpu", a.gpu,
+                  "Measure a GPU, too: a part of its name (default: one that is not software)")
+      ->option_text("NAME");
   verb.add_flag("--hard", a.hard,
                 "The hard cases with their bounds instead, also printed: hard.html and hard.json");
 }
@@ -440,6 +447,7 @@ Parsed parse(int argc, char** argv) {
   CLI::App& plan =
       *app.add_subcommand("plan", "Say what would run for a plate and a look, and why");
   add_composite(plan, a.composite);
+  add_runner(plan, a.composite.water);
   plan.add_flag("--measure", a.composite.measure,
                 "Also run it, and say how long each operator took; nothing is written");
 

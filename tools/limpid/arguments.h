@@ -91,6 +91,7 @@ struct ReportArguments {
   std::optional<int> rounds;
   bool quick = false;
   bool hard = false;
+  std::string gpu;
 };
 
 struct ShaderArguments {

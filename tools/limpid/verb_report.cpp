@@ -21,6 +21,7 @@ ReportOptions options_of(const ReportArguments& a, const CommonArguments& common
   if (a.size) options.size = size_named(*a.size, kLeastReportSide, kMostReportSide);
   if (a.rounds) options.rounds = *a.rounds;
   options.threads = common.threads;
+  options.gpu = a.gpu;
   options.data = data_folder();
   if (!common.quiet) {
     options.progress = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
@@ -55,7 +56,9 @@ int hard_cases(const ReportArguments& a, const CommonArguments& common) {
   }
   expect_apart_from_data(a.output, {"hard.json", "hard.html"});
   make_hard_folder(a.output);
-  const std::vector<HardRow> rows = HardSuite(data_folder(), common.threads).measure_all();
+  const GpuOptions gpu{.device = a.gpu};
+  const HardSuite suite(data_folder(), common.threads, a.gpu.empty() ? nullptr : &gpu);
+  const std::vector<HardRow> rows = suite.measure_all();
   write_hard(a.output, rows);
   if (!common.quiet) {
     std::printf("%s", to_text(rows).c_str());

@@ -56,8 +56,13 @@ class GpuRunner {
   std::unique_ptr<Kept> kept_;
 };
 
-/// Names of the devices that a runner would run on, those of the fastest kind first. Throws Error
-/// where Vulkan's loader is not installed.
-std::vector<std::string> gpu_devices();
+/// A device that a runner would run on.
+struct GpuInfo {
+  std::string name;
+  bool software = false;  ///< no GPU at all, but a driver that computes on the CPU
+};
+/// All of them, those of the fastest kind first. Throws Error where Vulkan's loader is not
+/// installed.
+std::vector<GpuInfo> gpu_devices();
 
 }  // namespace limpid

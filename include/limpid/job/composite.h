@@ -51,6 +51,8 @@ struct SurveyedPlan {
   Survey survey;
   Beyond beyond;
   std::vector<std::string> warnings;  ///< as CompositeReport's
+  /// Of Runner::kGpu, lines: what is asked of the GPU, and of the CPU beside it. No GPU is opened.
+  std::string gpu = {};
 };
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limpid/core/executor.h"
+#include "limpid/gpu/gpu_runner.h"
 #include "limpid/ops/look.h"
 
 #include "judge/compare/compare.h"
@@ -25,6 +26,7 @@ struct Measuring {
   int threads;     ///< that `many` has
   std::string simd;
   Report& report;
+  const GpuOptions* gpu = nullptr;  ///< of one that is there
 
   void say(const std::string& line) const {
     if (options.progress) options.progress(line);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <list>
 
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
@@ -61,6 +62,7 @@ class Looks {
   void run(bool figures) {
     time_reference();
     time_fused();
+    time_gpu();
     judge();
     describe_subject();
     if (figures) draw();
@@ -123,6 +125,30 @@ class Looks {
       if (m_.threads > 1) add_way(m_.simd, m_.many, m_.threads);
       run_fused(run.plan, run.frame, subject_.scene(), run.fused.target, m_.many,
                 {.simd = m_.simd});
+    }
+    time_rounds(timed, m_.options.rounds);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].ns_per_pixel = ns(timed[i].best_seconds);
+      add(rows[i]);
+    }
+  }
+
+  /// From memory to memory; what is made before is made on all threads.
+  void time_gpu() {
+    if (!m_.gpu) return;
+    Picture scratch(subject_.window());
+    std::list<GpuRunner> runners;  // each keeps what its look needs
+    std::vector<RunnerRow> rows;
+    std::vector<Timed> timed;
+    for (LookRun& run : runs_) {
+      GpuRunner& runner = runners.emplace_back(*m_.gpu);
+      Timed work{
+          [&] { runner.run(run.plan, run.frame, subject_.scene(), scratch.target, m_.many); }};
+      work.clock = Clock::kWall;
+      work.run();  // for its error, and to compile it
+      rows.push_back({subject_.facts().name, run.look.name, "gpu", runner.device(), m_.threads,
+                      m_.options.rounds, 0, error_of(scratch, run.exact, false)});
+      timed.push_back(std::move(work));
     }
     time_rounds(timed, m_.options.rounds);
     for (std::size_t i = 0; i < rows.size(); ++i) {

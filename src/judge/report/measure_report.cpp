@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -52,6 +53,19 @@ std::string now() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
+/// The one that is named; else a GPU, if there is one.
+std::optional<GpuOptions> gpu_of(const ReportOptions& options) {
+  const GpuOptions chosen{.device = options.gpu};
+  if (!options.gpu.empty()) return chosen;
+  try {
+    const std::vector<GpuInfo> known = gpu_devices();
+    if (!known.empty() && !known[0].software) return chosen;
+  } catch (const Error&) {
+    // A machine without Vulkan.
+  }
+  return {};
+}
+
 void measure(const Measuring& m) {
   const ReportOptions& options = m.options;
   measure_truth(m);
@@ -98,10 +112,20 @@ Report measure_report(const ReportOptions& options) {
   const auto one = make_executor(1), many = make_executor(options.threads);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.threads == 0 ? cores : std::min(options.threads, cores);
+  const std::optional<GpuOptions> gpu = gpu_of(options);
+  std::optional<GpuRunner> holder;  // of the device, from subject to subject
+  if (gpu) holder.emplace(*gpu);
   Report report;
   const Look physical = load_look(options.data / "looks" / "physical.toml");
-  const Measuring m{options, looks_of(options.data, physical), physical, *one, *many,
-                    threads, simd_targets().front(),           report};
+  const Measuring m{options,
+                    looks_of(options.data, physical),
+                    physical,
+                    *one,
+                    *many,
+                    threads,
+                    simd_targets().front(),
+                    report,
+                    gpu ? &*gpu : nullptr};
   report.made = now();
   report.simd = m.simd;
   for (const Look& look : m.looks) report.looks.push_back(look.name);

@@ -20,6 +20,9 @@ struct ReportOptions {
   /// Timed runs go over all rows in turn; the best counts. The reference gets two at most.
   int rounds = 5;
   int threads = 0;  ///< of the rows that are not run on one; 0: one a core
+  /// A GPU that is measured, too: a part of its name; "" for the first that is not software, if
+  /// there is one.
+  std::string gpu = {};
   /// Told one line a measurement; may be empty.
   std::function<void(const std::string&)> progress = {};
 
@@ -42,7 +45,9 @@ struct ReportSubject {
 
 /// A look by a runner; judged by the same look in double.
 struct RunnerRow {
-  std::string subject, look, runner, simd;  ///< simd "" for the reference
+  /// simd: "" for the reference, the device for the one on a GPU, whose time is from memory to
+  /// memory.
+  std::string subject, look, runner, simd;
   int threads = 1, rounds = 1;
   double ns_per_pixel = 0;
   PixelError error;

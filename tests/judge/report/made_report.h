@@ -24,6 +24,8 @@ inline Report made_report(const std::string& name = "pond") {
     report.runners.push_back(
         {name, look, "fused", "scalar", 1, 3, 4 * ns, {2e-7, 1e-6, 1e-5, 1e-4}});
     report.runners.push_back({name, look, "fused", "avx2", 2, 3, ns / 2, {1e-7, 1e-6, 1e-5, 1e-4}});
+    report.runners.push_back(
+        {name, look, "gpu", "a <GPU>", 2, 3, ns / 9, {1e-7, 1e-6, 1e-5, 1e-4}});
     ns /= 2;
   }
   report.look_rows = {{name, "physical", 100, {}, {}},

@@ -53,7 +53,9 @@ TEST(ReportJson, HoldsEveryRow) {
   EXPECT_EQ(j["build"]["limpid"], "1.2.3");
   EXPECT_EQ(j["settings"]["rounds"], 3);
   EXPECT_EQ(j["subjects"][0]["wet_share"], 0.5);
-  ASSERT_EQ(j["looks_by_runner"].size(), 8);
+  ASSERT_EQ(j["looks_by_runner"].size(), 10);
+  EXPECT_EQ(j["looks_by_runner"][4]["runner"], "gpu");
+  EXPECT_EQ(j["looks_by_runner"][4]["simd"], "a <GPU>");
   EXPECT_EQ(j["looks_by_runner"][0]["runner"], "reference");
   EXPECT_TRUE(j["looks_by_runner"][0]["simd"].is_null());
   EXPECT_EQ(j["looks_by_runner"][1]["error"]["p99_99"], 1e-5);
