@@ -12,6 +12,9 @@ namespace limpid {
 struct HalfTarget {
   void (*widen)(const std::byte* halves, std::ptrdiff_t stride, float* floats, int count);
   void (*narrow)(const float* floats, std::byte* halves, std::ptrdiff_t stride, int count);
+  /// Halves in a row, if there are some that are the very floats; returns whether. What else is
+  /// written counts for nothing.
+  bool (*narrow_exactly)(const float* floats, std::byte* halves, int count);
 };
 
 /// `simd` as in FusedOptions; throws as simd_index().

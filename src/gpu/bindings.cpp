@@ -73,13 +73,17 @@ void GpuBindings::write(int binding, VkDescriptorType type, const VkDescriptorBu
   device_->vk().vkUpdateDescriptorSets(device_->handle(), 1, &set, 0, nullptr);
 }
 
-void GpuBindings::dispatch(VkCommandBuffer commands, Size size) const {
+void GpuBindings::dispatch(VkCommandBuffer commands, const ShaderProgram& program) const {
   const Vulkan& vk = device_->vk();
   vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_->handle());
   vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_->layout(), 0, 1,
                              &set_, 0, nullptr);
-  vk.vkCmdDispatch(commands, static_cast<std::uint32_t>((size.width + 15) / 16),
-                   static_cast<std::uint32_t>((size.height + 7) / 8), 1);
+  const auto groups = [](int pixels, int group) {
+    return static_cast<std::uint32_t>((pixels + group - 1) / group);
+  };
+  const Size size = program.work.size();
+  vk.vkCmdDispatch(commands, groups(size.width, program.group.width),
+                   groups(size.height, program.group.height), 1);
 }
 
 }  // namespace limpid

@@ -23,7 +23,7 @@ class GpuBindings {
                     VkSampler sampler = VK_NULL_HANDLE) const;
   void bind_output(int binding, VkImageView view) const;  ///< in layout general
   /// A thread for each pixel.
-  void dispatch(VkCommandBuffer commands, Size size) const;
+  void dispatch(VkCommandBuffer commands, const ShaderProgram& program) const;
 
  private:
   void write(int binding, VkDescriptorType type, const VkDescriptorBufferInfo* buffer,

@@ -99,7 +99,6 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
   }
   void make_plan(const Frame& windows, const Scene& scene);
   void fit(Slot& slot, const ShaderProgram& program, const GpuFrame& host);
-  void fill(Slot& slot, const ShaderProgram& program);
   void fit_copy(const GpuImageView& color);
   void copy_color(VkCommandBuffer c, const GpuImageView& color);
   void expect_recorded() const {
@@ -145,7 +144,7 @@ void GpuCompositor::State::make_plan(const Frame& windows, const Scene& scene) {
   planned_for = windows.present(), planned_sun = sun, planned_waves = waves;
 }
 
-/// Pipeline, memory and bindings for the program.
+/// Pipeline, textures and bindings for the program.
 void GpuCompositor::State::fit(Slot& slot, const ShaderProgram& program, const GpuFrame& host) {
   if (slot.id != program.id) {
     slot.id.clear();
@@ -158,6 +157,7 @@ void GpuCompositor::State::fit(Slot& slot, const ShaderProgram& program, const G
     slot.bindings.bind_block(program.block_binding, slot.block.handle());
     slot.id = program.id;
   }
+  std::memcpy(slot.block.bytes(), program.block.data(), program.block.size());
   for (const ProgramTexture& texture : program.textures) {
     if (texture.source == ShaderTexture::Source::kPlanes) {
       const GpuImageView& plane = host.planes.at(role_named(texture.role).first);
@@ -166,16 +166,8 @@ void GpuCompositor::State::fit(Slot& slot, const ShaderProgram& program, const G
       continue;
     }
     Passage& input = slot.inputs[texture.name];
-    if (input.fit_input(device, texture)) slot.filled.erase(texture.name);
+    if (!slot.filled[texture.name]) input.fill(device, texture, *executor);
     slot.bindings.bind_texture(texture.binding, input.image.view(), kRead.layout);
-  }
-}
-
-void GpuCompositor::State::fill(Slot& slot, const ShaderProgram& program) {
-  std::memcpy(slot.block.bytes(), program.block.data(), program.block.size());
-  for (const ProgramTexture& texture : program.textures) {
-    const bool hosts = texture.source == ShaderTexture::Source::kPlanes;
-    if (!hosts && !slot.filled[texture.name]) slot.inputs.at(texture.name).fill(texture, *executor);
   }
 }
 
@@ -261,6 +253,7 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
   if (!s.plan->reads_environment) pass.environment = {};
   ShaderOptions options;
   options.stage = ShaderOptions::Stage::kCompute;
+  options.most_threads = s.device->most_threads();
   options.half = holds_halves(picture.format);
   const Rect work = frame.work();
   const bool begins = picture.window.x0 == work.x0 && picture.window.y0 == work.y0;
@@ -286,7 +279,6 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
   }
   State::Slot& slot = s.slots[s.next++ % s.slots.size()];
   s.fit(slot, program, seen);
-  s.fill(slot, program);
   slot.bindings.bind_output(program.outputs[0].binding, picture.view);
   const VkCommandBuffer c = commands;
   for (const ProgramTexture& texture : program.textures) {
@@ -296,7 +288,7 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
     filled = is_set_by_host(texture.name);
   }
   if (in_place) s.copy_color(c, color);
-  slot.bindings.dispatch(c, program.work.size());
+  slot.bindings.dispatch(c, program);
   s.recorded = true;
 }
 

@@ -68,11 +68,6 @@ void GpuRunner::Kept::fit(const ShaderProgram& program) {
     bindings.bind_block(program.block_binding, block.handle());
     id = program.id;
   }
-  for (const ProgramTexture& texture : program.textures) {
-    Passage& input = inputs[texture.name];
-    input.fit_input(device, texture);
-    bindings.bind_texture(texture.binding, input.image.view(), kRead.layout);
-  }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     outputs[i].fit_output(device, program.work.size());
     bindings.bind_output(program.outputs[i].binding, outputs[i].image.view());
@@ -82,7 +77,9 @@ void GpuRunner::Kept::fit(const ShaderProgram& program) {
 void GpuRunner::Kept::fill(const ShaderProgram& program, Executor& executor) {
   std::memcpy(block.bytes(), program.block.data(), program.block.size());
   for (const ProgramTexture& texture : program.textures) {
-    inputs.at(texture.name).fill(texture, executor);
+    Passage& input = inputs[texture.name];
+    input.fill(device, texture, executor);
+    bindings.bind_texture(texture.binding, input.image.view(), kRead.layout);
   }
 }
 
@@ -91,7 +88,7 @@ void GpuRunner::Kept::compute(const ShaderProgram& program) {
   commands.run([&](VkCommandBuffer c) {
     for (const auto& [name, input] : inputs) input.upload(vk, c);
     for (const Passage& output : outputs) turn(vk, c, output.image.handle(), kUnused, kWritten);
-    bindings.dispatch(c, program.work.size());
+    bindings.dispatch(c, program);
     for (const Passage& output : outputs) output.download(vk, c);
     auto seen = vulkan_struct<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     seen.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
@@ -137,7 +134,8 @@ void GpuRunner::run(const Plan& plan, const Frame& plate, const Scene& scene, co
       k.completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &k.options.simd);
   Pass pass = pass_of(plan, scene, frame);
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
-  const ShaderOptions options = compute_shader(aovs_of(target));
+  ShaderOptions options = compute_shader(aovs_of(target));
+  options.most_threads = k.device->most_threads();
   const ShaderProgram program = program_of(plan, plate, frame, pass, options);
   k.fit(program);
   k.fill(program, executor);

@@ -1,6 +1,10 @@
 #include "gpu/passage.h"
 
+#include <atomic>
+#include <vector>
+
 #include "complete/rows.h"
+#include "enter/half.h"
 
 namespace limpid {
 namespace {
@@ -13,36 +17,91 @@ VkBufferImageCopy whole(const GpuImage& image) {
   return copy;
 }
 
-}  // namespace
+std::size_t bytes_of(Passage::Storage storage) {
+  return std::size_t{1} << static_cast<int>(storage);
+}
 
-bool Passage::fit(const std::shared_ptr<GpuDevice>& device, Size size, int channels,
-                  VkImageUsageFlags image_use, VkBufferUsageFlags buffer_use) {
-  const int stored = channels == 1 ? 1 : 4;
-  if (image.size() == size && step == stored) return false;
-  *this = {};  // before another is made
-  const VkFormat format = stored == 1 ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
-  image = GpuImage(device, size, format, image_use);
-  const std::size_t texels = static_cast<std::size_t>(size.width) * size.height;
-  buffer = GpuBuffer(device, texels * stored * sizeof(float), buffer_use);
-  step = stored;
+VkFormat format_of(Passage::Storage storage, int channels) {
+  constexpr VkFormat kFormats[][2] = {{VK_FORMAT_R8_UNORM, VK_FORMAT_R8G8B8A8_UNORM},
+                                      {VK_FORMAT_R16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT},
+                                      {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}};
+  return kFormats[static_cast<int>(storage)][channels == 1 ? 0 : 1];
+}
+
+/// Devices turn bytes into floats to rounding: not for planes, whose dry pixels stay as they are.
+Passage::Storage narrowest(const ProgramTexture& texture) {
+  switch (texture.source) {
+    case ShaderTexture::Source::kPlanes:
+      return Passage::Storage::kHalf;
+    case ShaderTexture::Source::kRows:
+      return Passage::Storage::kFloat;
+    case ShaderTexture::Source::kMade:
+      return texture.role.empty() ? Passage::Storage::kByte : Passage::Storage::kHalf;
+  }
+  return Passage::Storage::kFloat;
+}
+
+/// Whole 255ths. Returns whether all values are such.
+bool as_bytes(const std::vector<float>& floats, std::byte* bytes) {
+  for (std::size_t i = 0; i < floats.size(); ++i) {
+    const float scaled = 255 * floats[i];
+    if (!(scaled >= 0 && scaled <= 255)) return false;
+    const int byte = static_cast<int>(scaled + 0.5f);
+    if (static_cast<float>(byte) / 255 != floats[i]) return false;
+    bytes[i] = static_cast<std::byte>(byte);
+  }
   return true;
 }
 
-bool Passage::fit_input(const std::shared_ptr<GpuDevice>& device, const ProgramTexture& texture) {
-  return fit(device, {texture.width, texture.height}, texture.channels,
-             VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-             VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+}  // namespace
+
+void Passage::fit(const std::shared_ptr<GpuDevice>& device, Size size, int channels, Storage chosen,
+                  VkImageUsageFlags image_use, VkBufferUsageFlags buffer_use) {
+  const int stored = channels == 1 ? 1 : 4;
+  if (image.size() == size && step == stored && storage == chosen) return;
+  *this = {};  // before another is made
+  image = GpuImage(device, size, format_of(chosen, stored), image_use);
+  const std::size_t texels = static_cast<std::size_t>(size.width) * size.height;
+  buffer = GpuBuffer(device, texels * stored * bytes_of(chosen), buffer_use);
+  step = stored;
+  storage = chosen;
 }
 
-bool Passage::fit_output(const std::shared_ptr<GpuDevice>& device, Size size) {
-  return fit(device, size, 4, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-             VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+void Passage::fit_output(const std::shared_ptr<GpuDevice>& device, Size size) {
+  fit(device, size, 4, Storage::kFloat,
+      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+      VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
-void Passage::fill(const ProgramTexture& texture, Executor& executor) const {
-  const std::ptrdiff_t row = std::ptrdiff_t{step} * texture.width;
-  each_row(executor, {0, 0, texture.width, texture.height},
-           [&](int y) { texture.fill(y, buffer.floats() + row * y, step); });
+void Passage::fill(const std::shared_ptr<GpuDevice>& device, const ProgramTexture& texture,
+                   Executor& executor) {
+  static const HalfTarget& halves = half_target("");
+  const Size size{texture.width, texture.height};
+  const bool known = image.size() == size && step == (texture.channels == 1 ? 1 : 4);
+  Storage tried = known ? storage : narrowest(texture);
+  for (;; tried = static_cast<Storage>(static_cast<int>(tried) + 1)) {
+    fit(device, size, texture.channels, tried,
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const std::ptrdiff_t row = std::ptrdiff_t{step} * texture.width;
+    const std::ptrdiff_t row_bytes = row * static_cast<std::ptrdiff_t>(bytes_of(tried));
+    std::atomic<bool> exact = true;
+    each_row(executor, {0, 0, texture.width, texture.height}, [&](int y) {
+      std::byte* to = buffer.bytes() + row_bytes * y;
+      if (tried == Storage::kFloat) {
+        texture.fill(y, reinterpret_cast<float*>(to), step);
+      } else if (exact) {
+        thread_local std::vector<float> floats;
+        floats.assign(static_cast<std::size_t>(row), 0.0f);  // channels that nobody reads, too
+        texture.fill(y, floats.data(), step);
+        const bool fits = tried == Storage::kByte
+                              ? as_bytes(floats, to)
+                              : halves.narrow_exactly(floats.data(), to, static_cast<int>(row));
+        if (!fits) exact = false;
+      }
+    });
+    if (exact) return;
+  }
 }
 
 void Passage::upload(const Vulkan& vk, VkCommandBuffer commands) const {

@@ -307,8 +307,10 @@ class Printer {
     }
     const std::string i = fresh('i');
     names_[flow.index] = "float(" + i + ")";
-    line(indent, "for (int " + i + " = " + std::to_string(flow.begin) + "; " + i + " < " +
-                     std::to_string(flow.end) + "; ++" + i + ") {");
+    needs_.loops = true;
+    // Unrolled, the lookups of a march fill a device's memory for instructions and its registers.
+    line(indent, "[[dont_unroll]] for (int " + i + " = " + std::to_string(flow.begin) + "; " + i +
+                     " < " + std::to_string(flow.end) + "; ++" + i + ") {");
     block(flow.block, indent + 1);
     std::string goes_on;
     if (flow.condition >= 0) {

@@ -13,6 +13,7 @@ struct GlslNeeds {
   std::set<int> powers;                      ///< whole exponents
   bool power = false;                        ///< any other
   bool infinity = false;
+  bool loops = false;
 };
 
 /// A recording as the statements of a GLSL function body. Numbers of the frame are

@@ -65,10 +65,10 @@ constexpr const char* kRead = R"(vec4 limpid_read_#_@(vec4 quad) {
 }
 )";
 
-/// Four texels of a picture that repeats in x and, where `both`, in y.
+/// Four texels of a picture that repeats in x and, where `both`, in y: of `size` texels, from row
+/// `top` of the texture on.
 constexpr const char* kWrapped = R"(
-vec3 limpid_wrapped(sampler2D map, vec2 place, bool both) {
-  ivec2 size = textureSize(map, 0);
+vec3 limpid_wrapped(sampler2D map, ivec2 size, int top, vec2 place, bool both) {
   vec2 fraction = max(place - floor(place), 0.0);
   if (!both) fraction.y = place.y;
   vec2 texels = fraction * vec2(size) - 0.5;
@@ -76,57 +76,44 @@ vec3 limpid_wrapped(sampler2D map, vec2 place, bool both) {
   ivec2 a = ivec2(corner), b = a + 1;
   a = ivec2(a.x < 0 ? size.x - 1 : a.x, both && a.y < 0 ? size.y - 1 : clamp(a.y, 0, size.y - 1));
   b = ivec2(b.x >= size.x ? 0 : b.x, both && b.y >= size.y ? 0 : clamp(b.y, 0, size.y - 1));
-  vec3 upper_left = texelFetch(map, a, 0).rgb;
-  vec3 upper_right = texelFetch(map, ivec2(b.x, a.y), 0).rgb;
-  vec3 lower_left = texelFetch(map, ivec2(a.x, b.y), 0).rgb;
-  vec3 lower_right = texelFetch(map, b, 0).rgb;
+  vec3 upper_left = texelFetch(map, ivec2(a.x, top + a.y), 0).rgb;
+  vec3 upper_right = texelFetch(map, ivec2(b.x, top + a.y), 0).rgb;
+  vec3 lower_left = texelFetch(map, ivec2(a.x, top + b.y), 0).rgb;
+  vec3 lower_right = texelFetch(map, ivec2(b.x, top + b.y), 0).rgb;
   vec3 upper = upper_left + w.x * (upper_right - upper_left);
   vec3 lower = lower_left + w.x * (lower_right - lower_left);
   return upper + w.y * (lower - upper);
 }
 )";
 
-/// Levels lie one after the other, width and height + 1 with the first column and row once more, in
-/// a texture whose rows are as wide as it is. `level` is width, height and the first texel.
-constexpr const char* kLevels = R"(
-vec4 limpid_level_texel(sampler2D levels, int index) {
-  int width = textureSize(levels, 0).x;
-  return texelFetch(levels, ivec2(index % width, index / width), 0);
-}
-vec4 limpid_level(sampler2D levels, ivec4 level, vec2 periods) {
-  vec2 texels = max(periods - floor(periods), 0.0) * vec2(level.xy) - 0.5;
-  vec2 corner = floor(texels), w = texels - corner;
-  ivec2 a = ivec2(corner);
-  a = ivec2(a.x < 0 ? level.x - 1 : a.x, a.y < 0 ? level.y - 1 : a.y);
-  int pitch = level.x + 1, first = level.z + a.y * pitch + a.x;
-  vec4 upper_left = limpid_level_texel(levels, first);
-  vec4 upper_right = limpid_level_texel(levels, first + 1);
-  vec4 lower_left = limpid_level_texel(levels, first + pitch);
-  vec4 lower_right = limpid_level_texel(levels, first + pitch + 1);
-  vec4 upper = upper_left + w.x * (upper_right - upper_left);
-  vec4 lower = lower_left + w.x * (lower_right - lower_left);
-  return upper + w.y * (lower - upper);
-}
-)";
-
-/// Of two levels: see between_levels() in op/plain_texture.h.
-constexpr const char* kBetween = R"(vec4 limpid_between_#(float width, vec2 periods) {
+/// Of two levels, which lie one below the other: see between_levels() in op/plain_texture.h. A
+/// level is width, height and top.
+constexpr const char* kBetween = R"(vec3 limpid_between_#(float width, vec2 periods) {
   int last = limpid.counts.@ - 1;
   int level = min(int(floor(log2(width))), last);
   float between = width / exp2(float(level)) - 1.0;
   float rest = level == last ? 0.0 : clamp(4.0 * between - 1.5, 0.0, 1.0);
-  vec4 near = limpid_level(limpid_#, limpid.levels_#[level], periods);
+  ivec4 first = limpid.levels_#[level];
+  vec3 near = limpid_wrapped(limpid_#, first.xy, first.z, periods, true);
   if (rest <= 0.0) return near;
-  vec4 far = limpid_level(limpid_#, limpid.levels_#[min(level + 1, last)], periods);
+  ivec4 second = limpid.levels_#[min(level + 1, last)];
+  vec3 far = limpid_wrapped(limpid_#, second.xy, second.z, periods, true);
   return near + rest * (far - near);
 }
 )";
-constexpr const char* kTiledWide = R"(vec3 limpid_tiled_wide(vec2 periods, float width) {
+constexpr const char* kTiled = R"(vec3 limpid_tiled(vec2 periods) {
+  return limpid_wrapped(limpid_wave_map, textureSize(limpid_wave_map, 0), 0, periods, true);
+}
+)";
+/// Levels of the map are whole numbers of such units (TextureLevels): halves hold them.
+constexpr const char* kTiledWide = R"(const vec3 limpid_level_unit =
+    vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 511.0);
+vec3 limpid_tiled_wide(vec2 periods, float width) {
   float share = clamp(4.0 * width - 5.5, 0.0, 1.0);
-  if (share <= 0.0) return limpid_wrapped(limpid_wave_map, periods, true);
-  vec3 far = limpid_between_wave_levels(max(0.5 * width, 1.0), periods).rgb;
+  if (share <= 0.0) return limpid_tiled(periods);
+  vec3 far = limpid_between_wave_levels(max(0.5 * width, 1.0), periods) * limpid_level_unit;
   if (share >= 1.0) return far;
-  vec3 near = limpid_wrapped(limpid_wave_map, periods, true);
+  vec3 near = limpid_tiled(periods);
   return near + share * (far - near);
 }
 )";
@@ -135,7 +122,7 @@ constexpr const char* kSlopeMean = R"(vec2 limpid_slope_mean(vec2 periods, float
 }
 )";
 constexpr const char* kSlopeSquare = R"(vec3 limpid_slope_square(vec2 periods, float width) {
-  return limpid_between_slope_squares(max(width, 1.0), periods).rgb;
+  return limpid_between_slope_squares(max(width, 1.0), periods);
 }
 )";
 
@@ -225,7 +212,7 @@ std::string glsl_lookups(const GlslNeeds& needs) {
     if (verb < NodeOp::kOwn || verb > NodeOp::kPlace) continue;
     once(with(kPlane, role_word(static_cast<PlaneId>(what))));
   }
-  bool wraps = false, levels = false, grids = false;
+  bool wraps = false, grids = false;
   for (const auto& [verb, what] : needs.lookups) {
     const std::string role =
         verb >= NodeOp::kOwn && verb <= NodeOp::kPlace ? role_word(static_cast<PlaneId>(what)) : "";
@@ -234,14 +221,9 @@ std::string glsl_lookups(const GlslNeeds& needs) {
       words.replace(words.find('@'), 1, 1, count);
       once(words);
     };
-    if (!wraps &&
-        (verb == NodeOp::kTiled || verb == NodeOp::kTiledWide || verb == NodeOp::kLatLong)) {
+    if (!wraps && verb >= NodeOp::kTiled && verb <= NodeOp::kLatLong) {
       text += kWrapped;
       wraps = true;
-    }
-    if (!levels && verb >= NodeOp::kTiledWide && verb <= NodeOp::kSlopeSquare) {
-      text += kLevels;
-      levels = true;
     }
     switch (verb) {
       case NodeOp::kNearest:
@@ -263,11 +245,10 @@ std::string glsl_lookups(const GlslNeeds& needs) {
         break;
       }
       case NodeOp::kTiled:
-        once(
-            "vec3 limpid_tiled(vec2 periods) {\n"
-            "  return limpid_wrapped(limpid_wave_map, periods, true);\n}\n");
+        once(kTiled);
         break;
       case NodeOp::kTiledWide:
+        once(kTiled);
         between("wave_levels", 'x');
         once(kTiledWide);
         break;
@@ -280,8 +261,9 @@ std::string glsl_lookups(const GlslNeeds& needs) {
         once(kSlopeSquare);
         break;
       case NodeOp::kLatLong:
-        once("vec3 limpid_lat_long_" + std::to_string(what) + "(vec2 place) {\n  return " +
-             "limpid_wrapped(" + texture_sampler(what) + ", place, false);\n}\n");
+        once(with("vec3 limpid_lat_long_" + std::to_string(what) + "(vec2 place) {\n" +
+                      "  return limpid_wrapped(#, textureSize(#, 0), 0, place, false);\n}\n",
+                  texture_sampler(what)));
         break;
       case NodeOp::kGrid:
         if (!grids) text += kGrid;

@@ -27,6 +27,7 @@ struct ShaderProgram {
   std::vector<ProgramTexture> textures;
   std::vector<ShaderOutput> outputs;
   Rect work;
+  Size group;  ///< ShaderText::group()
 };
 
 /// Records the plan. `frame` is what completers made of `plate`, `pass` is of that. All of them are

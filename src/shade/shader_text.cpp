@@ -38,6 +38,7 @@ ShaderText::ShaderText(const Plan& plan, const Frame& frame, const Scene& scene,
   numbers_ = std::move(made.numbers);
   outputs_ = std::move(made.outputs);
   work_ = made.work;
+  group_ = made.group;
 }
 
 }  // namespace limpid

@@ -45,6 +45,7 @@ class Host {
       if (views.empty()) continue;
       const Rect window = views[0].window;
       ProgramTexture texture;
+      texture.source = ShaderTexture::Source::kPlanes;
       texture.channels = static_cast<int>(views.size());
       texture.width = window.width(), texture.height = window.height();
       texture.fill = [&](int y, float* row, int step) {
@@ -55,8 +56,7 @@ class Host {
         }
       };
       Passage& image = images_.emplace_back();
-      image.fit_input(device, texture);
-      image.fill(texture, *executor);
+      image.fill(device, texture, *executor);
       commands.run([&](VkCommandBuffer c) { image.upload(device->vk(), c); });
       GpuImageView& view = drawn.planes[role.first];
       view = {image.image.view(), image.image.handle(), image.image.format(),

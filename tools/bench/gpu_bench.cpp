@@ -76,6 +76,7 @@ class Bench {
     if (!plan.reads_environment) pass.environment = {};
     ShaderOptions options;
     options.stage = ShaderOptions::Stage::kCompute;
+    options.most_threads = device_->most_threads();
     OnDevice ours(device_, program_of(plan, plate_.frame, frame, pass, options), *executor_);
     std::optional<OnDevice> rival;
     if (name == "realistic") {

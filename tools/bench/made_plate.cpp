@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#define IMATH_HALF_NO_LOOKUP_TABLE  // which would have to be linked
+#include <Imath/half.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
@@ -59,6 +61,10 @@ MadePlate::MadePlate(Size size) {
   const auto put = [&](PlaneId id, int x, int y, double value) {
     planes_[index_of(id)].view().at(x, y) = static_cast<float>(value);
   };
+  // Colors are halves, as files have them.
+  const auto put_color = [&](PlaneId id, int x, int y, double value) {
+    put(id, x, y, imath_half_to_float(imath_float_to_half(static_cast<float>(value))));
+  };
   const Rays rays = rays_of(camera, {size.width, size.height});
   const glm::dvec3 eye = camera.eye();
   for (int y = 0; y < size.height; ++y) {
@@ -84,9 +90,9 @@ MadePlate::MadePlate(Size size) {
       for (int c = 0; c < 3; ++c) {
         const PlaneId color = plane_after(PlaneId::kColorR, c);
         const PlaneId mirror = plane_after(PlaneId::kReflectionR, c);
-        put(color, x, y, ashore ? 0.4 + 0.2 * c : on_rock ? 0.2 : texture * (0.6 - 0.1 * c));
-        put(mirror, x, y,
-            0.4 + 0.3 * c + 0.2 * std::sin(0.01 * x + c) + (x / 90 % 7 == 0 ? -0.2 : 0));
+        put_color(color, x, y, ashore ? 0.4 + 0.2 * c : on_rock ? 0.2 : texture * (0.6 - 0.1 * c));
+        put_color(mirror, x, y,
+                  0.4 + 0.3 * c + 0.2 * std::sin(0.01 * x + c) + (x / 90 % 7 == 0 ? -0.2 : 0));
       }
       put(PlaneId::kColorA, x, y, 1);
       put(PlaneId::kShadow, x, y, std::fmod(std::abs(at.x + 0.3 * at.z), 2.5) < 0.5 ? 0 : 1);

@@ -23,7 +23,7 @@ VkSampler linear_sampler(const GpuDevice& device, VkSamplerAddressMode mode) {
 OnDevice::OnDevice(std::shared_ptr<GpuDevice> device, const ShaderProgram& program,
                    Executor& executor, bool filter, const std::string& tiled)
     : device_(std::move(device)),
-      size_(program.work.size()),
+      program_(program),
       commands_(device_),
       bindings_(device_, device_->pipeline(program, {}), program),
       block_(device_, program.block.size(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) {
@@ -35,14 +35,13 @@ OnDevice::OnDevice(std::shared_ptr<GpuDevice> device, const ShaderProgram& progr
   bindings_.bind_block(program.block_binding, block_.handle());
   for (const ProgramTexture& texture : program.textures) {
     Passage& input = inputs_.emplace_back();
-    input.fit_input(device_, texture);
-    input.fill(texture, executor);
+    input.fill(device_, texture, executor);
     bindings_.bind_texture(texture.binding, input.image.view(), kRead.layout,
                            texture.name == tiled ? tiled_ : clamped_);
   }
   for (const ShaderOutput& output : program.outputs) {
     Passage& picture = outputs_.emplace_back();
-    picture.fit_output(device_, size_);
+    picture.fit_output(device_, program.work.size());
     bindings_.bind_output(output.binding, picture.image.view());
   }
   commands_.run([&](VkCommandBuffer c) {
@@ -50,7 +49,7 @@ OnDevice::OnDevice(std::shared_ptr<GpuDevice> device, const ShaderProgram& progr
     for (const Passage& output : outputs_) {
       turn(device_->vk(), c, output.image.handle(), kUnused, kWritten);
     }
-    bindings_.dispatch(c, size_);
+    bindings_.dispatch(c, program_);
   });
 }
 
@@ -77,7 +76,7 @@ double OnDevice::shader_seconds(int times) {
     return seconds_of_run([&](VkCommandBuffer c) {
       for (int i = 0; i < count; ++i) {
         turn(device_->vk(), c, outputs_[0].image.handle(), kWritten, kWritten);
-        bindings_.dispatch(c, size_);
+        bindings_.dispatch(c, program_);
       }
     });
   };

@@ -37,7 +37,7 @@ class OnDevice {
   double seconds_of_run(const std::function<void(VkCommandBuffer)>& write);
 
   std::shared_ptr<GpuDevice> device_;
-  Size size_;
+  ShaderProgram program_;
   GpuCommands commands_;
   GpuBindings bindings_;
   GpuBuffer block_;

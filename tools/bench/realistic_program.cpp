@@ -38,6 +38,8 @@ void add_texture(ShaderProgram& to, std::string& declared, const std::string& na
                  std::vector<View<const float>> views) {
   ProgramTexture texture;
   texture.name = name;
+  texture.source =
+      name == kRealisticMap ? ShaderTexture::Source::kMade : ShaderTexture::Source::kPlanes;
   texture.binding = static_cast<int>(to.textures.size()) + 1;
   texture.channels = static_cast<int>(views.size());
   texture.width = views[0].window.width(), texture.height = views[0].window.height();
@@ -75,6 +77,7 @@ std::string shade_text() {
 ShaderProgram realistic_program(const Look& look, const Frame& frame, const Scene& scene) {
   ShaderProgram made;
   made.work = frame.work();
+  made.group = {16, 8};
   made.id = "the rival's";
   const RealisticNumbers n(look, frame, scene);
   const glm::dvec2 texel = 1.0 / glm::dvec2(n.size.width, n.size.height);

@@ -22,7 +22,7 @@ namespace limpid {
 struct ShaderOptions {
   enum class Stage {
     kFunction,  ///< declarations and the function alone, for a shader of the host
-    kCompute,   ///< and a main() for groups of 16 x 8 pixels, that writes images
+    kCompute,   ///< and a main() for groups of pixels (group()), that writes images
     kFragment,  ///< and a main() for a pixel of a full-screen triangle
   };
   Stage stage = Stage::kFunction;
@@ -30,7 +30,8 @@ struct ShaderOptions {
   int set = 0;                            ///< descriptor set of all that is declared, 0 ... 31
   int first_binding = 0;                  ///< they count from here, 0 ... 1000
   std::vector<Aov> aovs = {};             ///< that the function returns besides the picture
-  bool half = false;  ///< images that a compute main() writes hold halves (rgba16f)
+  int most_threads = 128;  ///< that a group of a compute main() may have on the device, 128 or more
+  bool half = false;       ///< images that a compute main() writes hold halves (rgba16f)
 };
 
 /// A number of the uniform block, in float.
@@ -91,6 +92,9 @@ class ShaderText {
   const std::vector<ShaderNumber>& numbers() const { return numbers_; }
   const std::vector<ShaderTexture>& textures() const { return textures_; }
   const std::vector<ShaderOutput>& outputs() const { return outputs_; }
+  /// Pixels of a group of a compute main(), a thread each: 16x8, or for long programs 32x32 if the
+  /// device has so many.
+  const Size& group() const { return group_; }
   /// Pixels that the shader makes: Frame::work().
   const Rect& work() const { return work_; }
 
@@ -103,6 +107,7 @@ class ShaderText {
   std::vector<ShaderTexture> textures_;
   std::vector<ShaderOutput> outputs_;
   Rect work_;
+  Size group_;
 };
 
 }  // namespace limpid
