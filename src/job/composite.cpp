@@ -1,7 +1,5 @@
 #include "limpid/job/composite.h"
 
-#include <cmath>
-
 #include "limpid/core/error.h"
 #include "limpid/files/exr/exr_camera.h"
 
@@ -9,6 +7,7 @@
 #include "core/toml_text.h"
 #include "gpu/gpu_load.h"
 #include "job/canvas.h"
+#include "job/composite_inputs.h"
 #include "job/held_gpu.h"
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"
@@ -17,89 +16,6 @@
 
 namespace limpid {
 namespace {
-
-/// The job's scene, completed by what only the plate knows: size, pixel aspect, a camera in its
-/// attributes, or a whole scene, as limpid render leaves it. No chain can do without camera and
-/// water plane.
-Scene scene_of(const CompositeJob& job, const Plate& plate) {
-  const SceneFile carried = plate.scene();
-  Scene scene = job.scene.scene;
-  if (!scene.water) scene.water = carried.scene.water;
-  if (!scene.sun) scene.sun = carried.scene.sun;
-  if (!scene.sky) scene.sky = carried.scene.sky;
-  const auto& lens = job.scene.camera ? job.scene.camera : carried.camera;
-  scene.camera =
-      lens ? camera_for(*lens, plate.display().size(), plate.pixel_aspect()) : plate.camera();
-  if (!scene.camera) {
-    throw Error(
-        "no camera found: expected a scene with [camera] view and projection (or fov_x, fov_y, "
-        "orthographic), or a plate with the attributes worldToCamera and worldToNDC");
-  }
-  if (!scene.water) {
-    throw Error("no water plane found: expected a scene with [water] up and height");
-  }
-  scene.time =
-      job.time.of(job.scene, plate.has_scene() ? std::optional(carried.scene.time) : std::nullopt);
-  return scene;
-}
-
-/// What the depth planes hold. A near and far that were made up, as those of a bare field of view,
-/// would give wrong distances.
-DepthMeaning depth_of(const CompositeJob& job) {
-  const SceneFile& scene = job.scene;
-  const DepthKind kind = job.depth_kind.value_or(scene.depth);
-  const bool both = scene.near && scene.far;
-  if (kind == DepthKind::kNormalised && !(both && std::isfinite(*scene.far))) {
-    throw Error("depth of kind normalised: expected near and a finite far in the scene's [camera]");
-  }
-  const bool known = scene.camera && (scene.camera->lens == CameraSpec::Lens::kProjection || both);
-  if (kind == DepthKind::kDevice && !known) {
-    throw Error(
-        "depth of kind device: expected a projection, or near and far beside the lens, in the "
-        "scene's [camera]");
-  }
-  const auto nothing = job.depth_nothing ? job.depth_nothing : scene.depth_nothing;
-  return {kind, scene.near.value_or(0), scene.far.value_or(0), nothing};
-}
-
-Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
-  if (!plate.planes().has(PlaneId::kDepth)) plate.refuse_without("depth");
-  return make_plan(job.look,
-                   {.planes = plate.planes(),
-                    .wave_map = !job.look.of<WaveNormals>().map.empty(),
-                    .sun = scene.sun.has_value(),
-                    .environment = has_environment(job.scene),
-                    .waves = scene.has_waves()},
-                   state_shown_by(computed_aovs(job.output)), job.output.max_error);
-}
-
-/// Of the plate and the plan, and of layers that are named in vain.
-std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate,
-                                     const Plan& plan) {
-  std::vector<std::string> warnings = plate.warnings();
-  warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
-  const auto unread = [&](const std::string& what) {
-    warnings.push_back(what + " is named, and nothing that runs of the look " + job.look.name +
-                       " reads it");
-  };
-  for (const Role& role : roles()) {
-    const bool named = plate.named_planes().meets(role.planes());
-    if (named && !plan.planes.meets(role.planes())) unread("the layer " + std::string(role.name));
-  }
-  const bool own_normals = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
-  if (job.output.wave_samples > 1 && own_normals) {
-    warnings.push_back("wave_samples = " + std::to_string(job.output.wave_samples) +
-                       " sample no waves: they are the frame's own normals, one a pixel");
-  }
-  if (job.scene.scene.sky && !plan.lit_by_sky) unread("[sky]");
-  if (job.scene.scene.sky && plan.lit_by_sky && plan.reads_environment) {
-    warnings.push_back("[sky] is given, and the environment lights the water in its stead");
-  }
-  // It may stand by for a reflection.
-  const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);
-  if (has_environment(job.scene) && !mirrors) unread("the environment");
-  return warnings;
-}
 
 /// What a survey looks at: depths, colors, shadows and where the water's normals point; not what it
 /// mirrors.
@@ -156,10 +72,9 @@ class CompositeKind {
       textures_.show_in(loaded_.frame);
       report_.size = loaded_.frame.work().size();
       report_.replaced = loaded_.replaced;
-      report_.warnings = warnings_of(job, plate, report_.plan);
-      warn_of_picture(report_.plan, loaded_.frame, scene_, report_.warnings);
-      warn_of_deep_glass(loaded_.transparent, report_.warnings);
       beyond_ = beyond_of(report_.plan, loaded_.frame, scene_);
+      report_.warnings = warnings_of(job, plate, report_.plan);
+      warn_of_pixels(report_.plan, loaded_.frame, scene_, loaded_.transparent, report_.warnings);
       warn_of_beyond(beyond_, report_.warnings);
       refuse_warnings(job.output.strict, report_.warnings);
 
@@ -226,10 +141,9 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
         program_of(plan, loaded.frame, frame, whole, compute_shader(computed_aovs(job.output)));
     surveyed.gpu = gpu_load_text(plan, program);
   }
-  surveyed.warnings = warnings_of(job, prepared.plate, plan);
-  warn_of_picture(plan, frame, scene, surveyed.warnings);
-  warn_of_deep_glass(loaded.transparent, surveyed.warnings);
   surveyed.beyond = beyond_of(plan, frame, scene);
+  surveyed.warnings = warnings_of(job, prepared.plate, plan);
+  warn_of_pixels(plan, frame, scene, loaded.transparent, surveyed.warnings);
   warn_of_beyond(surveyed.beyond, surveyed.warnings);
   refuse_warnings(job.output.strict, surveyed.warnings);
   return surveyed;

@@ -291,6 +291,8 @@ void Plate::refuse_without(std::string_view role) const {
               std::string(role) + "=LAYER");
 }
 
+PlaneSet Plate::read_for(PlaneSet wanted) const { return state_->read_for(wanted) & planes(); }
+
 std::string Plate::inputs_text(PlaneSet wanted) const {
   wanted = state_->read_for(wanted);
   std::map<int, std::string> hashes;

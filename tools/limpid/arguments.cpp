@@ -119,6 +119,19 @@ void add_runner(CLI::App& verb, WaterOptions& a) {
       ->option_text("NAME");
 }
 
+void add_gpu(CLI::App& verb, WaterOptions& a) {
+  verb.add_option("--gpu", a.gpu, "A part of the GPU's name (default: the fastest kind)")
+      ->option_text("NAME");
+}
+
+void add_wave_samples(CLI::App& verb, CompositeArguments& a) {
+  verb.add_option("--samples", a.samples,
+                  "Samples a pixel of the water and its waves, of plates one; takes N times as "
+                  "long (default: 1)")
+      ->option_text("N")
+      ->check(whole_number_in(1, OutputChoice::kMostWaveSamples));
+}
+
 void add_picture(CLI::App& verb, WaterOptions& a) {
   add_file(verb, a);
   add_simd(verb, a);
@@ -127,8 +140,7 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
                   "Also write the water as deep samples, always compressed by zips")
       ->option_text("OUT.exr");
   add_runner(verb, a);
-  verb.add_option("--gpu", a.gpu, "A part of the GPU's name (default: the fastest kind)")
-      ->option_text("NAME");
+  add_gpu(verb, a);
   verb.add_flag("-n", a.dry_run, "Print the plan, write nothing");
 }
 
@@ -171,7 +183,7 @@ void add_shader(CLI::App& app, ShaderArguments& a) {
       ->option_text("FILE");
 }
 
-void add_composite(CLI::App& verb, CompositeArguments& a) {
+void add_plate_options(CLI::App& verb, CompositeArguments& a) {
   add_plates(verb, a.plates, a.scene, a.layers, a.view);
   verb.add_option("--depth-kind", a.depth_kind,
                   "What depth planes hold: eye, ray, inverse, normalised, device (default: the "
@@ -181,11 +193,38 @@ void add_composite(CLI::App& verb, CompositeArguments& a) {
                   "What depth planes hold where nothing was hit, as 0 (default: the scene's, and 0 "
                   "where alpha is 0)")
       ->option_text("Z");
+}
+
+void add_composite(CLI::App& verb, CompositeArguments& a) {
+  add_plate_options(verb, a);
   add_frames(verb, a.frames,
              "Frames, as in 1-100x2: their numbers go into the names of plates, layers, scene and "
              "outputs with %04d or ####. Frame F is at --time + F / --fps, or at its plate's own "
              "time where neither is given and the plate has one");
   add_look(verb, a.water);
+}
+
+void add_view(CLI::App& app, ViewArguments& a) {
+  CLI::App& verb = *app.add_subcommand(
+      "view", "Tune a look in a browser while it is composited: PLATE... --scene S");
+  add_plate_options(verb, a.composite);
+  add_frame_numbers(verb, a.composite.frames,
+                    "Frames to choose from, as in 1-100x2: their numbers go into the names of "
+                    "plates, layers, scene and reference with %04d or ####");
+  add_settings(verb, a.composite.water);
+  add_wave_samples(verb, a.composite);
+  add_simd(verb, a.composite.water);
+  add_runner(verb, a.composite.water);
+  add_gpu(verb, a.composite.water);
+  verb.add_option("--reference", a.reference,
+                  "A picture of the same size to compare with, as a ray-traced one")
+      ->option_text("FILE");
+  verb.add_option("--folder", a.folder, "Where looks are saved (default: the current folder)")
+      ->option_text("DIR");
+  verb.add_option("--port", a.port, "Of 127.0.0.1, where the page is (default: 0, any)")
+      ->option_text("N")
+      ->check(whole_number_in(0, 65535));
+  verb.add_flag("--no-browser", a.no_browser, "Print the page's address and open no browser");
 }
 
 constexpr const char* kRenderedFrames =
@@ -408,12 +447,7 @@ Parsed parse(int argc, char** argv) {
                   "output), or hold (the nearest before stands in)")
       ->option_text("error|skip|hold");
   add_picture(composite, a.composite.water);
-  composite
-      .add_option("--samples", a.composite.samples,
-                  "Samples a pixel of the water and its waves, of plates one; takes N times as "
-                  "long (default: 1)")
-      ->option_text("N")
-      ->check(whole_number_in(1, OutputChoice::kMostWaveSamples));
+  add_wave_samples(composite, a.composite);
   composite
       .add_option("--overscan", a.composite.overscan,
                   "Pixels beyond each side of the picture that are written, too, as far as all "
@@ -450,6 +484,8 @@ Parsed parse(int argc, char** argv) {
   add_runner(plan, a.composite.water);
   plan.add_flag("--measure", a.composite.measure,
                 "Also run it, and say how long each operator took; nothing is written");
+
+  add_view(app, a.view);
 
   CLI::App& inspect =
       *app.add_subcommand("inspect", "Say what is in plates and what would be used");
@@ -506,13 +542,14 @@ Parsed parse(int argc, char** argv) {
     std::cout << app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
     return finish(help.parsed() ? 0 : kWrongUsage);
   }
-  a.verb = composite.parsed()   ? (a.composite.water.dry_run ? Verb::kPlan : Verb::kComposite)
-           : plan.parsed()      ? Verb::kPlan
-           : water.parsed()     ? Verb::kWater
-           : render.parsed()    ? Verb::kRender
-           : truth.parsed()     ? Verb::kTruth
-           : inspect.parsed()   ? Verb::kInspect
-           : operators.parsed() ? Verb::kOperators
+  a.verb = composite.parsed() ? (a.composite.water.dry_run ? Verb::kPlan : Verb::kComposite)
+           : plan.parsed()    ? Verb::kPlan
+           : water.parsed()   ? Verb::kWater
+           : render.parsed()  ? Verb::kRender
+           : truth.parsed()   ? Verb::kTruth
+           : app.got_subcommand("view")    ? Verb::kView
+           : inspect.parsed()              ? Verb::kInspect
+           : operators.parsed()            ? Verb::kOperators
            : app.got_subcommand("compare") ? Verb::kCompare
            : app.got_subcommand("shader")  ? Verb::kShader
                                            : Verb::kReport;

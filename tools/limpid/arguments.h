@@ -44,6 +44,14 @@ struct CompositeArguments {
   WaterOptions water;
 };
 
+/// A plate as `composite` takes it, and how its page is served.
+struct ViewArguments {
+  CompositeArguments composite;
+  std::string reference, folder = ".";
+  int port = 0;
+  bool no_browser = false;
+};
+
 /// `render` and `water`.
 struct RenderArguments {
   std::string scene, size = "1920x1080";
@@ -106,6 +114,7 @@ enum class Verb {
   kNone,
   kComposite,
   kPlan,
+  kView,
   kRender,
   kWater,
   kTruth,
@@ -120,6 +129,7 @@ struct Arguments {
   Verb verb = Verb::kNone;
   CommonArguments common;
   CompositeArguments composite;
+  ViewArguments view;
   RenderArguments render;
   TruthArguments truth;
   InspectArguments inspect;

@@ -2,6 +2,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limpid/files/limits.h"
@@ -62,6 +63,7 @@ class LinearColor {
   LinearColor(const ComparedPicture& picture, const std::optional<double>& clip);
 
   ColorViews views() const { return {planes_[0].view(), planes_[1].view(), planes_[2].view()}; }
+  std::array<Plane, 3> take() && { return std::move(planes_); }
 
  private:
   std::array<Plane, 3> planes_;

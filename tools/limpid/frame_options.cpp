@@ -9,8 +9,6 @@
 namespace limpid::tool {
 namespace {
 
-constexpr double kUsualFps = 24;
-
 std::string numbered(const std::filesystem::path& name, int frame) {
   return name_of_frame(name.string(), frame);
 }

@@ -15,6 +15,9 @@
 
 namespace limpid::tool {
 
+/// Frames a second without --fps.
+constexpr double kUsualFps = 24;
+
 /// The frames that the options name; none where --frames is not given. Throws the usage Error for
 /// bad numbers, for options that mean nothing without --frames or on a dry run, for outputs that
 /// several frames would overwrite, and for a preview that a sequence cannot be resumed by.

@@ -52,6 +52,8 @@ int run(const limpid::tool::Arguments& a) {
       return composite_verb(a.composite, a.common);
     case Verb::kPlan:
       return plan_verb(a.composite, a.common);
+    case Verb::kView:
+      return view_verb(a.view, a.common);
     case Verb::kRender:
       return render_verb(a.render, a.common);
     case Verb::kWater:

@@ -11,6 +11,7 @@ int render_verb(const RenderArguments& arguments, const CommonArguments& common)
 int water_verb(const RenderArguments& arguments, const CommonArguments& common);
 int truth_verb(const TruthArguments& arguments, const CommonArguments& common);
 int plan_verb(const CompositeArguments& arguments, const CommonArguments& common);
+int view_verb(const ViewArguments& arguments, const CommonArguments& common);
 int inspect_verb(const InspectArguments& arguments, const CommonArguments& common);
 int operators_verb(const OperatorsArguments& arguments);
 int compare_verb(const CompareArguments& arguments, const CommonArguments& common);

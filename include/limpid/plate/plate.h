@@ -91,6 +91,10 @@ class Plate {
   /// Throws the Error for a role that nothing feeds, with the list of all layers that there are.
   [[noreturn]] void refuse_without(std::string_view role) const;
 
+  /// The planes that read() reads where these are wanted: what deep samples have below the water
+  /// begins at the surface depth.
+  PlaneSet read_for(PlaneSet wanted) const;
+
   /// What read() of these planes goes by besides scene and depth, as TOML: for each role that has
   /// one of them, the hash of the file's bytes (ExrFile::content_hash), the part and the channels;
   /// a list of such where its channels lie in several parts.

@@ -12,6 +12,7 @@
 
 #include "core/memory.h"
 #include "files/file_handle.h"
+#include "files/picture/byte_of.h"
 #include "files/picture/formats.h"
 #include "files/picture/jpeg.h"
 #include "files/picture/png.h"
@@ -125,11 +126,6 @@ int allocate(void* host, const formats::FormatsHeader* header, float** planes,
     reading.thrown = std::current_exception();
     return 1;
   }
-}
-
-std::uint8_t byte_of(float value) {
-  return value > 0 ? static_cast<std::uint8_t>(std::min(value, 1.0f) * 255.0f + 0.5f)
-                   : std::uint8_t{0};
 }
 
 std::vector<std::uint8_t> interleaved(const std::vector<View<const float>>& planes) {

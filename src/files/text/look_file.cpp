@@ -16,17 +16,6 @@ void resolve_files(Look& look, const fs::path& folder) {
   if (!map.empty()) map = (folder / map).lexically_normal().string();
 }
 
-std::vector<std::string> looks_in(std::span<const fs::path> folders) {
-  std::set<std::string> names;
-  for (const fs::path& folder : folders) {
-    std::error_code absent;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
-      if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
-    }
-  }
-  return {names.begin(), names.end()};
-}
-
 Look look_of(const TomlNode& root, std::string name) {
   Look look;
   look.name = std::move(name);
@@ -73,10 +62,21 @@ Look look_named(std::string_view name, std::span<const fs::path> folders) {
     std::error_code absent;
     if (fs::exists(file, absent)) return load_look(file);
   }
-  const std::vector<std::string> known = looks_in(folders);
+  const std::vector<std::string> known = look_names(folders);
   throw Error("no look is named '" + path.string() + "': expected " +
               (known.empty() ? "the path of a look file" : "one of " + join(known)) +
               did_you_mean(name, known));
+}
+
+std::vector<std::string> look_names(std::span<const fs::path> folders) {
+  std::set<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code absent;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
+      if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+    }
+  }
+  return {names.begin(), names.end()};
 }
 
 void apply_setting(Look& look, std::string_view setting) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limpid/ops/look.h"
 
@@ -23,6 +24,9 @@ Look look_from_toml(const std::string& text, const std::string& name);
 /// folder in it is a path and loaded as such. Folders that do not exist are passed over. Throws
 /// Error that lists the looks there are when none has this name.
 Look look_named(std::string_view name, std::span<const std::filesystem::path> folders);
+
+/// The names of the looks in all of the folders, each once, in alphabetical order.
+std::vector<std::string> look_names(std::span<const std::filesystem::path> folders);
 
 /// Applies one setting as written on a command line: `refraction.strength=0.03`,
 /// `depth_fog.color=[0.02, 0.1, 0.12]` (brackets may be left out), `refraction.rejection=snap`,

@@ -1,0 +1,307 @@
+#include "desk/desk.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "limpid/core/simd.h"
+#include "limpid/files/text/look_file.h"
+
+#include "core/toml_text.h"
+#include "job/composite_inputs.h"
+#include "job/picture_warnings.h"
+#include "job/stopwatch.h"
+
+namespace limpid {
+namespace {
+
+constexpr const char* kPicture = "picture";
+constexpr const char* kDry = "dry";
+constexpr const char* kReference = "reference";
+constexpr const char* kDifference = "difference";
+constexpr const char* kCells = "cells";
+
+constexpr double kMilliseconds = 1e3;
+
+ShownViews color_of(const Frame& frame) {
+  return {frame.plane(PlaneId::kColorR), frame.plane(PlaneId::kColorG),
+          frame.plane(PlaneId::kColorB)};
+}
+
+ShownViews color_of(const Canvas& canvas) {
+  const auto& color = canvas.target().color;
+  return {color[0], color[1], color[2]};
+}
+
+View<const float> cropped(View<const float> view, const Rect& to) {
+  view.data = &view.at(to.x0, to.y0);
+  view.window = to;
+  return view;
+}
+
+ShownViews cropped(ShownViews views, const Rect& to) {
+  for (View<const float>& view : views) view = cropped(view, to);
+  return views;
+}
+
+/// One text for one choice.
+std::string text_of(const DeskChoice& choice) {
+  std::string text = choice.look;
+  for (const std::string& setting : choice.settings) text += "\n" + setting;
+  if (choice.frame) text += "\nframe " + std::to_string(*choice.frame);
+  if (choice.time) text += "\ntime " + toml_text(*choice.time);
+  return text;
+}
+
+}  // namespace
+
+/// What a run has left; valid until the next.
+struct Desk::Painted {
+  Frame frame;
+  HeldTextures textures;  ///< of the frame
+  Rect window;            ///< that was computed
+  Halving halving;
+  const Canvas* canvas = nullptr;
+  RunTimes times;
+  double read_seconds = 0;
+  std::vector<std::string> warnings, advice;
+};
+
+Desk::Desk(DeskOptions options, Executor& executor)
+    : options_(std::move(options)), executor_(executor) {
+  facts();
+}
+
+std::string Desk::runner() const {
+  const OutputChoice output =
+      options_
+          .job_of(options_.frames.empty() ? std::nullopt : std::optional(options_.frames.front()))
+          .output;
+  const std::string name(runner_name(output.runner));
+  if (output.runner != Runner::kFused) return name;
+  return name + " " + (output.simd.empty() ? simd_targets().front() : output.simd);
+}
+
+std::vector<DeskShow> Desk::shows() const {
+  std::vector<DeskShow> list = {{kPicture, "the picture with its water"},
+                                {kDry, "the plate as it is"}};
+  if (options_.reference) {
+    list.push_back({kReference, "the picture that is given to compare with"});
+    list.push_back({kDifference, "largest difference of a pixel's channels from the reference"});
+  }
+  if (runner().starts_with(runner_name(Runner::kFused))) {
+    list.push_back({kCells,
+                    "what of the chain each cell of the picture needs: opaque water red, open "
+                    "water green, all of it yellow, other water blue"});
+  }
+  for (const AovInfo& info : aovs()) {
+    list.push_back({std::string(info.name), std::string(info.about)});
+  }
+  return list;
+}
+
+const DeskLook& Desk::look_named(const std::string& word) const {
+  std::vector<std::string> known;
+  for (const DeskLook& look : options_.looks) {
+    if (look.word == word) return look;
+    known.push_back(look.word);
+  }
+  throw Error("look = '" + word + "': expected one of " + join(known) + did_you_mean(word, known));
+}
+
+Look Desk::look_of(const DeskChoice& choice) const {
+  Look look = look_named(choice.look).look;
+  for (const std::string& setting : choice.settings) apply_setting(look, setting);
+  return look;
+}
+
+DeskFrame& Desk::frame_at(std::optional<int> number) {
+  const std::vector<int>& all = options_.frames;
+  if (!number && !all.empty()) number = all.front();
+  if (number && std::find(all.begin(), all.end(), *number) == all.end()) {
+    throw Error("frame = " + std::to_string(*number) + ": expected " +
+                (all.empty() ? "none, for there is one picture alone" : "one of --frames"));
+  }
+  const auto kept = std::find_if(frames_.begin(), frames_.end(),
+                                 [&](const Kept& frame) { return frame.number == number; });
+  if (kept != frames_.end()) {
+    frames_.splice(frames_.begin(), frames_, kept);
+  } else {
+    frames_.push_front({number, std::make_unique<DeskFrame>(options_.job_of(number))});
+  }
+  std::int64_t bytes = 0;
+  for (auto frame = frames_.begin(); frame != frames_.end();) {
+    bytes += frame->frame->bytes();
+    const bool goes = frame != frames_.begin() && bytes > options_.most_bytes;
+    frame = goes ? frames_.erase(frame) : std::next(frame);
+  }
+  return *frames_.front().frame;
+}
+
+CompositeJob Desk::job_for(const DeskFrame& frame, const DeskChoice& choice) const {
+  CompositeJob job = frame.job();
+  job.look = look_of(choice);
+  if (choice.time) job.time.asked = choice.time;
+  return job;
+}
+
+Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool half,
+                        std::optional<Canvas>& canvas) {
+  Painted painted;
+  Stopwatch watch;
+  DeskFrame& held = frame_at(choice.frame);
+  CompositeJob job = job_for(held, choice);
+  job.output.aovs = std::move(aovs);
+  Scene scene = scene_of(job, held.plate());
+  const Plan plan = plan_of(job, held.plate(), scene);
+  if (half) {
+    const DeskFrame::Half smaller = held.half(plan.planes, scene, executor_);
+    painted.frame = smaller.frame;
+    scene.camera = smaller.camera;
+  } else {
+    painted.frame = held.whole(plan.planes, scene);
+  }
+  painted.textures = textures_.load(textures_read(plan, job.scene), job.plate.limits);
+  painted.textures.show_in(painted.frame);
+  painted.halving = held.halving();
+  painted.window = painted.frame.work();
+  painted.warnings = warnings_of(job, held.plate(), plan);
+  if (!half) {
+    warn_of_pixels(plan, painted.frame, scene, held.transparent(), painted.warnings);
+    const Beyond beyond = beyond_of(plan, painted.frame, scene);
+    if (beyond.any()) painted.advice.push_back(to_text(beyond));
+  }
+  painted.read_seconds = watch.lap();
+
+  gpu_.name(job.output);
+  canvas_for(canvas, painted.window, job.output)
+      .paint(plan, painted.frame, scene, job.output, executor_, &painted.times);
+  painted.canvas = &*canvas;
+  return painted;
+}
+
+std::array<Plane, 3> Desk::reference(const DeskChoice& choice, const Painted& painted) {
+  std::array<Plane, 3> planes = options_.reference(choice.frame);
+  const bool half = painted.canvas == &*half_;
+  const Rect whole = half ? intersection(painted.halving.covered(painted.window),
+                                         frame_at(choice.frame).plate().display())
+                          : painted.window;
+  for (Plane& plane : planes) {
+    if (!plane.view().window.contains(whole)) {
+      throw Error("reference: expected a picture that covers the plate, " +
+                  std::to_string(whole.width()) + "x" + std::to_string(whole.height()) + " pixels");
+    }
+    if (!half) continue;
+    const Plane& from = plane;
+    plane = half_mean(from.view(), painted.halving);
+  }
+  return planes;
+}
+
+Shown Desk::show(const PictureRequest& r, const Painted& painted) {
+  const ShownViews wet = color_of(*painted.canvas);
+  if (r.show == kPicture) return shown_light(wet, r.exposure, executor_);
+  if (r.show == kDry) {
+    return shown_light(cropped(color_of(painted.frame), painted.window), r.exposure, executor_);
+  }
+  if (r.show == kCells) {
+    return shown_cells(painted.canvas->survey(), wet, r.exposure, executor_);
+  }
+  if (r.show == kReference || r.show == kDifference) {
+    const std::array<Plane, 3> planes = reference(r, painted);
+    ShownViews views;
+    for (int c = 0; c < 3; ++c) views[c] = cropped(planes[c].view(), painted.window);
+    return r.show == kReference ? shown_light(views, r.exposure, executor_)
+                                : shown_difference(wet, views, r.exposure, executor_);
+  }
+  const Aov aov = aov_named(r.show);
+  return shown_aov(aov, painted.canvas->target().of(aov), r.exposure, executor_);
+}
+
+DeskPicture Desk::paint(const PictureRequest& request) {
+  std::vector<std::string> known;
+  for (const DeskShow& show : shows()) known.push_back(show.name);
+  if (std::find(known.begin(), known.end(), request.show) == known.end()) {
+    throw Error("show = '" + request.show + "': expected one of " + join(known) +
+                did_you_mean(request.show, known));
+  }
+  std::vector<Aov> shown;
+  for (const AovInfo& info : aovs()) {
+    if (info.name == request.show) shown.push_back(aov_named(info.name));
+  }
+
+  const std::lock_guard lock(mutex_);
+  Stopwatch watch;
+  Painted painted = run(request, shown, request.half, request.half ? half_ : whole_);
+  DeskPicture picture;
+  picture.shown = show(request, painted);
+  picture.half = request.half;
+  picture.warnings = std::move(painted.warnings);
+  picture.advice = std::move(painted.advice);
+  auto& times = picture.milliseconds;
+  times.emplace_back("all", kMilliseconds * watch.lap());
+  times.emplace_back("read", kMilliseconds * painted.read_seconds);
+  if (!runner().starts_with(runner_name(Runner::kFused))) return picture;
+  for (int i = 0; i < Chain::kCount; ++i) {
+    times.emplace_back(operators()[i].name, kMilliseconds * painted.times.operators[i]);
+  }
+  times.emplace_back("rest", kMilliseconds * painted.times.rest);
+  const auto wet = static_cast<double>(painted.canvas->survey().summary().wet);
+  picture.wet = wet / static_cast<double>(painted.window.area());
+  return picture;
+}
+
+PixelNumbers Desk::pixel(const DeskChoice& choice, int x, int y) {
+  std::vector<Aov> all;
+  for (const AovInfo& info : aovs()) all.push_back(aov_named(info.name));
+  const std::lock_guard lock(mutex_);
+  DeskFrame& held = frame_at(choice.frame);
+  const std::string text = text_of(choice);
+  if (numbers_of_ != text) {
+    numbers_of_.clear();
+    run(choice, all, false, numbers_);
+    numbers_of_ = text;
+  }
+  const Target& target = numbers_->target();
+  const Rect window = target.color[0].window;
+  if (x < 0 || y < 0 || x >= window.width() || y >= window.height()) {
+    throw Error("pixel " + std::to_string(x) + ", " + std::to_string(y) + ": expected 0 ... " +
+                std::to_string(window.width() - 1) + ", 0 ... " +
+                std::to_string(window.height() - 1));
+  }
+  x += window.x0;
+  y += window.y0;
+  const auto at = [&](const auto& views) {
+    return Rgb<float>{views[0].at(x, y), views[1].at(x, y), views[2].at(x, y)};
+  };
+  const CompositeJob job = job_for(held, choice);
+  PixelNumbers numbers;
+  numbers.dry = at(color_of(held.whole(kColorPlanes, scene_of(job, held.plate()))));
+  numbers.picture = at(target.color);
+  for (const Aov aov : all) {
+    std::vector<float> values;
+    for (const View<float>& view : target.of(aov)) {
+      if (view) values.push_back(view.at(x, y));
+    }
+    numbers.aovs.emplace_back(aov, std::move(values));
+  }
+  return numbers;
+}
+
+Desk::Facts Desk::facts() {
+  const DeskChoice start{options_.start, options_.settings};
+  const std::lock_guard lock(mutex_);
+  DeskFrame& held = frame_at({});
+  const CompositeJob job = job_for(held, start);
+  const Scene scene = scene_of(job, held.plate());
+  const Plan plan = plan_of(job, held.plate(), scene);
+  Facts facts;
+  facts.window = held.whole(plan.planes, scene).work();
+  facts.frame = frames_.front().number;
+  facts.time = scene.time;
+  facts.look = job.look;
+  facts.warnings = warnings_of(job, held.plate(), plan);
+  for (const auto& file : files_of(job.plate)) facts.files.push_back(file.filename().string());
+  return facts;
+}
+
+}  // namespace limpid

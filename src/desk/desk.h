@@ -1,0 +1,162 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limpid/core/error.h"
+#include "limpid/core/executor.h"
+#include "limpid/job/composite.h"
+#include "limpid/ops/look.h"
+
+#include "desk/desk_frame.h"
+#include "desk/shown.h"
+#include "job/canvas.h"
+#include "job/held_gpu.h"
+#include "job/shared_textures.h"
+
+namespace limpid {
+
+/// A look that the desk offers, by the word that `--look` names it with.
+struct DeskLook {
+  std::string word;
+  Look look;
+};
+
+/// What lies on a desk.
+struct DeskOptions {
+  /// Plate and scene, or those of a frame; its look and what it writes count for nothing, but how
+  /// it is computed does. `frames` are empty where there is one picture.
+  std::function<CompositeJob(std::optional<int> frame)> job_of;
+  std::vector<int> frames = {};
+  double fps = 24;
+
+  std::vector<DeskLook> looks;
+  std::string start;                       ///< one of their words
+  std::vector<std::string> settings = {};  ///< of the start, as `--set` has them
+
+  /// Red, green and blue of a picture to compare with, scene-linear; empty where there is none.
+  std::function<std::array<Plane, 3>(std::optional<int> frame)> reference = {};
+
+  std::filesystem::path folder = ".";  ///< where looks are saved
+  /// The command line that names plate, scene and the way to compute: "composite", "dry.exr", ...
+  std::vector<std::string> command = {};
+  std::string range = {};  ///< of the frames, as `--frames` has it
+
+  /// Frames are kept in memory until they take more: the last one always.
+  std::int64_t most_bytes = std::int64_t{1} << 30;
+};
+
+/// Which picture is meant.
+struct DeskChoice {
+  std::string look;                        ///< a DeskLook's word
+  std::vector<std::string> settings = {};  ///< upon it, as `--set` has them
+  std::optional<int> frame = {};           ///< the first, where there are some
+  std::optional<double> time = {};         ///< seconds; the frame's own
+};
+
+struct PictureRequest : DeskChoice {
+  bool half = false;
+  std::string show = "picture";  ///< of Desk::shows()
+  double exposure = 0;           ///< stops, of light
+};
+
+struct DeskPicture {
+  Shown shown;
+  bool half = false;
+  /// What it took in milliseconds, in the order of the work: "all" by the clock, "read", each
+  /// operator and "rest" by all threads together.
+  std::vector<std::pair<std::string, double>> milliseconds;
+  /// CompositeReport's, but that what looks beyond the frame is advice. Of half the size, those of
+  /// plate and look alone.
+  std::vector<std::string> warnings, advice;
+  std::optional<double> wet;  ///< share of pixels, at most; by the fused runner
+};
+
+struct PixelNumbers {
+  Rgb<float> dry, picture;
+  std::vector<std::pair<Aov, std::vector<float>>> aovs;  ///< a number a channel
+};
+
+/// Something that can be shown instead of the picture.
+struct DeskShow {
+  std::string name, about;
+};
+
+/// A file is there, and nobody said that it may be replaced.
+struct NameTaken : Error {
+  using Error::Error;
+};
+
+/// A plate that looks are tried on. Any threads may ask; they are served one at a time.
+class Desk {
+ public:
+  /// Reads the first frame, so that what is wrong with plate, scene or look is an Error now. The
+  /// executor must outlive it.
+  Desk(DeskOptions options, Executor& executor);
+
+  const DeskOptions& options() const { return options_; }
+  /// "fused avx2"
+  std::string runner() const;
+  std::vector<DeskShow> shows() const;
+  struct Facts {
+    Rect window;  ///< of the picture, in display coordinates
+    std::optional<int> frame;
+    double time = 0;
+    Look look;  ///< the start with its settings
+    std::vector<std::string> files, warnings;
+  };
+  Facts facts();
+
+  /// The picture, or what is shown in its stead. Of the whole size, without exposure, the bytes are
+  /// those of `limpid composite --preview`. Throws Error for what is wrong with the request.
+  DeskPicture paint(const PictureRequest& request);
+
+  /// Of a pixel, counted from the upper left of the picture at its whole size. Throws Error for one
+  /// outside.
+  PixelNumbers pixel(const DeskChoice& choice, int x, int y);
+
+  /// Writes the look into the folder, as a look file that reads back as the same picture: `name`
+  /// ends in .toml and names no other folder. Throws NameTaken for a file that is there and is not
+  /// to be replaced, and Error for a name that cannot be, for an input, and where writing fails.
+  std::filesystem::path save(const DeskChoice& choice, const std::string& name, bool replace);
+
+  /// The command line that writes the picture, quoted for a shell.
+  std::string command(const DeskChoice& choice) const;
+
+  /// The look of a choice. Throws Error.
+  Look look_of(const DeskChoice& choice) const;
+
+ private:
+  struct Painted;  // what a run has left
+
+  const DeskLook& look_named(const std::string& word) const;
+  DeskFrame& frame_at(std::optional<int> frame);
+  CompositeJob job_for(const DeskFrame& frame, const DeskChoice& choice) const;
+  Painted run(const DeskChoice& choice, std::vector<Aov> aovs, bool half,
+              std::optional<Canvas>& canvas);
+  Shown show(const PictureRequest& request, const Painted& painted);
+  std::array<Plane, 3> reference(const DeskChoice& choice, const Painted& painted);
+
+  DeskOptions options_;
+  Executor& executor_;
+  std::mutex mutex_;
+  struct Kept {
+    std::optional<int> number;
+    std::unique_ptr<DeskFrame> frame;
+  };
+  std::list<Kept> frames_;  ///< the last one first
+  SharedTextures textures_;
+  HeldGpu gpu_;
+  std::optional<Canvas> whole_, half_, numbers_;
+  std::string numbers_of_;  ///< the choice whose numbers `numbers_` has, or ""
+};
+
+}  // namespace limpid

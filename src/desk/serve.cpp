@@ -1,0 +1,127 @@
+#include "desk/serve.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include <sys/random.h>
+
+#include "limpid/core/error.h"
+
+#include "desk/desk_json.h"
+#include "desk/page_files.h"
+
+namespace limpid {
+namespace {
+
+constexpr const char* kJson = "application/json";
+constexpr const char* kBytes = "application/octet-stream";
+constexpr std::string_view kApi = "api/";
+
+/// 32 hex digits that nobody can guess.
+std::string secret() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+    throw Error(std::string("the system gives no random numbers (") + std::strerror(errno) + ")");
+  }
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += "0123456789abcdef"[byte >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
+WebReply refused(int status, const std::string& sentence) {
+  return {status, kJson, text_json("error", sentence)};
+}
+
+/// Whether both are the same, in a time that does not tell how much of them is.
+bool is_same(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  int differing = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) differing |= a[i] ^ b[i];
+  return differing == 0;
+}
+
+/// What is asked for below the root, or none.
+std::optional<std::string_view> below(std::string_view path, const std::string& root) {
+  if (!is_same(path.substr(0, root.size()), root)) return std::nullopt;
+  return path.substr(root.size());
+}
+
+bool is_reading(std::string_view name) { return !name.starts_with(kApi) || name == "api/desk"; }
+
+bool is_api(std::string_view name) {
+  for (const std::string_view known :
+       {"api/desk", "api/picture", "api/pixel", "api/save", "api/command"}) {
+    if (name == known) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+DeskServer::DeskServer(Desk& desk, int port)
+    : desk_(desk),
+      root_("/" + secret() + "/"),
+      server_(port, {[this](const WebRequest& request) { return refusal(request); },
+                     [this](const WebRequest& request) { return answer(request); }}) {}
+
+std::string DeskServer::address() const {
+  return "http://127.0.0.1:" + std::to_string(server_.port()) + root_;
+}
+
+std::optional<WebReply> DeskServer::refusal(const WebRequest& r) const {
+  const std::string port = ":" + std::to_string(server_.port());
+  const auto is_here = [&](std::string_view host, const std::string& scheme) {
+    return host == scheme + "127.0.0.1" + port || host == scheme + "localhost" + port;
+  };
+  if (!r.host || !is_here(*r.host, "")) {
+    return refused(403, "Host: expected 127.0.0.1" + port + " or localhost" + port);
+  }
+  if (r.origin && !is_here(*r.origin, "http://")) {
+    return refused(403, "Origin: expected this page");
+  }
+  const auto name = below(r.path, root_);
+  if (!name) return refused(404, "no such page");
+  if (name->starts_with(kApi) ? !is_api(*name) : !page_file(*name)) {
+    return refused(404, "no such page");
+  }
+  const std::string expected = is_reading(*name) ? "GET" : "POST";
+  if (r.method != expected) return refused(405, "expected the method " + expected);
+  return std::nullopt;
+}
+
+WebReply DeskServer::answer(const WebRequest& request) {
+  const std::string_view name = request.path.substr(root_.size());
+  try {
+    if (name.starts_with(kApi)) return answer_api(name.substr(kApi.size()), request.body);
+    const std::optional<PageFile> file = page_file(name);
+    if (!file) return refused(404, "no such page");
+    return {200, file->type, file->text};
+  } catch (const NameTaken& error) {
+    return refused(409, error.what());
+  } catch (const Error& error) {
+    return refused(error.fault() == Fault::kMemory ? 503 : 400, error.what());
+  } catch (const std::bad_alloc&) {
+    return refused(503, no_memory().what());
+  }
+}
+
+WebReply DeskServer::answer_api(std::string_view name, std::string_view body) {
+  if (name == "desk") return {200, kJson, desk_json(desk_)};
+  if (name == "picture") return {200, kBytes, picture_bytes(desk_.paint(picture_request(body)))};
+  if (name == "pixel") {
+    const PixelRequest asked = pixel_request(body);
+    return {200, kJson, pixel_json(asked, desk_.pixel(asked, asked.x, asked.y))};
+  }
+  if (name == "save") {
+    const SaveRequest asked = save_request(body);
+    return {200, kJson, text_json("saved", desk_.save(asked, asked.name, asked.replace).string())};
+  }
+  return {200, kJson, text_json("command", desk_.command(choice_request(body)))};
+}
+
+}  // namespace limpid

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+
+#include "desk/desk.h"
+#include "desk/http_server.h"
+
+namespace limpid {
+
+/// A desk for the browsers of this machine's user: the page, and what it asks for below an address
+/// that nobody can guess.
+///
+/// Every path but those below the secret is one that is not there. A request whose Host is not this
+/// server, as one has that came by another name of the machine, or whose Origin is another page, is
+/// refused before its body is read. Nothing is written but looks that are saved.
+class DeskServer {
+ public:
+  /// Listens at once. The desk must outlive it. Throws Error as HttpServer.
+  DeskServer(Desk& desk, int port);
+
+  /// "http://127.0.0.1:PORT/SECRET/"
+  std::string address() const;
+  /// Returns when no more can be served.
+  void wait() { server_.wait(); }
+
+ private:
+  std::optional<WebReply> refusal(const WebRequest& request) const;
+  WebReply answer(const WebRequest& request);
+  WebReply answer_api(std::string_view name, std::string_view body);
+
+  Desk& desk_;
+  const std::string root_;  ///< "/SECRET/"
+  HttpServer server_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,96 @@
+#include "job/composite_inputs.h"
+
+#include <cmath>
+
+#include "limpid/core/error.h"
+
+#include "job/canvas.h"
+#include "job/picture_warnings.h"
+#include "job/shared_textures.h"
+
+namespace limpid {
+
+Scene scene_of(const CompositeJob& job, const Plate& plate) {
+  const SceneFile carried = plate.scene();
+  Scene scene = job.scene.scene;
+  if (!scene.water) scene.water = carried.scene.water;
+  if (!scene.sun) scene.sun = carried.scene.sun;
+  if (!scene.sky) scene.sky = carried.scene.sky;
+  const auto& lens = job.scene.camera ? job.scene.camera : carried.camera;
+  scene.camera =
+      lens ? camera_for(*lens, plate.display().size(), plate.pixel_aspect()) : plate.camera();
+  if (!scene.camera) {
+    throw Error(
+        "no camera found: expected a scene with [camera] view and projection (or fov_x, fov_y, "
+        "orthographic), or a plate with the attributes worldToCamera and worldToNDC");
+  }
+  if (!scene.water) {
+    throw Error("no water plane found: expected a scene with [water] up and height");
+  }
+  scene.time =
+      job.time.of(job.scene, plate.has_scene() ? std::optional(carried.scene.time) : std::nullopt);
+  return scene;
+}
+
+DepthMeaning depth_of(const CompositeJob& job) {
+  const SceneFile& scene = job.scene;
+  const DepthKind kind = job.depth_kind.value_or(scene.depth);
+  const bool both = scene.near && scene.far;
+  if (kind == DepthKind::kNormalised && !(both && std::isfinite(*scene.far))) {
+    throw Error("depth of kind normalised: expected near and a finite far in the scene's [camera]");
+  }
+  const bool known = scene.camera && (scene.camera->lens == CameraSpec::Lens::kProjection || both);
+  if (kind == DepthKind::kDevice && !known) {
+    throw Error(
+        "depth of kind device: expected a projection, or near and far beside the lens, in the "
+        "scene's [camera]");
+  }
+  const auto nothing = job.depth_nothing ? job.depth_nothing : scene.depth_nothing;
+  return {kind, scene.near.value_or(0), scene.far.value_or(0), nothing};
+}
+
+Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
+  if (!plate.planes().has(PlaneId::kDepth)) plate.refuse_without("depth");
+  return make_plan(job.look,
+                   {.planes = plate.planes(),
+                    .wave_map = !job.look.of<WaveNormals>().map.empty(),
+                    .sun = scene.sun.has_value(),
+                    .environment = has_environment(job.scene),
+                    .waves = scene.has_waves()},
+                   state_shown_by(computed_aovs(job.output)), job.output.max_error);
+}
+
+std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate,
+                                     const Plan& plan) {
+  std::vector<std::string> warnings = plate.warnings();
+  warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
+  const auto unread = [&](const std::string& what) {
+    warnings.push_back(what + " is named, and nothing that runs of the look " + job.look.name +
+                       " reads it");
+  };
+  for (const Role& role : roles()) {
+    const bool named = plate.named_planes().meets(role.planes());
+    if (named && !plan.planes.meets(role.planes())) unread("the layer " + std::string(role.name));
+  }
+  const bool own_normals = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
+  if (job.output.wave_samples > 1 && own_normals) {
+    warnings.push_back("wave_samples = " + std::to_string(job.output.wave_samples) +
+                       " sample no waves: they are the frame's own normals, one a pixel");
+  }
+  if (job.scene.scene.sky && !plan.lit_by_sky) unread("[sky]");
+  if (job.scene.scene.sky && plan.lit_by_sky && plan.reads_environment) {
+    warnings.push_back("[sky] is given, and the environment lights the water in its stead");
+  }
+  // It may stand by for a reflection.
+  const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);
+  if (has_environment(job.scene) && !mirrors) unread("the environment");
+  return warnings;
+}
+
+void warn_of_pixels(const Plan& plan, const Frame& frame, const Scene& scene, double transparent,
+                    std::vector<std::string>& warnings) {
+  warn_of_picture(plan, frame, scene, warnings);
+  warn_of_deep_glass(transparent, warnings);
+}
+
+}  // namespace limpid

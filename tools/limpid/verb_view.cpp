@@ -1,0 +1,107 @@
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "limpid/core/error.h"
+#include "limpid/files/text/frame_range.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/job/composite.h"
+#include "limpid/job/sequence.h"
+
+#include "compared_picture.h"
+#include "composite_job.h"
+#include "data_folder.h"
+#include "desk/serve.h"
+#include "frame_options.h"
+#include "memory_limit.h"
+#include "notes.h"
+#include "open_browser.h"
+#include "verbs.h"
+#include "water_options.h"
+
+namespace limpid::tool {
+namespace {
+
+/// The looks that come with the tool, and the one that is named.
+std::vector<DeskLook> looks_with(const std::string& named) {
+  std::vector<DeskLook> looks;
+  bool is_there = false;
+  for (const std::string& name : look_names(look_folders())) {
+    looks.push_back({name, look_for(name)});
+    is_there |= name == named;
+  }
+  if (!is_there) looks.push_back({named, look_for(named)});
+  return looks;
+}
+
+/// The words of a command line that mean the same plate, computed in the same way.
+std::vector<std::string> command_of(const CompositeArguments& a, const CommonArguments& common) {
+  std::vector<std::string> words = {"composite"};
+  words.insert(words.end(), a.plates.begin(), a.plates.end());
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {option, value});
+  };
+  add("--scene", a.scene);
+  for (const std::string& layer : a.layers) add("--layer", layer);
+  add("--view", a.view);
+  add("--depth-kind", a.depth_kind);
+  if (a.depth_nothing) add("--depth-nothing", to_string(Value(*a.depth_nothing)));
+  if (a.frames.fps) add("--fps", to_string(Value(*a.frames.fps)));
+  if (a.samples != 1) add("--samples", std::to_string(a.samples));
+  if (a.water.runner != WaterOptions{}.runner) add("--runner", a.water.runner);
+  add("--gpu", a.water.gpu);
+  add("--simd", a.water.simd);
+  if (common.threads != 0) add("--threads", std::to_string(common.threads));
+  add("--max-memory", common.max_memory.value_or(""));
+  return words;
+}
+
+std::array<Plane, 3> read_reference(const std::string& path, const CommonArguments& common) {
+  return LinearColor(read_picture(path, {}, limits_of(common)), std::nullopt).take();
+}
+
+DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) {
+  const CompositeArguments& plate = a.composite;
+  const Sequence sequence = sequence_of(plate.frames, plate.water);
+  DeskOptions options;
+  options.frames = sequence.frames;
+  options.job_of = [plate, job = common_job(plate, sequence, common)](std::optional<int> frame) {
+    return frame ? job_of_frame(job, plate, *frame) : job;
+  };
+  options.fps = plate.frames.fps.value_or(kUsualFps);
+  options.looks = looks_with(plate.water.look);
+  options.start = plate.water.look;
+  options.settings = plate.water.settings;
+  if (!a.reference.empty()) {
+    options.reference = [name = a.reference, common](std::optional<int> frame) {
+      return read_reference(frame ? name_of_frame(name, *frame) : name, common);
+    };
+  }
+  options.folder = a.folder;
+  if (!std::filesystem::is_directory(options.folder)) {
+    throw Error("--folder " + a.folder + ": expected a folder that is there", Fault::kUsage);
+  }
+  options.command = command_of(plate, common);
+  options.range = plate.frames.range;
+  if (common.max_memory) options.most_bytes = limits_of(common).max_memory / 4;
+  return options;
+}
+
+}  // namespace
+
+int view_verb(const ViewArguments& a, const CommonArguments& common) {
+  const auto executor = executor_of(common);
+  Desk desk(desk_options(a, common), *executor);
+  tell_warnings(desk.facts().warnings, common.quiet);
+  DeskServer server(desk, a.port);
+  std::printf("%s\n", server.address().c_str());
+  std::fflush(stdout);
+  if (!a.no_browser && !open_browser(server.address()) && !common.quiet) {
+    std::fprintf(stderr, "no browser could be opened (xdg-open): open the address yourself\n");
+  }
+  server.wait();  // until a signal ends the program
+  throw Error("the system lets no more connections be accepted", Fault::kRetry);
+}
+
+}  // namespace limpid::tool
