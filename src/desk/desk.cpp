@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "limpid/core/simd.h"
 #include "limpid/files/text/look_file.h"
@@ -57,9 +58,12 @@ std::string text_of(const DeskChoice& choice) {
 /// What a run has left; valid until the next.
 struct Desk::Painted {
   Frame frame;
-  HeldTextures textures;  ///< of the frame
-  Rect window;            ///< that was computed
+  HeldTextures textures;      ///< of the frame
+  std::optional<int> number;  ///< of the frame
+  bool half = false;
   Halving halving;
+  Rect display;  ///< of the plate
+  Rect window;   ///< that was computed
   const Canvas* canvas = nullptr;
   RunTimes times;
   double read_seconds = 0;
@@ -162,7 +166,10 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
   }
   painted.textures = textures_.load(textures_read(plan, job.scene), job.plate.limits);
   painted.textures.show_in(painted.frame);
+  painted.number = frames_.front().number;
+  painted.half = half;
   painted.halving = held.halving();
+  painted.display = held.plate().display();
   painted.window = painted.frame.work();
   painted.warnings = warnings_of(job, held.plate(), plan);
   if (!half) {
@@ -179,22 +186,32 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
   return painted;
 }
 
-std::array<Plane, 3> Desk::reference(const DeskChoice& choice, const Painted& painted) {
-  std::array<Plane, 3> planes = options_.reference(choice.frame);
-  const bool half = painted.canvas == &*half_;
-  const Rect whole = half ? intersection(painted.halving.covered(painted.window),
-                                         frame_at(choice.frame).plate().display())
-                          : painted.window;
-  for (Plane& plane : planes) {
-    if (!plane.view().window.contains(whole)) {
+const std::array<Plane, 3>& Desk::reference(std::optional<int> frame) {
+  if (!reference_ || reference_->frame != frame) {
+    reference_.reset();
+    reference_.emplace(frame, options_.reference(frame));
+  }
+  return reference_->color;
+}
+
+ShownViews Desk::reference_beside(const Painted& painted, std::array<Plane, 3>& halved) {
+  const Rect whole = painted.half
+                         ? intersection(painted.halving.covered(painted.window), painted.display)
+                         : painted.window;
+  ShownViews views;
+  for (std::size_t c = 0; c < 3; ++c) {
+    views[c] = reference(painted.number)[c].view();
+    if (!views[c].window.contains(whole)) {
       throw Error("reference: expected a picture that covers the plate, " +
                   std::to_string(whole.width()) + "x" + std::to_string(whole.height()) + " pixels");
     }
-    if (!half) continue;
-    const Plane& from = plane;
-    plane = half_mean(from.view(), painted.halving);
+    if (painted.half) {
+      halved[c] = half_mean(views[c], painted.halving);
+      views[c] = std::as_const(halved[c]).view();
+    }
+    views[c] = cropped(views[c], painted.window);
   }
-  return planes;
+  return views;
 }
 
 Shown Desk::show(const PictureRequest& r, const Painted& painted) {
@@ -207,9 +224,8 @@ Shown Desk::show(const PictureRequest& r, const Painted& painted) {
     return shown_cells(painted.canvas->survey(), wet, r.exposure, executor_);
   }
   if (r.show == kReference || r.show == kDifference) {
-    const std::array<Plane, 3> planes = reference(r, painted);
-    ShownViews views;
-    for (int c = 0; c < 3; ++c) views[c] = cropped(planes[c].view(), painted.window);
+    std::array<Plane, 3> halved;
+    const ShownViews views = reference_beside(painted, halved);
     return r.show == kReference ? shown_light(views, r.exposure, executor_)
                                 : shown_difference(wet, views, r.exposure, executor_);
   }

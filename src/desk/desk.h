@@ -143,7 +143,9 @@ class Desk {
   Painted run(const DeskChoice& choice, std::vector<Aov> aovs, bool half,
               std::optional<Canvas>& canvas);
   Shown show(const PictureRequest& request, const Painted& painted);
-  std::array<Plane, 3> reference(const DeskChoice& choice, const Painted& painted);
+  const std::array<Plane, 3>& reference(std::optional<int> frame);
+  /// The colors of the reference in the pixels that were painted, or what `halved` then holds.
+  ShownViews reference_beside(const Painted& painted, std::array<Plane, 3>& halved);
 
   DeskOptions options_;
   Executor& executor_;
@@ -153,6 +155,11 @@ class Desk {
     std::unique_ptr<DeskFrame> frame;
   };
   std::list<Kept> frames_;  ///< the last one first
+  struct Reference {
+    std::optional<int> frame;
+    std::array<Plane, 3> color;
+  };
+  std::optional<Reference> reference_;  ///< the last one
   SharedTextures textures_;
   HeldGpu gpu_;
   std::optional<Canvas> whole_, half_, numbers_;

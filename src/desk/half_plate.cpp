@@ -1,6 +1,7 @@
 #include "desk/half_plate.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace limpid {
 namespace {
@@ -46,8 +47,21 @@ Plane half_valid_mean(const View<const float>& plane, const View<const float>& v
   });
 }
 
-bool has_mean(const Role& role) {
-  return role.sanitise != Sanitise::kDepth && role.sanitise != Sanitise::kNormal;
+bool has_mean(const Role& role) { return role.sanitise != Sanitise::kDepth; }
+
+/// Means of unit vectors, made unit.
+void make_unit(const View<float>& x, const View<float>& y, const View<float>& z) {
+  const Rect& w = x.window;
+  for (int row = w.y0; row < w.y1; ++row) {
+    for (int column = w.x0; column < w.x1; ++column) {
+      float &a = x.at(column, row), &b = y.at(column, row), &c = z.at(column, row);
+      const float length = std::sqrt(a * a + b * b + c * c);
+      if (!(length > 0)) continue;  // of opposite ones: as little a direction as it was
+      a /= length;
+      b /= length;
+      c /= length;
+    }
+  }
 }
 
 }  // namespace
@@ -94,6 +108,8 @@ HalfPlate::HalfPlate(const Frame& frame, Executor& executor)
       if (role.planes().has(id) && frame.plane(id)) planes_[index] = halve(role, id);
     }
   });
+  Plane* const normal = &planes_[index_of(PlaneId::kSurfaceNormalX)];
+  if (normal[0]) make_unit(normal[0].view(), normal[1].view(), normal[2].view());
   for (int i = 0; i < kPlaneCount; ++i) frame_.planes[i] = planes_[i].view();
   for (int i = 0; i < 4; ++i) frame_.before_water[i] = before_water_[i].view();
 }

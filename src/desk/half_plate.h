@@ -23,9 +23,9 @@ struct Halving {
 /// The mean of the pixels there are.
 Plane half_mean(const View<const float>& plane, const Halving& halving);
 
-/// A frame of half the size that shows the same view: colors, shadows and shares by their mean
-/// (a reflection's color by that of its valid pixels), depths and normals by one pixel of the four,
-/// the same for all, for they have no mean.
+/// A frame of half the size that shows the same view: colors, shadows and shares by their mean (a
+/// reflection's color by that of its valid pixels), normals by their mean direction, depths by one
+/// pixel of the four, the same for all, for a mean of depths is where nothing is.
 class HalfPlate {
  public:
   /// The corner of `frame`'s work() becomes the half one's, (0, 0).

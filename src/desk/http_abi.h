@@ -42,7 +42,8 @@ struct HttpOptions {
   int port;                   ///< on 127.0.0.1; 0 for any that is free
   int threads;                ///< that answer
   int waiting;                ///< connections that wait for one; more are not accepted meanwhile
-  int seconds;                ///< that a connection may say nothing, or take none of a reply
+  int seconds_to_begin;       ///< that a connection may take until its request begins
+  int seconds;                ///< that it may then say nothing, or take none of a reply
   std::size_t most_body;      ///< bytes; a larger body is refused with 413, unread
   const HttpHeader* headers;  ///< of all replies
   std::size_t header_count;

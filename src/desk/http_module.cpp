@@ -1,4 +1,5 @@
 // The only source that knows cpp-httplib; built as limpid_http.so and loaded by http_server.cpp.
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <condition_variable>
@@ -104,7 +105,7 @@ class HttpServer {
     // A connection a request: what is left of a body that was refused is no next request, and no
     // browser that keeps one open takes a thread.
     server_.set_keep_alive_max_count(1);
-    server_.set_keep_alive_timeout(options.seconds);
+    server_.set_keep_alive_timeout(options.seconds_to_begin);
     server_.set_read_timeout(options.seconds);
     server_.set_write_timeout(options.seconds);
     server_.set_payload_max_length(options.most_body);

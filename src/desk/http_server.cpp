@@ -22,9 +22,11 @@ constexpr HttpHeader kHeaders[] = {
     {"Cross-Origin-Resource-Policy", "same-origin"},
 };
 
-constexpr int kThreads = 16;
-constexpr int kWaiting = 256;
-constexpr int kSeconds = 2;
+/// Connections that say nothing, as browsers open in advance, take a thread for a second.
+constexpr int kThreads = 32;
+constexpr int kWaiting = 64;
+constexpr int kSecondsToBegin = 1;
+constexpr int kSeconds = 5;
 constexpr std::size_t kMostBody = std::size_t{1} << 20;
 
 struct Module {
@@ -92,8 +94,8 @@ void answer(void* host, const HttpRequest* request, HttpReply* reply, void* to) 
 }  // namespace
 
 HttpServer::HttpServer(int port, Host host) : host_(std::move(host)) {
-  const HttpOptions options{port,      kThreads, kWaiting,           kSeconds,
-                            kMostBody, kHeaders, std::size(kHeaders)};
+  const HttpOptions options{port,     kThreads,  kWaiting, kSecondsToBegin,
+                            kSeconds, kMostBody, kHeaders, std::size(kHeaders)};
   const HttpHost called{&host_, &admits, &answer};
   std::string sentence;
   const auto put = [](void* to, const char* bytes, std::size_t size) {

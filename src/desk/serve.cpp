@@ -3,6 +3,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <exception>
+#include <new>
 #include <optional>
 
 #include <sys/random.h>
@@ -107,6 +109,8 @@ WebReply DeskServer::answer(const WebRequest& request) {
     return refused(error.fault() == Fault::kMemory ? 503 : 400, error.what());
   } catch (const std::bad_alloc&) {
     return refused(503, no_memory().what());
+  } catch (const std::exception& error) {
+    return refused(500, error.what());
   }
 }
 

@@ -88,6 +88,19 @@ DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) 
   return options;
 }
 
+/// Reads and computes what the page will ask for first, while the browser starts.
+void warm(Desk& desk, const CommonArguments& common) {
+  try {
+    PictureRequest first;
+    first.look = desk.options().start;
+    first.settings = desk.options().settings;
+    first.half = true;
+    desk.paint(first);
+  } catch (const Error& error) {
+    tell_warnings({error.what()}, common.quiet);  // as the page will
+  }
+}
+
 }  // namespace
 
 int view_verb(const ViewArguments& a, const CommonArguments& common) {
@@ -100,6 +113,7 @@ int view_verb(const ViewArguments& a, const CommonArguments& common) {
   if (!a.no_browser && !open_browser(server.address()) && !common.quiet) {
     std::fprintf(stderr, "no browser could be opened (xdg-open): open the address yourself\n");
   }
+  warm(desk, common);
   server.wait();  // until a signal ends the program
   throw Error("the system lets no more connections be accepted", Fault::kRetry);
 }

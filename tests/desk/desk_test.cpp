@@ -1,0 +1,292 @@
+#include "desk/desk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "limpid/files/picture/preview.h"
+#include "limpid/files/text/look_file.h"
+
+#include "desk/pond_desk.h"
+#include "judge/compare/heat_map.h"
+
+namespace limpid::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+PictureRequest picture(std::vector<std::string> settings = {}) {
+  PictureRequest request;
+  request.look = "pond";
+  request.settings = std::move(settings);
+  return request;
+}
+
+class DeskWindows : public PondDesk, public ::testing::WithParamInterface<PlateOptions> {};
+
+TEST_P(DeskWindows, ShowsThePreviewsBytesAtTheWholeSize) {
+  const DeskOptions options = this->options(GetParam());
+  Desk desk(options, *executor_);
+  const std::vector<std::uint8_t> shown = colors(desk.paint(picture()).shown);
+  EXPECT_EQ(shown, previewed(options, options.looks[0].look));
+  const std::string setting = "depth_fog.density=3";
+  Look look = options.looks[0].look;
+  apply_setting(look, setting);
+  const std::vector<std::uint8_t> murky = colors(desk.paint(picture({setting})).shown);
+  EXPECT_NE(murky, shown);
+  EXPECT_EQ(murky, previewed(options, look));
+}
+
+/// The mean of |a - b| over the channels of half pixels, of 255: b's by their light, and a's by the
+/// mean light of the pixels that are (dx, dy) half pixels off theirs.
+double apart(const Shown& whole, const Shown& half, int dx, int dy) {
+  const auto light = [](const Shown& shown, int x, int y, int c) {
+    return linear_from_srgb(shown.rgba[(std::size_t(y) * shown.size.width + x) * 4 + c] / 255.0f);
+  };
+  double sum = 0;
+  int count = 0;
+  for (int y = 1; y < whole.size.height / 2 - 1; ++y) {
+    for (int x = 1; x < whole.size.width / 2 - 1; ++x) {
+      for (int c = 0; c < 3; ++c, ++count) {
+        float mean = 0;
+        for (int k = 0; k < 4; ++k) {
+          mean += light(whole, 2 * (x + dx) + k % 2, 2 * (y + dy) + k / 2, c) / 4;
+        }
+        sum += std::abs(srgb_from_linear(mean) - srgb_from_linear(light(half, x, y, c)));
+      }
+    }
+  }
+  return 255 * sum / count;
+}
+
+TEST_P(DeskWindows, ShowsTheSameViewAtHalfTheSize) {
+  Desk desk(options(GetParam()), *executor_);
+  // Calm: waves that are finer than pixels are not the same light when pixels grow.
+  PictureRequest request = picture({"wave_normals.strength=0"});
+  const Shown whole = desk.paint(request).shown;
+  request.half = true;
+  const DeskPicture painted = desk.paint(request);
+  const Shown& half = painted.shown;
+  EXPECT_TRUE(painted.half);
+  ASSERT_EQ(half.size, (Size{(whole.size.width + 1) / 2, (whole.size.height + 1) / 2}));
+  const double here = apart(whole, half, 0, 0);
+  RecordProperty("of_255", std::to_string(here));
+  EXPECT_LT(here, 5);  // half pixels with a shore in them are wet or dry as a whole
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    EXPECT_GT(apart(whole, half, dx, dy), 1.5 * here) << dx << ", " << dy;
+  }
+}
+
+PlateOptions windows(Rect data, Rect display) {
+  PlateOptions options;
+  options.data = data;
+  options.display = display;
+  return options;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DeskWindows,
+                         ::testing::Values(PlateOptions{}, windows({0, 0, 63, 35}, {0, 0, 63, 35}),
+                                           windows({-5, -3, 70, 40},
+                                                   {0, 0, 64, 36}),  // with overscan
+                                           windows({103, 55, 160, 82}, {100, 50, 164, 86})));
+
+using DeskTest = PondDesk;
+
+TEST_F(DeskTest, ShowsOtherTimesAsTheToolDoes) {
+  const DeskOptions options = this->options();
+  Desk desk(options, *executor_);
+  PictureRequest request = picture();
+  const std::vector<std::uint8_t> before = colors(desk.paint(request).shown);
+  request.time = 2.5;
+  const std::vector<std::uint8_t> after = colors(desk.paint(request).shown);
+  EXPECT_NE(before, after);
+  EXPECT_EQ(after, previewed(options, options.looks[0].look, {}, 2.5));
+}
+
+TEST_F(DeskTest, BrightensByStops) {
+  Desk desk(options(), *executor_);
+  PictureRequest request = picture();
+  request.show = "dry";
+  const std::vector<std::uint8_t> before = colors(desk.paint(request).shown);
+  request.exposure = 1;
+  const std::vector<std::uint8_t> after = colors(desk.paint(request).shown);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const float twice = std::min(1.0f, 2 * linear_from_srgb(before[i] / 255.0f));
+    ASSERT_NEAR(after[i], 255 * srgb_from_linear(twice), 4);
+  }
+  request.exposure = std::nan("");
+  EXPECT_THAT(refusal([&] { desk.paint(request); }), HasSubstr("exposure = "));
+}
+
+TEST_F(DeskTest, ShowsAllThatItOffers) {
+  DeskOptions options = this->options();
+  options.reference = [](std::optional<int>) {
+    return std::array<Plane, 3>{Plane(kPicture), Plane(kPicture), Plane(kPicture)};
+  };
+  Desk desk(options, *executor_);
+  std::vector<std::string> names;
+  for (const DeskShow& show : desk.shows()) {
+    names.push_back(show.name);
+    PictureRequest request = picture();
+    request.show = show.name;
+    EXPECT_EQ(desk.paint(request).shown.size, (Size{64, 36})) << show.name;
+    request.half = true;
+    EXPECT_EQ(desk.paint(request).shown.size, (Size{32, 18})) << show.name;
+  }
+  for (const AovInfo& info : aovs()) EXPECT_THAT(names, Contains(std::string(info.name)));
+  PictureRequest request = picture();
+  request.show = "pictur";
+  EXPECT_THAT(refusal([&] { desk.paint(request); }),
+              HasSubstr("show = 'pictur': expected one of picture, dry, reference, difference, "
+                        "cells, transmitted"));
+}
+
+TEST_F(DeskTest, ShowsHowFarThePictureIsFromItsReference) {
+  DeskOptions options = this->options();
+  options.reference = [](std::optional<int>) {
+    return std::array<Plane, 3>{Plane(kPicture), Plane(kPicture), Plane(kPicture)};
+  };
+  Desk desk(options, *executor_);
+  PictureRequest request = picture();
+  request.show = "reference";
+  const std::vector<std::uint8_t> black = colors(desk.paint(request).shown);
+  EXPECT_EQ(std::count(black.begin(), black.end(), 0), std::ptrdiff_t(black.size()));
+  request.show = "difference";
+  request.exposure = -2;
+  const DeskPicture painted = desk.paint(request);
+  EXPECT_EQ(painted.shown.scale, (std::array<double, 2>{0, 1}));
+  const PixelNumbers numbers = desk.pixel(request, 40, 30);
+  const float largest = std::max({numbers.picture.r, numbers.picture.g, numbers.picture.b});
+  EXPECT_GT(largest, 0.05);
+  const std::array<float, 3> expected = heat_color(largest);
+  const std::uint8_t* const at = painted.shown.rgba.data() + 4 * (30 * 64 + 40);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(at[c], 255 * expected[c], 0.51);
+}
+
+TEST_F(DeskTest, RefusesAReferenceOfAnotherSize) {
+  DeskOptions options = this->options();
+  options.reference = [](std::optional<int>) {
+    const Rect small{0, 0, 63, 36};
+    return std::array<Plane, 3>{Plane(small), Plane(small), Plane(small)};
+  };
+  Desk desk(options, *executor_);
+  PictureRequest request = picture();
+  request.show = "reference";
+  EXPECT_EQ(refusal([&] { desk.paint(request); }),
+            "reference: expected a picture that covers the plate, 64x36 pixels");
+}
+
+TEST_F(DeskTest, TellsThePixelsNumbers) {
+  Desk desk(options(), *executor_);
+  const PixelNumbers numbers = desk.pixel(picture(), 40, 30);
+  float red = 0;
+  std::size_t channels = 0;
+  for (const auto& [aov, values] : numbers.aovs) {
+    channels += values.size();
+    EXPECT_EQ(values.size(), aovs()[std::size_t(aov)].suffixes.size());
+    const bool summed = aov == Aov::kTransmitted || aov == Aov::kInScatter ||
+                        aov == Aov::kReflected || aov == Aov::kHighlight;
+    if (summed) red += values[0];
+  }
+  EXPECT_EQ(numbers.aovs.size(), aovs().size());
+  EXPECT_GT(channels, 30u);
+  EXPECT_NEAR(red, numbers.picture.r, 1e-5);
+  PictureRequest darker = picture();
+  darker.exposure = -4;  // so that it is not white
+  const std::vector<std::uint8_t> shown = colors(desk.paint(darker).shown);
+  EXPECT_NEAR(shown[3 * (30 * 64 + 40)], 255 * srgb_from_linear(numbers.picture.r / 16), 0.51);
+  EXPECT_EQ(refusal([&] { desk.pixel(picture(), 64, 0); }),
+            "pixel 64, 0: expected 0 ... 63, 0 ... 35");
+  EXPECT_EQ(refusal([&] { desk.pixel(picture(), 0, -1); }),
+            "pixel 0, -1: expected 0 ... 63, 0 ... 35");
+}
+
+TEST_F(DeskTest, GoesOnAfterALookThatIsWrong) {
+  Desk desk(options(), *executor_);
+  const std::vector<std::uint8_t> before = colors(desk.paint(picture()).shown);
+  PictureRequest wrong = picture({"depth_fog.density=-1"});
+  EXPECT_THAT(refusal([&] { desk.paint(wrong); }), HasSubstr("depth_fog.density = -1"));
+  wrong = picture({"wave_normals.map=nowhere.exr"});
+  EXPECT_THAT(refusal([&] { desk.paint(wrong); }), HasSubstr("nowhere.exr"));
+  EXPECT_THAT(refusal([&] { desk.pixel(wrong, 1, 1); }), HasSubstr("nowhere.exr"));
+  wrong = picture();
+  wrong.look = "pnd";
+  EXPECT_EQ(refusal([&] { desk.paint(wrong); }),
+            "look = 'pnd': expected one of pond; did you mean 'pond'?");
+  EXPECT_EQ(colors(desk.paint(picture()).shown), before);
+}
+
+TEST_F(DeskTest, RefusesAPlateThatCannotBeUsed) {
+  PlateOptions plate;
+  plate.depth = false;
+  const DeskOptions options = this->options(plate);
+  EXPECT_THAT(refusal([&] { Desk(options, *executor_); }), HasSubstr("no depth"));
+}
+
+TEST_F(DeskTest, SaysWhatTheTimeWentInto) {
+  Desk desk(options(), *executor_);
+  const DeskPicture painted = desk.paint(picture());
+  std::vector<std::string> names;
+  for (const auto& [name, time] : painted.milliseconds) {
+    names.push_back(name);
+    EXPECT_GE(time, 0) << name;
+  }
+  std::vector<std::string> expected = {"all", "read"};
+  for (const OperatorInfo& op : operators()) expected.emplace_back(op.name);
+  expected.emplace_back("rest");
+  EXPECT_EQ(names, expected);
+  ASSERT_TRUE(painted.wet);
+  EXPECT_GT(*painted.wet, 0.1);
+  EXPECT_LE(*painted.wet, 1);
+}
+
+/// Two frames: the second lies elsewhere in a window of its own.
+DeskOptions two_frames(DeskOptions options, const fs::path& folder) {
+  PlateOptions second;
+  second.data = second.display = {10, 20, 74, 56};
+  write_plate(folder / "plate.2.exr", second);
+  const auto first = options.job_of;
+  options.job_of = [first, folder](std::optional<int> frame) {
+    CompositeJob job = first({});
+    if (frame == 2) {
+      job.plate.files = {folder / "plate.2.exr"};
+      job.time.asked = 5;
+    }
+    return job;
+  };
+  options.frames = {1, 2};
+  return options;
+}
+
+TEST_F(DeskTest, ShowsEachFrameAsTheToolDoes) {
+  for (const std::int64_t most_bytes : {std::int64_t{0}, std::int64_t{1} << 30}) {
+    DeskOptions options = two_frames(this->options(), folder_);
+    options.most_bytes = most_bytes;
+    Desk desk(options, *executor_);
+    EXPECT_EQ(desk.facts().frame, 1);
+    for (const int frame : {2, 1, 2}) {
+      PictureRequest request = picture();
+      request.frame = frame;
+      EXPECT_EQ(colors(desk.paint(request).shown), previewed(options, options.looks[0].look, frame))
+          << frame;
+    }
+    PictureRequest request = picture();
+    request.frame = 3;
+    EXPECT_EQ(refusal([&] { desk.paint(request); }), "frame = 3: expected one of --frames");
+  }
+}
+
+TEST_F(DeskTest, RefusesAFrameWhereThereIsOnePicture) {
+  Desk desk(options(), *executor_);
+  PictureRequest request = picture();
+  request.frame = 1;
+  EXPECT_EQ(refusal([&] { desk.paint(request); }),
+            "frame = 1: expected none, for there is one picture alone");
+}
+
+}  // namespace
+}  // namespace limpid::test
