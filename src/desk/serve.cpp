@@ -1,18 +1,14 @@
 #include "desk/serve.h"
 
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <exception>
 #include <new>
 #include <optional>
-
-#include <sys/random.h>
 
 #include "limpid/core/error.h"
 
 #include "desk/desk_json.h"
 #include "desk/page_files.h"
+#include "desk/secret.h"
 
 namespace limpid {
 namespace {
@@ -21,30 +17,8 @@ constexpr const char* kJson = "application/json";
 constexpr const char* kBytes = "application/octet-stream";
 constexpr std::string_view kApi = "api/";
 
-/// 32 hex digits that nobody can guess.
-std::string secret() {
-  std::array<unsigned char, 16> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-    throw Error(std::string("the system gives no random numbers (") + std::strerror(errno) + ")");
-  }
-  std::string text;
-  for (const unsigned char byte : bytes) {
-    text += "0123456789abcdef"[byte >> 4];
-    text += "0123456789abcdef"[byte & 15];
-  }
-  return text;
-}
-
 WebReply refused(int status, const std::string& sentence) {
   return {status, kJson, text_json("error", sentence)};
-}
-
-/// Whether both are the same, in a time that does not tell how much of them is.
-bool is_same(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  int differing = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) differing |= a[i] ^ b[i];
-  return differing == 0;
 }
 
 /// What is asked for below the root, or none.
@@ -67,7 +41,7 @@ bool is_api(std::string_view name) {
 
 DeskServer::DeskServer(Desk& desk, int port)
     : desk_(desk),
-      root_("/" + secret() + "/"),
+      root_("/" + new_secret() + "/"),
       server_(port, {[this](const WebRequest& request) { return refusal(request); },
                      [this](const WebRequest& request) { return answer(request); }}) {}
 

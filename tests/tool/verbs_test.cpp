@@ -83,7 +83,7 @@ TEST_F(VerbsTest, HelpAndVersion) {
   const Ran help = limpid({"help"});
   EXPECT_EQ(help.code, 0);
   for (const std::string verb :
-       {"composite", "plan", "truth", "inspect", "operators", "compare", "help"}) {
+       {"composite", "plan", "view", "truth", "inspect", "operators", "compare", "help"}) {
     EXPECT_THAT(help.out, HasSubstr("\n  " + verb + " "));
     EXPECT_THAT(limpid({"help", verb}).out, HasSubstr("Usage: limpid " + verb + " [OPTIONS]"));
     EXPECT_EQ(limpid({"help", verb}).out, limpid({verb, "--help"}).out);
