@@ -1,0 +1,288 @@
+// The page's whole: what is wanted, what is shown, and how the one becomes the other.
+
+import * as api from "./api.js";
+import {CommandDialog, SaveDialog} from "./dialogs.js";
+import {byId, element} from "./dom.js";
+import {History} from "./history.js";
+import {Looks} from "./look.js";
+import {Notes} from "./notes.js";
+import {Panel} from "./panel.js";
+import {Pictures} from "./pictures.js";
+import {PixelNumbers} from "./pixel.js";
+import {Timeline} from "./timeline.js";
+import {View} from "./view.js";
+
+const slow = 300;    // ms: where a full picture takes longer a half one comes first
+const stillness = 300;  // ms without a move: what is held is no longer being dragged
+
+const desk = await api.describe().catch((error) => {
+  byId("gone").hidden = !(error instanceof api.Gone);
+  byId("note").textContent = error.message;
+  throw error;
+});
+const looks = new Looks(desk);
+const notes = new Notes();
+
+// What a reload of the page must not lose.
+const kept = JSON.parse(sessionStorage.getItem(location.pathname) ?? "null");
+const keep = () => sessionStorage.setItem(location.pathname, JSON.stringify(history.now));
+
+// ---- what is wanted
+
+const history = new History(kept ?? {look: desk.start, set: desk.set});
+const options = {show: "picture", exposure: 0, against: ""};  // against: "", "dry", "reference" or "look NAME"
+let isLive = false, ended = Promise.resolve(), endLive = () => {}, liveTimer;
+
+const madeOf = () => ({...history.now, ...timeline.at});
+const wanted = () => ({...madeOf(), show: options.show, exposure: options.exposure});
+
+// What a wipe shows on its left; null without one.
+function wantedOther() {
+  const {against, exposure} = options;
+  if (!against) return null;
+  if (against.startsWith("look ")) return {look: against.slice(5), set: {}, ...timeline.at, show: "picture", exposure};
+  return {look: desk.start, set: {}, ...timeline.at, show: against, exposure};
+}
+
+// While one drags half pictures do; once it is over, or what is dragged is held still, the full one is made.
+function live(on) {
+  clearTimeout(liveTimer);
+  if (on) {
+    if (!isLive) ended = new Promise((done) => { endLive = done; });
+    liveTimer = setTimeout(() => { live(false); pictures.wake(); }, stillness);
+  }
+  isLive = on;
+  if (!on) endLive();
+}
+
+function changed(isDragged = false) {
+  live(isDragged);
+  if (!isDragged) history.settle();
+  stuck = null;
+  notes.bad = "";
+  keep();
+  drawControls();
+  pictures.wake();
+}
+
+function change(key, value, isDragged) {
+  history.replace({...history.now, set: looks.with(history.now.set, key, value)});
+  changed(isDragged);
+}
+
+// ---- what is shown
+
+const drawn = {key: null, half: false, other: null};
+let good = null;       // the state of the last picture that was made
+let stuck = null;      // what was refused, with nothing to go back to
+let isGone = false;
+let fullTime = desk.size[0] * desk.size[1] * 3e-4;  // ms; of the last full picture, at first a guess
+
+const pictures = new Pictures(() => {
+  const job = isGone ? null : nextJob();
+  document.body.toggleAttribute("data-busy", job !== null);
+  return job;
+});
+
+function nextJob() {
+  const request = wanted(), key = JSON.stringify(request), isNew = key !== drawn.key;
+  if (key === stuck) return null;
+  const hurries = isLive || timeline.plays;
+  if (isNew && (hurries || fullTime > slow)) return pictureJob(request, key, true);
+  if (hurries) return null;
+  if (isNew || drawn.half) return pictureJob(request, key, false);
+  const other = wantedOther(), otherKey = JSON.stringify(other);
+  return other === null || otherKey === drawn.other || otherKey === stuck ? null : otherJob(other, otherKey);
+}
+
+function pictureJob(request, key, half) {
+  const state = history.now, begun = performance.now();
+  return {
+    request: {...request, half},
+    done(picture) {
+      if (!half) fullTime = performance.now() - begun;
+      view.show(picture);
+      Object.assign(drawn, {key, half});
+      good = state;
+      if (!half) {
+        notes.notes = [...desk.warnings, ...picture.warnings, ...picture.advice];
+        numbers.again();
+      }
+      tellCost(picture);
+    },
+    failed: (error) => failed(error, key, state),
+  };
+}
+
+function otherJob(request, key) {
+  return {
+    request: {...request, half: false},
+    done(picture) {
+      view.showOther(picture);
+      drawn.other = key;
+    },
+    failed: (error) => failed(error, key, null),
+  };
+}
+
+// What is refused is told, and what was good comes back, with the sentence beside it until the next change.
+function failed(error, key, state) {
+  if (error instanceof api.Gone) {
+    isGone = true;
+    byId("gone").hidden = false;
+    return;
+  }
+  notes.bad = error.message;
+  if (state === null || good === null || state === good) {
+    stuck = key;
+  } else if (state === history.now) {
+    history.forget(state, good);
+    live(false);
+    keep();
+    drawControls();
+    panel.again(history.now);
+  }
+}
+
+function tellCost({milliseconds, half, wet}) {
+  const {all, ...parts} = milliseconds;
+  const rounded = (ms) => ms < 10 ? ms.toFixed(1) : Math.round(ms);
+  const words = Object.entries(parts).filter(([, ms]) => ms >= 0.05).sort(([, a], [, b]) => b - a)
+      .map(([name, ms]) => `${name} ${rounded(ms)}`);
+  byId("cost").textContent = `${half ? "half size, " : ""}${rounded(all)} ms: ${words.join(", ")}`;
+  byId("cost").title = `${words.join(" ms\n")} ms\nsum of all threads, on ${desk.runner}; ` +
+      `${(100 * wet).toFixed(1)} % of the pixels are wet`;
+}
+
+// ---- the parts of the page
+
+const view = new View((at) => numbers.point(at, at && view.seen(at.x, at.y)));
+const timeline = new Timeline(desk, (at, isScrubbed) => changed(isScrubbed));
+const numbers = new PixelNumbers(wanted, idle);
+const panel = new Panel(desk, looks, {
+  change,
+  back(key) {
+    history.replace({...history.now, set: looks.without(history.now, key)});
+    changed();
+  },
+  bad(sentence) { notes.bad = sentence; },
+});
+const saveDialog = new SaveDialog(desk.folder, () => history.now);
+const commandDialog = new CommandDialog(madeOf);
+
+function drawControls() {
+  const {now} = history;
+  panel.show(now);
+  byId("look").value = now.look;
+  byId("undo").disabled = !history.canUndo;
+  byId("redo").disabled = !history.canRedo;
+}
+
+function undo() { history.undo(); changed(); }
+function redo() { history.redo(); changed(); }
+
+function expose(isDragged) {
+  options.exposure = Number(byId("exposure").value);
+  byId("exposure_text").textContent = `${options.exposure > 0 ? "+" : ""}${options.exposure}`;
+  changed(isDragged);
+}
+
+function wipeWith(against) {
+  options.against = byId("against").value = against;
+  view.wipes = against !== "";
+  byId("wipe_left").textContent = byId("against").selectedOptions[0].textContent;
+  changed();
+}
+
+function showNumbers() {
+  const isOn = byId("pixel_box").hidden;
+  byId("pixel_box").hidden = !isOn;
+  byId("numbers").setAttribute("aria-pressed", isOn);
+}
+
+function on(id, event, act) {
+  byId(id).addEventListener(event, act);
+}
+
+// A new look begins without settings; undo brings them back.
+on("look", "change", ({target}) => { history.replace({look: target.value, set: {}}); changed(); });
+on("show", "change", ({target}) => {
+  options.show = target.value;
+  byId("wipe_right").textContent = target.value;
+  changed();
+});
+on("against", "change", ({target}) => wipeWith(target.value));
+on("exposure", "input", () => expose(true));
+on("exposure", "change", () => expose(false));
+on("exposure", "dblclick", () => { byId("exposure").value = 0; expose(false); });
+on("fit", "click", () => view.fit());
+on("full", "click", () => view.zoomTo(1));
+on("undo", "click", undo);
+on("redo", "click", redo);
+on("numbers", "click", showNumbers);
+on("save", "click", () => saveDialog.open());
+on("command", "click", () => commandDialog.open());
+on("try_again", "click", () => {
+  isGone = false;
+  byId("gone").hidden = true;
+  pictures.wake();
+});
+
+const keys = {
+  "1": () => view.zoomTo(1), "f": () => view.fit(), "+": () => view.zoomBy(2 ** 0.5), "-": () => view.zoomBy(2 ** -0.5),
+  "w": () => wipeWith(options.against ? "" : "dry"), "i": showNumbers, "/": () => byId("search").focus(),
+  " ": () => timeline.toggle(),
+};
+const keysWithCtrl = {"z": undo, "Z": redo, "y": redo, "s": () => saveDialog.open()};
+
+// Text that is being typed keeps its keys, as a button keeps its space bar.
+document.addEventListener("keydown", (event) => {
+  const {target, key} = event, withCtrl = event.ctrlKey || event.metaKey;
+  if (document.querySelector("dialog[open]") || event.altKey) return;
+  const isText = target.matches("input[type=text], input[type=search]");
+  const isTyped = isText && (!withCtrl || (key !== "s" && target.value !== target.defaultValue));
+  if (isTyped || (!withCtrl && target.matches("select")) || (key === " " && target.matches("button, summary, input"))) {
+    return;
+  }
+  const act = (withCtrl ? keysWithCtrl : keys)[withCtrl && event.shiftKey ? key.toUpperCase() : key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+});
+
+// ---- the first picture
+
+document.title = `${desk.plate} - limpid`;
+byId("look").append(...desk.looks.map(({name}) => element("option", {}, name)));
+byId("show").append(...desk.shows.map(({name, about}) => element("option", {value: name, title: about}, name)));
+byId("against").append(element("option", {value: ""}, "nothing"),
+    ...desk.shows.filter(({name}) => name === "dry" || name === "reference")
+        .map(({name}) => element("option", {value: name}, name)),
+    element("optgroup", {label: "look"}, ...desk.looks.map(({name}) =>
+        element("option", {value: "look " + name}, name))));
+byId("wipe_right").textContent = options.show;
+view.resize(...desk.size);
+view.wipes = false;
+notes.notes = desk.warnings;
+drawControls();
+pictures.wake();
+
+// Until the full picture of what is wanted is shown, or nobody makes it.
+async function idle() {
+  for (;;) {
+    await pictures.idle();
+    if (isGone || (!isLive && nextJob() === null)) return;
+    await ended;
+    pictures.wake();
+  }
+}
+
+// For those who drive the page.
+window.desk = {
+  idle,
+  set: (key, value) => change(key, value, false),
+  pixels: () => view.pixels(),
+  get state() { return history.now; },
+  get asked() { return pictures.asked; },
+  get isGone() { return isGone; },
+};

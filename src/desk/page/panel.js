@@ -1,0 +1,119 @@
+// All parameters: first those by which water is tuned, then each operator's.
+
+import {byId, element} from "./dom.js";
+import {controlOf} from "./fields.js";
+import {same} from "./look.js";
+
+// By the words of one who looks at the picture.
+const first = [
+  ["depth_fog.murkiness", "Murkiness"],
+  ["depth_fog.water_type", "Water"],
+  ["wave_normals.strength", "Waves"],
+  ["wave_normals.wind", "Wind"],
+  ["wave_normals.tile_size", "Wave length"],
+  ["depth_fog.ambient", "Brightness of the sky"],
+  ["sun_highlight.strength", "Glint of the sun"],
+  ["caustics.strength", "Light on the bottom"],
+];
+
+export class Panel {
+  #looks;
+  #on;
+  #rows = [];    // {key, node, control, why, back, words}
+  #groups = [];  // {node, rows}
+  #search = byId("search");
+  #changedOnly = byId("changed_only");
+  #hint = byId("hint");
+
+  // `on`: change(key, value, isLive), back(key), bad(sentence).
+  constructor({operators}, looks, on) {
+    this.#looks = looks;
+    this.#on = on;
+    const list = byId("fields");
+    const known = first.filter(([key]) => looks.fields.has(key));
+    list.append(this.#group("First", "", known.map(([key, label]) => this.#row(key, label, "first")), true));
+    for (const {name, about, fields} of operators) {
+      const rows = fields.map((field) => this.#row(`${name}.${field.name}`, field.name, "all"));
+      list.append(this.#group(name, about, rows, false));
+    }
+    this.#search.addEventListener("input", () => this.#filter());
+    this.#changedOnly.addEventListener("change", () => this.#filter());
+    for (const event of ["pointerover", "focusin"]) list.addEventListener(event, ({target}) => this.#tell(target));
+  }
+
+  show({look, set}) {
+    const values = this.#looks.values({look, set});
+    for (const row of this.#rows) {
+      const {key} = row, value = values.get(key), own = this.#looks.own(look, key);
+      row.control.show(value, own);
+      const isChanged = Object.hasOwn(set, key) || !same(value, own);
+      const unused = this.#looks.unused(key, values), brings = this.#looks.brings(key, values);
+      row.node.classList.toggle("changed", isChanged);
+      row.node.classList.toggle("unused", unused !== "");
+      row.back.hidden = !isChanged;
+      row.back.title = `Back to ${JSON.stringify(own)}, as in ${look}`;
+      row.why.textContent = unused ? `only with ${unused}` : brings ? `sets ${brings}` : "";
+      row.why.title = row.why.textContent;
+    }
+    if (this.#changedOnly.checked) this.#filter();
+  }
+
+  // What was typed there is refused: it gives way to what is shown.
+  again({look, set}) {
+    const values = this.#looks.values({look, set});
+    for (const {control, key} of this.#rows) control.show(values.get(key), this.#looks.own(look, key), true);
+  }
+
+  #row(key, label, place) {
+    const field = this.#looks.fields.get(key), id = `${place}:${key}`;
+    const control = controlOf(field, {key, label, id}, (value, isLive) => this.#on.change(key, value, isLive),
+        this.#on.bad);
+    const why = element("span", {class: "why"});
+    const back = element("button", {type: "button", class: "back", "aria-label": `${key} back to the look's`}, "↺");
+    back.addEventListener("click", () => this.#on.back(key));
+    const node = element("div", {class: "field", "data-key": key, "data-kind": field.kind},
+        element("div", {class: "name"}, element("label", {for: id, title: key}, label),
+            element("span", {class: "unit"}, field.unit), why, back),
+        ...control.nodes);
+    const row = {key, node, control, why, back, words: `${key} ${label} ${field.about}`.toLowerCase()};
+    this.#rows.push(row);
+    return row;
+  }
+
+  #group(name, about, rows, isOpen) {
+    const node = element("details", {class: "group", open: isOpen, "data-group": name},
+        element("summary", {title: about}, name), ...rows.map((row) => row.node));
+    this.#groups.push({node, rows, isOpen});
+    node.addEventListener("toggle", () => {
+      const group = this.#groups.find((other) => other.node === node);
+      if (!this.#filters) group.isOpen = node.open;
+    });
+    return node;
+  }
+
+  get #filters() { return this.#search.value.trim() !== "" || this.#changedOnly.checked; }
+
+  #filter() {
+    const words = this.#search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const {node, rows, isOpen} of this.#groups) {
+      const isFirst = node.dataset.group === "First";
+      for (const row of rows) {
+        row.node.hidden = !words.every((word) => row.words.includes(word)) ||
+            (this.#changedOnly.checked && !row.node.classList.contains("changed"));
+      }
+      // Each parameter is found once, where it belongs.
+      node.hidden = this.#filters && (isFirst || rows.every((row) => row.node.hidden));
+      node.open = this.#filters ? true : isOpen;
+    }
+    byId("none_found").hidden = !this.#filters || this.#groups.some(({node}) => !node.hidden);
+  }
+
+  // The sentence of what one points at, in a place of its own, so that nothing moves.
+  #tell(target) {
+    const key = target.closest?.(".field")?.dataset.key;
+    if (!key) return;
+    const {about, unit, least, most} = this.#looks.fields.get(key);
+    const ends = least === null && most === null ? "" : ` ${least ?? "any"} … ${most ?? "any"}${unit && " " + unit}.`;
+    this.#hint.replaceChildren(element("code", {}, key), ` ${about}${ends}`);
+  }
+}

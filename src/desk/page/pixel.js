@@ -1,0 +1,62 @@
+// The numbers of the pixel under the pointer, asked for once both picture and pointer are still.
+
+import * as api from "./api.js";
+import {byId, element, short} from "./dom.js";
+
+const pause = 150;  // ms without a move
+
+export class PixelNumbers {
+  #line = byId("pixel_line");
+  #box = byId("pixel_box");
+  #request;
+  #idle;
+  #at = null;
+  #timer;
+  #asks = 0;
+
+  // `request` gives what api/picture is asked for now, `idle` a promise of the picture's standing still.
+  constructor(request, idle) {
+    this.#request = request;
+    this.#idle = idle;
+  }
+
+  // A pixel {x, y} with what is seen of it as bytes, or null.
+  point(at, seen) {
+    if (!at) return;  // the last one's numbers stay
+    if (this.#at?.x === at.x && this.#at?.y === at.y) return;
+    this.#at = at;
+    this.#line.textContent = `${at.x}, ${at.y}   seen ${seen.slice(0, 3).join(" ")}`;
+    this.again();
+  }
+
+  // The picture is another: so are the numbers.
+  again() {
+    clearTimeout(this.#timer);
+    if (this.#at) this.#timer = setTimeout(() => this.#ask(), pause);
+  }
+
+  async #ask() {
+    const asked = ++this.#asks;
+    await this.#idle();
+    const {half, show, exposure, ...request} = this.#request();
+    let numbers;
+    try {
+      numbers = await api.pixel({...request, ...this.#at});
+    } catch {
+      return;  // the picture itself says what is wrong
+    }
+    if (asked === this.#asks) this.#tell(numbers);
+  }
+
+  #tell({x, y, dry, picture, aovs}) {
+    if (x !== this.#at.x || y !== this.#at.y) return;
+    const rgb = (values) => values.map(short).join(" ");
+    this.#line.textContent = `${x}, ${y}   picture ${rgb(picture)}   dry ${rgb(dry)}`;
+    const rows = [["picture", picture], ["dry", dry],
+                  ...Object.entries(aovs).map(([name, channels]) => [name, Object.values(channels)])];
+    this.#box.replaceChildren(element("table", {}, element("caption", {}, `pixel ${x}, ${y}`),
+        element("tbody", {}, ...rows.map(([name, values]) => element("tr", {},
+            element("th", {scope: "row"}, name),
+            ...[0, 1, 2].map((i) => element("td", {class: "n"}, i < values.length ? short(values[i]) : "")))))));
+  }
+}
