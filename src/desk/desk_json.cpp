@@ -81,6 +81,7 @@ Json field_json(const Parameter& p) {
     conditions.push_back({{"key", condition.key},
                           {"words", words},
                           {"or_above_zero", condition.or_above_zero},
+                          {"follows", condition.follows},
                           {"text", to_string(condition)}});
   }
   const bool numbers = p.kind == FieldKind::kReal || p.kind == FieldKind::kColor ||
