@@ -21,7 +21,8 @@ class Browser:
         self._process = os.posix_spawn(
             chromium,
             [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-extensions",
-             "--disable-background-networking", f"--user-data-dir={self._profile.name}", "--remote-debugging-pipe",
+             "--disable-background-networking",
+             "--force-color-profile=srgb", f"--user-data-dir={self._profile.name}", "--remote-debugging-pipe",
              f"--window-size={width},{height}", "about:blank"],
             os.environ,
             file_actions=[(os.POSIX_SPAWN_DUP2, theirs_in, 3), (os.POSIX_SPAWN_DUP2, theirs_out, 4),
@@ -107,8 +108,10 @@ class Browser:
         self.mouse("Released", x, y)
 
     def key(self, key, code, modifiers=0):
-        for kind in ("rawKeyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code, modifiers=modifiers)
+        text = {"text": "\r"} if key == "Enter" else {}
+        self.call("Input.dispatchKeyEvent", type="keyDown" if text else "rawKeyDown", key=key,
+                  windowsVirtualKeyCode=code, modifiers=modifiers, **text)
+        self.call("Input.dispatchKeyEvent", type="keyUp", key=key, windowsVirtualKeyCode=code, modifiers=modifiers)
 
     def type(self, text):
         self.call("Input.insertText", text=text)

@@ -76,6 +76,7 @@ const drawn = {key: null, half: false, other: null};
 let good = null;       // the state of the last picture that was made
 let stuck = null;      // what was refused, with nothing to go back to
 let isGone = false;
+const watching = [];   // who waits for the next picture
 let fullTime = desk.size[0] * desk.size[1] * 3e-4;  // ms; of the last full picture, at first a guess
 
 const pictures = new Pictures(() => {
@@ -109,6 +110,7 @@ function pictureJob(request, key, half) {
         numbers.again();
       }
       tellCost(picture);
+      for (const tell of watching.splice(0)) tell({half, asked: begun});
     },
     failed: (error) => failed(error, key, state),
   };
@@ -282,6 +284,7 @@ window.desk = {
   idle,
   set: (key, value) => change(key, value, false),
   pixels: () => view.pixels(),
+  next: () => new Promise((tell) => watching.push(tell)),  // picture, half or full
   get state() { return history.now; },
   get asked() { return pictures.asked; },
   get isGone() { return isGone; },

@@ -181,7 +181,8 @@ export class View {
     // At whole screen pixels, so that one of the picture is one of the screen at 1:1.
     const snapped = (x) => Math.round(x * devicePixelRatio) / devicePixelRatio;
     this.#sheet.style.transform = `translate(${snapped(this.#left)}px, ${snapped(this.#top)}px) scale(${this.#zoom})`;
-    this.#sheet.classList.toggle("near", this.#zoom * devicePixelRatio >= 1);
+    // Below two screen pixels for one, pixels of even size could not be shown.
+    this.#sheet.classList.toggle("near", this.#zoom * devicePixelRatio >= 2);
     const at = this.#wipe * clientWidth;
     this.#line.style.left = at + "px";
     this.#line.setAttribute("aria-valuenow", Math.round(100 * this.#wipe));

@@ -1,0 +1,305 @@
+#!/usr/bin/env python3
+"""Drives the page of `limpid view` in a browser without a window: by its mouse and keys, as one who tunes water does.
+Whatever comes of it is compared with what the tool makes on the command line, byte by byte.
+
+  desk_page.py LIMPID DATA CHROMIUM
+"""
+import base64
+import contextlib
+import json
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+
+from browser import Browser
+
+# What the checks need in the page. A PNG is decoded without any change of its colors.
+HELPERS = r"""
+window.bytesOf = async (png) => {
+  const blob = await (await fetch("data:image/png;base64," + png)).blob();
+  const bitmap = await createImageBitmap(blob, {colorSpaceConversion: "none", premultiplyAlpha: "none"});
+  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d", {alpha: false});
+  context.drawImage(bitmap, 0, 0);
+  return context.getImageData(0, 0, bitmap.width, bitmap.height);
+};
+window.differing = (a, b) => {
+  if (a.width !== b.width || a.height !== b.height) return `${a.width}x${a.height}, not ${b.width}x${b.height}`;
+  let count = 0;
+  for (let i = 0; i < a.data.length; ++i) count += a.data[i] !== b.data[i];
+  return count;
+};
+window.boxOf = (selector) => {
+  const node = document.querySelector(selector);
+  node.scrollIntoView({block: "nearest"});
+  const {left, top, width, height} = node.getBoundingClientRect();
+  return {left, top, width, height};
+};
+window.textOf = (id) => document.getElementById(id).textContent;
+window.choose = (id, value) => {
+  const node = document.getElementById(id);
+  node.value = value;
+  if (node.value !== value) throw new Error(`${id} has no ${value}`);
+  node.dispatchEvent(new Event("change", {bubbles: true}));
+  return desk.idle();
+};
+window.told = (id) => new Promise((done) =>
+    new MutationObserver((_, observer) => { observer.disconnect(); done(textOf(id)); })
+        .observe(document.getElementById(id), {childList: true, characterData: true, subtree: true}));
+"""
+
+MURKINESS = '.field[data-key="depth_fog.murkiness"]'
+CTRL, SHIFT = 2, 8
+
+
+def expect(found, expected, what):
+    if found != expected:
+        sys.exit(f"{what}: expected {expected!r}, found {found!r}")
+    print("ok:", what)
+
+
+def expect_in(part, text, what):
+    if part not in text:
+        sys.exit(f"{what}: expected {part!r} in {text!r}")
+    print("ok:", what)
+
+
+class Desk:
+    """A tool that serves, and a page of it in a browser."""
+
+    def __init__(self, limpid, browser, folder, *arguments):
+        self.limpid, self.browser, self.folder = limpid, browser, pathlib.Path(folder)
+        self.server = subprocess.Popen([limpid, "view", "--no-browser", "--folder", folder, *arguments],
+                                       stdout=subprocess.PIPE, text=True)
+        browser.open(self.server.stdout.readline().strip())
+        browser.run("import(document.querySelector('script[type=module]').src).then(() => desk.idle())")
+        browser.run(HELPERS)
+
+    def close(self):
+        self.server.kill()
+        self.server.wait()
+        self.server.stdout.close()
+
+    def run(self, script):
+        return self.browser.run(script)
+
+    def keep(self, name):
+        self.run(f"window.{name} = desk.pixels(); 0")
+
+    def differing(self, name):
+        """Values of the picture that are not those that were kept by that name."""
+        return self.run(f"differing(desk.pixels(), {name})")
+
+    def center(self, selector, across=0.5):
+        box = self.run(f"boxOf({json.dumps(selector)})")
+        return box["left"] + across * box["width"], box["top"] + box["height"] / 2
+
+    def click(self, selector):
+        self.browser.click(*self.center(selector))
+
+    def enter(self, selector, text):
+        """Typed in place of what is there, with Enter behind."""
+        self.click(selector)
+        self.run(f"document.querySelector({json.dumps(selector)}).select()")
+        self.browser.type(text)
+        self.browser.key("Enter", 13)
+        self.run("desk.idle()")
+
+    def tools_picture(self, command):
+        """The preview that a command line makes, as the page's `tools`."""
+        preview = self.folder / "preview.png"
+        words = shlex.split(command)
+        words[words.index("-o") + 1] = str(self.folder / "wet.exr")
+        subprocess.run([self.limpid, *words[1:], "--preview", preview], check=True, cwd=self.folder, capture_output=True)
+        text = base64.b64encode(preview.read_bytes()).decode()
+        self.run(f"bytesOf('{text}').then((bytes) => {{ window.tools = bytes; }})")
+
+    def copied_command(self):
+        self.run("window.copied = told('command_told'); 0")
+        self.click("#command")
+        self.run("copied")
+        command = self.run("document.getElementById('command_text').value")
+        self.click("#command_close")
+        return command
+
+
+def slider_by_the_mouse(desk):
+    desk.keep("first")
+    before = desk.run("desk.state.set")
+    expect(before, {}, "the page begins without settings")
+    x, y = desk.center(MURKINESS + " input[type=range]")
+    desk.run("window.shown = desk.next(); 0")
+    desk.browser.mouse("Pressed", x, y)
+    for step in range(1, 6):
+        desk.browser.mouse("Moved", x + 8 * step, y)
+    expect(desk.run("shown.then(({half}) => half)"), True, "half pictures come while a slider is dragged")
+    desk.browser.mouse("Released", x + 40, y)
+    desk.run("desk.idle()")
+    murkiness = desk.run("desk.state.set['depth_fog.murkiness']")
+    if not 0.55 < murkiness < 0.8:
+        sys.exit(f"a slider dragged from its middle to the right: murkiness {murkiness}")
+    if desk.differing("first") == 0:
+        sys.exit("a slider was dragged, and the picture is the same")
+    expect(desk.run("document.getElementById('draft').hidden"), True, "a full picture is shown when all is still")
+    desk.keep("dragged")
+    command = desk.copied_command()
+    expect_in(f"depth_fog.murkiness={murkiness:g}", command, "the command line has what was dragged")
+    desk.tools_picture(command)
+    expect(desk.differing("tools"), 0, "the canvas has the bytes of the tool's preview")
+
+
+def undo_and_redo(desk):
+    desk.browser.key("z", 90, CTRL)
+    desk.run("desk.idle()")
+    expect(desk.run("desk.state.set"), {}, "a drag is one step of undo")
+    expect(desk.differing("first"), 0, "undo brings the picture back")
+    desk.browser.key("Z", 90, CTRL + SHIFT)
+    desk.run("desk.idle()")
+    expect(desk.differing("dragged"), 0, "redo brings it again")
+
+
+def wipe(desk):
+    desk.run("choose('show', 'dry')")
+    desk.keep("dry")
+    desk.run("choose('show', 'picture')")
+    desk.run("choose('against', 'dry')")
+    desk.run("document.activeElement.blur()")
+    desk.browser.key("1", 49)  # a pixel on each of the screen
+    x, y = desk.center("#wipe_line")
+    desk.browser.mouse("Pressed", x, y)
+    desk.browser.mouse("Moved", x - 61, y)
+    desk.browser.mouse("Released", x - 61, y)
+    line = desk.center("#wipe_line")[0]
+    expect(abs(line - (x - 61)) < 1, True, "the line of a wipe is dragged")
+    shot = desk.browser.call("Page.captureScreenshot", format="png")["data"]
+    desk.run(f"bytesOf('{shot}').then((bytes) => {{ window.shot = bytes; }})")
+    # Below the words beside the line, above the zoom's end of the stage, and not where the line itself is.
+    counts = desk.run("""(() => {
+      const stage = boxOf("#stage"), sheet = document.getElementById("picture").getBoundingClientRect();
+      const line = boxOf("#wipe_line"), middle = line.left + line.width / 2;
+      const counts = {left: 0, right: 0, wrong: 0, differs: 0};
+      const wet = desk.pixels();
+      for (let y = Math.ceil(stage.top) + 40; y < stage.top + stage.height - 10; ++y) {
+        for (let x = Math.ceil(stage.left); x < stage.left + stage.width; ++x) {
+          const px = x - Math.round(sheet.left), py = y - Math.round(sheet.top);
+          if (px < 0 || py < 0 || px >= wet.width || py >= wet.height || Math.abs(x - middle) < 14) continue;
+          const isLeft = x < middle, from = isLeft ? dry : wet, at = 4 * (py * wet.width + px);
+          ++counts[isLeft ? "left" : "right"];
+          for (let c = 0; c < 3; ++c) {
+            counts.wrong += shot.data[4 * (y * shot.width + x) + c] !== from.data[at + c];
+            counts.differs += dry.data[at + c] !== wet.data[at + c];
+          }
+        }
+      }
+      return counts;
+    })()""")
+    if min(counts["left"], counts["right"]) < 50000 or counts["differs"] < 50000:
+        sys.exit(f"a wipe shows too little to tell: {counts}")
+    expect(counts["wrong"], 0, "the screen has dry left of a wipe's line and wet right of it, to the byte")
+    desk.run("choose('against', '')")
+    desk.browser.key("f", 70)
+
+
+def aov_and_numbers(desk):
+    desk.keep("wet")
+    desk.run("choose('show', 'transmittance')")
+    if desk.differing("wet") == 0:
+        sys.exit("transmittance looks as the picture does")
+    desk.run("document.getElementById('numbers').click()")
+    desk.run("window.numbers = told('pixel_box'); 0")
+    desk.browser.mouse("Moved", *desk.center("#stage", 0.3))
+    # Of the row of the table, as short numbers; a share is shown as it is, from 0 to 255.
+    found = desk.run("""numbers.then(() => {
+      const cells = [...document.querySelectorAll("#pixel_box tr")].find((row) =>
+          row.cells[0].textContent === "transmittance").cells;
+      const [x, y] = document.querySelector("#pixel_box caption").textContent.match(/\\d+/g).map(Number);
+      const pixels = desk.pixels(), at = 4 * (y * pixels.width + x);
+      return {numbers: [1, 2, 3].map((i) => Number(cells[i].textContent)), bytes: [...pixels.data.slice(at, at + 3)]};
+    })""")
+    off = [abs(255 * number - byte) for number, byte in zip(found["numbers"], found["bytes"])]
+    if max(off) > 0.6 or max(found["numbers"]) in (0, 1):  # half a step, and what the numbers leave out
+        sys.exit(f"transmittance at a wet pixel: {found}")
+    print("ok: an AOV shows the numbers that are told of its pixel")
+    desk.run("document.getElementById('numbers').click()")
+    desk.run("choose('show', 'picture')")
+    expect(desk.differing("wet"), 0, "the picture comes back after an AOV")
+
+
+def bad_values(desk):
+    number = MURKINESS + " input.number"
+    before = desk.run(f"document.querySelector('{number}').value")
+    for text, sentence in (("4", "depth_fog.murkiness = 4: expected 0 ... 1"),
+                           ("murky", "depth_fog.murkiness = 'murky': expected a number")):
+        desk.enter(number, text)
+        expect_in(sentence, desk.run("textOf('note')"), f"'{text}' is refused in words")
+        expect(desk.run(f"document.querySelector('{number}').value"), before, f"what was there before '{text}' is back")
+    expect(desk.differing("wet"), 0, "bad values change no picture")
+    desk.run("desk.set('depth_fog.murkiness', 0.25)")
+    desk.run("desk.idle()")
+    expect(desk.run("document.getElementById('notes').hasAttribute('data-bad')"), False, "a good value ends the complaint")
+
+
+def saving(desk):
+    desk.keep("wet")
+    desk.click("#save")
+    for button, sentence in (("#save_form button[type=submit]", "Saved: "), ("#save_form button[type=submit]", "my_look.toml"),
+                             ("#save_replace", "Saved: ")):
+        desk.run("window.answer = told('save_told'); 0")
+        desk.click(button)
+        expect_in(sentence, desk.run("answer"), f"{button} tells")
+        isThere = desk.run("!document.getElementById('save_replace').hidden")
+        expect(isThere, sentence == "my_look.toml", "it asks before a file is replaced")
+    desk.click("#save_close")
+    words = shlex.split(desk.copied_command())
+    while "--set" in words:
+        at = words.index("--set")
+        del words[at:at + 2]
+    words[words.index("--look") + 1] = str(desk.folder / "my_look.toml")
+    desk.tools_picture(shlex.join(words))
+    expect(desk.differing("tools"), 0, "the saved look makes the same picture")
+
+
+def large_plate(desk):
+    desk.run("window.askedBefore = desk.asked; 0")
+    desk.run("for (let i = 1; i <= 50; ++i) desk.set('depth_fog.murkiness', i / 100)")
+    desk.run("desk.idle()")
+    asked = desk.run("desk.asked - askedBefore")
+    expect(1 <= asked <= 3, True, f"50 changes of a 4K plate come to {asked} requests")
+    expect(desk.run("[desk.pixels().width, desk.pixels().height]"), [3840, 2160], "the picture is full")
+    desk.tools_picture(desk.copied_command())
+    expect(desk.differing("tools"), 0, "the last of 50 changes is shown, to the byte")
+
+
+def server_gone(desk):
+    desk.server.kill()
+    desk.server.wait()
+    expect(desk.run("document.getElementById('gone').hidden"), True, "nothing is told before")
+    desk.run("desk.set('depth_fog.murkiness', 0.9)")
+    desk.run("desk.idle()")
+    expect(desk.run("document.getElementById('gone').hidden"), False, "that the tool has ended is told")
+    desk.click("#try_again")
+    desk.run("desk.idle()")
+    expect(desk.run("document.getElementById('gone').hidden"), False, "and told again when asked again")
+    expect(desk.run("desk.state.set['depth_fog.murkiness']"), 0.9, "what was set stays")
+
+
+def main():
+    limpid, data, chromium = sys.argv[1:]
+    if not pathlib.Path(chromium).is_file():
+        sys.exit("no browser: install chromium (tools/dev setup) and configure anew")
+    with tempfile.TemporaryDirectory() as folder, Browser(chromium) as browser:
+        with contextlib.closing(Desk(limpid, browser, folder, "--scene", f"{data}/plates/lagoon/lagoon.toml")) as desk:
+            for check in (slider_by_the_mouse, undo_and_redo, wipe, aov_and_numbers, bad_values, saving, server_gone):
+                check(desk)
+        plate = f"{folder}/pool.exr"
+        subprocess.run([limpid, "render", f"{data}/scenes/pool.toml", "--size", "3840x2160", "-o", plate], check=True,
+                       capture_output=True)
+        with contextlib.closing(Desk(limpid, browser, folder, plate)) as desk:
+            large_plate(desk)
+        if browser.errors:
+            sys.exit("the page's script threw: " + "\n".join(map(str, browser.errors)))
+
+
+if __name__ == "__main__":
+    main()
