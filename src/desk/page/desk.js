@@ -2,7 +2,7 @@
 
 import * as api from "./api.js";
 import {CommandDialog, SaveDialog} from "./dialogs.js";
-import {byId, element} from "./dom.js";
+import {byId, element, short} from "./dom.js";
 import {History} from "./history.js";
 import {Looks} from "./look.js";
 import {Notes} from "./notes.js";
@@ -110,6 +110,7 @@ function pictureJob(request, key, half) {
         numbers.again();
       }
       tellCost(picture);
+      tellShown(request.show, picture.scale);
       for (const tell of watching.splice(0)) tell({half, asked: begun});
     },
     failed: (error) => failed(error, key, state),
@@ -127,7 +128,8 @@ function otherJob(request, key) {
   };
 }
 
-// What is refused is told, and what was good comes back, with the sentence beside it until the next change.
+// What is refused is told until the next change, and what was before it comes back. Where that was good it is no setting
+// that is refused: nothing more is asked for until something changes.
 function failed(error, key, state) {
   if (error instanceof api.Gone) {
     isGone = true;
@@ -135,15 +137,15 @@ function failed(error, key, state) {
     return;
   }
   notes.bad = error.message;
-  if (state === null || good === null || state === good) {
-    stuck = key;
-  } else if (state === history.now) {
-    history.forget(state, good);
+  if (state === history.now && state !== good) {
+    history.forget();
     live(false);
     keep();
     drawControls();
     panel.again(history.now);
   }
+  // Nothing was before it.
+  if (state === null || state === history.now) stuck = key;
 }
 
 function tellCost({milliseconds, half, wet}) {
@@ -154,6 +156,14 @@ function tellCost({milliseconds, half, wet}) {
   byId("cost").textContent = `${half ? "half size, " : ""}${rounded(all)} ms: ${words.join(", ")}`;
   byId("cost").title = `${words.join(" ms\n")} ms\nsum of all threads, on ${desk.runner}; ` +
       `${(100 * wet).toFixed(1)} % of the pixels are wet`;
+}
+
+// What another thing than the picture is, and what its colors stand for.
+function tellShown(show, scale) {
+  const {about} = desk.shows.find(({name}) => name === show);
+  const ends = scale ? `; darkest ${short(scale[0])}, brightest ${short(scale[1])}` : "";
+  byId("shown").textContent = `${show}: ${about ?? ""}${ends}`;
+  byId("shown").hidden = show === "picture";
 }
 
 // ---- the parts of the page

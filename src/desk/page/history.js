@@ -36,13 +36,10 @@ export class History {
     this.#move(this.#future, this.#past);
   }
 
-  // From `bad`, which was refused, back to what was good, as if it had never been.
-  forget(bad, good) {
-    this.now = good;
-    if (this.#settled !== bad) return;
-    this.#settled = good;
-    const step = this.#past.lastIndexOf(good);
-    if (step >= 0) this.#past.length = step;
+  // The value is no good: back to the one before it, as if it had never been. Without one it stays.
+  forget() {
+    if (this.now === this.#settled) this.#settled = this.#past.pop() ?? this.#settled;
+    this.now = this.#settled;
   }
 
   #move(from, to) {

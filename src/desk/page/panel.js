@@ -19,7 +19,7 @@ const first = [
 export class Panel {
   #looks;
   #on;
-  #rows = [];    // {key, node, control, why, back, words}
+  #rows = [];    // {key, node, control, why, back, words, told}
   #groups = [];  // {node, rows}
   #search = byId("search");
   #changedOnly = byId("changed_only");
@@ -45,15 +45,18 @@ export class Panel {
     const values = this.#looks.values({look, set});
     for (const row of this.#rows) {
       const {key} = row, value = values.get(key), own = this.#looks.own(look, key);
-      row.control.show(value, own);
       const isChanged = Object.hasOwn(set, key) || !same(value, own);
       const unused = this.#looks.unused(key, values), brings = this.#looks.brings(key, values);
+      row.control.show(value, own);
+      // What is the same is left alone: while one drags all rows come by many times a second.
+      const told = JSON.stringify([look, isChanged, unused, brings]);
+      if (told === row.told) continue;
+      row.told = told;
       row.node.classList.toggle("changed", isChanged);
       row.node.classList.toggle("unused", unused !== "");
       row.back.hidden = !isChanged;
       row.back.title = `Back to ${JSON.stringify(own)}, as in ${look}`;
-      row.why.textContent = unused ? `only with ${unused}` : brings ? `sets ${brings}` : "";
-      row.why.title = row.why.textContent;
+      row.why.textContent = row.why.title = unused ? `only with ${unused}` : brings ? `sets ${brings}` : "";
     }
     if (this.#changedOnly.checked) this.#filter();
   }
@@ -114,6 +117,7 @@ export class Panel {
     if (!key) return;
     const {about, unit, least, most} = this.#looks.fields.get(key);
     const ends = least === null && most === null ? "" : ` ${least ?? "any"} … ${most ?? "any"}${unit && " " + unit}.`;
-    this.#hint.replaceChildren(element("code", {}, key), ` ${about}${ends}`);
+    const why = this.#rows.find((row) => row.key === key).why.textContent;
+    this.#hint.replaceChildren(element("code", {}, key), ` ${about}${ends}${why && ` It ${why.replace(/^only/, "is read only")}.`}`);
   }
 }
