@@ -136,6 +136,8 @@ function failed(error, key, state) {
     byId("gone").hidden = false;
     return;
   }
+  // What is wanted by now will say itself what is wrong with it.
+  if (key !== JSON.stringify(wanted()) && key !== JSON.stringify(wantedOther())) return;
   notes.bad = error.message;
   if (state === history.now && state !== good) {
     history.forget();
