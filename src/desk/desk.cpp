@@ -189,7 +189,7 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
 const std::array<Plane, 3>& Desk::reference(std::optional<int> frame) {
   if (!reference_ || reference_->frame != frame) {
     reference_.reset();
-    reference_.emplace(frame, options_.reference(frame));
+    reference_ = Reference{frame, options_.reference(frame)};
   }
   return reference_->color;
 }
