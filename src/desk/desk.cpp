@@ -72,7 +72,8 @@ struct Desk::Painted {
 
 Desk::Desk(DeskOptions options, Executor& executor)
     : options_(std::move(options)), executor_(executor) {
-  facts();
+  const std::optional<int> first = facts().frame;
+  if (options_.reference) reference(first);
 }
 
 std::string Desk::runner() const {

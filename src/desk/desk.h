@@ -98,8 +98,8 @@ struct NameTaken : Error {
 /// A plate that looks are tried on. Any threads may ask; they are served one at a time.
 class Desk {
  public:
-  /// Reads the first frame, so that what is wrong with plate, scene or look is an Error now. The
-  /// executor must outlive it.
+  /// Reads the first frame, so that what is wrong with plate, scene, look or reference is an Error
+  /// now. The executor must outlive it.
   Desk(DeskOptions options, Executor& executor);
 
   const DeskOptions& options() const { return options_; }

@@ -59,6 +59,7 @@ TEST_F(ViewTest, RefusesWhatIsWrongBeforeItServes) {
   refused({"--aov", "path"}, "has no option '--aov'", 2);
   refused({"-o", "wet.exr"}, "has no option '-o'", 2);
   refused({"--layer", "depth=none"}, "no depth", 1);
+  refused({"--reference", "none.exr"}, "none.exr", 1);
   expect_refused(limpid({"view", "--no-browser"}), {"nothing to put water into"}, 2);
   expect_refused(limpid({"view", "none.exr", "--scene", "scene.toml", "--no-browser"}),
                  {"none.exr"}, 1);

@@ -10,16 +10,18 @@ export class Timeline {
   #play = byId("play");
   #frames;
   #fps;
+  #own;
   #changed;
   #timer = null;
   #begun = null;
 
-  // `changed({frame, time}, isScrubbed)`: the frame's time is its own (null).
+  // `changed({frame, time}, isScrubbed)`: a frame's time is its own (null), and so is a plate's until another is chosen.
   constructor({frames, frame, time, fps}, changed) {
     this.#frames = frames;
     this.#fps = fps;
+    this.#own = time;
     this.#changed = changed;
-    this.at = {frame, time: frames.length > 0 ? null : time};
+    this.at = {frame, time: null};
     const most = frames.length > 0 ? frames.length - 1 : longest;
     Object.assign(this.#slider, {min: 0, max: most, step: frames.length > 0 ? 1 : 1 / fps});
     byId("time_label").textContent = frames.length > 0 ? "frame" : "time";
@@ -62,7 +64,7 @@ export class Timeline {
   }
 
   get #position() {
-    return this.#frames.length > 0 ? this.#frames.indexOf(this.at.frame) : this.at.time;
+    return this.#frames.length > 0 ? this.#frames.indexOf(this.at.frame) : this.at.time ?? this.#own;
   }
 
   #scrub(position) {
@@ -83,7 +85,7 @@ export class Timeline {
   }
 
   #draw() {
-    const {frame, time} = this.at;
+    const {frame} = this.at, time = this.at.time ?? this.#own;
     this.#slider.value = this.#position;
     this.#slider.setAttribute("aria-valuetext", frame !== null ? `frame ${frame}` : `${short(time)} s`);
     if (document.activeElement !== this.#number || !this.plays) this.#number.value = frame ?? short(time);
