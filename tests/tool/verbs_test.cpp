@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -54,16 +56,23 @@ TEST_F(VerbsTest, OperatorsNamesTheStateThatEachUsesAndMakes) {
   EXPECT_THAT(ran.out, ContainsRegex("makes [a-z_, ]*reflected, mirror_sources"));
 }
 
-TEST_F(VerbsTest, OperatorsListsTheKeysOfScenesAsThePageHasThem) {
-  const Ran ran = limpid({"operators", "--scene"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, StartsWith("## [geometry]\n"));
-  EXPECT_THAT(ran.out, HasSubstr("\n| `radiance` | required | 0 ... 1e+09 |"));
-  std::ifstream page(std::filesystem::path(LIMPID_DATA) / "../docs/scene_files.md");
+TEST_F(VerbsTest, OperatorsListsScenesLayersAndAovsAsThePageHasThem) {
+  std::ifstream page(std::filesystem::path(LIMPID_DATA) / "../docs/files.md");
   const std::string text{std::istreambuf_iterator<char>(page), {}};
-  EXPECT_EQ(text.substr(std::min(text.find("## ["), text.size())), ran.out)
-      << "docs/scene_files.md ends with what `limpid operators --scene` prints";
-  expect_refused(limpid({"operators", "--scene", "depth_fog"}), {"name excludes --scene"}, 2);
+  const std::pair<const char*, const char*> tables[] = {
+      {"--scene", "\n| `radiance` | required | 0 ... 1e+09 |"},
+      {"--layers", "\n| `depth` | the whole layer | `depth` | `Z` | limpid, Nuke, Natron |\n"},
+      {"--aovs", "\n| `path` | Z | float | the middle one |"}};
+  for (const auto& [option, row] : tables) {
+    const Ran ran = limpid({"operators", option});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr(row));
+    EXPECT_THAT(text, HasSubstr("\n" + ran.out + "\n"))
+        << "docs/files.md has what `limpid operators " << option << "` prints";
+    expect_refused(limpid({"operators", option, "depth_fog"}),
+                   {"name excludes " + std::string(option)}, 2);
+  }
+  expect_refused(limpid({"operators", "--scene", "--aovs"}), {"--scene excludes --aovs"}, 2);
 }
 
 TEST_F(VerbsTest, OperatorsListsTheParametersOfOne) {

@@ -496,9 +496,20 @@ Parsed parse(int argc, char** argv) {
       operators.add_option("name", a.operators.name, "One operator")->option_text("NAME");
   CLI::Option* look = operators.add_option("--look", a.operators.look, "Show the values of a look")
                           ->option_text("NAME|FILE");
-  operators.add_flag("--scene", a.operators.scene, "The keys of scene files instead")
+  CLI::Option* scene =
+      operators.add_flag("--scene", a.operators.scene, "The keys of scene files instead")
+          ->excludes(name)
+          ->excludes(look);
+  CLI::Option* layers =
+      operators.add_flag("--layers", a.operators.layers, "The names of layers that are known")
+          ->excludes(name)
+          ->excludes(look)
+          ->excludes(scene);
+  operators.add_flag("--aovs", a.operators.aovs, "What --aov writes")
       ->excludes(name)
-      ->excludes(look);
+      ->excludes(look)
+      ->excludes(scene)
+      ->excludes(layers);
 
   add_compare(app, a.compare);
   add_report(app, a.report);

@@ -83,6 +83,8 @@ struct OperatorsArguments {
   std::string name;  ///< one operator, or "" for the table of all
   std::string look;
   bool scene = false;              ///< the keys of scene files instead
+  bool layers = false;             ///< the rules by which layers are found instead
+  bool aovs = false;               ///< the table of AOVs instead
   std::vector<std::string> verbs;  ///< where `help` asks, to which they are known, too
 };
 

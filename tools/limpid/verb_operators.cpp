@@ -3,8 +3,10 @@
 
 #include "limpid/files/text/scene_keys.h"
 #include "limpid/plan/plan.h"
+#include "limpid/run/target.h"
 
 #include "data_folder.h"
+#include "plate/layer_rules.h"
 #include "verbs.h"
 
 namespace limpid::tool {
@@ -67,11 +69,11 @@ void print_table(const std::vector<Parameter>& all, std::string_view table) {
   }
 }
 
-/// As docs/scene_files.md has them.
+/// The tables of docs/files.md, as the page has them.
 int print_scene_tables() {
   const char* separator = "";
   for (const SceneTable& table : scene_tables()) {
-    std::printf("%s## [%s]\n\n%s\n\n| key | unset | values | what it is |\n|---|---|---|---|\n",
+    std::printf("%s### [%s]\n\n%s\n\n| key | unset | values | what it is |\n|---|---|---|---|\n",
                 separator, std::string(table.name).c_str(), std::string(table.about).c_str());
     for (const SceneKey& key : table.keys) {
       std::printf("| `%s` | %s | %s | %s |\n", std::string(key.name).c_str(), key.unset.c_str(),
@@ -82,10 +84,60 @@ int print_scene_tables() {
   return 0;
 }
 
+constexpr std::string_view by_name_of(LayerRank rank) {
+  switch (rank) {
+    case LayerRank::kOwn:
+      return "the whole layer";
+    case LayerRank::kLayer:
+      return "the layer's last words";
+    case LayerRank::kFileName:
+      return "the file's name";
+    case LayerRank::kBare:
+      return "no layer";
+    case LayerRank::kPart:
+      return "no layer, in a part of another name";
+    case LayerRank::kGiven:
+      return "a file that is given for the buffer";
+  }
+  return {};
+}
+
+/// "a|b" as "`a`, `b`".
+std::string alternatives_text(std::string_view text) {
+  std::string words;
+  for (const char c : text) words += c == '|' ? "`, `" : std::string(1, c);
+  return words.empty() ? "" : "`" + words + "`";
+}
+
+int print_layer_rules() {
+  std::printf("| buffer | found by | names | channels | as written by |\n|---|---|---|---|---|\n");
+  for (const LayerRule& rule : layer_rules()) {
+    std::printf("| %s | %s | %s | %s | %s |\n",
+                rule.role.empty() ? "none" : alternatives_text(rule.role).c_str(),
+                std::string(by_name_of(rule.rank)).c_str(), alternatives_text(rule.layer).c_str(),
+                alternatives_text(rule.channels).c_str(), std::string(rule.who).c_str());
+  }
+  return 0;
+}
+
+int print_aovs() {
+  std::printf("| AOV | channels | stored as | of several samples | what it is |\n");
+  std::printf("|---|---|---|---|---|\n");
+  for (const AovInfo& aov : aovs()) {
+    std::printf("| `%s` | %s | %s | %s | %s |\n", std::string(aov.name).c_str(),
+                std::string(aov.suffixes).c_str(), aov.storage == Storage::kHalf ? "half" : "float",
+                aov.filter == Filter::kMean ? "mean" : "the middle one",
+                std::string(aov.about).c_str());
+  }
+  return 0;
+}
+
 }  // namespace
 
 int operators_verb(const OperatorsArguments& a) {
   if (a.scene) return print_scene_tables();
+  if (a.layers) return print_layer_rules();
+  if (a.aovs) return print_aovs();
   const Look look = a.look.empty() ? Look{} : look_for(a.look);
   const std::vector<Parameter> all = parameters(look);
   std::vector<std::string> names{std::string(Water::kName)};

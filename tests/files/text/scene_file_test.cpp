@@ -317,7 +317,7 @@ TEST(SceneFile, EveryKeyRefusesWhatItsDeclarationDoes) {
 }
 
 TEST(SceneFile, TheExampleOfThePageIsRead) {
-  std::ifstream page(fs::path(LIMPID_DATA) / "../docs/scene_files.md");
+  std::ifstream page(fs::path(LIMPID_DATA) / "../docs/files.md");
   const std::string text{std::istreambuf_iterator<char>(page), {}};
   const std::size_t begin = text.find("```toml\n"), end = text.find("\n```\n", begin);
   ASSERT_LT(end, text.size());

@@ -36,7 +36,7 @@ struct CameraSpec {
 /// device depth runs the other way than `clip` says.
 Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1);
 
-/// What a scene file (TOML) says. The page docs/scene_files.md lists its tables and keys, which
+/// What a scene file (TOML) says. The page docs/files.md lists its tables and keys, which
 /// scene_keys.h has as data. Each table may be absent. Directions need not be unit.
 struct SceneFile {
   Scene scene;                       ///< water and sun; its camera comes from camera_for()

@@ -18,7 +18,7 @@ struct SceneTable {
   std::vector<SceneKey> keys;
 };
 
-/// All that a scene file may say, in the order of docs/scene_files.md: load_scene() and to_toml()
+/// All that a scene file may say, in the order of docs/files.md: load_scene() and to_toml()
 /// go by the same declaration.
 std::vector<SceneTable> scene_tables();
 
