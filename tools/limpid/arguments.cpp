@@ -12,6 +12,7 @@
 #include "limpid/run/target.h"
 #include "limpid/version.h"
 
+#include "completion.h"
 #include "judge/report/report.h"
 #include "judge/trace/truth.h"
 #include "option_range.h"
@@ -515,6 +516,13 @@ Parsed parse(int argc, char** argv) {
   add_report(app, a.report);
   add_shader(app, a.shader);
 
+  std::string shell;
+  CLI::App& completion = *app.add_subcommand(
+      "completion", "Print a script by which a shell completes verbs and options");
+  completion.add_option("shell", shell, "bash, zsh or fish")
+      ->option_text("bash|zsh|fish")
+      ->required();
+
   std::string help_verb;
   CLI::App& help = *app.add_subcommand("help", "Help of a verb, or of an operator");
   help.add_option("verb", help_verb, "Verb or operator")->option_text("VERB");
@@ -536,6 +544,10 @@ Parsed parse(int argc, char** argv) {
   if (const std::string fault = empty_word(app); !fault.empty()) {
     std::cerr << "limpid ERROR: " << fault << "\n";
     return finish(kWrongUsage);
+  }
+  if (completion.parsed()) {
+    std::cout << completion_script(app, shell);
+    return finish(0);
   }
   if (help.parsed() && !help_verb.empty()) {
     for (const CLI::App* verb : app.get_subcommands({})) {
