@@ -12,6 +12,7 @@
 #include "composite_job.h"
 #include "data_folder.h"
 #include "desk/desk.h"
+#include "job/canvas.h"
 #include "known_looks.h"
 #include "notes.h"
 #include "verbs.h"
@@ -84,8 +85,10 @@ DeskOptions desk_options(LooksArguments a, const CommonArguments& common) {
   return options;
 }
 
-void write_pictures(const LooksArguments& a, const CommonArguments& common) {
+/// What there is to say of them.
+std::string write_pictures(const LooksArguments& a, const CommonArguments& common) {
   as_usage([&] { expect_image8(a.pictures); });
+  expect_preview_writable(a.pictures);
   const DeskOptions options = desk_options(a, common);
   JobFiles files = files_of(options.job_of({}));
   for (const DeskLook& look : options.looks) {
@@ -108,10 +111,8 @@ void write_pictures(const LooksArguments& a, const CommonArguments& common) {
     sheet->put(number++, picture.shown);
   }
   sheet->write(a.pictures);
-  if (!common.quiet) {
-    std::printf("%s: %s pictures, from left to right in the order of the list\n",
-                a.pictures.c_str(), sheet->shape().c_str());
-  }
+  return a.pictures + ": " + sheet->shape() +
+         " pictures, from left to right in the order of the list\n";
 }
 
 void expect_pictures(const CompositeArguments& a) {
@@ -124,8 +125,10 @@ void expect_pictures(const CompositeArguments& a) {
 
 int looks_verb(const LooksArguments& a, const CommonArguments& common) {
   if (a.pictures.empty()) expect_pictures(a.composite);
-  if (!common.quiet || a.pictures.empty()) print_list(known_looks(a.composite.water.look));
-  if (!a.pictures.empty()) write_pictures(a, common);
+  const std::string written = a.pictures.empty() ? "" : write_pictures(a, common);
+  if (common.quiet && !written.empty()) return 0;
+  print_list(known_looks(a.composite.water.look));
+  std::printf("%s%s", written.empty() ? "" : "\n", written.c_str());
   return 0;
 }
 
