@@ -28,6 +28,9 @@ namespace limpid {
 struct DeskLook {
   std::string word;
   Look look;
+
+  /// Another look with the numbers of one water.
+  bool is_preset() const { return !look.bases.empty(); }
 };
 
 /// What lies on a desk.

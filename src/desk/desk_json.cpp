@@ -118,7 +118,10 @@ Json look_json(const DeskLook& look) {
   for (const Parameter& p : parameters(look.look)) {
     values[std::string(p.table)][std::string(p.name)] = value_json(p.value);
   }
-  return {{"name", look.word}, {"values", std::move(values)}};
+  return {{"name", look.word},
+          {"about", look.look.about},
+          {"preset", look.is_preset()},
+          {"values", std::move(values)}};
 }
 
 /// What the settings came to, by the names that they have.

@@ -39,7 +39,10 @@ std::vector<fs::path> inputs_of(const DeskOptions& options) {
   };
   if (options.frames.empty()) add(std::nullopt);
   for (const int frame : options.frames) add(frame);
-  for (const DeskLook& look : options.looks) inputs.insert(look.look.file);
+  for (const DeskLook& look : options.looks) {
+    inputs.insert(look.look.file);
+    inputs.insert(look.look.bases.begin(), look.look.bases.end());
+  }
   return {inputs.begin(), inputs.end()};
 }
 

@@ -80,6 +80,7 @@ class Uses {
 void add_texture_files(const SceneFile& scene, const Look& look, Files& inputs) {
   inputs.insert(inputs.end(),
                 {scene.environment, scene.file, look.of<WaveNormals>().map, look.file});
+  inputs.insert(inputs.end(), look.bases.begin(), look.bases.end());
 }
 
 Files rendered_from(const Model& model, const SceneFile& scene) {

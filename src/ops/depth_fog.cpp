@@ -43,6 +43,14 @@ constexpr Field<P> kFields[] = {
         "in bloom.")
         .when("model", {"beer_lambert", "radiative_transfer"})
         .brings("water_type", "case_1"),
+    real<&P::sediment>("sediment", "g/m^3", {0, 10000},
+                       "Mineral grains in the water, besides: they throw light back, so that it is "
+                       "brighter and hides the bottom.")
+        .when("model", {"beer_lambert", "radiative_transfer"}),
+    real<&P::cdom>("cdom", "1/scene unit", {0, 1000},
+                   "Dissolved humus in the water, besides, by what it swallows at 440 nm: yellow, "
+                   "then brown and dark.")
+        .when("model", {"beer_lambert", "radiative_transfer"}),
     choice<&P::water_type, kWaterTypes>("water_type",
                                         "Water by name: Jerlov's types replace absorption and, of "
                                         "beer_lambert, the loss downwards; case_1 goes by "
@@ -103,19 +111,29 @@ std::span<const Field<P>> DepthFog::fields() { return kFields; }
 /// density 0 leaves every pixel as it is, unless a negative offset lifts the fog at distance 0.
 bool Kernel<DepthFog>::neutral(const Params& p, StateSet) {
   if (p.model == Model::kLinear) return p.alpha == 0 || (p.density == 0 && p.offset >= 0);
-  return p.water_type == WaterType::kCustom && p.absorption == kBlack && p.scattering == kBlack &&
+  return p.water_type == WaterType::kCustom && absorption(p) == kBlack && scattering(p) == kBlack &&
          p.crossing == Crossing::kNone;
 }
 
+ClearAndMurky Kernel<DepthFog>::besides(const Params& params) {
+  ClearAndMurky water = sediment_water(params.sediment);
+  water.absorption = water.absorption + cdom_absorption(params.cdom);
+  return water;
+}
+
 Rgb<double> Kernel<DepthFog>::absorption(const Params& params) {
-  if (params.water_type == WaterType::kCustom) return params.absorption;
-  if (params.water_type == WaterType::kCase1) return case_1_water(params.murkiness).absorption;
-  return water_optics(params.water_type).absorption;
+  const auto of_type = [&] {
+    if (params.water_type == WaterType::kCustom) return params.absorption;
+    if (params.water_type == WaterType::kCase1) return case_1_water(params.murkiness).absorption;
+    return water_optics(params.water_type).absorption;
+  };
+  return of_type() + besides(params).absorption;
 }
 
 Rgb<double> Kernel<DepthFog>::scattering(const Params& params) {
   const bool by_murkiness = params.water_type == WaterType::kCase1;
-  return by_murkiness ? case_1_water(params.murkiness).scattering : params.scattering;
+  return (by_murkiness ? case_1_water(params.murkiness).scattering : params.scattering) +
+         besides(params).scattering;
 }
 
 Rgb<double> Kernel<DepthFog>::extinction(const Params& params) {

@@ -36,6 +36,8 @@ struct Kernel<DepthFog> : DepthFog {
   /// What a unit of the way takes from the light: a + b of beer_lambert, less the narrow peak of
   /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
+  /// What sediment and cdom add to the water of a type.
+  static ClearAndMurky besides(const Params& params);
   static Rgb<double> absorption(const Params& params);
   static Rgb<double> scattering(const Params& params);
   /// Whether light that is scattered more than once is to be made for a frame, and of what water.

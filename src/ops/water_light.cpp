@@ -21,10 +21,13 @@ Rgb<double> falling_loss(const DepthFog::Params& params) {
   if (transfers(params)) return Kernel<DepthFog>::extinction(params);
   const WaterType type = params.water_type;
   const bool typed = type >= WaterType::kJerlovI && type <= WaterType::kJerlov9C;
-  if (typed) return water_optics(type).down_attenuation;
   // What is scattered goes on forwards, mostly.
-  return Kernel<DepthFog>::absorption(params) +
-         (1 - params.anisotropy) * Kernel<DepthFog>::scattering(params);
+  const double turned = 1 - params.anisotropy;
+  if (typed) {
+    const ClearAndMurky besides = Kernel<DepthFog>::besides(params);
+    return water_optics(type).down_attenuation + besides.absorption + turned * besides.scattering;
+  }
+  return Kernel<DepthFog>::absorption(params) + turned * Kernel<DepthFog>::scattering(params);
 }
 
 }  // namespace

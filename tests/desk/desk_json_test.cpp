@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "limpid/files/text/look_file.h"
+
 #include "desk/pond_desk.h"
 
 namespace limpid::test {
@@ -127,6 +129,19 @@ TEST_F(DeskJsonTest, HasAllFieldsOfAllOperators) {
     }
   }
   EXPECT_EQ(fields, parameters(Look{}).size());
+}
+
+TEST_F(DeskJsonTest, TellsPresetsFromLooksAndWhatTheyAreFor) {
+  DeskOptions options = this->options();
+  options.looks = {{"physical", load_look(LIMPID_DATA "/looks/physical.toml")},
+                   {"harbour", load_look(LIMPID_DATA "/presets/harbour.toml")}};
+  options.start = "harbour";
+  Desk desk(options, *executor_);
+  const auto json = nlohmann::json::parse(desk_json(desk));
+  EXPECT_EQ(json["looks"][0]["preset"], false);
+  EXPECT_EQ(json["looks"][1]["preset"], true);
+  EXPECT_EQ(json["looks"][1]["about"], options.looks[1].look.about);
+  EXPECT_EQ(json["looks"][1]["values"]["depth_fog"]["sediment"], 10);
 }
 
 }  // namespace

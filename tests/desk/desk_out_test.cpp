@@ -45,9 +45,9 @@ Value other_value(const Parameter& p) {
 
 TEST(SavedLookTest, ReadsBackWhateverIsChanged) {
   std::size_t changed = 0;
-  for (const char* name : {"physical", "realistic", "fast", "monogame", "rito"}) {
-    const DeskLook of{name,
-                      load_look(fs::path(LIMPID_DATA) / "looks" / (std::string(name) + ".toml"))};
+  const fs::path data(LIMPID_DATA), folders[] = {data / "looks", data / "presets"};
+  for (const char* name : {"physical", "realistic", "fast", "monogame", "rito", "harbour"}) {
+    const DeskLook of{name, look_named(name, folders)};
     for (const Parameter& p : parameters(of.look)) {
       Look look = of.look;
       look.set(p.table, p.name, other_value(p));

@@ -137,6 +137,42 @@ TEST(BeerLambert, NamedWaters) {
   EXPECT_NEAR(transmitted(tray), 0.5 * left(0.34 + 0.1) * left(0.34 + 0.1), 1e-6);
 }
 
+// Two grams of sediment scatter 1, humus of 1 at 440 nm takes e^-2.94 of red: of any water.
+TEST(BeerLambert, SedimentAndHumusAreAddedToEachWater) {
+  const double sediment = 0.082 * std::exp(-0.0123 * 207), humus = std::exp(-2.94);
+  const auto left = [](double rate) { return std::exp(-2 * rate); };
+  Tray tray = clear_tray();
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  for (WaterType type : {WaterType::kCustom, WaterType::kJerlov3C, WaterType::kCase1}) {
+    fog.water_type = type;
+    fog.sediment = fog.cdom = 0;
+    fog.anisotropy = 0.8;
+    tray.scene.sun.reset();
+    const double ray = transmitted(tray);
+    tray.scene.sun = Sun{};
+    const double both = transmitted(tray);
+    fog.sediment = 2;
+    fog.cdom = 1;
+    // On the way down what is scattered forwards is not lost.
+    EXPECT_NEAR(transmitted(tray) / both,
+                left(sediment + humus + 1) * left(sediment + humus + 1 - 0.8), 1e-6);
+    tray.scene.sun.reset();
+    EXPECT_NEAR(transmitted(tray) / ray, left(sediment + humus + 1), 1e-6);
+  }
+}
+
+// Sediment throws light back, humus takes it.
+TEST(BeerLambert, SedimentBrightensAndHumusDarkens) {
+  Tray tray = murky_tray(Sunlight::kRefracted);
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  const double before = in_scatter(tray);
+  fog.sediment = 1;
+  const double bright = in_scatter(tray);
+  EXPECT_GT(bright, 1.1 * before);
+  fog.cdom = 5;
+  EXPECT_LT(in_scatter(tray), 0.9 * bright);
+}
+
 // What ocean water throws back of the light that it scatters (Petzold 1972).
 TEST(BeerLambert, DefaultAnisotropyIsThatOfTheOcean) {
   const double g = DepthFog::Params{}.anisotropy;

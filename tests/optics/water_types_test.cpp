@@ -42,6 +42,19 @@ TEST(WaterTypes, MurkinessHandWorked) {
   EXPECT_GT(pond.absorption.b, pond.absorption.g);
 }
 
+TEST(WaterTypes, SedimentAndHumusHandWorked) {
+  const ClearAndMurky sediment = sediment_water(10);  // g/m^3
+  EXPECT_EQ(sediment.scattering, (Rgb<double>{5, 5, 5}));
+  EXPECT_NEAR(sediment.absorption.r, 0.03214, 1e-5);  // .41 e^-2.5461
+  EXPECT_NEAR(sediment.absorption.b, 0.37618, 1e-5);  // .41 e^-.0861
+  const Rgb<double> humus = cdom_absorption(2);
+  EXPECT_NEAR(humus.r, 0.10573, 1e-5);  // 2 e^-2.94
+  EXPECT_NEAR(humus.g, 0.42876, 1e-5);  // 2 e^-1.54
+  EXPECT_NEAR(humus.b, 1.73872, 1e-5);  // 2 e^-.14
+  EXPECT_EQ(sediment_water(0).absorption, (Rgb<double>{0, 0, 0}));
+  EXPECT_EQ(cdom_absorption(0), (Rgb<double>{0, 0, 0}));
+}
+
 TEST(WaterTypes, CustomIsEmpty) {
   EXPECT_EQ(water_optics(WaterType::kCustom).absorption, (Rgb<double>{0, 0, 0}));
   EXPECT_EQ(water_optics(WaterType::kCustom).down_attenuation, (Rgb<double>{0, 0, 0}));

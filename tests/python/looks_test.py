@@ -13,6 +13,7 @@ import limpid
 from support import DATA, TOOL, pond
 
 LOOKS = DATA.parent / "looks"
+PRESETS = ("basin", "creek", "harbour", "lake_at_dusk", "open_sea", "pool")
 
 
 def tool(*words):
@@ -21,7 +22,7 @@ def tool(*words):
 
 class Looks(unittest.TestCase):
     def test_a_look_is_plain_data_and_reads_back(self):
-        for name in ("physical", "realistic", "rito", "monogame", "fast"):
+        for name in ("physical", "realistic", "rito", "monogame", "fast", *PRESETS):
             look = limpid.load_look(name)
             self.assertEqual(json.loads(json.dumps(look)), json.loads(json.dumps(limpid.full_look(look))))
             self.assertEqual(limpid.full_look(tomllib.loads(limpid.look_to_toml(look))), look)
@@ -42,8 +43,41 @@ class Looks(unittest.TestCase):
             path.write_text("[water\n")
             with self.assertRaisesRegex(limpid.Error, "own.toml"):
                 limpid.load_look(path)
-        with self.assertRaisesRegex(limpid.Error, "expected one of fast, monogame, physical, realistic, rito"):
+        with self.assertRaisesRegex(limpid.Error, "expected one of basin, creek, fast, harbour, lake_at_dusk, monogame"):
             limpid.load_look("unreal")
+
+    def test_presets_are_what_the_tool_makes_of_them(self):
+        physical = limpid.load_look("physical")
+        for name in PRESETS:
+            look = limpid.load_look(name)
+            self.assertEqual(look["depth_fog"]["water_type"], "case_1", name)
+            self.assertEqual(look["wave_normals"]["map"], physical["wave_normals"]["map"])
+            self.assertNotEqual(look["wave_normals"]["tile_size"], physical["wave_normals"]["tile_size"])
+            listed = tool("operators", "depth_fog", "--look", name)
+            for key in ("murkiness", "sediment", "cdom", "anisotropy"):
+                self.assertRegex(listed, rf"\n  {key} += {look['depth_fog'][key]:g} ")
+
+    def test_a_file_says_what_its_base_does_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, base = pathlib.Path(folder) / "own.toml", pathlib.Path(folder) / "far" / "base.toml"
+            base.parent.mkdir()
+            base.write_text('[wave_normals]\nmap = "waves.png"\nspeed = 7\n[depth_fog]\nwater_type = "IB"\n')
+            path.write_text('about = "Mine."\nbase = "far/base.toml"\n[depth_fog]\nmurkiness = 0.25\n')
+            look = limpid.load_look(path)
+            self.assertEqual(look["wave_normals"]["map"], str(base.parent / "waves.png"))
+            self.assertEqual(look["wave_normals"]["speed"], 7)
+            self.assertEqual(look["depth_fog"]["water_type"], "case_1")  # what a murkiness brings
+            path.write_text('base = "physical"\n')
+            self.assertEqual(limpid.load_look(path), limpid.load_look("physical"))
+            path.write_text('base = "own.toml"\n')
+            with self.assertRaisesRegex(limpid.Error, "own.toml: base = 'own.toml': expected a look that is not based"):
+                limpid.load_look(path)
+            path.write_text("base = 3\n")
+            with self.assertRaisesRegex(limpid.Error, "own.toml: base: expected the name"):
+                limpid.load_look(path)
+            path.write_text('base = "unreal"\n')
+            with self.assertRaisesRegex(limpid.Error, "own.toml: no look is named 'unreal'"):
+                limpid.load_look(path)
 
     def test_only_what_is_named_changes(self):
         compositor = limpid.Compositor(look={"water": {"ior": 1.5}}, threads=1)

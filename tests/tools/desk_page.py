@@ -166,6 +166,31 @@ def undo_and_redo(desk):
     expect(desk.differing("dragged"), 0, "redo brings it again")
 
 
+def presets(desk):
+    for control in ("look", "against"):
+        groups = desk.run(f"""Object.fromEntries([...document.querySelectorAll("#{control} optgroup")].map((group) =>
+            [group.label, [...group.children].map((option) => option.textContent)]))""")
+        expect(groups["presets"], ["basin", "creek", "harbour", "lake_at_dusk", "open_sea", "pool"],
+               f"{control} lists the presets")
+        expect_in("physical", groups["looks"], f"{control} lists the looks beside them")
+    expect_in("murky", desk.run("document.querySelector('#look option[value=harbour]').title"), "a preset says what it is")
+    first = desk.run("[...document.querySelectorAll('[data-group=First] .field')].map((field) => field.dataset.key)")
+    expect(first[:3], ["depth_fog.murkiness", "wave_normals.wind", "depth_fog.sediment"],
+           "murkiness, wind and brightness are the first sliders")
+    desk.run("choose('look', 'harbour')")
+    slider = "document.getElementById('first:depth_fog.sediment')"
+    expect(desk.run(f"Number({slider}.closest('.field').querySelector('input.number').value)"), 10,
+           "a slider stands where the preset has it")
+    desk.tools_picture(desk.copied_command())
+    expect(desk.differing("tools"), 0, "a preset is shown as the tool has it, to the byte")
+    desk.keep("harbour")
+    desk.run("desk.set('depth_fog.sediment', 40)")
+    desk.run("desk.idle()")
+    if desk.differing("harbour") == 0:
+        sys.exit("four times the sediment changes nothing")
+    desk.run("choose('look', 'physical')")
+
+
 def wipe(desk):
     desk.run("choose('show', 'dry')")
     desk.keep("dry")
@@ -297,7 +322,7 @@ def main():
         sys.exit("no browser: install chromium (tools/dev setup) and configure anew")
     with tempfile.TemporaryDirectory() as folder, Browser(chromium) as browser:
         with contextlib.closing(Desk(limpid, browser, folder, "--scene", f"{data}/plates/lagoon/lagoon.toml")) as desk:
-            for check in (slider_by_the_mouse, undo_and_redo, wipe, aov_and_numbers, bad_values, saving, server_gone):
+            for check in (slider_by_the_mouse, undo_and_redo, presets, wipe, aov_and_numbers, bad_values, saving, server_gone):
                 check(desk)
         plate = f"{folder}/pool.exr"
         subprocess.run([limpid, "render", f"{data}/scenes/pool.toml", "--size", "3840x2160", "-o", plate], check=True,

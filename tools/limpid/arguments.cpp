@@ -228,6 +228,21 @@ void add_view(CLI::App& app, ViewArguments& a) {
   verb.add_flag("--no-browser", a.no_browser, "Print the page's address and open no browser");
 }
 
+void add_looks(CLI::App& app, LooksArguments& a) {
+  CLI::App& verb =
+      *app.add_subcommand("looks", "List looks and presets, or show each in a picture");
+  add_plate_options(verb, a.composite);
+  add_time(verb, a.composite.water);
+  add_simd(verb, a.composite.water);
+  add_runner(verb, a.composite.water);
+  add_gpu(verb, a.composite.water);
+  verb.add_option(
+          "--pictures", a.pictures,
+          "Write all of them side by side, in the order of the list, on the plate (default: "
+          "the lagoon that comes with limpid) at half its size: .png, .jpg or .tif")
+      ->option_text("FILE");
+}
+
 constexpr const char* kRenderedFrames =
     "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number goes into names with "
     "%04d or ####";
@@ -512,6 +527,7 @@ Parsed parse(int argc, char** argv) {
       ->excludes(scene)
       ->excludes(layers);
 
+  add_looks(app, a.looks);
   add_compare(app, a.compare);
   add_report(app, a.report);
   add_shader(app, a.shader);
@@ -573,6 +589,7 @@ Parsed parse(int argc, char** argv) {
            : app.got_subcommand("view")    ? Verb::kView
            : inspect.parsed()              ? Verb::kInspect
            : operators.parsed()            ? Verb::kOperators
+           : app.got_subcommand("looks")   ? Verb::kLooks
            : app.got_subcommand("compare") ? Verb::kCompare
            : app.got_subcommand("shader")  ? Verb::kShader
                                            : Verb::kReport;

@@ -52,6 +52,12 @@ struct ViewArguments {
   bool no_browser = false;
 };
 
+/// The looks, each in a picture of a plate.
+struct LooksArguments {
+  CompositeArguments composite;
+  std::string pictures;
+};
+
 /// `render` and `water`.
 struct RenderArguments {
   std::string scene, size = "1920x1080";
@@ -122,6 +128,7 @@ enum class Verb {
   kTruth,
   kInspect,
   kOperators,
+  kLooks,
   kCompare,
   kReport,
   kShader,
@@ -136,6 +143,7 @@ struct Arguments {
   TruthArguments truth;
   InspectArguments inspect;
   OperatorsArguments operators;
+  LooksArguments looks;
   CompareArguments compare;
   ReportArguments report;
   ShaderArguments shader;

@@ -36,8 +36,10 @@ std::filesystem::path data_folder() {
 }
 
 std::vector<std::filesystem::path> look_folders() {
-  std::vector<std::filesystem::path> folders = data_folders();
-  for (std::filesystem::path& folder : folders) folder /= "looks";
+  std::vector<std::filesystem::path> folders;
+  for (const std::filesystem::path& data : data_folders()) {
+    folders.insert(folders.end(), {data / "looks", data / "presets"});
+  }
   return folders;
 }
 

@@ -64,6 +64,8 @@ int run(const limpid::tool::Arguments& a) {
       return inspect_verb(a.inspect, a.common);
     case Verb::kOperators:
       return operators_verb(a.operators);
+    case Verb::kLooks:
+      return looks_verb(a.looks, a.common);
     case Verb::kCompare:
       return compare_verb(a.compare, a.common);
     case Verb::kShader:

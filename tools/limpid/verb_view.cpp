@@ -5,15 +5,14 @@
 
 #include "limpid/core/error.h"
 #include "limpid/files/text/frame_range.h"
-#include "limpid/files/text/look_file.h"
 #include "limpid/job/composite.h"
 #include "limpid/job/sequence.h"
 
 #include "compared_picture.h"
 #include "composite_job.h"
-#include "data_folder.h"
 #include "desk/serve.h"
 #include "frame_options.h"
+#include "known_looks.h"
 #include "memory_limit.h"
 #include "notes.h"
 #include "open_browser.h"
@@ -22,18 +21,6 @@
 
 namespace limpid::tool {
 namespace {
-
-/// The looks that come with the tool, and the one that is named.
-std::vector<DeskLook> looks_with(const std::string& named) {
-  std::vector<DeskLook> looks;
-  bool is_there = false;
-  for (const std::string& name : look_names(look_folders())) {
-    looks.push_back({name, look_for(name)});
-    is_there |= name == named;
-  }
-  if (!is_there) looks.push_back({named, look_for(named)});
-  return looks;
-}
 
 /// The words of a command line that mean the same plate, computed in the same way.
 std::vector<std::string> command_of(const CompositeArguments& a, const CommonArguments& common) {
@@ -70,7 +57,7 @@ DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) 
     return frame ? job_of_frame(job, plate, *frame) : job;
   };
   options.fps = plate.frames.fps.value_or(kUsualFps);
-  options.looks = looks_with(plate.water.look);
+  options.looks = known_looks(plate.water.look);
   options.start = plate.water.look;
   options.settings = plate.water.settings;
   if (!a.reference.empty()) {

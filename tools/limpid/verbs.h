@@ -14,6 +14,7 @@ int plan_verb(const CompositeArguments& arguments, const CommonArguments& common
 int view_verb(const ViewArguments& arguments, const CommonArguments& common);
 int inspect_verb(const InspectArguments& arguments, const CommonArguments& common);
 int operators_verb(const OperatorsArguments& arguments);
+int looks_verb(const LooksArguments& arguments, const CommonArguments& common);
 int compare_verb(const CompareArguments& arguments, const CommonArguments& common);
 int shader_verb(const ShaderArguments& arguments, const CommonArguments& common);
 int report_verb(const ReportArguments& arguments, const CommonArguments& common);

@@ -22,7 +22,7 @@ struct JobFiles {
 std::vector<std::filesystem::path> outputs_of(const OutputChoice& choice);
 
 /// What a model is made from, seen in a scene by a look: glTF with its buffers and images
-/// (Model::files), scene and look (SceneFile::file, Look::file), textures.
+/// (Model::files), scene and look (SceneFile::file, Look::file, Look::bases), textures.
 std::vector<std::filesystem::path> inputs_of(const Model& model, const SceneFile& scene,
                                              const Look& look);
 

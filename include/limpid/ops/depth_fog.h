@@ -31,8 +31,10 @@ namespace limpid {
 ///
 /// `absorption` is that of the `water_type` custom; to set it is to mean that one, and a type that
 /// is named afterwards has its own. Likewise `murkiness` is that of case_1, which has a scattering
-/// of its own, too (optics/water_types.h). K is the loss of light on its way down: that of the
-/// `water_type` if it has one, else a + b (1 - g), for what is scattered goes on forwards, mostly.
+/// of its own, too (optics/water_types.h). To any of them `sediment` and `cdom` are added: the one
+/// throws light back and makes the water bright, the other takes blue and makes it brown and dark.
+/// K is the loss of light on its way down: that of the `water_type` if it has one, else a + b (1 -
+/// g), for what is scattered goes on forwards, mostly.
 /// By `sunlight` this way is not made (`none`: K = 0, E' = E), or made along the sun's straight ray
 /// (E' = E), or along its refracted one: E' = (1 - F) E cos_i / cos_t, what the surface lets in, in
 /// a wider beam. By `crossing` the change of radiance at the surface is made or not: (1 - F_sun) /
@@ -72,6 +74,8 @@ struct DepthFog {
     Rgb<double> scattering{0.10, 0.12, 0.14};
     WaterType water_type = WaterType::kJerlovII;
     double murkiness = 0.5;
+    double sediment = 0;
+    double cdom = 0;
     double anisotropy = 0.92;  // 1.8 % is thrown back, as by Petzold's ocean water
     Rgb<double> ambient{0.1, 0.1, 0.1};
     Sunlight sunlight = Sunlight::kRefracted;

@@ -27,7 +27,9 @@ struct Look {
   std::string name;
   Water water;
   Chain::AllParams operators;
-  std::string file;  ///< that it was read from, absolute, or ""
+  std::string file;                     ///< that it was read from, absolute, or ""
+  std::string about = {};               ///< a sentence on what it is for, or ""
+  std::vector<std::string> bases = {};  ///< files of the looks that it is based on, absolute
 
   template <class Op>
   typename Op::Params& of() {

@@ -108,4 +108,29 @@ inline ClearAndMurky case_1_water(double murkiness) {
           {scattering(650), scattering(550), scattering(450)}};
 }
 
+/// What a gram of mineral sediment in each cubic metre adds: nearly the same for all colors of what
+/// is thrown elsewhere (Babin et al. 2003, "Light Scattering Properties of Marine Particles in
+/// Coastal and Open Ocean Waters as Related to the Particle Mass Concentration"), and 1/12 of that
+/// of blue taken (Babin et al. 2003, "Variations in the Light Absorption Coefficients of
+/// Phytoplankton, Nonalgal Particles, and Dissolved Organic Matter in Coastal Waters Around
+/// Europe").
+inline ClearAndMurky sediment_water(double grams) {
+  const auto absorption = [&](double wavelength) {
+    return 0.041 * grams * std::exp(-0.0123 * (wavelength - 443));
+  };
+  const double scattering = 0.5 * grams;
+  return {{absorption(650), absorption(550), absorption(450)},
+          {scattering, scattering, scattering}};
+}
+
+/// What dissolved organic matter (CDOM: humus, yellow substance) takes, by its absorption at 440
+/// nm. Bricaud, Morel & Prieur 1981, "Absorption by Dissolved Organic Matter of the Sea (Yellow
+/// Substance) in the UV and Visible Domains".
+inline Rgb<double> cdom_absorption(double at_440) {
+  const auto absorption = [&](double wavelength) {
+    return at_440 * std::exp(-0.014 * (wavelength - 440));
+  };
+  return {absorption(650), absorption(550), absorption(450)};
+}
+
 }  // namespace limpid

@@ -267,13 +267,17 @@ document.addEventListener("keydown", (event) => {
 // ---- the first picture
 
 document.title = `${desk.plate} - limpid`;
-byId("look").append(...desk.looks.map(({name}) => element("option", {}, name)));
+const lookOptions = (label, isPreset, valueOf) => {
+  const options = desk.looks.filter(({preset}) => preset === isPreset)
+      .map(({name, about}) => element("option", {value: valueOf(name), title: about}, name));
+  return options.length ? [element("optgroup", {label}, ...options)] : [];
+};
+byId("look").append(...lookOptions("looks", false, (name) => name), ...lookOptions("presets", true, (name) => name));
 byId("show").append(...desk.shows.map(({name, about}) => element("option", {value: name, title: about}, name)));
 byId("against").append(element("option", {value: ""}, "nothing"),
     ...desk.shows.filter(({name}) => name === "dry" || name === "reference")
         .map(({name}) => element("option", {value: name}, name)),
-    element("optgroup", {label: "look"}, ...desk.looks.map(({name}) =>
-        element("option", {value: "look " + name}, name))));
+    ...lookOptions("looks", false, (name) => "look " + name), ...lookOptions("presets", true, (name) => "look " + name));
 byId("wipe_right").textContent = options.show;
 view.resize(...desk.size);
 view.wipes = false;

@@ -7,11 +7,13 @@ import {same} from "./look.js";
 // By the words of one who looks at the picture.
 const first = [
   ["depth_fog.murkiness", "Murkiness"],
-  ["depth_fog.water_type", "Water"],
-  ["wave_normals.strength", "Waves"],
   ["wave_normals.wind", "Wind"],
+  ["depth_fog.sediment", "Brightness, by sediment"],
+  ["depth_fog.cdom", "Brown, by humus"],
+  ["wave_normals.strength", "Waves"],
   ["wave_normals.tile_size", "Wave length"],
-  ["depth_fog.ambient", "Brightness of the sky"],
+  ["depth_fog.water_type", "Water"],
+  ["depth_fog.ambient", "Light of an unknown sky"],
   ["sun_highlight.strength", "Glint of the sun"],
   ["caustics.strength", "Light on the bottom"],
 ];

@@ -1,5 +1,6 @@
 #include "limpid/files/text/look_file.h"
 
+#include <algorithm>
 #include <set>
 #include <system_error>
 
@@ -16,16 +17,26 @@ void resolve_files(Look& look, const fs::path& folder) {
   if (!map.empty()) map = (folder / map).lexically_normal().string();
 }
 
-Look look_of(const TomlNode& root, std::string name) {
-  Look look;
-  look.name = std::move(name);
+constexpr std::string_view kAbout = "about", kBase = "base";
+
+/// What the file says, upon the look.
+void read(const TomlNode& root, Look& look) {
   const std::vector<Parameter> all = parameters(look);
-  std::vector<std::string> tables;
+  std::vector<std::string> known = {std::string(kAbout), std::string(kBase)};
   for (const Parameter& p : all) {
-    if (tables.empty() || tables.back() != p.table) tables.emplace_back(p.table);
+    if (known.back() != p.table) known.emplace_back(p.table);
   }
-  root.expect_keys(tables);
+  root.expect_keys(known);
+  look.about.clear();
+  if (const TomlNode* about = root.find(kAbout)) {
+    look.about = about->word();
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+    if (std::any_of(look.about.begin(), look.about.end(), is_control)) {
+      about->refuse("a sentence on one line");
+    }
+  }
   for (const TomlNode& table : root.items) {
+    if (table.key == kAbout || table.key == kBase) continue;
     std::vector<std::string> keys;
     for (const Parameter& p : all) {
       if (p.table == table.key) keys.emplace_back(p.name);
@@ -38,34 +49,68 @@ Look look_of(const TomlNode& root, std::string name) {
       at_place(node->place, [&] { look.set(p.table, p.name, value); });
     }
   }
-  return look;
 }
 
-}  // namespace
+using Folders = std::span<const fs::path>;
 
-Look load_look(const fs::path& path) {
-  Look look = look_of(parse_toml(path), path.stem().string());
-  resolve_files(look, fs::absolute(path).parent_path());
-  look.file = fs::absolute(path).string();
-  return look;
-}
-
-Look look_from_toml(const std::string& text, const std::string& name) {
-  return look_of(parse_toml_text(text, name), name);
-}
-
-Look look_named(std::string_view name, std::span<const fs::path> folders) {
+/// The file of the look that is named so; a relative path begins in the folder `from`.
+fs::path file_of(std::string_view name, Folders folders, const fs::path& from) {
   const fs::path path(name);
-  if (path.extension() == ".toml" || path.has_parent_path()) return load_look(path);
+  if (path.extension() == ".toml" || path.has_parent_path()) return from / path;
   for (const fs::path& folder : folders) {
     const fs::path file = folder / (path.string() + ".toml");
     std::error_code absent;
-    if (fs::exists(file, absent)) return load_look(file);
+    if (fs::exists(file, absent)) return file;
   }
   const std::vector<std::string> known = look_names(folders);
   throw Error("no look is named '" + path.string() + "': expected " +
               (known.empty() ? "the path of a look file" : "one of " + join(known)) +
               did_you_mean(name, known));
+}
+
+/// `above` are the files of the looks that are based on this one, in the order of their reading.
+Look load(const fs::path& path, Folders folders, std::vector<fs::path>& above) {
+  const TomlNode root = parse_toml(path);
+  above.push_back(path);
+  Look look;
+  if (const TomlNode* base = root.find(kBase)) {
+    const std::string& name = base->word();
+    const fs::path file =
+        at_place(base->place, [&] { return file_of(name, folders, path.parent_path()); });
+    for (const fs::path& one : above) {
+      std::error_code absent;
+      if (fs::equivalent(one, file, absent)) base->refuse("a look that is not based on this one");
+    }
+    look = load(file, folders, above);
+    look.bases.insert(look.bases.begin(), look.file);
+  }
+  read(root, look);
+  look.name = path.stem().string();
+  look.file = fs::absolute(path).string();
+  resolve_files(look, fs::absolute(path).parent_path());
+  return look;
+}
+
+}  // namespace
+
+Look load_look(const fs::path& path, Folders folders) {
+  std::vector<fs::path> above;
+  return load(path, folders, above);
+}
+
+Look look_from_toml(const std::string& text, const std::string& name) {
+  const TomlNode root = parse_toml_text(text, name);
+  if (const TomlNode* base = root.find(kBase)) {
+    base->refuse("none, for only a look that is a file has a base");
+  }
+  Look look;
+  read(root, look);
+  look.name = name;
+  return look;
+}
+
+Look look_named(std::string_view name, Folders folders) {
+  return load_look(file_of(name, folders, {}), folders);
 }
 
 std::vector<std::string> look_names(std::span<const fs::path> folders) {

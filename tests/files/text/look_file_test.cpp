@@ -15,6 +15,7 @@ namespace {
 using test::error_of;
 using test::own_folder;
 using test::written;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -210,6 +211,67 @@ TEST(LookNamed, SearchesTheFoldersInOrder) {
   EXPECT_EQ(error_of([&] { look_named("calm", std::span(folders, 1)); }),
             "no look is named 'calm': expected the path of a look file");
   EXPECT_THAT(error_of([&] { look_named("", folders); }), HasSubstr("no look is named ''"));
+}
+
+TEST(LoadLook, TakesTheRestFromItsBase) {
+  fs::create_directories(own_folder() / "far");
+  const fs::path base = written("far/base.toml",
+                                "about = \"Its own.\"\n[wave_normals]\nmap = \"m.png\"\nstrength = "
+                                "0.25\nspeed = 7\n[depth_fog]\nwater_type = \"IB\"\n");
+  const fs::path look =
+      written("upon.toml",
+              "about = \"A sentence.\"\nbase = \"far/base.toml\"\n[wave_normals]\n"
+              "strength = 0.75\n[depth_fog]\nmurkiness = 0.5\n");
+  const Look upon = load_look(look);
+  EXPECT_EQ(upon.name, "upon");
+  EXPECT_EQ(upon.about, "A sentence.");
+  EXPECT_EQ(upon.file, look.string());
+  EXPECT_EQ(upon.bases, std::vector<std::string>{base.string()});
+  EXPECT_EQ(upon.of<WaveNormals>().map, own_folder() / "far/m.png");
+  EXPECT_EQ(upon.of<WaveNormals>().strength, 0.75);
+  EXPECT_EQ(upon.of<WaveNormals>().speed, 7);
+  EXPECT_EQ(upon.of<DepthFog>().water_type, WaterType::kCase1) << "a murkiness is that of case_1";
+  EXPECT_EQ(load_look(base).about, "Its own.");
+  EXPECT_TRUE(load_look(base).bases.empty());
+
+  const Look third = load_look(written("third.toml", "base = \"upon.toml\"\n"));
+  EXPECT_EQ(values_of(third), values_of(upon));
+  EXPECT_EQ(third.about, "") << "a sentence is of one look alone";
+  EXPECT_EQ(third.bases, (std::vector<std::string>{look.string(), base.string()}));
+}
+
+TEST(LoadLook, FindsABaseByNameInTheFolders) {
+  fs::create_directories(own_folder() / "looks");
+  written("looks/calm.toml", "[wave_normals]\nstrength = 0\n");
+  const fs::path mine = written("mine.toml", "base = \"calm\"\n");
+  const fs::path folders[] = {own_folder() / "looks"};
+  EXPECT_EQ(load_look(mine, folders).of<WaveNormals>().strength, 0);
+  EXPECT_EQ(look_named(mine.string(), folders).of<WaveNormals>().strength, 0);
+  EXPECT_THAT(error_of([&] { load_look(mine); }),
+              AllOf(StartsWith(mine.string() + ":1:8: "), HasSubstr("no look is named 'calm'")));
+}
+
+TEST(LoadLook, RefusesABaseThatCannotBe) {
+  const fs::path look = written("look.toml", "base = \"other.toml\"\n");
+  written("other.toml", "base = \"./look.toml\"\n");
+  EXPECT_EQ(error_of([&] { load_look(look); }),
+            (own_folder() / "other.toml").string() +
+                ":1:8: base = \"./look.toml\": expected a look that is not based on this one");
+  written("other.toml", "base = \"other.toml\"\n");
+  EXPECT_THAT(error_of([&] { load_look(look); }), HasSubstr("not based on this one"));
+  written("other.toml", "[water]\nior = 0\n");
+  EXPECT_THAT(error_of([&] { load_look(look); }),
+              StartsWith((own_folder() / "other.toml:2:").string()));
+  const fs::path absent = written("absent.toml", "base = \"nowhere.toml\"\n");
+  EXPECT_THAT(error_of([&] { load_look(absent); }), HasSubstr("nowhere.toml"));
+  const fs::path number = written("number.toml", "base = 3\n");
+  EXPECT_THAT(error_of([&] { load_look(number); }), StartsWith(number.string() + ":1:8: base = 3"));
+  EXPECT_THAT(error_of([&] { look_from_toml("base = \"look.toml\"\n", "text"); }),
+              StartsWith("text:1:8: base = \"look.toml\": expected none"));
+  EXPECT_THAT(error_of([&] { look_from_toml("about = \"a\\nb\"\n", "text"); }),
+              HasSubstr("expected a sentence on one line"));
+  EXPECT_THAT(error_of([&] { look_from_toml("bases = \"a\"\n", "text"); }),
+              HasSubstr("did you mean 'base'?"));
 }
 
 TEST(LookNamed, RealisticIsTheLookOfTheArticle) {

@@ -39,6 +39,8 @@ void check_a_picture(const fs::path& data, Executor& executor) {
   job.scene = load_scene(data / "scenes" / "pool.toml");
   job.render.size = {64, 36};
   job.look = look_named("realistic", std::array{data / "looks"});
+  const Look pool = look_named("pool", std::array{data / "looks", data / "presets"});
+  expect(pool.of<WaveNormals>().map == job.look.of<WaveNormals>().map, "a preset has another map");
   job.output.picture = "files_consumer.exr";
   job.output.preview = "files_consumer.png";
   water(load_gltf(job.scene.geometry), job, executor);

@@ -312,20 +312,13 @@ def look_to_toml(look: Mapping | None = None) -> str:
 
 
 def load_look(look: str | os.PathLike) -> dict[str, dict[str, Any]]:
-    """full_look() of a look file (*.toml), or of one of limpid's own, by name.
+    """full_look() of a look file (*.toml), or of one of limpid's own looks and presets, by name.
 
-    The file of the normal map, ["wave_normals"]["map"], becomes an absolute path. It is not read:
-    whoever reads pictures does that and hands it over as wave_map.
+    What the file leaves out is as in the look that its `base` names, or has its default. The file
+    of the normal map, ["wave_normals"]["map"], becomes an absolute path. It is not read: whoever
+    reads pictures does that and hands it over as wave_map.
     """
-    path = _look_path(os.fspath(look))
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-        full = full_look(tables)
-    except (ValueError, OSError) as error:
-        raise Error(f"{path}: {error}") from error
-    if full["wave_normals"]["map"]:
-        full["wave_normals"]["map"] = os.path.normpath(path.absolute().parent / full["wave_normals"]["map"])
-    return full
+    return _read_look(_look_path(os.fspath(look), pathlib.Path()), [])
 
 
 def perspective(fov_y: float, aspect: float, near: float = 0.01, far: float = float("inf"),
@@ -386,11 +379,48 @@ def _aov_arrays(wanted: Any) -> dict[str, np.ndarray | None]:
     return arrays
 
 
-def _look_path(name: str) -> pathlib.Path:
+def _read_look(path: pathlib.Path, above: list[pathlib.Path]) -> dict[str, dict[str, Any]]:
+    """`above` are the files of the looks that are based on this one."""
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        about, base = tables.pop("about", ""), tables.pop("base", None)
+        if not isinstance(about, str):
+            raise Error("about: expected a sentence")
+        own = full_look(tables)  # refuses what it does not know, before a base is read
+        if base is not None:
+            own = full_look(_upon(_base_of(path, base, [*above, path]), tables, own))
+    except (ValueError, OSError) as error:
+        raise Error(f"{path}: {error}") from error
+    if own["wave_normals"]["map"]:
+        own["wave_normals"]["map"] = os.path.normpath(path.absolute().parent / own["wave_normals"]["map"])
+    return own
+
+
+def _base_of(path: pathlib.Path, base: Any, above: list[pathlib.Path]) -> dict[str, dict[str, Any]]:
+    if not isinstance(base, str):
+        raise Error("base: expected the name or the path of a look")
+    file = _look_path(base, path.parent)
+    if any(file.exists() and file.samefile(one) for one in above):
+        raise Error(f"base = '{base}': expected a look that is not based on this one")
+    return _read_look(file, above)
+
+
+def _upon(base: dict, changes: dict, order: dict) -> dict:
+    """The changes come last, as one parameter may bring another; each table's in the order of its parameters."""
+    tables = {}
+    for name, keys in base.items():
+        changed = {key: changes[name][key] for key in order[name] if key in changes.get(name, {})}
+        tables[name] = {key: value for key, value in keys.items() if key not in changed} | changed
+    return tables
+
+
+def _look_path(name: str, origin: pathlib.Path) -> pathlib.Path:
+    """`origin` is where relative paths begin."""
     if name.endswith(".toml") or os.sep in name:
-        return pathlib.Path(name)
+        return origin / name
     installed = pathlib.Path(__file__).absolute().parents[4] / "share/limpid"
-    folders = [pathlib.Path(folder) / "looks" for folder in (os.environ.get("LIMPID_DATA"), installed) if folder]
+    folders = [pathlib.Path(folder) / kind for folder in (os.environ.get("LIMPID_DATA"), installed) if folder
+               for kind in ("looks", "presets")]
     for folder in folders:
         if (folder / f"{name}.toml").is_file():
             return folder / f"{name}.toml"

@@ -10,14 +10,18 @@
 namespace limpid {
 
 /// A look file (TOML): table `water` and one table an operator, its keys being the operator's
-/// parameters (ops/look.h); what it leaves out keeps its default. A relative `wave_normals.map` is
-/// relative to the look file and comes back absolute. The look is named after the file. Throws
-/// Error, with "file:line:column: " in front, for what is not TOML, an unknown table or key (with
-/// the nearest known name), and a value that its declaration refuses, NaN included.
-Look load_look(const std::filesystem::path& path);
+/// parameters (ops/look.h). What it leaves out is as in the look that its `base` names, as
+/// look_named() has it, but that a relative path is relative to the look file; without a base it
+/// keeps its default. `about` is Look::about. A relative `wave_normals.map` is relative to the look
+/// file and comes back absolute. The look is named after the file. Throws Error, with
+/// "file:line:column: " in front, for what is not TOML, an unknown table or key (with the nearest
+/// known name), a value that its declaration refuses, NaN included, and a base that is not there or
+/// leads back to the file.
+Look load_look(const std::filesystem::path& path,
+               std::span<const std::filesystem::path> folders = {});
 
 /// The same from a text; `name` stands for the file in errors, and the look has it. A relative
-/// `wave_normals.map` stays as it is.
+/// `wave_normals.map` stays as it is. Throws Error for a `base`, too.
 Look look_from_toml(const std::string& text, const std::string& name);
 
 /// The look NAME.toml in the first of `folders` that has one; a name that ends in ".toml" or has a
