@@ -16,6 +16,7 @@ int inspect_verb(const InspectArguments& arguments, const CommonArguments& commo
 int operators_verb(const OperatorsArguments& arguments);
 int compare_verb(const CompareArguments& arguments, const CommonArguments& common);
 int shader_verb(const ShaderArguments& arguments, const CommonArguments& common);
+int farm_verb(const FarmArguments& arguments, const CommonArguments& common);
 int report_verb(const ReportArguments& arguments, const CommonArguments& common);
 
 }  // namespace limpid::tool
