@@ -4,10 +4,10 @@
 
 #include "limpid/job/job_files.h"
 
+#include "core/shell_words.h"
 #include "core/toml_text.h"
 #include "desk/desk.h"
 #include "desk/saved_look.h"
-#include "desk/shell_words.h"
 #include "files/atomic_file.h"
 #include "job/composite_inputs.h"
 

@@ -178,4 +178,10 @@ Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>&
   return rest_of_jobs(CompositeKind(), sequence, job_of, executor, scrutiny);
 }
 
+std::vector<FrameFault> faults_of_composite(const Sequence& sequence,
+                                            const JobOfFrame<CompositeJob>& job_of,
+                                            Executor& executor) {
+  return faults_of_jobs(CompositeKind(), sequence, job_of, executor);
+}
+
 }  // namespace limpid

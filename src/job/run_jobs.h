@@ -5,12 +5,13 @@
 #include "limpid/job/resume.h"
 #include "limpid/job/sequence.h"
 
+#include "job/frame_faults.h"
 #include "job/job_kind.h"
 #include "job/resume_frames.h"
 #include "job/stopwatch.h"
 
 /// @file
-/// One frame, many frames, and the rest of many, for every kind of job.
+/// One frame, many frames, the rest of many, and what is wrong with them, for every kind of job.
 
 namespace limpid {
 
@@ -93,6 +94,21 @@ Rest rest_of_jobs(Kind kind, const Sequence& sequence, const JobOfFrame<typename
     return {kind.files(*job), [&kind, job] { return kind.record(*job, kind.prepare(*job)); }};
   };
   return rest_of_frames(sequence, output_of, executor, scrutiny);
+}
+
+template <JobKind Kind>
+std::vector<FrameFault> faults_of_jobs(Kind kind, const Sequence& sequence,
+                                       const JobOfFrame<typename Kind::Job>& job_of,
+                                       Executor& executor) {
+  expect_apart(sequence.frames, [&](int frame) { return kind.files(job_of(frame)); });
+  const auto check_of = [&](int frame) -> std::function<void()> {
+    return [&kind, job = job_of(frame), first = frame == sequence.frames.front()] {
+      const typename Kind::Prepared prepared = kind.prepare(job);
+      kind.expect_writable(job);
+      if (first) kind.record(job, prepared);
+    };
+  };
+  return faults_of_frames(sequence, check_of, executor);
 }
 
 }  // namespace limpid

@@ -193,4 +193,9 @@ Rest rest_of_truth(const Model& model, const Sequence& sequence, const JobOfFram
   return rest_of_jobs(TruthKind(model), sequence, job_of, executor, scrutiny);
 }
 
+std::vector<FrameFault> faults_of_truth(const Model& model, const Sequence& sequence,
+                                        const JobOfFrame<TruthJob>& job_of, Executor& executor) {
+  return faults_of_jobs(TruthKind(model), sequence, job_of, executor);
+}
+
 }  // namespace limpid

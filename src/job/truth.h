@@ -8,6 +8,7 @@
 #include "limpid/job/sequence.h"
 #include "limpid/job/water.h"
 
+#include "job/frame_faults.h"
 #include "judge/trace/truth.h"
 
 namespace limpid {
@@ -44,11 +45,14 @@ struct TruthReport {
 /// then but what was there before.
 TruthReport truth(const Model& model, const TruthJob& job, Executor& executor);
 
-/// Many frames, and the rest of many, as those of water() are (job/sequence.h, job/resume.h).
+/// Many frames, the rest of many, and what is wrong with them, as those of water() are
+/// (job/sequence.h, job/resume.h, job/frame_faults.h).
 void truth_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<TruthJob>& job_of, const OnFrameOf<TruthReport>& on_frame,
                     Executor& executor);
 Rest rest_of_truth(const Model& model, const Sequence& sequence, const JobOfFrame<TruthJob>& job_of,
                    Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
+std::vector<FrameFault> faults_of_truth(const Model& model, const Sequence& sequence,
+                                        const JobOfFrame<TruthJob>& job_of, Executor& executor);
 
 }  // namespace limpid

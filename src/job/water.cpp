@@ -158,4 +158,9 @@ Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFram
   return rest_of_jobs(WaterKind(model), sequence, job_of, executor, scrutiny);
 }
 
+std::vector<FrameFault> faults_of_water(const Model& model, const Sequence& sequence,
+                                        const JobOfFrame<WaterJob>& job_of, Executor& executor) {
+  return faults_of_jobs(WaterKind(model), sequence, job_of, executor);
+}
+
 }  // namespace limpid

@@ -1,6 +1,4 @@
 // What leaves the desk: looks that are saved, and command lines.
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -11,7 +9,6 @@
 #include "desk/desk.h"
 #include "desk/pond_desk.h"
 #include "desk/saved_look.h"
-#include "desk/shell_words.h"
 
 namespace limpid::test {
 namespace {
@@ -156,27 +153,6 @@ TEST_F(SaveTest, GivesTheCommandLineOfASequenceFromTheShownFramesTime) {
   EXPECT_EQ(desk.command(murky_),
             "limpid composite plate.exr --look pond --set depth_fog.density=3 --time 3.0 --frames "
             "24-48x24 -o 'wet.####.exr'");
-}
-
-/// What a shell makes of the line.
-std::string printed_by_shell(const std::string& line) {
-  FILE* const pipe = ::popen(("printf '%s|' " + line).c_str(), "r");
-  std::string text;
-  std::array<char, 256> part{};
-  while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) {
-    text.append(part.data(), got);
-  }
-  ::pclose(pipe);
-  return text;
-}
-
-TEST(ShellWordsTest, AreTakenApartAsTheyWere) {
-  const std::vector<std::string> words = {"plain", "a b",      "it's", "$(id) `id` \"x\" \\ * ~",
-                                          "",      "a=[1, 2]", "-o",   "\xc3\xa4",
-                                          "#",     "~",        "a\nb"};
-  std::string expected;
-  for (const std::string& word : words) expected += word + "|";
-  EXPECT_EQ(printed_by_shell(shell_line(words)), expected);
 }
 
 }  // namespace

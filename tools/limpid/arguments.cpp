@@ -13,6 +13,7 @@
 #include "limpid/version.h"
 
 #include "completion.h"
+#include "farm/chunks.h"
 #include "judge/report/report.h"
 #include "judge/trace/truth.h"
 #include "option_range.h"
@@ -374,6 +375,33 @@ void add_report(CLI::App& app, ReportArguments& a) {
                 "The hard cases with their bounds instead, also printed: hard.html and hard.json");
 }
 
+void add_farm(CLI::App& app, FarmArguments& a) {
+  CLI::App& verb = *app.add_subcommand("farm",
+                                       "Have a sequence made by many tasks: -- "
+                                       "composite|water|truth ... --frames RANGE; and status, "
+                                       "watch or cancel FARM");
+  verb.add_option("words", a.words,
+                  "What to do with a farm: status, watch or cancel, and its folder")
+      ->option_text("[status|watch|cancel FARM]");
+  verb.add_option("--chunk", a.chunk,
+                  "Frames a task (default: of about two minutes, by one frame that is made first)")
+      ->option_text("N")
+      ->check(whole_number_in(1, kMostFramesATask));
+  verb.add_option("--local", a.at_once, "Without a scheduler: here, so many tasks at a time")
+      ->option_text("N")
+      ->check(whole_number_in(1, 1024));
+  verb.add_option("--time-limit", a.minutes,
+                  "Minutes that a task may take (default: four times what the frame made first "
+                  "lets expect, and 5; with --chunk the partition's)")
+      ->option_text("MINUTES")
+      ->check(whole_number_in(1, 1'000'000));
+  verb.add_option("--sbatch", a.sbatch,
+                  "One more option of sbatch, as in --sbatch=--partition=render (repeatable)")
+      ->option_text("OPTION")
+      ->allow_extra_args(false);
+  verb.add_flag("--dry-run", a.dry_run, "Check the inputs and print the scripts, submit nothing");
+}
+
 std::vector<std::string> verbs_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
@@ -430,6 +458,16 @@ std::string empty_word(const CLI::App& app) {
     }
   }
   return "";
+}
+
+/// Where `--` of `limpid farm ... --` stands, else the end: what follows it is another command
+/// line.
+int end_of_own_words(int argc, char** argv) {
+  int at = 1;
+  while (at < argc && argv[at][0] == '-') ++at;
+  if (at == argc || std::string_view(argv[at]) != "farm") return argc;
+  while (at < argc && std::string_view(argv[at]) != "--") ++at;
+  return at;
 }
 
 }  // namespace
@@ -531,6 +569,9 @@ Parsed parse(int argc, char** argv) {
   add_compare(app, a.compare);
   add_report(app, a.report);
   add_shader(app, a.shader);
+  add_farm(app, a.farm);
+  const int own_words = end_of_own_words(argc, argv);
+  for (int i = own_words + 1; i < argc; ++i) a.farm.command.emplace_back(argv[i]);
 
   std::string shell;
   CLI::App& completion = *app.add_subcommand(
@@ -548,7 +589,7 @@ Parsed parse(int argc, char** argv) {
     return parsed;
   };
   try {
-    app.parse(argc, argv);
+    app.parse(own_words, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // --help, --version
       app.exit(error, std::cout, std::cout);
@@ -592,6 +633,7 @@ Parsed parse(int argc, char** argv) {
            : app.got_subcommand("looks")   ? Verb::kLooks
            : app.got_subcommand("compare") ? Verb::kCompare
            : app.got_subcommand("shader")  ? Verb::kShader
+           : app.got_subcommand("farm")    ? Verb::kFarm
                                            : Verb::kReport;
   return parsed;
 }

@@ -118,6 +118,14 @@ struct ShaderArguments {
   WaterOptions water;
 };
 
+struct FarmArguments {
+  std::vector<std::string> words;    ///< status FARM, and the like; none to submit
+  std::vector<std::string> command;  ///< behind `--`
+  std::optional<int> chunk, at_once, minutes;
+  std::vector<std::string> sbatch;
+  bool dry_run = false;
+};
+
 enum class Verb {
   kNone,
   kComposite,
@@ -132,6 +140,7 @@ enum class Verb {
   kCompare,
   kReport,
   kShader,
+  kFarm,
 };
 
 struct Arguments {
@@ -147,6 +156,7 @@ struct Arguments {
   CompareArguments compare;
   ReportArguments report;
   ShaderArguments shader;
+  FarmArguments farm;
 };
 
 /// Parses argv. When there is nothing left to do (help, version, wrong usage) it has printed what

@@ -70,6 +70,8 @@ int run(const limpid::tool::Arguments& a) {
       return compare_verb(a.compare, a.common);
     case Verb::kShader:
       return shader_verb(a.shader, a.common);
+    case Verb::kFarm:
+      return farm_verb(a.farm, a.common);
     case Verb::kReport:
       return report_verb(a.report, a.common);
     case Verb::kNone:

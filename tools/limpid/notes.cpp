@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/ranges_text.h"
+
 namespace limpid::tool {
 namespace {
 
@@ -18,16 +20,6 @@ std::string one_line(std::string sentence) {
     if (byte < 0x20 || byte == 0x7f) c = '?';
   }
   return sentence;
-}
-
-std::string ranges_text(const std::vector<int>& numbers) {
-  std::string text;
-  for (std::size_t first = 0, last = 0; first < numbers.size(); first = ++last) {
-    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
-    text += (text.empty() ? "" : ", ") + std::to_string(numbers[first]);
-    if (last > first) text += "-" + std::to_string(numbers[last]);
-  }
-  return text;
 }
 
 void tell_warnings(const std::vector<std::string>& sentences, bool quiet) {

@@ -15,9 +15,6 @@ namespace limpid::tool {
 /// Names come from files: they shall not steer a terminal, nor make two lines of a sentence.
 std::string one_line(std::string sentence);
 
-/// "3, 5-9, 12" for numbers in rising order.
-std::string ranges_text(const std::vector<int>& numbers);
-
 /// A line each.
 void tell_warnings(const std::vector<std::string>& sentences, bool quiet);
 

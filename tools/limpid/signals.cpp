@@ -1,5 +1,6 @@
 #include "signals.h"
 
+#include <atomic>
 #include <csignal>
 #include <thread>
 
@@ -7,6 +8,8 @@
 
 namespace limpid::tool {
 namespace {
+
+std::atomic<void (*)()> also_done = nullptr;
 
 bool is_ignored(int signal) {
   struct sigaction now {};
@@ -17,6 +20,7 @@ bool is_ignored(int signal) {
 void wait_for(const sigset_t& signals) {
   int signal = 0;
   if (::sigwait(&signals, &signal) != 0) return;
+  if (const auto work = also_done.load()) work();
   const auto none_begins_any_more = remove_unfinished_files();
   sigset_t this_one;
   ::sigemptyset(&this_one);
@@ -37,5 +41,7 @@ void end_cleanly_on_signals() {
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread(wait_for, signals).detach();
 }
+
+void also_on_signals(void (*work)()) { also_done = work; }
 
 }  // namespace limpid::tool

@@ -7,4 +7,7 @@ namespace limpid::tool {
 /// limit becomes an Error. Call it before any other thread starts.
 void end_cleanly_on_signals();
 
+/// Has `work` done before the process ends by such a signal: one for the whole process.
+void also_on_signals(void (*work)());
+
 }  // namespace limpid::tool

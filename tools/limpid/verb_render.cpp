@@ -4,30 +4,19 @@
 #include "limpid/job/water.h"
 
 #include "frame_options.h"
-#include "memory_limit.h"
 #include "notes.h"
+#include "scene_jobs.h"
 #include "verbs.h"
 #include "water_options.h"
 
 namespace limpid::tool {
-namespace {
-
-SceneJob scene_job(const RenderArguments& a, const CommonArguments& common) {
-  return {scene_to_render(a.scene), {.asked = a.water.time}, limits_of(common)};
-}
-
-RenderOptions options_of(const RenderArguments& a) {
-  return {size_named(a.size), a.overscan, a.shadow_map, a.water.simd};
-}
-
-}  // namespace
 
 int render_verb(const RenderArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   Sequence sequence = sequence_of(a.frames, a.water);
   const OutputChoice choice = output_of(a.water);
   const RenderJob job{scene_job(a, common),
-                      options_of(a),
+                      render_options(a),
                       {choice.picture, choice.compression, choice.store_float}};
   const auto executor = executor_of(common);
   const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
@@ -56,16 +45,10 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
-  const WaterJob job{scene_job(a, common), options_of(a), look_of(a.water), a.samples,
-                     output_of(a.water)};
+  const WaterJob job = water_job(a, common);
   const auto executor = executor_of(common);
   const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
-  const auto job_of_frame = [&](int frame) {
-    WaterJob one = job;
-    one.time = time_of_frame(a.frames, a.water, job.scene, false, frame);
-    one.output = output_of_frame(job.output, frame);
-    return one;
-  };
+  const auto job_of_frame = [&](int frame) { return water_job_of_frame(job, a, frame); };
   if (a.water.dry_run) {
     const Plan plan =
         plan_water(model, sequence.frames.empty() ? job : job_of_frame(sequence.frames.front()));

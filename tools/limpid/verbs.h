@@ -17,6 +17,7 @@ int operators_verb(const OperatorsArguments& arguments);
 int looks_verb(const LooksArguments& arguments, const CommonArguments& common);
 int compare_verb(const CompareArguments& arguments, const CommonArguments& common);
 int shader_verb(const ShaderArguments& arguments, const CommonArguments& common);
+int farm_verb(const FarmArguments& arguments, const CommonArguments& common);
 int report_verb(const ReportArguments& arguments, const CommonArguments& common);
 
 }  // namespace limpid::tool

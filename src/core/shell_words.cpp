@@ -1,4 +1,4 @@
-#include "desk/shell_words.h"
+#include "core/shell_words.h"
 
 #include <algorithm>
 #include <string_view>
