@@ -98,6 +98,7 @@ from limpid_blender.load import load
 {PLAIN}
 scene.render.resolution_x, scene.render.resolution_y = 64, 36
 bpy.data.objects["Sphere"].location.x = -1.5  # a change that is not saved
+bpy.context.view_layer.update()
 start = block_state()
 assert wet() == "FINISHED"
 say(differences(start, block_state()))

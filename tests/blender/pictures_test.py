@@ -161,7 +161,7 @@ empty.instance_type, empty.instance_collection = "COLLECTION", group
 scene.collection.objects.link(empty)
 scene.world = here.worlds[0]
 scene.camera = bpy.data.objects["Camera"]
-scene.render.engine, scene.cycles.samples = "CYCLES", 4
+scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 4, False
 scene.render.resolution_x, scene.render.resolution_y = 160, 90
 bpy.ops.wm.save_as_mainfile(filepath={str(file)!r})
 say(sorted(thing.name for thing in bpy.data.objects if thing.library))

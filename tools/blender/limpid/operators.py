@@ -1,7 +1,7 @@
 """What the buttons do."""
 import bpy
 
-from . import setup
+from . import begin
 from .load import load
 from .state import state
 from .view import view
@@ -21,7 +21,7 @@ class LIMPID_OT_wet(bpy.types.Operator):
     """Renders the scene without its water, in a Blender beside this one, and lets limpid put the water in"""
     bl_idname = "limpid.wet"
     bl_label = "Make it wet"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"UNDO"}
 
     frames: bpy.props.StringProperty(name="Frames", description="As in 1-48x2; empty: as the panel has it",
                                      options={"SKIP_SAVE"})
@@ -35,11 +35,11 @@ class LIMPID_OT_wet(bpy.types.Operator):
 
     def _start(self, context):
         state.tell()
-        state.started = setup.Started(setup.job_of(context.scene, context.view_layer, self.frames))
+        state.started = begin.Started(begin.job_of(context.scene, context.view_layer, self.frames))
 
-    def _fail(self, sentence):
+    def _fail(self, sentence, kind="ERROR"):
         state.tell(sentence, state.said)
-        self.report({"ERROR"}, sentence)
+        self.report({kind}, sentence)
         return {"CANCELLED"}
 
     def _finish(self):
@@ -51,7 +51,7 @@ class LIMPID_OT_wet(bpy.types.Operator):
             self.report({"WARNING"}, warning)
         failure = run.failure()
         if failure:
-            return self._fail(failure)
+            return self._fail(failure, "INFO" if run.cancelled else "ERROR")
         if self.load:
             load(started.job.folder, started.job.frames)
         return {"FINISHED"}

@@ -10,6 +10,7 @@ from .lens import Overscan
 from .sight import seen_through, set_numbers
 
 FEW = 16  # samples of what is nearly without noise
+CLEAR = 256  # surfaces that a camera may see through, one behind the other
 LEAST_AROUND, MOST_AROUND = 256, 2048  # pixels around the horizon
 
 
@@ -58,7 +59,7 @@ def mirror(studio, path, overscan):
     """What a flat mirror in the water shows at each pixel, and how far it is."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
-        changes.set(studio.scene.cycles, "transparent_max_bounces", 256)
+        changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
         changes.set(studio.scene.render, "film_transparent", False)
         _without_disc(studio, changes)
         set_numbers(studio.cut, side=-1, height=studio.height, hold=1)
@@ -71,7 +72,7 @@ def below(studio, path, overscan):
     """The dry scene without what stands above the water, lit and shaded as it was."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
-        changes.set(studio.scene.cycles, "transparent_max_bounces", 256)
+        changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
         set_numbers(studio.cut, side=1, height=studio.crest, hold=0)
         seen_through(studio.cut, studio.materials, changes)
         studio.aim(studio.size, overscan)
@@ -141,7 +142,8 @@ def surroundings(studio, path):
             scene.world = studio.scene.world
             scene.render.engine = "CYCLES"
             scene.cycles.samples, scene.cycles.use_denoising = 4, False
-            scene.cycles.device, scene.cycles.film_exposure = studio.scene.cycles.device, studio.scene.cycles.film_exposure
+            scene.cycles.device = studio.scene.cycles.device
+            scene.cycles.film_exposure = studio.scene.cycles.film_exposure
             scene.collection.objects.link(camera)
             camera.rotation_euler = (math.pi / 2, 0, -math.pi / 2)
             camera.data.type = "PANO"

@@ -19,7 +19,7 @@ class Run:
         self.text, self.share = "starting", 0.0   # of progress: words, and 0 ... 1
         self.notes, self.warnings, self.wet = [], [], []
         self.error = None
-        self._cancelled = False
+        self.cancelled = False
         self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                          errors="replace", stdin=subprocess.PIPE, start_new_session=True)
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -57,13 +57,13 @@ class Run:
 
     def cancel(self):
         """Ends it and all that it has started."""
-        self._cancelled = True
+        self.cancelled = True
         if self._process.poll() is None:
             os.killpg(self._process.pid, signal.SIGTERM)
 
     def failure(self):
         """After its end: one sentence, or None where all went well."""
-        if self._cancelled:
+        if self.cancelled:
             return f"cancelled: {len(self.wet)} frames were finished"
         status = self._process.returncode
         if status == 0:

@@ -2,7 +2,7 @@
 
 
 class State:
-    started = None   # setup.Started
+    started = None   # begin.Started
     page = None      # view.Page
     failure = ""     # one sentence
     said = ()        # notes and warnings

@@ -5,20 +5,19 @@ import bpy
 from mathutils import Matrix, Vector
 
 from .exr_window import place
-from .level import crosses, level_of
+from .frames import camera_at
 from .lens import Lens, widened
+from .level import crosses, level_of
 from .light import even_sky, sun_color
 from .scene_file import LAYER, SceneFacts
 from .sight import CROSSING, cut_group, material_of, sunlit_group
-from .frames import camera_at
 from .words import Failure
 
-CLEAR = 256  # surfaces that a camera may see through, one behind the other
 SHOWN = {"MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VOLUME"}
 
 
-def camera_facts(camera):
-    """Refuses a camera that limpid has no model of."""
+def expect_camera(camera):
+    """Gives it back. Throws Failure for none, and for one that limpid has no model of."""
     if camera is None:
         raise Failure("no camera: expected one in the scene")
     if camera.data.type not in ("PERSP", "ORTHO"):
@@ -142,17 +141,18 @@ class Studio:
         scene = self.scene
         scene.camera = camera_at(frame, self.bound) or self.own_camera
         scene.frame_set(frame)
-        camera = camera_facts(scene.camera)
+        camera = expect_camera(scene.camera)
         depsgraph = bpy.context.evaluated_depsgraph_get()
         self.height, self.crest = self._levels(depsgraph)
-        place, turn, _ = camera.matrix_world.decompose()
-        self.world = Matrix.Translation(place) @ turn.to_matrix().to_4x4()
+        position, turn, _ = camera.matrix_world.decompose()
+        self.world = Matrix.Translation(position) @ turn.to_matrix().to_4x4()
         self.source = camera
         projection = camera.calc_matrix_camera(depsgraph, x=self.size[0], y=self.size[1], scale_x=self.aspect[0],
                                                scale_y=self.aspect[1])
         self._mark_crossing(depsgraph)
-        facts = SceneFacts(view=[list(row) for row in self.world.inverted()], projection=[list(row) for row in projection],
-                           near=camera.data.clip_start, far=camera.data.clip_end, height=self.height,
+        facts = SceneFacts(view=[list(row) for row in self.world.inverted()],
+                           projection=[list(row) for row in projection], near=camera.data.clip_start,
+                           far=camera.data.clip_end, height=self.height,
                            time=frame * scene.render.fps_base / scene.render.fps)
         if self.sun:
             facts.sun_direction = tuple(self.towards_sun())
@@ -211,7 +211,7 @@ class Studio:
         try:
             result = bpy.ops.render.render(write_still=True, scene=self.scene.name)
         except RuntimeError as fault:
-            raise Failure(f"Blender could not render {path}: {str(fault).strip()}") from fault
+            raise Failure(f"Blender could not render {path}: {str(fault).strip().removeprefix('Error: ')}") from fault
         if "FINISHED" not in result:
             raise Failure(f"Blender ended the render of {path}: expected it to finish")
         place(path, overscan)

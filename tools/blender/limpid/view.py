@@ -4,7 +4,7 @@ import subprocess
 
 from . import preferences
 from .frames import numbered
-from .setup import folder_of, frames_wanted
+from .begin import folder_of, frames_wanted
 from .tool import find_tool, last_sentence
 from .words import Failure
 

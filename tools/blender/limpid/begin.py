@@ -12,7 +12,7 @@ from .frames import frames_of
 from .job import Job
 from .light import brightest_sun, sun_color
 from .run import Run
-from .studio import camera_facts
+from .studio import expect_camera
 from .tool import find_tool
 from .words import Failure
 
@@ -59,7 +59,7 @@ def _sun(settings, scene, view_layer):
 def job_of(scene, view_layer, frames=""):
     """Throws Failure with the first thing that is wrong."""
     settings = scene.limpid
-    camera_facts(scene.camera)
+    expect_camera(scene.camera)
     if scene.render.use_multiview:
         raise Failure("the scene is stereoscopic: expected one view (Output > Stereoscopy turned off)")
     try:
