@@ -185,7 +185,7 @@ class Tools(InAFolder):
             find_tool()
 
     def test_looks_by_the_verb_else_of_the_folder(self):
-        with_verb = self.program("new/bin/limpid", "printf 'calm     a lake\\nphysical\\n  more of it\\n'\n")
+        with_verb = self.program("new/bin/limpid", "printf 'Looks: ways\\n  calm      a lake\\n  physical  by\\n'\n")
         self.assertEqual(look_names(with_verb), ["physical", "calm"])
         without = self.program("old/bin/limpid", "exit 2\n")
         looks = self.folder / "old/share/limpid/looks"

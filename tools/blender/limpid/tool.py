@@ -21,14 +21,14 @@ def find_tool(path=""):
 
 
 def _listed(tool):
-    """The looks as the verb `looks` lists them, one a line that begins with a name; none of a tool without it."""
+    """The looks as the verb `looks` lists them: a name, two spaces or more, a sentence. None of a tool without it."""
     try:
         ran = subprocess.run([tool, "looks"], capture_output=True, text=True, timeout=20, stdin=subprocess.DEVNULL)
     except (OSError, subprocess.TimeoutExpired):
         return []
     if ran.returncode != 0:
         return []
-    return re.findall(r"^([a-z][a-z0-9_-]*)(?:\s.*)?$", ran.stdout, re.M)
+    return re.findall(r"^ *([a-z][a-z0-9_-]*)(?: {2,}.*)?$", ran.stdout, re.M)
 
 
 def _in_folders(tool):
