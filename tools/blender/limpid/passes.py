@@ -62,18 +62,22 @@ def mirror(studio, path, overscan):
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
         changes.set(studio.scene.render, "film_transparent", False)
         _without_disc(studio, changes)
-        set_numbers(studio.cut, side=-1, height=studio.height, hold=1)
+        set_numbers(studio.cut, side=-1, height=studio.height, spare=0, hold=1)
         seen_through(studio.cut, studio.materials, changes)
         studio.aim(studio.size, overscan, mirrored=True)
         studio.render(path, overscan)
 
 
 def below(studio, path, overscan):
-    """The dry scene without what stands above the water, lit and shaded as it was."""
+    """The dry scene without what stands above the water, lit and shaded as it was. Of that a strip of two pixels
+    is left: what is looked up next to the waterline is then a thing that stands in the water, and not what is
+    behind it."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
-        set_numbers(studio.cut, side=1, height=studio.crest, hold=0)
+        strip = 2 * studio.pixel
+        is_flat = studio.source.data.type == "ORTHO"
+        set_numbers(studio.cut, side=1, height=studio.crest + strip * is_flat, spare=strip * (not is_flat), hold=0)
         seen_through(studio.cut, studio.materials, changes)
         studio.aim(studio.size, overscan)
         studio.render(path, overscan)

@@ -48,13 +48,16 @@ class _Group:
 
 
 def cut_group():
-    """The camera sees through all on one `side` of the `height` (1 above, -1 below). Where the water cuts a
-    thing, its inside shows: that is seen through, too, or is no picture at all where it is to `hold` out."""
+    """The camera sees through all on one `side` of the `height` (1 above, -1 below), which rises by `spare` with
+    each unit of distance. Where the water cuts a thing, its inside shows: that is seen through, too, or is no picture
+    at all where it is to `hold` out."""
     group = _Group("limpid cut")
     here, path = group.node("ShaderNodeNewGeometry"), group.node("ShaderNodeLightPath")
     side, height, hold = (group.number(name) for name in ("side", "height", "hold"))
+    rise = group.math("MULTIPLY", group.number("spare"), group.node("ShaderNodeCameraData")["View Distance"])
+    limit = group.math("ADD", height, rise)
     z = group.node("ShaderNodeSeparateXYZ", here["Position"])[2]
-    beyond = group.math("GREATER_THAN", group.math("MULTIPLY", side, z), group.math("MULTIPLY", side, height))
+    beyond = group.math("GREATER_THAN", group.math("MULTIPLY", side, z), group.math("MULTIPLY", side, limit))
     crossing = group.node("ShaderNodeAttribute", attribute_type="OBJECT", attribute_name=CROSSING)["Fac"]
     inside = group.math("MULTIPLY", here["Backfacing"], crossing)
     inside = group.math("MULTIPLY", inside, group.math("GREATER_THAN", path["Transparent Depth"], 0.5))

@@ -149,6 +149,7 @@ class Studio:
         self.source = camera
         projection = camera.calc_matrix_camera(depsgraph, x=self.size[0], y=self.size[1], scale_x=self.aspect[0],
                                                scale_y=self.aspect[1])
+        self.pixel = 2 / (projection[0][0] * self.size[0])  # its width, at distance 1
         self._mark_crossing(depsgraph)
         facts = SceneFacts(view=[list(row) for row in self.world.inverted()],
                            projection=[list(row) for row in projection], near=camera.data.clip_start,
