@@ -1,0 +1,145 @@
+"""The add-on in Blender: it comes and goes, refuses in words, and leaves the file as it was."""
+import hashlib
+import os
+import unittest
+import urllib.request
+
+from in_blender import InBlender
+
+PLAIN = "settings.water = bpy.data.objects['water']; settings.overscan_kind = 'FIXED'; settings.samples = 1\n"
+
+
+class Comes(InBlender):
+    def test_it_registers_and_unregisters(self):
+        (before, during, after) = self.said(None, """
+def there():
+    return [hasattr(bpy.types.Scene, "limpid"), bpy.types.Panel.bl_rna_get_subclass_py("LIMPID_PT_panel") is not None,
+            bpy.types.Operator.bl_rna_get_subclass_py("LIMPID_OT_wet") is not None]
+say(there())
+bpy.ops.preferences.addon_disable(module="limpid_blender")
+say(there())
+bpy.ops.preferences.addon_enable(module="limpid_blender")
+say(there())
+""")
+        self.assertEqual((before, during, after), ([True] * 3, [False] * 3, [True] * 3))
+
+    def test_its_looks_are_those_of_the_tool(self):
+        (names,) = self.said(None, """
+from limpid_blender import properties
+say(properties._known_looks(settings, bpy.context, "s"))
+""")
+        self.assertIn("physical", names)
+        self.assertNotIn("fast_one", names)
+
+
+class Refuses(InBlender):
+    def test_what_is_missing_or_wrong_is_told_in_words(self):
+        cases = {
+            "no water: pick the object that is the water, or give its height": "settings.water = None",
+            "is not in the view layer": "scene.collection.objects.unlink(settings.water)",
+            "has no face that lies level: expected a mesh with a surface": "settings.water.rotation_euler = (1.5708, 0, 0)",
+            "no sun: expected a light of the type Sun in the scene": "bpy.data.objects['Sun'].hide_render = True",
+            "its nodes are more than one Emission of one color": """
+sun = bpy.data.objects['Sun'].data
+sun.use_nodes = True
+tree = sun.node_tree
+tree.links.new(tree.nodes.new('ShaderNodeTexSky').outputs[0], tree.nodes['Emission'].inputs['Color'])""",
+            "no camera: expected one in the scene": "scene.camera = None",
+            "is panoramic: expected a perspective or an orthographic one": "scene.camera.data.type = 'PANO'",
+            "the scene is stereoscopic: expected one view": "scene.render.use_multiview = True",
+            "frames '3-1': expected ranges that go up": "settings.frames_kind, settings.frames = 'LIST', '3-1'",
+            "limpid is not at ": "bpy.context.preferences.addons['limpid_blender'].preferences.tool = '//nowhere'",
+            "no look is named 'nolook': expected one of": "settings.look = 'nolook'",
+            "did you mean 'density'?": "settings.settings = 'depth_fog.densty=1'",
+            "No closing quotation": "settings.settings = 'a.b=\"1'",
+            "Not a directory": "settings.folder = bpy.data.filepath + '/within'",
+        }
+        script = """
+bpy.ops.preferences.addon_disable(module="limpid_blender")
+bpy.ops.preferences.addon_enable(module="limpid_blender")  # with preferences, which --addons leaves out
+"""
+        script += "path = bpy.data.filepath\nfrom limpid_blender.state import state\n"
+        for change in cases.values():
+            script += f"""
+bpy.ops.wm.open_mainfile(filepath=path)
+scene = bpy.context.scene
+settings = scene.limpid
+bpy.context.preferences.addons['limpid_blender'].preferences.tool = ''
+{PLAIN}{change}
+say([wet(), state.failure])
+"""
+        for wanted, (reported, shown) in zip(cases, self.said(self.scene("pool"), script), strict=True):
+            self.assertIn(wanted, reported)
+            self.assertIn(wanted, shown)  # in the panel
+        self.assertFalse((self.folder / "pool/limpid/plates").exists())
+
+    def test_a_file_that_was_never_saved_and_a_tool_that_is_not_there(self):
+        (unsaved,) = self.said(None, "bpy.ops.mesh.primitive_plane_add()\nsettings.water = bpy.context.object\n"
+                                     "bpy.data.lights[0].type = 'SUN'\nsay(wet())")
+        self.assertIn("this file was never saved, so that '//' means no folder", unsaved)
+        (missing,) = self.said(self.scene("pool"), PLAIN + "say(wet())",
+                               environment=dict(self.environment, PATH="/usr/bin:/bin"))
+        self.assertIn("limpid is not found on PATH: install it, or give its path", missing)
+
+    def test_a_farm_sees_it_in_the_exit_status(self):
+        expression = "import bpy; bpy.ops.limpid.wet()"
+        said = self.blender("--addons", "limpid_blender", self.scene("pool"), "--python-exit-code", 3, "--python-expr",
+                            expression, code=3)
+        self.assertIn("no water: pick the object", said)
+
+
+class Leaves(InBlender):
+    def test_the_file_is_as_it_was_after_success_and_failure(self):
+        scene = self.scene("pool")
+        before = hashlib.sha256(scene.read_bytes()).hexdigest()
+        loaded, again, undone, after_error, copies = self.said(scene, f"""
+from block_state import block_state, differences
+from limpid_blender.load import load
+{PLAIN}
+scene.render.resolution_x, scene.render.resolution_y = 64, 36
+bpy.data.objects["Sphere"].location.x = -1.5  # a change that is not saved
+bpy.context.view_layer.update()
+start = block_state()
+assert wet() == "FINISHED"
+say(differences(start, block_state()))
+load(str(pathlib.Path(bpy.data.filepath).parent / "limpid"), [scene.frame_current])
+say(differences(start, block_state()))
+bpy.data.node_groups.remove(bpy.data.node_groups["limpid wet"])
+bpy.data.images.remove(bpy.data.images["limpid wet"])
+say(differences(start, block_state()))
+settings.look = "nolook"
+start = block_state()
+assert "nolook" in wet()
+say(differences(start, block_state()))
+import tempfile, os
+say([name for name in os.listdir(tempfile.gettempdir()) if name.startswith("limpid_")])
+""")
+        self.assertEqual((undone, after_error, copies), ([], [], []))
+        self.assertEqual((loaded, again), (["images/limpid wet", "node_groups/limpid wet"],) * 2)
+        self.assertEqual(hashlib.sha256(scene.read_bytes()).hexdigest(), before)
+
+    def test_the_page_is_served_on_the_plates(self):
+        no_plates, address, page = self.said(self.scene("lake"), """
+settings.water_kind, settings.samples, settings.overscan_kind = "HEIGHT", 1, "FIXED"
+scene.render.resolution_x, scene.render.resolution_y = 64, 36
+try:
+    bpy.ops.limpid.view(frames="2")
+except RuntimeError as failure:
+    say(str(failure))
+assert wet(frames="2-3") == "FINISHED"
+from limpid_blender.state import state
+import urllib.request
+bpy.ops.limpid.view(frames="2-3")
+say(state.page.address)
+say(urllib.request.urlopen(state.page.address).read().decode()[:9])
+bpy.ops.preferences.addon_disable(module="limpid_blender")
+""")
+        self.assertIn("no plates of frame 2 in ", no_plates)
+        self.assertRegex(address, "http://127.0.0.1:")
+        self.assertEqual(page.lower(), "<!doctype")
+        with self.assertRaises(OSError):  # the add-on is gone, and the page with it
+            urllib.request.urlopen(address)
+
+
+if __name__ == "__main__":
+    unittest.main()

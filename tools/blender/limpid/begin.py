@@ -1,0 +1,116 @@
+"""From the scene's settings to a job, and the job's beginning: all that is refused before anything is rendered."""
+import pathlib
+import shlex
+import shutil
+import sys
+import tempfile
+
+import bpy
+
+from . import preferences
+from .frames import frames_of
+from .job import Job
+from .light import brightest_sun, sun_color
+from .run import Run
+from .studio import expect_camera
+from .tool import find_tool
+from .words import Failure
+
+
+def folder_of(settings):
+    """Where everything is written."""
+    if settings.folder.startswith("//") and not bpy.data.filepath:
+        raise Failure("this file was never saved, so that '//' means no folder: save it, or give another folder")
+    return pathlib.Path(bpy.path.abspath(settings.folder)).resolve()
+
+
+def frames_wanted(scene, text=""):
+    settings = scene.limpid
+    if text:
+        return frames_of(text)
+    if settings.frames_kind == "CURRENT":
+        return frames_of(str(scene.frame_current))
+    if settings.frames_kind == "SCENE":
+        return frames_of(f"{scene.frame_start}-{scene.frame_end}x{scene.frame_step}")
+    return frames_of(settings.frames)
+
+
+def _water(settings, view_layer):
+    if settings.water_kind == "HEIGHT":
+        return ""
+    water = settings.water
+    if water is None:
+        raise Failure("no water: pick the object that is the water, or give its height")
+    if water.name not in view_layer.objects or view_layer.objects[water.name] != water:
+        raise Failure(f"water '{water.name}' is not in the view layer '{view_layer.name}': expected an object of it")
+    return water.name
+
+
+def _sun(settings, scene, view_layer):
+    if not settings.use_sun:
+        return ""
+    sun = brightest_sun(view_layer)
+    if sun is None:
+        raise Failure("no sun: expected a light of the type Sun in the scene, or the setting Sun turned off")
+    sun_color(sun.data, scene.cycles.film_exposure)  # refuses what cannot be told as a color
+    return sun.name
+
+
+def job_of(scene, view_layer, frames=""):
+    """Throws Failure with the first thing that is wrong."""
+    settings = scene.limpid
+    expect_camera(scene.camera)
+    if scene.render.use_multiview:
+        raise Failure("the scene is stereoscopic: expected one view (Output > Stereoscopy turned off)")
+    try:
+        words = shlex.split(settings.settings)
+    except ValueError as fault:
+        raise Failure(f"settings '{settings.settings}': {fault}") from fault
+    return Job(
+        tool=find_tool(preferences.tool_path()), look=settings.look or "physical", folder=str(folder_of(settings)),
+        scene=scene.name, view_layer=view_layer.name, frames=frames_wanted(scene, frames), settings=words,
+        water=_water(settings, view_layer), height=settings.height,
+        waves=settings.waves if settings.water_kind == "OBJECT" else "LIMPID", sun=_sun(settings, scene, view_layer),
+        reflection=settings.reflection, below=settings.below, shadow=settings.shadow,
+        surroundings=settings.surroundings, aovs=settings.aovs,
+        overscan=settings.overscan if settings.overscan_kind == "FIXED" else -1, samples=settings.samples)
+
+
+def _copy_into(folder):
+    """Saves the file as it is now, unsaved changes included, beside what of its caches goes by its name."""
+    own = pathlib.Path(bpy.data.filepath)
+    copy = folder / (own.name or "untitled.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=str(copy), copy=True, check_existing=False)
+    caches = own.parent / f"blendcache_{own.stem}"
+    if bpy.data.filepath and caches.is_dir():
+        (folder / caches.name).symlink_to(caches, target_is_directory=True)
+    return copy
+
+
+class Started:
+    """A job in a process of its own, which works on a copy of the file."""
+
+    def __init__(self, job):
+        if not bpy.app.binary_path:
+            raise Failure("this is Python with Blender as a module: expected Blender itself, which renders a copy")
+        self.job, folder = job, pathlib.Path(job.folder)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._copies = pathlib.Path(tempfile.mkdtemp(prefix="limpid_"))
+            job.write(folder / "job.json")
+        except OSError as fault:
+            raise Failure(f"{fault.filename}: {fault.strerror}") from fault
+        try:
+            scripts = "--enable-autoexec" if bpy.context.preferences.filepaths.use_scripts_auto_execute \
+                else "--disable-autoexec"
+            factory = ["--factory-startup"] * ("--factory-startup" in sys.argv)
+            self.run = Run([bpy.app.binary_path, "--background", *factory, scripts, str(_copy_into(self._copies)),
+                            "--python-exit-code", "1", "--python",
+                            str(pathlib.Path(__file__).with_name("start_work.py")), "--", str(folder / "job.json")],
+                           folder / "limpid.log")
+        except (OSError, RuntimeError) as fault:
+            self.finish()
+            raise Failure(f"the copy that is to be rendered cannot be made: {str(fault).strip()}") from fault
+
+    def finish(self):
+        shutil.rmtree(self._copies, ignore_errors=True)

@@ -1,0 +1,37 @@
+"""What is to be done, as the panel hands it to the process that does it: a JSON file."""
+import dataclasses
+import json
+import pathlib
+from dataclasses import dataclass, field
+
+# Lines that begin so are for the process that started the job: MARK KIND: TEXT.
+MARK = "limpid job "
+
+
+@dataclass
+class Job:
+    tool: str             # the program limpid
+    look: str             # name, or look file
+    folder: str           # what it writes all into
+    scene: str
+    view_layer: str
+    frames: list
+    settings: list = field(default_factory=list)  # operator.parameter=value
+    water: str = ""       # an object, or "" for a level plane everywhere
+    height: float = 0.0   # of that plane
+    waves: str = "LIMPID"  # or OBJECT: as the object's mesh has them
+    sun: str = ""         # a lamp, or "" for none
+    reflection: bool = True
+    below: bool = True
+    shadow: bool = True
+    surroundings: bool = True
+    aovs: bool = True
+    overscan: int = -1    # pixels on each side, or -1: as many as the plan asks for
+    samples: int = 0      # of each pixel, or 0: as many as the scene has
+
+    def write(self, path):
+        pathlib.Path(path).write_text(json.dumps(dataclasses.asdict(self), indent=1))
+
+    @staticmethod
+    def read(path):
+        return Job(**json.loads(pathlib.Path(path).read_text()))

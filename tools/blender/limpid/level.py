@@ -1,0 +1,40 @@
+"""How high the water of a mesh stands."""
+from mathutils import Vector
+
+FLAT = 0.1  # the least part of its area that a level face turns up
+
+
+def level_of(water, depsgraph):
+    """Mean and largest height of the faces that look up, by their area; of a sheet that lies upside down, of
+    those that look down. None where the mesh has no such face."""
+    evaluated = water.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    try:
+        return _level(mesh, evaluated.matrix_world)
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def _level(mesh, world):
+    places = [world @ vertex.co for vertex in mesh.vertices]
+    turned = world.to_3x3().inverted_safe().transposed()
+    for side in (1, -1):
+        area = height = 0
+        top = None
+        for face in mesh.polygons:
+            up = side * (turned @ face.normal).normalized().z
+            if up <= FLAT:
+                continue
+            heights = [places[vertex].z for vertex in face.vertices]
+            area += face.area * up
+            height += face.area * up * sum(heights) / len(heights)
+            top = max(heights + ([] if top is None else [top]))
+        if area > 0:
+            return height / area, top
+    return None
+
+
+def crosses(thing, world, height):
+    """Whether the box around an object spans the height: the water cuts it, so that its inside shows."""
+    heights = [(world @ Vector(corner)).z for corner in thing.bound_box]
+    return min(heights) < height < max(heights)

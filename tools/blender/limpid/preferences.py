@@ -1,0 +1,18 @@
+"""Where the program limpid is, where it is not on PATH."""
+import bpy
+
+
+class LimpidPreferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    tool: bpy.props.StringProperty(
+        name="limpid", subtype="FILE_PATH",
+        description="The program limpid; empty: the one that is found on PATH")
+
+    def draw(self, _):
+        self.layout.prop(self, "tool")
+
+
+def tool_path():
+    addon = bpy.context.preferences.addons.get(__package__)
+    return bpy.path.abspath(addon.preferences.tool) if addon and addon.preferences.tool else ""

@@ -1,0 +1,118 @@
+"""What a camera sees of materials: nothing beyond the water, or the sun alone.
+
+A material is not changed but for where the shader of its surface comes from: a group stands between, and is
+taken away after the pass. Rays that are not the camera's meet the material as it was, so that what is seen is lit,
+shaded and mirrored as in the dry picture."""
+import bpy
+
+from .sockets import add_socket
+
+CROSSING = "limpid_crossing"  # property of objects that the water cuts
+
+
+class _Group:
+    """A node group in the making, whose input and output is a shader."""
+
+    def __init__(self, name):
+        self.tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
+        for way in ("INPUT", "OUTPUT"):
+            add_socket(self.tree, way, "NodeSocketShader", "Shader")
+        self.before = self.node("NodeGroupInput")[0]
+
+    def node(self, kind, *inputs, **settings):
+        made = self.tree.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(made, name, value)
+        for socket, value in zip(made.inputs, inputs):
+            if isinstance(value, bpy.types.NodeSocket):
+                self.tree.links.new(value, socket)
+            elif value is not None:
+                socket.default_value = value
+        return made.outputs
+
+    def math(self, operation, *inputs):
+        return self.node("ShaderNodeMath", *inputs, operation=operation)[0]
+
+    def number(self, name, value=0.0):
+        """A value that is set before a pass."""
+        output = self.node("ShaderNodeValue", name=name)[0]
+        output.default_value = value
+        return output
+
+    def mix(self, share, first, second):
+        return self.node("ShaderNodeMixShader", share, first, second)[0]
+
+    def finish(self, shader):
+        self.node("NodeGroupOutput", shader)
+        return self.tree
+
+
+def cut_group():
+    """The camera sees through all on one `side` of the `height` (1 above, -1 below), which rises by `spare` with
+    each unit of distance. Where the water cuts a thing, its inside shows: that is seen through, too, or is no picture
+    at all where it is to `hold` out."""
+    group = _Group("limpid cut")
+    here, path = group.node("ShaderNodeNewGeometry"), group.node("ShaderNodeLightPath")
+    side, height, hold = (group.number(name) for name in ("side", "height", "hold"))
+    rise = group.math("MULTIPLY", group.number("spare"), group.node("ShaderNodeCameraData")["View Distance"])
+    limit = group.math("ADD", height, rise)
+    z = group.node("ShaderNodeSeparateXYZ", here["Position"])[2]
+    beyond = group.math("GREATER_THAN", group.math("MULTIPLY", side, z), group.math("MULTIPLY", side, limit))
+    crossing = group.node("ShaderNodeAttribute", attribute_type="OBJECT", attribute_name=CROSSING)["Fac"]
+    inside = group.math("MULTIPLY", here["Backfacing"], crossing)
+    inside = group.math("MULTIPLY", inside, group.math("GREATER_THAN", path["Transparent Depth"], 0.5))
+    clear = group.node("ShaderNodeBsdfTransparent")[0]
+    hole = group.mix(hold, clear, group.node("ShaderNodeHoldout")[0])
+    camera = path["Is Camera Ray"]
+    shown = group.mix(group.math("MULTIPLY", camera, inside), group.before, hole)
+    return group.finish(group.mix(group.math("MULTIPLY", camera, beyond), shown, clear))
+
+
+def sunlit_group():
+    """All is white and faces the sun, whose direction is `x`, `y`, `z`: lit by a sun of strength pi a pixel is as
+    bright as the sun is visible. What turns away from the sun is black. Shadow rays meet the material as it was."""
+    group = _Group("limpid sunlit")
+    sun = group.node("ShaderNodeCombineXYZ", *(group.number(axis) for axis in "xyz"))[0]
+    face = group.node("ShaderNodeNewGeometry")["True Normal"]
+    towards = group.node("ShaderNodeVectorMath", face, sun, operation="DOT_PRODUCT")["Value"]
+    color = group.math("GREATER_THAN", towards, 1e-4)
+    white = group.tree.nodes.new("ShaderNodeBsdfDiffuse")
+    group.tree.links.new(color, white.inputs["Color"])
+    group.tree.links.new(sun, white.inputs["Normal"])
+    shadow = group.node("ShaderNodeLightPath")["Is Shadow Ray"]
+    return group.finish(group.mix(shadow, white.outputs[0], group.before))
+
+
+def material_of(group):
+    """A material that is nothing but the group."""
+    made = bpy.data.materials.new(group.name)
+    made.use_nodes = True
+    nodes = made.node_tree.nodes
+    nodes.clear()
+    node = nodes.new("ShaderNodeGroup")
+    node.node_tree = group
+    made.node_tree.links.new(node.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return made
+
+
+def set_numbers(group, **numbers):
+    for name, value in numbers.items():
+        group.nodes[name].outputs[0].default_value = value
+
+
+def seen_through(group, materials, changes):
+    """Puts the group between each material and its surface, until the changes are put back."""
+    for material in materials:
+        tree = material.node_tree
+        end = tree.get_output_node("CYCLES") if tree else None
+        if not end or not end.inputs["Surface"].is_linked:
+            continue
+        surface = end.inputs["Surface"].links[0].from_socket
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        tree.links.new(surface, node.inputs[0])
+        tree.links.new(node.outputs[0], end.inputs["Surface"])
+        def undo(tree=tree, node=node, surface=surface, end=end):
+            tree.links.new(surface, end.inputs["Surface"])
+            tree.nodes.remove(node)
+        changes.afterwards(undo)

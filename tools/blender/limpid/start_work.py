@@ -1,0 +1,21 @@
+"""Where the second Blender begins: blender -b COPY.blend --python start_work.py -- JOB.json
+
+It ends with the Blender that started it: then its standard input, on which nothing comes, is closed."""
+import importlib
+import os
+import pathlib
+import signal
+import sys
+import threading
+
+
+def end_with_the_other():
+    while os.read(0, 1):
+        pass
+    os.killpg(0, signal.SIGKILL)
+
+
+threading.Thread(target=end_with_the_other, daemon=True).start()
+package = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(package.parent))
+importlib.import_module(f"{package.name}.work").main()

@@ -1,0 +1,142 @@
+"""What the process beside Blender's window does: it renders the plates of a job and runs limpid on them."""
+import pathlib
+import sys
+import tempfile
+
+from . import overscan as over
+from . import passes
+from .frames import numbered
+from .job import MARK, Job
+from .lens import Overscan
+from .scene_file import files_of, plates_of, scene_text
+from .studio import Studio
+from .tool import run_tool
+from .words import Failure
+
+def say(kind, text):
+    print(f"{MARK}{kind}: {' '.join(text.split())}", flush=True)
+
+
+class Steps:
+    """Counts what is done of a job, for a line of progress."""
+
+    def __init__(self, total):
+        self.total, self.done = total, 0
+
+    def next(self, text):
+        say("step", f"{self.done}/{self.total} {text}")
+        self.done += 1
+
+
+def passes_of(job, is_under_water):
+    """Names of the passes that a frame gets, in the order in which they are rendered."""
+    names = ["dry"] + ["sun"] * bool(job.sun)
+    if job.sun and job.shadow:
+        names += ["shadow", "surface_shadow"]
+    if job.water:
+        names += ["surface"] + ["waves"] * (job.waves == "OBJECT")
+    if not is_under_water:  # from there one sees neither a mirror nor a layer below
+        names += ["mirror"] * job.reflection + ["below"] * job.below
+    return names
+
+
+RENDERED = {"dry": passes.dry, "shadow": passes.shadow, "surface": passes.surface, "mirror": passes.mirror,
+            "below": passes.below, "waves": passes.waves}
+
+
+class Work:
+    def __init__(self, job):
+        self.job, self.folder = job, pathlib.Path(job.folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.studio = Studio(job)
+        self.warned = set()
+
+    def warn(self, text):
+        if text not in self.warned:
+            self.warned.add(text)
+            say("warning", text)
+
+    def limpid(self, *words):
+        """What the tool prints, and its warnings."""
+        return run_tool([self.job.tool, *map(str, words)], lambda text: print(text, flush=True))
+
+    def look(self):
+        return ["--look", self.job.look, *(word for setting in self.job.settings for word in ("--set", setting))]
+
+    # ---- overscan
+
+    def tested(self):
+        """Frames that a small test render comes before: it finds what limpid refuses, and the overscan."""
+        return over.sampled(self.job.frames) if self.job.overscan < 0 else self.job.frames[:1]
+
+    def overscan(self, steps):
+        asked = []
+        for frame in self.tested():
+            steps.next(f"frame {frame}: a small test")
+            with tempfile.TemporaryDirectory() as folder:
+                asked.append(self._asked_for(frame, pathlib.Path(folder)))
+        return Overscan(*[self.job.overscan] * 4) if self.job.overscan >= 0 else over.largest(asked)
+
+    def _asked_for(self, frame, folder):
+        studio, size = self.studio, over.small(self.studio.size)
+        facts = studio.at(frame)
+        names = ["dry"] + ["surface"] * bool(self.job.water)
+        for name in names:
+            passes.test_plate(studio, str(folder / f"{name}.exr"), size, name == "surface")
+        facts.plates = plates_of(names, lambda name: f"{name}.exr")
+        (folder / "test.toml").write_text(scene_text(facts, "A test render, for its overscan"))
+        plan, _ = self.limpid("plan", "--scene", folder / "test.toml", *self.look())
+        return over.asked_for(plan, size, studio.size)
+
+    # ---- frames
+
+    def frame(self, frame, overscan, steps):
+        studio = self.studio
+        facts = studio.at(frame)
+        under = studio.is_under_water()
+        if under:
+            self.warn("the camera is under water, where there is neither a mirror nor a layer below: not rendered")
+        names = passes_of(self.job, under)
+        plates = self.folder / "plates"
+        plates.mkdir(exist_ok=True)
+        for name in files_of(names):
+            steps.next(f"frame {frame}: {name}")
+            RENDERED[name](studio, str(plates / f"{numbered(name, frame)}.exr"), overscan)
+        environment = None
+        if self.job.surroundings and facts.sky is None:
+            steps.next(f"frame {frame}: surroundings")
+            environment = f"plates/{numbered('surroundings', frame)}.exr"
+            passes.surroundings(studio, str(self.folder / environment))
+        facts.plates = plates_of(names, lambda name: f"plates/{numbered(name, frame)}.exr", environment)
+        if not self.job.surroundings:
+            facts.sky = None
+        scene = self.folder / f"{numbered('scene', frame)}.toml"
+        scene.write_text(scene_text(facts, f"Frame {frame} of {studio.scene.name}"))
+        steps.next(f"frame {frame}: water")
+        _, warnings = self.limpid("composite", "--scene", scene, *self.look(), *["--aov=all"] * self.job.aovs,
+                                  "-o", self.folder / f"{numbered('wet', frame)}.exr")
+        for warning in warnings:
+            self.warn(warning)
+        say("wet", f"{frame}")
+
+    def run(self):
+        job = self.job
+        each = len(files_of(passes_of(job, False))) + 1 + int(job.surroundings)
+        steps = Steps(len(self.tested()) + each * len(job.frames))
+        overscan = self.overscan(steps)
+        say("note", f"overscan {overscan.left} left, {overscan.right} right, {overscan.top} top, "
+                    f"{overscan.bottom} bottom")
+        for frame in job.frames:
+            self.frame(frame, overscan, steps)
+        say("done", f"{len(job.frames)} frames in {job.folder}")
+
+
+def main():
+    try:
+        Work(Job.read(sys.argv[sys.argv.index("--") + 1])).run()
+    except Failure as failure:
+        say("error", str(failure))
+        sys.exit(1)
+    except OSError as fault:
+        say("error", f"{fault.filename}: {fault.strerror}")
+        sys.exit(1)
