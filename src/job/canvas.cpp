@@ -1,6 +1,8 @@
 #include "job/canvas.h"
 
+#include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "limpid/core/error.h"
 #include "limpid/run/fused.h"
@@ -14,6 +16,13 @@
 
 namespace limpid {
 namespace {
+
+/// Whether both are the same part of the same file: what views share is written once.
+bool is_same_copy(const ExrOutput& a, const ExrOutput& b) {
+  const ExrCopy &of_a = a.copies.front(), &of_b = b.copies.front();
+  return of_a.from->path() == of_b.from->path() && of_a.part == of_b.part &&
+         of_a.channels == of_b.channels;
+}
 
 bool has_mean(Aov aov) { return aovs()[static_cast<std::size_t>(aov)].filter == Filter::kMean; }
 
@@ -44,6 +53,29 @@ void expect_overscan(const OutputChoice& choice) {
               Fault::kUsage);
 }
 
+/// What is written beside the pictures, each part once. One that not all views share is of its
+/// view, and called after it where it does not say so itself.
+std::vector<ExrOutput> parts_beside(const std::vector<WrittenView>& views) {
+  std::vector<ExrOutput> parts;
+  const auto has = [](const std::vector<ExrOutput>& list, const ExrOutput& part) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const ExrOutput& other) { return is_same_copy(other, part); });
+  };
+  for (const WrittenView& view : views) {
+    for (const ExrOutput& part : view.others) {
+      if (has(parts, part)) continue;
+      parts.push_back(part);
+      const bool shared = std::all_of(views.begin(), views.end(), [&](const WrittenView& other) {
+        return has(other.others, part);
+      });
+      if (shared || part.inherited.contains("view")) continue;
+      parts.back().name += "." + view.view;
+      parts.back().view = view.view;
+    }
+  }
+  return parts;
+}
+
 View<const float> cropped(View<const float> view, const Rect& to) {
   view.data = &view.at(to.x0, to.y0);
   view.window = to;
@@ -55,6 +87,7 @@ View<const float> cropped(View<const float> view, const Rect& to) {
 std::vector<Aov> computed_aovs(const OutputChoice& choice) {
   std::vector<Aov> list = choice.aovs;
   if (!choice.deep.empty()) list.insert(list.end(), std::begin(kDeepAovs), std::end(kDeepAovs));
+  if (choice.motion) list.insert(list.end(), {Aov::kStmapG, Aov::kSurfaceDepth});
   return list;
 }
 
@@ -75,17 +108,29 @@ void expect_preview_writable(const std::filesystem::path& file) {
 }
 
 Canvas::Canvas(Rect window, const OutputChoice& choice)
-    : window_(window), made_{choice.aovs, computed_aovs(choice), choice.store_float} {
+    : window_(window),
+      made_{choice.aovs, computed_aovs(choice), choice.aov_names, choice.store_float} {
+  const std::vector<std::string> names = picture_channels(choice.aov_names);
   for (int i = 0; i < 3; ++i) {
-    target_.color[i] = add(std::string(1, "RGB"[i]), !choice.store_float);
+    target_.color[i] = add(names[static_cast<std::size_t>(i)], !choice.store_float);
   }
-  target_.alpha = add("A", !choice.store_float);
+  target_.alpha = add(names[3], !choice.store_float);
+  View<float> ones;
   for (Aov aov : choice.aovs) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
     const bool half = info.storage == Storage::kHalf && !choice.store_float;
-    for (std::size_t i = 0; i < info.suffixes.size(); ++i) {
-      const std::string name = std::string(info.name) + "." + info.suffixes[i];
-      target_.of(aov)[i] = add(name, half);
+    for (const AovChannel& channel : aov_channels(aov, choice.aov_names)) {
+      if (channel.plane >= 0) {
+        target_.of(aov)[static_cast<std::size_t>(channel.plane)] = add(channel.name, half);
+        continue;
+      }
+      if (!ones) {
+        ones = add();
+        for (int y = window.y0; y < window.y1; ++y) {
+          std::fill_n(ones.row(y), window.width(), 1.0f);
+        }
+      }
+      channels_.push_back({channel.name, ones, half});
     }
   }
   for (Aov aov : computed_aovs(choice)) {
@@ -105,7 +150,8 @@ Canvas& canvas_for(std::optional<Canvas>& kept, Rect window, const OutputChoice&
 }
 
 bool Canvas::fits(Rect window, const OutputChoice& choice) const {
-  return window == window_ && made_ == Made{choice.aovs, computed_aovs(choice), choice.store_float};
+  return window == window_ &&
+         made_ == Made{choice.aovs, computed_aovs(choice), choice.aov_names, choice.store_float};
 }
 
 View<float> Canvas::add() {
@@ -204,17 +250,34 @@ DeepWater Canvas::deep_water(const ExrHeading& heading, const OutputChoice& choi
 }
 
 void Canvas::write(ExrOutput described, const OutputChoice& choice) const {
-  described.data = window_;
-  described.compression = choice.compression;
-  described.channels = channels_;
+  write_frame({{this, std::move(described)}}, choice);
+}
+
+void write_frame(std::vector<WrittenView> views, const OutputChoice& choice) {
+  const WrittenView& first = views.front();
   AtomicFiles files;
   if (!choice.preview.empty()) {
-    const Rect shown = intersection(window_, described.display);
-    const auto color = [&](int i) { return cropped(target_.color[i], shown); };
-    write_preview(files, choice.preview, color(0), color(1), color(2), 0, described.text);
+    const Rect shown = intersection(first.canvas->window(), first.described.display);
+    const auto color = [&](int i) { return cropped(first.canvas->target().color[i], shown); };
+    write_preview(files, choice.preview, color(0), color(1), color(2), 0, first.described.text);
   }
-  if (!choice.deep.empty()) write_deep_water(files, choice.deep, deep_water(described, choice));
-  write_exr(files, choice.picture, described);
+  if (!choice.deep.empty()) {
+    ExrHeading heading = first.described;
+    heading.data = first.canvas->window();
+    write_deep_water(files, choice.deep, first.canvas->deep_water(heading, choice));
+  }
+  std::vector<ExrOutput> others = parts_beside(views);
+  std::vector<ExrOutput> parts;
+  for (WrittenView& view : views) {
+    ExrOutput& part = parts.emplace_back(std::move(view.described));
+    part.data = view.canvas->window();
+    part.compression = choice.compression;
+    part.channels.insert(part.channels.begin(), view.canvas->channels().begin(),
+                         view.canvas->channels().end());
+    if (views.size() > 1) part.name = part.view = view.view;
+  }
+  std::move(others.begin(), others.end(), std::back_inserter(parts));
+  write_exr(files, choice.picture, parts);
   files.commit();
 }
 

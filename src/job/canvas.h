@@ -46,22 +46,24 @@ class Canvas {
   /// even n). Without what a deep file needs: its samples have no mean.
   Canvas filtered(int n, const OutputChoice& choice) const;
 
-  /// Writes preview, deep file and picture; `described` has windows and attributes, the channels
-  /// come from here, and the preview gets its texts. The picture comes last: when anything fails,
-  /// what was under its name before is still there.
+  /// write_frame() of this picture alone; `described` has windows and attributes.
   void write(ExrOutput described, const OutputChoice& choice) const;
 
   const Target& target() const { return target_; }
+
+  Rect window() const { return window_; }
+  const std::vector<ExrOutputChannel>& channels() const { return channels_; }
+  DeepWater deep_water(const ExrHeading& heading, const OutputChoice& choice) const;
 
  private:
   /// Takes the picture as the last of `count` parts that are mixed, and shows their mean.
   void take_mean(int count, Executor& executor);
   View<float> add();
   View<float> add(const std::string& name, bool half);
-  DeepWater deep_water(const ExrHeading& heading, const OutputChoice& choice) const;
 
   struct Made {
     std::vector<Aov> written, computed;
+    AovNames names;
     bool store_float;
     bool operator==(const Made&) const = default;
   };
@@ -76,6 +78,19 @@ class Canvas {
   std::optional<GpuRunner> gpu_;  ///< once it has painted
   WaterExtent extent_;            ///< of what is painted, if a deep file is to be written
 };
+
+/// What a file has of one view.
+struct WrittenView {
+  const Canvas* canvas;
+  ExrOutput described;                 ///< windows, attributes, channels besides the canvas's
+  std::vector<ExrOutput> others = {};  ///< parts beside the picture's
+  std::string view = {};               ///< its name, if there are several
+};
+
+/// Writes preview and deep file, of the first view, and the picture, of all; the preview gets the
+/// texts of `described`. The picture comes last: when anything fails, what was under its name
+/// before is still there.
+void write_frame(std::vector<WrittenView> views, const OutputChoice& choice);
 
 /// The canvas that is kept, if it fits, or a new one in its place.
 Canvas& canvas_for(std::optional<Canvas>& kept, Rect window, const OutputChoice& choice);

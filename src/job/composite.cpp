@@ -1,17 +1,17 @@
 #include "limpid/job/composite.h"
 
 #include "limpid/core/error.h"
-#include "limpid/files/exr/exr_camera.h"
 
 #include "complete/completer.h"
-#include "core/toml_text.h"
 #include "gpu/gpu_load.h"
 #include "job/canvas.h"
 #include "job/composite_inputs.h"
+#include "job/composite_view.h"
 #include "job/held_gpu.h"
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"
 #include "job/shared_textures.h"
+#include "job/stereo.h"
 #include "plan/pass_of.h"
 
 namespace limpid {
@@ -28,32 +28,25 @@ class CompositeKind {
   using Job = CompositeJob;
   using Report = CompositeReport;
   struct Prepared {
-    Plate plate;
-    Scene scene;
-    DepthMeaning depth;
-    Plan plan;
-    TextureFiles textures;
+    std::vector<PreparedView> views;
   };
 
   static JobFiles files(const CompositeJob& job) { return files_of(job); }
   static Prepared prepare(const CompositeJob& job) {
-    Plate plate = Plate::open(job.plate);
-    Scene scene = scene_of(job, plate);
-    const DepthMeaning depth = depth_of(job);
-    Plan plan = plan_of(job, plate, scene);
-    TextureFiles textures = textures_read(plan, job.scene);
-    return {std::move(plate), std::move(scene), depth, std::move(plan), std::move(textures)};
+    Prepared prepared;
+    for (std::size_t i = 0; i <= job.other_views.size(); ++i) {
+      prepared.views.push_back(prepare_view(job_of_view(job, i)));
+    }
+    expect_views(job, prepared.views);
+    return prepared;
   }
   Record record(const CompositeJob& job, const Prepared& prepared) {
-    const auto& [plate, scene, depth, plan, textures] = prepared;
-    std::string inputs = "depth_kind = \"" + std::string(depth_kind_name(depth.kind)) + "\"\n";
-    if (depth.kind == DepthKind::kNormalised) {
-      inputs += "near = " + toml_text(depth.near) + "\nfar = " + toml_text(depth.far) + "\n";
+    const std::string gpu = gpu_.name(job.output);
+    Record record = record_of(job, prepared.views.front(), textures_, gpu);
+    for (std::size_t i = 1; i < prepared.views.size(); ++i) {
+      const PreparedView& view = prepared.views[i];
+      add_view(record, view.name, record_of(job_of_view(job, i), view, textures_, gpu));
     }
-    if (depth.nothing) inputs += "depth_nothing = " + toml_text(*depth.nothing) + "\n";
-    inputs += plate.inputs_text(plan.planes) + texture_inputs(textures, textures_);
-    Record record = record_of(scene, inputs, picture_options(job.output, gpu_.name(job.output)));
-    add_look(record, job.look, plan);
     return record;
   }
   static void expect_writable(const CompositeJob& job) { limpid::expect_writable(job.output); }
@@ -63,48 +56,45 @@ class CompositeKind {
     explicit Frame(CompositeKind& kind) : kind_(kind) {}
 
     void read(const CompositeJob& job, Prepared prepared) {
-      const Plate& plate = prepared.plate;
-      scene_ = std::move(prepared.scene);
-      report_.plan = std::move(prepared.plan);
-      plate.read(report_.plan.planes, scene_, prepared.depth, loaded_);
-      loaded_.frame.overscan = job.output.overscan;
-      textures_ = kind_.textures_.load(prepared.textures, job.plate.limits);
-      textures_.show_in(loaded_.frame);
-      report_.size = loaded_.frame.work().size();
-      report_.replaced = loaded_.replaced;
-      beyond_ = beyond_of(report_.plan, loaded_.frame, scene_);
-      report_.warnings = warnings_of(job, plate, report_.plan);
-      warn_of_pixels(report_.plan, loaded_.frame, scene_, loaded_.transparent, report_.warnings);
-      warn_of_beyond(beyond_, report_.warnings);
-      refuse_warnings(job.output.strict, report_.warnings);
-
-      file_ = {};
-      file_.display = plate.display();
-      file_.pixel_aspect = plate.pixel_aspect();
-      file_.inherited = plate.attributes();
-      file_.matrices = camera_attributes(*scene_.camera);
+      views_.resize(prepared.views.size());
+      plans_.clear();
+      names_.clear();
+      for (std::size_t i = 0; i < views_.size(); ++i) {
+        names_.push_back(prepared.views[i].name);
+        CompositeReport report;
+        views_[i].read(job_of_view(job, i), std::move(prepared.views[i]), kind_.textures_, report);
+        plans_.push_back(report.plan);
+        if (i == 0) {
+          report_ = std::move(report);
+        } else {
+          add_view(report_, names_[i], report);
+        }
+      }
     }
     void run(const CompositeJob& job, Executor& executor, RunTimes* times = nullptr) {
-      canvas_for(canvas_, loaded_.frame.work(), job.output)
-          .paint(report_.plan, loaded_.frame, scene_, job.output, executor, times);
+      for (std::size_t i = 0; i < views_.size(); ++i) {
+        views_[i].run(job, plans_[i], executor, times);
+      }
     }
     void write(const CompositeJob& job, Record record) {
-      file_.text = std::move(record);
-      canvas_->write(std::move(file_), job.output);
+      std::vector<WrittenView> written;
+      for (std::size_t i = 0; i < views_.size(); ++i) {
+        written.push_back(views_[i].written(i == 0 ? record : record_of_view(record, names_[i])));
+        written.back().view = names_[i];
+      }
+      write_frame(std::move(written), job.output);
+      for (CompositeView& view : views_) view.forget();
     }
     CompositeReport& report() { return report_; }
-    const Survey& survey() const { return canvas_->survey(); }
-    const Beyond& beyond() const { return beyond_; }
+    const Survey& survey() const { return views_.front().survey(); }
+    const Beyond& beyond() const { return views_.front().beyond(); }
 
    private:
     CompositeKind& kind_;
     CompositeReport report_;
-    Beyond beyond_;
-    Scene scene_;
-    LoadedPlate loaded_;
-    HeldTextures textures_;
-    ExrOutput file_;  ///< all but the channels and the record
-    std::optional<Canvas> canvas_;
+    std::vector<CompositeView> views_;
+    std::vector<Plan> plans_;
+    std::vector<std::string> names_;
   };
 
  private:
@@ -114,10 +104,10 @@ class CompositeKind {
 
 }  // namespace
 
-Plan plan_composite(const CompositeJob& job) { return CompositeKind::prepare(job).plan; }
+Plan plan_composite(const CompositeJob& job) { return prepare_view(job).plan; }
 
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
-  CompositeKind::Prepared prepared = CompositeKind::prepare(job);
+  PreparedView prepared = prepare_view(job);
   const Scene& scene = prepared.scene;
   SurveyedPlan surveyed{std::move(prepared.plan), {}, {}, {}};
   const Plan& plan = surveyed.plan;

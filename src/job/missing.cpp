@@ -36,6 +36,7 @@ CompositeJob held_job(const JobOfFrame<CompositeJob>& job_of, int frame, int sta
   CompositeJob job = job_of(frame);
   job.plate = std::move(held.plate);
   job.scene = std::move(held.scene);
+  job.other_views = std::move(held.other_views);
   job.depth_kind = held.depth_kind;
   job.time.after_plate += job.time.otherwise - held.time.otherwise;
   return job;
@@ -44,7 +45,11 @@ CompositeJob held_job(const JobOfFrame<CompositeJob>& job_of, int frame, int sta
 }  // namespace
 
 std::optional<fs::path> missing_file(const CompositeJob& job) {
-  for (const fs::path& file : files_of(job.plate)) {
+  std::vector<fs::path> files = files_of(job.plate);
+  for (const CompositeJob::View& view : job.other_views) {
+    for (fs::path& file : files_of(view.plate)) files.push_back(std::move(file));
+  }
+  for (const fs::path& file : files) {
     std::error_code ignored;
     if (fs::status(file, ignored).type() == fs::file_type::not_found) return file;
   }

@@ -150,7 +150,11 @@ std::string picture_options(const OutputChoice& choice, const std::string& gpu) 
          (choice.wave_samples > 1 ? line("wave_samples", std::to_string(choice.wave_samples))
                                   : "") +
          (choice.overscan > 0 ? line("overscan", std::to_string(choice.overscan)) : "") +
-         aovs_line(choice.aovs) + file_options(choice.compression, choice.store_float);
+         aovs_line(choice.aovs) +
+         (choice.aov_names != AovNames::kLimpid
+              ? line("aov_names", toml_text(std::string(aov_names_name(choice.aov_names))))
+              : "") +
+         file_options(choice.compression, choice.store_float);
 }
 
 std::string raster_options(const std::string& simd) { return simd_line("raster_simd", simd); }

@@ -11,29 +11,6 @@ namespace {
 
 constexpr const char* kReason = "as asked for";
 
-/// How well a name has to agree with what the user typed; tried in this order.
-enum class Agreement { kExact, kLetterCase, kEnding };
-constexpr Agreement kAgreements[] = {Agreement::kExact, Agreement::kLetterCase, Agreement::kEnding};
-
-bool agrees(Agreement agreement, const std::string& name, std::string_view typed) {
-  if (name.empty() || typed.empty()) return false;
-  switch (agreement) {
-    case Agreement::kExact:
-      return name == typed;
-    case Agreement::kLetterCase:
-      return lower_case(name) == lower_case(typed);
-    case Agreement::kEnding:
-      return lower_case(name).ends_with("." + lower_case(typed));
-  }
-  return false;
-}
-
-/// The name with its part's in front, or "" where the part has none.
-std::string with_part(const LayerGroup& group, const std::string& name) {
-  const std::string& part = group.source->part_name;
-  return part.empty() || name.empty() ? "" : part + "." + name;
-}
-
 /// One override: `text` is meant for `role`, in these sources.
 class Choosing {
  public:

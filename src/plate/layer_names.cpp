@@ -249,6 +249,24 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
   }
 }
 
+bool agrees(Agreement agreement, const std::string& name, std::string_view typed) {
+  if (name.empty() || typed.empty()) return false;
+  switch (agreement) {
+    case Agreement::kExact:
+      return name == typed;
+    case Agreement::kLetterCase:
+      return lower_case(name) == lower_case(typed);
+    case Agreement::kEnding:
+      return lower_case(name).ends_with("." + lower_case(typed));
+  }
+  return false;
+}
+
+std::string with_part(const LayerGroup& group, const std::string& name) {
+  const std::string& part = group.source->part_name;
+  return part.empty() || name.empty() ? "" : part + "." + name;
+}
+
 bool is_known(const LayerGroup& group, std::string_view role) {
   for (const LayerRule& rule : layer_rules()) {
     if (rule.rank == LayerRank::kLayer && (role.empty() || rule.role == role) &&

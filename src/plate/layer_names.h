@@ -48,6 +48,15 @@ struct LayerGroup {
 /// `sources` must outlive the groups.
 std::vector<LayerGroup> group_layers(std::span<const LayerSource> sources);
 
+/// How well a name has to agree with what the user typed; tried in this order.
+enum class Agreement { kExact, kLetterCase, kEnding };
+inline constexpr Agreement kAgreements[] = {Agreement::kExact, Agreement::kLetterCase,
+                                            Agreement::kEnding};
+bool agrees(Agreement agreement, const std::string& name, std::string_view typed);
+
+/// The name with its part's in front, or "" where the part has none.
+std::string with_part(const LayerGroup& group, const std::string& name);
+
 /// Whether a rule knows the layer's name, or that of a layer for the role.
 bool is_known(const LayerGroup& group, std::string_view role = "");
 

@@ -10,19 +10,25 @@
 #include "limpid/files/text/scene_file.h"
 #include "limpid/plate/inspect.h"
 
-#include "core/toml_text.h"
 #include "files/exr/exr_header.h"
 #include "plate/layer_candidates.h"
 #include "plate/layer_views.h"
 #include "plate/plane_budget.h"
 #include "plate/plate_deep.h"
 #include "plate/plate_file.h"
+#include "plate/plate_state.h"
 #include "plate/primaries.h"
 
 namespace limpid {
 namespace {
 
-constexpr std::string_view kNone = "none";
+/// What is wanted of a deep part.
+struct DeepRequest {
+  Rect window;
+  PlaneSet planes;
+};
+
+}  // namespace
 
 /// "FILE:CHANNELS", "FILE" or "CHANNELS" as on a command line: a file is what exists or ends like
 /// an EXR.
@@ -36,14 +42,6 @@ PlateName split_layer(const std::string& text) {
   return names_file(split.file) ? split : PlateName{"", text};
 }
 
-/// What is wanted of a deep part.
-struct DeepRequest {
-  Rect window;
-  PlaneSet planes;
-};
-
-}  // namespace
-
 std::vector<std::filesystem::path> files_of(const PlateRequest& request) {
   std::set<std::filesystem::path> files(request.files.begin(), request.files.end());
   for (const auto& [role, name] : request.named) {
@@ -54,139 +52,6 @@ std::vector<std::filesystem::path> files_of(const PlateRequest& request) {
   }
   return {files.begin(), files.end()};
 }
-
-struct __attribute__((visibility("hidden"))) Plate::State {
-  Limits limits;
-  std::vector<PlateFile> files;
-  LayerChoices choices;
-  PlaneSet named;                                    ///< of roles that the request names
-  std::map<std::string_view, std::string> problems;  ///< filled instead of throwing, for inspect
-
-  const ExrPart& part_of(const ChannelRef& ref) const {
-    return files[static_cast<std::size_t>(ref.file)].parts[static_cast<std::size_t>(ref.part)];
-  }
-  const LayerChoice* choice(std::string_view role) const {
-    const auto found = choices.find(role);
-    return found == choices.end() ? nullptr : &found->second;
-  }
-  const ChannelRef& color_ref() const { return choices.at("color").channels.front(); }
-
-  int index_of_file(const std::string& path) {
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      if (files[i].path == path) return static_cast<int>(i);
-    }
-    files.push_back(PlateFile::open(path, limits));
-    return static_cast<int>(files.size()) - 1;
-  }
-
-  std::vector<LayerSource> sources_of(int first, int last) const {
-    std::vector<LayerSource> sources;
-    for (int i = first; i < last; ++i) {
-      const PlateFile& file = files[static_cast<std::size_t>(i)];
-      const auto more = layer_sources(i, file.path.filename().string(), file.parts);
-      sources.insert(sources.end(), more.begin(), more.end());
-    }
-    return sources;
-  }
-
-  std::vector<LayerSource> all_sources() const {
-    return sources_of(0, static_cast<int>(files.size()));
-  }
-
-  /// The role as the request decides it, or as it is found among the request's files.
-  std::optional<LayerChoice> resolve(const Role& role, const PlateRequest& request) {
-    const int searched = static_cast<int>(request.files.size());
-    const LayerChoice* color = choice("color");
-    const std::string view = request.view.empty() && color ? color->view : request.view;
-    const auto decided = [&](const PlateName& name) {
-      const int index = name.file.empty() ? 0 : index_of_file(name.file);
-      const int end = name.file.empty() ? searched : index + 1;
-      return choose_layer(role, name.channels, sources_of(index, end), view);
-    };
-    const std::string name(role.name);
-    if (const auto found = request.layers.find(name); found != request.layers.end()) {
-      if (found->second == kNone) return std::nullopt;
-      named = named | role.planes();
-      return decided(split_layer(found->second));
-    }
-    if (const auto found = request.named.find(name); found != request.named.end()) {
-      named = named | role.planes();
-      return decided(split_plate(found->second));
-    }
-    return find_layer(role, sources_of(0, searched), view);
-  }
-
-  void check_view(const std::string& asked) const {
-    const std::vector<std::string> views = views_of(all_sources());
-    const auto is_asked = [&](const std::string& view) { return is_same_view(view, asked); };
-    if (asked.empty() || std::any_of(views.begin(), views.end(), is_asked)) return;
-    throw Error("view '" + asked + "': expected " +
-                (views.empty() ? "none, for no plate has views" : "one of " + join(views)) +
-                did_you_mean(asked, views));
-  }
-
-  /// Whether the plane is one that the deep samples of that part give.
-  bool is_deep(const ChannelRef& ref, PlaneId plane) const {
-    return part_of(ref).deep && ref.name == deep_channel(plane);
-  }
-
-  bool gives_deep_below(PlaneSet wanted) const {
-    for (const std::string_view role : {"below_color", "below_depth"}) {
-      const LayerChoice* below = choice(role);
-      const PlaneId first = role_named(role).first;
-      if (below && wanted.has(first) && is_deep(below->channels.front(), first)) return true;
-    }
-    return false;
-  }
-
-  /// What is read where these planes are wanted: what lies below begins at the surface.
-  PlaneSet read_for(PlaneSet wanted) const {
-    return gives_deep_below(wanted) ? wanted | PlaneSet{PlaneId::kSurfaceDepth} : wanted;
-  }
-
-  /// A deep part that gives the color shows what lies below the water, too.
-  void add_deep_below(const PlateRequest& request) {
-    if (!choice("color") || !is_deep(color_ref(), PlaneId::kColorR)) return;
-    const ChannelRef part = color_ref();
-    for (const Role& role : roles()) {
-      const bool open = !choices.contains(role.name) && !problems.contains(role.name) &&
-                        !request.layers.contains(std::string(role.name));
-      if (!open || !kBelowPlanes.covers(role.planes())) continue;
-      LayerChoice below{{}, "deep samples behind the water"};
-      for (int i = 0; i < role.count; ++i) {
-        const std::string_view channel = deep_channel(plane_after(role.first, i));
-        below.channels.push_back({part.file, part.part, std::string(channel)});
-      }
-      choices.emplace(role.name, std::move(below));
-    }
-  }
-
-  void resolve_all(const PlateRequest& request, bool collect_problems) {
-    limits = request.limits;
-    for (const auto& [name, text] : request.layers) role_named(name);
-    for (const std::filesystem::path& path : request.files) {
-      files.push_back(PlateFile::open(path, limits));
-    }
-    for (const Role& role : roles()) {
-      try {
-        if (auto found = resolve(role, request)) choices.emplace(role.name, std::move(*found));
-      } catch (const Error& error) {
-        if (!collect_problems) throw;
-        problems.emplace(role.name, error.what());
-      }
-    }
-    check_view(request.view);
-    add_deep_below(request);
-  }
-
-  InspectedViews views(const std::string& asked) const {
-    const std::vector<LayerSource> sources = all_sources();
-    const LayerChoice* color = choice("color");
-    return {views_of(sources), !asked.empty() ? asked
-                               : color        ? color->view
-                                              : default_view(sources)};
-  }
-};
 
 Plate::Plate(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Plate::Plate(Plate&&) noexcept = default;
@@ -218,6 +83,13 @@ Plate Plate::open(const PlateRequest& request) {
   return plate;
 }
 
+std::vector<std::string> Plate::views(const PlateRequest& request) {
+  State state;
+  state.limits = request.limits;
+  for (const std::filesystem::path& path : files_of(request)) state.index_of_file(path.string());
+  return views_of(state.all_sources());
+}
+
 std::string Plate::inspect(const PlateRequest& request) {
   State state;
   state.resolve_all(request, true);
@@ -245,6 +117,8 @@ PlaneSet Plate::named_planes() const { return planes() & state_->named; }
 Rect Plate::display() const { return state_->part_of(state_->color_ref()).display; }
 
 double Plate::pixel_aspect() const { return state_->part_of(state_->color_ref()).pixel_aspect; }
+
+std::string Plate::part_name() const { return state_->part_of(state_->color_ref()).name; }
 
 std::optional<Camera> Plate::camera() const {
   const ChannelRef& ref = state_->color_ref();
@@ -292,41 +166,6 @@ void Plate::refuse_without(std::string_view role) const {
 }
 
 PlaneSet Plate::read_for(PlaneSet wanted) const { return state_->read_for(wanted) & planes(); }
-
-std::string Plate::inputs_text(PlaneSet wanted) const {
-  wanted = state_->read_for(wanted);
-  std::map<int, std::string> hashes;
-  const auto hash_of_file = [&](int file) -> const std::string& {
-    std::string& hash = hashes[file];
-    if (hash.empty()) hash = state_->files[static_cast<std::size_t>(file)].content_hash();
-    return hash;
-  };
-  std::string text;
-  for (const Role& role : roles()) {
-    const LayerChoice* choice = state_->choice(role.name);
-    if (!choice) continue;
-    std::vector<ChannelRef> refs;
-    for (std::size_t i = 0; i < choice->channels.size(); ++i) {
-      if (wanted.has(plane_after(role.first, static_cast<int>(i)))) {
-        refs.push_back(choice->channels[i]);
-      }
-    }
-    if (refs.empty()) continue;
-    std::vector<std::string> inputs;  // one for each run of channels of one part
-    for (std::size_t i = 0; i < refs.size();) {
-      const ChannelRef& first = refs[i];
-      std::vector<std::string> channels;
-      for (; i < refs.size() && refs[i].file == first.file && refs[i].part == first.part; ++i) {
-        channels.push_back(toml_text(refs[i].name));
-      }
-      inputs.push_back("{file = \"" + hash_of_file(first.file) + "\", part = " +
-                       std::to_string(first.part) + ", channels = [" + join(channels) + "]}");
-    }
-    const std::string input = inputs.size() == 1 ? inputs[0] : "[" + join(inputs) + "]";
-    text += std::string(role.name) + " = " + input + "\n";
-  }
-  return text;
-}
 
 LoadedPlate Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth) const {
   LoadedPlate loaded;

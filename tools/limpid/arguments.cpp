@@ -38,7 +38,8 @@ void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& s
       ->option_text("ROLE=LAYER")
       ->allow_extra_args(false);
   verb.add_option("--view", view,
-                  "Which view of a plate with several, as left or right (default: the first)")
+                  "Which view of a plate with several, as left or right (default: the first); "
+                  "composite takes left,right or all, too, and %V in names of inputs is the view's")
       ->option_text("NAME");
 }
 
@@ -86,7 +87,9 @@ void add_look(CLI::App& verb, WaterOptions& a) {
   add_settings(verb, a);
   std::vector<std::string> known;
   for (const AovInfo& info : aovs()) known.emplace_back(info.name);
-  verb.add_option("--aov", a.aovs, "Also write these terms: all, or a list of " + join(known))
+  verb.add_option("--aov", a.aovs,
+                  "Also write these terms: all, or a list of " + join(known) +
+                      "; composite has motion, too, where the plate has vectors")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -136,6 +139,10 @@ void add_wave_samples(CLI::App& verb, CompositeArguments& a) {
 
 void add_picture(CLI::App& verb, WaterOptions& a) {
   add_file(verb, a);
+  verb.add_option("--aov-names", a.aov_names,
+                  "What picture and AOVs are called: limpid, nuke, blender or arnold "
+                  "(default: limpid)")
+      ->option_text("HOST");
   add_simd(verb, a);
   add_preview(verb, a);
   verb.add_option("--deep", a.deep,
@@ -313,7 +320,8 @@ void add_compare(CLI::App& app, CompareArguments& a) {
   verb.add_option("b", a.b, "Picture to compare with")->required()->option_text("B");
   verb.add_option("--channels", a.channels,
                   "Only these channels, and those of these layers; A=B is channel or layer A of "
-                  "the first picture with B of the second (default: all)")
+                  "the first picture with B of the second (default: all; of several parts those of "
+                  "the first, the others' are PART.CHANNEL)")
       ->option_text("NAME|A=B,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -502,6 +510,13 @@ Parsed parse(int argc, char** argv) {
       ->option_text("error|skip|hold");
   add_picture(composite, a.composite.water);
   add_wave_samples(composite, a.composite);
+  composite
+      .add_option("--pass-through", a.composite.pass_through,
+                  "Other layers of the plates that are written beside the picture as they are: all "
+                  "but the color, none, or layers by name, * and ? allowed (default: none)")
+      ->option_text("all|none|NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   composite
       .add_option("--overscan", a.composite.overscan,
                   "Pixels beyond each side of the picture that are written, too, as far as all "

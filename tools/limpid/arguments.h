@@ -18,6 +18,7 @@ struct CommonArguments {
 struct WaterOptions {
   std::string look = "physical";
   std::vector<std::string> settings, aovs;
+  std::string aov_names = "limpid";
   std::optional<double> time;
   double max_error = 0;
   bool strict = false;
@@ -40,6 +41,7 @@ struct CompositeArguments {
   std::string scene, view, depth_kind;
   std::optional<double> depth_nothing;
   int samples = 1, overscan = 0;
+  std::vector<std::string> pass_through = {"none"};
   FrameOptions frames;
   WaterOptions water;
 };

@@ -95,13 +95,34 @@ const Plane* color_plane(const ComparedPicture& picture, const std::string& name
   return found;
 }
 
+/// A channel of an EXR as it is named here: those of all parts but the first have the part's name
+/// in front.
+struct NamedChannel {
+  std::string name;
+  int part;
+  std::string channel;
+};
+
+std::vector<NamedChannel> channels_named(const ExrFile& file) {
+  std::vector<NamedChannel> channels;
+  for (int part = 0; part < static_cast<int>(file.parts().size()); ++part) {
+    const ExrPart& of = file.parts()[static_cast<std::size_t>(part)];
+    if (part > 0 && of.deep) continue;
+    for (const ExrChannel& channel : of.channels) {
+      channels.push_back(
+          {part > 0 ? of.name + "." + channel.name : channel.name, part, channel.name});
+    }
+  }
+  return channels;
+}
+
 }  // namespace
 
 std::vector<std::string> channel_names(const std::string& path, const Limits& limits) {
   if (!is_exr(path)) return read_image(path, limits).channels;
   std::vector<std::string> names;
   const ExrFile file = ExrFile::open(path, limits);
-  for (const ExrChannel& channel : file.parts().front().channels) names.push_back(channel.name);
+  for (const NamedChannel& channel : channels_named(file)) names.push_back(channel.name);
   return names;
 }
 
@@ -124,23 +145,22 @@ const Plane* ComparedPicture::find(const std::string& name) const {
 
 ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted,
                              const Limits& limits) {
-  const auto is_wanted = [&](const std::string& name) {
-    return wanted.empty() || among(name, wanted);
+  const auto is_wanted = [&](const std::string& name, int part = 0) {
+    return wanted.empty() ? part == 0 : among(name, wanted);
   };
   ComparedPicture picture;
   picture.path = path;
   std::vector<std::string> known;
   if (holds_exr(path)) {
     const ExrFile file = ExrFile::open(path, limits);
-    const ExrPart& part = file.parts().front();
-    picture.display = part.display.size();
+    picture.display = file.parts().front().display.size();
     std::vector<ExrRequest> requests;
-    for (const ExrChannel& channel : part.channels) {
+    for (const NamedChannel& channel : channels_named(file)) {
       known.push_back(channel.name);
-      if (!is_wanted(channel.name)) continue;
+      if (!is_wanted(channel.name, channel.part)) continue;
       picture.names.push_back(channel.name);
-      picture.planes.emplace_back(part.data);
-      requests.push_back({0, channel.name, picture.planes.back().view(), 0});
+      picture.planes.emplace_back(file.parts()[static_cast<std::size_t>(channel.part)].data);
+      requests.push_back({channel.part, channel.channel, picture.planes.back().view(), 0});
     }
     file.read(requests);
   } else {

@@ -30,7 +30,9 @@ struct ChannelPair {
   friend bool operator==(const ChannelPair&, const ChannelPair&) = default;
 };
 
-/// The names of the channels that read_picture() knows. Throws Error as that does.
+/// The names of the channels that read_picture() knows: of an EXR of several flat parts those of
+/// all, from the second on with the part's name in front, as in "right.R". Throws Error as that
+/// does.
 std::vector<std::string> channel_names(const std::string& path, const Limits& limits);
 
 /// What --channels means: each text is a channel or layer of both pictures (all the layer's
@@ -40,7 +42,7 @@ std::vector<ChannelPair> pairs_of(const std::vector<std::string>& texts, const s
                                   const std::vector<std::string>& known_a, const std::string& b,
                                   const std::vector<std::string>& known_b);
 
-/// All channels of the first part of an EXR, or of another format, that `wanted` names; all when it
+/// All channels of an EXR, or of another format, that `wanted` names; all of the first part when it
 /// is empty. Throws Error for those that are not there.
 ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted,
                              const Limits& limits);

@@ -1,6 +1,9 @@
 #include "composite_job.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "limpid/core/error.h"
 #include "limpid/files/text/frame_range.h"
@@ -11,6 +14,20 @@
 
 namespace limpid::tool {
 namespace {
+
+/// Stands for a view's name in names of files.
+constexpr std::string_view kViewMark = "%V";
+constexpr std::string_view kAllViews = "all";
+/// Vectors are no plane of the chain, and are named as its planes are.
+const std::string kMotion = "motion";
+
+/// What --pass-through names: nothing for none, which is alone then.
+std::vector<std::string> layers_to_pass(const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), "none") == names.end()) return names;
+  if (names.size() == 1) return {};
+  throw Error("--pass-through " + join(names, ",") + ": expected none alone, or names without it",
+              Fault::kUsage);
+}
 
 double finite_nothing(double depth) {
   if (std::isfinite(depth)) return depth;
@@ -32,49 +49,145 @@ LayerOverrides layer_overrides(const std::vector<std::string>& texts) {
                       "depth=none",
                   Fault::kUsage);
     }
-    as_usage([&] { role_named(text.substr(0, equals)); });
+    const std::string role = text.substr(0, equals);
+    if (role != kMotion) as_usage([&] { role_named(role); });
     overrides[text.substr(0, equals)] = text.substr(equals + 1);
   }
   return overrides;
 }
 
+namespace {
+
+bool has_view_mark(const std::string& name) { return name.find(kViewMark) != std::string::npos; }
+
+/// A name with the view's in the place of each %V.
+std::string name_of_view(std::string name, const std::string& view) {
+  for (std::size_t at = name.find(kViewMark); at != std::string::npos; at = name.find(kViewMark)) {
+    if (view.empty()) {
+      throw Error(name + ": expected --view with names beside it, which %V stands for",
+                  Fault::kUsage);
+    }
+    name.replace(at, kViewMark.size(), view);
+  }
+  return name;
+}
+
+/// What the command line names of a view's files, the numbers of frames not yet put in.
+CompositeJob::View inputs_of(const CompositeArguments& a, const std::string& view,
+                             const std::optional<int>& frame, const Limits& limits) {
+  CompositeJob::View inputs;
+  inputs.name = view;
+  inputs.plate.limits = limits;
+  const std::string scene = name_of_view(a.scene, view);
+  if (!scene.empty()) {
+    inputs.scene = load_scene(frame ? name_of_frame(scene, *frame) : scene);
+  }
+  for (const std::string& file : a.plates) inputs.plate.files.push_back(name_of_view(file, view));
+  inputs.plate.named = inputs.scene.plates;
+  inputs.plate.layers = layer_overrides(a.layers);
+  if (const auto motion = inputs.plate.layers.extract(kMotion))
+    inputs.plate.motion = motion.mapped();
+  // Files that are a view's own need not say so inside.
+  const bool own_files = std::any_of(a.plates.begin(), a.plates.end(), has_view_mark) ||
+                         (a.plates.empty() && has_view_mark(a.scene));
+  if (!own_files) inputs.plate.view = view;
+  for (auto& [role, name] : inputs.plate.named) name = name_of_view(name, view);
+  for (auto& [role, name] : inputs.plate.layers) name = name_of_view(name, view);
+  return inputs;
+}
+
+/// The same of one frame.
+void set_frame(const CompositeArguments& a, int frame, const std::string& view, PlateRequest& plate,
+               SceneFile& scene) {
+  const std::string file = name_of_view(a.scene, view);
+  if (has_frame_number(file)) {
+    scene = load_scene(name_of_frame(file, frame));
+    plate.named = scene.plates;
+    for (auto& [role, name] : plate.named) name = name_of_view(name, view);
+  }
+  for (auto& path : plate.files) path = name_of_frame(path.string(), frame);
+  for (auto& [role, name] : plate.named) name = name_of_frame(name, frame);
+  for (auto& [role, name] : plate.layers) name = name_of_frame(name, frame);
+}
+
+/// The views that --view names; "" for the plate's first.
+std::vector<std::string> views_named(const CompositeArguments& a, const std::optional<int>& frame,
+                                     const Limits& limits) {
+  if (a.view != kAllViews) {
+    std::vector<std::string> views;
+    for (std::size_t at = 0; at <= a.view.size();) {
+      const std::size_t end = std::min(a.view.find(',', at), a.view.size());
+      views.push_back(a.view.substr(at, end - at));
+      at = end + 1;
+      if (views.back().empty() && !a.view.empty()) {
+        throw Error("--view " + a.view + ": expected names between the commas", Fault::kUsage);
+      }
+    }
+    return views;
+  }
+  CompositeArguments plates = a;
+  if (has_view_mark(plates.scene)) plates.scene.clear();
+  CompositeJob::View inputs = inputs_of(plates, "", frame, limits);
+  if (frame) set_frame(plates, *frame, "", inputs.plate, inputs.scene);
+  std::vector<std::string> views = Plate::views(inputs.plate);
+  if (views.empty()) {
+    throw Error("--view all: expected a plate with views, and no plate has any", Fault::kUsage);
+  }
+  return views;
+}
+
+}  // namespace
+
 CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
                         const CommonArguments& common) {
   CompositeJob job;
-  job.plate.limits = limits_of(common);
-  const bool alone = sequence.frames.empty();
-  if (!a.scene.empty()) {
-    job.scene = load_scene(alone ? a.scene : name_of_frame(a.scene, sequence.frames.front()));
+  const Limits limits = limits_of(common);
+  const std::optional<int> frame =
+      sequence.frames.empty() ? std::nullopt : std::optional(sequence.frames.front());
+  for (const std::string& view : views_named(a, frame, limits)) {
+    job.other_views.push_back(inputs_of(a, view, frame, limits));
   }
-  job.plate.files.assign(a.plates.begin(), a.plates.end());
-  job.plate.named = job.scene.plates;
-  job.plate.layers = layer_overrides(a.layers);
-  job.plate.view = a.view;
+  job.view_name = job.other_views.front().name;
+  job.plate = std::move(job.other_views.front().plate);
+  job.scene = std::move(job.other_views.front().scene);
+  job.other_views.erase(job.other_views.begin());
   if (a.plates.empty() && job.plate.named.empty() && job.plate.layers.empty()) {
     throw Error("nothing to put water into: give plates, or a scene that names some",
+                Fault::kUsage);
+  }
+  if (has_view_mark(a.water.output)) {
+    throw Error("-o " + a.water.output +
+                    ": expected a name without %V, for all views are written "
+                    "into one file",
                 Fault::kUsage);
   }
   if (!a.depth_kind.empty()) job.depth_kind = depth_kind_named(a.depth_kind);
   if (a.depth_nothing) job.depth_nothing = finite_nothing(*a.depth_nothing);
   job.look = look_of(a.water);
   job.time.asked = a.water.time;
-  job.output = output_of(a.water);
+  WaterOptions water = a.water;
+  const bool motion = std::erase(water.aovs, kMotion) > 0;
+  job.output = output_of(water);
+  job.output.motion = motion;
   job.output.wave_samples = a.samples;
   job.output.overscan = a.overscan;
+  job.output.pass_through = layers_to_pass(a.pass_through);
   return job;
 }
 
 CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int frame) {
-  if (has_frame_number(a.scene)) {
-    job.scene = load_scene(name_of_frame(a.scene, frame));
-    job.plate.named = job.scene.plates;
-  }
-  for (auto& file : job.plate.files) file = name_of_frame(file.string(), frame);
-  for (auto& [role, name] : job.plate.named) name = name_of_frame(name, frame);
-  for (auto& [role, name] : job.plate.layers) name = name_of_frame(name, frame);
-  job.time = time_of_frame(a.frames, a.water, job.scene, has_frame_number(a.scene), frame);
+  set_frame(a, frame, job.view_name, job.plate, job.scene);
+  for (CompositeJob::View& view : job.other_views)
+    set_frame(a, frame, view.name, view.plate, view.scene);
+  const bool scene_of_frame = has_frame_number(name_of_view(a.scene, job.view_name));
+  job.time = time_of_frame(a.frames, a.water, job.scene, scene_of_frame, frame);
   job.output = output_of_frame(job.output, frame);
   return job;
+}
+
+void expect_one_view(const CompositeJob& job, const std::string& verb) {
+  if (job.other_views.empty()) return;
+  throw Error("--view: expected one view, for " + verb + " shows one at a time", Fault::kUsage);
 }
 
 }  // namespace limpid::tool

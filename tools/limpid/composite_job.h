@@ -21,4 +21,7 @@ CompositeJob common_job(const CompositeArguments& arguments, const Sequence& seq
 /// That job made one frame's: with its scene, its time, and its number in all names.
 CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& arguments, int frame);
 
+/// Throws the usage Error for a job of several views, which the verb does not do.
+void expect_one_view(const CompositeJob& job, const std::string& verb);
+
 }  // namespace limpid::tool

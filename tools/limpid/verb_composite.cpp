@@ -77,6 +77,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
 
 int plan_verb(const CompositeArguments& a, const CommonArguments& common) {
   const CompositeJob job = first_job(a, sequence_of(a.frames, a.water), common);
+  expect_one_view(job, "plan");
   const auto executor = executor_of(common);
   if (!a.measure) {
     print_plan(survey_composite(job, *executor), {}, common);

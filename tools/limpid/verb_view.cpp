@@ -51,9 +51,11 @@ std::array<Plane, 3> read_reference(const std::string& path, const CommonArgumen
 DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) {
   const CompositeArguments& plate = a.composite;
   const Sequence sequence = sequence_of(plate.frames, plate.water);
+  const CompositeJob job = common_job(plate, sequence, common);
+  expect_one_view(job, "view");
   DeskOptions options;
   options.frames = sequence.frames;
-  options.job_of = [plate, job = common_job(plate, sequence, common)](std::optional<int> frame) {
+  options.job_of = [plate, job](std::optional<int> frame) {
     return frame ? job_of_frame(job, plate, *frame) : job;
   };
   options.fps = plate.frames.fps.value_or(kUsualFps);

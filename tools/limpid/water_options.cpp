@@ -136,6 +136,7 @@ void expect_output(const std::string& path) {
 OutputChoice output_of(const WaterOptions& a) {
   OutputChoice output;
   output.aovs = aov_list(a.aovs);
+  output.aov_names = as_usage([&] { return aov_names_named(a.aov_names); });
   output.runner = runner_named(a.runner);
   output.simd = simd_named(a.simd, output.runner);
   if (!a.gpu.empty() && output.runner != Runner::kGpu) {
@@ -177,6 +178,9 @@ std::string report_notes(const CompositeReport& report) {
     if (op.verdict == Verdict::kAbsent) {
       notes += std::string(op.name) + " does not run: " + op.reason + "\n";
     }
+  }
+  if (!report.left_out.empty()) {
+    notes += "not passed through: " + join(report.left_out) + " (--pass-through all, or names)\n";
   }
   return notes;
 }

@@ -26,13 +26,26 @@ struct CompositeJob {
   JobTime time;
   Look look;
 
+  /// Of stereo: the views besides that of `plate`, each with its own camera. All are put into one
+  /// file, a part each that is called after its view, `plate`'s the first.
+  struct View {
+    std::string name;
+    PlateRequest plate;
+    SceneFile scene;
+  };
+  std::string view_name = {};  ///< of `plate`; where there are others
+  std::vector<View> other_views = {};
+
   OutputChoice output;
 };
 
 /// What was done, for the report line.
 struct CompositeReport {
-  Plan plan;
+  Plan plan;  ///< of the first view
   Size size;
+  /// Layers of the plates that feed no role, where OutputChoice::pass_through is empty: they are
+  /// not in the picture's file.
+  std::vector<std::string> left_out = {};
   SanitiseCounts replaced;
   /// What the picture does not show though it was asked for, a sentence each: Plate::warnings(),
   /// Plan::warnings, layers that are named and not read, and a picture without a wet pixel or a dry
@@ -42,7 +55,8 @@ struct CompositeReport {
   double read_seconds = 0, run_seconds = 0, write_seconds = 0;
 };
 
-/// Plans without reading a pixel: what would run, and why.
+/// Plans without reading a pixel: what would run, and why. This and the next two look at the first
+/// view alone.
 Plan plan_composite(const CompositeJob& job);
 
 /// Plans and looks at the pixels: what would run where. Nothing is computed.
@@ -63,9 +77,9 @@ struct MeasuredPlan {
 };
 MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor);
 
-/// Loads, plans, runs, writes. Throws Error, also for an output that is one of the inputs or
-/// another output (job/job_files.h); nothing is left under the output's name then but what
-/// was there before.
+/// Loads, plans, runs, writes. Throws Error, of several views for two that have one camera, one
+/// name or other display windows, also for an output that is one of the inputs or another output
+/// (job/job_files.h); nothing is left under the output's name then but what was there before.
 CompositeReport composite(const CompositeJob& job, Executor& executor);
 
 }  // namespace limpid

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpid/run/aov_names.h"
 #include "limpid/run/target.h"
 
 namespace limpid {
@@ -38,7 +39,9 @@ Runner runner_named(std::string_view name);
 ///     limpid/scene_hash  such a hash of the two texts before it, one after the other: the same for
 ///                        the same picture before look and options
 ///     limpid/options     how it was computed and stored: runner, instruction set, GPU and driver,
-///                        AOVs, compression
+///                        AOVs and their names, compression, what is passed through
+///     limpid/view/NAME/  and then scene, inputs, scene_hash, options, look or plan, in the first
+///                        part of a file of several views: of each other view
 ///     limpid/noise       of a ray-traced picture of more than one path a pixel: standard errors of
 ///                        its colors over the colors, both in the mean (TruthPicture)
 ///
@@ -49,6 +52,18 @@ Runner runner_named(std::string_view name);
 /// runner "traced", light, samples, paths and seed.
 struct OutputChoice {
   std::vector<Aov> aovs;
+  AovNames aov_names = AovNames::kLimpid;
+  /// Also the motion vectors of what is seen through the water, where the plate has vectors
+  /// (Plate::motion_layers()): `motion`, with the vectors that the plate has of the places that
+  /// green was looked up at, as the lookup turns and stretches them. Exact to the first order of
+  /// the motion where camera and water stand still; what the camera or the waves do to the lookup
+  /// from frame to frame is not in them. For composite() alone.
+  bool motion = false;
+  /// Other layers of the plates that are written as they are (Plate::passed() has what the names
+  /// mean, "all" among them): names, sample types and bits, beside the picture if they lie in the
+  /// part that the color comes from, else in a part of their name. The compression is then one that
+  /// changes no sample. For composite() alone.
+  std::vector<std::string> pass_through = {};
   Runner runner = Runner::kFused;
   std::string simd;  ///< "" for the best
   /// Of Runner::kGpu, as in GpuOptions.

@@ -29,6 +29,8 @@ struct PlateRequest {
   /// Of stereo and the like: that of every role, by its name in any letter case. "": the color's,
   /// which is then that of the default view (layers.h).
   std::string view = {};
+  /// Which layer of `files` has motion vectors, "" for the one that a convention tells.
+  std::string motion = {};
   Limits limits = {};
 };
 
@@ -53,6 +55,25 @@ struct LoadedPlate {
   double transparent = 0;             ///< share of the wet pixels, as DeepLayers has it
 };
 
+/// Layers of one part of a plate that are handed on to a picture as they are.
+struct PassedPart {
+  const ExrFile* file = nullptr;  ///< one of the plate's, which it lives as long as
+  int part = 0;
+  bool of_color = false;  ///< the color comes from that part, too
+  std::string name;       ///< the part's; its file's, without the frame's number, where it has none
+  std::vector<std::string> channels;
+  /// What is handed on of the part's header: manifests of the cryptomattes among its channels, and
+  /// but for the color's part what Plate::attributes() is of that.
+  std::map<std::string, ExrFile::Attribute> attributes;
+};
+
+/// Motion vectors of the dry picture, in pixels, x to the right, y up: X and Y, Z and W, or others.
+struct MotionLayer {
+  std::string name;                   ///< of what is made of them: "motion", "motion_forward" ...
+  std::vector<std::string> suffixes;  ///< as they are called in the plate; two a vector
+  std::vector<ChannelRef> channels;   ///< one a suffix
+};
+
 /// A frame as it lies in files: opened, every role found, no pixel read. A role is decided by
 /// `layers`, else by `named`, else found among `files`. A deep part (files/exr/deep.h) gives color
 /// and depth, and where no other layer does, below_color and below_depth: what its samples hold
@@ -63,6 +84,8 @@ class Plate {
   /// Throws Error: a file that cannot be opened, no color (the list of what there is), two
   /// candidates, a view that no file has (the list of views), display windows that differ.
   static Plate open(const PlateRequest& request);
+  /// The views of the request's files (views_of()). Throws Error as open() does for files.
+  static std::vector<std::string> views(const PlateRequest& request);
   /// What `limpid inspect` prints. Roles that cannot be decided are told, not thrown.
   static std::string inspect(const PlateRequest& request);
   Plate(Plate&&) noexcept;
@@ -74,6 +97,8 @@ class Plate {
   PlaneSet named_planes() const;
   Rect display() const;
   double pixel_aspect() const;
+  /// Of the part that has the color; "" where it has none.
+  std::string part_name() const;
   /// From the attributes of the part that has the color (its first channel), see exr_camera.h:
   /// parts of other views have other cameras.
   std::optional<Camera> camera() const;
@@ -88,6 +113,24 @@ class Plate {
   /// A sentence for each thing of the plate that the picture will not be right for: that its
   /// chromaticities are not those of Rec.709, which coefficients and colors of the water are for.
   std::vector<std::string> warnings() const;
+  /// The layers of PlateRequest::files, and of the file that has the color, that these names mean:
+  /// "all", but the color; layers, parts and channels as choose_layer() knows their names, of which
+  /// each may be several; a cryptomatte as its manifest calls it; names with * and ?. Layers of
+  /// views other than the color's are none of them. Throws Error for a name that nothing has, and
+  /// for deep samples.
+  std::vector<PassedPart> passed(const std::vector<std::string>& names) const;
+  /// The names of these layers that feed no role.
+  std::vector<std::string> other_layers() const;
+  /// Those of PlateRequest::files that have motion vectors: of Blender (Vector), Arnold
+  /// (motionvector), Nuke (forward, backward), or the one that PlateRequest::motion names. Throws
+  /// Error where there is none.
+  std::vector<MotionLayer> motion_layers() const;
+  /// Their planes, of the whole data windows. Throws Error as read().
+  std::vector<Plane> read_motion(const std::vector<MotionLayer>& layers) const;
+  /// As inputs_text(), of motion vectors.
+  std::string motion_text(const std::vector<MotionLayer>& layers) const;
+  /// As inputs_text(), of what is handed on.
+  std::string passed_text(const std::vector<PassedPart>& parts) const;
   /// Throws the Error for a role that nothing feeds, with the list of all layers that there are.
   [[noreturn]] void refuse_without(std::string_view role) const;
 

@@ -174,6 +174,22 @@ struct __attribute__((visibility("hidden"))) ExrFile::State {
     for (const auto& [part, wanted] : by_part) read_part(wanted);
   }
 
+  void read_lines(int part, std::span<const std::string> channels, LineRange lines,
+                  std::span<char* const> into) {
+    const ExrHeader& header = headers[part];
+    for (const std::string& name : channels) {
+      if (find_channel(header.part, name) == nullptr) {
+        throw Error("channel '" + name + "' in " + label(parts, part) +
+                    " is made from luminance and chroma: expected one that is stored as it is");
+      }
+    }
+    std::set<int> decoded = decoded_parts;
+    decoded.insert(part);
+    check_decoded_parts(headers, decoded, limits);
+    decoded_parts = std::move(decoded);
+    limpid::read_lines(*image, header, part, channels, lines, into);
+  }
+
   void read_part(std::span<const ExrRequest> requests) {
     const ExrHeader& header = headers[requests[0].part];
     fill_outside(header.part.data, requests);
@@ -193,7 +209,7 @@ struct __attribute__((visibility("hidden"))) ExrFile::State {
     if (!stored.empty() && ExrUnpacker::knows(header)) {
       read_scanlines(*image, header, stored, threads);
     } else if (!stored.empty()) {
-      read_stored(*image, header, stored);
+      limpid::read_stored(*image, header, stored);
     }
     for (const auto& [layer, wanted] : luma) {
       FileStream own(file);
@@ -261,6 +277,19 @@ void ExrFile::read(std::span<const ExrRequest> requests) const {
   });
 }
 
+void ExrFile::read_stored(int part, std::span<const std::string> channels, int y0, int y1,
+                          std::span<char* const> into) const {
+  if (channels.empty() || y0 >= y1) return;
+  with_path(path(), [&] {
+    const ExrPart& asked = checked_part(parts(), part);
+    const std::string where = label(parts(), part);
+    if (asked.deep) throw Error(where + " holds deep samples: expected flat pixels");
+    for (const std::string& channel : channels) check_channel(asked, where, channel);
+    const std::lock_guard lock(state_->mutex);
+    state_->read_lines(part, channels, {y0, y1}, into);
+  });
+}
+
 void ExrFile::read_deep(int part, std::span<const std::string> channels,
                         const std::function<void(const DeepBlock&)>& sink) const {
   with_path(path(), [&] {
@@ -274,12 +303,13 @@ void ExrFile::read_deep(int part, std::span<const std::string> channels,
 }
 
 bool ExrFile::is_whole() const {
-  const ExrHeader& header = state_->headers[0];
-  if (state_->headers.size() != 1 || header.part.tiled) return false;
+  const std::vector<ExrHeader>& headers = state_->headers;
+  const auto is_tiled = [](const ExrHeader& header) { return header.part.tiled; };
+  if (std::any_of(headers.begin(), headers.end(), is_tiled)) return false;
   FileStream own(state_->file);
   own.seekg(state_->header_end);
   try {
-    return has_all_chunks(own, header);
+    return has_all_chunks(own, headers);
   } catch (const Iex::InputExc&) {
     return false;  // it ends too early
   }

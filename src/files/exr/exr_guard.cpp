@@ -148,24 +148,31 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
   }
 }
 
-bool has_all_chunks(FileStream& stream, const ExrHeader& header) {
-  const std::int64_t chunks = chunks_of(header);
-  std::vector<std::uint64_t> places;
-  for (std::int64_t i = 0; i < chunks; ++i) places.push_back(read_number(stream, 8));
-  std::int64_t line = header.part.data.y0;
-  for (const std::uint64_t place : places) {
-    stream.seekg(place);
-    const auto y = static_cast<std::int32_t>(read_number(stream, 4));
-    std::uint64_t bytes = 0;
-    if (header.part.deep) {
-      const std::uint64_t counts = read_number(stream, 8), samples = read_number(stream, 8);
-      read_number(stream, 8);  // their unpacked size
-      bytes = std::min(counts, stream.remaining() + 1) + std::min(samples, stream.remaining() + 1);
-    } else {
-      bytes = read_number(stream, 4);
+bool has_all_chunks(FileStream& stream, const std::vector<ExrHeader>& headers) {
+  std::vector<std::vector<std::uint64_t>> places(headers.size());
+  for (std::size_t part = 0; part < headers.size(); ++part) {
+    const std::int64_t chunks = chunks_of(headers[part]);
+    for (std::int64_t i = 0; i < chunks; ++i) places[part].push_back(read_number(stream, 8));
+  }
+  for (std::size_t part = 0; part < headers.size(); ++part) {
+    const ExrHeader& header = headers[part];
+    std::int64_t line = header.part.data.y0;
+    for (const std::uint64_t place : places[part]) {
+      stream.seekg(place);
+      if (headers.size() > 1 && read_number(stream, 4) != part) return false;
+      const auto y = static_cast<std::int32_t>(read_number(stream, 4));
+      std::uint64_t bytes = 0;
+      if (header.part.deep) {
+        const std::uint64_t counts = read_number(stream, 8), samples = read_number(stream, 8);
+        read_number(stream, 8);  // their unpacked size
+        bytes =
+            std::min(counts, stream.remaining() + 1) + std::min(samples, stream.remaining() + 1);
+      } else {
+        bytes = read_number(stream, 4);
+      }
+      if (y != line || bytes > stream.remaining()) return false;
+      line += kChunkLines[header.compression];
     }
-    if (y != line || bytes > stream.remaining()) return false;
-    line += kChunkLines[header.compression];
   }
   return true;
 }

@@ -62,9 +62,9 @@ std::int64_t chunks_of(const ExrHeader& header);
 /// The most that so many bytes of the part's pixels can become when they are decompressed.
 std::int64_t most_unpacked(const ExrHeader& header, std::int64_t packed);
 
-/// Whether the table of chunks, where the stream stands, has a place for each chunk of the one part
-/// of scan lines, and each is where it belongs and ends within the file. Throws Iex::InputExc for
-/// one that begins behind the end.
-bool has_all_chunks(FileStream& stream, const ExrHeader& header);
+/// Whether the tables of chunks, where the stream stands, have a place for each chunk of the parts,
+/// which are of scan lines, and each is where it belongs and ends within the file. Throws
+/// Iex::InputExc for one that begins behind the end.
+bool has_all_chunks(FileStream& stream, const std::vector<ExrHeader>& headers);
 
 }  // namespace limpid

@@ -9,6 +9,8 @@
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfRgbaFile.h>
 
+#include "files/exr/exr_copy.h"
+
 namespace limpid {
 namespace {
 
@@ -181,6 +183,31 @@ void read_stored(Imf::MultiPartInputFile& file, const ExrHeader& header,
     }
     y = block.y1;
   }
+}
+
+const ExrChannel* find_channel(const ExrPart& part, const std::string& name) {
+  const auto found = std::find_if(part.channels.begin(), part.channels.end(),
+                                  [&](const ExrChannel& c) { return c.name == name; });
+  return found == part.channels.end() ? nullptr : &*found;
+}
+
+void read_lines(Imf::MultiPartInputFile& file, const ExrHeader& header, int part,
+                std::span<const std::string> channels, LineRange lines,
+                std::span<char* const> into) {
+  const Rect& data = header.part.data;
+  Imf::FrameBuffer frame;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const SampleType type = find_channel(header.part, channels[i])->type;
+    const std::ptrdiff_t bytes = type == SampleType::kHalf ? 2 : 4, row = bytes * data.width();
+    const std::uintptr_t origin =
+        reinterpret_cast<std::uintptr_t>(into[i]) -
+        static_cast<std::uintptr_t>(data.x0 * bytes + std::ptrdiff_t{lines.y0} * row);
+    frame.insert(channels[i], {pixel_type_of(type), reinterpret_cast<char*>(origin),
+                               static_cast<std::size_t>(bytes), static_cast<std::size_t>(row)});
+  }
+  Imf::InputPart stored(file, part);
+  stored.setFrameBuffer(frame);
+  stored.readPixels(lines.y0, lines.y1 - 1);
 }
 
 void read_luminance_chroma(FileStream& stream, const ExrHeader& header, const std::string& layer,

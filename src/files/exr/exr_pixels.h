@@ -25,6 +25,20 @@ void fill_outside(const Rect& data, std::span<const ExrRequest> requests);
 void read_stored(Imf::MultiPartInputFile& file, const ExrHeader& header,
                  std::span<const ExrRequest> requests);
 
+/// The lines y0 <= y < y1.
+struct LineRange {
+  int y0, y1;
+};
+
+/// Decodes these lines of the part, the whole width of its data window, with the bits that are
+/// stored: rows of channel i one behind the other from `into[i]` on. Names and lines are valid.
+void read_lines(Imf::MultiPartInputFile& file, const ExrHeader& header, int part,
+                std::span<const std::string> channels, LineRange lines,
+                std::span<char* const> into);
+
+/// The stored channel of that name, or null.
+const ExrChannel* find_channel(const ExrPart& part, const std::string& name);
+
 /// Decodes R G B of the luminance-chroma picture `layer` of a file's first part, from a stream at
 /// the beginning of the file.
 void read_luminance_chroma(FileStream& stream, const ExrHeader& header, const std::string& layer,

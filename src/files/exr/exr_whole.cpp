@@ -30,11 +30,11 @@ void finish(const std::filesystem::path& path) {
   const auto file = std::make_shared<FileHandle>(path);
   FileStream stream(file);
   const Limits unlimited{std::numeric_limits<std::int64_t>::max(), std::numeric_limits<int>::max(),
-                         std::numeric_limits<int>::max(), 1,
+                         std::numeric_limits<int>::max(), std::numeric_limits<int>::max(),
                          std::numeric_limits<std::int64_t>::max()};
-  const ExrHeader header = read_exr_headers(stream, unlimited)[0];
+  const std::vector<ExrHeader> headers = read_exr_headers(stream, unlimited);
   const std::uint64_t header_end = stream.tellg();
-  if (!has_all_chunks(stream, header))
+  if (!has_all_chunks(stream, headers))
     throw std::runtime_error("some lines could not be compressed");
   if (const auto hash = file_hash(*file, header_end)) put_hash(path, *hash);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <span>
 
 #include "limpid/files/exr/deep_writer.h"
 #include "limpid/files/exr/exr_writer.h"
@@ -10,15 +11,20 @@
 
 namespace limpid {
 
-/// An EXR file of one part, one more of the files: `check` runs first, then `write` gets the stream
-/// of a temporary file, which is looked at and given its hash. Whatever either throws leaves as an
-/// Error that begins with the path.
+/// An EXR file of scan lines, one more of the files: `check` runs first, then `write` gets the
+/// stream of a temporary file, which is looked at and given its hash. Whatever either throws leaves
+/// as an Error that begins with the path.
 void write_whole_exr(AtomicFiles& files, const std::filesystem::path& path,
                      const std::function<void()>& check,
                      const std::function<void(OutputStream&)>& write);
 
 /// As without `files`, but that the file appears when those are committed.
-void write_exr(AtomicFiles& files, const std::filesystem::path& path, const ExrOutput& output);
+void write_exr(AtomicFiles& files, const std::filesystem::path& path,
+               std::span<const ExrOutput> parts);
+inline void write_exr(AtomicFiles& files, const std::filesystem::path& path,
+                      const ExrOutput& output) {
+  write_exr(files, path, {&output, 1});
+}
 void write_deep_water(AtomicFiles& files, const std::filesystem::path& path,
                       const DeepWater& water);
 

@@ -23,6 +23,12 @@ Imf::Header header_of(const WrittenPart& part, const Rect& display) {
   for (const auto& [name, values] : part.channels) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   }
+  for (const auto& [name, bits] : part.halves) {
+    header.channels().insert(name, Imf::Channel(Imf::HALF));
+  }
+  for (const auto& [name, values] : part.uints) {
+    header.channels().insert(name, Imf::Channel(Imf::UINT));
+  }
   header.setType(part.deep       ? Imf::DEEPSCANLINE
                  : part.tile > 0 ? Imf::TILEDIMAGE
                                  : Imf::SCANLINEIMAGE);
@@ -41,6 +47,12 @@ void write_flat(Imf::MultiPartOutputFile& file, int index, const WrittenPart& pa
   Imf::FrameBuffer frame;
   for (const auto& [name, values] : part.channels) {
     frame.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), box_of(part.data)));
+  }
+  for (const auto& [name, bits] : part.halves) {
+    frame.insert(name, Imf::Slice::Make(Imf::HALF, bits.data(), box_of(part.data)));
+  }
+  for (const auto& [name, values] : part.uints) {
+    frame.insert(name, Imf::Slice::Make(Imf::UINT, values.data(), box_of(part.data)));
   }
   if (part.tile > 0) {
     Imf::TiledOutputPart tiled(file, index);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -21,6 +22,9 @@ struct WrittenPart {
   bool deep = false;  ///< one sample a pixel
   std::vector<std::string> multi_view = {};
   std::map<std::string, std::string> texts = {};  ///< string attributes
+  /// Channels of flat pixels by their bits: half and uint.
+  std::map<std::string, std::vector<std::uint16_t>> halves = {};
+  std::map<std::string, std::vector<std::uint32_t>> uints = {};
 };
 
 /// What level() holds: another value at each pixel.

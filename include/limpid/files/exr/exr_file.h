@@ -74,6 +74,13 @@ class ExrFile {
   /// (never silent black), too, and then what was written is unspecified.
   void read(std::span<const ExrRequest> requests) const;
 
+  /// Decodes lines y0 <= y < y1 of the data window of a flat part without changing a bit: the
+  /// samples of `channels` as they are stored (half, float or uint), those of channel i whole rows
+  /// one behind the other from `into[i]` on. Throws Error as read() does, and for channels that are
+  /// made from luminance and chroma, which no file stores.
+  void read_stored(int part, std::span<const std::string> channels, int y0, int y1,
+                   std::span<char* const> into) const;
+
   /// Decodes channels of a deep part (scan-line, or tiled: level 0) and hands them to `sink`, some
   /// lines or one tile at a time, each pixel of the data window once; never more of the samples are
   /// in memory. How many there are is checked against the limits and the size of the file before
@@ -81,9 +88,9 @@ class ExrFile {
   void read_deep(int part, std::span<const std::string> channels,
                  const std::function<void(const DeepBlock&)>& sink) const;
 
-  /// Whether the pixels of a file as this library writes them, one part of scan lines, are all
-  /// there: the chunks that the header promises, in their places, before the end of the file. Says
-  /// no for files of another kind. Nothing is decoded. Throws Error when the system cannot read.
+  /// Whether the pixels of a file as this library writes them, parts of scan lines, are all there:
+  /// the chunks that the headers promise, in their places, before the end of the file. Says no for
+  /// files of another kind. Nothing is decoded. Throws Error when the system cannot read.
   bool is_whole() const;
 
   /// Whether all bytes are as this library wrote them: it leaves their hash in the text attribute

@@ -1,0 +1,69 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpid/complete/beyond.h"
+#include "limpid/job/composite.h"
+
+#include "job/canvas.h"
+#include "job/composite_inputs.h"
+#include "job/motion.h"
+#include "job/provenance.h"
+#include "job/shared_textures.h"
+
+/// @file
+/// One view of a composite: the only one, or one of stereo.
+
+namespace limpid {
+
+/// What is decided before a pixel is read.
+struct PreparedView {
+  std::string name;  ///< of the view, as the job calls it, or ""
+  Plate plate;
+  Scene scene;
+  DepthMeaning depth;
+  Plan plan;
+  TextureFiles textures;
+  std::vector<PassedPart> passed;
+  std::vector<MotionLayer> motion;
+};
+PreparedView prepare_view(const CompositeJob& job);
+
+/// The job of one of the views alone, 0 being the first.
+CompositeJob job_of_view(const CompositeJob& job, std::size_t view);
+
+/// Scene, inputs, look and plan; `gpu` as picture_options().
+Record record_of(const CompositeJob& job, const PreparedView& view, SharedTextures& textures,
+                 const std::string& gpu);
+
+/// The buffers of a view, which the next frame uses again.
+class CompositeView {
+ public:
+  /// Reads the planes, and finds what is written besides. What is to be warned of goes into the
+  /// report, which gets the plan.
+  void read(const CompositeJob& job, PreparedView view, SharedTextures& textures,
+            CompositeReport& report);
+  void run(const CompositeJob& job, const Plan& plan, Executor& executor, RunTimes* times);
+  /// For write_frame(); `record` goes into the picture's part. What it tells of is kept until
+  /// forget().
+  WrittenView written(Record record);
+  /// Lets go of the plate's files.
+  void forget();
+
+  const Survey& survey() const { return canvas_->survey(); }
+  const Beyond& beyond() const { return beyond_; }
+
+ private:
+  Beyond beyond_;
+  Scene scene_;
+  LoadedPlate loaded_;
+  HeldTextures textures_;
+  std::optional<Plate> plate_;     ///< whose layers are passed through
+  ExrOutput file_;                 ///< all but the picture's channels and the record
+  std::vector<ExrOutput> others_;  ///< parts beside it
+  MotionChannels motion_;
+  std::optional<Canvas> canvas_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,264 @@
+#include "job/motion.h"
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gmock/gmock.h>
+
+#include "limpid/core/error.h"
+#include "limpid/core/scene.h"
+#include "limpid/files/exr/exr_file.h"
+#include "limpid/files/exr/exr_writer.h"
+#include "limpid/files/text/look_file.h"
+#include "limpid/job/composite.h"
+
+/// Motion vectors of what is seen through the water.
+
+namespace limpid {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using Value = std::function<double(int x, int y)>;
+
+Plane plane_of(const Rect& window, const Value& value) {
+  Plane plane(window);
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      plane.view().at(x, y) = static_cast<float>(value(x, y));
+    }
+  }
+  return plane;
+}
+
+/// A map that looks up (ax x + bx y + cx, ...) at the pixel (x, y), y down.
+class Lens {
+ public:
+  Lens(const std::function<std::array<double, 2>(double x, double y)>& place, float depth = 1)
+      : u_(plane_of(kDisplay,
+                    [&](int x, int y) { return place(x + 0.5, y + 0.5)[0] / kDisplay.width(); })),
+        v_(plane_of(
+            kDisplay,
+            [&](int x, int y) { return 1 - place(x + 0.5, y + 0.5)[1] / kDisplay.height(); })),
+        depth_(plane_of(kDisplay, [&](int, int) { return depth; })) {}
+
+  LookedUp looked_up() const { return {u_.view(), v_.view(), depth_.view(), kDisplay}; }
+
+  /// What becomes of vectors that grow to the right and down.
+  std::array<Plane, 2> carried(const Rect& window = kDisplay) const {
+    const Plane x = plane_of(kDisplay, [](int px, int) { return 2 + px; });
+    const Plane y = plane_of(kDisplay, [](int, int py) { return -3 - py; });
+    std::array<Plane, 2> seen{Plane(window), Plane(window)};
+    carry_motion(looked_up(), x.view(), y.view(), seen[0].view(), seen[1].view());
+    return seen;
+  }
+
+  static constexpr Rect kDisplay{0, 0, 40, 30};
+
+ private:
+  Plane u_, v_, depth_;
+};
+
+TEST(Motion, OfDryPixelsIsThePlates) {
+  const Lens lens([](double x, double y) { return std::array{y, x}; }, kInfinity);
+  const auto seen = lens.carried();
+  EXPECT_EQ(seen[0].view().at(7, 9), 9);
+  EXPECT_EQ(seen[1].view().at(7, 9), -12);
+}
+
+TEST(Motion, IsTurnedAndStretchedAsTheLookupIs) {
+  // The place moves by (1.5, -0.25) and (0.5, 0.8) for a step to the right and down.
+  const Lens lens([](double x, double y) {
+    return std::array{1.5 * x + 0.5 * y - 15, -0.25 * x + 0.8 * y + 5};
+  });
+  const auto seen = lens.carried();
+  const int x = 20, y = 12;
+  const double from_x = std::floor(1.5 * 20.5 + 0.5 * 12.5 - 15);
+  const double from_y = std::floor(-0.25 * 20.5 + 0.8 * 12.5 + 5);
+  const double dx = seen[0].view().at(x, y), dy = -seen[1].view().at(x, y);
+  EXPECT_NEAR(1.5 * dx + 0.5 * dy, 2 + from_x, 1e-3);
+  EXPECT_NEAR(-0.25 * dx + 0.8 * dy, 3 + from_y, 1e-3);
+  // At the rim there are no slopes: the texel's own.
+  EXPECT_EQ(seen[0].view().at(0, 12), 2 + std::floor(0.75 + 6.25 - 15 < 0 ? 0 : 0.75 + 6.25 - 15));
+}
+
+TEST(Motion, OfFoldsIsTheTexels) {
+  const Lens mirrored([](double x, double y) { return std::array{39 - x, y}; });
+  const auto seen = mirrored.carried();
+  EXPECT_EQ(seen[0].view().at(10, 10), 2 + std::floor(39 - 10.5));
+  EXPECT_EQ(seen[1].view().at(10, 10), -13);
+}
+
+TEST(Motion, IsFinite) {
+  const Lens lens([](double x, double y) { return std::array{x, y}; });
+  const Plane bad = plane_of(Lens::kDisplay, [](int x, int) {
+    return x == 3 ? std::nan("") : x == 4 ? HUGE_VAL : 1;
+  });
+  std::array<Plane, 2> seen{Plane(Lens::kDisplay), Plane(Lens::kDisplay)};
+  carry_motion(lens.looked_up(), bad.view(), bad.view(), seen[0].view(), seen[1].view());
+  EXPECT_EQ(seen[0].view().at(3, 5), 0);
+  EXPECT_EQ(seen[1].view().at(4, 5), 0);
+  EXPECT_NEAR(seen[0].view().at(6, 5), 1, 1e-5);
+}
+
+/// A light spot on the bottom of a pool, which moves; the water is calm, the camera stands still.
+class SpotTest : public ::testing::Test {
+ protected:
+  SpotTest()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("motion_") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    camera_.view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2 - 0.6, -1), {0, 1, 0});
+    camera_.projection = perspective(glm::radians(50.0), 160.0 / 90, 0.1, 100, ClipSpace::kGl);
+  }
+  ~SpotTest() override { fs::remove_all(folder_); }
+
+  static constexpr Rect kPicture{0, 0, 160, 90};
+  static constexpr double kBottom = -1.5;
+
+  /// The point of the bottom that a pixel shows; w = 0: none.
+  glm::dvec4 bottom(int x, int y) const {
+    const Rays rays = rays_of(camera_, {kPicture.width(), kPicture.height()});
+    const glm::dvec3 ray = rays.ray_at(x + 0.5, y + 0.5);
+    const double way = (kBottom - camera_.eye().y) / ray.y;
+    if (!(way > 0)) return {0, 0, 0, 0};
+    return {camera_.eye() + way * ray, 1};
+  }
+  glm::dvec2 on_screen(const glm::dvec4& world) const {
+    const glm::dvec4 clip = camera_.projection * camera_.view * world;
+    return {(clip.x / clip.w + 1) / 2 * kPicture.width(),
+            (1 - clip.y / clip.w) / 2 * kPicture.height()};
+  }
+
+  /// The spot at a place of the bottom; vectors to where everything there is after `step`.
+  void write(const std::string& name, glm::dvec3 spot, glm::dvec3 step) const {
+    std::vector<Plane> planes;
+    ExrOutput output;
+    output.data = output.display = kPicture;
+    planes.reserve(8);
+    const auto add = [&](const std::string& channel, const Value& value) {
+      planes.push_back(plane_of(kPicture, value));
+      output.channels.push_back({channel, planes.back().view(), false});
+    };
+    for (const char* channel : {"R", "G", "B"}) {
+      add(channel, [&](int x, int y) {
+        const glm::dvec4 p = bottom(x, y);
+        const double away = glm::length(glm::dvec3(p) - spot);
+        return p.w > 0 ? std::exp(-away * away / (2 * 0.25 * 0.25)) : 0;
+      });
+    }
+    add("depth.Z", [&](int x, int y) {
+      const glm::dvec4 p = bottom(x, y);
+      return p.w > 0 ? -(camera_.view * p).z : HUGE_VAL;
+    });
+    const auto motion = [&](int x, int y) {
+      const glm::dvec4 p = bottom(x, y);
+      if (!(p.w > 0)) return glm::dvec2(0);
+      return on_screen(p + glm::dvec4(step, 0)) - glm::dvec2(x + 0.5, y + 0.5);
+    };
+    add("forward.u", [&](int x, int y) { return motion(x, y).x; });
+    add("forward.v", [&](int x, int y) { return -motion(x, y).y; });
+    write_exr(folder_ / name, output);
+  }
+
+  CompositeJob job(const std::string& plate, const std::string& output) const {
+    CompositeJob job;
+    job.plate.files = {folder_ / plate};
+    job.scene.scene.water = WaterPlane{{0, 1, 0}, 0};
+    job.scene.camera = CameraSpec{};
+    job.scene.camera->view = camera_.view;
+    job.scene.camera->lens = CameraSpec::Lens::kProjection;
+    job.scene.camera->projection = camera_.projection;
+    for (const char* setting :
+         {"wave_normals.strength=0", "prism_split.gain=0", "caustics.strength=0",
+          "depth_fog.water_type=custom", "depth_fog.absorption=[0, 0, 0]",
+          "depth_fog.scattering=[0, 0, 0]", "fresnel_reflection.source=constant"}) {
+      apply_setting(job.look, setting);
+    }
+    job.output.picture = folder_ / output;
+    job.output.aovs = {Aov::kTransmitted};
+    job.output.store_float = true;
+    job.output.motion = true;
+    return job;
+  }
+  std::vector<Plane> read(const std::string& file, const std::vector<std::string>& channels) const {
+    std::vector<Plane> planes;
+    const ExrFile exr = ExrFile::open(folder_ / file);
+    for (const std::string& channel : channels) {
+      planes.emplace_back(kPicture);
+      exr.read(std::array{ExrRequest{0, channel, planes.back().view()}});
+    }
+    return planes;
+  }
+  /// The mean of a value over the light of the spot.
+  static double mean(const Plane& light, const Value& value) {
+    double sum = 0, all = 0;
+    for (int y = 0; y < kPicture.y1; ++y) {
+      for (int x = 0; x < kPicture.x1; ++x) {
+        const double weight = light.view().at(x, y);
+        sum += weight * value(x, y);
+        all += weight;
+      }
+    }
+    return sum / all;
+  }
+  static glm::dvec2 centre(const Plane& light) {
+    return {mean(light, [](int x, int) { return x; }), mean(light, [](int, int y) { return y; })};
+  }
+
+  fs::path folder_;
+  Camera camera_;
+};
+
+TEST_F(SpotTest, IsWhereTheNextFrameShowsIt) {
+  const glm::dvec3 spot(0.3, kBottom, -4);
+  const auto executor = make_executor(1);
+  for (const glm::dvec3 step :
+       {glm::dvec3(0.2, 0, 0), glm::dvec3(0, 0, 0.2), glm::dvec3(-0.1, 0, -0.15)}) {
+    write("now.exr", spot, step);
+    write("then.exr", spot + step, step);
+    composite(job("now.exr", "wet_now.exr"), *executor);
+    composite(job("then.exr", "wet_then.exr"), *executor);
+    const std::vector<Plane> now =
+        read("wet_now.exr", {"transmitted.R", "motion_forward.u", "motion_forward.v"});
+    const std::vector<Plane> then = read("wet_then.exr", {"transmitted.R"});
+    const std::vector<Plane> dry = read("now.exr", {"R", "forward.u", "forward.v"});
+    const glm::dvec2 rendered = centre(then[0]) - centre(now[0]);
+    const auto predicted_by = [](const std::vector<Plane>& of) {
+      return glm::dvec2(mean(of[0], [&](int x, int y) { return of[1].view().at(x, y); }),
+                        -mean(of[0], [&](int x, int y) { return of[2].view().at(x, y); }));
+    };
+    const double error = glm::length(predicted_by(now) - rendered);
+    const double of_dry = glm::length(predicted_by(dry) - rendered);
+    EXPECT_GT(glm::length(rendered), 2) << "there is something to tell";
+    EXPECT_LT(error, 0.03 * glm::length(rendered));
+    EXPECT_LT(error, 0.3 * of_dry) << "the dry picture's vectors are worse";
+    RecordProperty("pixels", std::to_string(glm::length(rendered)) + ", error " +
+                                 std::to_string(error) + ", of the dry vectors " +
+                                 std::to_string(of_dry));
+  }
+}
+
+TEST_F(SpotTest, WantsVectorsOfThePlate) {
+  write("now.exr", {0, kBottom, -4}, {});
+  CompositeJob none = job("now.exr", "wet.exr");
+  none.plate.motion = "speed";
+  const auto executor = make_executor(1);
+  try {
+    composite(none, *executor);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("motion=speed: no such vectors"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("forward (v u)"));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "wet.exr"));
+}
+
+}  // namespace
+}  // namespace limpid
