@@ -87,6 +87,8 @@ def check_sites():
     expect("a constant function stays one", found[8, "*"].constant and not found[15, "<"].constant)
     expect("another number of the same type",
            [sites.other_number(text) for text in ("0", "7", "0.5f", "0.0", "1e3")] == ["1", "8", "0.75f", "1.0", "1500.0"])
+    expect("numbers that only guard others stay", [sites.is_guard(text) for text in ("1e-30", "1e30f", "0", "1e-5", "99999")]
+           == [True, True, False, False, False])
     whole = source.with_changes(list(enumerate(source.sites())))
     expect("lines keep their places", whole.count("\n") == HEADER.count("\n"))
     expect("a change within a change is written twice", len(re.findall(r"number<\d+, false>\(0,", whole.split("\n")[14])) == 2)

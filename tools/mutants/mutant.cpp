@@ -1,6 +1,8 @@
-// Compiled into the tree that holds its mutants, behind mutant.h. LIMPID_MUTANT is the number of
+// Compiled into the tree that holds its mutants. LIMPID_MUTANT is the number of
 // the one to be, and LIMPID_MUTANTS_REACHED a file that gets a byte for each place when the process
 // ends.
+#include "mutant.h"
+
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <type_traits>
 
-/// Put before every file of a tree that holds its mutants (see sites.py). A place of the code that
+/// Included by each file that holds mutants (see sites.py). A place of the code that
 /// can be changed has a number, and the environment variable LIMPID_MUTANT says at which number
 /// this process changes it. `a < b` is written `a < Mark<7, false>() < b`: of the same precedence,
 /// so that no operand has to be found in the text, and it is the types of the operands that say

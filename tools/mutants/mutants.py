@@ -18,7 +18,8 @@ import tree
 import trial
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAMS = ["optics", "enter", "ops", "complete", "plan", "run", "embed", "articles", "shade", "allocations"]
+PROGRAMS = ["optics", "enter", "ops", "complete", "plan", "run", "embed", "articles", "shade", "raster", "allocations"]
+SURVIVED = ("survived", "unreached")
 
 
 @dataclasses.dataclass
@@ -34,15 +35,17 @@ class Project:
     known: str  # the page with the survivors that are no fault, and why
 
 
-def limpid():
+def limpid(programs=PROGRAMS):
     names = ["optics", "op", "ops", "plan", "run", "enter"]
     return Project(
         root=ROOT, folders=[f"{top}/{name}" for name in names for top in ("src", "include/limpid")
                             if (ROOT / top / name).is_dir()],
-        programs=[f"test_{name}" for name in PROGRAMS], programs_folder="tests",
+        programs=[f"test_{name}" for name in programs], programs_folder="tests",
         cmake=["-DLIMPID_SETS=none", "-DLIMPID_BENCH=OFF", "-DLIMPID_PYTHON=OFF"], support="src/core/mutant.cpp",
         checked=re.compile(r"^src/(optics|op|ops|plan|run|enter|shade)/"),
-        rewritten={"src/CMakeLists.txt": ("set(LANES_OPTIMISED -O3)", "set(LANES_OPTIMISED -O1)")},
+        rewritten={"src/CMakeLists.txt": ("set(LANES_OPTIMISED -O3)", "set(LANES_OPTIMISED -O1)"),
+                   "tests/CMakeLists.txt": ("  # Tests are compiled often and run once.",
+                                            "  target_precompile_headers(test_${name} PRIVATE <gtest/gtest.h> <gmock/gmock.h>)")},
         known="docs/mutants.md")
 
 
@@ -58,15 +61,13 @@ def all_sites(project):
     return sorted(found, key=lambda site: (site.kind, site.path, site.start))
 
 
-def pick(everything, wanted, limit, seed, left_out):
+def pick(everything, wanted, limit, seed):
     """Each n-th of those that `wanted` holds for, so that each file and kind has its share."""
-    candidates = [number for number, site in enumerate(everything)
-                  if wanted(site) and tree.identity(site) not in left_out]
+    candidates = [number for number, site in enumerate(everything) if wanted(site)]
     picked, by_path = {}, collections.defaultdict(list)
-    step = max(1.0, len(candidates) / limit)
+    step, offset = max(1.0, len(candidates) / limit), (seed * 0.618034) % 1
     for i in range(min(limit, len(candidates))):
-        at = int((i + (seed * 0.618034) % 1) * step)
-        for number in candidates[at:int((i + 1 + (seed * 0.618034) % 1) * step)] or candidates[at:at + 1]:
+        for number in candidates[int((i + offset) * step):int((i + 1 + offset) * step)]:
             site = everything[number]
             if not any(sites.overlaps(site, other) for other in by_path[site.path]):
                 picked[number] = site
@@ -110,12 +111,12 @@ def run(project, arguments, say=print):
             raise tree.Refused(f"mutants {path}: expected a file or folder of {', '.join(project.folders)}")
     its_own = tree.Tree(project, folder, arguments.jobs)
     picked = pick(everything, lambda site: not beginnings or any(site.path == p or site.path.startswith(p + "/") for p in beginnings),
-                  arguments.limit, arguments.seed, its_own.left_out)
+                  arguments.limit, arguments.seed)
     kinds = collections.Counter(site.kind for site in picked.values())
     say(f"{len(picked)} of {len(everything)} places in {len({site.path for site in picked.values()})} files: "
         + ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items())))
     begin = time.monotonic()
-    its_own.write(picked)
+    its_own.write({number: site for number, site in picked.items() if tree.identity(site) not in its_own.left_out})
     its_own.configure()
     its_own.compile(say)
     say(f"built in {time.monotonic() - begin:.0f} s; {len(picked) - len(its_own.picked)} do not compile")
@@ -124,23 +125,21 @@ def run(project, arguments, say=print):
     numbers = sorted(its_own.picked)
     if arguments.again:
         last = json.loads(results_file.read_text()) if results_file.exists() else {}
-        numbers = [number for number in numbers if last.get(tree.identity(everything[number])) in ("survived", "unreached")]
+        numbers = [number for number in numbers if last.get(tree.identity(everything[number])) in SURVIVED]
     begin = time.monotonic()
-    known, verdicts, results = known_survivors(project), [], {}
-
-    def told(verdict):
-        results[tree.identity(everything[verdict.number])] = verdict.state
-        if verdict.state in ("survived", "unreached") and key_of(everything[verdict.number], verdict.change) not in known:
-            say(show(everything[verdict.number], verdict))
-        elif arguments.verbose:
-            say(f"{everything[verdict.number].name}: {verdict.state} {verdict.by}")
-
-    for verdict in judge.judge_all(numbers, told):
+    known, verdicts = known_survivors(project), []
+    for verdict in judge.judge_all(numbers):
         verdicts.append(verdict)
+        site = everything[verdict.number]
+        if verdict.state in SURVIVED and key_of(site, verdict.change) not in known:
+            say(show(site, verdict))
+        elif arguments.verbose:
+            say(f"{site.name}: {verdict.state} {verdict.by}")
+    results = {tree.identity(everything[verdict.number]): verdict.state for verdict in verdicts}
     before = json.loads(results_file.read_text()) if results_file.exists() else {}
     results_file.write_text(json.dumps({**before, **results}, indent=1))
     states = collections.Counter(verdict.state for verdict in verdicts)
-    survivors = [verdict for verdict in verdicts if verdict.state in ("survived", "unreached")]
+    survivors = [verdict for verdict in verdicts if verdict.state in SURVIVED]
     explained = [v for v in survivors if key_of(everything[v.number], v.change) in known]
     say(f"{len(verdicts) - states['unchangeable']} mutants in {time.monotonic() - begin:.0f} s: {states['killed']} killed, "
         f"{len(survivors)} survive, of which {project.known} explains {len(explained)}"
@@ -154,13 +153,18 @@ def main(words):
     parser.add_argument("--limit", type=int, default=320, metavar="N", help="of at most N places (320)")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="which places, the same for the same N (1)")
     parser.add_argument("--again", action="store_true", help="only those that survived when last tried")
+    parser.add_argument("--tests", type=lambda text: text.split(","), metavar="NAME,..",
+                        help=f"with these test programs alone, of {' '.join(PROGRAMS)}")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="so many at once (all cores)")
     parser.add_argument("--verbose", action="store_true", help="say which test noticed which")
     arguments = parser.parse_args(words)
     if arguments.limit < 1 or arguments.jobs < 1:
         parser.error("--limit and --jobs: expected 1 or more")
+    unknown = set(arguments.tests or []) - set(PROGRAMS)
+    if unknown:
+        parser.error(f"--tests {','.join(sorted(unknown))}: expected some of {' '.join(PROGRAMS)}")
     try:
-        return run(limpid(), arguments, lambda text: print(text, flush=True))
+        return run(limpid(arguments.tests or PROGRAMS), arguments, lambda text: print(text, flush=True))
     except tree.Refused as refused:
         print(f"tools/dev mutants: {refused}", file=sys.stderr)
         return 2

@@ -137,6 +137,13 @@ def operand(code, at, step, ends):
     return i + 1 if step < 0 else i
 
 
+def is_guard(text):
+    """Whether a number is so small or large that it only keeps others from 0 or from infinity: half as much again of it is
+    no fault."""
+    value = float(text.rstrip("fFuUlL").replace("'", ""))
+    return value != 0 and not 1e-5 <= value < 1e5
+
+
 def other_number(text):
     body = text.rstrip("fFuUlL")
     suffix = text[len(body):]
@@ -215,6 +222,8 @@ class Source:
         if kind == "constant":
             near, far = self.code[start - 1], self.code[end]
             if near in "<[" or (far in ">]" and self.code[end:end + 2] != "> ") or re.search(r"<[^<>;(){} ]*, $", before):
+                return None
+            if old[0] in ".0123456789" and is_guard(old):
                 return None
             site.changes = [FIRST.get(old) or other_number(old)]
         elif kind == "bound":

@@ -49,7 +49,7 @@ class Tree:
             kept.add(name)
             target = self.source / name
             if name in by_path:
-                put(target, self.sources[name].with_changes(by_path[name]).encode())
+                put(target, in_force(self.sources[name].with_changes(by_path[name])))
             elif name in self.project.rewritten:
                 old, new = self.project.rewritten[name]
                 text = (self.project.root / name).read_text()
@@ -72,7 +72,7 @@ class Tree:
             site = self.picked.pop(number)
             self.left_out.add(identity(site))
             rest = [(other, s) for other, s in self.picked.items() if s.path == site.path]
-            put(self.source / site.path, self.sources[site.path].with_changes(rest).encode())
+            put(self.source / site.path, in_force(self.sources[site.path].with_changes(rest)))
         self.left_out_file.write_text(json.dumps(sorted(self.left_out), indent=1))
 
     # ---- its build
@@ -81,7 +81,7 @@ class Tree:
         command = ["cmake", "--log-level=WARNING", "-S", self.source, "-B", self.build, "-G", "Ninja",
                    "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1",
                    "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
-                   f"-DCMAKE_CXX_FLAGS=-std=c++20 -include {self.source / 'mutant.h'} -w -Wno-narrowing -D_GLIBCXX_ASSERTIONS",
+                   f"-DCMAKE_CXX_FLAGS=-I{self.source} -w -Wno-narrowing -D_GLIBCXX_ASSERTIONS",
                    *self.project.cmake]
         run = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         if run.returncode != 0:
@@ -89,7 +89,7 @@ class Tree:
 
     def compile(self, say):
         """Until all compiles: what does not compile for a change is left out."""
-        environment = {**os.environ, "CCACHE_BASEDIR": str(self.source), "CCACHE_NOHASHDIR": "1"}
+        environment = {**os.environ, "CCACHE_DISABLE": "1"}  # no two copies are alike
         self.check_syntax(say)
         targets = list(self.project.programs)
         while True:
@@ -160,6 +160,10 @@ class Tree:
                 dropped |= named
                 unexplained = not named
         return dropped
+
+
+def in_force(text):
+    return f'#include "mutant.h"\n#line 1\n{text}'.encode()
 
 
 def put(path, content):

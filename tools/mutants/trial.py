@@ -120,8 +120,6 @@ class Trial:
                 return Verdict(number, "killed", which, count, f"{program} {how}")
         return Verdict(number, "survived", which, count)
 
-    def judge_all(self, numbers, said):
+    def judge_all(self, numbers):
         with concurrent.futures.ThreadPoolExecutor(self.tree.jobs) as pool:
-            for verdict in pool.map(self.judge, numbers):
-                said(verdict)
-                yield verdict
+            yield from pool.map(self.judge, numbers)
