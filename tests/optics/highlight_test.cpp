@@ -198,6 +198,40 @@ TEST(Ggx, RougherIsLowerAndWider) {
 }
 
 // The sharp lobe is where float would lose its digits.
+// A point for a sun would be 1 / (4 pi alpha^2) there, 80 thousand at the least roughness.
+TEST(SunGlint, IsNoBrighterThanTheDiscItselfAndElseTheLobe) {
+  const double disc = 1 / kSunSolidAngle;  // 14719 of its irradiance
+  EXPECT_NEAR(kSunSolidAngle, 2 * kPi * (1 - std::cos(0.2665 * kDegree)), 5e-8);
+  EXPECT_DOUBLE_EQ(sun_glint_lobe(kUp, kUp, kUp, 1e-3, kWater), disc * fresnel_exact(1.0, kWater));
+  const Vec3<double> v = leaning(-50), l = leaning(50);
+  EXPECT_DOUBLE_EQ(sun_glint_lobe(kUp, v, l, 1e-3, kWater),
+                   disc * fresnel_exact(std::cos(50 * kDegree), kWater));
+  for (const double off : {-9.0, 0.0, 4.0, 20.0}) {
+    const Vec3<double> beside = leaning(50 + off);
+    EXPECT_EQ(sun_glint_lobe(kUp, v, beside, 0.1, kWater), ggx_lobe(kUp, v, beside, 0.1, kWater));
+  }
+}
+
+TEST(SunDisc, IsItsRadianceMirroredOnTheDiscAndNothingBesideIt) {
+  const Vec3<double> v = leaning(-30);
+  const double seen = fresnel_exact(std::cos(30 * kDegree), kWater) / kSunSolidAngle;
+  for (const double off : {-0.266, -0.1, 0.0, 0.2, 0.266}) {
+    EXPECT_DOUBLE_EQ(sun_disc_lobe(kUp, v, leaning(30 + off), kWater), seen) << off;
+  }
+  for (const double off : {-60.0, -0.267, 0.267, 5.0}) {
+    EXPECT_EQ(sun_disc_lobe(kUp, v, leaning(30 + off), kWater), 0) << off;
+  }
+  // Round: as far across the plane of incidence.
+  const auto across = [](double degrees) {
+    const double c = std::cos(degrees * kDegree);
+    const Vec3<double> l = leaning(30);
+    return Vec3<double>{c * l.x, c * l.y, std::sin(degrees * kDegree)};
+  };
+  EXPECT_DOUBLE_EQ(sun_disc_lobe(kUp, v, across(0.266), kWater), seen);
+  EXPECT_EQ(sun_disc_lobe(kUp, v, across(0.267), kWater), 0);
+  EXPECT_EQ(sun_disc_lobe(Vec3<double>{0, -1, 0}, v, leaning(30), kWater), 0) << "from behind";
+}
+
 TEST(Ggx, LanesStayNear) {
   using test::Lane, test::lanes, test::value;
   for (double alpha : {1e-3, 0.05, 0.7}) {

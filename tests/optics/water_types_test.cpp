@@ -31,7 +31,10 @@ TEST(WaterTypes, MurkinessHandWorked) {
   EXPECT_NEAR(ocean.scattering.g, 0.03602, 2e-5);  // .3 .03^.62 + .00758 (400 / 550)^4.32
   EXPECT_NEAR(pond.absorption.r, 0.5406, 1e-4);    // (.34 + .06 .356 30^.65) (1 + .2 e^-2.94)
   EXPECT_NEAR(pond.absorption.g, 0.2627, 1e-4);
-  EXPECT_NEAR(pond.scattering.g, 2.473, 2e-3);
+  EXPECT_NEAR(pond.absorption.b, 0.6174, 1e-4);  // (.00922 + .06 .944 30^.65) (1 + .2 e^-.14)
+  EXPECT_NEAR(pond.scattering.r, 2.0921, 5e-4);  // .3 30^.62 550 / 650 + .00758 (400 / 650)^4.32
+  EXPECT_NEAR(pond.scattering.g, 2.4733, 5e-4);
+  EXPECT_NEAR(pond.scattering.b, 3.0251, 5e-4);
   // The murkier, the less light gets through and the more comes back; blue ocean, green pond.
   for (double m = 0; m < 0.95; m += 0.1) {
     const ClearAndMurky less = case_1_water(m), more = case_1_water(m + 0.1);

@@ -1,11 +1,14 @@
 #include "limpid/plan/survey.h"
 
+#include <cstdio>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "limpid/core/simd.h"
 
 #include "op/pass.h"
+#include "plan/predict.h"
 #include "plan/surveyed.h"
 
 namespace limpid {
@@ -324,6 +327,68 @@ TEST(Survey, IsToldAsText) {
   const std::string measured = to_text(plan, surveyed(plan, b.frame, scene_of(b.frame)), seconds);
   EXPECT_THAT(measured, HasSubstr("measured"));
   EXPECT_THAT(measured, ContainsRegex("sun_highlight .* 12\\.500 ms"));
+}
+
+/// What stands behind the name in the row that it begins.
+std::string row_of(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find("\n  " + name + " ");
+  if (at == std::string::npos) return "no row";
+  const std::size_t begin = at + 3 + name.size();
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+TEST(Survey, TextHasTheCellsPixelsAndTimesOfTheSummary) {
+  Buffers b = tray({0, 0, 300, 80});  // the last cells of a row are 44 pixels wide
+  b.set(PlaneId::kSurfaceDepth, [](int x, int y) { return x < 128 && y < 32 ? test::kInf : 4.0f; });
+  const Plan plan = plan_of(short_look(), b.frame, 1e-3);
+  const Survey survey = surveyed(plan, b.frame, scene_of(b.frame));
+  const Survey::Summary& s = survey.summary();
+  ASSERT_EQ(s.all.pixels, 300 * 80);
+  ASSERT_EQ(s.dry.pixels, 128 * 32);
+  const std::vector<double> seconds(Chain::kCount + 1, 0.002);
+  const std::string text = to_text(plan, survey, seconds);
+  const auto expect_cells = [&](const std::string& name, const CellCount& count) {
+    int cells = -1;
+    double share = -1;
+    ASSERT_EQ(std::sscanf(row_of(text, name).c_str(), "%d %lf %%", &cells, &share), 2) << text;
+    EXPECT_EQ(cells, count.cells) << name;
+    EXPECT_NEAR(share, static_cast<double>(count.pixels) / 240, 0.051) << name;
+  };
+  expect_cells("all", s.all);
+  expect_cells("dry", s.dry);
+  expect_cells("foreground-free", s.open);
+  expect_cells("full", s.full);
+  double total = 0;
+  int rows = 0;
+  const auto expect_time = [&](const std::string& name, std::int64_t pixels, double ns) {
+    double share = -1, predicted = -1, measured = -1;
+    ASSERT_EQ(std::sscanf(row_of(text, name).c_str(), "%lf %% %lf ms %lf ms", &share, &predicted,
+                          &measured),
+              3)
+        << name << ":\n"
+        << text;
+    EXPECT_NEAR(share, static_cast<double>(pixels) / 240, 0.051) << name;
+    EXPECT_NEAR(predicted, 1e-6 * ns, 5.1e-4) << name;
+    EXPECT_NEAR(measured, 2, 1e-9) << name;
+    total += 1e-6 * ns;
+    ++rows;
+  };
+  for (int i = 0; i < Chain::kCount; ++i) {
+    if (!plan.keeps(i)) continue;
+    const std::int64_t pixels = s.runs[static_cast<std::size_t>(i)].pixels;
+    expect_time(std::string(plan.operators[static_cast<std::size_t>(i)].name), pixels,
+                predicted_ns(plan, i) * static_cast<double>(pixels));
+  }
+  ASSERT_GT(rows, 3);
+  expect_time("all else", 300 * 80,
+              kPredictedWetNs * (300 * 80 - 128 * 32) + kPredictedDryNs * 128 * 32);
+  double predicted = -1, measured = -1;
+  ASSERT_EQ(std::sscanf(row_of(text, "sum").c_str(), "%lf ms %lf ms", &predicted, &measured), 2);
+  EXPECT_NEAR(predicted, total, 5.1e-4);
+  EXPECT_NEAR(measured, 2 * rows, 1e-9);
+  EXPECT_THAT(text, HasSubstr("\nmax_error 0.001: no pixel is off by more than "));
+  EXPECT_TRUE(text.ends_with(" ms\n"));
+  EXPECT_THAT(to_text(plan_of(short_look(), b.frame), survey), Not(HasSubstr("max_error")));
 }
 
 TEST(Survey, AnOperatorIsInvisibleOnlyWhereNoCellNeedsIt) {

@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+"""Changes one operator, constant, bound or comparison of the code at a time and lists the changes that no test notices.
+
+Called by `tools/dev mutants`; docs/mutants.md says when, and what it prints.
+"""
+import argparse
+import collections
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import sys
+import time
+
+import sites
+import tree
+import trial
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAMS = ["optics", "enter", "ops", "complete", "plan", "run", "embed", "articles", "shade", "raster", "allocations"]
+SURVIVED = ("survived", "unreached")
+
+
+@dataclasses.dataclass
+class Project:
+    root: pathlib.Path
+    folders: list  # whose sources and headers are changed
+    programs: list  # targets, which are GoogleTest programs
+    programs_folder: str  # in the build
+    cmake: list  # how it is configured
+    support: str  # where mutant.cpp is put, so that every program has it
+    checked: re.Pattern  # the sources that are compiled first, for syntax alone
+    rewritten: dict  # file: (old, new)
+    known: str  # the page with the survivors that are no fault, and why
+
+
+def limpid(programs=PROGRAMS):
+    names = ["optics", "op", "ops", "plan", "run", "enter"]
+    return Project(
+        root=ROOT, folders=[f"{top}/{name}" for name in names for top in ("src", "include/limpid")
+                            if (ROOT / top / name).is_dir()],
+        programs=[f"test_{name}" for name in programs], programs_folder="tests",
+        cmake=["-DLIMPID_SETS=none", "-DLIMPID_BENCH=OFF", "-DLIMPID_PYTHON=OFF"], support="src/core/mutant.cpp",
+        checked=re.compile(r"^src/(optics|op|ops|plan|run|enter|shade)/"),
+        rewritten={"src/CMakeLists.txt": ("set(LANES_OPTIMISED -O3)", "set(LANES_OPTIMISED -O1)"),
+                   "tests/CMakeLists.txt": ("  # Tests are compiled often and run once.",
+                                            "  target_precompile_headers(test_${name} PRIVATE <gtest/gtest.h> <gmock/gmock.h>)")},
+        known="docs/mutants.md")
+
+
+# ---- which
+
+def all_sites(project):
+    """In order of kind and place: a number is the place in it."""
+    found = []
+    for folder in project.folders:
+        for path in sorted((project.root / folder).glob("*")):
+            if path.suffix in (".h", ".cpp"):
+                found += sites.Source(str(path.relative_to(project.root)), path.read_text()).sites()
+    return sorted(found, key=lambda site: (site.kind, site.path, site.start))
+
+
+def pick(everything, wanted, limit, seed):
+    """Each n-th of those that `wanted` holds for, so that each file and kind has its share."""
+    candidates = [number for number, site in enumerate(everything) if wanted(site)]
+    picked, by_path = {}, collections.defaultdict(list)
+    step, offset = max(1.0, len(candidates) / limit), (seed * 0.618034) % 1
+    for i in range(min(limit, len(candidates))):
+        for number in candidates[int((i + offset) * step):int((i + 1 + offset) * step)]:
+            site = everything[number]
+            if not any(sites.overlaps(site, other) for other in by_path[site.path]):
+                picked[number] = site
+                by_path[site.path].append(site)
+                break
+    return picked
+
+
+# ---- what the page says
+
+def in_cell(text):
+    """As a table of Markdown has it."""
+    return re.sub(r"\s+", " ", text.strip()).replace("|", "\\|")
+
+
+def known_survivors(project):
+    page = project.root / project.known
+    rows = re.findall(r"^\| (\S+) \| `(.+?)` \| `(.*?)` \| (.+) \|$", page.read_text(), re.M) if page.exists() else []
+    return {(path, was, becomes): reason for path, was, becomes, reason in rows}
+
+
+def key_of(site, change):
+    return (site.path, in_cell(site.text), in_cell(site.changed_line(change)))
+
+
+# ---- the run
+
+def show(site, verdict):
+    reach = f"{verdict.tests} tests reach it" if verdict.tests else "no test reaches it"
+    return f"{site.name}: {site.kind}, {reach}\n  - {site.text.strip()}\n  + {site.changed_line(verdict.change).strip()}"
+
+
+def run(project, arguments, say=print):
+    folder = project.root / "build" / "mutants"
+    folder.mkdir(parents=True, exist_ok=True)
+    results_file = folder / "results.json"
+    everything = all_sites(project)
+    beginnings = [os.path.relpath(pathlib.Path(path).resolve(), project.root) for path in arguments.paths]
+    for path in beginnings:
+        if not any(site.path == path or site.path.startswith(path + "/") for site in everything):
+            raise tree.Refused(f"mutants {path}: expected a file or folder of {', '.join(project.folders)}")
+    its_own = tree.Tree(project, folder, arguments.jobs)
+    picked = pick(everything, lambda site: not beginnings or any(site.path == p or site.path.startswith(p + "/") for p in beginnings),
+                  arguments.limit, arguments.seed)
+    kinds = collections.Counter(site.kind for site in picked.values())
+    say(f"{len(picked)} of {len(everything)} places in {len({site.path for site in picked.values()})} files: "
+        + ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items())))
+    begin = time.monotonic()
+    its_own.write({number: site for number, site in picked.items() if tree.identity(site) not in its_own.left_out})
+    its_own.configure()
+    its_own.compile(say)
+    say(f"built in {time.monotonic() - begin:.0f} s; {len(picked) - len(its_own.picked)} do not compile")
+    judge = trial.Trial(its_own)
+    judge.record(say)
+    numbers = sorted(its_own.picked)
+    if arguments.again:
+        last = json.loads(results_file.read_text()) if results_file.exists() else {}
+        numbers = [number for number in numbers if last.get(tree.identity(everything[number])) in SURVIVED]
+    begin = time.monotonic()
+    known, verdicts = known_survivors(project), []
+    for verdict in judge.judge_all(numbers):
+        verdicts.append(verdict)
+        site = everything[verdict.number]
+        if verdict.state in SURVIVED and key_of(site, verdict.change) not in known:
+            say(show(site, verdict))
+        elif arguments.verbose:
+            say(f"{site.name}: {verdict.state} {verdict.by}")
+    results = {tree.identity(everything[verdict.number]): verdict.state for verdict in verdicts}
+    before = json.loads(results_file.read_text()) if results_file.exists() else {}
+    results_file.write_text(json.dumps({**before, **results}, indent=1))
+    states = collections.Counter(verdict.state for verdict in verdicts)
+    survivors = [verdict for verdict in verdicts if verdict.state in SURVIVED]
+    explained = [v for v in survivors if key_of(everything[v.number], v.change) in known]
+    say(f"{len(verdicts) - states['unchangeable']} mutants in {time.monotonic() - begin:.0f} s: {states['killed']} killed, "
+        f"{len(survivors)} survive, of which {project.known} explains {len(explained)}"
+        + (f"; {states['unchangeable']} places whose types have no other operator" if states["unchangeable"] else ""))
+    return 1 if len(survivors) > len(explained) else 0
+
+
+def main(words):
+    parser = argparse.ArgumentParser(prog="tools/dev mutants", description=__doc__.split("\n")[0])
+    parser.add_argument("paths", nargs="*", metavar="PATH", help="a file or folder; all that mutants are made of, if none")
+    parser.add_argument("--limit", type=int, default=320, metavar="N", help="of at most N places (320)")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="which places, the same for the same N (1)")
+    parser.add_argument("--again", action="store_true", help="only those that survived when last tried")
+    parser.add_argument("--tests", type=lambda text: text.split(","), metavar="NAME,..",
+                        help=f"with these test programs alone, of {' '.join(PROGRAMS)}")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="so many at once (all cores)")
+    parser.add_argument("--verbose", action="store_true", help="say which test noticed which")
+    arguments = parser.parse_args(words)
+    if arguments.limit < 1 or arguments.jobs < 1:
+        parser.error("--limit and --jobs: expected 1 or more")
+    unknown = set(arguments.tests or []) - set(PROGRAMS)
+    if unknown:
+        parser.error(f"--tests {','.join(sorted(unknown))}: expected some of {' '.join(PROGRAMS)}")
+    try:
+        return run(limpid(arguments.tests or PROGRAMS), arguments, lambda text: print(text, flush=True))
+    except tree.Refused as refused:
+        print(f"tools/dev mutants: {refused}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.dont_write_bytecode = True
+    sys.exit(main(sys.argv[1:]))
