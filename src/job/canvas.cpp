@@ -1,5 +1,6 @@
 #include "job/canvas.h"
 
+#include <algorithm>
 #include <iterator>
 
 #include "limpid/core/error.h"
@@ -10,7 +11,9 @@
 #include "files/exr/exr_whole.h"
 #include "files/picture/whole_image.h"
 #include "job/held_gpu.h"
+#include "job/sheet.h"
 #include "run/each_once.h"
+#include "show/encoded.h"
 
 namespace limpid {
 namespace {
@@ -54,7 +57,13 @@ View<const float> cropped(View<const float> view, const Rect& to) {
 
 std::vector<Aov> computed_aovs(const OutputChoice& choice) {
   std::vector<Aov> list = choice.aovs;
-  if (!choice.deep.empty()) list.insert(list.end(), std::begin(kDeepAovs), std::end(kDeepAovs));
+  const auto add = [&](Aov aov) {
+    if (std::find(list.begin(), list.end(), aov) == list.end()) list.push_back(aov);
+  };
+  if (!choice.deep.empty()) std::for_each(std::begin(kDeepAovs), std::end(kDeepAovs), add);
+  if (!choice.contact_sheet.empty()) {
+    for (const AovInfo& info : aovs()) add(aov_named(info.name));
+  }
   return list;
 }
 
@@ -65,6 +74,7 @@ void expect_writable(const OutputChoice& choice) {
   expect_writable(choice.picture);
   if (!choice.deep.empty()) expect_writable(choice.deep);
   if (!choice.preview.empty()) expect_preview_writable(choice.preview);
+  if (!choice.contact_sheet.empty()) expect_preview_writable(choice.contact_sheet);
 }
 
 void expect_writable(const std::filesystem::path& file) { expect_replaceable(file); }
@@ -182,7 +192,7 @@ Canvas Canvas::filtered(int n, const OutputChoice& choice) const {
   };
   for (int i = 0; i < 3; ++i) shrink(target_.color[i], canvas.target_.color[i], true);
   shrink(target_.alpha, canvas.target_.alpha, true);
-  for (Aov aov : choice.aovs) {
+  for (Aov aov : computed_aovs(choice)) {
     for (int i = 0; i < 3; ++i) {
       shrink(target_.of(aov)[i], canvas.target_.of(aov)[i], has_mean(aov));
     }
@@ -212,6 +222,10 @@ void Canvas::write(ExrOutput described, const OutputChoice& choice) const {
     const Rect shown = intersection(window_, described.display);
     const auto color = [&](int i) { return cropped(target_.color[i], shown); };
     write_preview(files, choice.preview, color(0), color(1), color(2), 0, described.text);
+  }
+  if (!choice.contact_sheet.empty()) {
+    const Shown sheet = sheet_of(*this, described.display);
+    write_shown(files, choice.contact_sheet, sheet, described.text);
   }
   if (!choice.deep.empty()) write_deep_water(files, choice.deep, deep_water(described, choice));
   write_exr(files, choice.picture, described);

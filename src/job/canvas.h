@@ -15,7 +15,8 @@
 
 namespace limpid {
 
-/// The AOVs that are computed: those that are asked for and those that a deep file is made of.
+/// The AOVs that are computed: those that are asked for and those that a deep file or a contact
+/// sheet is made of.
 std::vector<Aov> computed_aovs(const OutputChoice& choice);
 
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not
@@ -46,9 +47,9 @@ class Canvas {
   /// even n). Without what a deep file needs: its samples have no mean.
   Canvas filtered(int n, const OutputChoice& choice) const;
 
-  /// Writes preview, deep file and picture; `described` has windows and attributes, the channels
-  /// come from here, and the preview gets its texts. The picture comes last: when anything fails,
-  /// what was under its name before is still there.
+  /// Writes preview, contact sheet, deep file and picture; `described` has windows and attributes,
+  /// the channels come from here, and preview and sheet get its texts. The picture comes last: when
+  /// anything fails, what was under its name before is still there.
   void write(ExrOutput described, const OutputChoice& choice) const;
 
   const Target& target() const { return target_; }

@@ -12,6 +12,7 @@
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"
 #include "job/shared_textures.h"
+#include "job/sheet.h"
 #include "plan/pass_of.h"
 
 namespace limpid {
@@ -90,6 +91,7 @@ class CompositeKind {
     }
     void write(const CompositeJob& job, Record record) {
       file_.text = std::move(record);
+      report_.preview = preview_pixels(*canvas_, file_.display, job.output);
       canvas_->write(std::move(file_), job.output);
     }
     CompositeReport& report() { return report_; }

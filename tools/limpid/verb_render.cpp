@@ -6,6 +6,7 @@
 #include "frame_options.h"
 #include "memory_limit.h"
 #include "notes.h"
+#include "show.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -56,6 +57,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
+  const auto shown_by = way_to_show(a.water);
   const WaterJob job{scene_job(a, common), options_of(a), look_of(a.water), a.samples,
                      output_of(a.water)};
   const auto executor = executor_of(common);
@@ -74,7 +76,9 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
     return 0;
   }
   if (sequence.frames.empty()) {
-    print_report(water(model, job, *executor), job.look, job.output, common);
+    const CompositeReport report = water(model, job, *executor);
+    print_report(report, job.look, job.output, common);
+    if (shown_by) show(report.preview, *shown_by);
     return 0;
   }
   sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
