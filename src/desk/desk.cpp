@@ -11,6 +11,7 @@
 #include "job/composite_inputs.h"
 #include "job/picture_warnings.h"
 #include "job/stopwatch.h"
+#include "judge/compare/shown_difference.h"
 
 namespace limpid {
 namespace {

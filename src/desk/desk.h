@@ -17,10 +17,10 @@
 #include "limpid/ops/look.h"
 
 #include "desk/desk_frame.h"
-#include "desk/shown.h"
 #include "job/canvas.h"
 #include "job/held_gpu.h"
 #include "job/shared_textures.h"
+#include "show/shown.h"
 
 namespace limpid {
 

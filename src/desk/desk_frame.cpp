@@ -2,17 +2,8 @@
 
 #include <utility>
 
-#include "job/composite_inputs.h"
-
 namespace limpid {
 namespace {
-
-Frame only(Frame frame, PlaneSet planes) {
-  for (int i = 0; i < kPlaneCount; ++i) {
-    if (!planes.has(static_cast<PlaneId>(i))) frame.planes[i] = {};
-  }
-  return frame;
-}
 
 std::int64_t bytes_of(const Frame& frame) {
   std::int64_t pixels = 0;
@@ -25,34 +16,30 @@ std::int64_t bytes_of(const Frame& frame) {
 
 }  // namespace
 
-DeskFrame::DeskFrame(CompositeJob job) : job_(std::move(job)), plate_(Plate::open(job_.plate)) {}
+DeskFrame::DeskFrame(CompositeJob job) : held_(std::move(job)) {}
 
 void DeskFrame::read(PlaneSet planes, const Scene& scene) {
-  if (read_.covers(planes)) return;
-  half_.reset();
-  const PlaneSet all = std::exchange(read_, {}) | planes;
-  plate_.read(all, scene, depth_of(job_), loaded_);
-  read_ = all;
+  if (held_.read(planes, scene)) half_.reset();
 }
 
 Frame DeskFrame::whole(PlaneSet planes, const Scene& scene) {
   read(planes, scene);
-  return only(loaded_.frame, plate_.read_for(planes));
+  return held_.whole(planes, scene);
 }
 
 DeskFrame::Half DeskFrame::half(PlaneSet planes, const Scene& scene, Executor& executor) {
   read(planes, scene);
-  if (!half_) half_.emplace(loaded_.frame, executor);
-  return {only(half_->frame(), plate_.read_for(planes)), half_->camera(*scene.camera)};
+  if (!half_) half_.emplace(held_.frame(), executor);
+  return {held_.as_read_for(planes, half_->frame()), half_->camera(*scene.camera)};
 }
 
 Halving DeskFrame::halving() const {
-  const Rect work = loaded_.frame.work();
+  const Rect work = held_.frame().work();
   return {work.x0, work.y0};
 }
 
 std::int64_t DeskFrame::bytes() const {
-  return bytes_of(loaded_.frame) + (half_ ? bytes_of(half_->frame()) : 0);
+  return bytes_of(held_.frame()) + (half_ ? bytes_of(half_->frame()) : 0);
 }
 
 }  // namespace limpid

@@ -3,27 +3,24 @@
 #include <optional>
 
 #include "limpid/core/executor.h"
-#include "limpid/job/composite.h"
-#include "limpid/plate/plate.h"
 
 #include "desk/half_plate.h"
+#include "job/held_plate.h"
 
 namespace limpid {
 
-/// One frame of what lies on the desk: its plate, opened, and the planes that looks have asked for
-/// so far, whole and of half the size.
+/// One frame of what lies on the desk: its plate, and the planes that looks have asked for so far,
+/// whole and of half the size.
 class DeskFrame {
  public:
   /// Opens the plate of the job. Throws Error as Plate::open().
   explicit DeskFrame(CompositeJob job);
 
-  const CompositeJob& job() const { return job_; }
-  const Plate& plate() const { return plate_; }
-  /// As LoadedPlate has it, of what was read.
-  double transparent() const { return loaded_.transparent; }
+  const CompositeJob& job() const { return held_.job(); }
+  const Plate& plate() const { return held_.plate(); }
+  double transparent() const { return held_.transparent(); }
 
-  /// The frame that composite() would read for a plan of these planes: the same planes, no others.
-  /// What is not in memory is read. Valid until more is read. Throws Error as Plate::read().
+  /// As HeldPlate has it.
   Frame whole(PlaneSet planes, const Scene& scene);
   struct Half {
     Frame frame;
@@ -41,10 +38,7 @@ class DeskFrame {
  private:
   void read(PlaneSet planes, const Scene& scene);
 
-  CompositeJob job_;
-  Plate plate_;
-  PlaneSet read_;  ///< what was asked for together
-  LoadedPlate loaded_;
+  HeldPlate held_;
   std::optional<HalfPlate> half_;
 };
 

@@ -12,7 +12,9 @@
 #include "files/exr/exr_whole.h"
 #include "files/picture/whole_image.h"
 #include "job/held_gpu.h"
+#include "job/sheet.h"
 #include "run/each_once.h"
+#include "show/encoded.h"
 
 namespace limpid {
 namespace {
@@ -86,8 +88,17 @@ View<const float> cropped(View<const float> view, const Rect& to) {
 
 std::vector<Aov> computed_aovs(const OutputChoice& choice) {
   std::vector<Aov> list = choice.aovs;
-  if (!choice.deep.empty()) list.insert(list.end(), std::begin(kDeepAovs), std::end(kDeepAovs));
-  if (choice.motion) list.insert(list.end(), {Aov::kStmapG, Aov::kSurfaceDepth});
+  const auto add = [&](Aov aov) {
+    if (std::find(list.begin(), list.end(), aov) == list.end()) list.push_back(aov);
+  };
+  if (!choice.deep.empty()) std::for_each(std::begin(kDeepAovs), std::end(kDeepAovs), add);
+  if (choice.motion) {
+    add(Aov::kStmapG);
+    add(Aov::kSurfaceDepth);
+  }
+  if (!choice.contact_sheet.empty()) {
+    for (const AovInfo& info : aovs()) add(aov_named(info.name));
+  }
   return list;
 }
 
@@ -98,6 +109,7 @@ void expect_writable(const OutputChoice& choice) {
   expect_writable(choice.picture);
   if (!choice.deep.empty()) expect_writable(choice.deep);
   if (!choice.preview.empty()) expect_preview_writable(choice.preview);
+  if (!choice.contact_sheet.empty()) expect_preview_writable(choice.contact_sheet);
 }
 
 void expect_writable(const std::filesystem::path& file) { expect_replaceable(file); }
@@ -228,7 +240,7 @@ Canvas Canvas::filtered(int n, const OutputChoice& choice) const {
   };
   for (int i = 0; i < 3; ++i) shrink(target_.color[i], canvas.target_.color[i], true);
   shrink(target_.alpha, canvas.target_.alpha, true);
-  for (Aov aov : choice.aovs) {
+  for (Aov aov : computed_aovs(choice)) {
     for (int i = 0; i < 3; ++i) {
       shrink(target_.of(aov)[i], canvas.target_.of(aov)[i], has_mean(aov));
     }
@@ -260,6 +272,10 @@ void write_frame(std::vector<WrittenView> views, const OutputChoice& choice) {
     const Rect shown = intersection(first.canvas->window(), first.described.display);
     const auto color = [&](int i) { return cropped(first.canvas->target().color[i], shown); };
     write_preview(files, choice.preview, color(0), color(1), color(2), 0, first.described.text);
+  }
+  if (!choice.contact_sheet.empty()) {
+    const Shown sheet = sheet_of(*first.canvas, first.described.display);
+    write_shown(files, choice.contact_sheet, sheet, first.described.text);
   }
   if (!choice.deep.empty()) {
     ExrHeading heading = first.described;

@@ -15,7 +15,8 @@
 
 namespace limpid {
 
-/// The AOVs that are computed: those that are asked for and those that a deep file is made of.
+/// The AOVs that are computed: those that are asked for and those that a deep file or a contact
+/// sheet is made of.
 std::vector<Aov> computed_aovs(const OutputChoice& choice);
 
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not

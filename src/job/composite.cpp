@@ -11,6 +11,7 @@
 #include "job/picture_warnings.h"
 #include "job/run_jobs.h"
 #include "job/shared_textures.h"
+#include "job/sheet.h"
 #include "job/stereo.h"
 #include "plan/pass_of.h"
 
@@ -82,6 +83,8 @@ class CompositeKind {
         written.push_back(views_[i].written(i == 0 ? record : record_of_view(record, names_[i])));
         written.back().view = names_[i];
       }
+      const WrittenView& first = written.front();
+      report_.preview = preview_pixels(*first.canvas, first.described.display, job.output);
       write_frame(std::move(written), job.output);
       for (CompositeView& view : views_) view.forget();
     }

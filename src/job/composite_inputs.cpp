@@ -7,6 +7,7 @@
 #include "job/canvas.h"
 #include "job/picture_warnings.h"
 #include "job/shared_textures.h"
+#include "plan/leave_out.h"
 
 namespace limpid {
 
@@ -49,15 +50,16 @@ DepthMeaning depth_of(const CompositeJob& job) {
   return {kind, scene.near.value_or(0), scene.far.value_or(0), nothing};
 }
 
-Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene) {
+Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene,
+             const std::vector<std::string>& left_out) {
   if (!plate.planes().has(PlaneId::kDepth)) plate.refuse_without("depth");
-  return make_plan(job.look,
-                   {.planes = plate.planes(),
-                    .wave_map = !job.look.of<WaveNormals>().map.empty(),
-                    .sun = scene.sun.has_value(),
-                    .environment = has_environment(job.scene),
-                    .waves = scene.has_waves()},
-                   state_shown_by(computed_aovs(job.output)), job.output.max_error);
+  return make_plan_without(left_out, job.look,
+                           {.planes = plate.planes(),
+                            .wave_map = !job.look.of<WaveNormals>().map.empty(),
+                            .sun = scene.sun.has_value(),
+                            .environment = has_environment(job.scene),
+                            .waves = scene.has_waves()},
+                           state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
 
 std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate,

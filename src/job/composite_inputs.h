@@ -19,9 +19,11 @@ Scene scene_of(const CompositeJob& job, const Plate& plate);
 /// would give wrong distances: throws Error where the kind needs what the scene lacks.
 DepthMeaning depth_of(const CompositeJob& job);
 
-/// What of the job's look runs on the plate, for the AOVs of its output. Throws Error for a plate
-/// without depth, and as make_plan().
-Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene);
+/// What of the job's look runs on the plate, for the AOVs of its output; `left_out` as in
+/// make_plan_without().
+/// Throws Error for a plate without depth, and as make_plan().
+Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene,
+             const std::vector<std::string>& left_out = {});
 
 /// Of the plate and the plan, and of layers that are named in vain.
 std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate, const Plan& plan);

@@ -94,7 +94,7 @@ Files rendered_from(const Model& model, const SceneFile& scene) {
 
 Files outputs_of(const OutputChoice& choice) {
   Files files{choice.picture};
-  for (const fs::path& also : {choice.deep, choice.preview}) {
+  for (const fs::path& also : {choice.deep, choice.preview, choice.contact_sheet}) {
     if (!also.empty()) files.push_back(also);
   }
   return files;

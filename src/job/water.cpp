@@ -11,6 +11,7 @@
 #include "job/run_jobs.h"
 #include "job/scene_job.h"
 #include "job/shared_textures.h"
+#include "job/sheet.h"
 #include "job/stopwatch.h"
 
 namespace limpid {
@@ -114,11 +115,11 @@ class WaterKind {
       file.display = rect_of(report_.size);
       file.matrices = camera_attributes(*scene_.camera);
       file.text = std::move(record);
-      if (job.samples > 1) {
-        canvas_->filtered(job.samples, job.output).write(file, job.output);
-      } else {
-        canvas_->write(file, job.output);
-      }
+      std::optional<Canvas> filtered;
+      if (job.samples > 1) filtered = canvas_->filtered(job.samples, job.output);
+      const Canvas& canvas = filtered ? *filtered : *canvas_;
+      report_.preview = preview_pixels(canvas, file.display, job.output);
+      canvas.write(file, job.output);
     }
     CompositeReport& report() { return report_; }
 

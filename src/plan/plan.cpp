@@ -1,16 +1,42 @@
 #include "limpid/plan/plan.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "limpid/core/error.h"
 
+#include "plan/leave_out.h"
 #include "plan/operator_table.h"
 #include "plan/rules.h"
 
 namespace limpid {
+namespace {
+
+void leave_out(Plan& plan, const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const PlannedOperator& op : plan.operators) known.emplace_back(op.name);
+  for (const std::string& name : names) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at == known.end()) {
+      throw Error("'" + name + "' is no operator to leave out: expected one of " + join(known) +
+                  did_you_mean(name, known));
+    }
+    PlannedOperator& op = plan.operators[static_cast<std::size_t>(at - known.begin())];
+    op.verdict = Verdict::kUnread;
+    op.reason = "it is left out";
+  }
+}
+
+}  // namespace
+
 Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double max_error) {
+  return make_plan_without({}, look, inputs, outputs, max_error);
+}
+
+Plan make_plan_without(const std::vector<std::string>& left_out, const Look& look,
+                       const Inputs& inputs, StateSet outputs, double max_error) {
   look.validate();
   if (!(max_error >= 0) || std::isinf(max_error)) {
     throw Error("max_error = " + std::to_string(max_error) +
@@ -28,6 +54,7 @@ Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs, double 
   for (const OperatorEntry& entry : operator_table())
     plan.operators.push_back({entry.name, {}, {}});
   plan.warnings = unread_settings(look);
+  leave_out(plan, left_out);
   apply_rules(plan, inputs);
 
   plan.planes = kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};

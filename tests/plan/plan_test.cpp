@@ -8,6 +8,7 @@
 
 #include "limpid/core/error.h"
 
+#include "plan/leave_out.h"
 #include "support.h"
 
 namespace limpid {
@@ -209,6 +210,24 @@ TEST(Plan, SaysWhichRuleDecided) {
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"take_better_input", "drop_neutral", "copy_dry",
                                             "skip_hidden", "skip_invisible"}));
+}
+
+TEST(Plan, LeavesOutWhatItIsAskedToAndWhatOnlyThatNeeds) {
+  const Inputs inputs{.planes = kBare | kShadow, .wave_map = true, .sun = true};
+  const Plan plan = make_plan_without({"wave_normals", "depth_fog"}, busy_look(), inputs);
+  EXPECT_EQ(to_text(plan.of<WaveNormals>()), "dropped: unread, it is left out");
+  EXPECT_EQ(to_text(plan.of<DepthFog>()), "dropped: unread, it is left out");
+  EXPECT_EQ(plan.of<Refraction>().verdict, Verdict::kNeutral);
+  EXPECT_TRUE(plan.keeps<WaterShadow>());
+  EXPECT_FALSE(plan.reads_wave_map);
+  EXPECT_EQ(to_text(make_plan_without({}, busy_look(), inputs)),
+            to_text(make_plan(busy_look(), inputs)));
+  try {
+    make_plan_without({"depth_fogs"}, busy_look(), inputs);
+    ADD_FAILURE() << "an unknown operator was left out";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("did you mean 'depth_fog'?"));
+  }
 }
 
 TEST(Plan, HoldsTheErrorThatItMayMake) {

@@ -7,6 +7,18 @@ import os
 import tempfile
 
 
+# For a page: the bytes of a PNG, decoded without any change of its colors.
+BYTES_OF = r"""
+window.bytesOf = async (png) => {
+  const blob = await (await fetch("data:image/png;base64," + png)).blob();
+  const bitmap = await createImageBitmap(blob, {colorSpaceConversion: "none", premultiplyAlpha: "none"});
+  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d", {alpha: false});
+  context.drawImage(bitmap, 0, 0);
+  return context.getImageData(0, 0, bitmap.width, bitmap.height);
+};
+"""
+
+
 class PageError(Exception):
     pass
 

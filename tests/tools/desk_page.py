@@ -13,17 +13,10 @@ import subprocess
 import sys
 import tempfile
 
-from browser import Browser
+from browser import BYTES_OF, Browser
 
-# What the checks need in the page. A PNG is decoded without any change of its colors.
+# What the checks need in the page.
 HELPERS = r"""
-window.bytesOf = async (png) => {
-  const blob = await (await fetch("data:image/png;base64," + png)).blob();
-  const bitmap = await createImageBitmap(blob, {colorSpaceConversion: "none", premultiplyAlpha: "none"});
-  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d", {alpha: false});
-  context.drawImage(bitmap, 0, 0);
-  return context.getImageData(0, 0, bitmap.width, bitmap.height);
-};
 window.differing = (a, b) => {
   if (a.width !== b.width || a.height !== b.height) return `${a.width}x${a.height}, not ${b.width}x${b.height}`;
   let count = 0;
@@ -78,7 +71,7 @@ class Desk:
                                        stdout=subprocess.PIPE, text=True)
         browser.open(self.server.stdout.readline().strip())
         browser.run("import(document.querySelector('script[type=module]').src).then(() => desk.idle())")
-        browser.run(HELPERS)
+        browser.run(BYTES_OF + HELPERS)
 
     def close(self):
         self.server.kill()

@@ -145,6 +145,12 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
       ->option_text("HOST");
   add_simd(verb, a);
   add_preview(verb, a);
+  verb.add_option("--contact-sheet", a.contact_sheet,
+                  "Also write the picture and every AOV, small and named, in one picture")
+      ->option_text("OUT.png");
+  verb.add_flag("--show{auto}", a.show,
+                "Show the preview in the terminal, where that can: by itself, or --show=kitty, "
+                "--show=iterm, --show=sixel");
   verb.add_option("--deep", a.deep,
                   "Also write the water as deep samples, always compressed by zips")
       ->option_text("OUT.exr");
@@ -367,9 +373,24 @@ void add_compare(CLI::App& app, CompareArguments& a) {
 
 void add_report(CLI::App& app, ReportArguments& a) {
   CLI::App& verb = *app.add_subcommand(
-      "report", "Measure time and error of looks, runners and models: -o FOLDER");
+      "report",
+      "Measure time and error of looks, runners and models, or of a shot: [PLATE... --scene S] -o "
+      "FOLDER");
   verb.add_option("-o", a.output, "Folder for index.html and report.json, made if need be")
       ->option_text("FOLDER");
+  add_plate_options(verb, a.composite);
+  a.composite.water.look = "";
+  add_settings(verb, a.composite.water);
+  add_wave_samples(verb, a.composite);
+  add_simd(verb, a.composite.water);
+  verb.add_option("--truth", a.truth,
+                  "Of a shot: the picture with its water as it really is, of the same size")
+      ->option_text("FILE");
+  verb.add_option(
+          "--against", a.against,
+          "Of a shot: one more look to compare with, besides physical and fast (repeatable)")
+      ->option_text("NAME|FILE")
+      ->allow_extra_args(false);
   verb.add_option("--size", a.size, "Pixels of rendered scenes (default: 480x270; quick: 160x90)")
       ->option_text("WxH");
   verb.add_option("--rounds", a.rounds, "Timed runs; the best counts (default: 5; quick: 2)")

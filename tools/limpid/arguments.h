@@ -22,7 +22,9 @@ struct WaterOptions {
   std::optional<double> time;
   double max_error = 0;
   bool strict = false;
-  std::string output, preview, deep, runner = "fused", simd, gpu, compression = "piz";
+  std::string output, preview, contact_sheet, deep, runner = "fused", simd, gpu,
+                                                    compression = "piz";
+  std::string show;  ///< "", "auto" or how a terminal shows pictures
   bool store_float = false, dry_run = false;
 };
 
@@ -104,6 +106,9 @@ struct CompareArguments {
 };
 
 struct ReportArguments {
+  CompositeArguments composite;  ///< of a shot; its look is "" where none is named
+  std::string truth;
+  std::vector<std::string> against;
   std::string output;
   std::optional<std::string> size;
   std::optional<int> rounds;

@@ -119,7 +119,7 @@ std::vector<NamedChannel> channels_named(const ExrFile& file) {
 }  // namespace
 
 std::vector<std::string> channel_names(const std::string& path, const Limits& limits) {
-  if (!is_exr(path)) return read_image(path, limits).channels;
+  if (!holds_exr(path)) return read_image(path, limits).channels;
   std::vector<std::string> names;
   const ExrFile file = ExrFile::open(path, limits);
   for (const NamedChannel& channel : channels_named(file)) names.push_back(channel.name);
@@ -237,6 +237,16 @@ LinearColor::LinearColor(const ComparedPicture& picture, const std::optional<dou
       }
     }
   }
+}
+
+PictureColor read_color(const std::string& path, const Limits& limits) {
+  std::vector<std::string> wanted = {"R", "G", "B"};
+  const std::vector<std::string> known = channel_names(path, limits);
+  const bool plain = std::all_of(wanted.begin(), wanted.end(),
+                                 [&](const std::string& name) { return among(name, known); });
+  if (!plain) wanted.clear();  // those of a layer, whatever it is called
+  const ComparedPicture picture = read_picture(path, wanted, limits);
+  return {picture.display, LinearColor(picture, std::nullopt).take()};
 }
 
 }  // namespace limpid::tool

@@ -24,6 +24,12 @@ struct ComparedPicture {
   const Plane* find(const std::string& name) const;
 };
 
+/// Red, green and blue of a picture, scene-linear.
+struct PictureColor {
+  Size display;  ///< of the display window
+  std::array<Plane, 3> planes;
+};
+
 /// The channel of one picture that is compared with that of the other.
 struct ChannelPair {
   std::string a, b;
@@ -70,5 +76,8 @@ class LinearColor {
  private:
   std::array<Plane, 3> planes_;
 };
+
+/// The colors of the picture alone are read. Throws Error as LinearColor.
+PictureColor read_color(const std::string& path, const Limits& limits);
 
 }  // namespace limpid::tool

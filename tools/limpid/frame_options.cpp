@@ -1,5 +1,7 @@
 #include "frame_options.h"
 
+#include <utility>
+
 #include "limpid/core/error.h"
 #include "limpid/files/picture/image_file.h"
 #include "limpid/files/text/frame_range.h"
@@ -22,6 +24,11 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
     throw Error("--verify: expected --resume beside it", Fault::kUsage);
   }
   const bool fills = missing_named(options.missing) != Missing::kError;
+  if (!outputs.show.empty() && (outputs.dry_run || !options.range.empty())) {
+    throw Error(std::string("--show and ") + (outputs.dry_run ? "-n" : "--frames") +
+                    ": expected one of them, for one picture is shown",
+                Fault::kUsage);
+  }
   if (options.range.empty()) {
     const char* alone = options.fps         ? "--fps"
                         : options.in_flight ? "--frames-in-flight"
@@ -36,13 +43,17 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
                     " and -n: expected one of them, for a dry run makes no frame",
                 Fault::kUsage);
   }
-  if (options.resume && !outputs.preview.empty() && !is_png(outputs.preview)) {
-    throw Error("--resume and --preview " + outputs.preview +
-                    ": expected a .png, for other formats do not say how they were made",
-                Fault::kUsage);
+  for (const auto& [option, name] : {std::pair("--preview ", &outputs.preview),
+                                     std::pair("--contact-sheet ", &outputs.contact_sheet)}) {
+    if (options.resume && !name->empty() && !is_png(*name)) {
+      throw Error("--resume and " + (option + *name) +
+                      ": expected a .png, for other formats do not say how they were made",
+                  Fault::kUsage);
+    }
   }
   sequence.frames = frames_of(options.range);
-  for (const std::string& name : {outputs.output, outputs.preview, outputs.deep}) {
+  for (const std::string& name :
+       {outputs.output, outputs.preview, outputs.contact_sheet, outputs.deep}) {
     if (sequence.frames.size() > 1 && !name.empty() && !has_frame_number(name)) {
       throw Error(name + ": expected %04d or # for the numbers of " +
                       std::to_string(sequence.frames.size()) + " frames",
@@ -81,6 +92,7 @@ JobTime time_of_frame(const FrameOptions& options, const WaterOptions& water,
 OutputChoice output_of_frame(OutputChoice output, int frame) {
   output.picture = numbered(output.picture, frame);
   output.preview = numbered(output.preview, frame);
+  output.contact_sheet = numbered(output.contact_sheet, frame);
   output.deep = numbered(output.deep, frame);
   return output;
 }

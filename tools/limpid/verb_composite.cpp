@@ -11,6 +11,7 @@
 #include "frame_options.h"
 #include "memory_limit.h"
 #include "notes.h"
+#include "show.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -48,12 +49,14 @@ void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds,
 int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   Sequence sequence = sequence_of(a.frames, a.water);
+  const auto shown_by = way_to_show(a.water);
   const CompositeJob job = common_job(a, sequence, common);
   const auto executor = executor_of(common);
   if (sequence.frames.empty()) {
     if (common.verbose) std::printf("%s", Plate::inspect(job.plate).c_str());
     const CompositeReport report = composite(job, *executor);
     print_report(report, job.look, job.output, common);
+    if (shown_by) show(report.preview, *shown_by);
     return 0;
   }
   const FilledSequence filled = fill_missing(

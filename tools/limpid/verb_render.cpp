@@ -6,6 +6,7 @@
 #include "frame_options.h"
 #include "notes.h"
 #include "scene_jobs.h"
+#include "show.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -45,6 +46,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
+  const auto shown_by = way_to_show(a.water);
   const WaterJob job = water_job(a, common);
   const auto executor = executor_of(common);
   const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
@@ -57,7 +59,9 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
     return 0;
   }
   if (sequence.frames.empty()) {
-    print_report(water(model, job, *executor), job.look, job.output, common);
+    const CompositeReport report = water(model, job, *executor);
+    print_report(report, job.look, job.output, common);
+    if (shown_by) show(report.preview, *shown_by);
     return 0;
   }
   sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {

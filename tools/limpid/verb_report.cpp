@@ -6,6 +6,7 @@
 #include "data_folder.h"
 #include "judge/report/hard_page.h"
 #include "judge/report/report.h"
+#include "shot_report.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -76,6 +77,8 @@ int hard_cases(const ReportArguments& a, const CommonArguments& common) {
 
 int report_verb(const ReportArguments& a, const CommonArguments& common) {
   if (a.output.empty()) throw Error("no output: expected -o FOLDER", Fault::kUsage);
+  if (is_of_shot(a)) return shot_report(a, common);
+  expect_no_shot_options(a);
   if (a.hard) return hard_cases(a, common);
   const ReportOptions options = options_of(a, common);
   options.validate();

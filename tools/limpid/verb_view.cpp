@@ -44,10 +44,6 @@ std::vector<std::string> command_of(const CompositeArguments& a, const CommonArg
   return words;
 }
 
-std::array<Plane, 3> read_reference(const std::string& path, const CommonArguments& common) {
-  return LinearColor(read_picture(path, {}, limits_of(common)), std::nullopt).take();
-}
-
 DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) {
   const CompositeArguments& plate = a.composite;
   const Sequence sequence = sequence_of(plate.frames, plate.water);
@@ -64,7 +60,7 @@ DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) 
   options.settings = plate.water.settings;
   if (!a.reference.empty()) {
     options.reference = [name = a.reference, common](std::optional<int> frame) {
-      return read_reference(frame ? name_of_frame(name, *frame) : name, common);
+      return read_color(frame ? name_of_frame(name, *frame) : name, limits_of(common)).planes;
     };
   }
   options.folder = a.folder;

@@ -22,6 +22,8 @@
 namespace limpid::tool {
 namespace {
 
+constexpr int kShownAcross = 1024;  ///< pixels of a picture in a terminal, at most
+
 std::vector<Aov> aov_list(const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const AovInfo& info : aovs()) known.emplace_back(info.name);
@@ -148,6 +150,8 @@ OutputChoice output_of(const WaterOptions& a) {
   output.strict = a.strict;
   output.picture = exr_named("-o", a.output);
   output.preview = a.preview;
+  output.contact_sheet = a.contact_sheet;
+  if (!a.show.empty()) output.preview_across = kShownAcross;
   output.deep = exr_named("--deep", a.deep);
   validate_compression(a.compression);
   output.compression = a.compression;
@@ -166,7 +170,7 @@ std::string report_text(const CompositeReport& report, const Look& look, const O
   const std::string replaced = report.replaced.to_text();
   if (!replaced.empty()) text += "; replaced: " + replaced;
   text += "\n";
-  for (const auto& also : {output.preview, output.deep}) {
+  for (const auto& also : {output.preview, output.contact_sheet, output.deep}) {
     if (!also.empty()) text += also.string() + "\n";
   }
   return text;

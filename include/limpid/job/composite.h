@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -39,6 +40,12 @@ struct CompositeJob {
   OutputChoice output;
 };
 
+/// What a preview shows, in memory.
+struct PreviewPixels {
+  Size size;
+  std::vector<std::uint8_t> rgb;  ///< rows from the top
+};
+
 /// What was done, for the report line.
 struct CompositeReport {
   Plan plan;  ///< of the first view
@@ -53,6 +60,9 @@ struct CompositeReport {
   std::vector<std::string> warnings;
   /// `read` is what it took to get the planes: from files, or by drawing them.
   double read_seconds = 0, run_seconds = 0, write_seconds = 0;
+  /// Of OutputChoice::preview_across: the preview's very bytes where that is no wider, else it is
+  /// made smaller by a whole factor.
+  PreviewPixels preview = {};
 };
 
 /// Plans without reading a pixel: what would run, and why. This and the next two look at the first

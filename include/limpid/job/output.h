@@ -22,8 +22,8 @@ Runner runner_named(std::string_view name);
 
 /// How a picture is computed and what is written of it.
 ///
-/// All files of a frame, EXR, deep EXR, and a preview that is a PNG, say how they were made, in
-/// text attributes (iTXt chunks of a PNG). The same inputs give the same bytes: nothing in them
+/// All files of a frame, EXR, deep EXR, preview and contact sheet where they are PNGs, say how they
+/// were made, in text attributes (iTXt chunks of a PNG). The same inputs give the same bytes: nothing in them
 /// depends on places of files, nor on their names but for the wave map's, which the look gives so
 /// that it can be used again; nor on date, threads or the name of the machine. The instruction set
 /// does count, in the last bits of pixels too, and the best is not the same on every machine: name
@@ -92,6 +92,11 @@ struct OutputChoice {
 
   std::filesystem::path picture;  ///< EXR
   std::filesystem::path preview;  ///< PNG, or empty for none
+  /// PNG with the picture and every AOV, small, named, and as their kinds are looked at, or empty
+  /// for none. All AOVs are computed for it, which takes as much memory as to write them.
+  std::filesystem::path contact_sheet = {};
+  /// Most pixels across of CompositeReport::preview; 0 for none.
+  int preview_across = 0;
   /// Deep EXR of the water alone, or empty for none: a volume sample on each wet pixel, of color
   /// in_scatter and alpha 1 - transmittance (files/exr/deep_writer.h). What the surface mirrors is
   /// not in it. It begins at the surface, or at the near distance where the view begins in the

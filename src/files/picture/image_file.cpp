@@ -245,10 +245,13 @@ void write_image8(AtomicFiles& files, const fs::path& path,
       throw Error(path.string() + ": expected planes of one window that is not empty");
     }
   }
-  const std::vector<std::uint8_t> pixels = interleaved(planes);
-  const std::string bytes =
-      encode(path, window, static_cast<int>(planes.size()), pixels.data(), texts);
-  files.add(path).write(bytes);
+  write_image8(files, path, window.size(), static_cast<int>(planes.size()),
+               interleaved(planes).data(), texts);
+}
+
+void write_image8(AtomicFiles& files, const fs::path& path, Size size, int channels,
+                  const std::uint8_t* pixels, const std::map<std::string, std::string>& texts) {
+  files.add(path).write(encode(path, rect_of(size), channels, pixels, texts));
 }
 
 void expect_image8(const fs::path& path) {

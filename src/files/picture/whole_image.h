@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include "limpid/files/picture/image_file.h"
 #include "limpid/files/picture/preview.h"
 
@@ -10,6 +12,9 @@ namespace limpid {
 void write_image8(AtomicFiles& files, const std::filesystem::path& path,
                   const std::vector<View<const float>>& planes,
                   const std::map<std::string, std::string>& texts);
+/// The same of bytes, interleaved without padding, of 3 or 4 channels.
+void write_image8(AtomicFiles& files, const std::filesystem::path& path, Size size, int channels,
+                  const std::uint8_t* pixels, const std::map<std::string, std::string>& texts);
 void write_preview(AtomicFiles& files, const std::filesystem::path& path, View<const float> r,
                    View<const float> g, View<const float> b, double exposure_stops,
                    const std::map<std::string, std::string>& texts);

@@ -14,17 +14,6 @@ namespace {
 
 constexpr std::array<float, 3> kMagenta = {1, 0, 1};
 
-// sRGB, 8 bits, at places 0, 1/8 ... 1.
-constexpr std::array<std::array<float, 3>, 9> kViridis = {{{68, 1, 84},
-                                                           {71, 45, 123},
-                                                           {59, 82, 139},
-                                                           {44, 114, 142},
-                                                           {33, 145, 140},
-                                                           {40, 174, 128},
-                                                           {94, 201, 98},
-                                                           {173, 220, 48},
-                                                           {253, 231, 37}}};
-
 void check_scale(const HeatScale& scale) {
   if (!(scale.maximum > 0 && std::isfinite(scale.maximum))) {
     throw Error("heat map: maximum of " + std::to_string(scale.maximum) + ": expected above 0");
@@ -40,18 +29,6 @@ double place_of(double d, const HeatScale& scale) {
 }
 
 }  // namespace
-
-std::array<float, 3> heat_color(double place) {
-  // Written so that NaN counts as 0.
-  const double at = (place > 0 ? std::min(place, 1.0) : 0.0) * (kViridis.size() - 1);
-  const auto lower = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
-  const auto t = static_cast<float>(at - static_cast<double>(lower));
-  std::array<float, 3> color;
-  for (std::size_t c = 0; c < 3; ++c) {
-    color[c] = std::lerp(kViridis[lower][c], kViridis[lower + 1][c], t) / 255;
-  }
-  return color;
-}
 
 std::array<Plane, 3> heat_map(std::span<const ComparedChannel> channels, const HeatScale& scale) {
   check_compared(channels);

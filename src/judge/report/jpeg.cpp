@@ -27,20 +27,4 @@ std::string jpeg_of(const std::array<View<const float>, 3>& rgb, int quality) {
   return encode_jpeg(w.width(), w.height(), pixels.data(), quality, "a picture of the report");
 }
 
-std::string base64(const std::string& bytes) {
-  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      three = three << 8 | (i + j < bytes.size() ? static_cast<std::uint8_t>(bytes[i + j]) : 0u);
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      text += i + j > bytes.size() ? '=' : kLetters[three >> (18 - 6 * j) & 63];
-    }
-  }
-  return text;
-}
-
 }  // namespace limpid

@@ -10,7 +10,4 @@ namespace limpid {
 /// display already (clamped; NaN becomes 0). The planes must have one window.
 std::string jpeg_of(const std::array<View<const float>, 3>& rgb, int quality = 88);
 
-/// RFC 4648, with padding.
-std::string base64(const std::string& bytes);
-
 }  // namespace limpid

@@ -1,3 +1,6 @@
+#include <array>
+#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -6,6 +9,7 @@
 #include "limpid/version.h"
 
 #include "judge/report/measure.h"
+#include "judge/report/now.h"
 
 namespace limpid {
 namespace {
@@ -42,6 +46,14 @@ std::string first_line(const char* file) {
 }
 
 }  // namespace
+
+std::string now_text() {
+  const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&time, &parts);
+  std::array<char, 32> text;
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
 
 ReportMachine this_machine() {
   return {processor(), or_unknown(entry("/etc/os-release", "PRETTY_NAME", '=')),

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <optional>
 #include <string>
 #include <thread>
@@ -10,6 +8,7 @@
 #include "limpid/files/text/look_file.h"
 
 #include "judge/report/measure.h"
+#include "judge/report/now.h"
 
 namespace limpid {
 namespace {
@@ -43,14 +42,6 @@ std::vector<Look> looks_of(const fs::path& data, const Look& judge) {
     if (look.name != judge.name) looks.push_back(std::move(look));
   }
   return looks;
-}
-
-std::string now() {
-  const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm parts{};
-  ::gmtime_r(&time, &parts);
-  std::array<char, 32> text;
-  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
 /// The one that is named; else a GPU, if there is one.
@@ -126,7 +117,7 @@ Report measure_report(const ReportOptions& options) {
                     simd_targets().front(),
                     report,
                     gpu ? &*gpu : nullptr};
-  report.made = now();
+  report.made = now_text();
   report.simd = m.simd;
   for (const Look& look : m.looks) report.looks.push_back(look.name);
   report.machine = this_machine();

@@ -2,13 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "judge/report/jpeg.h"
 #include "judge/report/report_json.h"
+#include "show/encoded.h"
 
 namespace limpid {
 namespace {
 
-#include "judge/report/pages.inc"  // kReportPage and kHardPage, made by the build of the folder page
+#include "judge/report/pages.inc"  // kReportPage, kHardPage and kShotPage, made by the build of the folder page
 
 /// JSON that cannot end its <script>, and is XML, too.
 std::string without_markup(std::string_view json) {
@@ -52,6 +52,12 @@ std::string to_html(const Report& report) {
 
 std::string to_hard_html(std::string_view json) {
   std::string page(kHardPage);
+  put_in(page, "report", json);
+  return page;
+}
+
+std::string to_shot_html(std::string_view json) {
+  std::string page(kShotPage);
   put_in(page, "report", json);
   return page;
 }

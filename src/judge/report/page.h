@@ -15,4 +15,8 @@ std::string to_html(const Report& report);
 /// The hard cases, from hard.json, as such a page.
 std::string to_hard_html(std::string_view json);
 
+/// A shot, from its report.json (judge/shot/shot_json.h), as such a page, beside which its pictures
+/// lie.
+std::string to_shot_html(std::string_view json);
+
 }  // namespace limpid

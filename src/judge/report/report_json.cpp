@@ -2,36 +2,13 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
-#include "judge/compare/heat_map.h"
+#include "judge/report/json_parts.h"
 #include "judge/report/pareto.h"
 
 namespace limpid {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int kSchemaVersion = 2;
-
-Json json_of(const PixelError& e) {
-  return {{"mean", e.mean}, {"p99", e.p99}, {"p99_99", e.p99_99}, {"max", e.max}};
-}
-
-Json json_of(const ReportMachine& m) {
-  return {{"processor", m.processor},
-          {"cores", m.cores},
-          {"simd", m.simd},
-          {"system", m.system},
-          {"kernel", m.kernel}};
-}
-
-Json json_of(const ReportBuild& b) {
-  return {{"limpid", b.version},
-          {"compiler", b.compiler},
-          {"type", b.type},
-          {"libraries", b.libraries}};
-}
 
 Json json_of(const ReportSubject& s) {
   return {{"name", s.name},        {"kind", s.kind},          {"file", s.file},
@@ -150,18 +127,6 @@ Json choice_rows(const std::vector<ChoiceRow>& list) {
   return array;
 }
 
-/// What the colors of heat maps mean: from 10^-decades to 1, evenly spaced, of 255.
-Json heat_scale() {
-  constexpr int kSteps = 8;
-  Json colors = Json::array();
-  for (int i = 0; i <= kSteps; ++i) {
-    Json rgb = Json::array();
-    for (const float c : heat_color(i / double{kSteps})) rgb.push_back(std::lround(255 * c));
-    colors.push_back(rgb);
-  }
-  return {{"decades", kHeatDecades}, {"colors", colors}};
-}
-
 Json figures(const Report& report) {
   Json groups;
   for (const FigureGroup& group : kFigureGroups) groups[group.name] = rows(report.*group.figures);
@@ -201,8 +166,7 @@ std::string to_json(const Report& report) {
                   {"error_budgets", rows(report.budgets)},
                   {"figures", figures(report)},
                   {"heat_scale", heat_scale()}};
-  // Text from files may be no UTF-8.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
 }
 
 }  // namespace limpid

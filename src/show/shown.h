@@ -26,15 +26,13 @@ struct Shown {
 /// Light, as --preview shows it: its very bytes. Throws Error for an exposure beyond -100 ... 100.
 Shown shown_light(const ShownViews& color, double exposure, Executor& executor);
 
+/// What is encoded for display already, 0 ... 1.
+Shown shown_encoded(const ShownViews& color, Executor& executor);
+
 /// By what it is: light as light; shares as they are; lengths on the color ramp, infinite ones
 /// black; normals and places as colors.
 Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, double exposure,
                 Executor& executor);
-
-/// The largest difference of a pixel's channels on the color ramp, from 0 to 1/4 at exposure 0, to
-/// half of that with each stop more.
-Shown shown_difference(const ShownViews& a, const ShownViews& b, double exposure,
-                       Executor& executor);
 
 /// The light with the survey's cells in it: dry ones as they are, opaque water red, open water
 /// green, what needs everything yellow, and other water blue.

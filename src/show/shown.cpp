@@ -1,4 +1,4 @@
-#include "desk/shown.h"
+#include "show/shown.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,48 +8,17 @@
 #include "limpid/files/picture/preview.h"
 
 #include "files/picture/byte_of.h"
-#include "judge/compare/heat_map.h"
+#include "show/by_pixel.h"
+#include "show/heat_color.h"
 
 namespace limpid {
 namespace {
-
-using Pixel = std::array<float, 3>;  ///< encoded for display, 0 ... 1
-
-constexpr int kRowsAtOnce = 16;
-constexpr double kShownDifference = 0.25;
 
 /// The rows [y0, y1) of a view.
 View<const float> rows_of(View<const float> view, int y0, int y1) {
   view.data = view.row(y0);
   view.window = {view.window.x0, y0, view.window.x1, y1};
   return view;
-}
-
-/// Calls show(y0, y1, to) for bands of rows, `to` being where the bytes of row y0 begin.
-template <class Show>
-Shown in_bands(const Rect& window, Executor& executor, const Show& show) {
-  Shown shown{window.size(), std::vector<std::uint8_t>(4 * window.area()), {}};
-  const int bands = (window.height() + kRowsAtOnce - 1) / kRowsAtOnce;
-  run_each(executor, bands, [&](int band) {
-    const int y0 = window.y0 + band * kRowsAtOnce, y1 = std::min(y0 + kRowsAtOnce, window.y1);
-    const auto first = std::size_t{4} * band * kRowsAtOnce * window.width();
-    show(y0, y1, shown.rgba.data() + first);
-  });
-  return shown;
-}
-
-/// Calls color_at(x, y) for each pixel.
-template <class ColorAt>
-Shown by_pixel(const Rect& window, Executor& executor, const ColorAt& color_at) {
-  return in_bands(window, executor, [&](int y0, int y1, std::uint8_t* to) {
-    for (int y = y0; y < y1; ++y) {
-      for (int x = window.x0; x < window.x1; ++x, to += 4) {
-        const Pixel color = color_at(x, y);
-        for (int c = 0; c < 3; ++c) to[c] = byte_of(color[c]);
-        to[3] = 255;
-      }
-    }
-  });
 }
 
 /// What the color ramp's ends stand for, from some of the finite values: all but the largest and
@@ -74,7 +43,8 @@ Shown shown_length(const View<float>& view, Executor& executor) {
   const std::array<double, 2> scale = length_scale(view);
   Shown shown = by_pixel(view.window, executor, [&](int x, int y) {
     const double value = view.at(x, y);
-    return std::isfinite(value) ? heat_color((value - scale[0]) / (scale[1] - scale[0])) : Pixel{};
+    return std::isfinite(value) ? heat_color((value - scale[0]) / (scale[1] - scale[0]))
+                                : ShownColor{};
   });
   shown.scale = scale;
   return shown;
@@ -82,9 +52,9 @@ Shown shown_length(const View<float>& view, Executor& executor) {
 
 Shown shown_normal(const std::array<View<float>, 3>& n, Executor& executor) {
   Shown shown = by_pixel(n[0].window, executor, [&](int x, int y) {
-    const Pixel v = {n[0].at(x, y), n[1].at(x, y), n[2].at(x, y)};
-    if (v == Pixel{}) return v;  // a dry pixel
-    return Pixel{0.5f + 0.5f * v[0], 0.5f + 0.5f * v[1], 0.5f + 0.5f * v[2]};
+    const ShownColor v = {n[0].at(x, y), n[1].at(x, y), n[2].at(x, y)};
+    if (v == ShownColor{}) return v;  // a dry pixel
+    return ShownColor{0.5f + 0.5f * v[0], 0.5f + 0.5f * v[1], 0.5f + 0.5f * v[2]};
   });
   shown.scale = {-1, 1};
   return shown;
@@ -94,20 +64,20 @@ Shown shown_normal(const std::array<View<float>, 3>& n, Executor& executor) {
 Shown shown_share(const std::array<View<float>, 3>& views, Executor& executor) {
   Shown shown = by_pixel(views[0].window, executor, [&](int x, int y) {
     const float first = views[0].at(x, y);
-    if (!views[1]) return Pixel{first, first, first};
-    return Pixel{first, views[1].at(x, y), views[2] ? views[2].at(x, y) : 0};
+    if (!views[1]) return ShownColor{first, first, first};
+    return ShownColor{first, views[1].at(x, y), views[2] ? views[2].at(x, y) : 0};
   });
   shown.scale = {0, 1};
   return shown;
 }
 
 /// The color of a cell's kind, and none of a dry one.
-std::optional<Pixel> cell_color(const CellNeeds& cell) {
+std::optional<ShownColor> cell_color(const CellNeeds& cell) {
   if (cell.dry) return std::nullopt;
-  if (cell.opaque) return Pixel{0.9f, 0.2f, 0.15f};
-  if (cell.open) return Pixel{0.2f, 0.8f, 0.35f};
-  if (cell.skips == 0) return Pixel{0.95f, 0.8f, 0.2f};
-  return Pixel{0.2f, 0.45f, 0.95f};
+  if (cell.opaque) return ShownColor{0.9f, 0.2f, 0.15f};
+  if (cell.open) return ShownColor{0.2f, 0.8f, 0.35f};
+  if (cell.skips == 0) return ShownColor{0.95f, 0.8f, 0.2f};
+  return ShownColor{0.2f, 0.45f, 0.95f};
 }
 
 }  // namespace
@@ -128,6 +98,12 @@ Shown shown_light(const ShownViews& color, double exposure, Executor& executor) 
     }
     const int count = window.width() * (y1 - y0);
     for (int i = 0; i < count; ++i) to[4 * i + 3] = 255;
+  });
+}
+
+Shown shown_encoded(const ShownViews& color, Executor& executor) {
+  return by_pixel(color[0].window, executor, [&](int x, int y) {
+    return ShownColor{color[0].at(x, y), color[1].at(x, y), color[2].at(x, y)};
   });
 }
 
@@ -159,20 +135,6 @@ Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, double exposur
   return shown_share(views, executor);
 }
 
-Shown shown_difference(const ShownViews& a, const ShownViews& b, double exposure,
-                       Executor& executor) {
-  const double most = kShownDifference * std::exp2(-exposure);
-  Shown shown = by_pixel(a[0].window, executor, [&](int x, int y) {
-    double largest = 0;
-    for (int c = 0; c < 3; ++c) {
-      largest = std::max(largest, difference(a[c].at(x, y), b[c].at(x, y)));
-    }
-    return heat_color(largest / most);
-  });
-  shown.scale = {0, most};
-  return shown;
-}
-
 Shown shown_cells(const Survey& survey, const ShownViews& color, double exposure,
                   Executor& executor) {
   constexpr float kShare = 0.45f;
@@ -181,7 +143,7 @@ Shown shown_cells(const Survey& survey, const ShownViews& color, double exposure
   run_each(executor, window.height(), [&](int row) {
     std::uint8_t* to = shown.rgba.data() + std::size_t{4} * row * window.width();
     for (int x = window.x0; x < window.x1; ++x, to += 4) {
-      const std::optional<Pixel> tint = cell_color(survey.at(x, window.y0 + row));
+      const std::optional<ShownColor> tint = cell_color(survey.at(x, window.y0 + row));
       if (!tint) continue;
       for (int c = 0; c < 3; ++c) {
         to[c] = byte_of(std::lerp(static_cast<float>(to[c]) / 255, (*tint)[c], kShare));

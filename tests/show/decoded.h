@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "limpid/core/rect.h"
+
+/// What a terminal would draw of what was written to it.
+
+namespace limpid::test {
+
+struct Decoded {
+  Size size;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// The one picture in the text, which may have other words before it. Fails the test, and is empty,
+/// for a text that is not as the protocol has it.
+Decoded decoded_kitty(const std::string& text);
+Decoded decoded_iterm(const std::string& text);
+Decoded decoded_sixel(const std::string& text);
+
+/// How far two pictures of one size are apart, of 255.
+struct Apart {
+  double mean = 0;
+  int most = 0;
+};
+Apart apart(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
+
+}  // namespace limpid::test
