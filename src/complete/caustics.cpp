@@ -34,10 +34,10 @@ constexpr int kLooks = 320;       ///< along the longer side of the picture
 constexpr double kMostSun = 100;  ///< over the rest of the light, where that is almost nothing
 /// At which light is followed, of all levels: for each pixel, and at least as many as these; but no
 /// more than 64 for each pixel.
-constexpr double kPointsOfPixel = 2, kPoints = 1e6, kMostPointsOfPixel = 64;
+constexpr double kPointsOfPixel = 0.5, kPoints = 1e6, kMostPointsOfPixel = 64;
 constexpr std::size_t kEvery = 7;  ///< of these is asked how wide texels shall be
 constexpr double kFine = 0.05;     ///< share of the pixels that may want finer texels
-constexpr float kOfEdge = 1.2f;    ///< what is deeper than so many times the edge is not of it
+constexpr double kSpread = 4;      ///< times the depth at which light begins to fold
 constexpr double kLowSun =
     0.42;  ///< its height as a sine, 25 degrees: below, waves let in more or less
 
@@ -84,23 +84,21 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
   if (table_.count == 0) return &table_;
   const int count = table_.count;
   if (!alone_) alone_ = make_executor(1);
-  run_each(executor, count,
-           [&](int i) { find_bottom(levels_[static_cast<std::size_t>(i)], *alone_); });
-  run_each(executor, count * kBands, [&](int i) {
-    splat(waves_, sun, target, levels_[static_cast<std::size_t>(i / kBands)], i % kBands);
-  });
-  run_each(executor, count, [&](int i) { finish(sun, levels_[static_cast<std::size_t>(i)]); });
+  constexpr int kBands = CausticsLevel::kBands;
+  const auto level_of = [&](int i) -> CausticsLevel& {
+    return levels_[static_cast<std::size_t>(i)];
+  };
+  run_each(executor, count, [&](int i) { level_of(i).find_bottom(samples_, *alone_); });
+  run_each(executor, count * kBands,
+           [&](int i) { level_of(i / kBands).send(waves_, sun, target, i % kBands); });
+  run_each(executor, count * kBands,
+           [&](int i) { level_of(i / kBands).finish(sun, target, i % kBands); });
   for (int i = 0; i < count; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const Level& level = levels_[index];
-    const View<const float> light = level.light.view();
-    table_.levels[index] = {light, level.corner, level.texel};
-    for (int y = 0; y < level.size.height; ++y) {
-      const float* row = light.row(y);
-      const auto [least, most] = std::minmax_element(row, row + level.size.width);
-      table_.least = std::min<double>(table_.least, *least);
-      table_.most = std::max<double>(table_.most, *most);
-    }
+    const CausticsLevel& level = level_of(i);
+    table_.levels[static_cast<std::size_t>(i)] = {level.light(), level.layout().corner,
+                                                  level.layout().texel};
+    table_.least = std::min(table_.least, level.least());
+    table_.most = std::max(table_.most, level.most());
   }
   return &table_;
 }
@@ -138,12 +136,13 @@ void CausticsMaker::look(const Frame& frame, const Pass& c, const Sunlight& sun,
                          Executor& executor) {
   const View<const float>& depth = frame.plane(SeenPlanes::of(c).depth);
   const Rect window = depth.window;
-  const int step = std::max(1, std::max(window.width(), window.height()) / kLooks);
+  step_ = std::max(1, std::max(window.width(), window.height()) / kLooks);
+  const int step = step_;
   const int columns = (window.width() + step - 1) / step,
             rows = (window.height() + step - 1) / step;
   samples_.resize(static_cast<std::size_t>(columns) * rows);
   each_row(executor, {0, 0, columns, rows}, [&](int row) {
-    Sample* to = samples_.data() + static_cast<std::size_t>(row) * columns;
+    CausticsSample* to = samples_.data() + static_cast<std::size_t>(row) * columns;
     const int y = window.y0 + row * step;
     const double at_y = y - c.corner.y + 0.5;
     for (int column = 0; column < columns; ++column, ++to) {
@@ -192,7 +191,7 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
   wanted_.clear();
   double deepest = 0, sum = 0;
   for (std::size_t k = 0; k < samples_.size(); k += kEvery) {
-    const Sample& s = samples_[k];
+    const CausticsSample& s = samples_[k];
     if (!(s.depth > 0)) continue;
     wanted_.push_back(s.texel);
     deepest = std::max<double>(deepest, s.depth);
@@ -215,8 +214,8 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
     }
     table_.scale = scale;
     // Levels that no pixel asks for are left out.
-    for (Level& level : levels_) {
-      if (level.size.width == 0) continue;
+    for (CausticsLevel& level : levels_) {
+      if (level.empty()) continue;
       std::swap(level, levels_[static_cast<std::size_t>(table_.count)]);
       ++table_.count;
     }
@@ -228,203 +227,52 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
 bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun,
                             double scale, int exponent, double widest, double deepest) {
   const glm::dvec2 eye(glm::dot(pass.eye, pass.map_x), glm::dot(pass.eye, pass.map_y));
-  for (Level& level : levels_) level.size = {0, 0};
+  for (CausticsLevel& level : levels_) level.leave_out();
   double points = 0;
   for (int i = 0; i < CausticsTable::kMostLevels; ++i) {
-    const double texel = std::ldexp(1, exponent + i);
+    CausticsLevel::Layout layout;
+    const double texel = layout.texel = std::ldexp(1, exponent + i);
     if (texel > widest) break;
-    glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
-    double depth = 0, seen = 0;
+    Octagon seen;
+    double depth = 0, count = 0;
     for (std::size_t k = 0; k < samples_.size(); k += kEvery) {
-      const Sample& s = samples_[k];
+      const CausticsSample& s = samples_[k];
       const double wanted = scale * s.texel;
       const bool finer = i > 0 && wanted < 0.5 * texel && !within_water();
       if (!(s.depth > 0) || wanted > 2 * texel || finer) continue;
-      for (const glm::dvec2 at : {glm::dvec2(s.seen_x, s.seen_y), {s.enters_x, s.enters_y}}) {
-        low = glm::min(low, at), high = glm::max(high, at);
-      }
-      depth += s.depth, seen += 1;
+      seen.take_in({s.seen_x, s.seen_y});
+      if (within_water()) seen.take_in({s.enters_x, s.enters_y});
+      depth += s.depth, count += 1;
     }
-    if (!(seen > 0)) continue;
+    if (!(count > 0)) continue;
     if (levels_.size() <= static_cast<std::size_t>(i))
       levels_.resize(static_cast<std::size_t>(i) + 1);
-    Level& level = levels_[static_cast<std::size_t>(i)];
-    level.texel = texel;
-    level.depth = depth / seen;
+    layout.depth = depth / count;
     // Waves move what is seen, too.
-    const double around = 6 * texel + 2 * deviation_of(waves, level.depth, 0.25);
+    seen.widen(6 * texel + 2 * deviation_of(waves, layout.depth, 0.25));
     const auto snapped = [&](double at, double of_eye) {
-      return std::floor((at - around + of_eye) / texel) * texel - of_eye;
+      return std::floor((at + of_eye) / texel) * texel - of_eye;
     };
-    level.corner = {snapped(low.x, eye.x), snapped(low.y, eye.y)};
+    layout.corner = {snapped(seen.low[0], eye.x), snapped(seen.low[1], eye.y)};
     const auto across = [&](double begin, double end) {
-      return static_cast<int>(std::min((end + around - begin) / texel + 2, 1e5));
+      return static_cast<int>(std::min((end - begin) / texel + 2, 1e5));
     };
-    level.size = {across(level.corner.x, high.x), across(level.corner.y, high.y)};
-    const double aside = 3 * deviation_of(waves, std::min(2 * level.depth, deepest), sun.focus);
-    level.margin = static_cast<int>(std::min(aside / texel + 2, 64.0));
-    // Waves shorter than a texel send light in directions of their own all over it.
-    level.density = texel / 2 > waves.shortest() / 6 ? 4 : 2;
-    points += double(level.density) * level.density * (level.size.width + 2.0 * level.margin) *
-              (level.size.height + 2.0 * level.margin);
+    layout.size = {across(layout.corner.x, seen.high[0]), across(layout.corner.y, seen.high[1])};
+    layout.seen = seen;
+    const double aside = 3 * deviation_of(waves, std::min(2 * layout.depth, deepest), sun.focus);
+    layout.margin = static_cast<int>(std::min(aside / texel + 2, 64.0));
+    // Waves shorter than a texel send light in directions of their own all over it; far below
+    // where they focus it, neighbouring rays are farther apart than a ray may be wide.
+    const bool spread = layout.depth * sun.focus * waves.curvature() > kSpread;
+    layout.density = texel > waves.shortest() / 3 ? 4 : spread ? 2 : 1;
+    layout.coarse = step_ < 4 ? 2 : 4;
+    CausticsLevel& level = levels_[static_cast<std::size_t>(i)];
+    level.lay_out(layout);
+    points += level.rays();
   }
   const double pixels = double(pass.size.x) * pass.size.y;
   return points <=
          std::min(std::max(kPoints, kPointsOfPixel * pixels), kMostPointsOfPixel * pixels);
-}
-
-/// Means of what is seen in each cell, drawn on over those in which nothing is. Where the upper
-/// edge of a cliff shades its foot light meets the edge.
-void CausticsMaker::find_bottom(Level& level, Executor& executor) const {
-  const int margin = level.margin + kCoarse;
-  level.cells = {(level.size.width + 2 * margin) / kCoarse + 2,
-                 (level.size.height + 2 * margin) / kCoarse + 2};
-  auto& cells = level.filled.finest(level.cells);
-  std::fill(cells.texels.begin(), cells.texels.end(), PullPush<1>::Texel{});
-  level.bottom.assign(cells.texels.size(), std::numeric_limits<float>::infinity());
-  const float per_cell = static_cast<float>(1 / (kCoarse * level.texel));
-  const float first_x = static_cast<float>(level.corner.x) - float(margin) / kCoarse / per_cell;
-  const float first_y = static_cast<float>(level.corner.y) - float(margin) / kCoarse / per_cell;
-  const auto each_inside = [&](auto&& visit) {
-    for (const Sample& s : samples_) {
-      if (!(s.depth > 0)) continue;
-      const float x = (s.x - first_x) * per_cell, y = (s.y - first_y) * per_cell;
-      if (!(x >= 0 && y >= 0 && x < static_cast<float>(level.cells.width) &&
-            y < static_cast<float>(level.cells.height))) {
-        continue;
-      }
-      visit(s.depth, static_cast<std::size_t>(y) * level.cells.width + static_cast<std::size_t>(x));
-    }
-  };
-  each_inside([&](float depth, std::size_t cell) {
-    level.bottom[cell] = std::min(level.bottom[cell], depth);
-  });
-  each_inside([&](float depth, std::size_t cell) {
-    if (depth > kOfEdge * level.bottom[cell]) return;
-    cells.texels[cell][0] += depth;
-    cells.texels[cell][1] += 1;
-  });
-  for (auto& cell : cells.texels) {
-    if (cell[1] > 0) cell = {cell[0] / cell[1], 1};
-  }
-  if (!level.filled.draw_on(executor)) {
-    std::fill(level.bottom.begin(), level.bottom.end(), static_cast<float>(level.depth));
-    return;
-  }
-  const auto& whole = level.filled.finest().texels;
-  std::transform(whole.begin(), whole.end(), level.bottom.begin(),
-                 [](const auto& cell) { return cell[0]; });
-}
-
-/// A grid of rays, a part of a texel apart; a band has some of its rows.
-void CausticsMaker::splat(const WaveRows& waves, const Sunlight& sun, const CausticsTarget& target,
-                          Level& level, int band) const {
-  Band& kept = level.bands[static_cast<std::size_t>(band)];
-  std::vector<float>& light = kept.light;
-  const Size size = level.size;
-  const int stride = size.width + 2;
-  light.assign(static_cast<std::size_t>(stride) * (size.height + 2), 0.0f);
-  const int density = level.density;
-  const int across = (size.width + 2 * level.margin) * density;
-  const int down = (size.height + 2 * level.margin) * density;
-  const int begin = static_cast<int>(std::int64_t{down} * band / kBands);
-  const int end = static_cast<int>(std::int64_t{down} * (band + 1) / kBands);
-  constexpr int kRoom = 16;  // a vector may end beyond the row
-  const std::ptrdiff_t whole = across + kRoom;
-  kept.rows.resize(7 * static_cast<std::size_t>(whole));
-  kept.texels.resize(static_cast<std::size_t>(whole));
-  const auto row_at = [&](int i) { return kept.rows.data() + i * whole; };
-  const SurfaceRow surface{row_at(0), row_at(1), row_at(2)};
-  const SplatRow to{kept.texels.data(), row_at(3), row_at(4), row_at(5), row_at(6)};
-
-  const double own = 1.0 / density, step = level.texel * own;
-  const double first = (0.5 * own - 0.5) - level.margin;
-  LightRow job{.sun_x = static_cast<float>(sun.to_sun.x),
-               .sun_y = static_cast<float>(sun.to_sun.y),
-               .sun_z = static_cast<float>(sun.to_sun.z),
-               .ior = static_cast<float>(sun.ior),
-               .eta = static_cast<float>(1 / sun.ior),
-               .per_calm = static_cast<float>(sun.low ? 1 / sun.passes : 0),
-               .calm_x = static_cast<float>(sun.aside.x),
-               .calm_y = static_cast<float>(sun.aside.y),
-               .share = static_cast<float>(own * own / sun.to_sun.z),
-               .per_length = static_cast<float>(1 / level.texel),
-               .first_x = static_cast<float>(first),
-               .step_x = static_cast<float>(own),
-               .at_y = 0,
-               .bottom = level.bottom.data(),
-               .across = level.cells.width,
-               .down = level.cells.height,
-               .per_cell = 1.0f / kCoarse,
-               .cell_x = float(level.margin + kCoarse) / kCoarse - 0.5f,
-               .width = size.width,
-               .height = size.height};
-  for (int row = begin; row < end; ++row) {
-    const double at_y = first + row * own;
-    job.at_y = static_cast<float>(at_y);
-    waves.row(level.corner.x + first * level.texel, level.corner.y + at_y * level.texel, step,
-              across, target, kept.sines, surface);
-    target.follow(job, across, surface, to);
-    for (int i = 0; i < across; ++i) {
-      float* texel = light.data() + to.texel[i];
-      texel[0] += to.here[i];
-      texel[1] += to.right[i];
-      texel[stride] += to.below[i];
-      texel[stride + 1] += to.beside[i];
-    }
-  }
-}
-
-/// The sum of the bands; [v/2, 1 - v, v/2] along each axis, where v is the variance of the sun's
-/// disc on the bottom, in texels, less that of the two bilinear blurs.
-void CausticsMaker::finish(const Sunlight& sun, Level& level) const {
-  const Size size = level.size;
-  if (!level.light || level.light.view().window != rect_of(size))
-    level.light = Plane(rect_of(size));
-  std::vector<float>& sum = level.bands[0].light;
-  for (int band = 1; band < kBands; ++band) {
-    const std::vector<float>& more = level.bands[static_cast<std::size_t>(band)].light;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
-  }
-  const double level_square = 1 - sun.to_sun.z * sun.to_sun.z;
-  const double ahead_x = level_square > 1e-12 ? sun.to_sun.x * sun.to_sun.x / level_square : 0.5;
-  const double along = sun.along * sun.along, across = sun.across * sun.across;
-  const auto spread = [&](double ahead) {
-    return static_cast<float>((along * ahead + across * (1 - ahead)) / (level.texel * level.texel));
-  };
-  const float spread_x = spread(ahead_x), spread_y = spread(1 - ahead_x);
-  const auto blur_of = [](float of_disc, float depth) {
-    return std::min(of_disc * depth * depth - 1.0f / 3, 2.0f / 3);
-  };
-  const auto depth_at = [&](int x, int y) {
-    const int cell_x = (x + level.margin + kCoarse) / kCoarse;
-    const int cell_y = (y + level.margin + kCoarse) / kCoarse;
-    return level.bottom[static_cast<std::size_t>(cell_y) * level.cells.width + cell_x];
-  };
-  const View<float> to = level.light.view();
-  std::vector<float>& rows = level.bands[1].light;
-  const std::ptrdiff_t stride = size.width + 2;
-  for (int y = 0; y < size.height; ++y) {
-    const float* from = sum.data() + (y + 1) * stride + 1;
-    float* half = rows.data() + std::ptrdiff_t{y} * size.width;
-    for (int x = 0; x < size.width; ++x) {
-      const float v = blur_of(spread_x, depth_at(x, y));
-      const float left = from[std::max(x - 1, 0)], right = from[std::min(x + 1, size.width - 1)];
-      half[x] = (1 - v) * from[x] + 0.5f * v * (left + right);
-    }
-  }
-  for (int y = 0; y < size.height; ++y) {
-    const auto row = [&](int at) {
-      return rows.data() +
-             static_cast<std::ptrdiff_t>(std::clamp(at, 0, size.height - 1)) * size.width;
-    };
-    const float *above = row(y - 1), *here = row(y), *below = row(y + 1);
-    float* out = to.row(y);
-    for (int x = 0; x < size.width; ++x) {
-      const float v = blur_of(spread_y, depth_at(x, y));
-      out[x] = (1 - v) * here[x] + 0.5f * v * (above[x] + below[x]);
-    }
-  }
 }
 
 }  // namespace limpid

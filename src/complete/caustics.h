@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -7,7 +6,7 @@
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 
-#include "complete/pull_push.h"
+#include "complete/caustics_level.h"
 #include "complete/wave_rows.h"
 #include "op/caustics_table.h"
 #include "op/pass.h"
@@ -36,58 +35,17 @@ class CausticsMaker {
   static constexpr double kLeastContrast = 0.002;
 
  private:
-  /// What is seen of the bottom by one pixel of a few.
-  struct Sample {
-    float x, y, depth;     ///< where calm water lets light in that goes there; 0: not under water
-    float seen_x, seen_y;  ///< the same of what a pixel of the water sees
-    float texel;           ///< how wide it wants them; 0: the pixel is dry
-    float enters_x, enters_y;  ///< where it begins to see them: there, or where it enters the water
-  };
-  static constexpr int kBands = 4;   ///< of a level, each splatted on its own
-  static constexpr int kCoarse = 2;  ///< texels of the table along a cell of `bottom`
-  /// What one band of a level's rays adds to it, and room for one row of them.
-  struct Band {
-    std::vector<float> light, rows;
-    std::vector<int> texels;
-    std::vector<SineOfRow> sines;
-  };
-  struct Level {
-    glm::dvec2 corner;
-    double texel;
-    Size size{0, 0};
-    int density;   ///< rays along a texel
-    int margin;    ///< texels from beyond the table that send light into it
-    double depth;  ///< mean
-    std::vector<float>
-        bottom;  ///< depths, a value for kCoarse texels, from the corner of the margin
-    Size cells{0, 0};
-    PullPush<1> filled;
-    std::array<Band, kBands> bands;
-    Plane light;
-  };
-  /// Light in the water: how far it goes aside for each unit that it sinks, in calm water.
-  struct Sunlight {
-    glm::dvec3 to_sun;  ///< along map_x, map_y and up
-    glm::dvec2 aside;
-    double ior, passes, focus;
-    double along, across;  ///< the sun's disc on the bottom, as a deviation, for each unit of depth
-    bool low;              ///< so that how much passes the surface changes from wave to wave
-  };
-
   void weigh_sun(const Frame& frame, const Pass& pass);
   bool within_water() const { return table_.depth < HUGE_VAL; }
   void look(const Frame& frame, const Pass& pass, const Sunlight& sun, Executor& executor);
   void lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun);
   bool lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun, double scale,
                int exponent, double widest, double deepest);
-  void find_bottom(Level& level, Executor& executor) const;
-  void splat(const WaveRows& waves, const Sunlight& sun, const CausticsTarget& target, Level& level,
-             int band) const;
-  void finish(const Sunlight& sun, Level& level) const;
 
   WaveRows waves_;
-  std::vector<Sample> samples_;
-  std::vector<Level> levels_;
+  std::vector<CausticsSample> samples_;
+  int step_ = 1;  ///< pixels from one to the next
+  std::vector<CausticsLevel> levels_;
   std::vector<float> wanted_;
   std::unique_ptr<Executor> alone_;  ///< for work within a task
   CausticsTable table_;

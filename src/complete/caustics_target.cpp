@@ -40,6 +40,23 @@ void add_sines(std::span<const SineOfRow> sines, int count, const SurfaceRow& to
   }
 }
 
+void read_tile(const TileRow& tile, int count, const SurfaceRow& to) {
+  const Lane iota(hn::Iota(kD, 0.0f)), step(tile.step), texels(tile.texels),
+      per_tile(1.0 / tile.texels), last(tile.texels - 1);
+  for (int i = 0; i < count; i += kLanes) {
+    const Lane straight = Lane(std::fmod(tile.first + i * tile.step, tile.texels)) + step * iota;
+    const Lane at = max(straight - texels * floor(straight * per_tile), Lane(0));
+    const Lane column = min(floor(at), last);
+    const VI whole = whole_of(column);
+    const Places places(hn::Add(whole, whole));
+    const Pair left = fetch_pairs(tile.slopes, places),
+               right = fetch_pairs(tile.slopes + 2, places);
+    const Lane u = at - column;
+    hn::StoreU(lerp(left.left, right.left, u).v, kD, to.slope_x + i);
+    hn::StoreU(lerp(left.right, right.right, u).v, kD, to.slope_y + i);
+  }
+}
+
 struct Bottom {
   const LightRow& light;
 
@@ -69,7 +86,7 @@ struct Bottom {
   }
 };
 
-void follow(const LightRow& light, int count, const SurfaceRow& surface, const SplatRow& to) {
+void follow(const LightRow& light, int count, const SurfaceRow& surface, const LitRow& to) {
   const Bottom bottom{light};
   const Lane iota(hn::Iota(kD, 0.0f)), one(1), row_y(light.at_y), per_length(light.per_length);
   const Lane sun_x(light.sun_x), sun_y(light.sun_y), sun_z(light.sun_z), eta(light.eta);
@@ -94,25 +111,103 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const S
     Lane depth = bottom.nearest(row_x, row_y);
     depth = bottom.between(from_x + depth * gain_x, from_y + depth * gain_y);
     const Lane x = from_x + depth * gain_x, y = from_y + depth * gain_y;
-    const Mask inside =
-        x > Lane(-1) && y > Lane(-1) && x < Lane(light.width) && y < Lane(light.height);
-    const Lane column = select(inside, floor(x), Lane(-1)),
-               row = select(inside, floor(y), Lane(-1));
     Lane power = max(facing, Lane(0)) * Lane(light.share);
     if (light.per_calm > 0) {
       power = power * Lane(light.per_calm) * (one - fresnel_exact(cosine, Lane(light.ior)));
     }
-    const Lane weight = select(inside, power, Lane(0));
-    const Lane u = select(inside, x - column, Lane(0)), v = select(inside, y - row, Lane(0));
-    const VI texel = hn::Add(hn::Mul(whole_of(row + one), hn::Set(kDI, light.width + 2)),
-                             whole_of(column + one));
-    const Lane below = weight * v, above = weight - below;
-    hn::StoreU(texel, kDI, to.texel + i);
-    hn::StoreU((above * (one - u)).v, kD, to.here + i);
-    hn::StoreU((above * u).v, kD, to.right + i);
-    hn::StoreU((below * (one - u)).v, kD, to.below + i);
-    hn::StoreU((below * u).v, kD, to.beside + i);
+    hn::StoreU(x.v, kD, to.x + i);
+    hn::StoreU(y.v, kD, to.y + i);
+    hn::StoreU(power.v, kD, to.power + i);
   }
+}
+
+/// Parts of a row whose rays take turns; spread() ends rows with as many rays without light.
+constexpr int kTurns = 8;
+
+/// Of a box as wide as the ray, around it, the parts that lie on three texels from the first one
+/// on. A ray is at least a texel wide, or the table would be grainy where light is focused.
+struct Parts {
+  Lane first, parts[3];
+
+  LIMPID_LANES_INLINE Parts(Lane at, Lane along, Lane across) {
+    const Lane one(1), square = along * along + across * across;
+    const Lane wide = sqrt(min(max(square, Lane(1)), Lane(4)));
+    const Lane begin = at - Lane(0.5) * wide + Lane(0.5);
+    first = floor(begin);
+    const Lane rest = first + one - begin, per_wide = one / wide;
+    const Lane until = min(rest, wide), next = min(rest + one, wide);
+    parts[0] = until * per_wide;
+    parts[1] = (next - until) * per_wide;
+    parts[2] = (wide - next) * per_wide;
+  }
+  LIMPID_LANES_INLINE Mask within(int count) const {
+    return first > Lane(-3) && first < Lane(count);
+  }
+};
+
+RowsHit spread(const BeamRow& beams, int count, const SplatRow& to) {
+  const Lane half(0.5), none(0);
+  const auto load = [](const float* at) LIMPID_LANES_LAMBDA { return Lane(hn::LoadU(kD, at)); };
+  Lane least_row(1e9), most_row(-1e9);
+  for (int i = 0; i < count + kTurns; i += kLanes) {
+    const auto parts = [&](const float* above, const float* here,
+                           const float* below) LIMPID_LANES_LAMBDA {
+      return Parts(load(here + i), half * (load(here + i + 1) - load(here + i - 1)),
+                   half * (load(below + i) - load(above + i)));
+    };
+    const Parts x = parts(beams.above.x, beams.here.x, beams.below.x);
+    const Parts y = parts(beams.above.y, beams.here.y, beams.below.y);
+    const Mask counted = Lane(hn::ConvertTo(kD, count_from(i))) < Lane(count);
+    const Mask inside = x.within(beams.width) && y.within(beams.height) && counted;
+    const Lane power = select(inside, load(beams.here.power + i), none);
+    const Lane row = select(inside, y.first, Lane(-3));
+    const VI line = hn::Mul(whole_of(row + Lane(3)), hn::Set(kDI, beams.stride));
+    const VI texel = hn::Add(line, whole_of(select(inside, x.first, Lane(-3)) + Lane(3)));
+    hn::StoreU(texel, kDI, to.texel + i);
+    hn::StoreInterleaved4((power * x.parts[0]).v, (power * x.parts[1]).v, (power * x.parts[2]).v,
+                          none.v, kD, to.along + 4 * i);
+    hn::StoreInterleaved4(y.parts[0].v, y.parts[1].v, y.parts[2].v, none.v, kD, to.down + 4 * i);
+    least_row = min(least_row, select(inside, y.first, Lane(1e9)));
+    most_row = max(most_row, select(inside, y.first, Lane(-1e9)));
+  }
+  const float first = least(least_row), last = greatest(most_row);
+  if (first > last) return {0, -1};
+  return {static_cast<int>(first), static_cast<int>(last) + 2};
+}
+
+/// Rays side by side hit the same texels, and a load waits for a store that it overlaps in part:
+/// rays of several parts of the row take turns.
+void splat(const SplatRow& from, int count, int stride, float* light) {
+  const int each = (count + kTurns - 1) / kTurns;
+  for (int i = 0; i < each; ++i) {
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const int ray = turn * each + i;
+      float* texel = light + from.texel[ray];
+      const float *along = from.along + 4 * ray, *down = from.down + 4 * ray;
+      for (int row = 0; row < 3; ++row) {
+        float sum[4];  // all are read before one is written: that may be a vector
+        for (int k = 0; k < 4; ++k) sum[k] = texel[row * stride + k] + down[row] * along[k];
+        for (int k = 0; k < 4; ++k) texel[row * stride + k] = sum[k];
+      }
+    }
+  }
+}
+
+Extremes filter(const FilterRow& row, int count, float* to) {
+  const Lane half(0.5), spread(row.spread), blur(row.blur), most_blur(2.0 / 3);
+  Lane lowest(1), highest(1);
+  for (int i = 0; i < count; i += kLanes) {
+    const auto load = [&](const float* at)
+                          LIMPID_LANES_LAMBDA { return Lane(hn::LoadU(kD, at + i)); };
+    const Lane middle = load(row.here), sides = half * (load(row.before) + load(row.after));
+    const Lane depth = load(row.depth), share = min(spread * depth * depth - blur, most_blur);
+    const Lane light = middle + share * (sides - middle);
+    hn::StoreU(light.v, kD, to + i);
+    const Mask counted = Lane(hn::ConvertTo(kD, count_from(i))) < Lane(count);
+    const Lane one = select(counted, light, Lane(1));
+    lowest = min(lowest, one), highest = max(highest, one);
+  }
+  return {least(lowest), greatest(highest)};
 }
 
 }  // namespace
@@ -121,7 +216,8 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const S
 namespace limpid {
 
 extern const CausticsTarget LIMPID_OF_TARGET(kCaustics_);
-const CausticsTarget LIMPID_OF_TARGET(kCaustics_) = {HWY_NAMESPACE::add_sines,
-                                                     HWY_NAMESPACE::follow};
+const CausticsTarget LIMPID_OF_TARGET(kCaustics_) = {
+    HWY_NAMESPACE::add_sines, HWY_NAMESPACE::read_tile, HWY_NAMESPACE::follow,
+    HWY_NAMESPACE::spread,    HWY_NAMESPACE::splat,     HWY_NAMESPACE::filter};
 
 }  // namespace limpid

@@ -10,6 +10,13 @@ struct SineOfRow {
   float amplitude, slope_x, slope_y;
 };
 
+/// A row of a tile of slopes, x and y in turns, the first texel once more at its end.
+struct TileRow {
+  const float* slopes;
+  int texels;
+  double first, step;  ///< of the places, in texels; the first within the tile
+};
+
 /// Of places side by side in a row of the surface.
 struct SurfaceRow {
   float *height, *slope_x, *slope_y;
@@ -28,20 +35,53 @@ struct LightRow {
   const float* bottom;          ///< depths in scene units, `across` cells in each of `down` rows
   int across, down;
   float per_cell, cell_x;  ///< of a cell in texels; the table's first texel is in the cell's middle
-  int width, height;       ///< of the table; its rows have a texel more before them and after them
 };
 
-/// Where the light of each place goes: the texel, from that before the table's first one, and what
-/// of the light goes to it and to its neighbours.
+/// Where the light of each place comes to, in texels, and how much it is.
+struct LitRow {
+  float *x, *y, *power;
+};
+
+/// Light as it is laid into the table. A ray is as wide as neighbouring rays are apart.
+struct BeamRow {
+  LitRow above, here, below;  ///< three rows of rays; they have a ray more at both ends
+  int width, height, stride;  ///< of the table, and from one of its rows to the next in memory
+};
+
+/// What a ray adds to three rows of the table, from the first texel on: of each three texels and
+/// one that gets nothing, so that a row is a vector of four.
 struct SplatRow {
   int* texel;
-  float *here, *right, *below, *beside;
+  float *along, *down;  ///< four of each ray: light of each column, share of each row
+};
+
+/// Rows of the table that any light of a row comes to: none if last is before first.
+struct RowsHit {
+  int first, last;
+};
+
+/// Light of a row, and what lies before and after each texel along an axis.
+struct FilterRow {
+  const float *before, *here, *after;
+  const float* depth;
+  float spread;  ///< variance of the sun's disc on the bottom, in texels, one unit deep
+  float blur;    ///< that of what has blurred the light already
+};
+
+struct Extremes {
+  float least, most;
 };
 
 /// Rows of CausticsMaker as compiled for one instruction set.
 struct CausticsTarget {
   void (*add_sines)(std::span<const SineOfRow> sines, int count, const SurfaceRow& to);
-  void (*follow)(const LightRow& light, int count, const SurfaceRow& surface, const SplatRow& to);
+  void (*read_tile)(const TileRow& tile, int count, const SurfaceRow& to);
+  void (*follow)(const LightRow& light, int count, const SurfaceRow& surface, const LitRow& to);
+  RowsHit (*spread)(const BeamRow& beams, int count, const SplatRow& to);
+  void (*splat)(const SplatRow& from, int count, int stride, float* light);
+  /// to[i] = (1 - v) here[i] + v / 2 (before[i] + after[i]), v = min(spread depth[i]^2 - blur,
+  /// 2/3).
+  Extremes (*filter)(const FilterRow& row, int count, float* to);
 };
 
 /// For `simd` as in FusedOptions.

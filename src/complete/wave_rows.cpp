@@ -109,20 +109,20 @@ void WaveRows::take_sines(std::span<const SineWave> waves, double strength) {
 }
 
 void WaveRows::row(double x, double y, double step, int count, const CausticsTarget& target,
-                   std::vector<SineOfRow>& room, const SurfaceRow& to) const {
+                   Room& room, const SurfaceRow& to) const {
   std::fill_n(to.height, count, 0.0f);
-  if (source_ == Source::kTile) return row_of_tile(x, y, step, count, to);
+  if (source_ == Source::kTile) return row_of_tile(x, y, step, count, target, room.tile, to);
   if (source_ == Source::kNormals) return row_of_normals(x, y, step, count, to);
   std::fill_n(to.slope_x, count, 0.0f);
   std::fill_n(to.slope_y, count, 0.0f);
-  room.clear();
+  room.sines.clear();
   for (const SineWave& wave : sines_) {
-    room.push_back({pass_->phase_at_eye(wave) + wave.k_y * y + wave.k_x * x, wave.k_x * step,
-                    static_cast<float>(raised_ ? wave.amplitude : 0),
-                    static_cast<float>(wave.amplitude * wave.k_x),
-                    static_cast<float>(wave.amplitude * wave.k_y)});
+    room.sines.push_back({pass_->phase_at_eye(wave) + wave.k_y * y + wave.k_x * x, wave.k_x * step,
+                          static_cast<float>(raised_ ? wave.amplitude : 0),
+                          static_cast<float>(wave.amplitude * wave.k_x),
+                          static_cast<float>(wave.amplitude * wave.k_y)});
   }
-  target.add_sines(room, count, to);
+  target.add_sines(room.sines, count, to);
 }
 
 // --- maps ---------------------------------------------------------------------------------------
@@ -140,13 +140,17 @@ void WaveRows::make_tile(const WaveNormals::Params& waves, Executor& executor) {
   };
   tile_at_ = {place(c.map_x), place(c.map_y)};
   tile_.resize(2 * static_cast<std::size_t>(kTile + 1) * (kTile + 1));
+  if (Kernel<WaveNormals>::needs_slope_map(waves) && frame_->wave_slopes && !(waves.wind > 0)) {
+    if (copy_tile(*frame_->wave_slopes, -waves.strength)) return;
+  }
   const Vec3<double> up = vec3_of<double>(c.up);
   each_row(executor, {0, 0, kTile + 1, kTile + 1}, [&](int y) {
     std::array<Pixel<double>, kTile + 1> pixels{};
     for (int x = 0; x <= kTile; ++x) {
       Pixel<double>& p = pixels[static_cast<std::size_t>(x)];
-      const glm::dvec3 point = (period_ * x / kTile - tile_at_.x) * c.map_x +
-                               (period_ * y / kTile - tile_at_.y) * c.map_y - c.eye_above * c.up;
+      const glm::dvec3 point = (period_ * (x + 0.5) / kTile - tile_at_.x) * c.map_x +
+                               (period_ * (y + 0.5) / kTile - tile_at_.y) * c.map_y -
+                               c.eye_above * c.up;
       p.surface_point = vec3_of<double>(point);
       p.normal = p.to_viewer = up;
       p.side = 1;
@@ -160,6 +164,23 @@ void WaveRows::make_tile(const WaveNormals::Params& waves, Executor& executor) {
       *to++ = static_cast<float>(slope.y);
     }
   });
+}
+
+/// Of a level that is as large, if there is one: four lookups for each texel take longer than all
+/// else that the table takes.
+bool WaveRows::copy_tile(const SlopeLevels& slopes, double scale) {
+  const LevelSizes& sizes = slopes.sizes;
+  int level = 0;
+  while (level < sizes.count && sizes.size(level) != Size{kTile, kTile}) ++level;
+  if (level == sizes.count) return false;
+  const float times = static_cast<float>(scale);
+  float* to = tile_.data();
+  for (int y = 0; y <= kTile; ++y) {
+    const float *along_x = slopes.planes[0] + sizes.place(level, 0, y),
+                *along_y = slopes.planes[1] + sizes.place(level, 0, y);
+    for (int x = 0; x <= kTile; ++x) *to++ = times * along_x[x], *to++ = times * along_y[x];
+  }
+  return true;
 }
 
 void WaveRows::measure_tile() {
@@ -185,32 +206,21 @@ void WaveRows::measure_tile() {
   longest_ = period_;
 }
 
-void WaveRows::row_of_tile(double x, double y, double step, int count, const SurfaceRow& to) const {
-  const double texels = kTile / period_;
-  const auto wrapped = [&](double at) {
-    const double turns = at / period_;
+void WaveRows::row_of_tile(double x, double y, double step, int count, const CausticsTarget& target,
+                           std::vector<float>& room, const SurfaceRow& to) const {
+  const auto wrapped = [&](double at) {  // a texel's place is that of its middle
+    const double turns = at / period_ - 0.5 / kTile;
     return (turns - std::floor(turns)) * kTile;
   };
+  constexpr std::size_t kRow = 2 * (kTile + 1);
   const double row = wrapped(y + tile_at_.y);
   const int y0 = std::min(static_cast<int>(row), kTile - 1);
   const float v = static_cast<float>(row - y0);
-  const float* upper = tile_.data() + 2 * static_cast<std::ptrdiff_t>(y0) * (kTile + 1);
-  const float* lower = upper + 2 * (kTile + 1);
-  double column = wrapped(x + tile_at_.x);
-  const double advance = step * texels;
-  for (int i = 0; i < count; ++i) {
-    const int x0 = std::min(static_cast<int>(column), kTile - 1);
-    const float u = static_cast<float>(column - x0);
-    const float *a = upper + 2 * x0, *b = lower + 2 * x0;
-    const auto mixed = [&](int k) {
-      const float top = a[k] + u * (a[k + 2] - a[k]), bottom = b[k] + u * (b[k + 2] - b[k]);
-      return top + v * (bottom - top);
-    };
-    to.slope_x[i] = mixed(0);
-    to.slope_y[i] = mixed(1);
-    column += advance;
-    while (column >= kTile) column -= kTile;
-  }
+  const float* upper = tile_.data() + static_cast<std::size_t>(y0) * kRow;
+  room.resize(kRow);
+  for (std::size_t i = 0; i < kRow; ++i) room[i] = upper[i] + v * (upper[i + kRow] - upper[i]);
+  target.read_tile({room.data(), kTile, wrapped(x + tile_at_.x), step * kTile / period_}, count,
+                   to);
 }
 
 // --- the frame's own normals --------------------------------------------------------------------

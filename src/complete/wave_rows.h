@@ -4,6 +4,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
+#include "limpid/core/texture_levels.h"
 
 #include "complete/caustics_target.h"
 #include "op/pass.h"
@@ -29,18 +30,25 @@ class WaveRows {
   double shortest() const { return shortest_; }
   double longest() const { return longest_; }
 
+  /// For a row.
+  struct Room {
+    std::vector<SineOfRow> sines;
+    std::vector<float> tile;
+  };
+
   /// Of `count` places, `step` apart along map_x, from (x, y) on, in scene units from the point of
-  /// the calm surface below the eye. Rows have room for 16 more, `room` for
-  /// the sines.
-  void row(double x, double y, double step, int count, const CausticsTarget& target,
-           std::vector<SineOfRow>& room, const SurfaceRow& to) const;
+  /// the calm surface below the eye. Rows have room for 16 more.
+  void row(double x, double y, double step, int count, const CausticsTarget& target, Room& room,
+           const SurfaceRow& to) const;
 
  private:
   void make_tile(const WaveNormals::Params& waves, Executor& executor);
+  bool copy_tile(const SlopeLevels& slopes, double scale);
   void measure_tile();
   void measure_normals();
   void take_sines(std::span<const SineWave> waves, double strength);
-  void row_of_tile(double x, double y, double step, int count, const SurfaceRow& to) const;
+  void row_of_tile(double x, double y, double step, int count, const CausticsTarget& target,
+                   std::vector<float>& room, const SurfaceRow& to) const;
   void row_of_normals(double x, double y, double step, int count, const SurfaceRow& to) const;
 
   enum class Source { kSines, kTile, kNormals } source_ = Source::kSines;

@@ -1,0 +1,119 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "limpid/core/executor.h"
+#include "limpid/core/plane.h"
+
+#include "complete/pull_push.h"
+#include "complete/wave_rows.h"
+
+namespace limpid {
+
+/// What is seen of the bottom by one pixel of a few.
+struct CausticsSample {
+  float x, y, depth;         ///< where calm water lets light in that goes there; 0: not under water
+  float seen_x, seen_y;      ///< the same of what a pixel of the water sees
+  float texel;               ///< how wide it wants them; 0: the pixel is dry
+  float enters_x, enters_y;  ///< where it begins to see them: there, or where it enters the water
+};
+
+/// Light in the water: how far it goes aside for each unit that it sinks, in calm water.
+struct Sunlight {
+  glm::dvec3 to_sun;  ///< along map_x, map_y and up
+  glm::dvec2 aside;
+  double ior, passes, focus;
+  double along, across;  ///< the sun's disc on the bottom, as a deviation, for each unit of depth
+  bool low;              ///< so that how much passes the surface changes from wave to wave
+};
+
+/// Around places: along x, y, x + y and x - y no farther than they are.
+struct Octagon {
+  std::array<double, 4> low{HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL},
+      high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void take_in(glm::dvec2 at) {
+    const double along[] = {at.x, at.y, at.x + at.y, at.x - at.y};
+    for (std::size_t i = 0; i < 4; ++i) {
+      low[i] = std::min(low[i], along[i]), high[i] = std::max(high[i], along[i]);
+    }
+  }
+  void widen(double by) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double far = i < 2 ? by : std::numbers::sqrt2 * by;
+      low[i] -= far, high[i] += far;
+    }
+  }
+};
+
+/// One level of the table, made in steps: lay it out, find the bottom, send each band of rays,
+/// finish each band of its rows. Bands of a step do not meet.
+class CausticsLevel {
+ public:
+  static constexpr int kBands = 4;  ///< each splatted on its own, whatever the number of threads
+
+  /// Texels from the corner on, `margin` of them beyond each side that send light into it.
+  struct Layout {
+    glm::dvec2 corner{0, 0};
+    double texel = 1, depth = 0;  ///< mean
+    Size size{0, 0};
+    int density = 1;  ///< rays along a texel
+    int margin = 0;
+    int coarse = 2;  ///< texels along a cell of the bottom
+    Octagon seen;    ///< rays that come to what lies outside are not followed
+  };
+  void lay_out(const Layout& layout);
+  bool empty() const { return layout_.size.width == 0; }
+  const Layout& layout() const { return layout_; }
+  void leave_out() { layout_.size = {0, 0}; }
+  /// That will be followed.
+  double rays() const;
+
+  void find_bottom(std::span<const CausticsSample> samples, Executor& executor);
+  void send(const WaveRows& waves, const Sunlight& sun, const CausticsTarget& target, int band);
+  void finish(const Sunlight& sun, const CausticsTarget& target, int band);
+
+  View<const float> light() const { return light_.view(); }
+  double least() const;
+  double most() const;
+
+ private:
+  static constexpr int kTall = 16;   ///< rows of texels that are seen from one column to another
+  static constexpr int kBorder = 3;  ///< texels around the table that light may come to
+  static constexpr int kRoom = 16;   ///< a vector may begin before a row or end beyond it
+  struct Span {
+    int begin, end;  ///< columns; none where they meet
+    bool empty() const { return begin >= end; }
+  };
+  /// What one band of rays adds to the table, and room for some rows of them.
+  struct Band {
+    std::vector<float> light, rows;
+    int first = 0, last = -1;  ///< rows that light came to, from that before the table's border on
+    std::vector<int> texels;
+    WaveRows::Room room;
+    float least = 1, most = 1;
+  };
+
+  int stride() const { return layout_.size.width + 2 * kBorder + 4; }
+  Span seen_in(int begin, int end) const;
+  void reach(Band& band, RowsHit rows) const;
+
+  Layout layout_;
+  std::vector<Span> spans_;    ///< seen of each kTall rows
+  std::vector<Span> rays_;     ///< of each row of rays, counted from the corner of the margin
+  std::vector<float> bottom_;  ///< depths of cells, from one cell before the margin's corner on
+  int coarse_ = 2;             ///< texels along a cell
+  Size cells_{0, 0};
+  PullPush<1> filled_;
+  std::array<Band, kBands> bands_;
+  Plane light_;
+};
+
+}  // namespace limpid
