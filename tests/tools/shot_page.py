@@ -175,7 +175,6 @@ def main():
         tables(opened)
         pictures(opened)
         wipe(opened, "dry.png", "wet.png")
-        wipe(opened, "wet.png", "truth.png")
         keys_and_clicks(opened)
         if browser.errors:
             sys.exit("the page's script threw: " + "\n".join(map(str, browser.errors)))

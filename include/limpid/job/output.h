@@ -23,11 +23,11 @@ Runner runner_named(std::string_view name);
 /// How a picture is computed and what is written of it.
 ///
 /// All files of a frame, EXR, deep EXR, preview and contact sheet where they are PNGs, say how they
-/// were made, in text attributes (iTXt chunks of a PNG). The same inputs give the same bytes: nothing in them
-/// depends on places of files, nor on their names but for the wave map's, which the look gives so
-/// that it can be used again; nor on date, threads or the name of the machine. The instruction set
-/// does count, in the last bits of pixels too, and the best is not the same on every machine: name
-/// one where machines must agree.
+/// were made, in text attributes (iTXt chunks of a PNG). The same inputs give the same bytes:
+/// nothing in them depends on places of files, nor on their names but for the wave map's, which the
+/// look gives so that it can be used again; nor on date, threads or the name of the machine. The
+/// instruction set does count, in the last bits of pixels too, and the best is not the same on
+/// every machine: name one where machines must agree.
 ///
 ///     limpid/version     of the library
 ///     limpid/look        all parameters, a look file; the wave map by its name alone

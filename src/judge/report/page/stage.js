@@ -148,10 +148,8 @@ export class Stage {
     this.#left = clamp(this.#left, rest - width * this.#zoom, clientWidth - rest);
     this.#top = clamp(this.#top, rest - height * this.#zoom, clientHeight - rest);
     // At whole screen pixels, so that one of the picture is one of the screen at 1:1.
-    const box = this.#stage.getBoundingClientRect();
-    const snapped = (x, origin) => Math.round((origin + x) * devicePixelRatio) / devicePixelRatio - origin;
-    const x = snapped(this.#left, box.left), y = snapped(this.#top, box.top);
-    this.#sheet.style.transform = `translate(${x}px, ${y}px) scale(${this.#zoom})`;
+    const snapped = (x) => Math.round(x * devicePixelRatio) / devicePixelRatio;
+    this.#sheet.style.transform = `translate(${snapped(this.#left)}px, ${snapped(this.#top)}px) scale(${this.#zoom})`;
     // Below two screen pixels for one, pixels of even size could not be shown.
     this.#sheet.classList.toggle("near", this.#zoom * devicePixelRatio >= 2);
     const at = this.#wipe * clientWidth;
