@@ -126,7 +126,7 @@ TEST(Terminal, ThatIsNotKnownHasNoPictures) {
       // A multiplexer keeps pictures to itself, whatever terminal it began in.
       {{"TERM", "tmux-256color"}, {"KITTY_WINDOW_ID", "1"}},
       {{"TERM", "screen"}, {"LC_TERMINAL", "iTerm2"}},
-      {{"TERM", "xterm-kitty"}, {"TMUX", "/tmp/tmux-0/default,1,0"}},
+      {{"TERM", "xterm-kitty"}, {"TMUX", "socket,1,0"}},
       {{"TERM", "foot"}, {"STY", "1.pts-0"}},
   };
   for (const Environment& environment : none) EXPECT_EQ(told_by(environment), std::nullopt);
