@@ -16,7 +16,7 @@ class CompletionTest : public ToolTest {
     write_text("ask.bash", ". ./limpid.bash\nCOMP_WORDS=(" + words +
                                ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_limpid\n"
                                "echo \" ${COMPREPLY[*]} \"\n");
-    const Ran ran = run(folder_, {"bash", "ask.bash"});
+    const Ran ran = run(folder_, {"/bin/bash", "ask.bash"});
     EXPECT_EQ(ran.code, 0) << ran.err;
     return ran.out;
   }
