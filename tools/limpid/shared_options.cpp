@@ -82,7 +82,7 @@ void add_look(CLI::App& verb, WaterOptions& a) {
   for (const AovInfo& info : aovs()) known.emplace_back(info.name);
   verb.add_option("--aov", a.aovs,
                   "Also write these terms: all, or a list of " + join(known) +
-                      "; composite has motion, too, where the plate has vectors")
+                      ", and of composite motion, where the plate has vectors")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
