@@ -244,7 +244,8 @@ class Passing {
 
   void add_manifests(const LayerSource& source, const std::vector<std::string>& channels,
                      PassedPart& part) const {
-    for (const auto& [id, manifest] : manifests_of(*part.file)) {
+    for (const auto& found : manifests_of(*part.file)) {
+      const auto& manifest = found.second;
       const bool passed = std::any_of(groups_.begin(), groups_.end(), [&](const LayerGroup& g) {
         return g.source->file == source.file && g.source->part == source.part &&
                is_rank_of(manifest.name, g) && is_among(g.channels.front(), channels);
