@@ -105,6 +105,7 @@ void check(const DeepWater& water) {
 
 Imf::Header deep_header_of(const DeepWater& water) {
   Imf::Header header = header_of(water, compression_named(water.compression));
+  add_file_hash(header);
   header.setType(Imf::DEEPSCANLINE);
   header.insert("maxSamplesPerPixel", Imf::IntAttribute(1));
   Imf::addDeepImageState(header, Imf::DIS_TIDY);

@@ -113,8 +113,11 @@ Imf::Header header_of(const ExrHeading& heading, const Compression& compression)
     std::copy(value.begin(), value.end(), matrix.getValue());
     header.insert(name, Imf::M44fAttribute(matrix));
   }
-  header.insert(std::string(kFileHashName), Imf::StringAttribute(std::string(kNoFileHash)));
   return header;
+}
+
+void add_file_hash(Imf::Header& header) {
+  header.insert(std::string(kFileHashName), Imf::StringAttribute(std::string(kNoFileHash)));
 }
 
 }  // namespace limpid

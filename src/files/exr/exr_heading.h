@@ -21,9 +21,11 @@ Compression compression_named(const std::string& text);
 /// written.
 void check_heading(const ExrHeading& heading);
 
-/// All of the header but the channels, with a place for the file's hash (files/file_hash.h). Throws
-/// Error (without the path) for an inherited attribute of another type than the one that OpenEXR
-/// knows by this name.
+/// All of the header but the channels and the file's hash. Throws Error (without the path) for an
+/// inherited attribute of another type than the one that OpenEXR knows by this name.
 Imf::Header header_of(const ExrHeading& heading, const Compression& compression);
+
+/// A place for the hash of the file (files/file_hash.h): in one header of each file.
+void add_file_hash(Imf::Header& header);
 
 }  // namespace limpid

@@ -20,7 +20,6 @@
 #include "files/exr/exr_heading.h"
 #include "files/exr/exr_whole.h"
 #include "files/exr/half_bits.h"
-#include "files/file_hash.h"
 
 namespace limpid {
 namespace {
@@ -198,12 +197,11 @@ void write_stream(OutputStream& stream, std::span<const ExrOutput> parts) {
     Imf::Header& header =
         headers.emplace_back(header_of(output, compression_named(output.compression)));
     part.add_channels(header.channels());
+    if (headers.size() == 1) add_file_hash(header);  // one hash is that of the whole file
     if (!output.view.empty()) header.setView(output.view);
     if (parts.size() == 1) continue;
     header.setName(output.name);
     header.setType(Imf::SCANLINEIMAGE);
-    // One hash is that of the whole file.
-    if (headers.size() > 1) header.erase(std::string(kFileHashName));
   }
   if (parts.size() == 1) {
     Imf::OutputFile file(stream, headers[0]);
