@@ -155,7 +155,7 @@ class SceneFiles(unittest.TestCase):
 
 class Overscans(unittest.TestCase):
     PLAN = ("reads color, depth\n5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 pixels "
-            "on the left, 2 on the right, 0 at the top and 24 at the bottom would show what is there\n")
+            "on the left, 2 on the right, 0 at the top and 24 at the bottom would cover them\n")
 
     def test_the_plan_of_a_small_picture_is_scaled(self):
         self.assertEqual(small((1920, 1080)), (240, 135))

@@ -101,10 +101,10 @@ TEST(Beyond, NormalsOfTheWaterCount) {
 
 TEST(Beyond, IsSaidInOneSentence) {
   EXPECT_EQ(to_text(Beyond{}), "no wet pixel looks beyond the picture");
-  EXPECT_EQ(to_text(Beyond{0.0583, 4, 0, 2, 24}),
-            "5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 "
-            "pixels on the left, 2 on the right, 0 at the top and 24 at the bottom would show what "
-            "is there");
+  EXPECT_EQ(
+      to_text(Beyond{0.0583, 4, 0, 2, 24}),
+      "5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 "
+      "pixels on the left, 2 on the right, 0 at the top and 24 at the bottom would cover them");
 }
 
 }  // namespace
