@@ -262,7 +262,7 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
                 std::to_string(work.x0) + ", " + std::to_string(work.y0) + "), and has all " +
                 std::to_string(work.width()) + "x" + std::to_string(work.height()));
   }
-  const ShaderProgram program = program_of(*s.plan, windows, frame, pass, options);
+  const ShaderProgram program = program_of(*s.plan, windows, frame, pass, options, Gathered::kMade);
   const GpuImageView& color = host.planes.at(PlaneId::kColorR);
   const bool in_place = color.view == picture.view || (color.image && color.image == picture.image);
   GpuFrame seen = host;

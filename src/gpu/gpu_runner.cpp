@@ -136,7 +136,7 @@ void GpuRunner::run(const Plan& plan, const Frame& plate, const Scene& scene, co
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
   ShaderOptions options = compute_shader(aovs_of(target));
   options.most_threads = k.device->most_threads();
-  const ShaderProgram program = program_of(plan, plate, frame, pass, options);
+  const ShaderProgram program = program_of(plan, plate, frame, pass, options, Gathered::kAll);
   k.fit(program);
   k.fill(program, executor);
   k.compute(program);

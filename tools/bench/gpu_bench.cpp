@@ -77,7 +77,8 @@ class Bench {
     ShaderOptions options;
     options.stage = ShaderOptions::Stage::kCompute;
     options.most_threads = device_->most_threads();
-    OnDevice ours(device_, program_of(plan, plate_.frame, frame, pass, options), *executor_);
+    OnDevice ours(device_, program_of(plan, plate_.frame, frame, pass, options, Gathered::kAll),
+                  *executor_);
     std::optional<OnDevice> rival;
     if (name == "realistic") {
       rival.emplace(device_, realistic_program(look, plate_.frame, plate_.scene), *executor_, true,
