@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
 namespace limpid {
 namespace {
 
@@ -11,6 +13,8 @@ namespace {
 /// not focused is wider, and blurred less.
 constexpr float kBlur = 1.0f / 3;
 constexpr float kOfEdge = 1.2f;  ///< what is deeper than so many times the edge is not of it
+/// Times what a wall that the sun shines on falls over a cell: what falls more is an edge.
+constexpr double kSteep = 1.5;
 
 }  // namespace
 
@@ -168,7 +172,9 @@ void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const Caust
       .across = cells_.width,
       .down = cells_.height,
       .per_cell = 1.0f / static_cast<float>(coarse_),
-      .cell_x = static_cast<float>(layout_.margin + coarse_) / static_cast<float>(coarse_) - 0.5f};
+      .cell_x = static_cast<float>(layout_.margin + coarse_) / static_cast<float>(coarse_) - 0.5f,
+      .edge = static_cast<float>(kSteep * coarse_ * layout_.texel /
+                                 std::max(glm::length(sun.aside), 1e-9))};
   /// Rays of a row and one more at each end, if the next row asks for it, too.
   const auto follow = [&](int row) {
     Span span = rays_[std::clamp(row, 0, down - 1)];

@@ -71,6 +71,9 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
                                      Kernel<DepthFog>::lit_depth(water, now));
     }
     whole.caustics = &light_;
+    if (plan.keeps<Caustics>() && plan.keeps<FresnelReflection>()) {
+      mirrored_caustics_.light(plan.look.of<Caustics>(), light_, now, executor, whole);
+    }
   }
   return whole;
 }

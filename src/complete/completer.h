@@ -11,6 +11,7 @@
 #include "complete/bottom_albedo.h"
 #include "complete/bottom_layer.h"
 #include "complete/caustics.h"
+#include "complete/caustics_mirrored.h"
 #include "complete/continuation.h"
 #include "complete/displaced_surface.h"
 #include "complete/edges.h"
@@ -28,9 +29,10 @@ namespace limpid {
 /// part of each pixel that is seen; parts pixels that something before the water covers in part;
 /// draws a layer below the water on as far as color and depth go; makes the continuation of the
 /// bottom for rays that leave the picture, the layer of the bottom for those that end behind
-/// something, the light that the water scatters more than once, and the table of sunlight that
-/// waves focus on the bottom. Each only where the plan asks for it. Once a frame, before its
-/// pixels; operators read the result as they read the plate's planes. The result does not depend on
+/// something, the light that the water scatters more than once, the table of sunlight that
+/// waves focus on the bottom; lights by it what the surface mirrors of the bottom. Each only where
+/// the plan asks for it. Once a frame, before its pixels; operators read the result as they read
+/// the plate's planes. The result does not depend on
 /// the number of threads. Keeps its memory from frame to frame.
 class Completer {
  public:
@@ -67,6 +69,7 @@ class Completer {
   BottomAlbedo bottom_albedo_;
   CausticsMaker caustics_, shafts_;
   CausticsTable light_;  ///< of both
+  MirroredCaustics mirrored_caustics_;
 };
 
 }  // namespace limpid
