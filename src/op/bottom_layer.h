@@ -37,9 +37,11 @@ class BottomLayerTaps {
     const Rgb<F> there = tap_.lat_long_rgb(layer_.shape, place(shift));
     return {there.r, there.b};
   }
+  /// Shape::drop alone, which takes a third of the lookups.
+  F bottom(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.shape, place(shift)).r; }
   /// Whether what is seen at `shift`, `drop` below the calm surface, is of the bottom.
   auto is_bottom(Vec2<F> shift, F drop) const {
-    return drop >= F(BottomLayer::kOfBottom) * shape(shift).drop;
+    return drop >= F(BottomLayer::kOfBottom) * bottom(shift);
   }
   Rgb<F> color(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.colors, place(shift)); }
 
