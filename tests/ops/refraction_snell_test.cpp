@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "limpid/ops/refraction.h"
 
@@ -211,6 +212,17 @@ TEST(Snell, OffTheFrameIsInventedAndSaidSo) {
       EXPECT_NEAR(got.aov(Aov::kTransmitted, 32, 47), 32 + 4700, 40);
     }
   }
+}
+
+// From below, 30 degrees over the horizon: beyond the critical angle nothing is looked up.
+TEST(Snell, WhereAllIsMirroredNothingIsUnsure) {
+  Basin basin(3, 0);
+  const glm::dmat4 upside_down = glm::scale(glm::dmat4(1), glm::dvec3(1, -1, 1));
+  basin.scene.camera->view = upside_down * basin.scene.camera->view * upside_down;
+  basin.buffers.fill(PlaneId::kDepth, 1000);
+  const test::Picture got = basin.wet();
+  EXPECT_EQ(got.aov(Aov::kConfidence, 32, 24), 1);
+  EXPECT_EQ(got.aov(Aov::kStmapG, 32, 24, 0), 32.5 / kSize.width);
 }
 
 /// A bottom 3 deep, whose color and depth go on far beyond the picture.
