@@ -17,8 +17,8 @@
 #include "limpid/shade/shader_text.h"
 
 /// @file
-/// limpid as a post stage of another program: buffers of the host in, a wet picture in its own
-/// buffers out, frame after frame.
+/// limpid as a post-processing stage of another program: buffers of the host in, a wet picture in
+/// the host's buffers out, frame by frame.
 ///
 ///     Compositor water({.depth = DepthKind::kDevice, .clip = ClipSpace::kReversed}, look);
 ///     ...
@@ -26,31 +26,31 @@
 
 namespace limpid {
 
-/// How a host keeps cameras and depths, the same for all of its frames. The defaults are those of
-/// OpenGL and of this library. Worlds may be left-handed: nothing here depends on it, and
-/// PlaneAxes::y then lies to the other side of x.
+/// The conventions of a host for cameras and depths, the same for all of its frames. The defaults
+/// are those of OpenGL and of this library. Worlds may be left-handed: nothing here depends on
+/// handedness, except that PlaneAxes::y then lies on the other side of x.
 struct Conventions {
   DepthKind depth = DepthKind::kEye;  ///< what all depth planes hold
   double near = 0, far = 0;           ///< scene units, of DepthKind::kNormalised alone
   /// The range of clip z that projections are made for; Camera::clip of a frame does not count.
   ClipSpace clip = ClipSpace::kGl;
-  /// View space looks down +Z and not -Z, as those of Direct3D and Unreal do: the last row of
-  /// perspective projections is 0 0 1 0.
+  /// View space looks down +Z instead of -Z, as in Direct3D and Unreal: the last row of perspective
+  /// projections is 0 0 1 0.
   bool looks_along_plus_z = false;
   bool clip_y_down = false;  ///< clip y = +1 is the lowest row of the picture, as in Vulkan
-  /// The host vouches for its planes: no NaN, no infinity but in depths, where it means "nothing
-  /// hit" (as does the far plane of device and normalised depth, and 0 of inverse depth, but no
-  /// large number), shadows and masks within 0 ... 1, unit normals. Floats of eye depth are then
-  /// read as they lie, and NaN gives NaN around it. Otherwise all is looked through, and what is
-  /// wrong is replaced as sanitise.h says, in a copy.
+  /// The host vouches for its planes: no NaN, no infinity except in depths, where it means "no
+  /// surface hit" (as does the far plane of device and normalised depth, and 0 of inverse depth,
+  /// but no large number), shadows and masks within 0 ... 1, unit normals. Floats of eye depth are
+  /// then read without a copy, and NaN gives NaN around it. Otherwise all planes are checked, and
+  /// bad values are replaced as in sanitise.h, in a copy.
   bool sane = false;
-  /// A depth that is stored as exactly this is "nothing hit", too. Where the planes are not `sane`,
+  /// A stored depth of exactly this value is "no surface hit", too. If the planes are not `sane`,
   /// so is a depth of 0 with an alpha of 0.
   std::optional<double> depth_nothing = {};
 };
 
 /// A frame of a host. Planes as in Frame, but in the host's conventions, float or half, with any
-/// strides; those that the plan does not read are not looked at. The scene must have camera and
+/// strides; planes that the plan does not read are ignored. The scene must have camera and
 /// water.
 struct HostFrame {
   Rect display;  ///< the picture that the camera's projection belongs to
@@ -60,11 +60,11 @@ struct HostFrame {
   HostInput& plane(PlaneId id) { return planes[index_of(id)]; }
 };
 
-/// Where a host wants its picture, as in Target: float or half, with any strides but 0. What there
-/// is must cover the pixels of the display window that have color; all else is left alone. It may
+/// The picture of a host, as in Target: float or half, with any strides but 0. Its channels must
+/// cover the pixels of the display window that have color; all other pixels are left alone. It may
 /// lie over planes of the frame, in place: these are copied first. No two of its channels may share
-/// a byte, nor one with a texture. Halves take the nearest value, finite ones beyond 65504 that
-/// one.
+/// a byte, nor may one with a texture. Halves are rounded to nearest, finite values beyond 65504 to
+/// 65504.
 struct HostPicture {
   std::array<HostOutput, 3> color;
   HostOutput alpha;  ///< may be absent
@@ -108,29 +108,29 @@ class Compositor {
   const Look& look() const;
 
   /// The tiling normal map, values 0 ... 1, blue is up; the surroundings as in Frame. Their memory
-  /// stays the host's and must be there, unchanged, until they are replaced: what has changed is
-  /// set again. An empty texture takes them away. Throws Error for channels of several sizes, NaN
-  /// and infinity.
+  /// belongs to the host and must stay valid and unchanged until they are replaced: set a changed
+  /// texture again. An empty texture removes the old one. Throws Error for channels of several
+  /// sizes, NaN and infinity.
   void set_wave_map(const Texture& map);
   void set_environment(const Texture& environment);
 
-  /// Throws Error, before anything is written: for what Frame::validate, the camera, the water and
-  /// the planner refuse, for device depth that runs the other way than the conventions say, windows
-  /// farther out than 2^29 pixels, and for a picture that does not cover the frame. Throws
-  /// std::bad_alloc in a first frame only.
+  /// Throws Error, before anything is written: as Frame::validate, the camera, the water and the
+  /// planner do, for device depth in the direction opposite to the conventions, windows beyond 2^29
+  /// pixels, and for a picture that does not cover the frame. Throws std::bad_alloc in a first
+  /// frame only.
   void run(const HostFrame& frame, const HostPicture& picture);
 
-  /// The look as it is set now as one shader for frames like this one, with the values of this one:
-  /// the plan that run() would make for it, with the AOVs of `options`. Textures of source kPlanes
-  /// are for the host to bind and hold what Frame says, whatever the conventions are: eye depth,
-  /// unit normals, row 0 at the top. Without max_error, and no edge is mixed. Each call records and
-  /// prints anew, about ten milliseconds, and makes on one thread what nobody rendered. Changes
-  /// nothing of what run(), plan() and replaced() give. Throws Error as run() does for a frame, and
-  /// as ShaderText.
+  /// The current look as one shader for frames like this one, with the values of this frame: the
+  /// plan that run() would make for it, with the AOVs of `options`. The host binds textures of
+  /// source kPlanes, which hold the planes of Frame for any conventions: eye depth, unit
+  /// normals, row 0 at the top. Without max_error and mixed edges. Each call records and prints
+  /// the shader, in about ten milliseconds, and runs the completers on one thread. Changes no
+  /// result of run(), plan() and replaced(). Throws Error as run() does for a frame, and as
+  /// ShaderText.
   ShaderText shader(const HostFrame& frame, const ShaderOptions& options = {});
 
-  /// Of the last frame: what ran and why, and what was replaced because it meant nothing. Throws
-  /// Error where that one was refused, or the look or a texture has been set since.
+  /// Of the last frame: what ran and why, and the replaced values. Throws Error if that frame was
+  /// refused, or the look or a texture has been set since.
   const Plan& plan() const;
   const SanitiseCounts& replaced() const;
 

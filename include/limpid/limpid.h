@@ -2,8 +2,8 @@
 #define LIMPID_LIMPID_H
 
 /** @file
- * limpid as a post stage, for C and for whatever can call C: limpid/compositor.h in other words,
- * where everything is said that is not said here. C11.
+ * limpid as a post-processing stage, for C and for languages that call C: the interface of
+ * limpid/compositor.h, which has the full documentation. C11.
  *
  *     limpid_compositor* water = NULL;
  *     limpid_conventions conventions = LIMPID_CONVENTIONS;
@@ -14,11 +14,11 @@
  *     if (limpid_run(water, &frame, &picture) != LIMPID_OK) puts(limpid_message(water));
  *     limpid_destroy(water);
  *
- * Structs begin with their size as the caller knows it, which the macros below set; all the rest of
- * them may be 0. What later versions append is taken for 0 where an older caller does not have it;
- * a size that this library does not know is refused. Values of enums and limpid_channel never
- * change. A compositor is for one thread at a time, and so is a shader; several may work at once.
- * Files of looks are read by limpid/files/text/look_file.h, in C++.
+ * Structs begin with their size as the caller knows it, which the macros below set; all other
+ * members may be 0. Members that later versions append count as 0 for an older caller; a size that
+ * this library does not know is refused. Values of enums and limpid_channel never change. A
+ * compositor is for one thread at a time, and so is a shader; several may work at once.
+ * limpid/files/text/look_file.h reads look files, in C++.
  */
 
 #include <stddef.h>
@@ -93,7 +93,7 @@ typedef enum limpid_plane {
   LIMPID_SUN_COLOR_B = 28
 } limpid_plane;
 
-/** What is written. Channel i of an AOV (x y z, r g b, u v) is its value + i. */
+/** The outputs. Channel i of an AOV (x y z, r g b, u v) is its value + i. */
 typedef enum limpid_output {
   LIMPID_OUT_R = 0,
   LIMPID_OUT_G = 1,
@@ -129,7 +129,7 @@ typedef struct limpid_channel {
   int32_t x0, y0, x1, y1; /**< pixels x0 <= x < x1, y0 <= y < y1 */
 } limpid_channel;
 
-/** How the host keeps cameras and depths: limpid::Conventions. */
+/** The conventions of the host for cameras and depths: limpid::Conventions. */
 typedef struct limpid_conventions {
   size_t size;
   int32_t depth; /**< limpid_depth */
@@ -138,7 +138,7 @@ typedef struct limpid_conventions {
   /** Matrices lie in memory row after row. 0: column after column, as OpenGL has them (which is
    * also how matrices for row vectors lie that are stored by rows, as Direct3D has them). */
   int32_t row_major;
-  double near_depth, far_depth; /**< of normalised depth alone */
+  double near_depth, far_depth; /**< of normalised depth only */
 } limpid_conventions;
 #define LIMPID_CONVENTIONS \
   { sizeof(limpid_conventions), 0, 0, 0, 0, 0, 0, 0, 0 }
@@ -149,7 +149,7 @@ typedef struct limpid_conventions {
 typedef void (*limpid_task)(void* context, int index);
 typedef struct limpid_executor {
   size_t size;
-  void* host; /**< handed to run() */
+  void* host; /**< passed to run() */
   void (*run)(void* host, int count, limpid_task task, void* context);
 } limpid_executor;
 #define LIMPID_EXECUTOR \
@@ -191,7 +191,7 @@ typedef struct limpid_frame {
   double sun_color[3];
   double time; /**< seconds */
   int32_t has_sky;
-  double sky_radiance[3]; /**< of an even sky, which lights the water besides the sun */
+  double sky_radiance[3]; /**< of a uniform sky, which lights the water besides the sun */
 } limpid_frame;
 #define LIMPID_FRAME                                                                         \
   {                                                                                          \
@@ -206,8 +206,8 @@ typedef struct limpid_picture {
 #define LIMPID_PICTURE \
   { sizeof(limpid_picture), NULL, 0 }
 
-/** Pixels of floats r g b, or more channels that are not looked at. Rows have y_stride bytes, or
- * follow one another without a gap where it is 0. */
+/** Pixels of floats r g b, with further channels that are ignored. Rows have y_stride bytes, or
+ * follow one another without a gap if it is 0. */
 typedef struct limpid_texture {
   size_t size;
   const float* data;
@@ -217,20 +217,20 @@ typedef struct limpid_texture {
 #define LIMPID_TEXTURE \
   { sizeof(limpid_texture), NULL, 0, 0, 0, 0 }
 
-/** What the text of a shader has besides declarations and the function. */
+/** The parts of a shader text besides declarations and the function. */
 typedef enum limpid_shader_stage {
   LIMPID_SHADER_FUNCTION = 0, /**< nothing: for a shader of the host */
   LIMPID_SHADER_COMPUTE = 1,  /**< a main() for groups of 16 x 8 pixels, that writes images */
   LIMPID_SHADER_FRAGMENT = 2  /**< a main() for a pixel of a full-screen triangle */
 } limpid_shader_stage;
 
-/** How a shader is to be printed: limpid::ShaderOptions. */
+/** Options of a shader text: limpid::ShaderOptions. */
 typedef struct limpid_shader_options {
   size_t size;
   int32_t stage;         /**< limpid_shader_stage */
   const char* function;  /**< a word of letters, digits and _; NULL: limpid_water */
-  int32_t set;           /**< descriptor set of all that is declared, 0 ... 31 */
-  int32_t first_binding; /**< they count from here, 0 ... 1000 */
+  int32_t set;           /**< descriptor set of all declarations, 0 ... 31 */
+  int32_t first_binding; /**< first binding, 0 ... 1000 */
   /** That the function returns besides the picture: the first channel of each (LIMPID_OUT_PATH, not
    * LIMPID_OUT_PATH + 1), each at most once. */
   const int32_t* aovs;
@@ -239,7 +239,7 @@ typedef struct limpid_shader_options {
 #define LIMPID_SHADER_OPTIONS \
   { sizeof(limpid_shader_options), 0, NULL, 0, 0, NULL, 0 }
 
-/** Where the values of a shader's texture come from. */
+/** The source of the values of a shader's texture. */
 typedef enum limpid_texture_source {
   LIMPID_TEXTURE_PLANES = 0, /**< the host's planes of `role`, in the channels r g b a */
   LIMPID_TEXTURE_ROWS = 1,   /**< texels: numbers of each row of the picture */
@@ -258,7 +258,7 @@ typedef struct limpid_shader_info {
   const void* block; /**< std140, with the values of the frame */
   size_t block_size; /**< bytes */
   size_t number_count, texture_count, output_count;
-  int32_t x0, y0, x1, y1; /**< pixels that the shader makes */
+  int32_t x0, y0, x1, y1; /**< pixels that the shader computes */
 } limpid_shader_info;
 #define LIMPID_SHADER_INFO \
   { sizeof(limpid_shader_info), NULL, NULL, NULL, 0, 0, 0, NULL, 0, 0, 0, 0, 0, 0, 0, 0 }
@@ -269,7 +269,7 @@ typedef struct limpid_shader_number {
   const char* name;  /**< "refraction.strength"; in the text with _ for . and [ */
   size_t offset;     /**< bytes */
   float value;       /**< of the frame */
-  int32_t has_range; /**< of a parameter that stands in the shader as it is: what it may be */
+  int32_t has_range; /**< 1 for a parameter that is used unchanged: its range */
   double least, most;
 } limpid_shader_number;
 #define LIMPID_SHADER_NUMBER \
@@ -281,16 +281,16 @@ typedef struct limpid_shader_texture {
   const char* name; /**< "limpid_depth" */
   int32_t binding;
   int32_t source;   /**< limpid_texture_source */
-  const char* role; /**< of planes, made ones included: "depth", "color"; else "" */
+  const char* role; /**< of planes, computed ones included: "depth", "color"; else "" */
   int32_t plane;    /**< limpid_plane of its channel r; -1 where there is no role */
-  int32_t channels; /**< that are read, 1 ... 4 */
+  int32_t channels; /**< channels read, 1 ... 4 */
   int32_t width, height;
   const float* texels; /**< `channels` floats each, row after row; NULL for the host's planes */
 } limpid_shader_texture;
 #define LIMPID_SHADER_TEXTURE \
   { sizeof(limpid_shader_texture), NULL, 0, 0, NULL, 0, 0, 0, 0, NULL }
 
-/** What main() writes. The first is the picture. */
+/** An output of main(). The first is the picture. */
 typedef struct limpid_shader_output {
   size_t size;
   const char* name; /**< "color", "path": of the AOV */
@@ -303,20 +303,20 @@ typedef struct limpid_shader_output {
 typedef struct limpid_compositor limpid_compositor;
 typedef struct limpid_shader limpid_shader;
 
-/** "MAJOR.MINOR.PATCH" of the library that runs. */
+/** "MAJOR.MINOR.PATCH" of the running library. */
 LIMPID_API const char* limpid_version(void);
 
-/** Makes a compositor with the look that needs nothing but a plate, `physical`. NULL for
- * conventions or options: the defaults. Where it does not return LIMPID_OK, *compositor is NULL,
- * and `message`, if there is one, holds the reason, cut to message_size - 1 bytes. */
+/** Makes a compositor with the look `physical`, which needs only a plate. NULL for conventions or
+ * options: the defaults. If it does not return LIMPID_OK, *compositor is NULL, and `message`, if
+ * not NULL, holds the reason, cut to message_size - 1 bytes. */
 LIMPID_API limpid_status limpid_create(const limpid_conventions* conventions,
                                        const limpid_options* options,
                                        limpid_compositor** compositor, char* message,
                                        size_t message_size);
 LIMPID_API void limpid_destroy(limpid_compositor* compositor); /**< NULL is fine */
 
-/** Why the last call on this compositor that did not return LIMPID_OK did not; "" before the first.
- * Valid until the next call on it. */
+/** The error of the last call on this compositor that did not return LIMPID_OK; "" before the
+ * first. Valid until the next call on the compositor. */
 LIMPID_API const char* limpid_message(const limpid_compositor* compositor);
 
 /** One parameter of the look, as `limpid operators` lists them: "refraction", "strength". Rows are
@@ -332,8 +332,8 @@ LIMPID_API limpid_status limpid_set_rows(limpid_compositor* compositor, const ch
                                          size_t columns);
 LIMPID_API limpid_status limpid_reset_look(limpid_compositor* compositor);
 
-/** Their memory stays the host's, and as it is: what has changed is set again. NULL takes them
- * away. */
+/** The memory belongs to the host and must stay unchanged: set a changed texture again. NULL
+ * removes the texture. */
 LIMPID_API limpid_status limpid_set_wave_map(limpid_compositor* compositor,
                                              const limpid_texture* map);
 LIMPID_API limpid_status limpid_set_environment(limpid_compositor* compositor,
@@ -343,10 +343,10 @@ LIMPID_API limpid_status limpid_set_environment(limpid_compositor* compositor,
 LIMPID_API limpid_status limpid_run(limpid_compositor* compositor, const limpid_frame* frame,
                                     const limpid_picture* picture);
 
-/** The look as a TOML text; of the last frame, what ran and why, a line an operator, and how many
- * values were replaced because they meant nothing, as in "color 3 NaN 1 inf, depth 2 NaN".
- * All write at most size - 1 bytes and a 0, and return how long the whole text is, without that 0;
- * 0 where there is none. */
+/** The look as a TOML text; for the last frame, what ran and why, one line per operator, and
+ * the numbers of replaced values, as in "color 3 NaN 1 inf, depth 2 NaN". All write at most
+ * size - 1 bytes and a 0, and return the length of the whole text without that 0; 0 if there is
+ * none. */
 LIMPID_API size_t limpid_look_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_replaced_text(const limpid_compositor* compositor, char* text,
@@ -356,26 +356,26 @@ LIMPID_API size_t limpid_replaced_text(const limpid_compositor* compositor, char
 LIMPID_API size_t limpid_device_text(const limpid_compositor* compositor, char* text, size_t size);
 
 /** The look, with its maps, as one shader for frames like this one, and the values of this one:
- * limpid::Compositor::shader(). The same text, so the same shader, serves any size, time and camera
- * while the planes that are there, the number of waves and the side of the water that the camera is
- * on stay; for each frame one is made anew and its block and textures are taken. NULL for options:
- * the defaults. Textures of LIMPID_TEXTURE_PLANES are the host's to bind, and hold eye depth, unit
- * normals and row 0 at the top, whatever the conventions are. The shader does not need the
- * compositor any more. Where it does not return LIMPID_OK, *shader is NULL and limpid_message() of
- * the compositor has the reason. */
+ * limpid::Compositor::shader(). The same text, so the same shader, serves any size, time and
+ * camera as long as the set of planes, the number of waves and the camera's side of the water stay
+ * the same; make one for each frame, and take its block and textures. NULL for options: the
+ * defaults. The host binds textures of LIMPID_TEXTURE_PLANES, which hold eye depth, unit normals
+ * and row 0 at the top, for any conventions. The shader does not need the compositor any more. If
+ * it does not return LIMPID_OK, *shader is NULL and limpid_message() of the compositor has the
+ * reason. */
 LIMPID_API limpid_status limpid_create_shader(limpid_compositor* compositor,
                                               const limpid_frame* frame,
                                               const limpid_shader_options* options,
                                               limpid_shader** shader);
 LIMPID_API void limpid_destroy_shader(limpid_shader* shader); /**< NULL is fine */
 
-/** As limpid_message(), of the calls below. */
+/** As limpid_message(), for the calls below. */
 LIMPID_API const char* limpid_shader_message(const limpid_shader* shader);
 
-/** They fill a struct as far as its size says, which stays. What it points at is the shader's, and
- * is there until that is destroyed. LIMPID_REFUSED for an index that is not below the count; the
- * struct stays as it was then. Numbers come by rising offset, textures by rising binding, outputs
- * in the order in which they were asked for. */
+/** They fill a struct up to its size, which stays. Its pointers belong to the shader, and are valid
+ * until that is destroyed. LIMPID_REFUSED for an index that is not below the count; the struct then
+ * stays unchanged. Numbers come by rising offset, textures by rising binding, outputs in the order
+ * in which they were requested. */
 LIMPID_API limpid_status limpid_get_shader(limpid_shader* shader, limpid_shader_info* info);
 LIMPID_API limpid_status limpid_get_shader_number(limpid_shader* shader, size_t index,
                                                   limpid_shader_number* number);

@@ -10,16 +10,16 @@
 #include "limpid/core/error.h"
 
 /// @file
-/// Pictures of OpenImageIO as those of a host, without copies. A buffer holds its pixels itself or
-/// lies over memory of somebody's, flat, of float or half, with any strides and channels; these go
-/// by index or by name, as in "R" or "ViewLayer.Depth.Z". Its data window becomes that of the
-/// views, its display window that of the frame, in the same coordinates. All else is refused, in
-/// the form `ImageBuf 'a.png': pixels of uint8, expected ...`. Views hold nothing: the buffer must
-/// be there, with the same pixels, as long as they are.
+/// Adapter for pictures of OpenImageIO, without copies. A buffer holds its pixels or wraps memory
+/// of the application, flat, of float or half, with any strides and channels; channels are given by
+/// index or by name, as in "R" or "ViewLayer.Depth.Z". Its data window becomes that of the views,
+/// its display window that of the frame, in the same coordinates. Other buffers are refused, as in
+/// `ImageBuf 'a.png': pixels of uint8, expected ...`. Views hold nothing: the buffer must outlive
+/// them with the same pixels.
 
 namespace limpid {
 
-/// Throws Error unless its pixels can be read as they lie.
+/// Throws Error unless its pixels can be read without a copy.
 inline void validate(const OIIO::ImageBuf& buf) {
   std::string fault;
   if (buf.deep() || buf.spec().depth > 1) {
@@ -33,18 +33,18 @@ inline void validate(const OIIO::ImageBuf& buf) {
   if (!fault.empty()) throw Error("ImageBuf '" + std::string(buf.name()) + "': " + fault);
 }
 
-/// The pixels that are there.
+/// The window of the pixels.
 inline Rect window_of(const OIIO::ImageBuf& buf) {
   return {buf.xbegin(), buf.ybegin(), buf.xend(), buf.yend()};
 }
 
-/// The picture that they are a part of: HostFrame::display.
+/// The display window: HostFrame::display.
 inline Rect display_of(const OIIO::ImageBuf& buf) {
   const OIIO::ROI full = buf.roi_full();
   return {full.xbegin, full.ybegin, full.xend, full.yend};
 }
 
-/// Throws Error with the names that there are.
+/// Throws Error with the names of the channels.
 inline int channel_named(const OIIO::ImageBuf& buf, const std::string& name) {
   const int channel = buf.spec().channelindex(name);
   if (channel < 0) {
@@ -55,7 +55,7 @@ inline int channel_named(const OIIO::ImageBuf& buf, const std::string& name) {
 }
 
 /// A channel to read or, of a buffer that is not const, to write. Throws Error as validate() does,
-/// and for a channel that is not there.
+/// and for a missing channel.
 inline HostInput channel_of(const OIIO::ImageBuf& buf, int channel) {
   validate(buf);
   if (channel < 0 || channel >= buf.nchannels()) {
@@ -71,7 +71,7 @@ inline HostOutput channel_of(OIIO::ImageBuf& buf, int channel) {
   return {const_cast<void*>(view.data), view.sample, view.x_stride, view.y_stride, view.window};
 }
 
-/// What a channel is to the frame, as in set_plane(frame, PlaneId::kDepth, buf, "Z").
+/// Uses a channel as a plane of the frame, as in set_plane(frame, PlaneId::kDepth, buf, "Z").
 inline void set_plane(HostFrame& frame, PlaneId id, const OIIO::ImageBuf& buf, int channel) {
   frame.plane(id) = channel_of(buf, channel);
 }
@@ -87,14 +87,14 @@ inline void set_colors(HostFrame& frame, PlaneId red, const OIIO::ImageBuf& buf,
   for (int c = 0; c < 3; ++c) set_plane(frame, plane_after(red, c), buf, layer + "RGB"[c]);
 }
 
-/// The dry picture: R, G, B of a layer and its A, where there is one, which they are multiplied by.
+/// The dry picture: R, G, B of a layer and its A, if any, by which the colors are multiplied.
 inline void set_color(HostFrame& frame, const OIIO::ImageBuf& buf, const std::string& layer = {}) {
   set_colors(frame, PlaneId::kColorR, buf, layer);
   const int alpha = buf.spec().channelindex(layer + "A");
   frame.plane(PlaneId::kColorA) = alpha >= 0 ? channel_of(buf, alpha) : HostInput{};
 }
 
-/// R, G, B of a layer, and A where there is one, as the place for the wet picture.
+/// R, G, B of a layer, and A if there is one, as the destination of the wet picture.
 inline HostPicture picture_of(OIIO::ImageBuf& buf, const std::string& layer = {}) {
   HostPicture picture;
   for (int c = 0; c < 3; ++c) {
@@ -105,8 +105,8 @@ inline HostPicture picture_of(OIIO::ImageBuf& buf, const std::string& layer = {}
   return picture;
 }
 
-/// R, G, B of a layer as a map that tiles or an environment. Throws Error unless they are floats
-/// that lie at whole floats from one another.
+/// R, G, B of a layer as a tiling map or an environment. Throws Error unless they are floats with
+/// strides of whole floats.
 inline Texture texture_of(const OIIO::ImageBuf& buf, const std::string& layer = {}) {
   Texture texture;
   for (int c = 0; c < 3; ++c) {

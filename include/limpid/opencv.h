@@ -9,16 +9,16 @@
 #include "limpid/core/error.h"
 
 /// @file
-/// Pictures of OpenCV as those of a host, without copies. A matrix is 2-d, of 1, 3 or 4 channels of
-/// float or half (CV_32FC1, CV_16FC3 ...), with any step: parts of larger ones will do. Channels of
-/// colors are in OpenCV's order, B G R (A). The pixel at row 0, column 0 has the place `at` in the
-/// picture, else 0, 0. Bytes and doubles are refused, in the form `cv::Mat of CV_8UC3: expected
-/// ...`: pictures of 8 bits are not scene-linear, and what converts them knows their curve. Views
-/// do not share the matrix's count: it must be there as long as they are.
+/// Adapter for pictures of OpenCV, without copies. A matrix is 2-d, of 1, 3 or 4 channels of float
+/// or half (CV_32FC1, CV_16FC3 ...), with any step, also a part of a larger matrix. Channels of
+/// colors are in OpenCV's order, B G R (A). The pixel at row 0, column 0 has the position `at` in
+/// the picture, by default 0, 0. Bytes and doubles are refused, as in `cv::Mat of CV_8UC3: expected
+/// ...`: 8-bit pictures are not scene-linear, and only their reader knows their curve. Views do not
+/// share the matrix's reference count: it must outlive them.
 
 namespace limpid {
 
-/// Throws Error unless it is a picture of a type that can be read as it lies.
+/// Throws Error unless it is a picture of a type that can be read without a copy.
 inline void validate(const cv::Mat& mat) {
   const int depth = mat.depth(), channels = mat.channels();
   const bool fits = mat.dims == 2 && !mat.empty() && (depth == CV_32F || depth == CV_16F) &&
@@ -35,8 +35,8 @@ inline Rect window_of(const cv::Mat& mat, cv::Point at = {}) {
   return {at.x, at.y, at.x + mat.cols, at.y + mat.rows};
 }
 
-/// A channel to read or to write; the matrix itself stays as it is, in its type and size. Throws
-/// Error as validate() does, and for a channel that is not there.
+/// A channel to read or to write; type and size of the matrix do not change. Throws Error as
+/// validate() does, and for a missing channel.
 inline HostOutput channel_of(const cv::Mat& mat, int channel, cv::Point at = {}) {
   validate(mat);
   if (channel < 0 || channel >= mat.channels()) {
@@ -59,14 +59,14 @@ inline std::array<HostOutput, 3> colors_of(const cv::Mat& mat, cv::Point at = {}
   return {channel_of(mat, 2, at), channel_of(mat, 1, at), channel_of(mat, 0, at)};
 }
 
-/// What a channel of the matrix is to the frame, as in set_plane(frame, PlaneId::kDepth, depth).
+/// Uses a channel as a plane of the frame, as in set_plane(frame, PlaneId::kDepth, depth).
 inline void set_plane(HostFrame& frame, PlaneId id, const cv::Mat& mat, int channel = 0,
                       cv::Point at = {}) {
   frame.plane(id) = channel_of(mat, channel, at);
 }
 
 /// Three planes from `red` on, as in set_colors(frame, PlaneId::kReflectionR, mirrored). A fourth
-/// channel is not looked at.
+/// channel is ignored.
 inline void set_colors(HostFrame& frame, PlaneId red, const cv::Mat& mat, cv::Point at = {}) {
   const std::array<HostOutput, 3> colors = colors_of(mat, at);
   for (int c = 0; c < 3; ++c) frame.plane(plane_after(red, c)) = colors[c];
@@ -78,7 +78,7 @@ inline void set_color(HostFrame& frame, const cv::Mat& mat, cv::Point at = {}) {
   frame.plane(PlaneId::kColorA) = mat.channels() == 4 ? channel_of(mat, 3, at) : HostOutput{};
 }
 
-/// The matrix as the place for the wet picture, with alpha if it has four channels.
+/// The matrix as the destination of the wet picture, with alpha if it has four channels.
 inline HostPicture picture_of(const cv::Mat& mat, cv::Point at = {}) {
   HostPicture picture;
   picture.color = colors_of(mat, at);
@@ -86,7 +86,7 @@ inline HostPicture picture_of(const cv::Mat& mat, cv::Point at = {}) {
   return picture;
 }
 
-/// A map that tiles or an environment. Throws Error unless it is CV_32F with 3 or 4 channels.
+/// A tiling map or an environment. Throws Error unless it is CV_32F with 3 or 4 channels.
 inline Texture texture_of(const cv::Mat& mat) {
   const std::array<HostOutput, 3> colors = colors_of(mat);
   if (mat.depth() != CV_32F) {

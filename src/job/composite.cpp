@@ -120,9 +120,8 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   loaded.frame.overscan = job.output.overscan;
   loaded.frame.validate();
   SharedTextures textures;
-  HeldTextures held;
-  if (gpu) held = textures.load(prepared.textures, job.plate.limits);
-  held.show_in(loaded.frame);
+  const HeldTextures held = textures.load(prepared.textures, job.plate.limits);
+  held.show_in(loaded.frame);  // completers and cells depend on the wave map
   const Pass pass = pass_of(plan, scene, loaded.frame);
   Completer completer;
   const Frame frame = completer.complete(plan, loaded.frame, pass, executor, &job.output.simd);

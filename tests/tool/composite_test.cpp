@@ -214,6 +214,18 @@ TEST_F(CompositeTest, PlanMeasuresWhatItPredicts) {
   EXPECT_EQ(files(), before) << "nothing is written";
 }
 
+TEST_F(CompositeTest, PlansTheCausticsOfAWaveMap) {
+  const auto cells = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"plan",   "plate.exr", "--scene", "scene.toml",
+                                   "--look", "physical",  "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    const std::string text = limpid(words).out;
+    return text.substr(0, text.find("\ntime"));
+  };
+  EXPECT_THAT(cells({}), ContainsRegex("\ncaustics +kept"));
+  EXPECT_EQ(cells({}), cells({"--measure"})) << "what is planned is what runs";
+}
+
 TEST_F(CompositeTest, LooksComeByNameAndByFile) {
   const auto with_look = [&](const std::string& look, const std::string& output) {
     return limpid(

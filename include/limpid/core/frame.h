@@ -47,26 +47,26 @@ enum class PlaneId : std::uint8_t {
 };
 constexpr int kPlaneCount = 29;
 constexpr int index_of(PlaneId id) { return static_cast<int>(id); }
-/// The plane `step` places after `id`, as in plane_after(kColorR, 2) = kColorB.
+/// The plane `step` planes after `id`, as in plane_after(kColorR, 2) = kColorB.
 constexpr PlaneId plane_after(PlaneId id, int step) {
   return static_cast<PlaneId>(index_of(id) + step);
 }
 
 using PlaneSet = EnumSet<PlaneId>;
 
-/// What a NaN or infinity in a plane becomes when the frame is entered.
+/// The replacement of NaN and infinity in a plane on entry.
 enum class Sanitise : std::uint8_t {
   kColor,   ///< NaN, -inf -> 0; +inf -> the largest half
-  kDepth,   ///< NaN, and what stands for "nothing hit" -> +inf
+  kDepth,   ///< NaN, and values for "no surface hit" -> +inf
   kShadow,  ///< NaN, inf -> 1, then clamped to 0 ... 1
   kNormal,  ///< made unit; NaN, inf or zero length -> up
   kMask,    ///< NaN -> 0, then clamped to 0 ... 1
 };
 
-/// How numbers lie in files, unless all is stored as float.
+/// The type of numbers in files, unless all is stored as float.
 enum class Storage : std::uint8_t {
   kHalf,
-  kFloat,  ///< half would be too coarse: lengths, and places in the picture
+  kFloat,  ///< half is too coarse for lengths and for positions in the picture
 };
 
 /// A group of planes that belong together, by the name that files and the command line use.
@@ -74,7 +74,7 @@ struct Role {
   std::string_view name;
   PlaneId first;
   int count;
-  float missing;  ///< what a pixel outside the plane's data window reads
+  float missing;  ///< the value outside of the plane's data window
   Sanitise sanitise;
   /// The layer that holds it in a plate of our own, or "" for a role that no file has.
   std::string_view layer;

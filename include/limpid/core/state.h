@@ -7,22 +7,22 @@
 
 namespace limpid {
 
-/// The parts of a pixel's running state. Operators declare which they use and which they make.
+/// The parts of a pixel's state. Operators declare which they use and which they make.
 enum class StatePart : std::uint8_t {
   kNormal,         ///< wave normal and its tilt
-  kSlopeVariance,  ///< of the waves that the pixel cannot resolve
-  kPrism,          ///< how far each color channel departs from the common path
-  kPosition,       ///< where in the dry picture the refracted rays end
-  kPath,           ///< length of the way through the water
-  kTransmittance,  ///< share of light that survives that way
+  kSlopeVariance,  ///< of the waves that the pixel does not resolve
+  kPrism,          ///< offset of each color channel from the common ray
+  kPosition,       ///< ends of the refracted rays in the dry picture
+  kPath,           ///< length of the refracted ray in the water
+  kTransmittance,  ///< share of light transmitted along the path
   kTransmitted,    ///< light from below the surface
   kInScatter,      ///< light scattered into the view by the water
-  kSunScatter,     ///< the sun's share of it
+  kSunScatter,     ///< the sun's part of in-scatter
   kFresnel,        ///< reflectance
-  kReflected,      ///< light mirrored by the surface
-  kMirrorSources,  ///< what the mirrored light was taken from
+  kReflected,      ///< light reflected by the surface
+  kMirrorSources,  ///< sources of the reflected light
   kHighlight,      ///< the sun's glint
-  kConfidence,     ///< 1 where the lookup is real, 0 where it is invented
+  kConfidence,     ///< 1 where the lookup found its ray, 0 for a guess
 };
 
 using StateSet = EnumSet<StatePart>;

@@ -13,9 +13,9 @@
 #include "limpid/optics/depth.h"
 
 /// @file
-/// What is done to planes once, on entry, so that no operator ever meets a NaN: values that mean
-/// nothing are replaced and counted, depth becomes linear eye depth, normals become unit. All in
-/// place, any strides.
+/// The conversion of planes on entry, so that no operator ever meets a NaN: invalid values are
+/// replaced and counted, depth becomes linear eye depth, normals become unit vectors. All in place,
+/// any strides.
 
 namespace limpid {
 
@@ -28,8 +28,8 @@ struct Replaced {
   friend bool operator==(const Replaced&, const Replaced&) = default;
 };
 
-/// What was replaced where it means nothing (a depth of +inf means "nothing hit" and is not
-/// counted), by role.
+/// The numbers of replaced values (a depth of +inf means "no surface hit" and is not counted), by
+/// role.
 struct SanitiseCounts {
   std::array<Replaced, kPlaneCount> by_role{};  ///< at the role's first plane
 
@@ -44,8 +44,8 @@ struct SanitiseCounts {
   std::string to_text() const;
 };
 
-/// What a color of +inf becomes: the largest half, also where the color is stored as float, so that
-/// sums and means of it stay finite. An alpha of +inf becomes 1.
+/// The replacement of a color of +inf: the largest half, also if the color is stored as float, so
+/// that sums and means of it stay finite. An alpha of +inf becomes 1.
 inline constexpr float kLargestColor = 65504;
 
 /// NaN, -inf -> 0, +inf -> `largest`.
@@ -57,35 +57,35 @@ Replaced sanitise_shadow(const View<float>& plane);
 /// NaN, inf -> 0, then clamped to 0 ... 1; what was NaN or infinite is counted.
 Replaced sanitise_mask(const View<float>& plane);
 
-/// Made unit; where a component is NaN or infinite or all are 0, `up` instead. Counts the normals
-/// with a NaN, and those with an infinity and no NaN; not those of 0, which renderers write where
-/// there is no surface.
+/// Normalised; `up` where a component is NaN or infinite or all are 0. Counts the normals with a
+/// NaN, and those with an infinity and no NaN; not those of 0, which renderers write where there is
+/// no surface.
 Replaced sanitise_normal(const View<float>& x, const View<float>& y, const View<float>& z,
                          glm::dvec3 up);
 
-/// What a depth plane holds, and what is needed to make linear eye depth of it.
+/// The kind of a depth plane, and the data for its conversion to linear eye depth.
 struct DepthSource {
   DepthKind kind = DepthKind::kEye;
   bool half = false;         ///< stored as half: 6e4 and above is "nothing hit", else 1e9 and above
   double near = 0, far = 0;  ///< kNormalised
   const Camera* camera = nullptr;  ///< kRay and kDevice
   Rect display = {};               ///< kRay
-  /// As it is stored, "nothing hit" besides what always is: exactly this value.
+  /// The stored value that means "no surface hit", besides the usual ones.
   std::optional<double> nothing = {};
   /// Whether alpha is 0 at a pixel: a stored depth of 0 is "nothing hit" there.
   std::function<bool(int x, int y)> uncovered = {};
 };
 
-/// Linear eye depth in place of whatever the plane holds; "nothing hit", NaN and -inf become +inf,
-/// of which NaN and -inf are counted. Throws Error when the kind needs a camera, or near and far,
-/// that is not there.
+/// Replaces the values of the plane by linear eye depth; "no surface hit", NaN and -inf become
+/// +inf, and NaN and -inf are counted. Throws Error if the kind needs a camera, or near and far,
+/// that is missing.
 Replaced make_eye_depth(const View<float>& plane, const DepthSource& source);
 
-/// What the plane of a role becomes in place of +inf, where the role's values are colors.
+/// The replacement of +inf in planes of a role with colors.
 float largest_of(PlaneId plane);
 
-/// All of the above, by role, to the planes that are there (by PlaneId). `source_of` says what the
-/// depth planes hold; without it they are linear eye depth in float.
+/// All of the above, by role, for the planes that are there (by PlaneId). `source_of` gives the
+/// kind of the depth planes; without it they are linear eye depth in float.
 SanitiseCounts sanitise_planes(std::span<Plane> planes, glm::dvec3 up,
                                const std::function<DepthSource(const Role&)>& source_of = {});
 

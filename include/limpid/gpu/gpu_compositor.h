@@ -13,9 +13,9 @@
 #include "limpid/plan/plan.h"
 
 /// @file
-/// limpid as a post stage of a program that draws with Vulkan: its device, its images, its command
-/// buffers. Nothing is copied to memory and back. vulkan.h is not needed to include this: handles
-/// are pointers to the structs that it names, as on all platforms of 64 bits.
+/// limpid as a post-processing stage of a program that draws with Vulkan: its device, its images,
+/// its command buffers, without copies to memory and back. Including this does not need vulkan.h:
+/// handles are pointers to the structs that it names, as on all 64-bit platforms.
 ///
 ///     GpuCompositor water({instance, physical, device, vkGetInstanceProcAddr}, look);
 ///     ...
@@ -52,9 +52,9 @@ struct GpuImageView {
 
 /// A frame of the host on its device: images by the first plane of their role (PlaneId::kColorR,
 /// kDepth, kShadow, kReflectionR, kSurfaceNormalX ...), in the conventions of Frame: linear color,
-/// eye depth with +inf where nothing was hit. Any format will do that a shader reads as floats
-/// (R32, RGBA16F ...), in a layout for that, with VK_IMAGE_USAGE_SAMPLED_BIT. Nothing is looked
-/// through: NaN gives NaN around it. The scene must have camera and water.
+/// eye depth with +inf where no surface was hit. Any format that a shader reads as floats (R32,
+/// RGBA16F ...), in a layout for that, with VK_IMAGE_USAGE_SAMPLED_BIT. Nothing is checked: NaN
+/// gives NaN around it. The scene must have camera and water.
 struct GpuFrame {
   Rect display;
   std::map<PlaneId, GpuImageView> planes;
@@ -62,25 +62,25 @@ struct GpuFrame {
 };
 
 struct GpuCompositorOptions {
-  /// So many frames may be recorded before the first of them has been run, 1 ... 16.
+  /// Frames that may be recorded before the first of them has been run, 1 ... 16.
   int in_flight = 2;
-  /// Whether what would be made of pixels in memory is left out (left_out()); else a look that asks
-  /// for it is refused.
+  /// Whether steps that need pixels in CPU memory are left out (left_out()); else a look that needs
+  /// them is refused.
   bool leave_out = false;
   std::filesystem::path cache = {};  ///< as in GpuOptions
-  std::string simd = {};             ///< of what is made on the CPU before
+  std::string simd = {};             ///< of the work on the CPU
 };
 
-/// Puts water into the frames of a host on its own device. One is for one thread at a time.
+/// Puts water into the frames of a host on its device. For one thread at a time.
 ///
 /// A shader reads the host's images and writes the picture; the numbers of the frame, its rows, a
-/// surface raised by waves, and textures go there by memory of the compositor's own. What
-/// completers make of pixels (mixed edges, the bottom behind what hides it and beyond the picture,
-/// mirror depths, albedo, caustics) is not to be had so: their pixels are not in memory. The water
-/// itself is the GpuRunner's with the same planes, to the bit.
+/// surface displaced by waves, and textures are uploaded from the compositor's memory. Completers
+/// that need pixels (mixed edges, the bottom behind objects and beyond the picture, reflection
+/// depths, albedo, caustics) do not run: the pixels are not in CPU memory. With the same planes the
+/// water equals that of GpuRunner, to the bit.
 class GpuCompositor {
  public:
-  /// Throws Error for a device that does not promise what a GpuRunner needs, and for options out of
+  /// Throws Error for a device that does not meet the needs of GpuRunner, and for options out of
   /// range. The host's objects must outlive this one.
   explicit GpuCompositor(const GpuHost& host, const Look& look = {},
                          const GpuCompositorOptions& options = {});
@@ -107,8 +107,8 @@ class GpuCompositor {
   /// refuse, a look that needs what is left out, and images that do not fit.
   void record(VkCommandBuffer_T* commands, const GpuFrame& frame, const GpuImageView& picture);
 
-  /// Of the last frame: what ran and why; and what of it was left out, a phrase each. Throws Error
-  /// where no frame has been recorded since the look or a texture was set.
+  /// Of the last frame: what ran and why; and the steps that were left out, a phrase each. Throws
+  /// Error if no frame has been recorded since the look or a texture was set.
   const Plan& plan() const;
   const std::vector<std::string>& left_out() const;
   /// The device, and its driver.

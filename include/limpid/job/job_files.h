@@ -9,8 +9,8 @@
 #include "limpid/job/water.h"
 
 /// @file
-/// Which files a job reads and which it writes, and that no file is both. Every job of this library
-/// and of the tool passes through here before it writes.
+/// The files that a job reads and writes, and the check that no file is both. Every job of this
+/// library and of the tool makes this check before it writes.
 
 namespace limpid {
 
@@ -26,19 +26,19 @@ std::vector<std::filesystem::path> outputs_of(const OutputChoice& choice);
 std::vector<std::filesystem::path> inputs_of(const Model& model, const SceneFile& scene,
                                              const Look& look);
 
-/// All files that were read or may be, plates and layers, too, and all that will be written.
+/// All files that were read or may be, with plates and layers, and all that will be written.
 JobFiles files_of(const CompositeJob& job);
 JobFiles files_of(const Model& model, const RenderJob& job);
 JobFiles files_of(const Model& model, const WaterJob& job);
 
-/// Throws the Error of Fault::kUsage for an output that is an input, too, or another output: by
-/// device and inode, so that links, "./" and absolute paths hide nothing; files that are not there
+/// Throws the Error of Fault::kUsage for an output that is also an input, or another output: by
+/// device and inode, so that links, "./" and absolute paths hide nothing; files that do not exist
 /// yet by their folder and name.
 void expect_apart(const JobFiles& files);
 
-/// The same of all frames of a sequence together: no frame writes what another reads or writes.
-/// `files_of_frame` is asked for each frame in order; one that throws is passed over, for that is
-/// told when its turn comes. A few system calls a file, some 50 microseconds a frame.
+/// The same for all frames of a sequence: no frame writes a file that a frame reads or writes. Asks
+/// `files_of_frame` for each frame in order; a frame for which it throws is skipped, and fails when
+/// its turn comes. A few system calls per file, some 50 microseconds per frame.
 void expect_apart(std::span<const int> frames,
                   const std::function<JobFiles(int frame)>& files_of_frame);
 

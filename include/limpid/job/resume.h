@@ -5,12 +5,12 @@
 #include "limpid/job/sequence.h"
 
 /// @file
-/// Going on with a sequence where another run of it stopped, for whatever reason: which of its
-/// frames are there already.
+/// Resuming a sequence after another run of it stopped: finds the frames that exist
+/// already.
 
 namespace limpid {
 
-/// What is left to do of a sequence.
+/// The rest of a sequence.
 struct Rest {
   std::vector<int> frames;  ///< to be made, in the order of the sequence
   int kept = 0;             ///< how many others are there and are left alone
@@ -22,23 +22,23 @@ struct Rest {
   std::vector<Other> others;  ///< those of `frames` whose picture is there, but cannot be kept
 };
 
-/// How closely the files of a frame are looked at.
+/// The check of the files of a frame.
 enum class Scrutiny {
-  /// Headers, and whether all pixels are there: sees a file that was cut off or is another one, not
-  /// a byte that has changed among the pixels of an EXR. PNGs have checksums, which are looked at.
+  /// Headers, and that all pixels are there: finds a truncated or replaced file, but not a changed
+  /// byte among the pixels of an EXR. PNGs have checksums, which are checked.
   kWhole,
-  /// All bytes besides, by the hash that each EXR carries (ExrFile::is_as_written): sees any byte
-  /// that has changed since the file was written. Reads all files that are there.
+  /// Also all bytes, by the hash in each EXR (ExrFile::is_as_written): finds any byte that has
+  /// changed since the file was written. Reads all existing files.
   kContents,
 };
 
-/// A frame is kept when all of its files are there, are whole, and say of themselves (job/output.h)
-/// exactly what they would say if they were made now: by this version, from inputs of the same
-/// contents, with the same look, plan and options. A preview other than a PNG cannot say it, so its
-/// frame is never kept. Inputs are looked at for frames alone whose picture is there: headers are
-/// read, bytes hashed, no pixel is decoded. What is wrong with a frame's inputs is no error here,
-/// but when its turn comes. Removes abandoned temporary files (files/unfinished.h) from the folders
-/// of all outputs. Throws Error as the sequences do: first of all for outputs that are not apart.
+/// A frame is kept when all of its files exist, are complete, and record (job/output.h) exactly
+/// what they would record if made now: this version, inputs of the same contents, the same look,
+/// plan and options. A preview other than a PNG has no record, so its frame is never kept. Inputs
+/// are checked only for frames with an existing picture: headers are read, bytes hashed, no pixel
+/// is decoded. A fault of a frame's inputs is no error here, but when its turn comes. Removes
+/// abandoned temporary files (files/unfinished.h) from the folders of all outputs. Throws Error as
+/// the sequences do, first of all for outputs that are inputs or other outputs.
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                        Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
 Rest rest_of_render(const Model& model, const Sequence& sequence,

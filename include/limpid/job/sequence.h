@@ -7,27 +7,27 @@
 #include "limpid/job/water.h"
 
 /// @file
-/// Many frames, one after another, neighbours overlapped: while one is being run, others are read
-/// and written. Each gives the same bytes as composite() or water() of it alone. Frames without a
-/// plate are a matter of job/missing.h, those that are there already of job/resume.h: both give a
+/// Many frames as a pipeline: while one is composited, others are read and written.
+/// Each has the same bytes as from composite() or water() alone. job/missing.h handles
+/// frames without a plate, job/resume.h frames that exist already: both give a
 /// sequence.
 
 namespace limpid {
 
 inline constexpr int kMostInFlight = 64;
 
-/// Which frames, and how many of them at once.
+/// The frames, and the number of them in the pipeline.
 struct Sequence {
-  std::vector<int> frames;  ///< their numbers, in the order in which they are worked on
+  std::vector<int> frames;  ///< their numbers, in the order of the work
   int in_flight = 3;        ///< 1 ... kMostInFlight; each of these holds the buffers of one frame
 };
-/// Throws the Error that all of the functions below begin with: of Fault::kUsage, for an
-/// `in_flight` out of range.
+/// The check with which all functions below begin: throws Error of Fault::kUsage for an `in_flight`
+/// out of range.
 void check(const Sequence& sequence);
 
-/// How far a sequence has come; told after each frame, in order.
+/// The progress of a sequence; reported after each frame, in order.
 struct SequenceProgress {
-  int frame = 0;  ///< the number of the one that is done
+  int frame = 0;  ///< the number of the finished frame
   int done = 0, of = 0;
   double seconds = 0;  ///< since the sequence began
 
@@ -35,20 +35,20 @@ struct SequenceProgress {
   double seconds_left() const { return seconds / done * (of - done); }
 };
 
-/// Asked for the jobs of all frames before the first is made, to see that no frame writes what it
-/// or another reads or writes (job/job_files.h), and then again for each when its turn comes: in
-/// order, from any thread, one at a time.
+/// Asked for the jobs of all frames before the first is made, to check that no frame writes a file
+/// that a frame reads or writes (job/job_files.h), and then again for each frame, in order, from
+/// any thread, one at a time.
 template <class Job>
 using JobOfFrame = std::function<Job(int frame)>;
-/// Called likewise, for frames that are done. What it throws stops the sequence.
+/// Called likewise, for frames that are done. An exception from it stops the sequence.
 template <class Report>
 using OnFrameOf = std::function<void(const SequenceProgress&, const Report&)>;
 using OnFrame = OnFrameOf<CompositeReport>;
 
-/// Throws Error before anything is made for outputs that are not apart. Throws Error, which names
-/// the frame, for the first one (in the order of `frames`) that fails.
-/// All before it are done and told of then; of those after it none begins any more, and the few
-/// that had begun are whole or not there. What does not change from frame to frame, textures, is
+/// Throws Error before any frame is made if two outputs, or an input and an output, are one
+/// file. Throws Error, which names the frame, for the first frame (in the order of `frames`)
+/// that fails. All frames before it are done and reported; no frame after it starts any more,
+/// and the few that had started are complete or absent. Textures, which do not change, are
 /// loaded once.
 void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                         const OnFrame& on_frame, Executor& executor);
@@ -59,9 +59,9 @@ void water_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<WaterJob>& job_of, const OnFrame& on_frame,
                     Executor& executor);
 
-/// The place of one frame in flight, and of others after it: a program's own way to get a frame, to
-/// work on it and to hand it on. begin() and done() are called in order, one slot at a time; the
-/// three steps between overlap those of other slots. All of them may throw.
+/// A place in the pipeline for one frame at a time: the code that gets a frame, works on it and
+/// passes it on. begin() and done() are called in order, one slot at a time; the three steps
+/// between overlap those of other slots. All of them may throw.
 class FrameSlot {
  public:
   virtual ~FrameSlot() = default;
@@ -72,8 +72,8 @@ class FrameSlot {
   virtual void done(const SequenceProgress& progress) = 0;
 };
 
-/// What the sequences above are made of. `make_slot` is called once for each frame in flight, but
-/// no more often than there are frames.
+/// The basis of the sequences above. `make_slot` is called once for each frame in flight, but no
+/// more often than there are frames.
 void run_sequence(const Sequence& sequence,
                   const std::function<std::unique_ptr<FrameSlot>()>& make_slot, Executor& executor);
 

@@ -7,16 +7,16 @@
 
 namespace limpid {
 
-/// What all jobs over a model have in common: the scene that it is seen in.
+/// The common part of all jobs with a model: its scene.
 struct SceneJob {
   SceneFile scene;  ///< camera and sun come from the model where it has none
   JobTime time;
   Limits limits;  ///< of the files of wave map and environment
 };
 
-/// `limpid render`: all buffers of the model as one plate with our own layer names (color, depth,
+/// `limpid render`: all buffers of the model as one plate with limpid's layer names (color, depth,
 /// shadow, reflection, below, surface) and camera, water and sun as attributes, so that composite()
-/// needs nothing else but the environment, if the look reads one.
+/// needs only the environment besides, if the look reads one.
 struct PlateOutput {
   std::filesystem::path plate;
   std::string compression = "piz";
@@ -30,9 +30,9 @@ void render(const Model& model, const RenderJob& job, Executor& executor);
 
 inline constexpr int kMostSamples = 16;
 
-/// `limpid water`: render and composite without a file between. With samples = N the picture is
-/// made N times as wide and high and the finished water filtered down last, so that no pixel mixes
-/// depths.
+/// `limpid water`: renders and composites without a file between. With samples = N the picture is
+/// rendered N times as wide and high and the composited picture filtered down last, so that no
+/// pixel mixes depths.
 struct WaterJob : SceneJob {
   RenderOptions render;
   Look look;
@@ -43,7 +43,7 @@ struct WaterJob : SceneJob {
 /// Plans without rendering a pixel.
 Plan plan_water(const Model& model, const WaterJob& job);
 
-/// Only the buffers that the plan reads are rendered. Throws Error as composite() does.
+/// Renders only the buffers that the plan reads. Throws Error as composite() does.
 CompositeReport water(const Model& model, const WaterJob& job, Executor& executor);
 
 }  // namespace limpid

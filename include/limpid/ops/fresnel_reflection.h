@@ -7,46 +7,46 @@
 
 namespace limpid {
 
-/// Mirrors the surroundings: what comes through the surface keeps the share 1 - F, and F times the
-/// mirrored light comes in.
+/// Adds the reflected surroundings: multiplies the light from below the surface by 1 - F, and adds
+/// F times the mirrored light.
 ///
 /// F by `reflectance`, of the angle between the wave normal and the viewer: `rim` ("Realistic
 /// Water"; exponent `power`), `linear` (Digiorgio 2024, of the calm normal), `inverse_power`
 /// (Rito15 2021; `intensity`, `power`), `schlick` (with `f0`), `exact` (with water.ior). The
-/// underside of the surface is mirrored exactly whatever is chosen, beyond the critical angle
-/// totally: the other models are made for above. Seen from below, the water lies in front of the
-/// surface: its own light is not dimmed, and what is mirrored is by `transmittance`.
+/// underside of the surface always has the exact reflectance, total beyond the critical angle: the
+/// other models are for views from above. From below, the water is in front of the surface: its
+/// in-scatter is not dimmed, and the mirrored light is multiplied by `transmittance`.
 ///
-/// Source `planar`: the frame's reflection planes, what a flat mirror at the calm surface shows.
-/// `environment`: the frame's map of the surroundings, as far away as can be, where the mirrored
-/// ray goes. `constant`: `color`. Rays that the waves mirror below the horizon (above it, seen from
-/// below) see nothing of what the surroundings hold there: they are laid flat.
+/// Source `planar`: the frame's reflection planes, the view of a flat mirror at the calm surface.
+/// `environment`: the frame's map of the infinitely far surroundings, along the mirrored ray.
+/// `constant`: `color`. Rays that waves mirror below the horizon (above it, from below) would read
+/// the wrong half of the surroundings: they are made horizontal.
 ///
-/// `auto`: the reflection planes, where the frame has them, the environment or `color` for what
-/// they lack; else what the dry picture shows of the mirrored ray, marched over its depth
-/// (op/mirror_search.h), and beyond that the environment, the sky planes, or `color`. Its `ray` is
-/// marched over the depth of the mirrored scene, which is made where the plate has none
-/// (complete/mirror_depth.h). A ray that meets nothing there ends infinitely far; should something
-/// near stand at that place, 4 pixels or more from where the ray passes it, the lookup walks back
-/// to the last place with nothing.
+/// `auto`: the reflection planes if the frame has them, with the environment or `color` where they
+/// have no data; else the dry picture along the mirrored ray, marched over its depth
+/// (op/mirror_search.h), and beyond that the environment, the sky planes, or `color`. Its `ray`
+/// marches over the depth of the reflection, which is computed if the plate has none
+/// (complete/mirror_depth.h). A ray without a hit there ends infinitely far; if a near object is at
+/// that position, 4 pixels or more from where the ray passes it, the lookup goes back to the last
+/// empty position.
 ///
-/// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel
-/// cannot resolve (slope_variance): nodes -sqrt 3, 0, sqrt 3 deviations along the view, weights
-/// 1/6, 2/3, 1/6. A facet whose mirrored ray would go into the water is leaned until the ray goes
-/// along it. A variance along the view below 1e-4 counts as none. `mean`: the mean normal alone.
+/// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel does
+/// not resolve (slope_variance): nodes -sqrt 3, 0, sqrt 3 deviations along the view, weights 1/6,
+/// 2/3, 1/6. A facet whose mirrored ray would go into the water is tilted until the ray is parallel
+/// to it. A variance along the view below 1e-4 counts as none. `mean`: the mean normal only.
 ///
-/// Where planar looks, by `lookup`: `offset` at uv + strength * tilt, clamped at the edge. `ray`:
-/// where the mirrored ray ends in the mirrored scene, which is where the planes show it. How far
-/// that is comes from the reflection's depth plane, read at the pixel and then three times where
-/// the last guess landed; without one the mirrored scene is infinitely far. The surface is taken to
-/// lie on the mirror. A ray that leaves the planes sees the last texel on its way.
+/// The planar lookup, by `lookup`: `offset` at uv + strength * tilt, clamped at the edge. `ray`: at
+/// the end of the mirrored ray in the mirrored scene, where the planes show it. Its distance comes
+/// from the reflection's depth plane, read at the pixel and then three times at the last estimate;
+/// without that plane the mirrored scene is infinitely far. The surface counts as the mirror plane.
+/// A ray that leaves the planes shows the last texel along it.
 ///
-/// Where the frame tells which texels of the reflection the mirror really saw (at least half), only
-/// those count, and only their depths: what stands behind the cut at the surface is never shown. In
-/// its place is the last valid one on the way from the pixel (op/valid_lookup.h); should there be
-/// none, not even at the pixel, the environment; without one, black. The planes show the eye's side
-/// of the surface. A camera half in the water sees a little of the other one, always at flat
-/// angles: there, what comes through stands for what is mirrored.
+/// If the frame has reflection_valid, only texels with at least half of it count, and only their
+/// depths: geometry behind the clip at the surface is never shown. It is replaced by the last valid
+/// texel along the ray from the pixel (op/valid_lookup.h); if there is none, not even at the pixel,
+/// by the environment; without one, by black. The planes show the eye's side of the surface. A
+/// camera half in the water sees a little of the other side, at grazing angles: there the
+/// transmitted light replaces the mirrored light.
 struct FresnelReflection {
   enum class Reflectance { kRim, kLinear, kInversePower, kSchlick, kExact };
   enum class Source { kPlanar, kEnvironment, kConstant, kAuto };

@@ -9,10 +9,10 @@
 
 namespace limpid {
 
-/// What holds for the water as a whole: table `water` of a look.
+/// Parameters of the water as a whole: table `water` of a look.
 struct Water {
-  /// Of a pixel that something before the water covers in part (complete/edges.h): mixed of both,
-  /// or wet or dry as a whole, as its depth says.
+  /// Pixels that an object in front of the water covers partly (complete/edges.h): mixed, or wet or
+  /// dry as a whole by their depth.
   enum class Edges { kMixed, kHard };
   double ior = 1.333;
   Edges edges = Edges::kMixed;
@@ -27,9 +27,9 @@ struct Look {
   std::string name;
   Water water;
   Chain::AllParams operators;
-  std::string file;                     ///< that it was read from, absolute, or ""
-  std::string about = {};               ///< a sentence on what it is for, or ""
-  std::vector<std::string> bases = {};  ///< files of the looks that it is based on, absolute
+  std::string file;                     ///< the file of the look, absolute, or ""
+  std::string about = {};               ///< a sentence on its purpose, or ""
+  std::vector<std::string> bases = {};  ///< files of its base looks, absolute
 
   template <class Op>
   typename Op::Params& of() {
@@ -40,10 +40,10 @@ struct Look {
     return std::get<typename Op::Params>(operators);
   }
 
-  /// Sets `table.key`, as in set("refraction", "strength", 0.03). What that brings with it (see
-  /// Condition::follows) is set, too: an absorption makes the water_type `custom`, and a named type
-  /// that is set afterwards wins. Throws Error with the nearest name for an unknown table or key,
-  /// and for a value that its declaration refuses.
+  /// Sets `table.key`, as in set("refraction", "strength", 0.03). Dependent parameters (see
+  /// Condition::follows) are set, too: an absorption makes the water_type `custom`, and a named
+  /// type that is set afterwards replaces it. Throws Error with the nearest name for an unknown
+  /// table or key, and for a value that its declaration refuses.
   void set(std::string_view table, std::string_view key, const Value& value);
 
   /// Throws Error at the first parameter outside its range (NaN included).
@@ -59,8 +59,8 @@ struct Parameter : FieldInfo {
 /// Every parameter of the look with its value, in the order of `water` and the chain.
 std::vector<Parameter> parameters(const Look& look);
 
-/// A sentence for each parameter that is not at its default and that nothing reads, for another one
-/// says so (FieldInfo::used_when).
+/// A sentence for each parameter that is not at its default and has no effect because of another
+/// one (FieldInfo::used_when).
 std::vector<std::string> unread_settings(const Look& look);
 
 /// The look as a TOML text that reads back as the same look.

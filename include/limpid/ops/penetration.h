@@ -6,14 +6,14 @@
 
 namespace limpid {
 
-/// Lets the dry picture through the finished surface, as engines do that blend the water's surface
-/// over the scene. Last in the chain; only where the view comes from the air.
+/// Shows the dry picture through the finished surface, like engines that blend the water surface
+/// over the scene. Last in the chain; only for views from the air.
 ///
 /// `view_angle` (Rito15 2021): out = lerp(dry color at this pixel, out, a), a = sat(alpha - amount
-/// sat(V.up)^power) with the calm normal, so that one sees through most straight down. The dry
-/// color is neither refracted nor fogged, and counts as transmitted light. Where nothing was hit
-/// behind the water there is nothing to let through: the surface stays as it is. Not physical: on
-/// top of refraction and Fresnel, which say how much passes, it lets light through twice.
+/// sat(V.up)^power) with the calm normal, so that the surface is most transparent straight down.
+/// The dry color is neither refracted nor fogged, and counts as transmitted light. Where no surface
+/// was hit behind the water, the water surface is unchanged. Not physical: besides refraction and
+/// Fresnel transmission, it transmits the light a second time.
 struct Penetration {
   enum class Model { kNone, kViewAngle };
   struct Params {

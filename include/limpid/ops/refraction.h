@@ -6,60 +6,60 @@
 
 namespace limpid {
 
-/// Where the view ray ends under the water, and the light that comes from there.
+/// The end of the view ray under the water, and the light that comes from there.
 ///
 /// `normal_offset` ("Realistic Water"): uv' = uv + strength * tilt. No depth, no index of
 /// refraction: calm water does not shift at all.
 ///
 /// `dudv_offset` (Digiorgio 2024, "How to create Water shader in Monogame XNA"): uv' = uv - 0.001 /
-/// z (1, 1) + strength * tilt, with z the surface's depth after projection (0 near ... 1 far).
-/// Meant for the model dudv of the waves, whose tilt is the distortion map. Kept as the article has
-/// it: the first term is an almost constant shift to the upper left, not a bend that grows with
+/// z (1, 1) + strength * tilt, with z the surface's depth after projection (0 near ... 1 far). Made
+/// for the model dudv of the waves, whose tilt is the distortion map. Kept as in the article: the
+/// first term is an almost constant shift to the upper left, not a refraction that grows with
 /// depth.
 ///
 /// `snell`: from the surface point along the refracted ray (Heckbert 1989, "Writing a Ray Tracer"),
-/// bent at the wave's normal by water.ior, to the dry geometry that the depth plane shows. How far:
-/// with `steps` 0 as deep as the bottom at the pixel itself; with k, k times as deep as the bottom
-/// that the last guess has found; with "march", to where the ray passes behind the depth plane
+/// refracted at the wave's normal by water.ior, to the dry geometry in the depth plane. Its length:
+/// with `steps` 0 to the depth of the bottom at the pixel itself; with k, refined k times by the
+/// depth at the last estimate; with "march", to where the ray passes behind the depth plane
 /// (McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", with equal steps on screen, then
-/// bisection). What lies far before the ray hides the bottom and is not hit. A ray that comes out
-/// from behind it under the bottom ends where the layer of the bottom does that Pass has, drawn
-/// on behind what stands before it; one that meets nothing in the picture where 4 steps guess. What
-/// is thin under water hides no more than what lies within its `thickness` behind it. From below
-/// the ray is bent outwards; where it is totally reflected nothing is transmitted by the surface
-/// and the lookup stays at the pixel.
+/// bisection). Objects far in front of the ray hide the bottom and are not hit. A ray that
+/// reappears from behind such an object below the bottom ends on the layer of the bottom in Pass,
+/// which continues the bottom behind objects; a ray without a hit in the picture ends where 4 steps
+/// estimate. Thin objects under water hide only points within `thickness` behind them. From below
+/// the ray is refracted outwards; where it is totally reflected the surface transmits nothing and
+/// the lookup stays at the pixel.
 ///
-/// What lies above the surface must not be seen through it. `rejection` `none` takes what is there.
+/// Objects above the surface must not be seen through it. `rejection` `none` takes every lookup.
 /// `snap` ("Realistic Water"): where the dry depth nearest to uv' is in front of this pixel's
-/// surface, uv' goes back to uv and the prism is switched off. Its faults are kept: only the centre
-/// of the three prism taps is tested, the color tap is bilinear where the depth tap is nearest, and
-/// the choice is hard (a halo). `shorten`: each texel of each channel is tested against the surface
-/// in front of it (op/valid_lookup.h); along snell's rays what stands under water far before their
-/// end hides that, too, and does not count; what is missing is then of the layer of the bottom,
-/// where that lies deep enough, else of the last texel on the way there that counts. Where the
-/// frame has a layer below, that is looked up instead of the dry scene. It reaches the highest
-/// crest: `shorten` rejects what of it stands above the surface, `snap`, which asks for this
-/// pixel's surface alone, takes all of it. Not so where the view may begin in the water, from where
-/// one looks up into the air as well.
+/// surface, uv' goes back to uv and the prism is switched off. Its faults are kept: only the
+/// centre of the three prism taps is tested, the color tap is bilinear but the depth tap nearest,
+/// and the choice is hard (a halo). `shorten`: each texel of each channel is tested against the
+/// surface in front of it (op/valid_lookup.h); along snell's rays an object under water far in
+/// front of their end hides that end, too, and is rejected; rejected texels are replaced by the
+/// layer of the bottom if that is deep enough, else by the last accepted texel along the ray. If
+/// the frame has a layer below, that is looked up instead of the dry scene. It reaches the highest
+/// crest: `shorten` rejects parts of it above the surface, `snap`, which tests this pixel's
+/// surface only, takes all of it. No layer below is used where the view may start under water and
+/// look up into the air.
 ///
-/// Where nothing was hit (a depth of +inf) no light comes from: the water there has no end, and
-/// what is seen is the fog of an endless way, never the sky. A texel of that kind does not count
-/// when four are mixed; where half of the weight is such, nothing is there, for all channels. Of an
-/// empty place of the layer below this holds where the dry scene is empty, too; elsewhere something
-/// stands before it, and `snap` goes back to the pixel itself, `shorten` along the way. The sky
-/// over a view that begins in the water is seen as it is.
+/// Where no surface was hit (a depth of +inf) no light comes back: the water has no end there, and
+/// the pixel shows the fog of an infinite path, never the sky. Such a texel does not count when
+/// four are mixed; where half of the weight is such, the lookup is empty, for all channels. For an
+/// empty texel of the layer below this holds if the dry scene is empty, too; else an object is in
+/// front of it, and `snap` goes back to the pixel itself, `shorten` back along the ray. Views from
+/// under water see the sky above them as it is.
 ///
-/// A ray that leaves the data window of the planes (overscan included) sees, by `off_frame`:
-/// `clamp` the nearest texel of the edge, `shorten` the last texel on its way, `fog` water without
-/// end, faded in over a twentieth of the picture. `continue` draws the picture on, for snell's rays
-/// from the air: the bottom goes on as a plane, which the ray meets; what the edge shows goes on
-/// along the lines of the bottom, in their perspective, and fades into the color of the bottom near
-/// there (op/continuation.h). Where frames have no such plane, and with other models, it is
+/// A ray that leaves the data window of the planes (overscan included) shows, by `off_frame`:
+/// `clamp` the nearest texel of the edge, `shorten` the last texel along the ray, `fog` infinitely
+/// deep water, faded in over a twentieth of the picture. `continue` extends the picture, for
+/// snell's rays from the air: the bottom continues as a plane that the ray meets; the edge's color
+/// continues along the perspective lines of the bottom, and fades into the mean color of the bottom
+/// near there (op/continuation.h). In frames without such a plane, and with other models, it is
 /// `shorten`.
 ///
-/// `confidence` is the share of the lookup that is real: 0 for what was rejected or is off frame,
-/// and where nothing is there. `path` is the refracted way through the water: with snell the ray's
-/// own, else that of the bottom found, taken for flat.
+/// `confidence` is the share of the lookup that is known: 0 where it was rejected, off frame or
+/// empty. `path` is the length of the refracted ray in the water: with snell the ray's own length,
+/// else that to the bottom found, taken as flat.
 struct Refraction {
   enum class Model { kNormalOffset, kDudvOffset, kSnell };
   enum class Rejection { kNone, kSnap, kShorten };

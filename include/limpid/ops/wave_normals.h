@@ -9,38 +9,38 @@
 
 namespace limpid {
 
-/// The normal of the wavy surface, and its tilt m = (n.t, -n.b) as the camera sees it.
+/// The normal of the wavy surface, and its tilt m = (n.t, -n.b) on screen.
 ///
-/// `plate`: the frame's own surface normals. The planner takes this model whenever there are any.
-/// The others make waves; `strength` 0 is calm, 1 the waves as they are. Those with a tiling normal
-/// map tie it to the world, one period every tile_size units; its red, green, blue are (2 c - 1)
-/// along map x, map y and up.
+/// `plate`: the surface normals of the frame. The planner takes this model if there are any. The
+/// others make waves; `strength` 0 is calm, 1 the unchanged waves. Models with a tiling normal map
+/// fix it to the world, one period every tile_size units; its red, green, blue are (2 c - 1) along
+/// map x, map y and up.
 ///
 /// `four_maps` ("Realistic Water"): four lookups that drift along +x, -x, +y and -y; n =
 /// normalize(mean of lerp(up, n_i, strength)). Blending vectors instead of slopes flattens steep
-/// waves; kept as the article has it.
+/// waves; kept as in the article.
 ///
 /// `two_flows` (Rito15 2021): n = normalize(lerp(up, (n1 + n2 / 2) / 2, strength)), n1 drifts along
-/// `direction`, n2, half as densely tiled, back at 0.3 of the speed. The article does not normalise
-/// and so reflects less than it means to.
+/// `direction`, n2, with half the tile density, back at 0.3 of the speed. The article does not
+/// normalise and so reflects less than intended.
 ///
-/// `dudv` (Digiorgio 2024): a first lookup at (u + move, v), times 0.01, distorts the place (u, v +
-/// move) of a second; its normal is (2r - 1, 2g - 1, b) along map x, map y and up: blue is not
-/// decoded, which flattens, kept as the article has it. The tilt is not this normal's: the article
-/// takes (2r - 1, 2g - 1) for right and down on screen wherever the camera looks, and so does this
-/// model, to within -1 ... 1.
+/// `dudv` (Digiorgio 2024): a first lookup at (u + move, v), times 0.01, displaces the position (u,
+/// v + move) of a second; its normal is (2r - 1, 2g - 1, b) along map x, map y and up: blue is not
+/// decoded, which flattens, kept as in the article. The tilt is not that of this normal: the
+/// article takes (2r - 1, 2g - 1) as right and down on screen for any camera, and so does this
+/// model, clamped to -1 ... 1.
 ///
-/// `sines`: the true normals of a sum of sine waves: `waves`, or the scene's own where there are
-/// none. Calm when neither has any. These waves have height, too, times `strength`: where the frame
-/// has no depth of the surface it is made (complete/displaced_surface.h), and all operators meet
-/// the water there. With all other models such a frame's water is flat, however its normals lean.
-///
+/// `sines`: the exact normals of a sum of sine waves: `waves`, or the scene's if `waves` is empty.
+/// Calm when neither has any. These waves have height, too, times `strength`: if the frame has no
+/// depth of the surface, that is computed (complete/displaced_surface.h), and all operators
+/// intersect the water there. With all other models the water of such a frame is flat, whatever its
+/// normals.
 /// `slopes`: the lookups of four_maps, but slopes are added: with h the mean of (-n_x, -n_y) / n_z
 /// times strength, n = normalize(-h_x, -h_y, 1). n_z below 0.05 counts as 0.05, so no slope passes
 /// 20. Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework".
 ///
-/// `wind`, in m/s, 12.5 m over the water, takes the place of `speed` for all models of a map, and
-/// blows towards `direction`: 0 is map x, 90 map y. A scene unit is a metre then.
+/// `wind`, in m/s, 12.5 m over the water, replaces `speed` for all models with a map, and blows
+/// towards `direction`: 0 is map x, 90 map y. A scene unit is then a metre.
 ///  - Lookups run with the wind, each as fast as deep-water waves of its own length do (Lamb 1932,
 ///    "Hydrodynamics"), on water whose skin the wind drags along (Wu 1975, "Wind-Induced Drift
 ///    Currents"). An eighth of a tile counts as the length of the map's waves. The four lookups of
@@ -54,22 +54,22 @@ namespace limpid {
 ///    direction of the world: it has the root mean square of both factors. A map flatter than the
 ///    rounding of its bytes stays as it is. Cox & Munk's slopes are those of all waves down to
 ///    ripples: roughness elsewhere adds to them.
-/// Without wind two_flows' `direction` is where its first lookup goes, as the article has it: its
-/// waves go the other way.
+/// Without wind the first lookup of two_flows moves along `direction`, as in the article: its waves
+/// move the opposite way.
 ///
-/// `filter` says what becomes of waves that are too small for a pixel (op/footprint.h). `none`:
-/// each pixel takes the normal at its centre. `variance`: the normal is that of the mean slope in
-/// the pixel, and slope_variance the covariance around it. Of sines that is closed form, for a
-/// Gaussian footprint; of the frame's own normals half the variance of a pixel's nine neighbours by
-/// weights [1 2 1]^2, around the pixel's own (the normal itself is left as it is). `mip`: the mean
-/// alone; the frame's own normals stay as they are.
+/// `filter` treats waves that are too small for a pixel (op/footprint.h). `none`: each pixel takes
+/// the normal at its centre. `variance`: the normal is that of the mean slope in the pixel, and
+/// slope_variance the covariance around it: for sines in closed form, for a Gaussian footprint; for
+/// the frame's normals half the variance of a pixel's nine neighbours with weights [1 2 1]^2,
+/// around the pixel's own (the normal itself is unchanged). `mip`: the mean alone; the frame's
+/// normals are unchanged.
 ///
-/// Lookups of a map with `mip` read the level, a mean of colors, whose texels are as wide as the
-/// pixel (at least a quarter of its length); `slopes` reads mean slopes instead, and with
-/// `variance` their covariance, too (Olano & Baker 2010, "LEAN Mapping"). four_maps, two_flows and
-/// dudv, whose vectors are no slopes, do the same with `variance` as with `mip`: their
-/// slope_variance is 0. Where a pixel is at most one texel wide, every filter gives the bits of
-/// `none`.
+/// Lookups of a map with `mip` read the level, a mean of colors, whose texels are as wide as
+/// the pixel (at least a quarter of its length); `slopes` reads mean slopes instead, and with
+/// `variance` their covariance, too (Olano & Baker 2010, "LEAN Mapping"). four_maps,
+/// two_flows and dudv, whose vectors are not slopes, treat `variance` as `mip`: their
+/// slope_variance is 0. Where a pixel is at most one texel wide, every filter gives the bits
+/// of `none`.
 struct WaveNormals {
   enum class Model { kFourMaps, kTwoFlows, kDudv, kSines, kSlopes, kPlate };
   enum class Filter { kNone, kMip, kVariance };

@@ -6,13 +6,13 @@
 
 namespace limpid {
 
-/// Something that can be made, once a frame, of planes that are there: complete/ has how.
+/// A plane that is computed once per frame from other planes, by complete/.
 struct CompleterInfo {
   std::string_view name;
-  PlaneSet inputs;  ///< without all of these it is not made
+  PlaneSet inputs;  ///< all of them are required
   PlaneSet makes;   ///< those of them that an operator asks for and the frame lacks
-  PlaneSet mends;   ///< and these where it has them, too: they stay where they tell something
-  PlaneSet helped;  ///< by these, where they are there
+  PlaneSet mends;   ///< and corrects these if the frame has them
+  PlaneSet helped;  ///< by these, if the frame has them
   std::string_view about;
 };
 

@@ -14,24 +14,24 @@ namespace limpid {
 
 struct Pass;  // what all pixels of a run have in common: the runners make it
 
-/// What the wet pixels of a cell of the picture need of the plan.
+/// The part of the plan that the wet pixels of a cell of the picture need.
 ///
-/// What is skipped changes no channel of them by more than `bound`, all of it together, but for
-/// rounding (a few 1e-7 of the pixel's own value). With Plan::max_error 0 only what changes not a
-/// bit is skipped.
+/// Skipped work changes no channel of these pixels by more than `bound` in all, except for rounding
+/// (a few 1e-7 of the pixel's own value). With Plan::max_error 0 only work that changes no bit is
+/// skipped.
 struct CellNeeds {
   std::uint16_t skips = 0;  ///< bit i: operator i of the chain need not run here
   bool dry = false;         ///< no pixel is wet: all are copied
-  /// No foreground: refraction's test for what lies above the surface cannot fire. With `snap` the
-  /// depth nearest to every place that it may look up lies behind every surface of the cell; with
-  /// `shorten` every texel that it may tap counts. (The test may be left out. What else the model
-  /// reads, and how it mixes it, must stay.) Never for snell's rays with `shorten`, of which more
-  /// is asked.
+  /// No foreground: refraction's test for objects above the surface cannot fire. With `snap` the
+  /// depth nearest to every position that it may look up lies behind every surface of the cell;
+  /// with `shorten` every texel that it may tap is accepted. (The test may be left out. All other
+  /// reads and mixes of the model must stay.) Never for snell's rays with `shorten`, which need
+  /// more tests.
   bool open = false;
-  /// What lies at the end of the way through the water cannot be seen. What finds the position is
-  /// among the skips: hit_depth and path must be +inf in its place when depth_fog begins.
+  /// The end of the path in the water is invisible. The operators that find the position are
+  /// skipped: hit_depth and path must be +inf instead when depth_fog begins.
   bool opaque = false;
-  /// Something was hit wherever lookups of refraction may end: its test for nothing cannot fire.
+  /// A surface was hit wherever refraction may look: its test for none cannot fire.
   bool grounded = false;
   float bound = 0;
 
@@ -40,7 +40,7 @@ struct CellNeeds {
 };
 
 /// Operators that cells skip for their bounds, and the largest of each. (Others are skipped because
-/// nothing reads what they make.)
+/// no operator reads their results.)
 struct Weighed {
   std::uint16_t operators = 0;
   std::array<float, Chain::kCount> bounds{};
@@ -52,11 +52,11 @@ struct CellCount {
   std::int64_t pixels = 0;
 };
 
-/// The picture in cells of 128 x 16 pixels, and for each what of a plan its pixels need: found in
-/// one pass over depths (shadow and color only where a rule asks for them), from least and greatest
-/// values of the cell and of all blocks that its lookups may reach. Cells begin at the corner of
-/// Frame::work() whatever the tiles of a run, so that the result depends on plan, frame and scene
-/// alone. Where views may begin in the water (Pass::submersible) every cell needs everything.
+/// The picture in cells of 128 x 16 pixels, with the part of a plan that each cell's pixels need:
+/// found in one pass over depths (shadow and color only if a rule asks for them), from least and
+/// greatest values of the cell and of all blocks in reach of its lookups. Cells begin at the corner
+/// of Frame::work() whatever the tiles of a run, so that the result depends on plan, frame and
+/// scene alone. Where views may start under water (Pass::submersible) every cell needs everything.
 class Survey {
  public:
   static constexpr Size kCell{128, 16};
@@ -113,8 +113,8 @@ class Survey {
   Summary summary_;
 };
 
-/// What a plan comes to on a frame: an operator of the plan that runs in no cell is kInvisible
-/// here. For telling; what is run is the plan.
+/// The plan as it runs on a frame: an operator of the plan that runs in no cell is kInvisible here.
+/// For reports only; runners take the plan.
 std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& survey);
 
 /// All of it as text: each operator with its rule, the kinds of cells, and the time of each

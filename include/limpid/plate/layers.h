@@ -29,7 +29,7 @@ struct LayerSource {
   bool deep = false;
 };
 
-/// Where a role's planes come from and why.
+/// The source of a role's planes, and the reason.
 struct LayerChoice {
   /// One per plane of the role, in the role's order. Color without alpha has three. A picture of
   /// one channel feeds all three of R G B: its channel is there three times.
@@ -38,35 +38,35 @@ struct LayerChoice {
   std::string view = {};  ///< that the channels belong to; "" where they name none
 };
 
-/// What the user said: role name -> "FILE:CHANNELS", "FILE" or "CHANNELS" (the text after
+/// The user's choices: role name -> "FILE:CHANNELS", "FILE" or "CHANNELS" (the text after
 /// `depth=`).
 using LayerOverrides = std::map<std::string, std::string>;
 
-/// What was found for each role. Roles that nothing feeds are absent.
+/// The source found for each role. Roles without a source are absent.
 using LayerChoices = std::map<std::string_view, LayerChoice>;
 
 /// The sources of an opened EXR file, one a part.
 std::vector<LayerSource> layer_sources(int file, const std::string& file_name,
                                        std::span<const ExrPart> parts);
 
-/// The views of stereo and the like, each once: first those of the attributes `multiView` and
-/// `view`, then those that parts and layers are called after ("rgba_left", "right.R"), which are
-/// left and right alone. Channels that name no view are those of the default view where the
-/// attribute `multiView` says which that is; else they belong to all views.
+/// The views of stereo plates, each once: first those of the attributes `multiView` and `view`,
+/// then those in the names of parts and layers ("rgba_left", "right.R"), which are left and right
+/// only. Channels without a view are those of the default view if the attribute `multiView` gives
+/// one; else they belong to all views.
 std::vector<std::string> views_of(std::span<const LayerSource> sources);
 
-/// The view that is taken where none is asked for: the first that `multiView` lists; else that of
-/// the color, "" where a color names none; of several colors that of the first one.
+/// The default view: the first that `multiView` lists; else that of the color, "" if a color has
+/// none; with several colors that of the first one.
 std::string default_view(std::span<const LayerSource> sources);
 
 /// Finds the channels of a role by the conventions of Blender, Nuke, Natron, Arnold, Karma, V-Ray,
-/// and our own plates (src/plate/layer_rules.cpp lists them). Our own names win over layers and
-/// parts with a known name, those over files with a telling name, those over bare channels. Letter
-/// case does not count. Layers of the water never feed a role of the dry scene, nor the other way
-/// round. Of several views it is `view`, and what names no view where that one has nothing for the
-/// role; "" is default_view(). Of flat and deep samples that fit equally well it is the flat ones.
-/// Empty when nothing fits. Throws Error that lists the candidates when two fit equally well, and
-/// names the flag (`--layer depth=ViewLayer.Depth.Z`) that decides.
+/// and of limpid's plates (src/plate/layer_rules.cpp lists them). limpid's names win over layers
+/// and parts with a known name, those over files with a telling name, those over bare channels.
+/// Letter case does not matter. Layers of the water never feed a role of the dry scene, and vice
+/// versa. With several views it is `view`, and channels without a view if that view has none for
+/// the role; "" is default_view(). Between equally good flat and deep samples it takes the flat
+/// ones. Empty when nothing fits. Throws Error that lists the candidates when two fit equally well,
+/// and names the flag (`--layer depth=ViewLayer.Depth.Z`) that decides.
 std::optional<LayerChoice> find_layer(const Role& role, std::span<const LayerSource> sources,
                                       const std::string& view = "");
 

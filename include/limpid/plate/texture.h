@@ -19,9 +19,9 @@ struct LoadedTexture {
   std::shared_ptr<const LevelMaker> levels;  ///< of a tiling texture
 };
 
-/// The first three channels of a picture file as a tiling texture: R G B of an EXR, or any other
-/// format as image_file.h reads it. NaN and -inf become 0, +inf the largest half. Throws Error when
-/// it has fewer.
+/// The first three channels of a picture file as a tiling texture: R G B of an EXR, or of any other
+/// format of image_file.h. NaN and -inf become 0, +inf the largest half. Throws Error if the file
+/// has fewer channels.
 LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limits = {});
 
 /// The surroundings from a picture file of either layout, with channels as load_texture() reads

@@ -13,8 +13,8 @@
 
 namespace limpid {
 
-/// What a run spent its time on, in seconds, all threads together. Asking the clock takes time,
-/// too: a timed run is some percent slower.
+/// The time of a run, in seconds, of all threads together. Reading the clock takes time, too: a
+/// timed run is some percent slower.
 struct RunTimes {
   std::array<double, Chain::kCount> operators{};  ///< in chain order
   double rest = 0;                                ///< loading, starting and storing pixels
@@ -26,18 +26,18 @@ struct FusedOptions {
   std::string simd = {};
   Size tile = {1024, 32};
   RunTimes* times = nullptr;  ///< filled when it is there
-  /// Whether refraction's march leaves out looks of which Heights knows that they find nothing. The
-  /// bits are the same without; a test compares them.
+  /// Whether refraction's march skips lookups that Heights proves to be misses. The bits are the
+  /// same without; a test compares them.
   bool leaps = true;
 };
 
-/// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. First a look
-/// at each cell of the picture tells what of the plan it needs (plan/survey.h). The bits of the
+/// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. Before it, a
+/// survey finds the operators that each cell of the picture needs (plan/survey.h). The bits of the
 /// result depend on plan, frame, scene and instruction set, not on threads, tile size or order.
-/// Against run_reference: see the README; with Plan::max_error, as far from that besides. Numbers
-/// below 1.2e-38 count as 0, but are copied as they are. Keeps its memory from frame to frame: none
-/// is allocated after the first one of a size, but for edges that are blurred in more pixels than
-/// in those before. One run at a time.
+/// Error against run_reference: see docs/benchmarks.md; Plan::max_error adds to it. Numbers below
+/// 1.2e-38 count as 0, but are copied unchanged. Keeps its memory from frame to frame: none is
+/// allocated after the first frame of a size, except for edges that are blurred in more pixels than
+/// before. One run at a time.
 class FusedRunner {
  public:
   FusedRunner();

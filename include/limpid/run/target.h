@@ -11,7 +11,7 @@
 
 namespace limpid {
 
-/// What can be written besides the picture.
+/// The outputs besides the picture.
 enum class Aov {
   kTransmitted,
   kInScatter,
@@ -33,44 +33,44 @@ enum class Aov {
 };
 constexpr int kAovCount = 17;
 
-/// What a pixel of several samples shows.
+/// The value of a pixel with several samples.
 enum class Filter : std::uint8_t {
   kMean,    ///< their mean: lights and shares
-  kMiddle,  ///< the sample nearest to the middle: lengths, places and directions have no mean
+  kMiddle,  ///< the sample nearest to the middle: lengths, positions and directions have no mean
 };
 
 struct AovInfo {
   std::string_view name;      ///< of the layer
   std::string_view suffixes;  ///< a letter a channel: "RGB", "XYZ", "UV", "Y", "Z"
   StateSet parts;             ///< state that it shows
-  /// On dry pixels. There `transmitted` has the dry color instead, and the maps have the pixel's
-  /// own place.
+  /// The value on dry pixels. There `transmitted` has the dry color instead, and the maps have the
+  /// pixel's own position.
   float dry;
   Storage storage;  ///< in files, unless all is stored as float
   Filter filter;
   std::string_view about;
-  /// Of the frame, as operators read them, of the plate or made (complete/completer.h), on all
-  /// pixels; Role::missing where there are none.
+  /// A plane of the frame, as operators read it, from the plate or from a completer
+  /// (complete/completer.h), on all pixels; Role::missing if there is none.
   PlaneSet planes = {};
-  /// Whether it tells of buffers or guesses, of which the ray-traced truth has none.
+  /// Whether it shows buffers or guesses, which the path-traced truth lacks.
   bool of_buffers = false;
 };
 /// In the order of Aov. The first four sum to the picture on every pixel.
 std::span<const AovInfo> aovs();
 /// Throws Error with the nearest name.
 Aov aov_named(std::string_view name);
-/// What state a run must make for these to be shown.
+/// The state that a run must make for these AOVs.
 StateSet state_shown_by(std::span<const Aov> list);
 
-/// Where a run writes. The picture must be there; each AOV may be. All views must cover the frame's
-/// work(); pixels of a view outside it are left alone. No view may share memory with the frame,
-/// where lookups would find what was just written.
+/// The outputs of a run. The picture must be there; each AOV may be. All views must cover the
+/// frame's work(); pixels of a view outside of it are left alone. No view may share memory with the
+/// frame, where lookups would read results.
 struct Target {
   std::array<View<float>, 3> color;
   View<float> alpha;  ///< may be absent
-  /// Share of each pixel that nothing before the water covers: 1, but at edges (Frame::edges),
-  /// where it is above 0; may be absent. The AOVs that sum to the picture are of that share, the
-  /// others of the water alone.
+  /// Share of each pixel that no object in front of the water covers: 1 except at edges
+  /// (Frame::edges), and above 0; may be absent. The AOVs that sum to the picture are of that
+  /// share, the others of the water alone.
   View<float> uncovered;
   std::array<std::array<View<float>, 3>, kAovCount> aovs;
 

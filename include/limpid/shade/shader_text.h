@@ -12,13 +12,13 @@
 
 /// @file
 /// A look as a shader, for engines that put water into a picture themselves. The operators of the
-/// plan are written down (nothing is written twice by hand) and printed as one function; what
-/// belongs to a frame are numbers in a uniform block and textures. After OpenColorIO's
-/// GpuShaderDesc: text, declarations, values and names through one object.
+/// plan are recorded (no formula is written twice) and printed as one function; the values of a
+/// frame are numbers in a uniform block and textures. After OpenColorIO's GpuShaderDesc: text,
+/// declarations, values and names through one object.
 
 namespace limpid {
 
-/// How a shader is to be printed.
+/// Options of a shader text.
 struct ShaderOptions {
   enum class Stage {
     kFunction,  ///< declarations and the function alone, for a shader of the host
@@ -27,20 +27,20 @@ struct ShaderOptions {
   };
   Stage stage = Stage::kFunction;
   std::string function = "limpid_water";  ///< a word of letters, digits and _
-  int set = 0;                            ///< descriptor set of all that is declared, 0 ... 31
-  int first_binding = 0;                  ///< they count from here, 0 ... 1000
-  std::vector<Aov> aovs = {};             ///< that the function returns besides the picture
-  int most_threads = 128;  ///< that a group of a compute main() may have on the device, 128 or more
+  int set = 0;                            ///< descriptor set of all declarations, 0 ... 31
+  int first_binding = 0;                  ///< first binding, 0 ... 1000
+  std::vector<Aov> aovs = {};             ///< returned by the function besides the picture
+  int most_threads = 128;  ///< threads per group of a compute main() on the device, at least 128
   bool half = false;       ///< images that a compute main() writes hold halves (rgba16f)
 };
 
 /// A number of the uniform block, in float.
 struct ShaderNumber {
-  std::string name;    ///< "refraction.strength": what it is; in the text with _ for . and [
+  std::string name;    ///< "refraction.strength"; in the text with _ for . and [
   std::size_t offset;  ///< in bytes
   float value;         ///< of the frame
-  /// Of a parameter of the look that stands in the shader as it is: what it may be set to. Others
-  /// are worked out for each frame, see numbers().
+  /// For a parameter of the look that the shader uses unchanged: its range. Others are computed for
+  /// each frame, see numbers().
   std::optional<Range> range;
 };
 
@@ -49,13 +49,13 @@ struct ShaderTexture {
   enum class Source {
     kPlanes,  ///< of the frame: channels r g b a are those of `role`, windows are in the block
     kRows,    ///< rows(): numbers of each row of the picture
-    kMade,    ///< a map of the look, or made for the frame, planes included: see texels
+    kMade,    ///< a map of the look, or computed for the frame, planes included: see texels
   };
   std::string name;  ///< "limpid_depth"
   int binding;
   Source source;
-  std::string role;  ///< of planes, made ones included: "depth", "color"
-  int channels;      ///< that are read, 1 ... 4
+  std::string role;  ///< of planes, computed ones included: "depth", "color"
+  int channels;      ///< read, 1 ... 4
   int width = 0, height = 0;
   /// kMade: `channels` floats a texel, row after row.
   std::vector<float> texels = {};
@@ -69,13 +69,13 @@ struct ShaderOutput {
   int binding;  ///< or location
 };
 
-/// One shader for one look, and the values that a frame gives it.
+/// One shader for one look, and the values of a frame.
 class ShaderText {
  public:
-  /// Records the plan for a frame that the completers have not seen; they make here what the plan
-  /// asks for. The text is the same for any size, time and position of the camera, as long as the
-  /// frame has the same planes and textures, the scene as many waves, and the camera does not pass
-  /// between air and water. Throws Error for options out of their range, and where run_reference()
+  /// Records the plan for a frame before its completers; those that the plan asks for run here.
+  /// The text is the same for any size, time and position of the camera, as long as the frame has
+  /// the same planes and textures, the scene has the same number of waves, and the camera does not
+  /// pass between air and water. Throws Error for options out of range, and where run_reference()
   /// would.
   ShaderText(const Plan& plan, const Frame& frame, const Scene& scene,
              const ShaderOptions& options = {});

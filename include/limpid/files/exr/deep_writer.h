@@ -18,36 +18,36 @@ inline constexpr float kLargestDepth = 999999936;  ///< the float before
 struct DeepWater : ExrHeading {
   View<const float> front;  ///< surface eye depth; +inf: no water here
   View<const float> back;   ///< where the water ends; +inf: it does not
-  /// The share of light 0 ... 1 that survives the way from front to back.
+  /// The transmittance 0 ... 1 from front to back.
   std::array<View<const float>, 3> transmittance;
   std::array<View<const float>, 3> in_scatter;  ///< color of the whole volume, premultiplied
-  /// What a unit of eye depth takes from the light, 1/unit; decides where endless water ends.
+  /// Extinction per unit of eye depth, 1/unit; decides where infinitely deep water ends.
   std::array<double, 3> extinction{};
   std::string compression = "zips";  ///< none, rle, zips or "zips:level"; deep files have no other
   bool half = true;                  ///< R G B are stored as half; all else is always float
 };
 
-/// How far behind its front endless water is made to end; nothing when it takes no light.
+/// The length given to infinitely deep water; none if it has no extinction.
 std::optional<double> deep_reach(const std::array<double, 3>& extinction);
 
 /// Throws Error of Fault::kUsage for what is no DeepWater::compression.
 void validate_deep_compression(const std::string& compression);
 
-/// Writes a deep scan-line file with one volume sample where there is water and none elsewhere:
-/// Z, ZBack, R G B (the in-scatter), AR AG AB (1 - transmittance) and A, their mean. By OpenEXR's
-/// "Interpreting Deep Pixels" a part x of such a sample lets T^x through, which is Beer-Lambert, so
-/// that what is put into the water is absorbed as it should be.
+/// Writes a deep scan-line file with one volume sample where there is water and none elsewhere: Z,
+/// ZBack, R G B (the in-scatter), AR AG AB (1 - transmittance) and A, their mean. By OpenEXR's
+/// "Interpreting Deep Pixels" a part x of such a sample transmits T^x, which is Beer-Lambert, so
+/// objects that are put into the water are absorbed correctly.
 ///
-/// A sample of alpha 1 is a wall and cannot be split, so the alphas end at 1 - 2^-24, the largest
-/// float below 1; half would end at 1 - 2^-11 and lose the density of all but shallow water. Water
-/// denser than that (optical depth 16.6 from front to back) is too clear in between. Endless water
-/// ends where the light of every channel has fallen to 2^-24, 16.6 / the smallest extinction above
-/// 0 behind the front; hosts choke on an infinite ZBack. With one sample a pixel the channels that
-/// are absorbed faster are then too clear in between.
+/// A sample of alpha 1 is opaque and cannot be split, so the alphas end at 1 - 2^-24, the largest
+/// float below 1; half would end at 1 - 2^-11 and lose the density of all but shallow water. Denser
+/// water (optical depth above 16.6 from front to back) is too clear in between. Infinitely deep
+/// water ends where the light of every channel has fallen to 2^-24, 16.6 / the smallest extinction
+/// above 0 behind the front; hosts fail on an infinite ZBack. With one sample per pixel the
+/// channels with more absorption are then too clear in between.
 ///
-/// A depth that is the same at front and back is no water. Transmittance is clamped to 0 ... 1,
-/// half colors to 65504. Throws Error for NaN, for a back before the front, for a color that is not
-/// finite and for endless water without extinction; and as write_exr().
+/// Equal depths at front and back mean no water. Transmittance is clamped to 0 ... 1, half colors
+/// to 65504. Throws Error for NaN, for a back before the front, for a color that is not finite and
+/// for infinitely deep water without extinction; and as write_exr().
 void write_deep_water(const std::filesystem::path& path, const DeepWater& water);
 
 }  // namespace limpid

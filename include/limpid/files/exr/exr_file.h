@@ -50,10 +50,10 @@ struct DeepBlock {
   std::vector<std::vector<float>> values;  ///< of each channel asked for, in that order, by sample
 };
 
-/// An EXR file, opened: its headers are read and checked against the limits, no pixel is. Scan-line
+/// An open EXR file: its headers are read and checked against the limits, but no pixels. Scan-line
 /// and tiled (level 0), multi-part, mixed sample types; luminance-chroma (Y RY BY, subsampled)
-/// reads as the channels R G B, in half precision. Deep parts have their own way of reading. One
-/// file may be read from several threads; the reads follow one another.
+/// reads as the channels R G B, in half precision. Deep parts have their own functions. One file
+/// may be read from several threads; the reads follow one another.
 class ExrFile {
  public:
   /// Throws Error (one sentence, begins with the path) for a file that is missing, not an EXR,
@@ -69,37 +69,37 @@ class ExrFile {
 
   /// Decodes the requested channels, of any parts, each part in one pass; half and uint become
   /// float. Views that hold whole rows of the data window are decoded in place. Throws Error for an
-  /// unknown channel and, before anything is allocated, where channels or the chunks of all parts
-  /// that were ever read need more memory than the limits have; for truncated or damaged pixels
-  /// (never silent black), too, and then what was written is unspecified.
+  /// unknown channel and, before anything is allocated, if channels or the chunks of all parts read
+  /// so far need more memory than the limits; also for truncated or damaged pixels (never silent
+  /// black), after which the views have unspecified values.
   void read(std::span<const ExrRequest> requests) const;
 
   /// Decodes lines y0 <= y < y1 of the data window of a flat part without changing a bit: the
-  /// samples of `channels` as they are stored (half, float or uint), those of channel i whole rows
-  /// one behind the other from `into[i]` on. Throws Error as read() does, and for channels that are
-  /// made from luminance and chroma, which no file stores.
+  /// stored samples of `channels` (half, float or uint), those of channel i as whole rows from
+  /// `into[i]` on. Throws Error as read() does, and for channels that are computed from luminance
+  /// and chroma, which no file stores.
   void read_stored(int part, std::span<const std::string> channels, int y0, int y1,
                    std::span<char* const> into) const;
 
-  /// Decodes channels of a deep part (scan-line, or tiled: level 0) and hands them to `sink`, some
-  /// lines or one tile at a time, each pixel of the data window once; never more of the samples are
-  /// in memory. How many there are is checked against the limits and the size of the file before
-  /// any is allocated. Throws Error as read() does. `sink` must not read from this file.
+  /// Decodes channels of a deep part (scan-line, or tiled: level 0) and passes them to `sink`, some
+  /// lines or one tile at a time, each pixel of the data window once; no more samples than these
+  /// are in memory. Their number is checked against the limits and the size of the file before the
+  /// allocation. Throws Error as read() does. `sink` must not read from this file.
   void read_deep(int part, std::span<const std::string> channels,
                  const std::function<void(const DeepBlock&)>& sink) const;
 
-  /// Whether the pixels of a file as this library writes them, parts of scan lines, are all there:
-  /// the chunks that the headers promise, in their places, before the end of the file. Says no for
-  /// files of another kind. Nothing is decoded. Throws Error when the system cannot read.
+  /// Whether all pixels of a file from this library (parts of scan lines) are there: the chunks
+  /// that the headers promise, in their places, before the end of the file. False for files of
+  /// another kind. Decodes nothing. Throws Error when the system cannot read.
   bool is_whole() const;
 
-  /// Whether all bytes are as this library wrote them: it leaves their hash in the text attribute
-  /// "limpid_file_hash", for which itself 32 digits 0 count. Nothing where there is none. Reads the
-  /// whole file, decodes nothing. Throws Error when the system cannot read.
+  /// Whether all bytes are unchanged since this library wrote them: their hash is in the text
+  /// attribute "limpid_file_hash", which counts as 32 digits 0 itself. Empty without that
+  /// attribute. Reads the whole file, decodes nothing. Throws Error when the system cannot read.
   std::optional<bool> is_as_written() const;
 
-  /// A hash of all bytes of the file as it was opened, whatever has its name by now: XXH3, 128
-  /// bits, 32 hexadecimal digits, what `xxhsum -H2` prints. It tells files apart; it is no seal.
+  /// A hash of all bytes of the open file, whatever file has its name now: XXH3, 128 bits, 32
+  /// hexadecimal digits, as printed by `xxhsum -H2`. It identifies files; it is not a signature.
   std::string content_hash() const;
 
   /// A 4x4 matrix attribute by name, 16 floats in memory order, as in `worldToCamera`. These three
@@ -124,9 +124,9 @@ class ExrFile {
   std::unique_ptr<State> state_;
 };
 
-/// How many threads OpenEXR decodes and encodes with, in the whole process; 0 and 1 mean the
-/// calling one alone, as at first; fewer where the system lets the process make no more. Files
-/// opened before keep the count they were opened with.
+/// Threads with which OpenEXR decodes and encodes, in the whole process; 0 and 1 (the default) mean
+/// the calling thread alone; fewer if the system lets the process start no more. Files opened
+/// before keep their number.
 void set_file_threads(int count);
 
 }  // namespace limpid
