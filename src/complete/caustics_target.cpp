@@ -138,21 +138,20 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const L
 /// Parts of a row whose rays take turns; spread() ends rows with as many rays without light.
 constexpr int kTurns = 8;
 
-/// Of a box as wide as the ray, around it, the parts that lie on three texels from the first one
-/// on. A ray is at least a texel wide, or the table would be grainy where light is focused.
+/// Of a box as wide as the ray, around it, what lies on each of three texels from the first one on:
+/// `wide` in all. A ray is at least a texel wide, or the table would be grainy where light is
+/// focused.
 struct Parts {
-  Lane first, parts[3];
+  Lane first, wide, parts[3];
 
   LIMPID_LANES_INLINE Parts(Lane at, Lane along, Lane across) {
     const Lane one(1), square = along * along + across * across;
-    const Lane wide = sqrt(min(max(square, Lane(1)), Lane(4)));
+    wide = sqrt(min(max(square, Lane(1)), Lane(4)));
     const Lane begin = at - Lane(0.5) * wide + Lane(0.5);
     first = floor(begin);
-    const Lane rest = first + one - begin, per_wide = one / wide;
+    const Lane rest = first + one - begin;
     const Lane until = min(rest, wide), next = min(rest + one, wide);
-    parts[0] = until * per_wide;
-    parts[1] = (next - until) * per_wide;
-    parts[2] = (wide - next) * per_wide;
+    parts[0] = until, parts[1] = next - until, parts[2] = wide - next;
   }
   LIMPID_LANES_INLINE Mask within(int count) const {
     return first > Lane(-3) && first < Lane(count);
@@ -173,7 +172,7 @@ RowsHit spread(const BeamRow& beams, int count, const SplatRow& to) {
     const Parts y = parts(beams.above.y, beams.here.y, beams.below.y);
     const Mask counted = Lane(hn::ConvertTo(kD, count_from(i))) < Lane(count);
     const Mask inside = x.within(beams.width) && y.within(beams.height) && counted;
-    const Lane power = select(inside, load(beams.here.power + i), none);
+    const Lane power = select(inside, load(beams.here.power + i) / (x.wide * y.wide), none);
     const Lane row = select(inside, y.first, Lane(-3));
     const VI line = hn::Mul(whole_of(row + Lane(3)), hn::Set(kDI, beams.stride));
     const VI texel = hn::Add(line, whole_of(select(inside, x.first, Lane(-3)) + Lane(3)));
