@@ -236,11 +236,11 @@ Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& c)
 std::string to_text(const Beyond& beyond) {
   if (!beyond.any()) return "no wet pixel looks beyond the picture";
   char text[256];
-  std::snprintf(text, sizeof text,
-                "%.1f %% of the wet pixels look beyond the picture; overscan of color and depth by "
-                "%d pixels on the left, %d on the right, %d at the top and %d at the bottom would "
-                "show what is there",
-                100 * beyond.share, beyond.left, beyond.right, beyond.top, beyond.bottom);
+  std::snprintf(
+      text, sizeof text,
+      "%.1f %% of the wet pixels look beyond the picture; overscan of color and depth by %d pixels "
+      "on the left, %d on the right, %d at the top and %d at the bottom would cover them",
+      100 * beyond.share, beyond.left, beyond.right, beyond.top, beyond.bottom);
   return text;
 }
 

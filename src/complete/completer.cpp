@@ -105,7 +105,7 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
     phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
   }
   if (plan.look.of<Refraction>().looks_behind()) {
-    phrases.emplace_back("the bottom behind what hides it (refraction.rejection)");
+    phrases.emplace_back("the bottom behind objects (refraction.rejection)");
   }
   if (plan.keeps<Caustics>()) phrases.emplace_back("caustics");
   if (plan.keeps<WaterShadow>() && Kernel<WaterShadow>::wants_shafts(plan.look.of<WaterShadow>())) {

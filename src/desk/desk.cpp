@@ -88,16 +88,15 @@ std::string Desk::runner() const {
 }
 
 std::vector<DeskShow> Desk::shows() const {
-  std::vector<DeskShow> list = {{kPicture, "the picture with its water"},
-                                {kDry, "the plate as it is"}};
+  std::vector<DeskShow> list = {{kPicture, "the picture with its water"}, {kDry, "the dry plate"}};
   if (options_.reference) {
-    list.push_back({kReference, "the picture that is given to compare with"});
+    list.push_back({kReference, "the picture to compare with"});
     list.push_back({kDifference, "largest difference of a pixel's channels from the reference"});
   }
   if (runner().starts_with(runner_name(Runner::kFused))) {
     list.push_back({kCells,
-                    "what of the chain each cell of the picture needs: opaque water red, open "
-                    "water green, all of it yellow, other water blue"});
+                    "the kind of each cell of the picture: opaque water red, open water green, the "
+                    "full chain yellow, other water blue"});
   }
   for (const AovInfo& info : aovs()) {
     list.push_back({std::string(info.name), std::string(info.about)});
@@ -125,7 +124,7 @@ DeskFrame& Desk::frame_at(std::optional<int> number) {
   if (!number && !all.empty()) number = all.front();
   if (number && std::find(all.begin(), all.end(), *number) == all.end()) {
     throw Error("frame = " + std::to_string(*number) + ": expected " +
-                (all.empty() ? "none, for there is one picture alone" : "one of --frames"));
+                (all.empty() ? "none, since there is only one picture" : "one of --frames"));
   }
   const auto kept = std::find_if(frames_.begin(), frames_.end(),
                                  [&](const Kept& frame) { return frame.number == number; });

@@ -210,8 +210,7 @@ void* limpid_http_open(const HttpOptions* options, const HttpHost* host, int* po
     *port = server->bind(options->port);
     if (*port != 0) return server.release();
     sentence = "port " + std::to_string(options->port) +
-               ": cannot be listened at (it is taken, or not allowed): expected another one, or 0 "
-               "for any";
+               ": cannot be opened (in use, or not allowed): expected another port, or 0 for any";
   } catch (const std::exception& error) {
     sentence = std::string("cannot make a server (") + error.what() + ")";
   }

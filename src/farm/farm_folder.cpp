@@ -89,7 +89,7 @@ bool FarmFolder::has_record() const {
 FarmRecord FarmFolder::record() const {
   const fs::path name = file("farm.json");
   if (!has_record()) {
-    throw Error(path_.string() + ": no farm (it has no farm.json); expected the folder that " +
+    throw Error(path_.string() + ": not a farm (it has no farm.json); expected the folder that " +
                 "limpid farm named, as in shot/wet.farm");
   }
   try {

@@ -63,7 +63,7 @@ FarmLock::FarmLock(const FarmFolder& folder) : file_(folder.file("lock")) {
   const std::string by = holder(folder);
   if (failed == EEXIST && !by.empty()) {
     throw Error(folder.path().string() + ": this farm is being submitted, or run, by " + by +
-                    "; where that is no more, remove " + file_.string(),
+                    "; if that process no longer exists, remove " + file_.string(),
                 Fault::kRetry);
   }
   throw Error(file_.string() + ": cannot be made (" + std::strerror(failed) + ")", Fault::kRetry);

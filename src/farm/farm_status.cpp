@@ -56,7 +56,7 @@ std::string end_of(const FarmFolder& folder, const FarmRecord& record, int task,
             (known->node.empty() ? "" : ", on " + known->node) + ")";
   }
   const fs::path log = folder.file("log") / (job + "." + std::to_string(task) + ".txt");
-  return text + (state_of(log).empty() ? "; it has begun no log" : "; see " + log.string());
+  return text + (state_of(log).empty() ? "; it has no log" : "; see " + log.string());
 }
 
 void add_failures(const FarmFolder& folder, const FarmRecord& record,
@@ -153,8 +153,7 @@ std::string to_text(const FarmStatus& status) {
     text += std::to_string(status.running) + " tasks run, " + std::to_string(status.waiting) +
             " wait" + (status.waits_for.empty() ? "" : " (" + status.waits_for + ")") + "\n";
   }
-  if (!status.complete() && status.at_work == false)
-    text += "nothing of it waits or runs any more\n";
+  if (!status.complete() && status.at_work == false) text += "no task waits or runs\n";
   if (!status.note.empty()) text += status.note + "\n";
   for (const FarmFailure& failure : status.failed) {
     text += std::string(failure.frames.size() == 1 ? "frame " : "frames ") +

@@ -115,7 +115,7 @@ constexpr std::string_view kVerifyHead = R"sh(#!/bin/bash
 void expect_sbatch_word(const std::string& word) {
   if (word.starts_with("--array") || word.starts_with("--wrap")) {
     throw Error("--sbatch " + word +
-                    ": expected another option, for the farm's tasks are an array of scripts",
+                    ": expected another option, since the farm's tasks are an array of scripts",
                 Fault::kUsage);
   }
   const bool plain = std::all_of(word.begin(), word.end(), is_plain);

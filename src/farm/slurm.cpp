@@ -97,8 +97,7 @@ FarmQueue queue_of(const std::vector<long>& jobs) {
     std::erase_if(queue.tasks, [&](const SlurmTask& task) { return task.job != jobs.front(); });
   } catch (const Error& error) {
     queue.at_work.reset();
-    queue.note = std::string("The scheduler cannot be asked, the frames alone are told of (") +
-                 error.what() + ")";
+    queue.note = std::string("The scheduler cannot be asked; frames only (") + error.what() + ")";
   }
   return queue;
 }

@@ -42,8 +42,8 @@ struct Candidate {
   /// Why it cannot be used, or "".
   std::string fault() const {
     if (properties.apiVersion < kVersion) return "knows a Vulkan older than 1.2";
-    if (family < 0) return "has no queue that computes";
-    if (!keeps_infinity) return "does not promise to keep infinity among floats of 32 bits";
+    if (family < 0) return "has no compute queue";
+    if (!keeps_infinity) return "does not preserve infinity in 32-bit floats";
     return "";
   }
 };
@@ -132,7 +132,7 @@ const Candidate& chosen(const std::vector<Candidate>& all, const std::string& na
     faults.push_back(candidate.name() + " " + candidate.fault());
   }
   if (!faults.empty()) throw Error("no GPU can be used: " + join(faults));
-  if (all.empty()) throw Error("no GPU is to be found: expected one with a driver for Vulkan 1.2");
+  if (all.empty()) throw Error("no GPU found: expected one with a driver for Vulkan 1.2");
   std::vector<std::string> known;
   for (const Candidate& candidate : all) known.push_back(candidate.name());
   throw Error("no GPU has '" + name + "' in its name: expected a part of one of " + join(known));
@@ -243,7 +243,7 @@ VkDeviceMemory GpuDevice::allocate(const VkMemoryRequirements& needs, VkMemoryPr
       return memory;
     }
   }
-  throw Error(name_ + " has no memory of a kind that its own pictures can lie in");
+  throw Error(name_ + " has no memory type for its own images");
 }
 
 std::shared_ptr<const GpuPipeline> GpuDevice::pipeline(const ShaderProgram& program,

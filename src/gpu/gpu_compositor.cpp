@@ -136,9 +136,9 @@ void GpuCompositor::State::make_plan(const Frame& windows, const Scene& scene) {
                                        .waves = waves});
   left_out = Completer::made_of_pixels(made);
   if (!left_out.empty() && !options.leave_out) {
-    throw Error("the look " + look.name + " asks for what is made of pixels in memory, where " +
-                "those of a GPU are not: " + join(left_out) +
-                "; expected a look without, or leave_out");
+    throw Error("the look " + look.name + " needs steps with pixels in CPU memory, which " +
+                "a GPU frame does not have: " + join(left_out) +
+                "; expected a look without them, or leave_out");
   }
   plan = std::move(made);
   planned_for = windows.present(), planned_sun = sun, planned_waves = waves;

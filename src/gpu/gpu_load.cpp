@@ -26,15 +26,14 @@ std::string gpu_load_text(const Plan& plan, const ShaderProgram& program) {
   const std::size_t pixels = static_cast<std::size_t>(program.work.area());
   const std::size_t back = program.outputs.size() * pixels * 4 * sizeof(float);
   char carried[160];
-  std::snprintf(
-      carried, sizeof carried,
-      "on the GPU  shader %s of %zu numbers and %zu textures; at most %.1f MB there and %.1f MB "
-      "back\n",
-      program.id.c_str(), program.numbers.size(), program.textures.size(),
-      1e-6 * static_cast<double>(there), 1e-6 * static_cast<double>(back));
+  std::snprintf(carried, sizeof carried,
+                "on the GPU  shader %s of %zu numbers and %zu textures; at most %.1f MB to the "
+                "device and %.1f MB back\n",
+                program.id.c_str(), program.numbers.size(), program.textures.size(),
+                1e-6 * static_cast<double>(there), 1e-6 * static_cast<double>(back));
   const std::vector<std::string> made = Completer::made_of_pixels(plan);
   return std::string(carried) + "on the CPU  " +
-         (made.empty() ? "nothing that is made of pixels" : join(made)) + "\n";
+         (made.empty() ? "no step that needs pixels" : join(made)) + "\n";
 }
 
 }  // namespace limpid

@@ -31,8 +31,8 @@ PFN_vkGetInstanceProcAddr vulkan_loader() {
   }();
   if (!get) {
     throw Error(
-        "no libvulkan.so.1 is to be found: the runner on a GPU needs Vulkan's loader, which "
-        "Debian has as libvulkan1, and a driver");
+        "libvulkan.so.1 not found: the GPU runner needs the Vulkan loader (libvulkan1 in Debian) "
+        "and a driver");
   }
   return get;
 }
@@ -44,7 +44,7 @@ void expect(VkResult result, const std::string& call) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
       throw std::bad_alloc();
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      throw Error(call + ": the device has not as much memory left");
+      throw Error(call + ": the device is out of memory");
     case VK_ERROR_DEVICE_LOST:
       throw Error(call + ": the device is lost, by a fault of its driver or because it was reset");
     default:

@@ -43,7 +43,7 @@ void expect_samples(const OutputChoice& choice) {
                 Fault::kUsage);
   }
   if (choice.wave_samples > 1 && !choice.deep.empty()) {
-    throw Error(said + " and a deep file: expected 1, for depths of several samples have no mean",
+    throw Error(said + " and a deep file: expected 1, since depths of several samples have no mean",
                 Fault::kUsage);
   }
 }

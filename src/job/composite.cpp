@@ -145,7 +145,7 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
 MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor) {
   if (job.output.runner != Runner::kFused) {
     throw Error("runner " + std::string(runner_name(job.output.runner)) +
-                    ": expected fused, for operators are timed in that one alone",
+                    ": expected fused, the only runner that times operators",
                 Fault::kUsage);
   }
   CompositeKind kind;

@@ -67,7 +67,7 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
   std::vector<std::string> warnings = plate.warnings();
   warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
   const auto unread = [&](const std::string& what) {
-    warnings.push_back(what + " is named, and nothing that runs of the look " + job.look.name +
+    warnings.push_back(what + " is named, and no running operator of the look " + job.look.name +
                        " reads it");
   };
   for (const Role& role : roles()) {
@@ -77,11 +77,11 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
   const bool own_normals = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
   if (job.output.wave_samples > 1 && own_normals) {
     warnings.push_back("wave_samples = " + std::to_string(job.output.wave_samples) +
-                       " sample no waves: they are the frame's own normals, one a pixel");
+                       " sample no waves: the frame has normals, one per pixel");
   }
   if (job.scene.scene.sky && !plan.lit_by_sky) unread("[sky]");
   if (job.scene.scene.sky && plan.lit_by_sky && plan.reads_environment) {
-    warnings.push_back("[sky] is given, and the environment lights the water in its stead");
+    warnings.push_back("[sky] has no effect: the environment lights the water");
   }
   // It may stand by for a reflection.
   const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);

@@ -24,8 +24,8 @@ CompositeJob own_job(const JobOfFrame<CompositeJob>& job_of, int frame) {
   CompositeJob job = job_of(frame);
   if (const auto gone = missing_file(job)) {
     throw Error(gone->string() +
-                    ": was there when the sequence began and is gone; run it again to "
-                    "go on as with any that is missing",
+                    ": has disappeared since the sequence began; run the sequence again to treat "
+                    "it as a missing plate",
                 Fault::kRetry);
   }
   return job;
@@ -75,8 +75,7 @@ FilledSequence fill_missing(const std::vector<int>& frames, const JobOfFrame<Com
     }
   }
   if (there.empty() && unclear.empty()) {
-    throw Error(holes[frames.front()].string() +
-                ": no such file, nor is one of another frame there");
+    throw Error(holes[frames.front()].string() + ": no such file, for this frame or any other");
   }
 
   const bool hold = missing == Missing::kHold && !there.empty();

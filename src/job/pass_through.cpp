@@ -52,10 +52,10 @@ void expect_passable(const std::vector<PassedPart>& passed, const std::vector<Mo
   if (passed.empty()) return;
   const std::string compression = choice.compression.substr(0, choice.compression.find(':'));
   if (std::find(std::begin(kLossless), std::end(kLossless), compression) == std::end(kLossless)) {
-    throw Error("compression '" + choice.compression +
-                    "': expected none, rle, zips, zip or piz, for what is passed through keeps "
-                    "its bits",
-                Fault::kUsage);
+    throw Error(
+        "compression '" + choice.compression +
+            "': expected none, rle, zips, zip or piz, since passed-through layers keep their bits",
+        Fault::kUsage);
   }
   const std::map<std::string, std::string> written = written_names(motion, choice);
   for (const PassedPart& part : passed) {
@@ -85,7 +85,7 @@ std::vector<std::string> manifest_warnings(const std::vector<PassedPart>& passed
                          " of a cryptomatte that is passed through lies "
                          "beside " +
                          part.file->path().string() + " and is looked for beside " +
-                         choice.picture.string() + ": bring it there, too");
+                         choice.picture.string() + ": copy it there, too");
     }
   }
   return warnings;

@@ -56,8 +56,8 @@ std::string glass_text(double share, const std::string& what) {
   char percent[16];
   std::snprintf(percent, sizeof percent, "%.1f %%", 100 * share);
   return std::string(percent) + " of " + what +
-         " transparent, as glass or a wide blur, and taken for opaque at their depth: no water is "
-         "put behind";
+         " transparent, such as glass or a wide blur, and count as opaque at their depth: no water "
+         "is put behind them";
 }
 
 /// Whether there are pixels of both kinds, as in a picture that was meant.
@@ -65,11 +65,10 @@ bool warn_of_wet(const Frame& frame, const Pass& pass, std::vector<std::string>&
   if (look_at(frame, pass, kCoarse).both()) return true;
   const Found found = look_at(frame, pass, 1);
   const std::string expected =
-      "; expected another height or direction of the water, another camera or kind of depth, if "
-      "that is not meant";
+      "; if this is not intended, check height and up of the water, camera and kind of depth";
   if (!found.wet) warnings.push_back("no pixel is wet, the picture is the dry one" + expected);
   if (!found.dry && !found.in_water) {
-    warnings.push_back("every pixel is wet, nothing stands before the water" + expected);
+    warnings.push_back("every pixel is wet, no object is in front of the water" + expected);
   }
   return found.wet && (found.dry || found.in_water);
 }
@@ -93,11 +92,11 @@ void warn_of_depth(const Frame& frame, std::vector<std::string>& warnings) {
   const std::string range = " in " + toml_text(least) + " ... " + toml_text(most);
   if (most <= 1) {
     warnings.push_back("the depth lies" + range +
-                       " everywhere, as that of a mist pass or a normalised depth does; expected "
-                       "distances in scene units, or the kind of depth said");
+                       " everywhere, like a mist pass or a normalised depth; expected distances in "
+                       "scene units, or the right --depth-kind");
   } else if (most - least < 1e-4f * most) {
     warnings.push_back("the depth is nearly the same everywhere," + range +
-                       "; expected that of a scene, if that is not meant");
+                       "; if this is not intended, check the depth layer");
   }
 }
 
@@ -180,11 +179,11 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
   const std::string tile = "wave_normals.tile_size = " + toml_text(waves.tile_size);
   if (waves.tile_size < 2 * pixel) {
     warnings.push_back(tile + ": a pixel of the nearest water is " + toml_text(pixel) +
-                       " wide, and no wave of the map can be seen; expected larger tiles");
+                       " wide, so no wave of the map is visible; expected larger tiles");
   } else if (waves.tile_size > 100 * pixel * c.size.x) {
     warnings.push_back(tile + ": the nearest water in the picture is " +
                        toml_text(pixel * c.size.x) +
-                       " wide, and the waves of the map look flat; expected smaller tiles");
+                       " wide, so the waves of the map look flat; expected smaller tiles");
   }
 }
 
@@ -230,8 +229,8 @@ void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
   std::snprintf(percent, sizeof percent, "%.0f %%", 100.0 * beyond / lit);
   warnings.push_back(
       "the sunlight of " + std::string(percent) +
-      " of the bottom enters beyond the picture's own normals, where the water "
-      "counts as calm, and has no caustics; expected overscan, or the scene's waves");
+      " of the bottom enters beyond the normals of the picture, where the water counts as calm, "
+      "and has no caustics; expected overscan, or waves in the scene");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ bool is_there(const fs::path& file) {
 /// Throws Error unless the file is as it was written, as far as it is looked at.
 void check(const ExrFile& file, Scrutiny scrutiny) {
   const std::string name = file.path().string();
-  if (!file.is_whole()) throw Error(name + ": is not whole");
+  if (!file.is_whole()) throw Error(name + ": is incomplete");
   if (scrutiny == Scrutiny::kWhole) return;
   const std::optional<bool> as_written = file.is_as_written();
   if (!as_written) throw Error(name + " has no hash of its bytes");
@@ -55,7 +55,7 @@ std::string why_not(const fs::path& file, const Record& record, Scrutiny scrutin
     std::vector<std::string> others;
     for (const auto& [name, text] : record) {
       const auto found = said.find(name);
-      if (found == said.end()) return file.string() + " does not say how it was made";
+      if (found == said.end()) return file.string() + " does not record how it was made";
       if (found->second != text) others.push_back(name.substr(name.find('/') + 1));
     }
     return others.empty() ? "" : file.string() + " was made otherwise (" + join(others) + ")";

@@ -24,7 +24,7 @@ bool same_camera(const Camera& a, const Camera& b) {
 void expect_views(const CompositeJob& job, const std::vector<PreparedView>& views) {
   if (views.size() < 2) return;
   if (!job.output.deep.empty()) {
-    throw Error(job.output.deep.string() + ": a deep file holds one view and there are " +
+    throw Error(job.output.deep.string() + ": a deep file holds one view, and there are " +
                     std::to_string(views.size()) + ": expected --view with one",
                 Fault::kUsage);
   }
@@ -36,9 +36,10 @@ void expect_views(const CompositeJob& job, const std::vector<PreparedView>& view
         throw Error(both + " have other display windows: expected one size");
       }
       if (same_camera(*a->scene.camera, *b->scene.camera)) {
-        throw Error(both +
-                    " have one camera: expected worldToCamera and worldToNDC in a part of each, or "
-                    "a scene for each (--scene shot_%V.toml, where %V is the view's name)");
+        throw Error(
+            both +
+            " have the same camera: expected worldToCamera and worldToNDC in a part of each, or a "
+            "scene for each (--scene shot_%V.toml, where %V is the name of the view)");
       }
     }
   }

@@ -35,7 +35,7 @@ void check(const WaterJob& job) {
   }
   if (job.samples > 1 && !job.output.deep.empty()) {
     throw Error("samples = " + std::to_string(job.samples) + " and a deep file: expected 1, " +
-                    "for depths of several samples have no mean",
+                    "since depths of several samples have no mean",
                 Fault::kUsage);
   }
   const Size size = job.render.size;

@@ -13,12 +13,12 @@ using P = Caustics::Params;
 constexpr std::string_view kShadows[] = {"straight", "refracted"};
 
 constexpr Field<P> kFields[] = {
-    real<&P::strength>("strength", "", {0, 10}, "0 none, 1 as much as the waves focus."),
+    real<&P::strength>("strength", "", {0, 10}, "Strength of the caustics: 0 none, 1 physical."),
     real<&P::sun_share>("sun_share", "", {0, 1},
-                        "Of the bottom's light, the sun's part, where no sky is known."),
+                        "Part of the bottom's light that is sunlight, if no sky is known."),
     choice<&P::shadows, kShadows>("shadows",
-                                  "Where the sun's shadows on the bottom are, given sun_color, "
-                                  "shadow and surface_shadow."),
+                                  "Position of the sun's shadows on the bottom; refracted needs "
+                                  "sun_color, shadow and surface_shadow."),
 };
 
 }  // namespace
@@ -29,7 +29,7 @@ std::string_view Kernel<Caustics>::prefer(P& params, const AtHand& has) {
   const PlaneSet wanted = kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
   if (params.shadows == Shadows::kStraight || has.planes.covers(wanted)) return "";
   params.shadows = Shadows::kStraight;
-  return "shadows on the bottom stay where straight light casts them";
+  return "shadows on the bottom stay unrefracted";
 }
 
 Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& c) {

@@ -17,57 +17,53 @@ constexpr std::string_view kSunlights[] = {"none", "straight", "refracted"};
 constexpr std::string_view kCrossings[] = {"none", "radiance"};
 
 constexpr Field<P> kFields[] = {
-    choice<&P::model, kModels>("model", "How light dies away with distance."),
-    choice<&P::distance, kDistances>("distance", "How the way through the water is measured."),
+    choice<&P::model, kModels>("model", "Model of absorption and scattering."),
+    choice<&P::distance, kDistances>("distance", "Measure of the path length in the water."),
     real<&P::density>("density", "1/scene unit", {0, 1e6}, "Slope of the linear fog.")
         .when("model", {"linear"}),
     real<&P::offset>("offset", "", {-1e6, 1e6},
-                     "Taken off the linear fog; clear water up to offset / density.")
+                     "Subtracted from the linear fog: clear water up to offset / density.")
         .when("model", {"linear"}),
-    color<&P::color>("color", "radiance", {0, 1e6}, "What the water itself looks like, linear.")
+    color<&P::color>("color", "radiance", {0, 1e6}, "Color of the linear fog.")
         .when("model", {"linear"}),
-    real<&P::alpha>("alpha", "", {0, 1}, "Share of the linear fog that is blended in.")
-        .when("model", {"linear"}),
+    real<&P::alpha>("alpha", "", {0, 1}, "Opacity of the linear fog.").when("model", {"linear"}),
     color<&P::absorption>("absorption", "1/scene unit", {0, 1e6},
-                          "What the water swallows of the light; pure water by default.")
+                          "Absorption coefficient; default: pure water.")
         .when("model", {"beer_lambert", "radiative_transfer"})
         .brings("water_type", "custom"),
     color<&P::scattering>("scattering", "1/scene unit", {0, 1e6},
-                          "What it throws elsewhere: murky water glows in the sun.")
+                          "Scattering coefficient: murky water is bright in the sun.")
         .when("model", {"beer_lambert", "radiative_transfer"})
         .when("water_type",
               {"custom", "pure", "I", "IA", "IB", "II", "III", "1C", "3C", "5C", "7C", "9C"}),
-    real<&P::murkiness>(
-        "murkiness", "", {0, 1},
-        "Of natural waters by what lives in them: from the clearest ocean to a pond "
-        "in bloom.")
+    real<&P::murkiness>("murkiness", "", {0, 1},
+                        "Chlorophyll of natural water: 0 is the clearest ocean, 1 a pond in bloom.")
         .when("model", {"beer_lambert", "radiative_transfer"})
         .brings("water_type", "case_1"),
     real<&P::sediment>("sediment", "g/m^3", {0, 10000},
-                       "Mineral grains in the water, besides: they throw light back, so that it is "
+                       "Additional mineral grains: they scatter light back, so that water is "
                        "brighter and hides the bottom.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
-    real<&P::cdom>("cdom", "1/scene unit", {0, 1000},
-                   "Dissolved humus in the water, besides, by what it swallows at 440 nm: yellow, "
-                   "then brown and dark.")
+    real<&P::cdom>(
+        "cdom", "1/scene unit", {0, 1000},
+        "Additional dissolved humus, by its absorption at 440 nm: yellow, then brown and dark.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
-    choice<&P::water_type, kWaterTypes>("water_type",
-                                        "Water by name: Jerlov's types replace absorption and, of "
-                                        "beer_lambert, the loss downwards; case_1 goes by "
-                                        "murkiness, its scattering, too.")
+    choice<&P::water_type, kWaterTypes>(
+        "water_type",
+        "Type of water: Jerlov's types replace absorption and, for beer_lambert, downward "
+        "attenuation; case_1 replaces absorption and scattering by murkiness.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
     real<&P::anisotropy>("anisotropy", "", {-0.99, 0.99},
-                         "Mean cosine of the angle by which scattered light turns; 0 is evenly.")
+                         "Mean cosine of the scattering angle; 0 is isotropic.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
-    color<&P::ambient>(
-        "ambient", "radiance", {0, 1e6},
-        "Light from all around besides the sun's; of radiative_transfer the sky's, where neither "
-        "environment nor scene tell of it.")
+    color<&P::ambient>("ambient", "radiance", {0, 1e6},
+                       "Ambient light besides the sun's; for radiative_transfer the sky's light, "
+                       "if neither environment nor scene give it.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
-    choice<&P::sunlight, kSunlights>("sunlight", "The light's own way down to where it scatters.")
+    choice<&P::sunlight, kSunlights>("sunlight",
+                                     "Path of the sunlight down to the point of scattering.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
-    choice<&P::crossing, kCrossings>("crossing",
-                                     "What passing the surface does to light from below.")
+    choice<&P::crossing, kCrossings>("crossing", "Change of the light from below at the surface.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
 };
 

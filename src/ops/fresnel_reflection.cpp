@@ -14,23 +14,24 @@ constexpr std::string_view kFacets[] = {"mean", "spread"};
 constexpr std::string_view kLookups[] = {"offset", "ray"};
 
 constexpr Field<P> kFields[] = {
-    choice<&P::reflectance, kReflectances>("reflectance", "How much is reflected at which angle."),
+    choice<&P::reflectance, kReflectances>("reflectance", "Model of the reflectance by angle."),
     real<&P::power>("power", "", {0, 100}, "Exponent of rim and inverse_power.")
         .when("reflectance", {"rim", "inverse_power"}),
     real<&P::intensity>("intensity", "", {0, 100},
-                        "Share of inverse_power that is not reflected at normal incidence.")
+                        "Transmittance of inverse_power at normal incidence.")
         .when("reflectance", {"inverse_power"}),
     real<&P::f0>("f0", "", {0, 1}, "Reflectance at normal incidence, for schlick.")
         .when("reflectance", {"schlick"}),
-    choice<&P::source, kSources>("source", "What is mirrored."),
-    choice<&P::lookup, kLookups>("lookup", "Where in the planar source each pixel looks.")
+    choice<&P::source, kSources>("source", "Source of the reflected light."),
+    choice<&P::lookup, kLookups>(
+        "lookup", "Lookup in the planar source: by an offset, or along the mirrored ray.")
         .when("source", {"planar", "auto"}),
-    choice<&P::facets, kFacets>("facets",
-                                "Waves too small for a pixel: the mean facet, or their spread."),
+    choice<&P::facets, kFacets>(
+        "facets", "Waves smaller than a pixel: the mean facet, or the spread of facets."),
     real<&P::strength>("strength", "uv per unit tilt", {-10, 10}, "Size of the lookup offset.")
         .when("source", {"planar", "auto"})
         .when("lookup", {"offset"}),
-    color<&P::color>("color", "radiance", {0, 1e6}, "What the constant source mirrors.")
+    color<&P::color>("color", "radiance", {0, 1e6}, "Color of the constant source.")
         .when("source", {"constant", "auto"}),
 };
 
@@ -61,14 +62,14 @@ std::string_view Kernel<FresnelReflection>::looks_around(const P& params, const 
   if (!has.environment || (!planar && params.source != Source::kAuto)) return "";
   return has.planes.covers(kReflectionPlanes)
              ? "environment where the reflection is not valid"
-             : "environment where the picture does not show what is mirrored";
+             : "environment where the picture does not show the mirrored objects";
 }
 
 std::string_view Kernel<FresnelReflection>::warning(const P& params, const AtHand& has) {
   if (params.source != Source::kPlanar || params.lookup != Lookup::kRay) return "";
   if (has.planes.has(PlaneId::kReflectionDepth)) return "";
-  return "the reflection has no depth: all that it shows is taken to be infinitely far; expected a "
-         "reflection_depth, or fresnel_reflection.source = auto";
+  return "the reflection has no depth and counts as infinitely far; expected a reflection_depth, "
+         "or fresnel_reflection.source = auto";
 }
 
 double Kernel<FresnelReflection>::ns(const P& p, const Running& running) {

@@ -12,8 +12,8 @@ constexpr std::string_view kEdges[] = {"mixed", "hard"};
 constexpr Field<Water> kWaterFields[] = {
     real<&Water::ior>("ior", "", {1, 4}, "Index of refraction of the water against air."),
     choice<&Water::edges, kEdges>("edges",
-                                  "Pixels that something before the water covers in part: mixed of "
-                                  "both, or wet or dry as a whole."),
+                                  "Pixels that an object in front of the water covers partly: "
+                                  "mixed, or wet or dry as a whole."),
 };
 
 /// Calls visit(name, fields, params) for `water` and every operator.

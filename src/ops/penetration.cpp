@@ -11,13 +11,14 @@ using P = Penetration::Params;
 constexpr std::string_view kModels[] = {"none", "view_angle"};
 
 constexpr Field<P> kFields[] = {
-    choice<&P::model, kModels>("model", "What the share that is let through depends on."),
+    choice<&P::model, kModels>("model",
+                               "Model of the share of the dry picture that shows through."),
     real<&P::alpha>("alpha", "", {0, 1}, "Opacity of the surface seen at grazing angles.")
         .when("model", {"view_angle"}),
-    real<&P::amount>("amount", "", {0, 1}, "How much less opaque it is seen straight down.")
+    real<&P::amount>("amount", "", {0, 1}, "Decrease of the opacity straight down.")
         .when("model", {"view_angle"}),
     real<&P::power>("power", "", {0, 100},
-                    "Exponent of V.up; larger keeps the amount to views straight down.")
+                    "Exponent of V.up; larger values limit the amount to views straight down.")
         .when("model", {"view_angle"}),
 };
 

@@ -11,11 +11,11 @@ using P = PrismSplit::Params;
 constexpr std::string_view kModels[] = {"axis", "dispersion"};
 
 constexpr Field<P> kFields[] = {
-    choice<&P::model, kModels>("model", "How the channels part."),
+    choice<&P::model, kModels>("model", "Model of the dispersion."),
     real<&P::strength>("strength", "uv per unit tilt", {-10, 10},
                        "Width of the axis split; 0 is none.")
         .when("model", {"axis"}),
-    real<&P::gain>("gain", "", {0, 100}, "Times the dispersion of water; 0 is none, 1 water.")
+    real<&P::gain>("gain", "", {0, 100}, "Factor of the dispersion of water; 0 is none, 1 water.")
         .when("model", {"dispersion"}),
 };
 

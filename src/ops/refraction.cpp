@@ -14,21 +14,20 @@ constexpr std::string_view kSteps[] = {"march"};
 constexpr std::string_view kOffFrames[] = {"clamp", "shorten", "fog", "continue"};
 
 constexpr Field<P> kFields[] = {
-    choice<&P::model, kModels>("model", "How the refracted position is found."),
+    choice<&P::model, kModels>("model", "Model of the refracted lookup."),
     real<&P::strength>("strength", "uv per unit tilt", {-10, 10},
                        "Size of the offset, not for snell; 0 is none.")
         .when("model", {"normal_offset", "dudv_offset"}),
     choice<&P::rejection, kRejections>("rejection",
-                                       "What is done where the lookup lands above the surface."),
-    count_or_word<&P::steps, kSteps>(
-        "steps", "", {0, 64},
-        "How often snell reads the depth again; march walks along the ray until it meets it.")
+                                       "Treatment of lookups that land above the surface."),
+    count_or_word<&P::steps, kSteps>("steps", "", {0, 64},
+                                     "Depth lookups with which snell refines the ray's end; march "
+                                     "marches along the ray to the bottom.")
         .when("model", {"snell"}),
-    choice<&P::off_frame, kOffFrames>("off_frame",
-                                      "What is seen where the ray leaves the picture."),
+    choice<&P::off_frame, kOffFrames>("off_frame", "Treatment of rays that leave the picture."),
     real<&P::thickness>(
         "thickness", "scene units", {0, 1e6},
-        "Of thin things under water, along the view; 0 is a quarter of their width.")
+        "Thickness of thin objects under water along the view; 0 is a quarter of their width.")
         .when("steps", {"march"}),
 };
 

@@ -10,12 +10,12 @@ using P = SunHighlight::Params;
 constexpr std::string_view kModels[] = {"phong", "blinn_phong", "ggx", "slopes"};
 
 constexpr Field<P> kFields[] = {
-    choice<&P::model, kModels>("model", "How the lobe is measured."),
+    choice<&P::model, kModels>("model", "Model of the lobe."),
     real<&P::power>("power", "", {0, 1e5}, "Exponent of the lobe, not for ggx; larger is sharper.")
         .when("model", {"phong", "blinn_phong"}),
     real<&P::strength>("strength", "", {0, 1e6}, "Scales the glint; 0 is none."),
     real<&P::roughness>("roughness", "", {0, 1},
-                        "Root of the mean square slope of what is too fine for the normals.")
+                        "Root mean square slope of waves too fine for the normals.")
         .when("model", {"ggx", "slopes"}),
 };
 

@@ -10,10 +10,9 @@ using P = WaterShadow::Params;
 constexpr std::string_view kModels[] = {"darken", "scatter"};
 
 constexpr Field<P> kFields[] = {
-    choice<&P::model, kModels>("model", "What the shadow falls on."),
-    real<&P::strength>("strength", "", {0, 1}, "How dark full shadow is: 0 not at all, 1 black."),
-    real<&P::shafts>("shafts", "", {0, 1},
-                     "Shafts of sunlight that the waves focus: 0 none, 1 as they do.")
+    choice<&P::model, kModels>("model", "Light that the shadow removes."),
+    real<&P::strength>("strength", "", {0, 1}, "Darkness of full shadow: 0 none, 1 black."),
+    real<&P::shafts>("shafts", "", {0, 1}, "Shafts of focused sunlight: 0 none, 1 physical.")
         .when("model", {"scatter"}),
 };
 

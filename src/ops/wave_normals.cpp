@@ -14,33 +14,33 @@ constexpr std::string_view kFilters[] = {"none", "mip", "variance"};
 
 constexpr Field<P> kFields[] = {
     choice<&P::model, kModels>(
-        "model", "Where normals come from; plate normals are taken whenever there are any."),
+        "model", "Source of the normals; normals of the plate always take precedence."),
     choice<&P::filter, kFilters>(
-        "filter",
-        "What becomes of waves too small for a pixel: nothing, their mean, or its variance."),
-    real<&P::strength>(
-        "strength", "", {0, 4},
-        "Scales the waves, not the plate's; 0 is calm, 1 the waves as they are, or the wind's.")
+        "filter", "Filter of waves smaller than a pixel: none, their mean, or mean and variance."),
+    real<&P::strength>("strength", "", {0, 4},
+                       "Factor of the slopes, except of plate normals; 0 is calm, 1 the slopes of "
+                       "the map or of the wind.")
         .when("model", {"four_maps", "two_flows", "dudv", "sines", "slopes"}),
     real<&P::tile_size>("tile_size", "scene units", {1e-6, 1e9}, "Length of one period of the map.")
         .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
-    real<&P::speed>("speed", "scene units/s", {-1e6, 1e6}, "Drift of the map.")
+    real<&P::speed>("speed", "scene units/s", {-1e6, 1e6}, "Speed of the map's drift.")
         .when("model", {"four_maps", "two_flows", "dudv", "slopes"})
         .when("wind", {"0"}),
-    real<&P::direction>("direction", "deg", {-360, 360},
-                        "Where the wind blows to, or two_flows drifts: 0 is map x, 90 map y.")
+    real<&P::direction>(
+        "direction", "deg", {-360, 360},
+        "Direction to which the wind blows or two_flows drifts: 0 is map x, 90 map y.")
         .when("model", {"four_maps", "two_flows", "dudv", "slopes"})
         .when("model", {"two_flows"})
         .or_above_zero("wind"),
-    real<&P::wind>("wind", "m/s", {0, 30},
-                   "Drift and slopes are a sea's under that wind, slopes times strength; 0: the "
-                   "map's own.")
+    real<&P::wind>(
+        "wind", "m/s", {0, 30},
+        "Wind that sets drift and slopes as on a sea, slopes times strength; 0: those of the map.")
         .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
     text<&P::map>("map", "File of the tiling normal map, blue up; relative to the look file.")
         .when("model", {"four_maps", "two_flows", "dudv", "slopes"}),
     table<&P::waves>("waves", "", {-1e6, 1e6},
-                     "Waves of sines; none: those of the scene. Phase in rad, k in rad a scene "
-                     "unit, omega in rad/s, by default that of deep water.")
+                     "Sine waves; empty: those of the scene. Phase in rad, k in rad / scene unit, "
+                     "omega in rad/s, by default that of deep water.")
         .when("model", {"sines"}),
 };
 

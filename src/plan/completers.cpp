@@ -11,21 +11,26 @@ constexpr CompleterInfo kCompleters[] = {
      PlaneSet{PlaneId::kSurfaceDepth},
      {},
      {},
-     "The depth of the water that sine waves raise and lower."},
+     "The depth of the surface with sine waves."},
     {"mirror_depth",
      kReflectionPlanes | PlaneSet{PlaneId::kDepth},
      PlaneSet{PlaneId::kReflectionDepth, PlaneId::kReflectionValid},
      PlaneSet{PlaneId::kReflectionDepth, PlaneId::kReflectionValid},
      {},
-     "The depth of the reflection from that of the dry scene, and where objects cut at the water "
-     "show their insides."},
+     "The depth of the reflection from the dry depth, and the insides of objects clipped at the "
+     "water."},
     {"bottom_albedo",
      kDryPlanes,
      kAlbedoPlanes,
      {},
      PlaneSet{PlaneId::kShadow},
-     "How much of the light the bottom throws back, from the dry picture of it."},
-    {"sky", kDryPlanes, kSkyPlanes, {}, {}, "The sky of the frame, drawn on behind what hides it."},
+     "The albedo of the bottom, from the dry picture."},
+    {"sky",
+     kDryPlanes,
+     kSkyPlanes,
+     {},
+     {},
+     "The sky of the frame, continued behind the objects that hide it."},
 };
 
 }  // namespace

@@ -42,10 +42,9 @@ Plan make_plan_without(const std::vector<std::string>& left_out, const Look& loo
     throw Error("max_error = " + std::to_string(max_error) +
                 ": expected a finite number from 0 up (white = 1)");
   }
-  if (!inputs.planes.covers(kColorPlanes))
-    throw Error("no color: there is nothing to put water into");
+  if (!inputs.planes.covers(kColorPlanes)) throw Error("no color: expected a dry picture");
   if (!inputs.planes.has(PlaneId::kDepth)) {
-    throw Error("no depth: what lies above and below the water cannot be told apart");
+    throw Error("no depth: expected a depth that separates objects above and below the water");
   }
   Plan plan;
   plan.look = look;

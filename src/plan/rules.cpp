@@ -80,7 +80,7 @@ void drop_unread(Plan& plan, const Inputs&) {
     if (entry.makes.meets(live)) {
       live = live | entry.uses;
     } else {
-      drop(plan.operators[index], Verdict::kUnread, "nothing reads what it makes");
+      drop(plan.operators[index], Verdict::kUnread, "no operator reads its results");
     }
   }
 }
@@ -127,26 +127,27 @@ void complete_planes(Plan& plan, const Inputs& inputs) {
 }
 
 constexpr Rule kRules[] = {
-    {"take_better_input", "What came with the plate replaces what would be made up.",
-     take_better_input},
-    {"drop_absent_input", "What lacks an input that it cannot do without does not run.",
-     drop_absent_input},
-    {"drop_neutral", "What its parameters make the identity does not run.", drop_neutral},
-    {"drop_unread", "What nothing reads does not run.", drop_unread},
-    {"look_around", "The surroundings are seen where nothing else shows what is mirrored.",
+    {"take_better_input", "Buffers of the plate replace computed ones.", take_better_input},
+    {"drop_absent_input", "An operator without a required input does not run.", drop_absent_input},
+    {"drop_neutral", "An operator whose parameters make it the identity does not run.",
+     drop_neutral},
+    {"drop_unread", "An operator whose results no other operator reads does not run.", drop_unread},
+    {"look_around", "The environment is mirrored where no other source shows the mirrored objects.",
      look_around},
-    {"tell_of_input", "A warning tells of an input that an operator lacks.", tell_of_input},
-    {"take_sky", "The surroundings light the water.", take_sky},
-    {"complete_planes", "Planes that nobody rendered are made, where an operator can use them.",
+    {"tell_of_input", "A warning names an input that an operator lacks.", tell_of_input},
+    {"take_sky", "The environment lights the water.", take_sky},
+    {"complete_planes", "Completers compute missing planes that an operator can use.",
      complete_planes},
     {"copy_dry", "Cells without a wet pixel are copied.", nullptr, &CellRules::copy_dry},
-    {"skip_rejection", "Without foreground in reach refraction need not test for it.", nullptr,
-     &CellRules::skip_rejection},
-    {"skip_hidden", "Where fog hides the end of every way, nothing is refracted.", nullptr,
-     &CellRules::skip_hidden},
-    {"skip_invisible", "What changes a cell by less than is left of max_error does not run there.",
+    {"skip_rejection", "In cells without a foreground in reach, refraction does not test for it.",
+     nullptr, &CellRules::skip_rejection},
+    {"skip_hidden", "In cells where fog hides the end of every path, nothing is refracted.",
+     nullptr, &CellRules::skip_hidden},
+    {"skip_invisible",
+     "An operator that changes a cell by less than the rest of max_error does not run there.",
      nullptr, &CellRules::skip_invisible},
-    {"skip_unread", "What nothing that still runs in a cell reads does not run there.", nullptr,
+    {"skip_unread",
+     "An operator whose results no running operator of a cell reads does not run there.", nullptr,
      &CellRules::skip_unread},
 };
 

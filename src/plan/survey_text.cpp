@@ -21,7 +21,7 @@ namespace {
 
 std::string bound_text(double bound) {
   return bound > 0 ? line("no channel of a pixel changes by more than %.2g", bound)
-                   : "not a bit of the picture is its doing";
+                   : "it changes no bit of the picture";
 }
 
 std::string kind_text(const char* name, const CellCount& count, const CellCount& all,
@@ -40,8 +40,9 @@ std::string cells_text(const Plan& plan, const Survey::Summary& s) {
   text += kind_text("all", s.all, s.all, "");
   text += kind_text("dry", s.dry, s.all, "no water: copied");
   text +=
-      kind_text("opaque", s.opaque, s.all, "the end of the way is hidden: nothing is refracted");
-  text += kind_text("foreground-free", s.open, s.all, "nothing in reach stands before the water");
+      kind_text("opaque", s.opaque, s.all, "fog hides the end of the path: nothing is refracted");
+  text +=
+      kind_text("foreground-free", s.open, s.all, "no object in reach is in front of the water");
   for (std::size_t i = 0; i < operator_table().size(); ++i) {
     const CellKind& kind = operator_table()[i].skipped;
     if (kind.name.empty()) continue;
@@ -50,7 +51,7 @@ std::string cells_text(const Plan& plan, const Survey::Summary& s) {
   }
   text += kind_text("full", s.full, s.all, "all of the plan runs");
   if (plan.max_error > 0) {
-    text += line("max_error %g: no pixel is off by more than %.2g\n", plan.max_error, s.bound);
+    text += line("max_error %g: no pixel has an error above %.2g\n", plan.max_error, s.bound);
   }
   return text;
 }
@@ -107,7 +108,7 @@ std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& surv
       op.rule = name_of(&CellRules::skip_hidden);
     } else if (((s.weighed.operators >> i) & 1u) == 0) {
       op.verdict = Verdict::kUnread;
-      op.reason = "nothing that runs in a cell reads what it makes";
+      op.reason = "no running operator of a cell reads its results";
       op.rule = name_of(&CellRules::skip_unread);
     }
   }

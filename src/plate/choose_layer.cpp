@@ -115,7 +115,7 @@ class Choosing {
       const std::vector<std::string> channels = channels_of(groups_[0]);
       if (!channels.empty()) return choice_of(role_, {&groups_[0], channels}, kReason);
     }
-    throw Error(subject() + ": nothing there is known to be " + std::string(role_.about) +
+    throw Error(subject() + ": no layer there is known to be " + std::string(role_.about) +
                 "; name its channels, there is " + layer_list(groups_, sources_));
   }
 

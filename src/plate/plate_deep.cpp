@@ -62,9 +62,9 @@ std::string_view deep_channel(PlaneId plane) {
 void read_deep_planes(const ExrFile& file, int part, PlaneSet planes, const Rect& window,
                       const Scene& scene, const DepthMeaning& depth, LoadedPlate& loaded) {
   if (depth.kind != DepthKind::kEye && depth.kind != DepthKind::kRay) {
-    throw Error(file.path().string() +
-                ": holds deep samples: expected depth of kind eye or ray, which a volume can be "
-                "split in");
+    throw Error(
+        file.path().string() +
+        ": holds deep samples: expected depth of kind eye or ray, in which a volume can be split");
   }
   Plane below;
   View<const float> surface{nullptr, 1, 0, window};

@@ -91,7 +91,7 @@ struct __attribute__((visibility("hidden"))) Plate::State {
     const auto is_asked = [&](const std::string& view) { return is_same_view(view, asked); };
     if (asked.empty() || std::any_of(views.begin(), views.end(), is_asked)) return;
     throw Error("view '" + asked + "': expected " +
-                (views.empty() ? "none, for no plate has views" : "one of " + join(views)) +
+                (views.empty() ? "none, since no plate has views" : "one of " + join(views)) +
                 did_you_mean(asked, views));
   }
 

@@ -252,7 +252,7 @@ class Writer {
         // Of alpha the pixel reads its own alone.
         const bool own = plane_after(role.first, static_cast<int>(k)) == PlaneId::kColorA;
         if (own || views[k].window == window) continue;
-        throw Error("the channels of " + name + " have windows of their own: a shader reads them " +
+        throw Error("the channels of " + name + " have their own windows: a shader reads them " +
                     "as one texture");
       }
       const auto source =

@@ -285,7 +285,7 @@ TEST_F(DeskTest, RefusesAFrameWhereThereIsOnePicture) {
   PictureRequest request = picture();
   request.frame = 1;
   EXPECT_EQ(refusal([&] { desk.paint(request); }),
-            "frame = 1: expected none, for there is one picture alone");
+            "frame = 1: expected none, since there is only one picture");
 }
 
 }  // namespace

@@ -254,7 +254,7 @@ TEST_F(ServeTest, AnswersWhileOthersSayNothing) {
 
 TEST_F(ServeTest, RefusesAPortThatIsTaken) {
   EXPECT_THAT(refusal([&] { DeskServer(desk_, port_); }),
-              StartsWith("port " + std::to_string(port_) + ": cannot be listened at"));
+              StartsWith("port " + std::to_string(port_) + ": cannot be opened (in use"));
 }
 
 TEST_F(ServeTest, HasANewSecretEachTime) {

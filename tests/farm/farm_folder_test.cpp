@@ -72,7 +72,7 @@ TEST_F(FarmFolderTest, ARecordComesBackAsItWas) {
 }
 
 TEST_F(FarmFolderTest, WhatIsNoFarmIsNamed) {
-  EXPECT_THAT(refused([&] { folder_.record(); }), HasSubstr("wet.farm: no farm"));
+  EXPECT_THAT(refused([&] { folder_.record(); }), HasSubstr("wet.farm: not a farm"));
   write_text(folder_.file("farm.json"), "{\"folder\": 3}");
   EXPECT_THAT(refused([&] { folder_.record(); }), HasSubstr("farm.json"));
   write_text(folder_.file("farm.json"), "nonsense");

@@ -122,7 +122,8 @@ TEST_F(MissingTest, WhatGoesLaterIsWorthAnotherTry) {
       } catch (const Error& error) {
         EXPECT_THAT(
             error.what(),
-            HasSubstr("plate.2.exr: was there when the sequence began and is gone; run it again"));
+            HasSubstr(
+                "plate.2.exr: has disappeared since the sequence began; run the sequence again"));
         EXPECT_EQ(error.fault(), Fault::kRetry);
       }
     }
@@ -149,7 +150,7 @@ TEST_F(MissingTest, NothingAtAllIsAnError) {
       ADD_FAILURE();
     } catch (const Error& error) {
       EXPECT_EQ(std::string(error.what()),
-                plate(7).string() + ": no such file, nor is one of another frame there");
+                plate(7).string() + ": no such file, for this frame or any other");
       EXPECT_EQ(error.fault(), Fault::kJob);
     }
   }

@@ -124,7 +124,7 @@ TEST(Plan, DropsWavesThatNothingReads) {
   look.of<Refraction>().strength = 0;
   const Inputs no_mirror_no_sun{kAll - kReflectionPlanes, false, false};
   EXPECT_EQ(text(look, no_mirror_no_sun),
-            "wave_normals        dropped: unread, nothing reads what it makes\n"
+            "wave_normals        dropped: unread, no operator reads its results\n"
             "prism_split         dropped: neutral, its parameters change nothing here\n"
             "refraction          dropped: neutral, its parameters change nothing here\n"
             "depth_fog           kept\n"

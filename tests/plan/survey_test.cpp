@@ -314,9 +314,9 @@ TEST(Survey, IsToldAsText) {
   const Plan plan = plan_of(murky(), b.frame);
   const std::string text = to_text(plan, surveyed(plan, b.frame, scene_of(b.frame)));
   EXPECT_THAT(text, HasSubstr("refraction          dropped: invisible, fog hides all that it could "
-                              "show, not a bit of the picture is its doing [skip_hidden]\n"));
-  EXPECT_THAT(text, HasSubstr("water_shadow        dropped: invisible, not a bit of the picture is "
-                              "its doing [skip_invisible]\n"));
+                              "show, it changes no bit of the picture [skip_hidden]\n"));
+  EXPECT_THAT(text, HasSubstr("water_shadow        dropped: invisible, it changes no bit of the "
+                              "picture [skip_invisible]\n"));
   EXPECT_THAT(text, HasSubstr("sun_highlight       kept\n"));
   EXPECT_THAT(text, HasSubstr("cells of 128x16 pixels, 86.7 % of them wet\n"));
   EXPECT_THAT(text, ContainsRegex("  dry +2 +13\\.3 %"));
@@ -386,7 +386,7 @@ TEST(Survey, TextHasTheCellsPixelsAndTimesOfTheSummary) {
   ASSERT_EQ(std::sscanf(row_of(text, "sum").c_str(), "%lf ms %lf ms", &predicted, &measured), 2);
   EXPECT_NEAR(predicted, total, 5.1e-4);
   EXPECT_NEAR(measured, 2 * rows, 1e-9);
-  EXPECT_THAT(text, HasSubstr("\nmax_error 0.001: no pixel is off by more than "));
+  EXPECT_THAT(text, HasSubstr("\nmax_error 0.001: no pixel has an error above "));
   EXPECT_TRUE(text.ends_with(" ms\n"));
   EXPECT_THAT(to_text(plan_of(short_look(), b.frame), survey), Not(HasSubstr("max_error")));
 }

@@ -74,8 +74,8 @@ TEST(ChooseLayer, AWholeFile) {
 
 TEST(ChooseLayer, AWholeFileWithNothingForTheRole) {
   EXPECT_EQ(chosen("surface_normal", "", {source(0, "a.exr", {"Z", "left.A", "mask.A"})}),
-            "surface_normal=a.exr: nothing there is known to be world normal of the water surface; "
-            "name its channels, there is Z, left (A), mask (A)");
+            "surface_normal=a.exr: no layer there is known to be world normal of the water "
+            "surface; name its channels, there is Z, left (A), mask (A)");
 }
 
 TEST(ChooseLayer, AMisspeltNameGetsTheNearest) {

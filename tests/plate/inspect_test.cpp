@@ -53,14 +53,14 @@ not found
   reflection        what a flat mirror in the water plane shows at each pixel
   surface_depth     depth of the water surface
   surface_normal    world normal of the water surface
-  reflection_valid  1 where the reflection is real, 0 where the cut at the water left nothing
-  reflection_depth  depth of the mirrored scene along the mirrored ray
-  below_color       the dry scene without all that is above the water
-  below_depth       depth of what below_color shows
+  reflection_valid  1 where the reflection is valid, 0 inside of clipped objects
+  reflection_depth  depth of the reflection along the mirrored ray
+  below_color       the dry scene without the objects above the water
+  below_depth       depth of below_color
   surface_shadow    visibility of the sun at the water surface
-  sky               the sky as it would be seen if nothing stood before it
-  albedo            share of the light that the bottom throws back, around each pixel
-  sun_color         what the dry picture shows of the sun's direct light alone: 0 in shadow
+  sky               the sky without the objects in front of it
+  albedo            albedo of the bottom around each pixel
+  sun_color         direct sunlight in the dry picture: 0 in shadow
 )");
 }
 
@@ -100,14 +100,14 @@ not found
   reflection        what a flat mirror in the water plane shows at each pixel
   surface_depth     depth of the water surface
   surface_normal    world normal of the water surface
-  reflection_valid  1 where the reflection is real, 0 where the cut at the water left nothing
-  reflection_depth  depth of the mirrored scene along the mirrored ray
-  below_color       the dry scene without all that is above the water
-  below_depth       depth of what below_color shows
+  reflection_valid  1 where the reflection is valid, 0 inside of clipped objects
+  reflection_depth  depth of the reflection along the mirrored ray
+  below_color       the dry scene without the objects above the water
+  below_depth       depth of below_color
   surface_shadow    visibility of the sun at the water surface
-  sky               the sky as it would be seen if nothing stood before it
-  albedo            share of the light that the bottom throws back, around each pixel
-  sun_color         what the dry picture shows of the sun's direct light alone: 0 in shadow
+  sky               the sky without the objects in front of it
+  albedo            albedo of the bottom around each pixel
+  sun_color         direct sunlight in the dry picture: 0 in shadow
 not used
   reflection_shadow.exr
 )");

@@ -120,7 +120,7 @@ TEST_F(PlateParts, AnUnknownViewIsRefusedWithTheViewsThatThereAre) {
   EXPECT_EQ(error(), "view 'rigth': expected one of left, right; did you mean 'right'?");
   EXPECT_EQ(test::error_of([&] { Plate::inspect(request_); }), error());
   write({part_of("rgba", kDisplay, kRgba), part_of("depth", kDisplay, {"Z"})});
-  EXPECT_EQ(error(), "view 'rigth': expected none, for no plate has views");
+  EXPECT_EQ(error(), "view 'rigth': expected none, since no plate has views");
 }
 
 TEST_F(PlateParts, InspectTellsPartsAndViews) {

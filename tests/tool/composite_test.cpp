@@ -193,7 +193,7 @@ TEST_F(CompositeTest, PlanTellsTheKindsOfCells) {
       {"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml", "--max-error", "1e6"});
   EXPECT_THAT(lost.out, ContainsRegex("depth_fog +dropped: invisible, no channel of a pixel "
                                       "changes by more than .* \\[skip_invisible\\]"));
-  EXPECT_THAT(lost.out, HasSubstr("max_error 1e+06: no pixel is off by more than "));
+  EXPECT_THAT(lost.out, HasSubstr("max_error 1e+06: no pixel has an error above "));
   EXPECT_EQ(files(), before) << "nothing is written";
 }
 

@@ -55,7 +55,7 @@ TEST_F(EnvironmentTest, IsToldOfWhereNothingReadsItNorAReflection) {
       warned({"--set", "fresnel_reflection.source=constant"}),
       "limpid: warning: fresnel_reflection.lookup = offset changes nothing: source is constant, "
       "expected source = planar or auto\n"
-      "limpid: warning: the environment is named, and nothing that runs of the look look reads "
+      "limpid: warning: the environment is named, and no running operator of the look look reads "
       "it\n");
 }
 

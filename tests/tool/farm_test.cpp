@@ -121,7 +121,7 @@ TEST_F(FarmTest, AFrameIsMadeFirstToSeeHowLongATaskIs) {
   const Ran ran = farm({"--local", "1"}, "1-3");
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.err, HasSubstr("limpid: frame 1 took "));
-  EXPECT_THAT(ran.err, HasSubstr(" MB: 2 frames a task\n"));
+  EXPECT_THAT(ran.err, HasSubstr(" MB: 2 frames per task\n"));
   EXPECT_EQ(text_of("it's wet/wet.farm/chunks.txt"), "2,3\n");
   EXPECT_THAT(text_of("it's wet/wet.farm/task.sh"),
               AllOf(HasSubstr("#SBATCH --mem="), HasSubstr("#SBATCH --time=6\n")));
@@ -138,8 +138,7 @@ TEST_F(FarmTest, AFrameThatFailsIsNamedAndTheOthersAreMade) {
   EXPECT_EQ(ran.out, "4 of 5" + std::string(kWhole) + sentence);
   const Ran status = farm({"status", "it's wet/wet.farm"});
   EXPECT_EQ(status.code, 1);
-  EXPECT_EQ(status.out,
-            "4 of 5 frames are done\nnothing of it waits or runs any more\n" + sentence);
+  EXPECT_EQ(status.out, "4 of 5 frames are done\nno task waits or runs\n" + sentence);
   // Mended, that frame alone is left.
   write_plates(5);
   EXPECT_EQ(farm({"--local", "1", "--chunk", "3"}, "1-5").code, 0);
@@ -188,7 +187,7 @@ TEST_F(FarmTest, CommandsThatCannotBeCutAreRefused) {
   expect_refused(farm({"--dry-run"}, "1-2"), {"--dry-run: expected --chunk N"}, 2);
   expect_refused(farm({"stats", "wet.farm"}), {"did you mean 'status'"}, 2);
   expect_refused(farm({"status"}), {"expected one folder of a farm"}, 2);
-  expect_refused(farm({"status", "it's wet"}), {"it's wet: no farm"});
+  expect_refused(farm({"status", "it's wet"}), {"it's wet: not a farm"});
   EXPECT_THAT(outputs("it's wet"), IsEmpty());
 }
 
@@ -240,7 +239,7 @@ TEST_F(FarmTest, ThatOfAJobWhichIsAtWorkIsNotSubmittedAgain) {
   const Ran cancelled = farm({"cancel", "it's wet/wet.farm"});
   EXPECT_EQ(cancelled.code, 0);
   EXPECT_EQ(text_of("cancelled"), "11 12\n");
-  EXPECT_THAT(cancelled.out, HasSubstr("nothing of it waits or runs any more"));
+  EXPECT_THAT(cancelled.out, HasSubstr("no task waits or runs"));
   EXPECT_THAT(farm({"--chunk", "2", "-q"}, "1-4").out, "13\n");
 }
 

@@ -143,7 +143,7 @@ TEST_F(GltfCollectionTest, TellsWhatIsNotDrawn) {
   EXPECT_THAT(warnings["no_positions"],
               ElementsAre("primitives without POSITION are not drawn: meshes[0]"));
   EXPECT_THAT(warnings["hidden"],
-              ElementsAre("hidden nodes are not drawn, nor what hangs on them: nodes[2] 'hidden'"));
+              ElementsAre("hidden nodes and their children are not drawn: nodes[2] 'hidden'"));
   EXPECT_THAT(warnings["animated"], ElementsAre(HasSubstr("animations are not played")));
   EXPECT_THAT(warnings["specular_glossiness"], ElementsAre(HasSubstr("SpecularGlossiness")));
   EXPECT_EQ(warnings.size(), 5u);

@@ -100,9 +100,9 @@ TEST_F(GpuToolTest, PlanSaysWhatRunsWhere) {
     return ran.out;
   };
   const std::string said = plan({"--runner", "gpu", "--set", "water.edges=mixed"});
-  EXPECT_THAT(said,
-              testing::ContainsRegex("on the GPU  shader [0-9a-f]+ of [0-9]+ numbers and "
-                                     "[0-9]+ textures; at most [0-9.]+ MB there and 0.0 MB back"));
+  EXPECT_THAT(said, testing::ContainsRegex(
+                        "on the GPU  shader [0-9a-f]+ of [0-9]+ numbers and "
+                        "[0-9]+ textures; at most [0-9.]+ MB to the device and 0.0 MB back"));
   EXPECT_THAT(said, testing::ContainsRegex("on the CPU  .*mixed edges"));
   EXPECT_THAT(plan({}), testing::Not(HasSubstr("on the GPU")));
 }

@@ -120,7 +120,7 @@ struct Noon : Evening {
 };
 
 TEST(PictureWarnings, LightEntersBeyondTheFramesNormals) {
-  const auto beyond = testing::Contains(HasSubstr("enters beyond the picture's own normals"));
+  const auto beyond = testing::Contains(HasSubstr("enters beyond the normals of the picture"));
   Noon noon;
   EXPECT_THAT(noon.warnings(), testing::Not(beyond));  // 3 of 64 columns
   noon.lie(16);                                        // 12 of 64

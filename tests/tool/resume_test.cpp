@@ -138,13 +138,13 @@ TEST_F(ResumeTest, WhatIsNotWholeOrNotOursIsMadeAgain) {
   };
   for (const std::string name : {"wet.2.exr", "deep.2.exr"}) {
     fs::resize_file(folder_ / name, fs::file_size(folder_ / name) - 1);
-    expect_again(name + ": is not whole");
+    expect_again(name + ": is incomplete");
     write_text(name, "not one of ours");
     expect_again(name + ": is not an OpenEXR file");
   }
   fs::copy_file(folder_ / "plate.2.exr", folder_ / "wet.2.exr",
                 fs::copy_options::overwrite_existing);
-  expect_again("wet.2.exr does not say how it was made");
+  expect_again("wet.2.exr does not record how it was made");
   fs::remove(folder_ / "deep.2.exr");
   expect_again("deep.2.exr is not there");
   std::string older = text_of("wet.2.exr");
@@ -183,7 +183,7 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
     EXPECT_EQ(resumed(preview), "limpid: 4 of 4 frames are there already\n");
     write_text(name, whole);
     fs::resize_file(folder_ / name, whole.size() - 1);
-    EXPECT_THAT(verified(), HasSubstr("frame 2: " + name + ": is not whole\n"));
+    EXPECT_THAT(verified(), HasSubstr("frame 2: " + name + ": is incomplete\n"));
     EXPECT_TRUE(outputs() == all);
   }
   std::string png = text_of("wet.2.png");
@@ -238,7 +238,7 @@ TEST_F(ResumeTest, AFrameWithoutItsInputIsNotKept) {
   said_by(words({}));
   fs::remove(folder_ / "plate.3.exr");
   expect_refused(limpid(words({"--resume", "-q"})),
-                 {"frame 3: plate.3.exr: cannot be opened", "say --missing skip or hold"});
+                 {"frame 3: plate.3.exr: cannot be opened", "use --missing skip or hold"});
   EXPECT_EQ(resumed({"--missing", "skip"}),
             "limpid: 1 of 4 frames have no plate and are left out: 3\n"
             "limpid: 3 of 3 frames are there already\n");

@@ -97,7 +97,7 @@ TEST_F(ShowTest, WaterIsShownToo) {
 }
 
 TEST_F(ShowTest, RefusesBeforeAnythingIsMade) {
-  refused({"--show"}, {"--show: the standard output is no terminal", "--show=sixel"}, 2);
+  refused({"--show"}, {"--show: standard output is not a terminal", "--show=sixel"}, 2);
   refused({"--show=sixels"}, {"--show=sixels", "did you mean 'sixel'?"}, 2);
   refused({"--show=kitty", "--frames", "1-2"}, {"--show and --frames"}, 2);
   refused({"--show=kitty", "-n"}, {"--show and -n"}, 2);

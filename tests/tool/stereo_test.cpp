@@ -109,7 +109,7 @@ TEST_F(StereoTest, AllIsEveryViewOfOneFile) {
   EXPECT_EQ(oiiotool({"wet_left.exr", "both.exr", "--subimage", "0", "--diff"}).code, 0);
   EXPECT_EQ(oiiotool({"wet_right.exr", "both.exr", "--subimage", "1", "--diff"}).code, 0);
   expect_refused(wet("stereo.exr", "left.toml", "wrong.exr", {"--view", "all"}),
-                 {"views left and right have one camera", "a scene for each"});
+                 {"views left and right have the same camera", "a scene for each"});
 }
 
 TEST_F(StereoTest, SequencesAndTheirRest) {
@@ -138,11 +138,11 @@ TEST_F(StereoTest, WhatCannotBeIsRefused) {
                            const Words& parts, int code) {
     expect_refused(wet(plate, scene, "wrong.exr", more), parts, code);
   };
-  refused("%V.exr", "%V.toml", {}, {"%V.toml: expected --view with names", "%V stands for"}, 2);
+  refused("%V.exr", "%V.toml", {}, {"%V.toml: expected --view with the names", "%V stands for"}, 2);
   refused("%V.exr", "left.toml", {"--view", "left,left"},
           {"views left and left: expected each once"}, 2);
   refused("%V.exr", "%V.toml", {"--view", "left,right", "--deep", "deep.exr"},
-          {"deep.exr: a deep file holds one view and there are 2"}, 2);
+          {"deep.exr: a deep file holds one view, and there are 2"}, 2);
   refused("left.exr", "left.toml", {"--view", "all"}, {"no plate has any"}, 2);
   refused("%V.exr", "%V.toml", {"--view", "left,"}, {"--view left,: expected names"}, 2);
   refused("%V.exr", "%V.toml", {"--view", "left,right", "-n"}, {"--view: expected one view"}, 2);

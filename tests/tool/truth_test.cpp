@@ -20,12 +20,12 @@ TEST_F(TruthTest, EveryBundledSceneGivesAPicture) {
     const Ran ran = limpid({"truth", scene(name + ".toml"), "--size", "64x36", "-o", name + ".exr",
                             "--preview", name + ".png", "--aov", "all"});
     EXPECT_EQ(ran.code, 0) << ran.err;
-    EXPECT_THAT(
-        ran.out,
-        ContainsRegex(name +
-                      ".exr: 64x36, 1 sample a pixel of 16 paths, noise [0-9.]+ %, look physical, "
-                      "trace [0-9.]+ s, write [0-9]+ ms\n" +
-                      name + ".png\n"));
+    EXPECT_THAT(ran.out,
+                ContainsRegex(
+                    name +
+                    ".exr: 64x36, 1 sample per pixel of 16 paths, noise [0-9.]+ %, look physical, "
+                    "trace [0-9.]+ s, write [0-9]+ ms\n" +
+                    name + ".png\n"));
     EXPECT_THAT(oiiotool({name + ".exr", "--printstats"}).out,
                 HasSubstr("Stats NanCount: 0 0 0 0"));
     EXPECT_THAT(iinfo(name + ".png"), HasSubstr("64 x   36, 3 channel"));
@@ -60,7 +60,7 @@ TEST_F(TruthTest, LightIsScatteredAnyNumberOfTimesOrOnce) {
   };
   const Ran once = with("once.exr", {"--light", "once"});
   ASSERT_EQ(once.code, 0) << once.err;
-  EXPECT_THAT(once.out, HasSubstr("1 sample a pixel, look"));
+  EXPECT_THAT(once.out, HasSubstr("1 sample per pixel, look"));
   EXPECT_THAT(iinfo("once.exr"), HasSubstr("light = \\\"once\\\""));
   EXPECT_THAT(iinfo("once.exr"), testing::Not(HasSubstr("limpid/noise")));
   const Ran few = with("few.exr", {"--paths", "4"});
@@ -105,8 +105,8 @@ TEST_F(TruthTest, RefusesInOneSentence) {
   refused({"--samples", "17"}, {"--samples 17", "1 ... 16"}, 2);
   refused({"--paths", "0"}, {"--paths 0", "1 ... 65536"}, 2);
   refused({"--light", "twice"}, {"--light twice", "paths or once"}, 2);
-  refused({"--light", "once", "--paths", "9"}, {"--paths 9", "scattered once"}, 2);
-  refused({"--light", "once", "--photons", "9"}, {"photons = 9", "scattered once"}, 2);
+  refused({"--light", "once", "--paths", "9"}, {"--paths 9", "single scattering"}, 2);
+  refused({"--light", "once", "--photons", "9"}, {"photons = 9", "single scattering"}, 2);
   refused({"--set", "depth_fog.sunlight=straight", "--photons", "9"},
           {"photons = 9", "not refracted"}, 2);
   refused({"--overscan", "4"}, {"has no option '--overscan'"}, 2);

@@ -41,7 +41,7 @@ TEST_F(ViewTest, ServesAtThePortThatIsNamed) {
   std::smatch port;
   ASSERT_TRUE(std::regex_search(address, port, std::regex(":([0-9]+)/")));
   const Ran second = run(folder_, view({"--port", port[1]}));
-  expect_refused(second, {"port " + port[1].str() + ": cannot be listened at"});
+  expect_refused(second, {"port " + port[1].str() + ": cannot be opened (in use"});
   first.send(SIGTERM);
   first.wait();
   Running third(folder_, view({"--port", port[1]}));
@@ -53,7 +53,7 @@ TEST_F(ViewTest, RefusesWhatIsWrongBeforeItServes) {
     expect_refused(run(folder_, view(more)), {part}, code);
   };
   refused({"--set", "depth_fog.densty=1"}, "did you mean 'density'?", 2);
-  refused({"--folder", "nowhere"}, "--folder nowhere: expected a folder that is there", 2);
+  refused({"--folder", "nowhere"}, "--folder nowhere: expected an existing folder", 2);
   refused({"--port", "70000"}, "--port", 2);
   refused({"--fps", "25"}, "--fps: expected --frames beside it", 2);
   refused({"--aov", "path"}, "has no option '--aov'", 2);

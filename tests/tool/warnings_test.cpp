@@ -87,7 +87,7 @@ TEST_F(WarningsTest, ALayerThatNothingReads) {
   const Ran ran = composite("wet.exr", {named[0], named[1], "--set", "water_shadow.strength=0",
                                         "--set", "sun_highlight.strength=0"});
   EXPECT_EQ(ran.err,
-            "limpid: warning: the layer shadow is named, and nothing that runs of the look look "
+            "limpid: warning: the layer shadow is named, and no running operator of the look look "
             "reads it\n");
   // One that was found, not named, is no matter.
   EXPECT_EQ(composite("wet.exr",
@@ -101,7 +101,7 @@ TEST_F(WarningsTest, ASkyThatLightsNothing) {
   const std::string model = "depth_fog.model=";
   EXPECT_EQ(composite("wet.exr", {"--set", model + "radiative_transfer"}).err, "");
   EXPECT_EQ(composite("wet.exr", {"--set", model + "beer_lambert"}).err,
-            "limpid: warning: [sky] is named, and nothing that runs of the look look reads it\n");
+            "limpid: warning: [sky] is named, and no running operator of the look look reads it\n");
 }
 
 TEST_F(WarningsTest, APictureWithoutAWetPixelOrADryOne) {
@@ -190,7 +190,7 @@ TEST_F(WarningsTest, ADepthThatIsNone) {
              "fov_y = 20\n[water]\nheight = 1.3\n");
   const Ran ran = composite("wet.exr");
   EXPECT_EQ(ran.code, 0);
-  EXPECT_THAT(ran.err, HasSubstr("as that of a mist pass"));
+  EXPECT_THAT(ran.err, HasSubstr("like a mist pass"));
 }
 
 TEST_F(WarningsTest, TilesSmallerThanAPixelAndWiderThanAllWater) {

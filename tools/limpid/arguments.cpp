@@ -110,16 +110,16 @@ Parsed parse(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.fallthrough();
   app.set_help_all_flag("--help-all", "Help of all verbs");
-  app.add_option("--threads", a.common.threads, "Threads; 0, the default, is one a core")
+  app.add_option("--threads", a.common.threads, "Threads; 0, the default, is one per core")
       ->option_text("N")
       ->check(whole_number_in(0, 1024));
   app.add_option("--max-memory", a.common.max_memory,
-                 "Most memory to take, from 16M up; a job or file that needs more is refused "
-                 "(default: 8G a file)")
+                 "Memory limit, from 16M up; a job or file that needs more is refused (default: 8G "
+                 "per file)")
       ->option_text("SIZE");
-  app.add_flag("-q", a.common.quiet, "Print nothing but errors");
-  app.add_flag("-v", a.common.verbose, "Print the plan and where buffers came from");
-  app.footer("Exit codes: 0 done, 1 failed, 2 wrong usage, 75 failed in a way worth trying again.");
+  app.add_flag("-q", a.common.quiet, "Print errors only");
+  app.add_flag("-v", a.common.verbose, "Also print the plan and the source of each buffer");
+  app.footer("Exit codes: 0 done, 1 failed, 2 wrong usage, 75 temporary failure: try again.");
 
   declare_verbs(app, a);
   const int own_words = end_of_own_words(argc, argv);
@@ -127,7 +127,7 @@ Parsed parse(int argc, char** argv) {
 
   std::string shell;
   CLI::App& completion = *app.add_subcommand(
-      "completion", "Print a script by which a shell completes verbs and options");
+      "completion", "Print the script with which a shell completes verbs and options");
   completion.add_option("shell", shell, "bash, zsh or fish")
       ->option_text("bash|zsh|fish")
       ->required();

@@ -32,7 +32,7 @@ std::vector<std::string> layers_to_pass(const std::vector<std::string>& names) {
 double finite_nothing(double depth) {
   if (std::isfinite(depth)) return depth;
   throw Error("--depth-nothing " + std::to_string(depth) +
-                  ": expected a finite number, for inf is nothing always",
+                  ": expected a finite number, since inf always means that no surface was hit",
               Fault::kUsage);
 }
 
@@ -64,8 +64,7 @@ bool has_view_mark(const std::string& name) { return name.find(kViewMark) != std
 std::string name_of_view(std::string name, const std::string& view) {
   for (std::size_t at = name.find(kViewMark); at != std::string::npos; at = name.find(kViewMark)) {
     if (view.empty()) {
-      throw Error(name + ": expected --view with names beside it, which %V stands for",
-                  Fault::kUsage);
+      throw Error(name + ": expected --view with the names that %V stands for", Fault::kUsage);
     }
     name.replace(at, kViewMark.size(), view);
   }
@@ -157,8 +156,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   }
   if (has_view_mark(a.water.output)) {
     throw Error("-o " + a.water.output +
-                    ": expected a name without %V, for all views are written "
-                    "into one file",
+                    ": expected a name without %V, since all views are written into one file",
                 Fault::kUsage);
   }
   if (!a.depth_kind.empty()) job.depth_kind = depth_kind_named(a.depth_kind);

@@ -19,9 +19,12 @@ void expect_cuttable(const FrameOptions& frames, const WaterOptions& water) {
   const auto refuse = [](const std::string& sentence) { throw Error(sentence, Fault::kUsage); };
   if (water.dry_run) refuse("-n makes no frame: expected limpid farm --dry-run before the --");
   if (frames.range.empty()) refuse("farm: expected --frames RANGE in the command behind --");
-  if (frames.verify) refuse("--verify: expected none, the farm's last job looks at every byte");
+  if (frames.verify)
+    refuse("--verify: expected none, since the farm's last job verifies every byte");
   if (missing_named(frames.missing) == Missing::kHold) {
-    refuse("--missing hold: expected error or skip, for a task does not see the frames of others");
+    refuse(
+        "--missing hold: expected error or skip, since a task does not see the frames of other "
+        "tasks");
   }
 }
 

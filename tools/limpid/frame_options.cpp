@@ -26,7 +26,7 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
   const bool fills = missing_named(options.missing) != Missing::kError;
   if (!outputs.show.empty() && (outputs.dry_run || !options.range.empty())) {
     throw Error(std::string("--show and ") + (outputs.dry_run ? "-n" : "--frames") +
-                    ": expected one of them, for one picture is shown",
+                    ": expected one of them, since one picture is shown",
                 Fault::kUsage);
   }
   if (options.range.empty()) {
@@ -40,14 +40,14 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
   }
   if (outputs.dry_run && (options.resume || fills)) {
     throw Error(std::string(options.resume ? "--resume" : "--missing") +
-                    " and -n: expected one of them, for a dry run makes no frame",
+                    " and -n: expected one of them, since a dry run makes no frame",
                 Fault::kUsage);
   }
   for (const auto& [option, name] : {std::pair("--preview ", &outputs.preview),
                                      std::pair("--contact-sheet ", &outputs.contact_sheet)}) {
     if (options.resume && !name->empty() && !is_png(*name)) {
       throw Error("--resume and " + (option + *name) +
-                      ": expected a .png, for other formats do not say how they were made",
+                      ": expected a .png, since other formats do not record how they were made",
                   Fault::kUsage);
     }
   }

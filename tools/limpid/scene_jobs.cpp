@@ -31,7 +31,7 @@ TruthOptions::Light light_named(const TruthArguments& a) {
   if (a.light != "once")
     throw Error("--light " + a.light + ": expected paths or once", Fault::kUsage);
   if (!a.paths) return TruthOptions::Light::kOnce;
-  throw Error("--paths " + std::to_string(*a.paths) + ": light that is scattered once has no paths",
+  throw Error("--paths " + std::to_string(*a.paths) + ": single scattering has no paths",
               Fault::kUsage);
 }
 

@@ -24,28 +24,27 @@ void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& s
   verb.add_option("plates", plates, "EXR files with the buffers of one frame")
       ->option_text("PLATE...");
   verb.add_option("--scene", scene, "Scene file: plates, camera, water, sun")->option_text("FILE");
-  verb.add_option(
-          "--layer", layers,
-          "Where a buffer comes from: ROLE=FILE:CHANNELS, ROLE=FILE, ROLE=CHANNELS or ROLE=none "
-          "(repeatable)")
+  verb.add_option("--layer", layers,
+                  "Source of a buffer: ROLE=FILE:CHANNELS, ROLE=FILE, ROLE=CHANNELS or ROLE=none "
+                  "(repeatable)")
       ->option_text("ROLE=LAYER")
       ->allow_extra_args(false);
   verb.add_option("--view", view,
-                  "Which view of a plate with several, as left or right (default: the first); "
-                  "composite takes left,right or all, too, and %V in names of inputs is the view's")
+                  "View of a stereo plate, such as left or right (default: the first); composite "
+                  "also takes left,right or all, and replaces %V in names of inputs by the view")
       ->option_text("NAME");
 }
 
 void add_time(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--time", a.time,
-                  "Seconds, for waves and their drift (default: the scene's, or 0)")
+                  "Time in seconds, for waves and their drift (default: the scene's, or 0)")
       ->option_text("S")
       ->check(number_in(-kMostSeconds, kMostSeconds, "s"));
 }
 
 void add_frame_numbers(CLI::App& verb, FrameOptions& a, const std::string& about) {
   verb.add_option("--frames", a.range, about)->option_text("RANGE");
-  verb.add_option("--fps", a.fps, "Frames a second (default: 24)")
+  verb.add_option("--fps", a.fps, "Frames per second (default: 24)")
       ->option_text("N")
       ->check(number_in(1 / kMostFps, kMostFps));
 }
@@ -53,18 +52,18 @@ void add_frame_numbers(CLI::App& verb, FrameOptions& a, const std::string& about
 void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
   add_frame_numbers(verb, a, about);
   verb.add_option("--frames-in-flight", a.in_flight,
-                  "Frames that are read, run and written at once, each in its own memory "
-                  "(default: 3)")
+                  "Frames in the pipeline of reading, compositing and writing, each in its own "
+                  "memory (default: 3)")
       ->option_text("N")
       ->check(whole_number_in(1, kMostInFlight));
 }
 
 void add_resume(CLI::App& verb, FrameOptions& a) {
-  verb.add_flag("--resume", a.resume,
-                "Leave frames alone that are there, whole, and made from the same inputs in the "
-                "same way");
+  verb.add_flag(
+      "--resume", a.resume,
+      "Skip frames that are complete and were made from the same inputs with the same options");
   verb.add_flag("--verify", a.verify,
-                "With --resume: look at every byte of these frames, by the hashes they carry");
+                "With --resume: verify every byte of these frames by the hashes in their headers");
 }
 
 void add_settings(CLI::App& verb, WaterOptions& a) {
@@ -81,15 +80,14 @@ void add_look(CLI::App& verb, WaterOptions& a) {
   std::vector<std::string> known;
   for (const AovInfo& info : aovs()) known.emplace_back(info.name);
   verb.add_option("--aov", a.aovs,
-                  "Also write these terms: all, or a list of " + join(known) +
-                      ", and of composite motion, where the plate has vectors")
+                  "Also write these AOVs: all, or a list of " + join(known) +
+                      ", and motion (composite only), for plates with motion vectors")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verb.add_option(
-          "--max-error", a.max_error,
-          "Leave out what changes no channel of a pixel by more than this in all, white = 1 "
-          "(default: 0, exact)")
+  verb.add_option("--max-error", a.max_error,
+                  "Leave out operators as long as no channel of a pixel changes by more than E in "
+                  "all, white = 1 (default: 0, exact)")
       ->option_text("E")
       ->check(number_in(0, kInfinity, "white = 1"));
   verb.add_flag("--strict", a.strict, "Fail instead of warning, before anything is written");
@@ -100,7 +98,7 @@ void add_file(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--compression", a.compression,
                   "none rle zips zip piz pxr24 b44 b44a dwaa dwab (default: piz)")
       ->option_text("NAME[:LEVEL]");
-  verb.add_flag("--float", a.store_float, "Write float; half is the default");
+  verb.add_flag("--float", a.store_float, "Write float instead of half");
 }
 
 void add_simd(CLI::App& verb, WaterOptions& a) {
@@ -108,44 +106,44 @@ void add_simd(CLI::App& verb, WaterOptions& a) {
 }
 
 void add_preview(CLI::App& verb, WaterOptions& a) {
-  verb.add_option("--preview", a.preview, "Also write a picture to look at")
+  verb.add_option("--preview", a.preview, "Also write a picture for a screen")
       ->option_text("OUT.png");
 }
 
 void add_runner(CLI::App& verb, WaterOptions& a) {
-  verb.add_option("--runner", a.runner, "fused (fast), gpu (by Vulkan) or reference (double)")
+  verb.add_option("--runner", a.runner,
+                  "fused (SIMD, the default), gpu (Vulkan) or reference (double)")
       ->option_text("NAME");
 }
 
 void add_gpu(CLI::App& verb, WaterOptions& a) {
-  verb.add_option("--gpu", a.gpu, "A part of the GPU's name (default: the fastest kind)")
+  verb.add_option("--gpu", a.gpu, "Part of the GPU's name (default: the fastest kind)")
       ->option_text("NAME");
 }
 
 void add_wave_samples(CLI::App& verb, CompositeArguments& a) {
   verb.add_option("--samples", a.samples,
-                  "Samples a pixel of the water and its waves, of plates one; takes N times as "
-                  "long (default: 1)")
+                  "Samples per pixel of the water and its waves; plates are read once, and the run "
+                  "takes N times as long (default: 1)")
       ->option_text("N")
       ->check(whole_number_in(1, OutputChoice::kMostWaveSamples));
 }
 
 void add_picture(CLI::App& verb, WaterOptions& a) {
   add_file(verb, a);
-  verb.add_option("--aov-names", a.aov_names,
-                  "What picture and AOVs are called: limpid, nuke, blender or arnold "
-                  "(default: limpid)")
+  verb.add_option(
+          "--aov-names", a.aov_names,
+          "Names of picture and AOVs as in limpid, nuke, blender or arnold (default: limpid)")
       ->option_text("HOST");
   add_simd(verb, a);
   add_preview(verb, a);
   verb.add_option("--contact-sheet", a.contact_sheet,
-                  "Also write the picture and every AOV, small and named, in one picture")
+                  "Also write the picture and every AOV, small and with their names, on one sheet")
       ->option_text("OUT.png");
   verb.add_flag("--show{auto}", a.show,
-                "Show the preview in the terminal, where that can: by itself, or --show=kitty, "
-                "--show=iterm, --show=sixel");
-  verb.add_option("--deep", a.deep,
-                  "Also write the water as deep samples, always compressed by zips")
+                "Show the preview in the terminal, if it can show pictures; --show=kitty, "
+                "--show=iterm and --show=sixel name the protocol");
+  verb.add_option("--deep", a.deep, "Also write the water as deep samples, with zips compression")
       ->option_text("OUT.exr");
   add_runner(verb, a);
   add_gpu(verb, a);

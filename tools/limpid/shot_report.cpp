@@ -99,7 +99,7 @@ void expect_no_shot_options(const ReportArguments& a) {
       {"--simd", !c.water.simd.empty()},       {"--view", !c.view.empty()},
       {"--depth-kind", !c.depth_kind.empty()}, {"--depth-nothing", c.depth_nothing.has_value()},
       {"--truth", !a.truth.empty()},           {"--against", !a.against.empty()}};
-  refuse_given(given, "is of a shot: expected PLATE... or --scene beside it");
+  refuse_given(given, "is for a shot: expected PLATE... or --scene beside it");
 }
 
 int shot_report(const ReportArguments& a, const CommonArguments& common) {
@@ -107,7 +107,7 @@ int shot_report(const ReportArguments& a, const CommonArguments& common) {
                          {"--quick", a.quick},
                          {"--hard", a.hard},
                          {"--gpu", !a.gpu.empty()}};
-  refuse_given(given, "is not of a shot: expected no PLATE, --scene or --layer beside it");
+  refuse_given(given, "is not for a shot: expected no PLATE, --scene or --layer beside it");
   const auto executor = executor_of(common);
   ShotOptions options = options_of(a, common);
   expect_apart_from_page(options, a);

@@ -18,8 +18,8 @@ std::optional<TerminalPictures> way_to_show(const WaterOptions& options) {
   if (options.show.empty()) return {};
   if (options.show != "auto") return terminal_pictures_named(options.show);
   if (::isatty(STDOUT_FILENO) == 0) {
-    throw Error(std::string("--show: the standard output is no terminal: expected one, or ") +
-                    kNamed + " to write the picture all the same",
+    throw Error(std::string("--show: standard output is not a terminal: expected a terminal, or ") +
+                    kNamed + " to write the picture anyway",
                 Fault::kUsage);
   }
   const auto way = terminal_pictures([](const char* name) { return std::getenv(name); });

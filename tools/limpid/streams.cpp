@@ -28,7 +28,7 @@ void finish_stdout() {
     std::signal(SIGPIPE, SIG_DFL);
     ::raise(SIGPIPE);
   }
-  throw Error("standard output: cannot be written to; all else is done", Fault::kRetry);
+  throw Error("standard output: cannot be written to; all other work is done", Fault::kRetry);
 }
 
 }  // namespace limpid::tool

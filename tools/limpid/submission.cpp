@@ -143,7 +143,7 @@ Submission prepare(const FarmArguments& a, const FarmWork& work, const FarmFolde
   const std::vector<Chunk> chunks = chunks_of(frames, chunk);
   made.tasks = chunks.size();
   if (measured && !common.quiet) {
-    std::fprintf(stderr, "limpid: frame %d took %.2f s and %lld MB: %d frames a task\n",
+    std::fprintf(stderr, "limpid: frame %d took %.2f s and %lld MB: %d frames per task\n",
                  measured->frame, measured->seconds, static_cast<long long>(measured->memory >> 20),
                  chunk);
   }

@@ -30,8 +30,8 @@ CompositeJob first_job(const CompositeArguments& a, const Sequence& sequence,
 CompositeJob expect_plate(CompositeJob job) {
   if (const auto missing = missing_file(job)) {
     throw Error(missing->string() +
-                ": cannot be opened (no such file or directory); bring it, or " +
-                "say --missing skip or hold to go on without it");
+                ": cannot be opened (no such file or directory); provide it, or " +
+                "use --missing skip or hold");
   }
   return job;
 }

@@ -123,22 +123,22 @@ void expect_over(const FarmFolder& folder) {
                 Fault::kRetry);
   }
   throw Error(folder.path().string() + ": its " + job +
-              " makes these frames; wait for its end, or " + "say limpid farm cancel " +
+              " makes these frames; wait until it ends, or " + "say limpid farm cancel " +
               shell_line({folder.path().string()}));
 }
 
 int submit_verb(const FarmArguments& a, const CommonArguments& common) {
   for (const std::string& word : a.sbatch) expect_sbatch_word(word);
   if (a.at_once && !a.sbatch.empty()) {
-    throw Error("--sbatch and --local: expected one of them, for --local asks no scheduler",
+    throw Error("--sbatch and --local: expected one of them, since --local uses no scheduler",
                 Fault::kUsage);
   }
   if (a.at_once && a.minutes) {
-    throw Error("--time-limit and --local: expected one of them, for --local asks no scheduler",
+    throw Error("--time-limit and --local: expected one of them, since --local uses no scheduler",
                 Fault::kUsage);
   }
   if (a.dry_run && !a.chunk) {
-    throw Error("--dry-run: expected --chunk N beside it, for no frame is made to measure it",
+    throw Error("--dry-run: expected --chunk N beside it, since a dry run times no frame",
                 Fault::kUsage);
   }
   const Parsed command = command_of(a.command);

@@ -25,8 +25,8 @@ void print_list(const std::vector<DeskLook>& looks) {
   std::size_t widest = 0;
   for (const DeskLook& look : looks) widest = std::max(widest, look.word.size());
   for (const bool presets : {false, true}) {
-    const char* title = presets ? "\nPresets: waters of one place and size, by the name of a look\n"
-                                : "Looks: ways to compute water\n";
+    const char* title =
+        presets ? "\nPresets: looks for one kind and size of water\n" : "Looks: models of water\n";
     for (const DeskLook& look : looks) {
       if (look.is_preset() != presets) continue;
       std::printf("%s  %-*s  %s\n", title, static_cast<int>(widest), look.word.c_str(),

@@ -95,9 +95,9 @@ constexpr std::string_view by_name_of(LayerRank rank) {
     case LayerRank::kBare:
       return "no layer";
     case LayerRank::kPart:
-      return "no layer, in a part of another name";
+      return "channels without a layer in a part of another name";
     case LayerRank::kGiven:
-      return "a file that is given for the buffer";
+      return "a file given for the buffer";
   }
   return {};
 }
@@ -144,7 +144,9 @@ int operators_verb(const OperatorsArguments& a) {
   for (const OperatorInfo& op : operators()) names.emplace_back(op.name);
 
   if (a.name.empty()) {
-    std::printf("In the order in which they run; what each taps, needs of the state, and makes:\n");
+    std::printf(
+        "Operators in the order in which they run, with the buffers they read (taps), and the "
+        "state they use and make:\n");
     for (const OperatorInfo& op : operators()) {
       std::printf("\n%-19s %s\n", std::string(op.name).c_str(), std::string(op.about).c_str());
       std::printf("%-19s   taps %s; uses %s; makes %s\n", "", roles_text(op.reads(look)).c_str(),

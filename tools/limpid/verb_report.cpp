@@ -52,8 +52,10 @@ void print_files(const std::string& folder, std::initializer_list<const char*> n
 /// Exit 1 where a case is beyond its bound.
 int hard_cases(const ReportArguments& a, const CommonArguments& common) {
   if (a.quick || a.size || a.rounds) {
-    throw Error("report --hard: has cases of its own, expected no --size, --rounds or --quick",
-                Fault::kUsage);
+    throw Error(
+        "report --hard: expected no --size, --rounds or --quick, since hard cases have their own "
+        "sizes",
+        Fault::kUsage);
   }
   expect_apart_from_data(a.output, {"hard.json", "hard.html"});
   make_hard_folder(a.output);

@@ -14,7 +14,7 @@ namespace {
 std::string text_of(const TruthReport& report, const TruthJob& job) {
   char numbers[160];
   int end =
-      std::snprintf(numbers, sizeof numbers, "%dx%d, %d sample%s a pixel", report.size.width,
+      std::snprintf(numbers, sizeof numbers, "%dx%d, %d sample%s per pixel", report.size.width,
                     report.size.height, job.samples * job.samples, job.samples == 1 ? "" : "s");
   const auto add = [&](const char* format, auto value) {
     const std::size_t at = static_cast<std::size_t>(end);

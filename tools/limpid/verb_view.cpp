@@ -65,7 +65,7 @@ DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) 
   }
   options.folder = a.folder;
   if (!std::filesystem::is_directory(options.folder)) {
-    throw Error("--folder " + a.folder + ": expected a folder that is there", Fault::kUsage);
+    throw Error("--folder " + a.folder + ": expected an existing folder", Fault::kUsage);
   }
   options.command = command_of(plate, common);
   options.range = plate.frames.range;
@@ -100,7 +100,7 @@ int view_verb(const ViewArguments& a, const CommonArguments& common) {
   }
   warm(desk, common);
   server.wait();  // until a signal ends the program
-  throw Error("the system lets no more connections be accepted", Fault::kRetry);
+  throw Error("the system accepts no more connections", Fault::kRetry);
 }
 
 }  // namespace limpid::tool

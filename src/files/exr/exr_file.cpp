@@ -115,7 +115,7 @@ void check_channel(const ExrPart& part, const std::string& where, const std::str
   if (channel->x_sampling != 1 || channel->y_sampling != 1) {
     throw Error("channel '" + name + "' is stored for every " +
                 std::to_string(channel->x_sampling) + "x" + std::to_string(channel->y_sampling) +
-                " pixels, which is supported for Y RY BY alone");
+                " pixels, which is supported for Y RY BY only");
   }
 }
 
@@ -180,7 +180,7 @@ struct __attribute__((visibility("hidden"))) ExrFile::State {
     for (const std::string& name : channels) {
       if (find_channel(header.part, name) == nullptr) {
         throw Error("channel '" + name + "' in " + label(parts, part) +
-                    " is made from luminance and chroma: expected one that is stored as it is");
+                    " is computed from luminance and chroma: expected a stored channel");
       }
     }
     std::set<int> decoded = decoded_parts;

@@ -126,8 +126,7 @@ class PartRows {
             kLeastLines);
     if ((line_bytes + besides) * lines > most) {
       throw Error(std::to_string(lines) +
-                  " lines of what is passed through need more memory than "
-                  "the limit of " +
+                  " lines of the passed-through layers need more memory than the limit of " +
                   std::to_string(most) + " bytes");
     }
     memory_.resize(static_cast<std::size_t>(line_bytes * lines));

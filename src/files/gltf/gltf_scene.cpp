@@ -100,7 +100,7 @@ class SceneReader {
       left.pop_back();
       const GltfNode& node = nodes_[index];
       if (!node.visible) {
-        warnings_.add("hidden nodes are not drawn, nor what hangs on them", node.label);
+        warnings_.add("hidden nodes and their children are not drawn", node.label);
       } else if (add_or_leave_out(index)) {
         push(node.children);
       }

@@ -22,7 +22,7 @@ std::vector<glm::dmat4> GltfSkins::read(const JsonPlace& skin) const {
   result.reserve(joints.size());
   for (const JsonPlace& joint : joints) {
     const auto& world = worlds_[joint.index(worlds_.size())];
-    if (!world) joint.refuse("a joint that stands somewhere");
+    if (!world) joint.refuse("a joint with a finite matrix");
     const std::size_t i = result.size();
     const glm::dmat4 matrix = bind ? *world * bind->matrix(i) : *world;
     if (!is_finite(matrix)) {

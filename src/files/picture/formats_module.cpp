@@ -180,7 +180,7 @@ void write8(const char* format, int width, int height, int channels, const std::
   const bool closed = output->close();
   const std::string said = output->geterror();
   check(written && closed && said.empty(), message(said, "cannot be encoded"));
-  check(take(host, bytes.data(), bytes.size()) == 0, "its bytes were not taken");
+  check(take(host, bytes.data(), bytes.size()) == 0, "its bytes were not written");
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ Look load_look(const fs::path& path, Folders folders) {
 Look look_from_toml(const std::string& text, const std::string& name) {
   const TomlNode root = parse_toml_text(text, name);
   if (const TomlNode* base = root.find(kBase)) {
-    base->refuse("none, for only a look that is a file has a base");
+    base->refuse("none, since only look files have a base");
   }
   Look look;
   read(root, look);

@@ -57,7 +57,7 @@ inline constexpr Field<PlateKeys> kPlateKeys[] = {
                                   "A picture of the surroundings, lat-long or cube."),
     real<&PlateKeys::environment_rotation>(
         "environment_rotation", "degrees", kFinite,
-        "From the water plane's x axis to where the middle of the environment looks, "
+        "Angle from the water plane's x axis to the direction of the middle of the environment, "
         "counter-clockwise from above."),
 };
 inline constexpr FieldTable<PlateKeys> kPlatesTable{
@@ -71,57 +71,55 @@ constexpr FieldInfo role_field(const Role& role) {
 }
 
 inline constexpr Field<CameraKeys> kCameraKeys[] = {
-    matrix<&CameraKeys::view>("view",
-                              "From the world to the eye, which looks down -Z with +Y up; rigid."),
-    matrix<&CameraKeys::projection>("projection", "From the eye to clip space."),
+    matrix<&CameraKeys::view>(
+        "view", "Rigid matrix from world to eye space, which looks down -Z with +Y up."),
+    matrix<&CameraKeys::projection>("projection", "Matrix from eye to clip space."),
     real<&CameraKeys::fov_x>("fov_x", "degrees", kFinite,
                              "Horizontal field of view, above 0 and below 180."),
     real<&CameraKeys::fov_y>("fov_y", "degrees", kFinite,
                              "Vertical field of view, above 0 and below 180."),
     real<&CameraKeys::orthographic>("orthographic", "scene units", kFinite,
-                                    "Width of what a camera without perspective sees."),
+                                    "Width of the view of an orthographic camera."),
     choice<&CameraKeys::clip, kClips>("clip",
                                       "Device depth from near to far: -1 to 1, 0 to 1 or 1 to 0."),
-    real<&CameraKeys::near>("near", "scene units", kFinite,
-                            "Near plane; without it 0.01 with a field of view, 0 with an "
-                            "orthographic width. Only device depth reads it, and normalised depth: "
-                            "they refuse to go without."),
-    real<&CameraKeys::far>(
-        "far", "scene units", {kFinite.min, std::numeric_limits<double>::infinity()},
-        "Far plane, beyond near; without it inf with a field of view, near + 1e4 "
-        "with an orthographic width."),
+    real<&CameraKeys::near>(
+        "near", "scene units", kFinite,
+        "Near plane; default: 0.01 with a field of view, 0 with an orthographic width. Only device "
+        "and normalised depth read it, and require it."),
+    real<&CameraKeys::far>("far", "scene units",
+                           {kFinite.min, std::numeric_limits<double>::infinity()},
+                           "Far plane, beyond near; default: inf with a field of view, near + 1e4 "
+                           "with an orthographic width."),
     choice<&CameraKeys::depth, kDepths>(
         "depth",
-        "What depth planes hold: the distance along the axis of view, along the ray, its inverse, "
-        "from near to far as 0 to 1, or device depth."),
+        "Kind of the depth: distance along the view axis, along the ray, inverse distance, 0 to 1 "
+        "from near to far, or device depth."),
     real<&CameraKeys::depth_nothing>(
         "depth_nothing", "", kFinite,
-        "What depth planes hold where nothing was hit, if not a number that always means so (1e9 "
-        "and above, inf, the far plane): 0, as a rule."),
+        "Depth where no surface was hit, besides 1e9 and above, inf and the far plane; usually 0."),
 };
 inline constexpr FieldTable<CameraKeys> kCameraTable{
     "camera",
-    "Where the frame was seen from: a view, and one of projection, fov_x, fov_y and "
-    "orthographic; and what its depth planes hold.",
+    "The camera of the frame: a view, and one of projection, fov_x, fov_y and orthographic; and "
+    "the kind of its depth.",
     kCameraKeys};
 
 inline constexpr Field<WaterPlane> kWaterKeys[] = {
     direction<&WaterPlane::up>("up", "Normal of the water plane, of any length."),
     real<&WaterPlane::height>("height", "scene units", kFinite,
-                              "Of the plane along up, from the origin."),
+                              "Distance of the plane from the origin along up."),
     table<&WaterPlane::waves>(
         "waves", "", kFinite,
-        "Sine waves of the surface, 1024 at most: amplitude in scene units, wave "
-        "vector in rad / scene unit, phase in rad, omega in rad / s; without "
-        "omega a wave has that of deep water."),
+        "Sine waves of the surface, at most 1024: amplitude in scene units, wave vector in rad / "
+        "scene unit, phase in rad, omega in rad / s; without omega a wave has that of deep water."),
 };
 inline constexpr FieldTable<WaterPlane> kWaterTable{
-    "water", "The plane of the water, and waves that raise it.", kWaterKeys};
+    "water", "The water plane, and waves that displace it.", kWaterKeys};
 
 inline constexpr Field<Sun> kSunKeys[] = {
-    direction<&Sun::direction>("direction", "Towards the sun, of any length."),
+    direction<&Sun::direction>("direction", "Direction towards the sun, of any length."),
     color<&Sun::color>("color", "", {0, Sun::kBrightest},
-                       "Red, green and blue: scales its radiance."),
+                       "Red, green and blue factors of its radiance."),
     real<&Sun::diameter>("diameter", "degrees", {Sun::kNarrowest, Sun::kWidest}, "Of its disc."),
 };
 inline constexpr FieldTable<Sun> kSunTable{"sun", "The light of the sun.", kSunKeys, "direction",
@@ -129,17 +127,16 @@ inline constexpr FieldTable<Sun> kSunTable{"sun", "The light of the sun.", kSunK
 
 inline constexpr Field<SkyLight> kSkyKeys[] = {
     color<&SkyLight::radiance>("radiance", "", {0, Sun::kBrightest},
-                               "Red, green and blue, the same from everywhere."),
+                               "Radiance in red, green and blue, equal in all directions."),
 };
 inline constexpr FieldTable<SkyLight> kSkyTable{
-    "sky", "An even sky, which lights the water where there is no environment.", kSkyKeys,
+    "sky", "A uniform sky, which lights the water if there is no environment.", kSkyKeys,
     "radiance", "its radiance, three numbers"};
 
 inline constexpr Field<Scene> kSceneKeys[] = {
     real<&Scene::time>("time", "s", kFinite,
-                       "Of the picture, unless another one is asked for; it moves the waves."),
+                       "Time of the picture, for the waves; --time overrides it."),
 };
-inline constexpr FieldTable<Scene> kSceneTable{"scene", "What holds for the whole scene.",
-                                               kSceneKeys};
+inline constexpr FieldTable<Scene> kSceneTable{"scene", "Keys of the whole scene.", kSceneKeys};
 
 }  // namespace limpid

@@ -127,7 +127,7 @@ ShotMeasurement::Parts::Parts(ShotOptions chosen, Executor& on)
     : options(std::move(chosen)), executor(on), ways(options.job, on) {
   if (options.job.output.runner != Runner::kFused) {
     throw Error("runner " + std::string(runner_name(options.job.output.runner)) +
-                    ": expected fused, for operators are timed in that one alone",
+                    ": expected fused, the only runner that times operators",
                 Fault::kUsage);
   }
   if (options.rounds < 1 || options.rounds > kMostRounds) {
@@ -228,7 +228,7 @@ void ShotMeasurement::Parts::show_plate(const ShotWay& own) {
   for (int c = 0; c < 3; ++c) {
     dry[c] = cropped(own.frame.plane(plane_after(PlaneId::kColorR, c)), ways.window());
   }
-  put_light({kDryFile, "dry", "the plate as it is", "pictures"}, dry);
+  put_light({kDryFile, "dry", "the dry plate", "pictures"}, dry);
   put_light({kWetFile, "wet", "with the look " + own.name, "pictures"}, whole->views());
   if (options.truth) {
     put_light({kTruthFile, "truth", options.truth->name, "pictures"}, truth);

@@ -45,11 +45,10 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
   expect_each_once(options.aovs);
   const bool bends = look.of<DepthFog>().sunlight == DepthFog::Sunlight::kRefracted;
   if (options.photons > 0 && (options.light == TruthOptions::Light::kOnce || !bends)) {
-    throw Error(
-        "photons = " + std::to_string(options.photons) +
-            ": expected 0 where light is scattered once, and where the sunlight of depth_fog "
-            "is not refracted",
-        Fault::kUsage);
+    throw Error("photons = " + std::to_string(options.photons) +
+                    ": expected 0 with single scattering, and if the sunlight of depth_fog is not "
+                    "refracted",
+                Fault::kUsage);
   }
   const double above = glm::dot(scene.camera->eye(), scene.water->up) - scene.water->height;
   if (scene.camera->orthographic() && above < 0) {

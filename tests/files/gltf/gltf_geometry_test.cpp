@@ -218,7 +218,7 @@ TEST(GltfGeometry, HiddenNodesHideWhatHangsOnThem) {
   const Model model = load(gltf);
   EXPECT_EQ(model.instances.size(), 1u);
   EXPECT_THAT(model.warnings,
-              ElementsAre("hidden nodes are not drawn, nor what hangs on them: nodes[1] 'off'"));
+              ElementsAre("hidden nodes and their children are not drawn: nodes[1] 'off'"));
 }
 
 TEST(GltfGeometry, TellsOfLightsThatAreNotDrawn) {

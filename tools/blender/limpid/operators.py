@@ -18,15 +18,15 @@ def _redraw(context):
 
 
 class LIMPID_OT_wet(bpy.types.Operator):
-    """Renders the scene without its water, in a Blender beside this one, and lets limpid put the water in"""
+    """Renders the scene without its water, in a second Blender, and runs limpid, which puts the water in"""
     bl_idname = "limpid.wet"
     bl_label = "Make it wet"
     bl_options = {"UNDO"}
 
-    frames: bpy.props.StringProperty(name="Frames", description="As in 1-48x2; empty: as the panel has it",
+    frames: bpy.props.StringProperty(name="Frames", description="As in 1-48x2; empty: the frames of the panel",
                                      options={"SKIP_SAVE"})
     load: bpy.props.BoolProperty(name="Load", default=True, options={"SKIP_SAVE"},
-                                 description="Load what came of it as an image and a node group")
+                                 description="Load the result as an image and a node group")
     _timer = None
 
     @classmethod
@@ -91,7 +91,7 @@ class LIMPID_OT_wet(bpy.types.Operator):
 
 
 class LIMPID_OT_cancel(bpy.types.Operator):
-    """Ends the job that runs; frames that are finished stay"""
+    """Ends the running job; finished frames stay"""
     bl_idname = "limpid.cancel"
     bl_label = "Cancel"
 
@@ -105,7 +105,7 @@ class LIMPID_OT_cancel(bpy.types.Operator):
 
 
 class LIMPID_OT_view(bpy.types.Operator):
-    """Opens the plates of the frames in a browser, where a look is tuned while it is composited"""
+    """Opens the plates of the frames in a browser, to tune the look"""
     bl_idname = "limpid.view"
     bl_label = "Tune the look"
 

@@ -7,7 +7,7 @@ class LimpidPreferences(bpy.types.AddonPreferences):
 
     tool: bpy.props.StringProperty(
         name="limpid", subtype="FILE_PATH",
-        description="The program limpid; empty: the one that is found on PATH")
+        description="The program limpid; empty: limpid on PATH")
 
     def draw(self, _):
         self.layout.prop(self, "tool")
