@@ -146,13 +146,15 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, const Pass& pass
   const DepthFog::Params& water = plan.look.of<DepthFog>();
   if (!Kernel<DepthFog>::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter))
     return;
-  frame.scattered_light =
-      scattered_light_.make(Kernel<DepthFog>::scattering_water(water, pass)).data();
+  const ScatteringWater scattering = Kernel<DepthFog>::scattering_water(water, pass);
+  const ScatteredLights& light = scattered_light_.make(scattering);
+  frame.scattered_light = light.data();
   if (plan.reads_environment && frame.environment)
     frame.sky_radiance = sky_radiance(frame.environment);
   if (made.empty()) return;
   const Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
-  bottom_albedo_.make(frame, pass, sky, executor);
+  bottom_albedo_.make(frame, pass, sky,
+                      {light, Kernel<DepthFog>::extinction(water), scattering.beam}, executor);
   for (int i = 0; i < 3; ++i) {
     const PlaneId plane = plane_after(PlaneId::kAlbedoR, i);
     if (made.has(plane)) frame.planes[index_of(plane)] = bottom_albedo_.channel(i).view();

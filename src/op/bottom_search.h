@@ -269,10 +269,19 @@ class BottomSearch {
     });
     const F level = max(end + room_after / fall_, F(0));
     const F way = select(found > F(0.5), met, level);
-    // What stands in the water may hide itself: its level goes on.
+    const F behind = max(way, F(0));
+    // What stands in the water may hide itself: its level goes on. What is above the water just
+    // beyond, and apart from it, hides others.
     const Vec2<F> here{F(0), F(0)};
     const auto stands = !layer.is_bottom(here, F(0) - height_at(c_, p_, here, p_.dry_depth));
-    return select(stands, drop_to(here, p_.dry_depth) / fall_, max(way, F(0)));
+    F ends = behind;
+    if_any(lanes && stands, [&] {
+      const F beyond = F(1.05) * behind;
+      const auto itself =
+          look(beyond).drop > F(0) || !layer.is_apart(c_, planes_.depth, ray_.shift_at(beyond));
+      ends = select(stands && itself, drop_to(here, p_.dry_depth) / fall_, behind);
+    });
+    return ends;
   }
 
   /// Where the ray passes behind what is seen, between two shares of its way on screen, the later

@@ -154,7 +154,8 @@ ScatteringWater Kernel<DepthFog>::scattering_water(const P& params, const Pass& 
           .anisotropy = params.anisotropy,
           .beam = light.day ? glm::dot(light.to_sun, c.up) : 1,
           .ior = c.ior,
-          .surface = params.crossing == Crossing::kRadiance};
+          .surface = params.crossing == Crossing::kRadiance,
+          .inside = c.submersible};
 }
 
 double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ranges) {
@@ -294,9 +295,11 @@ Kernel<DepthFog>::Medium Kernel<DepthFog>::medium_of(const Params& params, const
             (c.has_sky ? c.sky : params.ambient);
     m.dry_sun = (light.bottom * (light.day ? above : 0)) * c.sun.color;
     m.dry_sky = light.bottom * (c.has_sky ? c.sky : params.ambient);
+    m.per_bottom = light.bottom > 0 ? 1 / light.bottom : 0;
     m.square = params.anisotropy * params.anisotropy;
     m.scatters = scattering(params) != kBlack;
     m.turns = params.anisotropy != 0;
+    m.inside = c.submersible;
   }
   m.sun = light.sun;
   m.to_sun = light.to_sun;
