@@ -94,6 +94,19 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
 /// the mirror saw into it, whatever else would be seen through it.
 constexpr float kFoot = 0.15f;
 
+/// So many pixels over the water's line of a thing a ray along the water, which comes just there,
+/// has met it, whatever the mirror saw through it: far away these are all that lie between the line
+/// and the horizon.
+constexpr double kLine = 3;
+
+/// How much a pixel is high on something at an eye depth.
+double pixel_height(const WaterView& c, double depth) {
+  const auto step = [&](const glm::dvec3& origin, const glm::dvec3& ray) {
+    return glm::dot(c.up, origin + depth * ray);
+  };
+  return std::hypot(step(c.rays.origin_dx, c.rays.ray_dx), step(c.rays.origin_dy, c.rays.ray_dy));
+}
+
 void tell_real(const WaterView& c, const View<const float>& dry, const View<const float>& given,
                const View<float>& image, int y, const View<float>& to) {
   const int at_y = std::clamp(y, dry.window.y0, dry.window.y1 - 1);
@@ -105,8 +118,9 @@ void tell_real(const WaterView& c, const View<const float>& dry, const View<cons
     const bool told_real = given && given.at(x, y) >= 0.5f;
     const float behind = (1 + kFoot) * stands;
     const bool foot = heights.at(at_x, behind) * c.eye_above <= 0 && std::abs(seen) > behind;
-    const bool inside = (unknown || (foot && !told_real)) && stands < 1e30f &&
-                        heights.at(at_x, stands) * c.eye_above > 0;
+    const double height = heights.at(at_x, stands) * (c.eye_above > 0 ? 1 : -1);
+    const bool line = std::abs(seen) > behind && height < kLine * pixel_height(c, stands);
+    const bool inside = (unknown || (foot && !told_real) || line) && stands < 1e30f && height > 0;
     image.at(x, y) = inside ? stands : std::abs(seen);
     to.at(x, y) = inside ? 0.0f : given ? given.at(x, y) : 1.0f;
   }
