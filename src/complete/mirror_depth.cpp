@@ -102,6 +102,19 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
 /// the mirror saw into it, whatever else would be seen through it.
 constexpr float kFoot = 0.15f;
 
+/// So many pixels over the water's line of a thing a ray along the water, which comes just there,
+/// has met it, whatever the mirror saw through it: far away these are all that lie between the line
+/// and the horizon.
+constexpr double kLine = 3;
+
+/// How much a pixel is high on something at an eye depth.
+double pixel_height(const WaterView& c, double depth) {
+  const auto step = [&](const glm::dvec3& origin, const glm::dvec3& ray) {
+    return glm::dot(c.up, origin + depth * ray);
+  };
+  return std::hypot(step(c.rays.origin_dx, c.rays.ray_dx), step(c.rays.origin_dy, c.rays.ray_dy));
+}
+
 void tell_real(const WaterView& c, const View<const float>& dry, const View<const float>& given,
                const View<float>& image, int y, const View<float>& to) {
   const int at_y = std::clamp(y, dry.window.y0, dry.window.y1 - 1);
@@ -109,13 +122,16 @@ void tell_real(const WaterView& c, const View<const float>& dry, const View<cons
   for (int x = to.window.x0; x < to.window.x1; ++x) {
     const int at_x = std::clamp(x, dry.window.x0, dry.window.x1 - 1);
     const float stands = dry.at(at_x, at_y), seen = image.at(x, y);
-    const auto is_foot = [&] {
+    const double height = heights.at(at_x, stands) * (c.eye_above > 0 ? 1 : -1);
+    const auto is_seen_through = [&] {
       const float behind = (1 + kFoot) * stands;
+      if (!(std::abs(seen) > behind)) return false;
       const bool told_real = given && given.at(x, y) >= 0.5f;
-      return !told_real && std::abs(seen) > behind && heights.at(at_x, behind) * c.eye_above <= 0;
+      return (!told_real && heights.at(at_x, behind) * c.eye_above <= 0) ||
+             height < kLine * pixel_height(c, stands);
     };
-    const bool inside = stands < 1e30f && heights.at(at_x, stands) * c.eye_above > 0 &&
-                        (!(seen > 0 && seen < kNothing) || is_foot());
+    const bool inside =
+        stands < 1e30f && height > 0 && (!(seen > 0 && seen < kNothing) || is_seen_through());
     image.at(x, y) = inside ? stands : std::abs(seen);
     to.at(x, y) = inside ? 0.0f : given ? given.at(x, y) : 1.0f;
   }
