@@ -40,7 +40,7 @@ struct FrameOptions {
 struct CompositeArguments {
   std::vector<std::string> plates, layers;
   bool measure = false;  ///< `plan` runs it, too
-  std::string scene, view, depth_kind;
+  std::string scene, view, depth_kind, colorspace;
   std::optional<double> depth_nothing;
   int samples = 1, overscan = 0;
   std::vector<std::string> pass_through = {"none"};

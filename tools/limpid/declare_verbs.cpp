@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "limpid/core/color_space.h"
+#include "limpid/core/error.h"
 #include "limpid/job/sequence.h"
 #include "limpid/job/water.h"
 #include "limpid/raster/render_plate.h"
@@ -69,6 +71,11 @@ void add_plate_options(CLI::App& verb, CompositeArguments& a) {
                   "What depth planes hold where nothing was hit, as 0 (default: the scene's, and 0 "
                   "where alpha is 0)")
       ->option_text("Z");
+  verb.add_option("--colorspace", a.colorspace,
+                  "What red, green and blue of the plate are: " + join(color_space_names()) +
+                      ", or eight numbers, x and y of red, green, blue and white (default: the "
+                      "scene's, else as the plate's chromaticities say, else Rec.709)")
+      ->option_text("NAME");
 }
 
 void add_composite(CLI::App& verb, CompositeArguments& a) {

@@ -33,6 +33,7 @@ std::vector<std::string> command_of(const CompositeArguments& a, const CommonArg
   for (const std::string& layer : a.layers) add("--layer", layer);
   add("--view", a.view);
   add("--depth-kind", a.depth_kind);
+  add("--colorspace", a.colorspace);
   if (a.depth_nothing) add("--depth-nothing", to_string(Value(*a.depth_nothing)));
   if (a.frames.fps) add("--fps", to_string(Value(*a.frames.fps)));
   if (a.samples != 1) add("--samples", std::to_string(a.samples));

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "limpid/core/error.h"
 #include "limpid/core/field.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
@@ -135,9 +136,31 @@ inline constexpr FieldTable<SkyLight> kSkyTable{
     "sky", "An even sky, which lights the water where there is no environment.", kSkyKeys,
     "radiance", "its radiance, three numbers"};
 
+/// Primaries by name or as numbers, a text.
+inline constexpr Field<Scene> kColorSpaceKey = {
+    {"colorspace",
+     "",
+     FieldKind::kText,
+     {},
+     {},
+     {},
+     0,
+     "What red, green and blue of the plate, sun and sky are: Rec.709, Rec.2020, ACEScg, "
+     "ACES2065-1, P3-D65, DCI-P3 or Adobe RGB, or x and y of red, green, blue and white; without "
+     "it as the plate says."},
+    [](const Scene& scene) -> Value { return to_string(scene.primaries); },
+    [](Scene& scene, const Value& value) {
+      try {
+        scene.primaries = color_space_named(std::get<std::string>(value));
+      } catch (const Error& error) {
+        throw Error(std::string("scene.colorspace: ") + error.what());
+      }
+    },
+    [](const Scene& scene) -> const void* { return &scene.primaries; }};
 inline constexpr Field<Scene> kSceneKeys[] = {
     real<&Scene::time>("time", "s", kFinite,
                        "Of the picture, unless another one is asked for; it moves the waves."),
+    kColorSpaceKey,
 };
 inline constexpr FieldTable<Scene> kSceneTable{"scene", "What holds for the whole scene.",
                                                kSceneKeys};
