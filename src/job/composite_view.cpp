@@ -109,7 +109,7 @@ void CompositeView::run(const CompositeJob& job, const Plan& plan, Executor& exe
 
 WrittenView CompositeView::written(Record record) {
   file_.text = std::move(record);
-  return {&*canvas_, file_, others_};
+  return {&*canvas_, file_, others_, {}, scene_.primaries};
 }
 
 void CompositeView::forget() {

@@ -25,6 +25,8 @@ struct WaterOptions {
   std::string output, preview, contact_sheet, deep, runner = "fused", simd, gpu,
                                                     compression = "piz";
   std::string show;  ///< "", "auto" or how a terminal shows pictures
+  std::optional<double> exposure;
+  std::string display, ocio;
   bool store_float = false, dry_run = false;
 };
 

@@ -99,6 +99,7 @@ void add_view(CLI::App& app, ViewArguments& a) {
   add_simd(verb, a.composite.water);
   add_runner(verb, a.composite.water);
   add_gpu(verb, a.composite.water);
+  add_display(verb, a.composite.water);
   verb.add_option("--reference", a.reference,
                   "A picture of the same size to compare with, as a ray-traced one")
       ->option_text("FILE");
