@@ -244,6 +244,31 @@ def wipe(desk):
     desk.browser.key("f", 70)
 
 
+def pinch(desk):
+    desk.browser.key("1", 49)
+    x, y = desk.center("#stage")
+    sheet = "document.getElementById('picture').getBoundingClientRect()"
+
+    def touch(kind, *places):
+        points = [{"x": x + dx, "y": y + dy, "id": id} for id, (dx, dy) in enumerate(places)]
+        desk.browser.call("Input.dispatchTouchEvent", type="touch" + kind, touchPoints=points)
+
+    # What lies between the fingers, as a place on the picture.
+    between = desk.run(f"[({x} + 20 - {sheet}.left), ({y} - {sheet}.top)]")
+    touch("Start", (-30, 0), (70, 0))
+    touch("Move", (-80, 0), (120, 0))
+    touch("End")
+    expect(desk.run("textOf('zoom')"), "200 %", "two fingers twice as far apart show it twice as large")
+    after = desk.run(f"[({x} + 20 - {sheet}.left) / 2, ({y} - {sheet}.top) / 2]")
+    expect(max(abs(a - b) for a, b in zip(between, after)) <= 1, True, "what lies between them stays there")
+    left = desk.run(f"{sheet}.left")
+    touch("Start", (0, 0))
+    touch("Move", (-40, 0))
+    touch("End")
+    expect(desk.run(f"{sheet}.left") - left, -40, "one finger moves it")
+    desk.browser.key("f", 70)
+
+
 def aov_and_numbers(desk):
     desk.keep("wet")
     desk.run("choose('show', 'transmittance')")
@@ -345,7 +370,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, Browser(chromium) as browser:
         with contextlib.closing(Desk(limpid, browser, folder, "--scene", f"{data}/plates/lagoon/lagoon.toml")) as desk:
             expect(desk.run("document.getElementById('display').offsetWidth"), 0, "without a config there is no view")
-            for check in (slider_by_the_mouse, undo_and_redo, presets, wipe, aov_and_numbers, bad_values, saving, server_gone):
+            for check in (slider_by_the_mouse, undo_and_redo, presets, wipe, pinch, aov_and_numbers, bad_values, saving, server_gone):
                 check(desk)
         config = f"{folder}/tiny.ocio"
         pathlib.Path(config).write_text(OCIO_CONFIG)
