@@ -95,6 +95,7 @@ struct PlannedFor {
   PlaneSet planes;
   std::uint32_t aovs = 0;  ///< bit i: AOV i
   bool sun = false, waves = false;
+  Primaries primaries = kRec709;
   friend bool operator==(const PlannedFor&, const PlannedFor&) = default;
 };
 static_assert(kAovCount <= 32);
@@ -107,6 +108,7 @@ PlannedFor planned_for(const HostFrame& host, std::uint32_t aovs) {
   }
   wanted.sun = host.scene.sun.has_value();
   wanted.waves = host.scene.has_waves();
+  wanted.primaries = host.scene.primaries;
   return wanted;
 }
 
@@ -176,7 +178,8 @@ struct __attribute__((visibility("hidden"))) Compositor::State {
                               .wave_map = static_cast<bool>(frame.wave_map),
                               .sun = wanted.sun,
                               .environment = static_cast<bool>(frame.environment),
-                              .waves = wanted.waves},
+                              .waves = wanted.waves,
+                              .primaries = wanted.primaries},
                              shown_by(wanted.aovs), max_error);
   }
 

@@ -84,7 +84,8 @@ class CompositeKind {
         written.back().view = names_[i];
       }
       const WrittenView& first = written.front();
-      report_.preview = preview_pixels(*first.canvas, first.described.display, job.output);
+      report_.preview =
+          preview_pixels(*first.canvas, first.described.display, job.output, first.primaries);
       write_frame(std::move(written), job.output);
       for (CompositeView& view : views_) view.forget();
     }

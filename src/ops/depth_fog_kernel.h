@@ -23,6 +23,8 @@ struct Kernel<DepthFog> : DepthFog {
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
+  /// Makes Params::fitted.
+  static void work_in(const Primaries& primaries, Params& params);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   static void reckon(const Params& params, const Pass& c, Ranges& ranges);
   /// How much the picture changes at most when the way through the water counts as endless and the
