@@ -31,9 +31,9 @@ namespace limpid {
 /// to the last place with nothing.
 ///
 /// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel
-/// cannot resolve (slope_variance): nodes -sqrt 3, 0, sqrt 3 deviations along the view, weights
-/// 1/6, 2/3, 1/6. A facet whose mirrored ray would go into the water is leaned until the ray goes
-/// along it. A variance along the view below 1e-4 counts as none. `mean`: the mean normal alone.
+/// cannot resolve (slope_variance), by three facets along the view (optics/facets.h); of a moved
+/// surface over the slopes that are seen. One whose mirrored ray would go into the water is leaned
+/// until the ray goes along it. A variance below 1e-4 is none. `mean`: the mean normal alone.
 ///
 /// Where planar looks, by `lookup`: `offset` at uv + strength * tilt, clamped at the edge. `ray`:
 /// where the mirrored ray ends in the mirrored scene, which is where the planes show it. How far

@@ -60,8 +60,8 @@ namespace limpid {
 /// `filter` says what becomes of waves that are too small for a pixel (op/footprint.h). `none`:
 /// each pixel takes the normal at its centre. `variance`: the normal is that of the mean slope in
 /// the pixel, and slope_variance the covariance around it. Of sines that is closed form, for a
-/// Gaussian footprint; of the frame's own normals half the variance of a pixel's nine neighbours by
-/// weights [1 2 1]^2, around the pixel's own (the normal itself is left as it is). `mip`: the mean
+/// Gaussian footprint; of the frame's own normals it is what a Gaussian field of slopes like theirs
+/// (complete/plate_waves.h) is expected to do in the pixel, given the normal there. `mip`: the mean
 /// alone; the frame's own normals stay as they are.
 ///
 /// Lookups of a map with `mip` read the level, a mean of colors, whose texels are as wide as the
