@@ -43,6 +43,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
       !made.empty() && sky_.make(whole, executor)) {
     for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i), whole);
   }
+  complete_plate_waves(plan, frame.present() & plan.planes, pass, whole);
   complete_waves(plan, pass, executor, whole);
   complete_water(plan, made_by("bottom_albedo", plan, frame), pass, executor, whole);
   const Refraction::Params& refraction = plan.look.of<Refraction>();
@@ -100,6 +101,11 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   if (plan.planes.covers(kBelowPlanes)) {
     phrases.emplace_back("the layer below the water beyond the picture");
   }
+  const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+  if (plan.keeps<WaveNormals>() && waves.filter == WaveNormals::Filter::kVariance &&
+      waves.model == WaveNormals::Model::kPlate) {
+    phrases.emplace_back("what the plate's normals do not resolve (wave_normals.filter)");
+  }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().goes_on()) {
     phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
@@ -116,9 +122,19 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
 
 void Completer::complete_surface(PlaneSet made, const Pass& pass, Executor& executor,
                                  const std::string* simd, Frame& frame) {
+  plate_waves_ = {};
   if (made.empty()) return;
+  plate_waves_.moved = true;
   displaced_surface_.make(frame, pass, executor, simd);
   take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth(), frame);
+}
+
+void Completer::complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass,
+                                     const Frame& frame) {
+  const bool wanted = plan.look.of<WaveNormals>().filter == WaveNormals::Filter::kVariance &&
+                      plan.made.has(StatePart::kSlopeVariance);
+  const bool tells = own.has(PlaneId::kSurfaceDepth) || own.covers(kSurfaceNormalPlanes);
+  if (wanted && tells) plate_waves_ = plate_waves_of(frame, pass);
 }
 
 void Completer::complete_waves(const Plan& plan, const Pass& pass, Executor& executor,

@@ -17,6 +17,7 @@
 #include "complete/edges.h"
 #include "complete/mirror_depth.h"
 #include "complete/part_depths.h"
+#include "complete/plate_waves.h"
 #include "complete/scattered_light.h"
 #include "complete/sky.h"
 #include "complete/slope_map.h"
@@ -45,12 +46,15 @@ class Completer {
   /// what is made of pixels (made_of_pixels()) is not made.
   Frame complete_windows(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                          const std::string& simd);
+  /// Of the last frame: for its pass.
+  const PlateWaves& plate_waves() const { return plate_waves_; }
   /// What a plan asks for that is made of pixels, a phrase each.
   static std::vector<std::string> made_of_pixels(const Plan& plan);
 
  private:
   void complete_surface(PlaneSet made, const Pass& pass, Executor& executor,
                         const std::string* simd, Frame& frame);
+  void complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass, const Frame& frame);
   void complete_waves(const Plan& plan, const Pass& pass, Executor& executor, Frame& frame);
   void complete_water(const Plan& plan, PlaneSet made, const Pass& pass, Executor& executor,
                       Frame& frame);
@@ -63,6 +67,7 @@ class Completer {
   PartDepths part_depths_;
   MirrorDepth mirror_depth_;
   Sky sky_;
+  PlateWaves plate_waves_;
   LevelMaker level_maker_;
   SlopeMap slope_map_;
   ScatteredLightMaker scattered_light_;

@@ -253,6 +253,7 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
   const Frame frame = s.completer.complete_windows(
       *s.plan, windows, pass_of(*s.plan, host.scene, windows), *s.executor, s.options.simd);
   Pass pass = pass_of(*s.plan, host.scene, frame);
+  pass.plate_waves = s.completer.plate_waves();
   if (!s.plan->reads_environment) pass.environment = {};
   ShaderOptions options;
   options.stage = ShaderOptions::Stage::kCompute;

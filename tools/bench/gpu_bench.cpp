@@ -73,6 +73,7 @@ class Bench {
     const Frame frame = completer.complete(plan, plate_.frame,
                                            pass_of(plan, plate_.scene, plate_.frame), *executor_);
     Pass pass = pass_of(plan, plate_.scene, frame);
+    pass.plate_waves = completer.plate_waves();
     if (!plan.reads_environment) pass.environment = {};
     ShaderOptions options;
     options.stage = ShaderOptions::Stage::kCompute;
