@@ -80,7 +80,8 @@ TEST_P(FusedOnTarget, NormalMapAgreesWithTheReference) {
   b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
   b.set(PlaneId::kDepth, [](int x, int y) { return 2 + 8 * test::noise(x / 9, y / 9, 3); });
   const test::NoiseMap map(16, 8);
-  b.frame.wave_map = map.texture;
+  b.frame.wave_map = map.texture;  // which may lie anywhere
+  for (View<const float>& channel : b.frame.wave_map.channels) channel.window = {5, -3, 21, 5};
   Scene scene = test::simple_scene(size);
   scene.time = 12.3;
   const Picture judge = test::reference(busy_look(), b.frame, scene);
@@ -354,6 +355,9 @@ TEST(Fused, RefusesWhatItCannotDo) {
                          small.target, *make_executor(1)),
                Error);
   EXPECT_THROW(Plane(Rect{0, 0, 0, 0}), Error);
+  Frame far = b.frame;  // of which nothing is read
+  far.planes[index_of(PlaneId::kShadow)].y_stride = std::ptrdiff_t{1} << 30;
+  EXPECT_THROW(test::fused({}, far, scene), Error);
 }
 
 TEST(Fused, APlanThatReadsTexturesNeedsThemWhole) {
