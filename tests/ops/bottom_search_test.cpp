@@ -121,6 +121,20 @@ TEST(BottomSearch, TheLevelBetweenTexelsIsNearTheStaircase) {
   }
 }
 
+// Behind the edge of a shelf the ray is by that share of its depth under the calm surface farther
+// than what is seen. More than a quarter hides where it ends.
+TEST(BottomSearch, WhatStandsFarBeforeTheRayHidesItsEnd) {
+  View view(kAside);
+  int looks = 0;
+  const auto sure = [&](double share) {
+    return march(view,
+                 {view.pass, view.pixel, 20, looks, 20, (1 - share) * 2, view.ray->shift_at(4).x})
+        .sure;
+  };
+  EXPECT_EQ(sure(0.2), 1);
+  EXPECT_EQ(sure(0.32), 0);
+}
+
 // A cliff that rises between two looks is met, though the second is far behind its top, and by
 // less than a unit of the scene.
 TEST(BottomSearch, ACliffIsMetBetweenTwoLooks) {

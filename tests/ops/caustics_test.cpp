@@ -102,6 +102,18 @@ TEST(Caustics, MultiplyTheSunsShare) {
   EXPECT_EQ(basin.lit(4, 2).r, 0.5);
 }
 
+// What the water scatters on the 2 down to the bottom is focused no more, be it of one color alone.
+TEST(Caustics, FadeWhereTheWaterScattersThem) {
+  for (int c = 0; c < 3; ++c) {
+    Ramp ramp(1.5);
+    ramp.table.scattered[static_cast<std::size_t>(c)] = 0.7;
+    Rgb<double> expected{0.75, 0.75, 0.75};
+    (c == 0 ? expected.r : c == 1 ? expected.g : expected.b) = 0.5 + 0.25 * std::exp(-0.7 * 2);
+    Basin basin(ramp, {0, 1, 0});
+    test::expect_rgb(basin.lit(4, 2), expected);
+  }
+}
+
 // Of a level bottom: 0.6 of the sun's color, and the sky.
 TEST(Caustics, SunAndSkyTellTheShare) {
   const Ramp ramp(1.5);

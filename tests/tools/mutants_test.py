@@ -110,7 +110,7 @@ def check_run(root):
     subprocess.run(["git", "init", "-q", root], check=True)
     project = mutants.Project(root=root, folders=["src/optics"], programs=["test_tiny"], programs_folder="", cmake=[],
                               support="src/core/mutant.cpp", checked=re.compile("^src/optics/"), rewritten={}, known="docs/known.md")
-    options = {"paths": [], "limit": 100, "seed": 1, "again": False, "rest": False, "minutes": None, "jobs": 2, "verbose": False}
+    options = {"paths": [], "limit": 100, "seed": 1, "again": False, "rest": False, "minutes": None, "seconds": None, "jobs": 2, "verbose": False}
     trial.LEAST_SECONDS = 1  # the unchanged program takes none
 
     def run(**changed):

@@ -120,7 +120,7 @@ def run(project, arguments, say=print):
     its_own.configure()
     its_own.compile(say)
     say(f"built in {time.monotonic() - begin:.0f} s; {len(picked) - len(its_own.picked)} do not compile")
-    judge = trial.Trial(its_own)
+    judge = trial.Trial(its_own, arguments.seconds)
     judge.record(say)
     results = json.loads(results_file.read_text()) if results_file.exists() else {}
     identities = {number: tree.identity(everything[number]) for number in sorted(its_own.picked)}
@@ -168,6 +168,7 @@ def main(words):
     parser.add_argument("--again", action="store_true", help="only those that survived when last tried")
     parser.add_argument("--rest", action="store_true", help="only those that have not been tried, and tell of all")
     parser.add_argument("--minutes", type=float, metavar="N", help="judge for so long; --rest goes on")
+    parser.add_argument("--seconds", type=float, metavar="N", help="of each mutant only the fastest tests that take N in all")
     parser.add_argument("--tests", type=lambda text: text.split(","), metavar="NAME,..",
                         help=f"with these test programs alone, of {' '.join(PROGRAMS)}")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="so many at once (all cores)")

@@ -29,8 +29,8 @@ class Verdict:
 
 
 class Trial:
-    def __init__(self, tree):
-        self.tree = tree
+    def __init__(self, tree, most_seconds=None):
+        self.tree, self.most_seconds = tree, most_seconds or math.inf  # of the tests of a mutant
         self.tests_folder = tree.build / tree.project.programs_folder
         self.record_file = tree.folder / "reached.json"
 
@@ -115,6 +115,8 @@ class Trial:
                       for test, record in tests.items() if record["reached"].get(str(number)) in (FIRST, SECOND))
         budget, spent, by_program = 1, 0, {}
         for seconds, program, test in hits:
+            if spent and spent + seconds > self.most_seconds:
+                break
             if spent + seconds > budget and by_program:
                 yield from by_program.values()
                 budget, by_program = 2 * (spent + seconds), {}
