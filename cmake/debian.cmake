@@ -33,7 +33,7 @@ function(limpid_debian component package section)
 endfunction()
 
 limpid_debian(core liblimpid${SERIES} libs
-  DESCRIPTION "The library proper, on buffers in memory.")
+  DESCRIPTION "The library proper, on buffers in memory." SUGGESTS limpid libvulkan1)
 limpid_debian(files liblimpid-files${SERIES} libs
   DESCRIPTION "The library from files to files: EXR, glTF, scenes, looks."
   DEPENDS "liblimpid${SERIES} ${EXACTLY}" SUGGESTS limpid)

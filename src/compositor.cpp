@@ -53,6 +53,25 @@ void validate(const Rect& window) {
   }
 }
 
+void validate(const CompositorOptions& options) {
+  if (!options.gpu) return;
+  if (!options.gpu->simd.empty()) {
+    throw Error("compositor: the simd of gpu is " + options.gpu->simd +
+                ", expected it in the options of the compositor");
+  }
+  if (options.max_error > 0) {
+    throw Error("compositor: max_error = " + std::to_string(options.max_error) +
+                ", expected 0 on a GPU, which leaves nothing out");
+  }
+}
+
+std::optional<GpuRunner> runner_of(const CompositorOptions& options) {
+  if (!options.gpu) return {};
+  GpuOptions gpu = *options.gpu;
+  gpu.simd = options.simd;
+  return GpuRunner(gpu);
+}
+
 void validate(const HostFrame& host) {
   validate(host.display);
   if (host.display.empty())
@@ -76,6 +95,7 @@ struct PlannedFor {
   PlaneSet planes;
   std::uint32_t aovs = 0;  ///< bit i: AOV i
   bool sun = false, waves = false;
+  Primaries primaries = kRec709;
   friend bool operator==(const PlannedFor&, const PlannedFor&) = default;
 };
 static_assert(kAovCount <= 32);
@@ -88,6 +108,7 @@ PlannedFor planned_for(const HostFrame& host, std::uint32_t aovs) {
   }
   wanted.sun = host.scene.sun.has_value();
   wanted.waves = host.scene.has_waves();
+  wanted.primaries = host.scene.primaries;
   return wanted;
 }
 
@@ -130,6 +151,7 @@ struct __attribute__((visibility("hidden"))) Compositor::State {
   EnteredPlanes planes;
   HostTarget target;
   FusedRunner runner;
+  std::optional<GpuRunner> gpu;  ///< instead of that
   SanitiseCounts replaced;
   bool ran = false;  ///< a frame, with this plan
 
@@ -156,7 +178,8 @@ struct __attribute__((visibility("hidden"))) Compositor::State {
                               .wave_map = static_cast<bool>(frame.wave_map),
                               .sun = wanted.sun,
                               .environment = static_cast<bool>(frame.environment),
-                              .waves = wanted.waves},
+                              .waves = wanted.waves,
+                              .primaries = wanted.primaries},
                              shown_by(wanted.aovs), max_error);
   }
 
@@ -192,6 +215,7 @@ Compositor::Compositor(const Conventions& conventions, const Look& look,
                        const CompositorOptions& options)
     : state_(std::make_unique<State>()) {
   validate(conventions);
+  validate(options);
   constexpr PlaneSet kLeast = kColorPlanes | PlaneSet{PlaneId::kDepth};
   limpid::make_plan(look, {.planes = kLeast}, {}, options.max_error);  // refuses both if need be
   State& s = *state_;
@@ -199,6 +223,7 @@ Compositor::Compositor(const Conventions& conventions, const Look& look,
   s.look = look;
   s.options = options;
   s.half = &half_target(options.simd);
+  s.gpu = runner_of(options);
   if (!options.executor) s.pool = make_executor(0);
   s.executor = options.executor ? options.executor : s.pool.get();
 }
@@ -245,7 +270,11 @@ void Compositor::run(const HostFrame& host, const HostPicture& picture) {
                               *s.executor, s.frame);
   s.frame.validate();
   const Target& target = s.target.prepare(outputs, s.frame.work());
-  s.runner.run(*s.plan, s.frame, s.scene, target, *s.executor, {.simd = s.options.simd});
+  if (s.gpu) {
+    s.gpu->run(*s.plan, s.frame, s.scene, target, *s.executor);
+  } else {
+    s.runner.run(*s.plan, s.frame, s.scene, target, *s.executor, {.simd = s.options.simd});
+  }
   s.target.store(*s.executor, *s.half);
   s.ran = true;
 }
@@ -271,6 +300,11 @@ const Plan& Compositor::plan() const {
 const SanitiseCounts& Compositor::replaced() const {
   state_->expect_ran();
   return state_->replaced;
+}
+
+const std::string& Compositor::device() const {
+  static const std::string none;
+  return state_->gpu ? state_->gpu->device() : none;
 }
 
 }  // namespace limpid

@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,6 +83,23 @@ std::unique_ptr<Executor> executor_of(const limpid_options& options) {
                 ": expected one or the other");
   }
   return std::make_unique<HostExecutor>(host);
+}
+
+std::optional<GpuOptions> gpu_of(const limpid_options& options) {
+  if (options.runner < LIMPID_RUNNER_FUSED || options.runner > LIMPID_RUNNER_GPU) {
+    throw Error("limpid_options.runner = " + std::to_string(options.runner) +
+                ": expected LIMPID_RUNNER_FUSED or LIMPID_RUNNER_GPU");
+  }
+  if (options.runner == LIMPID_RUNNER_GPU) {
+    return GpuOptions{.device = options.gpu ? options.gpu : "",
+                      .cache = options.gpu_cache ? options.gpu_cache : ""};
+  }
+  for (const char* text : {options.gpu, options.gpu_cache}) {
+    if (!text) continue;
+    throw Error("limpid_options names a GPU or a folder for it, '" + std::string(text) +
+                "': expected LIMPID_RUNNER_GPU beside it");
+  }
+  return {};
 }
 
 Conventions conventions_of(const limpid_conventions& c) {
@@ -318,9 +336,11 @@ limpid_status limpid_create(const limpid_conventions* conventions, const limpid_
         const limpid_conventions c = known(conventions, "limpid_conventions");
         const limpid_options o = known(options, "limpid_options");
         std::unique_ptr<Executor> executor = executor_of(o);
-        Compositor made(
-            conventions_of(c), {},
-            {.executor = executor.get(), .simd = o.simd ? o.simd : "", .max_error = o.max_error});
+        Compositor made(conventions_of(c), {},
+                        {.executor = executor.get(),
+                         .simd = o.simd ? o.simd : "",
+                         .max_error = o.max_error,
+                         .gpu = gpu_of(o)});
         *compositor =
             new limpid_compositor{std::move(executor), std::move(made), c.row_major != 0, {}};
       },
@@ -423,6 +443,11 @@ size_t limpid_replaced_text(const limpid_compositor* compositor, char* text, siz
   return copy_text(text, size, [&] {
     return compositor ? compositor->compositor.replaced().to_text() : std::string();
   });
+}
+
+size_t limpid_device_text(const limpid_compositor* compositor, char* text, size_t size) {
+  return copy_text(text, size,
+                   [&] { return compositor ? compositor->compositor.device() : std::string(); });
 }
 
 limpid_status limpid_create_shader(limpid_compositor* compositor, const limpid_frame* frame,

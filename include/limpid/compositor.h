@@ -9,6 +9,7 @@
 #include "limpid/core/host_view.h"
 #include "limpid/core/scene.h"
 #include "limpid/enter/sanitise.h"
+#include "limpid/gpu/gpu_runner.h"
 #include "limpid/ops/look.h"
 #include "limpid/optics/depth.h"
 #include "limpid/plan/plan.h"
@@ -77,7 +78,10 @@ struct CompositorOptions {
   /// each core.
   Executor* executor = nullptr;
   std::string simd = {};  ///< as in FusedOptions
-  double max_error = 0;   ///< as in make_plan()
+  double max_error = 0;   ///< as in make_plan(); of the CPU alone
+  /// The chain runs there, by a GpuRunner; absent: here, by the FusedRunner. What is made on the
+  /// CPU before follows `simd` above, and the one in here stays empty.
+  std::optional<GpuOptions> gpu = {};
 };
 
 /// Puts water into the frames of a host. Several may work at once, on threads and executors of
@@ -86,11 +90,13 @@ struct CompositorOptions {
 ///
 /// From the second frame of a kind on (same sizes, same planes, same look, same AOVs) run()
 /// allocates nothing, but where edges are blurred in more pixels than in any frame before; it never
-/// locks (executors may), opens no file, prints nothing.
+/// locks (executors may), opens no file, prints nothing. On a GPU the bits depend on the device and
+/// its driver, and each frame records the shader anew, which allocates.
 class Compositor {
  public:
   /// Throws Error for depths that cannot be made linear with what the conventions say, and as
-  /// make_plan() does for a look or a max_error out of range, or an unknown instruction set.
+  /// make_plan() does for a look or a max_error out of range, or an unknown instruction set; on a
+  /// GPU as GpuRunner does, and for a max_error, since that leaves nothing out.
   explicit Compositor(const Conventions& conventions = {}, const Look& look = {},
                       const CompositorOptions& options = {});
   ~Compositor();
@@ -127,6 +133,9 @@ class Compositor {
   /// refused, or the look or a texture has been set since.
   const Plan& plan() const;
   const SanitiseCounts& replaced() const;
+
+  /// GpuRunner::device(); "" where the CPU computes.
+  const std::string& device() const;
 
  private:
   struct State;

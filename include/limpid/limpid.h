@@ -155,15 +155,24 @@ typedef struct limpid_executor {
 #define LIMPID_EXECUTOR \
   { sizeof(limpid_executor), NULL, NULL }
 
+/** What computes. */
+typedef enum limpid_runner {
+  LIMPID_RUNNER_FUSED = 0, /**< the CPU */
+  LIMPID_RUNNER_GPU = 1    /**< a GPU, by Vulkan 1.2: limpid::GpuRunner */
+} limpid_runner;
+
 typedef struct limpid_options {
   size_t size;
   const limpid_executor* executor; /**< copied; NULL: a pool of the compositor's own */
   int32_t threads;                 /**< of that pool; 0: one for each core */
   const char* simd;                /**< NULL: the best; else avx512 avx2 sse4 neon scalar */
-  double max_error; /**< what may be left out changes no channel by more (white = 1) */
+  double max_error; /**< what may be left out changes no channel by more (white = 1); of the CPU */
+  int32_t runner;   /**< limpid_runner */
+  const char* gpu;  /**< of the GPU: a part of its name; NULL: the first of the fastest kind */
+  const char* gpu_cache; /**< likewise: a folder that keeps compiled shaders; NULL: none */
 } limpid_options;
 #define LIMPID_OPTIONS \
-  { sizeof(limpid_options), NULL, 0, NULL, 0 }
+  { sizeof(limpid_options), NULL, 0, NULL, 0, 0, NULL, NULL }
 
 /** A frame of the host: limpid::HostFrame. */
 typedef struct limpid_frame {
@@ -342,6 +351,9 @@ LIMPID_API size_t limpid_look_text(const limpid_compositor* compositor, char* te
 LIMPID_API size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_replaced_text(const limpid_compositor* compositor, char* text,
                                        size_t size);
+
+/** The GPU that computes, and its driver, as those write a text; 0 where the CPU does. */
+LIMPID_API size_t limpid_device_text(const limpid_compositor* compositor, char* text, size_t size);
 
 /** The look, with its maps, as one shader for frames like this one, and the values of this one:
  * limpid::Compositor::shader(). The same text, so the same shader, serves any size, time and

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
+#include "complete/basin.h"
 #include "complete/row_heights.h"
 #include "complete/rows.h"
 
@@ -54,10 +56,67 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
         cell.light[k] += lit * sun[k] + even[k];
       }
       const double w = std::max(c.w_origin + c.w_depth * far, 1e-30);
+      cell.drop += static_cast<float>(under);
       cell.reach += static_cast<float>(std::min(under * pixels / w, 1e4));
       cell.count += 1;
     }
   }
+}
+
+/// A row of blocks, each by the texel in its middle.
+void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const WaterOver& water,
+                                  int row) {
+  const Rect window = window_of(frame);
+  const Basin basin(frame, c);
+  constexpr int kPixels = kBlock * kCell;
+  const int y = std::min(window.y0 + row * kPixels + kPixels / 2, window.y1 - 1);
+  const RowHeights heights(c, y);
+  for (int column = 0; column < columns_; column += kBlock) {
+    const int x = std::min(window.x0 + column * kCell + kPixels / 2, window.x1 - 1);
+    const double far = frame.plane(PlaneId::kDepth).at(x, y), drop = -heights.at(x, far);
+    if (!(far > 0 && far < 1e30 && drop > 0)) continue;
+    const Basin::Walls walls = basin.around(x, y);
+    const std::array<double, 3> rates{water.rate.r, water.rate.g, water.rate.b};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto thrown = static_cast<float>(Basin::thrown_on(walls, rates[i] * drop, c.ior));
+      for (int r = row * kBlock; r < std::min((row + 1) * kBlock, rows_); ++r) {
+        for (int k = column; k < std::min(column + kBlock, columns_); ++k) {
+          Cell& cell = cells_[static_cast<std::size_t>(r) * columns_ + k];
+          cell.walls[i] = thrown * cell.count;
+        }
+      }
+    }
+  }
+}
+
+/// Of an endless floor, as bright in this water as one of an albedo in a basin. `even`: the sky's
+/// part of the light.
+float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t channel, float even,
+                                const WaterOver& water) {
+  const ScatteredLight& light = water.light[channel];
+  const double rate = std::array{water.rate.r, water.rate.g, water.rate.b}[channel];
+  const double depth = std::min(rate * sums.drop / sums.count, 1e6), x = layer_variable(depth);
+  const double back = light.back_at_once + layer_power(light.back, x);
+  // Walls all around have the sun on half of them, and its light by the cosine with each.
+  const double cosine = std::clamp(water.beam, 0.02, 1.0);
+  const double level = std::sqrt(1 - cosine * cosine) / cosine;
+  const double sunlit = sums.light[channel] - even * sums.count;
+  const double of_floor = std::clamp(
+      (even * sums.count + sunlit * level / std::numbers::pi) / sums.light[channel], 0.0, 1.0);
+  const double lost = (1 - of_floor) * sums.walls[channel] / sums.count;
+  const double most = std::min<double>(albedo, ScatteredLight::kMostAlbedo);
+  if (!(light.back_at_once > 0 && lost > 0 && most > 0)) return albedo;
+  // Of the light that comes up, what has come to the bottom and up without a turn is in the dry
+  // picture already.
+  const double beam = cosine * std::exp(-depth / cosine), left = std::exp(-depth);
+  const double passing = left + layer_power(light.passing, std::array{1.0, 1.0}, x);
+  const double lit = beam + layer_power(light.sun_below, x);
+  const double had = std::clamp(beam * left / std::max(passing * lit, 1e-30), 0.0, 1.0);
+  const double more = most * (1 / (1 - most * std::max(back - lost, 0.0)) - had);
+  // a (1 / (1 - a back) - had) = more
+  const double linear = 1 - had + more * back, square = had * back;
+  const double root = std::sqrt(linear * linear + 4 * square * more);
+  return static_cast<float>(std::min(2 * more / std::max(linear + root, 1e-30), most));
 }
 
 /// In cells, the same for all of the picture: the mean of what its pixels ask for.
@@ -74,7 +133,9 @@ void BottomAlbedo::spread(int reach, Executor& executor) {
     for (std::size_t i = 0; i < 3; ++i) {
       to.color[i] += sign * cell.color[i];
       to.light[i] += sign * cell.light[i];
+      to.walls[i] += sign * cell.walls[i];
     }
+    to.drop += sign * cell.drop, to.count += sign * cell.count;
   };
   /// Of a line of `count` cells, `step` apart.
   const auto line = [&](const Cell* from, Cell* to, int count, int step) {
@@ -127,17 +188,25 @@ void BottomAlbedo::draw_row(const Rect& window, int y) {
 }
 
 void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>& sky,
-                        Executor& executor) {
+                        const WaterOver& water, Executor& executor) {
   const Rect window = window_of(frame);
   columns_ = (window.width() + kCell - 1) / kCell;
   rows_ = (window.height() + kCell - 1) / kCell;
   cells_.resize(static_cast<std::size_t>(columns_) * rows_);
   each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, pass, sky, row); });
+  // Without a shadow what lies in the shade counts as dark, which takes more away than walls do.
+  if (pass.eye_above > 0 && frame.plane(PlaneId::kShadow)) {
+    each_row(executor, {0, 0, columns_, (rows_ + kBlock - 1) / kBlock},
+             [&](int row) { look_for_walls(frame, pass, water, row); });
+  }
   spread(reach(), executor);
+  const std::array<double, 3> even{sky.r, sky.g, sky.b};
   for (Cell& cell : cells_) {
     for (std::size_t i = 0; i < 3; ++i) {
       const float albedo = cell.light[i] > 0 ? cell.color[i] / cell.light[i] : 0;
       cell.color[i] = std::clamp(albedo, 0.0f, 1.0f);
+      if (!(cell.walls[i] > 0)) continue;
+      cell.color[i] = as_of_level(cell.color[i], cell, i, static_cast<float>(even[i]), water);
     }
   }
   for (Plane& plane : planes_) {

@@ -7,31 +7,48 @@
 #include "limpid/core/plane.h"
 
 #include "op/pass.h"
+#include "optics/scattered_light.h"
 
 namespace limpid {
+
+/// The water over a bottom: what of the bottom's light comes back to it.
+struct WaterOver {
+  const ScatteredLights& light;
+  Rgb<double> rate;  ///< a + b, 1/scene unit
+  double beam;       ///< cosine of the sunlight with the vertical, in the water
+};
 
 /// The albedo of what lies under the calm water, smooth: what a dry picture shows of it over what a
 /// white level floor would show in the light that falls on it, sun (where `shadow` lets it) and
 /// sky, each summed over some two depths of water around. As ratios of sums they stay right in
 /// shadows and below 1 on walls; single pixels do not.
+///
+/// In a narrow basin it is less: that of an endless floor which the water makes as bright. What the
+/// surface throws back there comes from walls in part (Basin), which have less light than the
+/// floor: the sun's on half of them alone, by the cosine of its way down.
 class BottomAlbedo {
  public:
   /// Looks at color, depth and, where it is there, shadow. `sky`: radiance of an even sky. 0 where
   /// there is no bottom near, or no light; at most 1 else.
-  void make(const Frame& frame, const Pass& pass, const Rgb<double>& sky, Executor& executor);
+  void make(const Frame& frame, const Pass& pass, const Rgb<double>& sky, const WaterOver& water,
+            Executor& executor);
 
   const Plane& channel(int i) const { return planes_[static_cast<std::size_t>(i)]; }
 
  private:
-  static constexpr int kCell = 8;  ///< pixels a side
+  static constexpr int kCell = 8;   ///< pixels a side
+  static constexpr int kBlock = 4;  ///< cells a side of which one looks for walls
 
-  /// Sums over a cell: color, light, and what tells how far to look around.
+  /// Sums over a cell: of its texels, how many there are, and what tells how far to look around.
   struct Cell {
-    std::array<float, 3> color{}, light{};
-    float reach = 0, count = 0;
+    std::array<float, 3> color{}, light{}, walls{};
+    float drop = 0, count = 0, reach = 0;
   };
   void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);
+  void look_for_walls(const Frame& frame, const Pass& pass, const WaterOver& water, int row);
   int reach() const;
+  static float as_of_level(float albedo, const Cell& sums, std::size_t channel, float even,
+                           const WaterOver& water);
   void spread(int reach, Executor& executor);
   void draw_row(const Rect& window, int y);
 

@@ -66,7 +66,7 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
   sun.to_sun = {glm::dot(direction, pass.map_x), glm::dot(direction, pass.map_y),
                 glm::dot(direction, pass.up)};
   if (!pass.has_sun || !(sun.to_sun.z > 1e-3) || !(pass.ior > 1)) return &table_;
-  if (!within_water()) weigh_sun(frame, pass);
+  if (!within_water()) weigh_sun(frame, pass, executor);
   if (!waves_.make(waves, frame, pass, executor)) return &table_;
   sun.ior = pass.ior;
   const double sink = refracted_cosine(sun.to_sun.z, 1 / sun.ior);
@@ -104,85 +104,103 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
 }
 
 /// Over bottoms that are lit, every few pixels.
-void CausticsMaker::weigh_sun(const Frame& frame, const Pass& c) {
+void CausticsMaker::weigh_sun(const Frame& frame, const Pass& c, Executor& executor) {
   table_.sun_over_rest = {};
   if (!c.planes.covers(kSunColorPlanes | PlaneSet{PlaneId::kShadow})) return;
-  constexpr int kStep = 4;
   constexpr float kLit = 0.95f;
   const Rect work = frame.work();
-  std::array<double, 3> sun{}, rest{};
-  for (int y = work.y0; y < work.y1; y += kStep) {
+  const int step = std::max(4, std::max(work.width(), work.height()) / kLooks);
+  const int rows = (work.height() + step - 1) / step;
+  weights_.resize(static_cast<std::size_t>(rows));
+  each_row(executor, {0, 0, 1, rows}, [&](int row) {
+    const int y = work.y0 + row * step;
     const RowHeights heights(c, y);
-    for (int x = work.x0; x < work.x1; x += kStep) {
+    Weights& sum = weights_[static_cast<std::size_t>(row)] = {};
+    for (int x = work.x0; x < work.x1; x += step) {
       const double depth = frame.plane(PlaneId::kDepth).at(x, y);
       if (!(depth < 1e30 && heights.at(x, depth) < 0)) continue;
       if (frame.plane(PlaneId::kShadow).at(x, y) < kLit) continue;
       for (int k = 0; k < 3; ++k) {
         const double whole = frame.plane(plane_after(PlaneId::kColorR, k)).at(x, y);
         const double direct = frame.plane(plane_after(PlaneId::kSunColorR, k)).at(x, y);
-        sun[static_cast<std::size_t>(k)] += std::clamp(direct, 0.0, std::max(whole, 0.0));
-        rest[static_cast<std::size_t>(k)] += std::max(whole - std::max(direct, 0.0), 0.0);
+        sum.sun[static_cast<std::size_t>(k)] += std::clamp(direct, 0.0, std::max(whole, 0.0));
+        sum.rest[static_cast<std::size_t>(k)] += std::max(whole - std::max(direct, 0.0), 0.0);
       }
     }
-  }
+  });
   for (std::size_t k = 0; k < 3; ++k) {
-    table_.sun_over_rest[k] = rest[k] > 0 ? std::min(sun[k] / rest[k], kMostSun) : 0;
+    double sun = 0, rest = 0;
+    for (const Weights& of_row : weights_) sun += of_row.sun[k], rest += of_row.rest[k];
+    table_.sun_over_rest[k] = rest > 0 ? std::min(sun / rest, kMostSun) : 0;
   }
 }
 
 /// At each few pixels: what the dry scene shows below the calm surface, and what a pixel of the
-/// water sees of a level bottom that deep.
+/// water sees of a level bottom that deep. Where the eye is in the water, also what the surface
+/// mirrors: the bottom then lies as deep as its image stands high.
 void CausticsMaker::look(const Frame& frame, const Pass& c, const Sunlight& sun,
                          Executor& executor) {
-  const View<const float>& depth = frame.plane(SeenPlanes::of(c).depth);
-  const Rect window = depth.window;
-  step_ = std::max(1, std::max(window.width(), window.height()) / kLooks);
-  const int step = step_;
-  const int columns = (window.width() + step - 1) / step,
-            rows = (window.height() + step - 1) / step;
-  samples_.resize(static_cast<std::size_t>(columns) * rows);
-  each_row(executor, {0, 0, columns, rows}, [&](int row) {
-    CausticsSample* to = samples_.data() + static_cast<std::size_t>(row) * columns;
-    const int y = window.y0 + row * step;
-    const double at_y = y - c.corner.y + 0.5;
-    for (int column = 0; column < columns; ++column, ++to) {
-      const int x = window.x0 + column * step;
-      const double at_x = x - c.corner.x + 0.5, far = depth.at(x, y);
-      *to = {};
-      const bool hit = far < 1e30;
-      if (!(far > 0 && (hit || within_water()))) continue;
-      const glm::dvec3 ray = c.rays.ray_at(at_x, at_y), origin = c.rays.origin_at(at_x, at_y);
-      const double fall = -glm::dot(c.up, ray), length = glm::length(ray);
-      const bool from_air = fall > 0 && c.eye_above > 0;
-      if (!hit && !from_air) continue;
-      const double begin = from_air ? (c.eye_above + glm::dot(c.up, origin)) / fall : 0;
-      const glm::dvec3 point = origin + (hit ? far : begin) * ray;
-      const double bottom = hit ? -(c.eye_above + glm::dot(c.up, point)) : table_.depth;
-      if (!(bottom > 0)) continue;
-      const double under = std::min(bottom, table_.depth);
-      const auto entry = [&](const glm::dvec3& p, double sunk) {
-        return glm::dvec2(glm::dot(c.map_x, p), glm::dot(c.map_y, p)) - sunk * sun.aside;
-      };
-      const glm::dvec2 let_in = entry(point, hit ? bottom : 0);
-      to->x = static_cast<float>(let_in.x), to->y = static_cast<float>(let_in.y);
-      to->depth = static_cast<float>(under);
-      const double cosine = std::abs(fall) / length;
-      glm::dvec3 seen = point, enters = point;
-      const double reached = within_water() ? std::min(bottom, 2 * table_.depth) : bottom;
-      if (from_air) {
-        const double sink = refracted_cosine(cosine, 1 / c.ior);
-        const glm::dvec3 level = ray / length + cosine * c.up;
-        enters = origin + begin * ray;
-        seen = enters + (reached / (c.ior * sink)) * level;
+  const View<const float>& dry = frame.plane(SeenPlanes::of(c).depth);
+  const View<const float>& image = frame.plane(PlaneId::kReflectionDepth);
+  const bool mirrors = image && c.eye_above < 0 && !within_water();
+  step_ = std::max(1, std::max(dry.window.width(), dry.window.height()) / kLooks);
+  const auto looks = [&](int pixels) { return (pixels + step_ - 1) / step_; };
+  const auto looks_at = [&](const View<const float>& depth) {
+    return static_cast<std::size_t>(looks(depth.window.width())) * looks(depth.window.height());
+  };
+  samples_.resize(looks_at(dry) + (mirrors ? looks_at(image) : 0));
+  const auto take_in = [&](const View<const float>& depth, bool mirrored, CausticsSample* first) {
+    const int columns = looks(depth.window.width());
+    each_row(executor, {0, 0, columns, looks(depth.window.height())}, [&](int row) {
+      const int y = depth.window.y0 + row * step_;
+      for (int column = 0; column < columns; ++column) {
+        const int x = depth.window.x0 + column * step_;
+        first[std::ptrdiff_t{row} * columns + column] =
+            look_at(c, sun, x, y, depth.at(x, y), mirrored);
       }
-      const glm::dvec2 let_in_seen = entry(seen, reached);
-      const glm::dvec2 first = within_water() && from_air ? entry(enters, 0) : let_in_seen;
-      to->enters_x = static_cast<float>(first.x), to->enters_y = static_cast<float>(first.y);
-      to->seen_x = static_cast<float>(let_in_seen.x),
-      to->seen_y = static_cast<float>(let_in_seen.y);
-      to->texel = static_cast<float>(caustics_texel(c, glm::dot(c.forward, seen), cosine));
-    }
-  });
+    });
+  };
+  take_in(dry, false, samples_.data());
+  if (mirrors) take_in(image, true, samples_.data() + looks_at(dry));
+}
+
+CausticsSample CausticsMaker::look_at(const Pass& c, const Sunlight& sun, int x, int y, double far,
+                                      bool mirrored) const {
+  const double at_x = x - c.corner.x + 0.5, at_y = y - c.corner.y + 0.5;
+  CausticsSample to{};
+  const bool hit = far < 1e30;
+  if (!(far > 0 && (hit || within_water()))) return to;
+  const glm::dvec3 ray = c.rays.ray_at(at_x, at_y), origin = c.rays.origin_at(at_x, at_y);
+  const double fall = -glm::dot(c.up, ray), length = glm::length(ray);
+  const bool from_air = fall > 0 && c.eye_above > 0;
+  if (!hit && !from_air) return to;
+  const double begin = from_air ? (c.eye_above + glm::dot(c.up, origin)) / fall : 0;
+  const glm::dvec3 point = origin + (hit ? far : begin) * ray;
+  const double over = c.eye_above + glm::dot(c.up, point);
+  const double bottom = !hit ? table_.depth : mirrored ? over : -over;
+  if (!(bottom > 0)) return to;
+  const double under = std::min(bottom, table_.depth);
+  const auto entry = [&](const glm::dvec3& p, double sunk) {
+    return glm::dvec2(glm::dot(c.map_x, p), glm::dot(c.map_y, p)) - sunk * sun.aside;
+  };
+  const glm::dvec2 let_in = entry(point, hit ? bottom : 0);
+  to.x = static_cast<float>(let_in.x), to.y = static_cast<float>(let_in.y);
+  to.depth = static_cast<float>(under);
+  const double cosine = std::abs(fall) / length;
+  glm::dvec3 seen = point, enters = point;
+  const double reached = within_water() ? std::min(bottom, 2 * table_.depth) : bottom;
+  if (from_air) {
+    const double sink = refracted_cosine(cosine, 1 / c.ior);
+    const glm::dvec3 level = ray / length + cosine * c.up;
+    enters = origin + begin * ray;
+    seen = enters + (reached / (c.ior * sink)) * level;
+  }
+  const glm::dvec2 let_in_seen = entry(seen, reached);
+  const glm::dvec2 first = within_water() && from_air ? entry(enters, 0) : let_in_seen;
+  to.enters_x = static_cast<float>(first.x), to.enters_y = static_cast<float>(first.y);
+  to.seen_x = static_cast<float>(let_in_seen.x), to.seen_y = static_cast<float>(let_in_seen.y);
+  to.texel = static_cast<float>(caustics_texel(c, glm::dot(c.forward, seen), cosine));
+  return to;
 }
 
 /// Texels are powers of two wide and lie on a grid that stays with the world: what moves is the

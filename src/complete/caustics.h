@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -35,14 +36,21 @@ class CausticsMaker {
   static constexpr double kLeastContrast = 0.002;
 
  private:
-  void weigh_sun(const Frame& frame, const Pass& pass);
+  void weigh_sun(const Frame& frame, const Pass& pass, Executor& executor);
   bool within_water() const { return table_.depth < HUGE_VAL; }
   void look(const Frame& frame, const Pass& pass, const Sunlight& sun, Executor& executor);
+  CausticsSample look_at(const Pass& pass, const Sunlight& sun, int x, int y, double depth,
+                         bool mirrored) const;
   void lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun);
   bool lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun, double scale,
                int exponent, double widest, double deepest);
 
+  struct Weights {
+    std::array<double, 3> sun, rest;
+  };
+
   WaveRows waves_;
+  std::vector<Weights> weights_;  ///< of rows of the picture
   std::vector<CausticsSample> samples_;
   int step_ = 1;  ///< pixels from one to the next
   std::vector<CausticsLevel> levels_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
 namespace limpid {
 namespace {
 
@@ -11,6 +13,8 @@ namespace {
 /// not focused is wider, and blurred less.
 constexpr float kBlur = 1.0f / 3;
 constexpr float kOfEdge = 1.2f;  ///< what is deeper than so many times the edge is not of it
+/// Times what a wall that the sun shines on falls over a cell: what falls more is an edge.
+constexpr double kSteep = 1.5;
 
 }  // namespace
 
@@ -77,24 +81,24 @@ void CausticsLevel::find_bottom(std::span<const CausticsSample> samples, Executo
                         static_cast<float>(margin) / static_cast<float>(coarse_) / per_cell;
   const float first_y = static_cast<float>(layout_.corner.y) -
                         static_cast<float>(margin) / static_cast<float>(coarse_) / per_cell;
-  const auto each_inside = [&](auto&& visit) {
-    for (const CausticsSample& s : samples) {
-      if (!(s.depth > 0)) continue;
-      const float x = (s.x - first_x) * per_cell, y = (s.y - first_y) * per_cell;
-      if (!(x >= 0 && y >= 0 && x < static_cast<float>(cells_.width) &&
-            y < static_cast<float>(cells_.height))) {
-        continue;
-      }
-      visit(s.depth, static_cast<std::size_t>(y) * cells_.width + static_cast<std::size_t>(x));
-    }
-  };
-  each_inside(
-      [&](float depth, std::size_t cell) { bottom_[cell] = std::min(bottom_[cell], depth); });
-  each_inside([&](float depth, std::size_t cell) {
-    if (depth > kOfEdge * bottom_[cell]) return;
-    cells.texels[cell][0] += depth;
+  places_.resize(samples.size());
+  const float across = static_cast<float>(cells_.width), down = static_cast<float>(cells_.height);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const CausticsSample& s = samples[k];
+    const float x = (s.x - first_x) * per_cell, y = (s.y - first_y) * per_cell;
+    const bool counts = s.depth > 0 && x >= 0 && y >= 0 && x < across && y < down;
+    places_[k] = counts ? static_cast<int>(y) * cells_.width + static_cast<int>(x) : -1;
+    if (!counts) continue;
+    float& highest = bottom_[static_cast<std::size_t>(places_[k])];
+    highest = std::min(highest, s.depth);
+  }
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (places_[k] < 0) continue;
+    const auto cell = static_cast<std::size_t>(places_[k]);
+    if (samples[k].depth > kOfEdge * bottom_[cell]) continue;
+    cells.texels[cell][0] += samples[k].depth;
     cells.texels[cell][1] += 1;
-  });
+  }
   for (auto& cell : cells.texels) {
     if (cell[1] > 0) cell = {cell[0] / cell[1], 1};
   }
@@ -168,7 +172,9 @@ void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const Caust
       .across = cells_.width,
       .down = cells_.height,
       .per_cell = 1.0f / static_cast<float>(coarse_),
-      .cell_x = static_cast<float>(layout_.margin + coarse_) / static_cast<float>(coarse_) - 0.5f};
+      .cell_x = static_cast<float>(layout_.margin + coarse_) / static_cast<float>(coarse_) - 0.5f,
+      .edge = static_cast<float>(kSteep * coarse_ * layout_.texel /
+                                 std::max(glm::length(sun.aside), 1e-9))};
   /// Rays of a row and one more at each end, if the next row asks for it, too.
   const auto follow = [&](int row) {
     Span span = rays_[std::clamp(row, 0, down - 1)];

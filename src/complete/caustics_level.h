@@ -109,6 +109,7 @@ class CausticsLevel {
   std::vector<Span> spans_;    ///< seen of each kTall rows
   std::vector<Span> rays_;     ///< of each row of rays, counted from the corner of the margin
   std::vector<float> bottom_;  ///< depths of cells, from one cell before the margin's corner on
+  std::vector<int> places_;    ///< the cell of each sample, or -1
   int coarse_ = 2;             ///< texels along a cell
   Size cells_{0, 0};
   PullPush<1> filled_;

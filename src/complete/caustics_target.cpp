@@ -74,6 +74,7 @@ struct Bottom {
     const VI row = whole_of(within(cell_of(y) + Lane(0.5), light.down));
     return fetch(light.bottom, Places(index(column, row)));
   }
+  /// Between the cells, but for those of two sides of an edge: there it is as deep as the nearest.
   LIMPID_LANES_INLINE Lane between(Lane x, Lane y) const {
     const Lane at_x = within(cell_of(x), light.across - 1),
                at_y = within(cell_of(y), light.down - 1);
@@ -81,38 +82,51 @@ struct Bottom {
     const Places upper(index(whole_of(column), whole_of(row)));
     const Pair top = fetch_pairs(light.bottom, upper);
     const Pair low = fetch_pairs(light.bottom + light.across, upper);
-    const Lane u = at_x - column;
-    return lerp(lerp(top.left, top.right, u), lerp(low.left, low.right, u), at_y - row);
+    const Lane deepest = max(max(top.left, top.right), max(low.left, low.right));
+    const Lane highest = min(min(top.left, top.right), min(low.left, low.right));
+    const Mask edge = deepest - highest > Lane(light.edge);
+    const auto share = [&](Lane at) LIMPID_LANES_LAMBDA {
+      return select(edge, select(at < Lane(0.5), Lane(0), Lane(1)), at);
+    };
+    const Lane u = share(at_x - column), v = share(at_y - row);
+    return lerp(lerp(top.left, top.right, u), lerp(low.left, low.right, u), v);
   }
 };
 
 void follow(const LightRow& light, int count, const SurfaceRow& surface, const LitRow& to) {
   const Bottom bottom{light};
   const Lane iota(hn::Iota(kD, 0.0f)), one(1), row_y(light.at_y), per_length(light.per_length);
+  const Lane unbent(1 - double{light.eta} * light.eta);
   const Lane sun_x(light.sun_x), sun_y(light.sun_y), sun_z(light.sun_z), eta(light.eta);
   for (int i = 0; i < count; i += kLanes) {
     const Lane slope_x(hn::LoadU(kD, surface.slope_x + i)),
         slope_y(hn::LoadU(kD, surface.slope_y + i));
     const Lane height(hn::LoadU(kD, surface.height + i));
-    // The cosine of incidence, times the length of the normal (-slope_x, -slope_y, 1).
+    // Snell's law for the normal (-slope_x, -slope_y, 1) as it is: cosines are times its length,
+    // and `bend` is what it adds to the light's direction, times the square of that.
     const Lane facing = sun_z - sun_x * slope_x - sun_y * slope_y;
-    const Lane per_normal = one / sqrt(one + slope_x * slope_x + slope_y * slope_y);
-    const Lane cosine = facing * per_normal;
-    const Lane left = max(one - eta * eta * (one - cosine * cosine), Lane(0));
-    const Lane bend = (eta * cosine - sqrt(left)) * per_normal;
-    const Lane per_sink = one / max(eta * sun_z - bend, Lane(0.02));
-    const Lane aside_x = (Lane(0) - (eta * sun_x + bend * slope_x)) * per_sink;
-    const Lane aside_y = (Lane(0) - (eta * sun_y + bend * slope_y)) * per_sink;
+    const Lane square = one + slope_x * slope_x + slope_y * slope_y;
+    const Lane bend = eta * facing - sqrt(unbent * square + eta * eta * facing * facing);
+    const Lane per_sink = one / max(eta * sun_z * square - bend, Lane(0.02) * square);
+    const Lane aside_x = (Lane(0) - (eta * sun_x * square + bend * slope_x)) * per_sink;
+    const Lane aside_y = (Lane(0) - (eta * sun_y * square + bend * slope_y)) * per_sink;
     const Lane gain_x = (aside_x - Lane(light.calm_x)) * per_length;
     const Lane gain_y = (aside_y - Lane(light.calm_y)) * per_length;
     const Lane row_x = Lane(light.first_x) + Lane(light.step_x) * (Lane(i) + iota);
     const Lane from_x = row_x + height * per_length * aside_x;
     const Lane from_y = row_y + height * per_length * aside_y;
-    Lane depth = bottom.nearest(row_x, row_y);
-    depth = bottom.between(from_x + depth * gain_x, from_y + depth * gain_y);
+    const Lane first = bottom.nearest(row_x, row_y);
+    const Lane depth = bottom.between(from_x + first * gain_x, from_y + first * gain_y);
     const Lane x = from_x + depth * gain_x, y = from_y + depth * gain_y;
     Lane power = max(facing, Lane(0)) * Lane(light.share);
+    const Mask rises = first - depth > Lane(light.edge);
+    if (any(rises)) {
+      // Past the edge it goes on, down to what the edge shades: calm water lets no light in there.
+      const Mask passes = rises && bottom.nearest(x, y) - depth > Lane(light.edge);
+      power = select(passes, Lane(0), power);
+    }
     if (light.per_calm > 0) {
+      const Lane cosine = facing / sqrt(square);
       power = power * Lane(light.per_calm) * (one - fresnel_exact(cosine, Lane(light.ior)));
     }
     hn::StoreU(x.v, kD, to.x + i);
@@ -124,21 +138,20 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const L
 /// Parts of a row whose rays take turns; spread() ends rows with as many rays without light.
 constexpr int kTurns = 8;
 
-/// Of a box as wide as the ray, around it, the parts that lie on three texels from the first one
-/// on. A ray is at least a texel wide, or the table would be grainy where light is focused.
+/// Of a box as wide as the ray, around it, what lies on each of three texels from the first one on:
+/// `wide` in all. A ray is at least a texel wide, or the table would be grainy where light is
+/// focused.
 struct Parts {
-  Lane first, parts[3];
+  Lane first, wide, parts[3];
 
   LIMPID_LANES_INLINE Parts(Lane at, Lane along, Lane across) {
     const Lane one(1), square = along * along + across * across;
-    const Lane wide = sqrt(min(max(square, Lane(1)), Lane(4)));
+    wide = sqrt(min(max(square, Lane(1)), Lane(4)));
     const Lane begin = at - Lane(0.5) * wide + Lane(0.5);
     first = floor(begin);
-    const Lane rest = first + one - begin, per_wide = one / wide;
+    const Lane rest = first + one - begin;
     const Lane until = min(rest, wide), next = min(rest + one, wide);
-    parts[0] = until * per_wide;
-    parts[1] = (next - until) * per_wide;
-    parts[2] = (wide - next) * per_wide;
+    parts[0] = until, parts[1] = next - until, parts[2] = wide - next;
   }
   LIMPID_LANES_INLINE Mask within(int count) const {
     return first > Lane(-3) && first < Lane(count);
@@ -159,7 +172,7 @@ RowsHit spread(const BeamRow& beams, int count, const SplatRow& to) {
     const Parts y = parts(beams.above.y, beams.here.y, beams.below.y);
     const Mask counted = Lane(hn::ConvertTo(kD, count_from(i))) < Lane(count);
     const Mask inside = x.within(beams.width) && y.within(beams.height) && counted;
-    const Lane power = select(inside, load(beams.here.power + i), none);
+    const Lane power = select(inside, load(beams.here.power + i) / (x.wide * y.wide), none);
     const Lane row = select(inside, y.first, Lane(-3));
     const VI line = hn::Mul(whole_of(row + Lane(3)), hn::Set(kDI, beams.stride));
     const VI texel = hn::Add(line, whole_of(select(inside, x.first, Lane(-3)) + Lane(3)));

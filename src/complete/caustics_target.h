@@ -35,6 +35,7 @@ struct LightRow {
   const float* bottom;          ///< depths in scene units, `across` cells in each of `down` rows
   int across, down;
   float per_cell, cell_x;  ///< of a cell in texels; the table's first texel is in the cell's middle
+  float edge;              ///< cells side by side that differ by more are parted by an edge
 };
 
 /// Where the light of each place comes to, in texels, and how much it is.

@@ -43,6 +43,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
       !made.empty() && sky_.make(whole, executor)) {
     for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i), whole);
   }
+  complete_plate_waves(plan, frame.present() & plan.planes, pass, whole);
   complete_waves(plan, pass, executor, whole);
   complete_water(plan, made_by("bottom_albedo", plan, frame), pass, executor, whole);
   const Refraction::Params& refraction = plan.look.of<Refraction>();
@@ -71,6 +72,9 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
                                      Kernel<DepthFog>::lit_depth(water, now));
     }
     whole.caustics = &light_;
+    if (plan.keeps<Caustics>() && plan.keeps<FresnelReflection>()) {
+      mirrored_caustics_.light(plan.look.of<Caustics>(), light_, now, executor, whole);
+    }
   }
   return whole;
 }
@@ -97,6 +101,11 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   if (plan.planes.covers(kBelowPlanes)) {
     phrases.emplace_back("the layer below the water beyond the picture");
   }
+  const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+  if (plan.keeps<WaveNormals>() && waves.filter == WaveNormals::Filter::kVariance &&
+      waves.model == WaveNormals::Model::kPlate) {
+    phrases.emplace_back("what the plate's normals do not resolve (wave_normals.filter)");
+  }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().goes_on()) {
     phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
@@ -113,9 +122,19 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
 
 void Completer::complete_surface(PlaneSet made, const Pass& pass, Executor& executor,
                                  const std::string* simd, Frame& frame) {
+  plate_waves_ = {};
   if (made.empty()) return;
+  plate_waves_.moved = true;
   displaced_surface_.make(frame, pass, executor, simd);
   take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth(), frame);
+}
+
+void Completer::complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass,
+                                     const Frame& frame) {
+  const bool wanted = plan.look.of<WaveNormals>().filter == WaveNormals::Filter::kVariance &&
+                      plan.made.has(StatePart::kSlopeVariance);
+  const bool tells = own.has(PlaneId::kSurfaceDepth) || own.covers(kSurfaceNormalPlanes);
+  if (wanted && tells) plate_waves_ = plate_waves_of(frame, pass);
 }
 
 void Completer::complete_waves(const Plan& plan, const Pass& pass, Executor& executor,
@@ -143,13 +162,15 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, const Pass& pass
   const DepthFog::Params& water = plan.look.of<DepthFog>();
   if (!Kernel<DepthFog>::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter))
     return;
-  frame.scattered_light =
-      scattered_light_.make(Kernel<DepthFog>::scattering_water(water, pass)).data();
+  const ScatteringWater scattering = Kernel<DepthFog>::scattering_water(water, pass);
+  const ScatteredLights& light = scattered_light_.make(scattering);
+  frame.scattered_light = light.data();
   if (plan.reads_environment && frame.environment)
     frame.sky_radiance = sky_radiance(frame.environment);
   if (made.empty()) return;
   const Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
-  bottom_albedo_.make(frame, pass, sky, executor);
+  bottom_albedo_.make(frame, pass, sky,
+                      {light, Kernel<DepthFog>::extinction(water), scattering.beam}, executor);
   for (int i = 0; i < 3; ++i) {
     const PlaneId plane = plane_after(PlaneId::kAlbedoR, i);
     if (made.has(plane)) frame.planes[index_of(plane)] = bottom_albedo_.channel(i).view();

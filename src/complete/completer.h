@@ -11,11 +11,13 @@
 #include "complete/bottom_albedo.h"
 #include "complete/bottom_layer.h"
 #include "complete/caustics.h"
+#include "complete/caustics_mirrored.h"
 #include "complete/continuation.h"
 #include "complete/displaced_surface.h"
 #include "complete/edges.h"
 #include "complete/mirror_depth.h"
 #include "complete/part_depths.h"
+#include "complete/plate_waves.h"
 #include "complete/scattered_light.h"
 #include "complete/sky.h"
 #include "complete/slope_map.h"
@@ -28,9 +30,10 @@ namespace limpid {
 /// part of each pixel that is seen; parts pixels that something before the water covers in part;
 /// draws a layer below the water on as far as color and depth go; makes the continuation of the
 /// bottom for rays that leave the picture, the layer of the bottom for those that end behind
-/// something, the light that the water scatters more than once, and the table of sunlight that
-/// waves focus on the bottom. Each only where the plan asks for it. Once a frame, before its
-/// pixels; operators read the result as they read the plate's planes. The result does not depend on
+/// something, the light that the water scatters more than once, the table of sunlight that
+/// waves focus on the bottom; lights by it what the surface mirrors of the bottom. Each only where
+/// the plan asks for it. Once a frame, before its pixels; operators read the result as they read
+/// the plate's planes. The result does not depend on
 /// the number of threads. Keeps its memory from frame to frame.
 class Completer {
  public:
@@ -43,12 +46,15 @@ class Completer {
   /// what is made of pixels (made_of_pixels()) is not made.
   Frame complete_windows(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                          const std::string& simd);
+  /// Of the last frame: for its pass.
+  const PlateWaves& plate_waves() const { return plate_waves_; }
   /// What a plan asks for that is made of pixels, a phrase each.
   static std::vector<std::string> made_of_pixels(const Plan& plan);
 
  private:
   void complete_surface(PlaneSet made, const Pass& pass, Executor& executor,
                         const std::string* simd, Frame& frame);
+  void complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass, const Frame& frame);
   void complete_waves(const Plan& plan, const Pass& pass, Executor& executor, Frame& frame);
   void complete_water(const Plan& plan, PlaneSet made, const Pass& pass, Executor& executor,
                       Frame& frame);
@@ -61,12 +67,14 @@ class Completer {
   PartDepths part_depths_;
   MirrorDepth mirror_depth_;
   Sky sky_;
+  PlateWaves plate_waves_;
   LevelMaker level_maker_;
   SlopeMap slope_map_;
   ScatteredLightMaker scattered_light_;
   BottomAlbedo bottom_albedo_;
   CausticsMaker caustics_, shafts_;
   CausticsTable light_;  ///< of both
+  MirroredCaustics mirrored_caustics_;
 };
 
 }  // namespace limpid

@@ -67,12 +67,16 @@ std::optional<Matte> matte_between(const EdgeAround& around) {
   return Matte{cover, wet - (1 - cover) * rest};
 }
 
+bool may_regress(const EdgeAround& around) {
+  const double dry = around.of(EdgeKind::kSureDry).weight + around.of(EdgeKind::kDry).weight;
+  return is_side(around, EdgeKind::kSureWet) && dry > 0;
+}
+
 std::optional<Matte> matte_by_regression(const EdgeAround& around) {
-  if (!is_side(around, EdgeKind::kSureWet)) return std::nullopt;
+  if (!may_regress(around)) return std::nullopt;
   const EdgeMoments dry = around.of(EdgeKind::kSureDry) + around.of(EdgeKind::kDry);
   const EdgeMoments wet = around.of(EdgeKind::kSureWet) + around.of(EdgeKind::kWet);
   const EdgeMoments all = dry + wet;
-  if (!(dry.weight > 0)) return std::nullopt;
   const double share = dry.weight / all.weight;
   const glm::dvec3 mean = vector_of(all.mean());
   const glm::dvec3 with = vector_of((1 / all.weight) * dry.color) - share * mean;

@@ -54,7 +54,6 @@ enum class EdgeKind : std::uint8_t { kDry, kWet, kSureDry, kSureWet };
 /// What there is around a pixel.
 struct EdgeAround {
   std::array<EdgeMoments, 4> kinds;
-  EdgePlane before, behind;  ///< of the dry ones, and of the sure wet ones
   EdgeMoments& of(EdgeKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
   const EdgeMoments& of(EdgeKind kind) const { return kinds[static_cast<std::size_t>(kind)]; }
 };
@@ -79,5 +78,7 @@ std::optional<Matte> matte_between(const EdgeAround& around);
 /// The same of what has no sure pixels of its own, being thinner than its blur: the linear
 /// regression of "dry" on color over all. Nothing where that explains less than a quarter.
 std::optional<Matte> matte_by_regression(const EdgeAround& around);
+/// Whether it may tell anything, by the weights alone.
+bool may_regress(const EdgeAround& around);
 
 }  // namespace limpid

@@ -15,7 +15,14 @@ void EdgePicture::sides(int y, int x0, int x1, std::uint8_t* to) const {
   const float* dry = &depth.at(x0, y);
   const std::ptrdiff_t step = depth.x_stride;
   if (surface) {
-    for (int x = x0; x < x1; ++x, dry += step) *to++ = side_of(surface.at(x, y) < *dry, *dry);
+    const float* water = &surface.at(x0, y);
+    if (step == 1 && surface.x_stride == 1) {
+      for (int i = 0; i < x1 - x0; ++i) to[i] = side_of(water[i] < dry[i], dry[i]);
+      return;
+    }
+    for (int x = x0; x < x1; ++x, dry += step, water += surface.x_stride) {
+      *to++ = side_of(*water < *dry, *dry);
+    }
     return;
   }
   const RowHeights heights(pass, y);

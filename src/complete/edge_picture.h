@@ -48,16 +48,18 @@ struct EdgePicture {
     Row(const EdgePicture& picture, int y)
         : window_(picture.window), depth_(row_of(picture, picture.depth, y)) {
       for (std::size_t c = 0; c < 3; ++c) color_[c] = row_of(picture, picture.color[c], y);
+      if (picture.alpha) alpha_ = row_of(picture, picture.alpha, y);
     }
     Rgb<double> color(int x) const {
       return {at(color_[0], x), at(color_[1], x), at(color_[2], x)};
     }
     float depth(int x) const { return at(depth_, x); }
+    double alpha(int x) const { return alpha_.first ? at(alpha_, x) : 1.0; }
 
    private:
     struct Texels {
-      const float* first;
-      std::ptrdiff_t step;
+      const float* first = nullptr;
+      std::ptrdiff_t step = 0;
     };
     static Texels row_of(const EdgePicture& picture, const View<const float>& view, int y) {
       return {&view.at(picture.window.x0, y), view.x_stride};
@@ -65,7 +67,7 @@ struct EdgePicture {
     float at(const Texels& row, int x) const { return row.first[(x - window_.x0) * row.step]; }
 
     Rect window_;
-    Texels depth_;
+    Texels depth_, alpha_;
     std::array<Texels, 3> color_{};
   };
 

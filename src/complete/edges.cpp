@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -55,6 +56,17 @@ struct Kernel {
   }
 };
 
+/// A pixel, and 1 / depth of its water.
+struct Place {
+  int x, y;
+  double water;
+};
+
+/// Columns of a row from the first to the last that lies in a band.
+struct Span {
+  int begin = std::numeric_limits<int>::max(), end = std::numeric_limits<int>::min();
+};
+
 }  // namespace
 
 struct __attribute__((visibility("hidden"))) Edges::State {
@@ -63,6 +75,8 @@ struct __attribute__((visibility("hidden"))) Edges::State {
   std::array<Plane, 4> planes;                          ///< R G B depth
   std::vector<std::uint8_t> sides;                      ///< of each pixel
   std::vector<Band> bands;                              ///< that each pixel lies in
+  std::vector<Span> spans;                              ///< of each row
+  std::vector<EdgePicture::Row> rows;                   ///< likewise
   std::vector<Steps> steps;                             ///< of each row of tiles
   std::array<std::vector<EdgeBlur::Growth>, 2> growth;  ///< of each tile, to the right and down
   std::array<std::vector<int>, 2> rungs;                ///< of EdgeBlur::kLadder, likewise
@@ -113,11 +127,18 @@ struct __attribute__((visibility("hidden"))) Edges::State {
   EdgeBlur::Growth growth_around(std::size_t down, int tile, const Rect& tiles) const;
   void paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung);
   void part_row(const EdgePicture& picture, int y);
-  EdgeAround around(const EdgePicture& picture, const Kernel& kernel, int x, int y,
-                    double water_depth) const;
-  std::optional<Matte> matte_at(const EdgePicture& picture, const Band& band, int x, int y,
-                                double water_depth, EdgeAround& sums) const;
-  void part(const EdgePicture& picture, const Band& band, int x, int y, double water);
+  template <class See>
+  void each_around(const EdgePicture& picture, const Place& place, const Kernel& kernel,
+                   const See& see) const;
+  EdgeAround sides_around(const EdgePicture& picture, const Place& place,
+                          const Kernel& kernel) const;
+  void add_band(const EdgePicture& picture, const Place& place, const Kernel& kernel,
+                EdgeAround& sums) const;
+  double inverse_depth_around(const EdgePicture& picture, const Place& place, const Kernel& kernel,
+                              Side side) const;
+  std::optional<Matte> matte_at(const EdgePicture& picture, const Place& place, const Band& band,
+                                const Kernel*& kernel) const;
+  void part(const EdgePicture& picture, const Place& place, const Band& band);
 
   static std::size_t index(const EdgePicture& picture, int x, int y) {
     const Rect& w = picture.window;
@@ -191,6 +212,7 @@ bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
     }
   }
   bands.assign(sides.size(), {});
+  spans.assign(static_cast<std::size_t>(w.height()), {});
   bool some = false;
   for (const Steps& list : steps) {
     for (const EdgeBlur::Step& step : list) {
@@ -224,6 +246,8 @@ void Edges::State::paint(const EdgePicture& picture, const EdgeBlur::Step& step,
   const Rect band =
       intersection(w, {both.x0 - across, both.y0 - along, both.x1 + across, both.y1 + along});
   for (int y = band.y0; y < band.y1; ++y) {
+    Span& span = spans[static_cast<std::size_t>(y - w.y0)];
+    span = {std::min(span.begin, band.x0), std::max(span.end, band.x1)};
     for (int x = band.x0; x < band.x1; ++x) {
       std::uint8_t& here = bands[index(picture, x, y)].rung[step.down];
       here = std::max(here, static_cast<std::uint8_t>(rung));
@@ -233,81 +257,129 @@ void Edges::State::paint(const EdgePicture& picture, const EdgeBlur::Step& step,
 
 void Edges::State::part_row(const EdgePicture& picture, int y) {
   const EdgePicture::Water water(picture, y);
-  for (int x = picture.window.x0; x < picture.window.x1; ++x) {
+  const Span span = spans[static_cast<std::size_t>(y - picture.window.y0)];
+  for (int x = span.begin; x < span.end; ++x) {
     const Band& band = bands[index(picture, x, y)];
-    if (band.none() || !(water.inverse_depth(x) > 0)) continue;
-    part(picture, band, x, y, water.inverse_depth(x));
+    if (band.none()) continue;
+    const Place place{x, y, water.inverse_depth(x)};
+    if (place.water > 0) part(picture, place, band);
   }
 }
 
-/// What there is around the pixel at (x, y), whose water lies at that depth.
-EdgeAround Edges::State::around(const EdgePicture& picture, const Kernel& kernel, int x, int y,
-                                double water_depth) const {
+/// What there is around a pixel: see(weight, right, down, texels, column, is wet, is sure), where
+/// what is not before the water of the pixel, and not wet, does not count.
+template <class See>
+void Edges::State::each_around(const EdgePicture& picture, const Place& place, const Kernel& kernel,
+                               const See& see) const {
   const Rect& w = picture.window;
-  const Rgb<double> color = picture.color_at(x, y);
-  EdgeAround sums;
+  const double water_depth = 1 / place.water;
+  const int left = (place.x - w.x0) / kernel.step, right = (w.x1 - 1 - place.x) / kernel.step;
   for (int j = -kernel.reach; j <= kernel.reach; ++j) {
-    const int row = y + j * kernel.step;
+    const int row = place.y + j * kernel.step;
     if (row < w.y0 || row >= w.y1) continue;
-    const EdgePicture::Row texels(picture, row);
-    const std::size_t row_start = index(picture, w.x0, row);
+    const EdgePicture::Row& texels = rows[static_cast<std::size_t>(row - w.y0)];
+    const std::size_t at_place = index(picture, place.x, row);
     const double row_weight = kernel.weight[static_cast<std::size_t>(std::abs(j))];
     const int reach = kernel.width[static_cast<std::size_t>(std::abs(j))];
-    for (int i = -reach; i <= reach; ++i) {
-      const int column = x + i * kernel.step;
-      if (column < w.x0 || column >= w.x1) continue;
-      const std::size_t at = row_start + static_cast<std::size_t>(column - w.x0);
+    for (int i = -std::min(reach, left); i <= std::min(reach, right); ++i) {
+      const int column = place.x + i * kernel.step;
+      const std::size_t at = at_place + static_cast<std::size_t>(i * kernel.step);
       const Side side = static_cast<Side>(sides[at]);
-      const float depth = texels.depth(column);
-      const bool wet = side == Side::kWet, sure = bands[at].none();
-      if (!wet && (side == Side::kNone || !(depth < water_depth))) continue;
+      const bool wet = side == Side::kWet;
+      if (!wet && (side == Side::kNone || !(texels.depth(column) < water_depth))) continue;
       const double weight = row_weight * kernel.weight[static_cast<std::size_t>(std::abs(i))];
-      sums.kinds[static_cast<std::size_t>(wet + 2 * sure)].add(
-          weight, texels.color(column) - color,
-          picture.alpha ? picture.alpha.at(column, row) : 1.0);
-      if (sure || !wet) (wet ? sums.behind : sums.before).add(weight, i, j, 1 / depth);
+      see(weight, i, j, texels, column, wet, bands[at].none());
     }
   }
+}
+
+/// The moments of what is sure, and the weights of what lies in the band.
+EdgeAround Edges::State::sides_around(const EdgePicture& picture, const Place& place,
+                                      const Kernel& kernel) const {
+  const Rgb<double> color = picture.color_at(place.x, place.y);
+  EdgeAround sums;
+  each_around(picture, place, kernel,
+              [&](double weight, int, int, const EdgePicture::Row& texels, int column, bool wet,
+                  bool sure) {
+                EdgeMoments& moments = sums.kinds[static_cast<std::size_t>(wet + 2 * sure)];
+                if (sure) {
+                  moments.add(weight, texels.color(column) - color, texels.alpha(column));
+                } else {
+                  moments.weight += weight;
+                }
+              });
   return sums;
 }
 
-/// The share of the pixel, with what is around, where that tells. The blur of an edge that goes
-/// nearly along is far wider along than across, where it counts: the narrower of both goes first.
-/// From the middle of a thin thing the water begins behind all of its blur: something wider goes
-/// last.
-std::optional<Matte> Edges::State::matte_at(const EdgePicture& picture, const Band& band, int x,
-                                            int y, double water_depth, EdgeAround& sums) const {
+/// The moments of what lies in the band.
+void Edges::State::add_band(const EdgePicture& picture, const Place& place, const Kernel& kernel,
+                            EdgeAround& sums) const {
+  const Rgb<double> color = picture.color_at(place.x, place.y);
+  sums.of(EdgeKind::kDry) = sums.of(EdgeKind::kWet) = {};
+  each_around(picture, place, kernel,
+              [&](double weight, int, int, const EdgePicture::Row& texels, int column, bool wet,
+                  bool sure) {
+                if (sure) return;
+                EdgeMoments& moments = sums.kinds[static_cast<std::size_t>(wet)];
+                moments.add(weight, texels.color(column) - color, texels.alpha(column));
+              });
+}
+
+/// Of what is dry around the pixel, or of what is surely wet; 0 where there is no such thing.
+double Edges::State::inverse_depth_around(const EdgePicture& picture, const Place& place,
+                                          const Kernel& kernel, Side side) const {
+  EdgePlane plane;
+  each_around(picture, place, kernel,
+              [&](double weight, int i, int j, const EdgePicture::Row& texels, int column, bool wet,
+                  bool sure) {
+                if (wet != (side == Side::kWet) || (wet && !sure)) return;
+                plane.add(weight, i, j, 1 / texels.depth(column));
+              });
+  return plane.most > 0 ? plane.here() : 0;
+}
+
+/// The share of the pixel, and the kernel by which what is around tells it, if any does. The blur
+/// of an edge that goes nearly along is far wider along than across, where it counts: the narrower
+/// of both goes first. From the middle of a thin thing the water begins behind all of its blur:
+/// something wider goes last.
+std::optional<Matte> Edges::State::matte_at(const EdgePicture& picture, const Place& place,
+                                            const Band& band, const Kernel*& kernel) const {
   const auto [narrow, wide] = std::minmax(band.rung[0], band.rung[1]);
-  std::array<std::size_t, 3> tries{narrow, wide, wide + std::size_t{1}};
+  const std::array<std::size_t, 3> tries{narrow, wide, wide + std::size_t{1}};
+  const std::size_t first = narrow == 0 || narrow == wide ? 1 : 0;
   std::array<EdgeAround, 3> seen;
-  for (std::size_t i = narrow == 0 || narrow == wide ? 1 : 0; i < tries.size(); ++i) {
-    seen[i] = around(picture, kernels[tries[i]], x, y, water_depth);
+  for (std::size_t i = first; i < tries.size(); ++i) {
+    kernel = &kernels[tries[i]];
+    seen[i] = sides_around(picture, place, *kernel);
     const EdgeMoments& wet = seen[i].of(EdgeKind::kSureWet);
     std::optional<Matte> matte = matte_between(seen[i]);
     if (picture.alpha && wet.weight > 0 && wet.alpha < 0.05 * wet.weight) {
-      matte = Matte{picture.alpha.at(x, y), wet.mean()};
+      matte = Matte{picture.alpha.at(place.x, place.y), wet.mean()};
     }
-    sums = seen[i];
     if (matte) return matte;
   }
-  for (const EdgeAround& around_here : seen) {
-    sums = around_here;
-    if (const std::optional<Matte> matte = matte_by_regression(sums)) return matte;
+  for (std::size_t i = first; i < tries.size(); ++i) {
+    if (!may_regress(seen[i])) continue;
+    kernel = &kernels[tries[i]];
+    add_band(picture, place, *kernel, seen[i]);
+    if (const std::optional<Matte> matte = matte_by_regression(seen[i])) return matte;
   }
   return std::nullopt;
 }
 
-void Edges::State::part(const EdgePicture& picture, const Band& band, int x, int y, double water) {
-  EdgeAround sums;
-  const std::optional<Matte> matte = matte_at(picture, band, x, y, 1 / water, sums);
+void Edges::State::part(const EdgePicture& picture, const Place& place, const Band& band) {
+  const auto [x, y, water] = place;
+  const Kernel* kernel = nullptr;
+  const std::optional<Matte> matte = matte_at(picture, place, band, kernel);
   if (!matte) return;
   const bool is_wet = static_cast<Side>(sides[index(picture, x, y)]) == Side::kWet;
   if (is_wet ? matte->cover < kLeast : matte->cover > 1 - kLeast) return;
   if (matte->cover > 1 - kLeast) {
-    if (sums.before.most > 0) put_depth(x, y, sums.before.here());
+    const double before = inverse_depth_around(picture, place, *kernel, Side::kDry);
+    if (before > 0) put_depth(x, y, before);
     return;
   }
-  const double behind = sums.behind.here();
+  const double behind = inverse_depth_around(picture, place, *kernel, Side::kWet);
   if (!(behind < water)) return;
   const double open = 1 - matte->cover;
   // What is before the water sends no less than nothing.
@@ -342,6 +414,8 @@ void Edges::make(Frame& frame, const Pass& pass, Executor& executor) {
   static_assert(EdgeBlur::kLadder[EdgeBlur::kWidths - 1] == kFarthest);
   s.clear_cover(picture.window);
   s.take_over(frame, executor);
+  s.rows.clear();
+  for (int y = picture.window.y0; y < picture.window.y1; ++y) s.rows.emplace_back(picture, y);
   each_row(executor, picture.window, [&](int y) { s.part_row(picture, y); });
 }
 

@@ -28,6 +28,12 @@ void keep_nearest(float& at, float depth) {
   }
 }
 
+/// floor() of a number that an int can hold, without a call.
+int whole_of(double x) {
+  const int whole = static_cast<int>(x);
+  return whole - (whole > x);
+}
+
 /// From a point to its mirror image the way is straight down, which crosses the screen as a
 /// ScreenRay does.
 void scatter_row(const WaterView& c, const View<const float>& dry, int y, const View<float>& to) {
@@ -45,18 +51,20 @@ void scatter_row(const WaterView& c, const View<const float>& dry, int y, const 
     if (!(w > 0 && image_depth > 0)) continue;
     const double image_u = u + way * (down_u - u * w_step) / w;
     const double image_v = v + way * (down_v - v * w_step) / w;
-    const double px = std::floor(image_u * c.size.x + c.corner.x);
-    const double py = std::floor(image_v * c.size.y + c.corner.y);
+    const double px = image_u * c.size.x + c.corner.x, py = image_v * c.size.y + c.corner.y;
     const Rect& window = to.window;
     if (!(px >= window.x0 && px < window.x1 && py >= window.y0 && py < window.y1)) continue;
-    keep_nearest(to.at(static_cast<int>(px), static_cast<int>(py)),
-                 static_cast<float>(image_depth));
+    keep_nearest(to.at(whole_of(px), whole_of(py)), static_cast<float>(image_depth));
   }
 }
 
 /// A hole with that many neighbours is one between points, or a pixel beside an edge, which gains
 /// what a row of points between two pixels has lost.
 constexpr int kLeastNeighbours = 3;
+
+/// 0 where nothing is seen.
+float finite_of(float depth) { return std::abs(depth) < kNothing ? std::abs(depth) : 0.0f; }
+float known_of(float depth) { return std::abs(depth) < kNothing ? 1.0f : 0.0f; }
 
 /// What closes a hole is negative, until tell_real() has seen that it was one.
 void close_holes(const View<const float>& from, int y, const View<float>& to) {
@@ -72,20 +80,20 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
   float greatest[kColumns + 2], known[kColumns + 2];
   for (int x0 = 1; x0 + 1 < width; x0 += kColumns) {
     const int count = std::min(kColumns, width - 1 - x0);
+    const float *above = rows[0] + x0 - 1, *own = rows[1] + x0 - 1, *under = rows[2] + x0 - 1;
     for (int i = 0; i < count + 2; ++i) {
-      greatest[i] = known[i] = 0;
-      for (const float* row : rows) {
-        const float depth = std::abs(row[x0 - 1 + i]);
-        known[i] += depth < kNothing ? 1.0f : 0.0f;
-        greatest[i] = std::max(greatest[i], depth < kNothing ? depth : 0.0f);
-      }
+      const float a = finite_of(above[i]), b = finite_of(own[i]), c = finite_of(under[i]);
+      const float larger = a < b ? b : a;
+      greatest[i] = larger < c ? c : larger;
+      known[i] = known_of(above[i]) + known_of(own[i]) + known_of(under[i]);
     }
     for (int i = 0; i < count; ++i) {
-      const float own = rows[1][x0 + i];
-      const bool hole =
-          !(own < kNothing) && known[i] + known[i + 1] + known[i + 2] >= kLeastNeighbours;
-      const float depth = std::max(std::max(greatest[i], greatest[i + 1]), greatest[i + 2]);
-      out[x0 + i] = hole ? -depth : own;
+      const float depth = own[i + 1];
+      const float neighbours = known[i] + known[i + 1] + known[i + 2];
+      const float larger = greatest[i] < greatest[i + 1] ? greatest[i + 1] : greatest[i];
+      const float fill = larger < greatest[i + 2] ? greatest[i + 2] : larger;
+      const float closed = neighbours >= kLeastNeighbours ? -fill : depth;
+      out[x0 + i] = depth < kNothing ? depth : closed;
     }
   }
 }
@@ -94,6 +102,19 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
 /// the mirror saw into it, whatever else would be seen through it.
 constexpr float kFoot = 0.15f;
 
+/// So many pixels over the water's line of a thing a ray along the water, which comes just there,
+/// has met it, whatever the mirror saw through it: far away these are all that lie between the line
+/// and the horizon.
+constexpr double kLine = 3;
+
+/// How much a pixel is high on something at an eye depth.
+double pixel_height(const WaterView& c, double depth) {
+  const auto step = [&](const glm::dvec3& origin, const glm::dvec3& ray) {
+    return glm::dot(c.up, origin + depth * ray);
+  };
+  return std::hypot(step(c.rays.origin_dx, c.rays.ray_dx), step(c.rays.origin_dy, c.rays.ray_dy));
+}
+
 void tell_real(const WaterView& c, const View<const float>& dry, const View<const float>& given,
                const View<float>& image, int y, const View<float>& to) {
   const int at_y = std::clamp(y, dry.window.y0, dry.window.y1 - 1);
@@ -101,12 +122,16 @@ void tell_real(const WaterView& c, const View<const float>& dry, const View<cons
   for (int x = to.window.x0; x < to.window.x1; ++x) {
     const int at_x = std::clamp(x, dry.window.x0, dry.window.x1 - 1);
     const float stands = dry.at(at_x, at_y), seen = image.at(x, y);
-    const bool unknown = !(seen > 0 && seen < kNothing);
-    const bool told_real = given && given.at(x, y) >= 0.5f;
-    const float behind = (1 + kFoot) * stands;
-    const bool foot = heights.at(at_x, behind) * c.eye_above <= 0 && std::abs(seen) > behind;
-    const bool inside = (unknown || (foot && !told_real)) && stands < 1e30f &&
-                        heights.at(at_x, stands) * c.eye_above > 0;
+    const double height = heights.at(at_x, stands) * (c.eye_above > 0 ? 1 : -1);
+    const auto is_seen_through = [&] {
+      const float behind = (1 + kFoot) * stands;
+      if (!(std::abs(seen) > behind)) return false;
+      const bool told_real = given && given.at(x, y) >= 0.5f;
+      return (!told_real && heights.at(at_x, behind) * c.eye_above <= 0) ||
+             height < kLine * pixel_height(c, stands);
+    };
+    const bool inside =
+        stands < 1e30f && height > 0 && (!(seen > 0 && seen < kNothing) || is_seen_through());
     image.at(x, y) = inside ? stands : std::abs(seen);
     to.at(x, y) = inside ? 0.0f : given ? given.at(x, y) : 1.0f;
   }

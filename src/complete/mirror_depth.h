@@ -18,8 +18,9 @@ namespace limpid {
 /// A renderer that cuts the scene at the water shows objects that stand in it from within. A pixel
 /// at which something dry stands before the water counts as such an inside where no mirror image is
 /// known, and where the water lies hardly farther than that thing, at most 0.15 of its depth: the
-/// image of what is behind would be seen through its foot. An inside is not real, and a ray that
-/// comes there has met that thing.
+/// image of what is behind would be seen through its foot. So it does within three pixels of the
+/// line in which that thing meets the water where what is seen there lies farther, even if it is
+/// told to be real. An inside is not real, and a ray that comes there has met that thing.
 class MirrorDepth {
  public:
   /// Looks at depth, at the window of the reflection, and at reflection_depth and reflection_valid

@@ -14,6 +14,11 @@ namespace {
 
 constexpr int kDegree = ScatteredLight::kDegree, kShapes = ScatteredLight::kShapes;
 constexpr int kCount = SlabDirections::kCount, kModes = 4;
+/// In endless water, where all fades with depth: less light than kDark, and what is optically
+/// deeper than kDeepest, counts as nothing. The rates by which light fades stay apart: that of the
+/// beam is kApart of the slowest or more, the fastest kFast of that, the one between at least what
+/// kSlow of the beam's would make it.
+constexpr double kDark = 1e-6, kDeepest = 128, kApart = 1.3, kFast = 4, kSlow = 0.05;
 /// The directions that a view from the air has in the water.
 constexpr int kFirstSeen = SlabDirections::kInside;
 
@@ -109,7 +114,7 @@ class Channel {
     fit_even();
     fit_sun();
     put_bounds();
-    put_inside(absorption, scattering);
+    if (water.inside && wide > 0) fit_inside(slab, reflects);
   }
 
   const ScatteredLight& light() const { return light_; }
@@ -214,24 +219,71 @@ class Channel {
     return {1, cosine, turned, henyey_greenstein(turned, anisotropy_ * anisotropy_)};
   }
 
-  /// For views in the water: two streams in endless water (Toon et al. 1989, "Rapid Calculation of
-  /// Radiative Heating Rates and Photodissociation Rates in Inhomogeneous Multiple Scattering
-  /// Atmospheres") that scatters evenly what it turns (van de Hulst 1980, "Multiple Light
-  /// Scattering").
-  void put_inside(double absorption, double scattering) {
-    const double turned = scattering * (1 - anisotropy_), rate = absorption + turned;
-    if (!(turned > 0)) return;
-    const double albedo = turned / rate, reflects = light_.back_at_once;
-    double rest = std::sqrt(1 - albedo);
-    const double half_beam = 0.5 / beam_;
-    // Where both fade alike, the formula has no value; next to it, the right one.
-    if (std::abs(rest / half_beam - 1) < 2e-3) rest = 1.005 * half_beam;
-    const auto both = [&](double down) { return 1 - reflects + (1 + reflects) * down; };
-    const double beam = albedo / 4 / (rest * rest - half_beam * half_beam);
-    light_.beam = turned * beam;
-    light_.even_sun = -turned * beam * both(half_beam) / both(rest);
-    light_.even_sky = turned * light_.sky_at_once / both(rest);
-    light_.even_rate = 2 * rest * rate;
+  /// For views in the water.
+  void fit_inside(const SlabWater& slab, const SlabDirections::Radiance& reflects) {
+    constexpr int kCosines = 8;  // to each side of level
+    constexpr std::size_t kFades = ScatteredLight::kFades, kInside = ScatteredLight::kInside;
+    std::array<InsideLights, kModes> modes;
+    for (std::size_t mode = 0; mode < mode_count_; ++mode) {
+      modes[mode] = solve_inside(directions_, slab, reflects, beam_, static_cast<int>(mode));
+    }
+    const InsideLights& even = modes[0];
+    std::size_t count = 1;  // of layers in which there is light
+    double slowest = 0;     // how fast what is left far down fades
+    for (; count < even.size() && even[count].depth <= kDeepest; ++count) {
+      const double before = directions_.flux(even[count - 1].sky_down);
+      const double now = directions_.flux(even[count].sky_down);
+      if (!(now > kDark)) break;
+      slowest = std::max(std::log(before / now), 0.0) / (even[count].depth - even[count - 1].depth);
+    }
+    const double beam = std::max(1 / beam_, kApart * slowest);
+    const double between = std::sqrt(std::max(slowest, kSlow * beam) * beam);
+    const std::array<double, kFades> rates{slowest, between, beam, kFast * beam};
+    LeastSquares<kInside * kFades> of_sun, of_sky;
+    const auto add = [&](auto& fit, double depth, const std::array<double, kInside>& by,
+                         double value) {
+      const double weight = 1 / std::max(value, kDark);
+      std::array<double, kInside * kFades> row;
+      for (std::size_t f = 0; f < kFades; ++f) {
+        const double left = weight * std::exp(-rates[f] * depth);
+        for (std::size_t n = 0; n < kInside; ++n) row[f * kInside + n] = left * by[n];
+      }
+      fit.add(row, weight * value);
+    };
+    const double level_beam = std::sqrt(1 - beam_ * beam_);
+    for (int i = 0; i < 2 * kCosines; ++i) {
+      const double cosine = (i + 0.5) / kCosines - 1;  // of light with the upwards vertical
+      const auto mode = [&](int m) { return SlabSource(directions_, slab, m, cosine); };
+      const std::array<SlabSource, kModes> sources{mode(0), mode(1), mode(2), mode(3)};
+      for (std::size_t k = 0; k < count; ++k) {
+        const InsideLight& light = even[k];
+        add(of_sky, light.depth, inside_sky_shapes(cosine),
+            sources[0].of(light.sky_up, light.sky_down));
+        std::array<double, kModes> parts{};
+        for (std::size_t m = 0; m < mode_count_; ++m) {
+          parts[m] = sources[m].of(modes[m][k].sun_up, modes[m][k].sun_down);
+        }
+        for (int a = 0; a < (mode_count_ > 1 ? kAzimuths : 1); ++a) {
+          double sum = parts[0];
+          for (std::size_t m = 1; m < mode_count_; ++m) {
+            sum += 2 * parts[m] * std::cos(double(m) * azimuth_of(a));
+          }
+          const double turned =
+              std::sqrt(1 - cosine * cosine) * level_beam * std::cos(azimuth_of(a)) -
+              cosine * beam_;
+          add(of_sun, light.depth,
+              inside_sun_shapes(cosine, turned, anisotropy_ * anisotropy_, mode_count_ > 1), sum);
+        }
+      }
+    }
+    const auto sun = of_sun.solved(), sky = of_sky.solved();
+    for (std::size_t f = 0; f < kFades; ++f) {
+      light_.fades[f] = extinction_ * rates[f];
+      for (std::size_t n = 0; n < kInside; ++n) {
+        light_.inside_sun[f][n] = extinction_ * sun[f * kInside + n];
+        light_.inside_sky[f][n] = extinction_ * sky[f * kInside + n];
+      }
+    }
   }
 
   const SlabDirections& directions_;

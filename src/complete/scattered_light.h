@@ -6,7 +6,8 @@
 namespace limpid {
 
 /// Solves the equation of radiative transfer for a layer of water under sun and sky, per channel,
-/// and fits what the chain's pixels ask of it. 1 to 3 ms; the last water's is kept.
+/// and fits what the chain's pixels ask of it. 1 to 3 ms, twice that where views
+/// may begin in the water; the last water's is kept.
 ///
 /// The peak of the phase function counts as not scattered (narrow_share); the rest of it is
 /// represented by 16 moments that fit it, relatively, at all other angles (Hu et al. 2000,

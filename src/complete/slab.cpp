@@ -8,6 +8,7 @@ namespace limpid {
 namespace {
 
 constexpr int kCount = SlabDirections::kCount, kMoments = SlabWater::kMoments;
+constexpr double kThin = 1.0 / 8192, kEndless = 8192;  ///< optical depths
 using Radiance = SlabDirections::Radiance;
 using Matrix = std::array<Radiance, kCount>;  ///< rows: what goes out; columns: what comes in
 
@@ -207,7 +208,6 @@ double SlabDirections::flux(const Radiance& radiance) const {
 
 SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
                       const SlabDirections::Radiance& reflects, double beam, int mode) {
-  constexpr double kThin = 1.0 / 8192;
   Layer layer(directions, water, beam, mode, kThin);
   while (layer.depth < SlabLight::kFirst) layer.make_twice_as_deep(beam);
   SlabLayers layers;
@@ -216,6 +216,66 @@ SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
     layer.make_twice_as_deep(beam);
   }
   return layers;
+}
+
+InsideLights solve_inside(const SlabDirections& directions, const SlabWater& water,
+                          const SlabDirections::Radiance& reflects, double beam, int mode) {
+  const Layer thin(directions, water, beam, mode, kThin);
+  Layer endless = thin;
+  while (endless.depth < kEndless) endless.make_twice_as_deep(beam);
+  Layer layer = thin;
+  while (layer.depth < SlabLight::kFirst) layer.make_twice_as_deep(beam);
+  Radiance entering{};  // from the sky, as in light_of()
+  for (std::size_t i = 0; i < kCount && mode == 0; ++i) entering[i] = 1 - reflects[i];
+  InsideLights lights;
+  for (InsideLight& light : lights) {
+    Matrix under = layer.back;
+    for (Radiance& row : under) row = each(reflects, row);
+    const Matrix between = to_and_fro(under);
+    // At the top up, for light `up` from below and what is sent up and let in above.
+    const auto top = [&](const Radiance& sent, const Radiance& up) {
+      return between * (sent + layer.through * up);
+    };
+    // What of the light from below comes down again, for each of its directions.
+    Matrix again;
+    for (std::size_t j = 0; j < kCount; ++j) {
+      Radiance one{};
+      one[j] = 1;
+      const Radiance down = layer.back * one + layer.through * each(reflects, top(Radiance{}, one));
+      for (std::size_t i = 0; i < kCount; ++i) again[i][j] = down[i];
+    }
+    const Matrix to_below = to_and_fro(endless.back * again);
+    const auto solve = [&](const Radiance& sent, const Radiance& sinks, const Radiance& rises,
+                           Radiance& up, Radiance& down) {
+      const Radiance first = sinks + layer.through * each(reflects, top(sent, Radiance{}));
+      up = to_below * (endless.back * first + rises);
+      down = first + again * up;
+    };
+    light.depth = layer.depth;
+    solve(layer.up, layer.down, std::exp(-layer.depth / beam) * endless.up, light.sun_up,
+          light.sun_down);
+    solve(layer.back * entering, layer.through * entering, Radiance{}, light.sky_up,
+          light.sky_down);
+    layer.make_twice_as_deep(beam);
+  }
+  return lights;
+}
+
+SlabSource::SlabSource(const SlabDirections& directions, const SlabWater& water, int mode,
+                       double cosine) {
+  const Values on = legendre(mode, std::abs(cosine));
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Values from = legendre(mode, directions.cosine[i]);
+    const double share = directions.weight[i] * water.albedo / 2;
+    up_[i] = share * mode_between(water, mode, on, from, cosine < 0);
+    down_[i] = share * mode_between(water, mode, on, from, cosine > 0);
+  }
+}
+
+double SlabSource::of(const Radiance& up, const Radiance& down) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < kCount; ++i) sum += up_[i] * up[i] + down_[i] * down[i];
+  return sum;
 }
 
 }  // namespace limpid

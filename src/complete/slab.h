@@ -46,6 +46,14 @@ struct SlabLight {
 
 using SlabLayers = std::array<SlabLight, SlabLight::kLayers>;
 
+/// Light in endless water at a depth, all around a direction's cosine; per azimuth mode.
+struct InsideLight {
+  using Radiance = SlabDirections::Radiance;
+  double depth;               ///< optical
+  Radiance sun_up, sun_down;  ///< from a beam, but for the beam itself
+  Radiance sky_up, sky_down;  ///< from an even sky, all of it; of mode 0 alone, 0 in others
+};
+
 /// All layers by doubling: the way
 /// through two layers is known from the ways through each (van de Hulst 1963, "A New Look at
 /// Multiple Scattering"; Hansen & Travis 1974, "Light Scattering in Planetary Atmospheres").
@@ -54,5 +62,20 @@ using SlabLayers = std::array<SlabLight, SlabLight::kLayers>;
 /// water. `mode`: that of cos(mode azimuth); sky and bottom are even and only in mode 0.
 SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
                       const SlabDirections::Radiance& reflects, double beam, int mode);
+
+/// The same at the depths of these layers, under which the water has no end.
+using InsideLights = std::array<InsideLight, SlabLight::kLayers>;
+InsideLights solve_inside(const SlabDirections& directions, const SlabWater& water,
+                          const SlabDirections::Radiance& reflects, double beam, int mode);
+
+/// What a unit of optical way adds to light that goes on along a cosine with the upwards vertical,
+/// -1 ... 1: of light that comes up and down, by direction.
+struct SlabSource {
+  SlabSource(const SlabDirections& directions, const SlabWater& water, int mode, double cosine);
+  double of(const SlabDirections::Radiance& up, const SlabDirections::Radiance& down) const;
+
+ private:
+  SlabDirections::Radiance up_, down_;
+};
 
 }  // namespace limpid

@@ -259,23 +259,33 @@ void WaveRows::measure_normals() {
 void WaveRows::row_of_normals(double x, double y, double step, int count,
                               const SurfaceRow& to) const {
   const Pass& c = *pass_;
-  const std::array<View<const float>, 3> normal{frame_->plane(PlaneId::kSurfaceNormalX),
-                                                frame_->plane(PlaneId::kSurfaceNormalY),
-                                                frame_->plane(PlaneId::kSurfaceNormalZ)};
+  std::array<View<const float>, 3> normal{frame_->plane(PlaneId::kSurfaceNormalX),
+                                          frame_->plane(PlaneId::kSurfaceNormalY),
+                                          frame_->plane(PlaneId::kSurfaceNormalZ)};
+  Rect window = normal[0].window;
+  for (const View<const float>& view : normal) window = intersection(window, view.window);
+  for (View<const float>& view : normal) {
+    view.data = &view.at(window.x0, window.y0);
+    view.window = window;
+  }
+  // From the picture's corner, where uv is 0. What is divided below goes evenly along the row.
+  const glm::dvec3 first = x * c.map_x + y * c.map_y - c.eye_above * c.up - c.rays.origin;
+  const auto along = [&](const glm::dvec3& axis, double times, double plus) {
+    return glm::dvec2(plus + times * glm::dot(axis, first), times * step * glm::dot(axis, c.map_x));
+  };
+  const glm::dvec2 w_at = along(c.forward, c.w_depth, c.w_origin);
+  const glm::dvec2 u_at = along(c.to_u, c.size.x, 0), v_at = along(c.to_v, c.size.y, 0);
+  const double left = c.corner.x - 0.5 - window.x0, top = c.corner.y - 0.5 - window.y0;
   for (int i = 0; i < count; ++i) {
-    const glm::dvec3 point = (x + i * step) * c.map_x + y * c.map_y - c.eye_above * c.up -
-                             c.rays.origin;  // that of the picture's corner, where uv is 0
-    const double w = c.w_origin + c.w_depth * glm::dot(c.forward, point);
-    const double at_x = glm::dot(c.to_u, point) / w * c.size.x + c.corner.x - 0.5;
-    const double at_y = glm::dot(c.to_v, point) / w * c.size.y + c.corner.y - 0.5;
-    const Rect& window = normal[0].window;
-    const bool seen = w > 0 && at_x >= window.x0 && at_x <= window.x1 - 1 && at_y >= window.y0 &&
-                      at_y <= window.y1 - 1;
+    const double w = w_at.x + i * w_at.y;
+    const Vec2<double> place{(u_at.x + i * u_at.y) / w + left, (v_at.x + i * v_at.y) / w + top};
+    const bool seen = w > 0 && place.x >= 0 && place.x <= window.width() - 1 && place.y >= 0 &&
+                      place.y <= window.height() - 1;
     to.slope_x[i] = to.slope_y[i] = 0;
     if (!seen) continue;
-    const Vec2<double> place{at_x - window.x0, at_y - window.y0};
-    const Vec2<double> slope = slopes_of(
-        c, {grid_at(normal[0], place), grid_at(normal[1], place), grid_at(normal[2], place)});
+    const GridSpot spot(normal[0], place);
+    const Vec2<double> slope =
+        slopes_of(c, {spot.read(normal[0]), spot.read(normal[1]), spot.read(normal[2])});
     to.slope_x[i] = static_cast<float>(slope.x);
     to.slope_y[i] = static_cast<float>(slope.y);
   }

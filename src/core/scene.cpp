@@ -74,6 +74,7 @@ void Scene::validate() const {
     throw Error("part " + std::to_string(part.index) + " of " + std::to_string(part.count) +
                 " of a pixel, expected 0 ... count - 1");
   }
+  primaries.validate();
   if (!std::isfinite(time)) throw Error("time is not a finite number of seconds");
 }
 

@@ -22,6 +22,8 @@ constexpr const char* kReference = "reference";
 constexpr const char* kDifference = "difference";
 constexpr const char* kCells = "cells";
 
+constexpr const char* kPlain = "sRGB";
+
 constexpr double kMilliseconds = 1e3;
 
 ShownViews color_of(const Frame& frame) {
@@ -45,6 +47,16 @@ ShownViews cropped(ShownViews views, const Rect& to) {
   return views;
 }
 
+/// The view to begin with first, and plain sRGB last.
+std::vector<std::string> displays_of(const DisplayChoice& display) {
+  std::vector<std::string> all;
+  if (!display.config.empty()) all = display_views(display.config);
+  const auto first = std::find(all.begin(), all.end(), display.view);
+  if (first != all.end()) std::rotate(all.begin(), first, first + 1);
+  all.emplace_back(kPlain);
+  return all;
+}
+
 /// One text for one choice.
 std::string text_of(const DeskChoice& choice) {
   std::string text = choice.look;
@@ -65,6 +77,7 @@ struct Desk::Painted {
   Halving halving;
   Rect display;  ///< of the plate
   Rect window;   ///< that was computed
+  Primaries primaries = kRec709;
   const Canvas* canvas = nullptr;
   RunTimes times;
   double read_seconds = 0;
@@ -72,9 +85,19 @@ struct Desk::Painted {
 };
 
 Desk::Desk(DeskOptions options, Executor& executor)
-    : options_(std::move(options)), executor_(executor) {
+    : options_(std::move(options)), displays_(displays_of(options_.display)), executor_(executor) {
   const std::optional<int> first = facts().frame;
   if (options_.reference) reference(first);
+}
+
+DisplayTransform Desk::display_of(const PictureRequest& r, const Primaries& primaries) const {
+  const std::string& name = r.display.empty() ? displays_.front() : r.display;
+  if (std::find(displays_.begin(), displays_.end(), name) == displays_.end()) {
+    throw Error("display = '" + name + "': expected one of " + join(displays_) +
+                did_you_mean(name, displays_));
+  }
+  if (name == kPlain) return DisplayTransform({.exposure = r.exposure}, primaries);
+  return DisplayTransform({r.exposure, options_.display.config, name}, primaries);
 }
 
 std::string Desk::runner() const {
@@ -172,6 +195,7 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
   painted.halving = held.halving();
   painted.display = held.plate().display();
   painted.window = painted.frame.work();
+  painted.primaries = scene.primaries;
   painted.warnings = warnings_of(job, held.plate(), plan);
   if (!half) {
     warn_of_pixels(plan, painted.frame, scene, held.transparent(), painted.warnings);
@@ -217,21 +241,20 @@ ShownViews Desk::reference_beside(const Painted& painted, std::array<Plane, 3>& 
 
 Shown Desk::show(const PictureRequest& r, const Painted& painted) {
   const ShownViews wet = color_of(*painted.canvas);
-  if (r.show == kPicture) return shown_light(wet, r.exposure, executor_);
+  const DisplayTransform display = display_of(r, painted.primaries);
+  if (r.show == kPicture) return shown_light(wet, display, executor_);
   if (r.show == kDry) {
-    return shown_light(cropped(color_of(painted.frame), painted.window), r.exposure, executor_);
+    return shown_light(cropped(color_of(painted.frame), painted.window), display, executor_);
   }
-  if (r.show == kCells) {
-    return shown_cells(painted.canvas->survey(), wet, r.exposure, executor_);
-  }
+  if (r.show == kCells) return shown_cells(painted.canvas->survey(), wet, display, executor_);
   if (r.show == kReference || r.show == kDifference) {
     std::array<Plane, 3> halved;
     const ShownViews views = reference_beside(painted, halved);
-    return r.show == kReference ? shown_light(views, r.exposure, executor_)
+    return r.show == kReference ? shown_light(views, display, executor_)
                                 : shown_difference(wet, views, r.exposure, executor_);
   }
   const Aov aov = aov_named(r.show);
-  return shown_aov(aov, painted.canvas->target().of(aov), r.exposure, executor_);
+  return shown_aov(aov, painted.canvas->target().of(aov), display, executor_);
 }
 
 DeskPicture Desk::paint(const PictureRequest& request) {

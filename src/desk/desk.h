@@ -53,6 +53,10 @@ struct DeskOptions {
   std::vector<std::string> command = {};
   std::string range = {};  ///< of the frames, as `--frames` has it
 
+  /// How light is shown: a config of OpenColorIO, or none for sRGB, and the view of it to begin
+  /// with. The exposure is the request's.
+  DisplayChoice display = {};
+
   /// Frames are kept in memory until they take more: the last one always.
   std::int64_t most_bytes = std::int64_t{1} << 30;
 };
@@ -69,6 +73,7 @@ struct PictureRequest : DeskChoice {
   bool half = false;
   std::string show = "picture";  ///< of Desk::shows()
   double exposure = 0;           ///< stops, of light
+  std::string display = {};      ///< of Desk::displays(); "" for the first
 };
 
 struct DeskPicture {
@@ -101,14 +106,16 @@ struct NameTaken : Error {
 /// A plate that looks are tried on. Any threads may ask; they are served one at a time.
 class Desk {
  public:
-  /// Reads the first frame, so that what is wrong with plate, scene, look or reference is an Error
-  /// now. The executor must outlive it.
+  /// Reads the first frame, so that what is wrong with plate, scene, look, reference or display is
+  /// an Error now. The executor must outlive it.
   Desk(DeskOptions options, Executor& executor);
 
   const DeskOptions& options() const { return options_; }
   /// "fused avx2"
   std::string runner() const;
   std::vector<DeskShow> shows() const;
+  /// How light can be shown: the view to begin with, the others of the config, and sRGB.
+  const std::vector<std::string>& displays() const { return displays_; }
   struct Facts {
     Rect window;  ///< of the picture, in display coordinates
     std::optional<int> frame;
@@ -118,8 +125,9 @@ class Desk {
   };
   Facts facts();
 
-  /// The picture, or what is shown in its stead. Of the whole size, without exposure, the bytes are
-  /// those of `limpid composite --preview`. Throws Error for what is wrong with the request.
+  /// The picture, or what is shown in its stead. Of the whole size, the bytes are those of `limpid
+  /// composite --preview` with the same exposure and display. Throws Error for what is wrong with
+  /// the request.
   DeskPicture paint(const PictureRequest& request);
 
   /// Of a pixel, counted from the upper left of the picture at its whole size. Throws Error for one
@@ -146,11 +154,13 @@ class Desk {
   Painted run(const DeskChoice& choice, std::vector<Aov> aovs, bool half,
               std::optional<Canvas>& canvas);
   Shown show(const PictureRequest& request, const Painted& painted);
+  DisplayTransform display_of(const PictureRequest& request, const Primaries& primaries) const;
   const std::array<Plane, 3>& reference(std::optional<int> frame);
   /// The colors of the reference in the pixels that were painted, or what `halved` then holds.
   ShownViews reference_beside(const Painted& painted, std::array<Plane, 3>& halved);
 
   DeskOptions options_;
+  std::vector<std::string> displays_;
   Executor& executor_;
   std::mutex mutex_;
   struct Kept {

@@ -271,17 +271,19 @@ std::string desk_json(Desk& desk) {
                  {"set", settings_json(options.settings, facts.look)},
                  {"operators", operators_json()},
                  {"shows", std::move(shows)},
+                 {"displays", desk.displays()},
                  {"folder", std::filesystem::absolute(options.folder).string()},
                  {"warnings", facts.warnings}});
 }
 
 PictureRequest picture_request(std::string_view json) {
-  const Asked asked(json, {"half", "show", "exposure"});
+  const Asked asked(json, {"half", "show", "exposure", "display"});
   PictureRequest request;
   put_choice(asked, request);
   request.half = asked.flag("half");
   request.show = asked.text("show", "picture");
   request.exposure = asked.real("exposure", 0);
+  request.display = asked.text("display", "");
   return request;
 }
 
@@ -292,7 +294,7 @@ DeskChoice choice_request(std::string_view json) {
 }
 
 PixelRequest pixel_request(std::string_view json) {
-  const Asked asked(json, {"half", "show", "exposure", "x", "y"});
+  const Asked asked(json, {"half", "show", "exposure", "display", "x", "y"});
   PixelRequest request;
   put_choice(asked, request);
   request.x = asked.count("x");

@@ -4,6 +4,7 @@
 #include <new>
 #include <vector>
 
+#define XXH_INLINE_ALL  // hosts in memory need no library for it
 #include <xxhash.h>
 
 namespace limpid {

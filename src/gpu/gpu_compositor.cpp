@@ -116,6 +116,7 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
   std::optional<Plan> plan;
   PlaneSet planned_for;
   bool planned_sun = false, planned_waves = false;
+  Primaries planned_primaries = kRec709;
   std::vector<std::string> left_out;
   bool recorded = false;  ///< a frame, with this plan
   std::vector<Slot> slots;
@@ -125,15 +126,16 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
 
 void GpuCompositor::State::make_plan(const Frame& windows, const Scene& scene) {
   const bool sun = scene.sun.has_value(), waves = scene.has_waves();
-  const bool same =
-      planned_for == windows.present() && planned_sun == sun && planned_waves == waves;
+  const bool same = planned_for == windows.present() && planned_sun == sun &&
+                    planned_waves == waves && planned_primaries == scene.primaries;
   if (plan && same) return;
   plan.reset();
   Plan made = limpid::make_plan(look, {.planes = windows.present(),
                                        .wave_map = static_cast<bool>(textures.wave_map),
                                        .sun = sun,
                                        .environment = static_cast<bool>(textures.environment),
-                                       .waves = waves});
+                                       .waves = waves,
+                                       .primaries = scene.primaries});
   left_out = Completer::made_of_pixels(made);
   if (!left_out.empty() && !options.leave_out) {
     throw Error("the look " + look.name + " needs steps with pixels in CPU memory, which " +
@@ -142,6 +144,7 @@ void GpuCompositor::State::make_plan(const Frame& windows, const Scene& scene) {
   }
   plan = std::move(made);
   planned_for = windows.present(), planned_sun = sun, planned_waves = waves;
+  planned_primaries = scene.primaries;
 }
 
 /// Pipeline, textures and bindings for the program.
@@ -250,6 +253,7 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
   const Frame frame = s.completer.complete_windows(
       *s.plan, windows, pass_of(*s.plan, host.scene, windows), *s.executor, s.options.simd);
   Pass pass = pass_of(*s.plan, host.scene, frame);
+  pass.plate_waves = s.completer.plate_waves();
   if (!s.plan->reads_environment) pass.environment = {};
   ShaderOptions options;
   options.stage = ShaderOptions::Stage::kCompute;
@@ -262,7 +266,7 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
                 std::to_string(work.x0) + ", " + std::to_string(work.y0) + "), and has all " +
                 std::to_string(work.width()) + "x" + std::to_string(work.height()));
   }
-  const ShaderProgram program = program_of(*s.plan, windows, frame, pass, options);
+  const ShaderProgram program = program_of(*s.plan, windows, frame, pass, options, Gathered::kMade);
   const GpuImageView& color = host.planes.at(PlaneId::kColorR);
   const bool in_place = color.view == picture.view || (color.image && color.image == picture.image);
   GpuFrame seen = host;

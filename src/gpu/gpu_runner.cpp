@@ -133,10 +133,11 @@ void GpuRunner::run(const Plan& plan, const Frame& plate, const Scene& scene, co
   const Frame frame =
       k.completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &k.options.simd);
   Pass pass = pass_of(plan, scene, frame);
+  pass.plate_waves = k.completer.plate_waves();
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
   ShaderOptions options = compute_shader(aovs_of(target));
   options.most_threads = k.device->most_threads();
-  const ShaderProgram program = program_of(plan, plate, frame, pass, options);
+  const ShaderProgram program = program_of(plan, plate, frame, pass, options, Gathered::kAll);
   k.fit(program);
   k.fill(program, executor);
   k.compute(program);

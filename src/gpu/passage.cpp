@@ -18,18 +18,21 @@ VkBufferImageCopy whole(const GpuImage& image) {
 }
 
 std::size_t bytes_of(Passage::Storage storage) {
-  return std::size_t{1} << static_cast<int>(storage);
+  constexpr std::size_t kBytes[] = {1, 2, 4, 4};
+  return kBytes[static_cast<int>(storage)];
 }
 
 VkFormat format_of(Passage::Storage storage, int channels) {
   constexpr VkFormat kFormats[][2] = {{VK_FORMAT_R8_UNORM, VK_FORMAT_R8G8B8A8_UNORM},
                                       {VK_FORMAT_R16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT},
-                                      {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}};
+                                      {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
+                                      {VK_FORMAT_R32_UINT, VK_FORMAT_UNDEFINED}};
   return kFormats[static_cast<int>(storage)][channels == 1 ? 0 : 1];
 }
 
 /// Devices turn bytes into floats to rounding: not for planes, whose dry pixels stay as they are.
 Passage::Storage narrowest(const ProgramTexture& texture) {
+  if (texture.pack) return Passage::Storage::kBits;
   switch (texture.source) {
     case ShaderTexture::Source::kPlanes:
       return Passage::Storage::kHalf;
@@ -77,7 +80,8 @@ void Passage::fill(const std::shared_ptr<GpuDevice>& device, const ProgramTextur
                    Executor& executor) {
   static const HalfTarget& halves = half_target("");
   const Size size{texture.width, texture.height};
-  const bool known = image.size() == size && step == (texture.channels == 1 ? 1 : 4);
+  const bool known = image.size() == size && step == (texture.channels == 1 ? 1 : 4) &&
+                     (storage == Storage::kBits) == static_cast<bool>(texture.pack);
   Storage tried = known ? storage : narrowest(texture);
   for (;; tried = static_cast<Storage>(static_cast<int>(tried) + 1)) {
     fit(device, size, texture.channels, tried,
@@ -88,7 +92,9 @@ void Passage::fill(const std::shared_ptr<GpuDevice>& device, const ProgramTextur
     std::atomic<bool> exact = true;
     each_row(executor, {0, 0, texture.width, texture.height}, [&](int y) {
       std::byte* to = buffer.bytes() + row_bytes * y;
-      if (tried == Storage::kFloat) {
+      if (tried == Storage::kBits) {
+        texture.pack(y, reinterpret_cast<std::uint32_t*>(to));
+      } else if (tried == Storage::kFloat) {
         texture.fill(y, reinterpret_cast<float*>(to), step);
       } else if (exact) {
         thread_local std::vector<float> floats;

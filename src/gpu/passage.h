@@ -11,8 +11,8 @@ namespace limpid {
 
 /// A picture on the device, and the memory through which it comes or goes.
 struct Passage {
-  /// How a channel is stored.
-  enum class Storage { kByte, kHalf, kFloat };
+  /// How a channel is stored; bits: 32 of them for a whole texel.
+  enum class Storage { kByte, kHalf, kFloat, kBits };
 
   GpuImage image;
   GpuBuffer buffer;

@@ -141,7 +141,9 @@ void GpuPipeline::make_layout(const ShaderProgram& program) {
   layout.setLayoutCount = 1;
   layout.pSetLayouts = &set_layout_;
   expect(vk.vkCreatePipelineLayout(d, &layout, nullptr, &layout_), "vkCreatePipelineLayout");
-  const auto sampler = vulkan_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+  auto sampler = vulkan_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+  sampler.addressModeU = sampler.addressModeV = sampler.addressModeW =
+      VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   expect(vk.vkCreateSampler(d, &sampler, nullptr, &sampler_), "vkCreateSampler");
 }
 

@@ -110,9 +110,12 @@ void expect_writable(const OutputChoice& choice) {
   if (!choice.deep.empty()) expect_writable(choice.deep);
   if (!choice.preview.empty()) expect_preview_writable(choice.preview);
   if (!choice.contact_sheet.empty()) expect_preview_writable(choice.contact_sheet);
+  if (choice.shows()) expect_display(choice.display);
 }
 
 void expect_writable(const std::filesystem::path& file) { expect_replaceable(file); }
+
+void expect_display(const DisplayChoice& display) { DisplayTransform{display}; }
 
 void expect_preview_writable(const std::filesystem::path& file) {
   expect_writable(file);
@@ -268,13 +271,16 @@ void Canvas::write(ExrOutput described, const OutputChoice& choice) const {
 void write_frame(std::vector<WrittenView> views, const OutputChoice& choice) {
   const WrittenView& first = views.front();
   AtomicFiles files;
+  DisplayTransform display;
+  if (choice.shows()) display = DisplayTransform(choice.display, first.primaries);
   if (!choice.preview.empty()) {
     const Rect shown = intersection(first.canvas->window(), first.described.display);
     const auto color = [&](int i) { return cropped(first.canvas->target().color[i], shown); };
-    write_preview(files, choice.preview, color(0), color(1), color(2), 0, first.described.text);
+    write_preview(files, choice.preview, {color(0), color(1), color(2)}, display,
+                  first.described.text);
   }
   if (!choice.contact_sheet.empty()) {
-    const Shown sheet = sheet_of(*first.canvas, first.described.display);
+    const Shown sheet = sheet_of(*first.canvas, first.described.display, display);
     write_shown(files, choice.contact_sheet, sheet, first.described.text);
   }
   if (!choice.deep.empty()) {

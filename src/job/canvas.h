@@ -20,10 +20,12 @@ namespace limpid {
 std::vector<Aov> computed_aovs(const OutputChoice& choice);
 
 /// Throws the Error that writing would end with, before the work is done: for a folder that is not
-/// there or cannot be written to, for AOVs that are named twice, and for samples that cannot be.
+/// there or cannot be written to, for AOVs that are named twice, for samples that cannot be, and
+/// for a display that is not there.
 void expect_writable(const OutputChoice& choice);
 void expect_writable(const std::filesystem::path& file);
 void expect_preview_writable(const std::filesystem::path& file);
+void expect_display(const DisplayChoice& display);
 
 /// The picture and the wanted AOVs in memory, with their names in the file.
 class Canvas {
@@ -86,6 +88,7 @@ struct WrittenView {
   ExrOutput described;                 ///< windows, attributes, channels besides the canvas's
   std::vector<ExrOutput> others = {};  ///< parts beside the picture's
   std::string view = {};               ///< its name, if there are several
+  Primaries primaries = kRec709;       ///< of its light
 };
 
 /// Writes preview and deep file, of the first view, and the picture, of all; the preview gets the

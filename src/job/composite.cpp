@@ -84,7 +84,8 @@ class CompositeKind {
         written.back().view = names_[i];
       }
       const WrittenView& first = written.front();
-      report_.preview = preview_pixels(*first.canvas, first.described.display, job.output);
+      report_.preview =
+          preview_pixels(*first.canvas, first.described.display, job.output, first.primaries);
       write_frame(std::move(written), job.output);
       for (CompositeView& view : views_) view.forget();
     }
@@ -130,7 +131,8 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   if (gpu) {
     if (!plan.reads_environment) whole.environment = {};
     const ShaderProgram program =
-        program_of(plan, loaded.frame, frame, whole, compute_shader(computed_aovs(job.output)));
+        program_of(plan, loaded.frame, frame, whole, compute_shader(computed_aovs(job.output)),
+                   Gathered::kAll);
     surveyed.gpu = gpu_load_text(plan, program);
   }
   surveyed.beyond = beyond_of(plan, frame, scene);

@@ -1,6 +1,8 @@
 #include "job/composite_inputs.h"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "limpid/core/error.h"
 
@@ -10,6 +12,32 @@
 #include "plan/leave_out.h"
 
 namespace limpid {
+namespace {
+
+/// What the job says of the working space, on the command line or in the scene.
+std::optional<Primaries> named_primaries(const CompositeJob& job) {
+  return job.primaries ? job.primaries : job.scene.primaries;
+}
+
+Primaries primaries_of(const CompositeJob& job, const Plate& plate) {
+  const auto named = named_primaries(job);
+  return named ? *named : plate.primaries().value_or(kRec709);
+}
+
+/// Of chromaticities that are none nobody need know where others are named.
+std::string contradiction(const Primaries& named, const Plate& plate) {
+  std::string told;
+  try {
+    const auto primaries = plate.primaries();
+    if (!primaries || agree(*primaries, named)) return "";
+    told = to_string(*primaries);
+  } catch (const Error&) {
+    return "";
+  }
+  return "the colorspace is named " + to_string(named) + ", and the plate says that it is " + told;
+}
+
+}  // namespace
 
 Scene scene_of(const CompositeJob& job, const Plate& plate) {
   const SceneFile carried = plate.scene();
@@ -28,6 +56,7 @@ Scene scene_of(const CompositeJob& job, const Plate& plate) {
   if (!scene.water) {
     throw Error("no water plane found: expected a scene with [water] up and height");
   }
+  scene.primaries = primaries_of(job, plate);
   scene.time =
       job.time.of(job.scene, plate.has_scene() ? std::optional(carried.scene.time) : std::nullopt);
   return scene;
@@ -58,14 +87,19 @@ Plan plan_of(const CompositeJob& job, const Plate& plate, const Scene& scene,
                             .wave_map = !job.look.of<WaveNormals>().map.empty(),
                             .sun = scene.sun.has_value(),
                             .environment = has_environment(job.scene),
-                            .waves = scene.has_waves()},
+                            .waves = scene.has_waves(),
+                            .primaries = scene.primaries},
                            state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
 
 std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate,
                                      const Plan& plan) {
-  std::vector<std::string> warnings = plate.warnings();
-  warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
+  std::vector<std::string> warnings = plan.warnings;
+  if (const auto named = named_primaries(job)) {
+    if (std::string text = contradiction(*named, plate); !text.empty()) {
+      warnings.push_back(std::move(text));
+    }
+  }
   const auto unread = [&](const std::string& what) {
     warnings.push_back(what + " is named, and no running operator of the look " + job.look.name +
                        " reads it");

@@ -7,6 +7,7 @@
 #include "core/toml_text.h"
 #include "job/pass_through.h"
 #include "job/picture_warnings.h"
+#include "plate/primaries.h"
 
 namespace limpid {
 namespace {
@@ -84,6 +85,7 @@ void CompositeView::read(const CompositeJob& job, PreparedView view, SharedTextu
   file_.display = plate.display();
   file_.pixel_aspect = plate.pixel_aspect();
   file_.inherited = plate.attributes();
+  tell_primaries(file_.inherited, scene_.primaries);
   file_.matrices = camera_attributes(*scene_.camera);
   file_.compression = job.output.compression;
   file_.name = plate.part_name().empty() ? kPicturePart : plate.part_name();
@@ -107,7 +109,7 @@ void CompositeView::run(const CompositeJob& job, const Plan& plan, Executor& exe
 
 WrittenView CompositeView::written(Record record) {
   file_.text = std::move(record);
-  return {&*canvas_, file_, others_};
+  return {&*canvas_, file_, others_, {}, scene_.primaries};
 }
 
 void CompositeView::forget() {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -151,6 +152,31 @@ void warn_of_sun(const Plan& plan, const Frame& frame, const Pass& c,
                      "the disc, or sun_highlight.strength = 0");
 }
 
+/// A low sun that is out of the picture, though its glint would be in it: nothing that the picture
+/// shows stands before it.
+void warn_of_glint(const Plan& plan, const Frame& frame, const Pass& c,
+                   std::vector<std::string>& warnings) {
+  const SunHighlight::Params& glint = plan.look.of<SunHighlight>();
+  const bool searches = glint.model == SunHighlight::Model::kSlopes && glint.strength != 0;
+  if (!plan.keeps<SunHighlight>() || !searches || frame.plane(PlaneId::kSurfaceShadow)) return;
+  constexpr double kLow = 20 * std::numbers::pi / 180;
+  const double rise = std::asin(std::clamp(glm::dot(c.sun.direction, c.up), -1.0, 1.0));
+  if (!(rise > 0 && rise < kLow)) return;
+  const auto place_of = [&](const glm::dvec3& direction) {
+    const double w = c.w_depth * glm::dot(c.forward, direction);
+    return w > 0 ? glm::dvec2(glm::dot(c.to_u, direction), glm::dot(c.to_v, direction)) / w
+                 : glm::dvec2(HUGE_VAL);
+  };
+  const auto within = [](double x) { return x >= 0 && x <= 1; };
+  const glm::dvec2 sun = place_of(c.sun.direction);
+  const glm::dvec2 image = place_of(c.sun.direction - 2 * std::sin(rise) * c.up);
+  if (!within(image.x) || (within(sun.x) && within(sun.y))) return;
+  warnings.push_back("the sun stands " +
+                     std::to_string(std::lround(rise * 180 / std::numbers::pi)) +
+                     " degrees high and out of the picture: what may hide it from the water is not "
+                     "seen, and its glint may be too strong; expected a surface_shadow");
+}
+
 void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
                    std::vector<std::string>& warnings) {
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
@@ -243,6 +269,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_depth(frame, warnings);
   warn_of_glass(frame, warnings);
   warn_of_sun(plan, frame, pass, warnings);
+  warn_of_glint(plan, frame, pass, warnings);
   warn_of_scale(plan, frame, pass, warnings);
   warn_of_light(plan, frame, pass, warnings);
 }

@@ -18,6 +18,8 @@ namespace limpid {
 /// - Part of the picture has an alpha between 0 and 1 and a depth, as glass has: it counts as
 /// opaque.
 /// - The reflection shows the sun's disc, which the highlight adds, too.
+/// - Nothing tells of what hides a sun below 20 degrees that is out of the picture, and its glint
+/// is in it.
 /// - A period of the tiling waves is smaller than two of the nearest water's pixels, or so large
 ///   that the whole picture shows a hundredth of it; or waves are higher than the camera.
 /// - Of caustics by the frame's own normals: the light of a tenth of the bottom or more enters

@@ -141,6 +141,19 @@ std::string texture_inputs(const TextureFiles& files, SharedTextures& textures) 
   return text;
 }
 
+/// Nothing of the usual one. A config is known by its contents, or where it is no file, as
+/// OpenColorIO's own are not, by its name.
+std::string display_options(const DisplayChoice& display) {
+  std::string text;
+  if (display.exposure != 0) text += line("exposure", toml_text(display.exposure));
+  if (display.config.empty()) return text;
+  std::error_code ignored;
+  const bool file = std::filesystem::is_regular_file(display.config, ignored);
+  return text +
+         line("ocio", toml_text(file ? hash_of_file(display.config) : display.config.string())) +
+         line("view", toml_text(display.view));
+}
+
 std::string picture_options(const OutputChoice& choice, const std::string& gpu) {
   const bool lanes = choice.runner != Runner::kReference;
   return line("runner", toml_text(std::string(runner_name(choice.runner)))) +
@@ -150,7 +163,7 @@ std::string picture_options(const OutputChoice& choice, const std::string& gpu) 
          (choice.wave_samples > 1 ? line("wave_samples", std::to_string(choice.wave_samples))
                                   : "") +
          (choice.overscan > 0 ? line("overscan", std::to_string(choice.overscan)) : "") +
-         aovs_line(choice.aovs) +
+         aovs_line(choice.aovs) + (choice.shows() ? display_options(choice.display) : "") +
          (choice.aov_names != AovNames::kLimpid
               ? line("aov_names", toml_text(std::string(aov_names_name(choice.aov_names))))
               : "") +

@@ -46,6 +46,7 @@ std::string line(std::string_view key, const std::string& value);
 std::string aovs_line(const std::vector<Aov>& aovs, bool visible = false);
 
 /// Parts of `options`.
+std::string display_options(const DisplayChoice& display);
 std::string picture_options(const OutputChoice& choice, const std::string& gpu);
 std::string raster_options(const std::string& simd);
 std::string file_options(const std::string& compression, bool store_float);

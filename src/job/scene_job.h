@@ -1,4 +1,5 @@
 #pragma once
+#include "limpid/core/error.h"
 #include "limpid/job/water.h"
 
 namespace limpid {
@@ -8,6 +9,10 @@ inline Scene scene_of(const Model& model, const SceneJob& job, Size size) {
   Scene scene = job.scene.scene;
   if (job.scene.camera) scene.camera = camera_for(*job.scene.camera, size);
   scene.time = job.time.of(job.scene);
+  if (const auto& named = job.scene.primaries; named && !agree(*named, kRec709)) {
+    throw Error("scene.colorspace = " + to_string(*named) +
+                ": expected Rec.709, which the colors of a glTF scene are of");
+  }
   return scene_of_model(scene, model, size);
 }
 

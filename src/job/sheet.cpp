@@ -45,9 +45,9 @@ class Smaller {
   Rect window_;
 };
 
-Shown shown_color(const Smaller& smaller, Executor& executor) {
+Shown shown_color(const Smaller& smaller, const DisplayTransform& light, Executor& executor) {
   const std::array<View<float>, 3> color = smaller.color();
-  return shown_light({color[0], color[1], color[2]}, 0, executor);
+  return shown_light({color[0], color[1], color[2]}, light, executor);
 }
 
 std::string label_of(const std::string& name, const Shown& shown) {
@@ -60,27 +60,27 @@ std::string label_of(const std::string& name, const Shown& shown) {
 
 }  // namespace
 
-Shown sheet_of(const Canvas& canvas, const Rect& display) {
+Shown sheet_of(const Canvas& canvas, const Rect& display, const DisplayTransform& light) {
   OutputChoice all;
   all.contact_sheet = "all";  // so that all of them are there
   const Smaller smaller(canvas, display, kMostAcross, all);
   const auto executor = make_executor(1);  // of small pictures
-  std::vector<SheetCell> cells{{"picture", shown_color(smaller, *executor)}};
+  std::vector<SheetCell> cells{{"picture", shown_color(smaller, light, *executor)}};
   for (const AovInfo& info : aovs()) {
     const Aov aov = aov_named(info.name);
-    Shown shown = shown_aov(aov, smaller.of(aov), 0, *executor);
+    Shown shown = shown_aov(aov, smaller.of(aov), light, *executor);
     std::string label = label_of(std::string(info.name), shown);
     cells.push_back({std::move(label), std::move(shown)});
   }
   return contact_sheet(cells);
 }
 
-PreviewPixels preview_pixels(const Canvas& canvas, const Rect& display,
-                             const OutputChoice& choice) {
+PreviewPixels preview_pixels(const Canvas& canvas, const Rect& display, const OutputChoice& choice,
+                             const Primaries& primaries) {
   if (choice.preview_across <= 0) return {};
   const Smaller smaller(canvas, display, choice.preview_across, {});
   const auto executor = make_executor(1);
-  const Shown shown = shown_color(smaller, *executor);
+  const Shown shown = shown_color(smaller, DisplayTransform(choice.display, primaries), *executor);
   return {shown.size, rgb_of(shown)};
 }
 

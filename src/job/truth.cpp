@@ -68,6 +68,7 @@ std::string options_text(const TruthJob& job) {
                     line("photons", std::to_string(job.photons))
               : line("light", toml_text(std::string("once")))) +
          line("seed", std::to_string(job.seed)) + aovs_line(job.output.aovs, job.output.visible) +
+         (job.output.preview.empty() ? "" : display_options(job.output.display)) +
          file_options(job.output.compression, job.output.store_float);
 }
 
@@ -120,7 +121,9 @@ class TruthKind {
   }
   static void expect_writable(const TruthJob& job) {
     limpid::expect_writable(job.output.picture);
-    if (!job.output.preview.empty()) expect_preview_writable(job.output.preview);
+    if (job.output.preview.empty()) return;
+    expect_preview_writable(job.output.preview);
+    expect_display(job.output.display);
   }
 
   class Frame {
@@ -156,7 +159,8 @@ class TruthKind {
       AtomicFiles files;
       if (!job.output.preview.empty()) {
         const auto& c = picture_.target.color;
-        write_preview(files, job.output.preview, c[0], c[1], c[2], 0, file.text);
+        write_preview(files, job.output.preview, {c[0], c[1], c[2]},
+                      DisplayTransform(job.output.display), file.text);
       }
       write_exr(files, job.output.picture, file);
       files.commit();

@@ -19,6 +19,7 @@ struct TruthOutput {
   bool visible = false;           ///< as visible.R ... visible_below.B
   std::filesystem::path picture;  ///< EXR
   std::filesystem::path preview;  ///< PNG, or empty for none
+  DisplayChoice display = {};     ///< of the preview
   std::string compression = "piz";
   bool store_float = false;  ///< half otherwise; depths, paths and maps are float always
 };

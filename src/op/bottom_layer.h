@@ -1,6 +1,7 @@
 #pragma once
 #include "op/pass.h"
 #include "op/pixel.h"
+#include "op/screen_ray.h"
 
 /// @file
 /// The bottom where nobody rendered it: behind what stands in the water, or before it.
@@ -37,9 +38,25 @@ class BottomLayerTaps {
     const Rgb<F> there = tap_.lat_long_rgb(layer_.shape, place(shift));
     return {there.r, there.b};
   }
+  /// Shape::drop alone, which takes a third of the lookups.
+  F bottom(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.shape, place(shift)).r; }
   /// Whether what is seen at `shift`, `drop` below the calm surface, is of the bottom.
   auto is_bottom(Vec2<F> shift, F drop) const {
-    return drop >= F(BottomLayer::kOfBottom) * shape(shift).drop;
+    return drop >= F(BottomLayer::kOfBottom) * bottom(shift);
+  }
+  /// Whether bottom is seen on the screen between the pixel and `shift`: what stands at the one is
+  /// no part of what stands at the other, as the sides of a hull are of its inside. `depth` is the
+  /// plane.
+  auto is_apart(const Pass& c, PlaneId depth, Vec2<F> shift) const {
+    constexpr int kPlaces = 8;
+    F apart(0);
+    steps<F>(1, kPlaces, [&](auto i) {
+      const Vec2<F> at = Loop<F>::ratio(i, kPlaces) * shift;
+      const F drop = F(0) - height_at(c, p_, at, tap_.nearest(depth, at));
+      apart = select(is_bottom(at, drop), F(1), apart);
+      return apart < F(0.5);
+    });
+    return apart > F(0.5);
   }
   Rgb<F> color(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.colors, place(shift)); }
 

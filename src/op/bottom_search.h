@@ -1,5 +1,6 @@
 #pragma once
 #include "op/bottom_layer.h"
+#include "op/halve.h"
 #include "op/pass.h"
 #include "op/pixel.h"
 #include "op/screen_ray.h"
@@ -108,26 +109,31 @@ class BottomSearch {
     if (c_.heights.known) {
       expected_ = static_cast<int>(kSteps * least(select(wet, after, F(1))));
     }
-    after = edge_between(before, after, most);
-    const F met = ray_.at_share(after, most);
-    // The bisection may have gone to the edge of what hides the bottom.
-    const F at_edge = past(look(met), F(2));
     const auto meets = found > F(0.5);
-    const auto seen = meets && hidden < F(0.5) && at_edge < F(0.5);
-    // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
-    // or so away.
-    const F smooth = to_level(met);
-    const F texel = F(1.5) / pixels;
-    F way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
+    F way = F(0), sure = F(0);
+    if_any(meets, [&] {
+      after = edge_between(before, after, most);
+      const F met = ray_.at_share(after, most);
+      // The bisection may have gone to the edge of what hides the bottom.
+      const F at_edge = past(look(met), F(2));
+      sure = select(meets && hidden < F(0.5) && at_edge < F(0.5), F(1), F(0));
+      // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
+      // or so away.
+      const F smooth = to_level(met);
+      const F texel = F(1.5) / pixels;
+      way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
                 ray_.at_share(min(after + texel, F(1)), most));
-    if_any(wet && !seen, [&] {
-      const F guess = iterate(kGuesses).way;
-      const auto hides = wet && !seen && (meets || hidden > F(0.5));
-      F unseen = guess;
-      if_any(hides, [&] { unseen = select(hides, end_behind(guess, most), guess); });
-      way = select(seen, way, unseen);
     });
-    return {select(way < F(1e20), way, F(HUGE_VAL)), select(seen, F(1), F(0))};
+    const auto unseen = wet && sure < F(0.5);
+    if_any(unseen, [&] {
+      const auto hides = unseen && (meets || hidden > F(0.5));
+      const auto known = hides && (c_.bottom_layer ? p_.side > F(0) : F(0) > F(0));
+      F ends = F(0);
+      if_any(unseen && !known, [&] { ends = iterate(kGuesses).way; });
+      if_any(known, [&] { ends = select(known, end_behind(known, most), ends); });
+      way = select(unseen, ends, way);
+    });
+    return {select(way < F(1e20), way, F(HUGE_VAL)), sure};
   }
 
  private:
@@ -225,18 +231,19 @@ class BottomSearch {
   /// Whether the ray runs before a bottom that is seen.
   LIMPID_INLINE static auto is_free(const Sight& at) { return at.behind < F(0) && at.drop > F(0); }
 
-  /// Where the ray meets the bottom that goes on behind what hides it, up to `most`, and beyond
-  /// that its level there; `guess` where no such bottom is known. Equal steps on screen, then by
+  /// Where the rays of `lanes` meet the bottom of Pass::bottom_layer, which goes on behind what
+  /// hides it, up to `most`, and beyond that its level there. Equal steps on screen, then by
   /// secants.
-  [[gnu::noinline]] F end_behind(F guess, F most) const {
-    if (!c_.bottom_layer) return guess;
+  template <class Lanes>
+  [[gnu::noinline]] F end_behind(Lanes lanes, F most) const {
     const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
     // How far the bottom lies below the ray.
     const auto room = [&](F way) {
-      return surface_height() + layer.shape(ray_.shift_at(way)).drop - way * fall_;
+      return surface_height() + layer.bottom(ray_.shift_at(way)) - way * fall_;
     };
     const F end = min(most, given<F>(c_.bottom_layer->most_drop) / fall_);
-    F before = F(0), after = end, room_before = room(F(0)), room_after = F(0), found = F(0);
+    F before = F(0), after = end, room_before = room(F(0)), room_after = F(0);
+    F found = select(lanes, F(0), F(1));
     steps<F>(1, kStepsBehind + 1, [&](auto i) {
       const F way = ray_.at_share(Loop<F>::ratio(i, kStepsBehind), end);
       const F here = room(way);
@@ -262,23 +269,30 @@ class BottomSearch {
     });
     const F level = max(end + room_after / fall_, F(0));
     const F way = select(found > F(0.5), met, level);
-    // What stands in the water may hide itself: its level goes on.
+    const F behind = max(way, F(0));
+    // What stands in the water may hide itself: its level goes on. What is above the water just
+    // beyond, and apart from it, hides others.
     const Vec2<F> here{F(0), F(0)};
     const auto stands = !layer.is_bottom(here, F(0) - height_at(c_, p_, here, p_.dry_depth));
-    const F ends = select(stands, drop_to(here, p_.dry_depth) / fall_, max(way, F(0)));
-    return select(p_.side > F(0), ends, guess);
+    F ends = behind;
+    if_any(lanes && stands, [&] {
+      const F beyond = F(1.05) * behind;
+      const auto itself =
+          look(beyond).drop > F(0) || !layer.is_apart(c_, planes_.depth, ray_.shift_at(beyond));
+      ends = select(stands && itself, drop_to(here, p_.dry_depth) / fall_, behind);
+    });
+    return ends;
   }
 
   /// Where the ray passes behind what is seen, between two shares of its way on screen, the later
   /// of which is behind.
-  LIMPID_INLINE F edge_between(F before, F after, F most) const {
-    repeat<F>(6, [&] {
-      const F t = F(0.5) * (before + after);
-      const auto hit = look(ray_.at_share(t, most)).behind >= F(0);
-      after = select(hit, t, after);
-      before = select(hit, before, t);
-    });
-    return after;
+  [[gnu::noinline]] F edge_between(F before, F after, F most) const {
+    return halve<F>(
+               {before, after}, 6,
+               [&](F t) __attribute__((always_inline)) {
+                 return look(ray_.at_share(t, most)).behind >= F(0);
+               })
+        .high;
   }
 
   /// 1 where what is seen lies far before the ray: it hides the bottom, it is not hit. A slope is

@@ -168,6 +168,8 @@ struct Kernel;
 ///     std::string_view warning(const Params&, const AtHand&);
 ///     // Planes that are made for it where the plate lacks them (plan/completers.h).
 ///     PlaneSet wants(const Params&, const AtHand&);
+///     // Makes what of its parameters depends on the working space. Default: nothing does.
+///     void work_in(const Primaries&, Params&);
 ///     // Whether its light comes from the sky, too.
 ///     bool lit_by_sky(const Params&);
 ///     // The waves that raise the water, if that is its affair: they live as long as the

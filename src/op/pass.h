@@ -8,6 +8,7 @@
 
 #include "core/water_view.h"
 #include "op/height_bound.h"
+#include "op/plate_waves.h"
 
 namespace limpid {
 
@@ -53,6 +54,7 @@ struct Pass : WaterView {
   HeightBound heights = {};
   RangeBound mirrored = {};          ///< likewise, of what the mirror marches over and may hit
   RangeBound lit = {};               ///< likewise, of the shadow on the surface
+  PlateWaves plate_waves = {};       ///< of the frame's own surface, where a runner has made it
   const Continuation* continuation;  ///< of the bottom beyond the picture, or null
   const BottomLayer* bottom_layer;   ///< of the bottom behind what stands before it, or null
   const CausticsTable* caustics;     ///< null where nobody has made it: it is not known

@@ -104,19 +104,31 @@ inline Rgb<double> lat_long_rgb_at(const Texture& texture, Vec2<double> place) {
           lat_long_at(texture.channels[2], place)};
 }
 
-/// In a table that ends at its edges; texels from the centre of the first one.
+/// Where bilinear filtering looks in a table that ends at its edges; `at` in texels from the centre
+/// of the first one. For any table of that size.
+struct GridSpot {
+  int x0, y0, x1, y1;
+  double u, v;
+
+  GridSpot(const View<const float>& table, Vec2<double> at) {
+    const int width = table.window.width(), height = table.window.height();
+    const double x = min(max(at.x, 0.0), double(width - 1));
+    const double y = min(max(at.y, 0.0), double(height - 1));
+    x0 = std::min(static_cast<int>(x), std::max(width - 2, 0));
+    y0 = std::min(static_cast<int>(y), std::max(height - 2, 0));
+    x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
+    u = x - x0, v = y - y0;
+  }
+  double read(const View<const float>& table) const {
+    const auto texel = [&](int i, int j) -> double {
+      return table.at(table.window.x0 + i, table.window.y0 + j);
+    };
+    return lerp(lerp(texel(x0, y0), texel(x1, y0), u), lerp(texel(x0, y1), texel(x1, y1), u), v);
+  }
+};
+
 inline double grid_at(const View<const float>& table, Vec2<double> at) {
-  const int width = table.window.width(), height = table.window.height();
-  const double x = min(max(at.x, 0.0), double(width - 1));
-  const double y = min(max(at.y, 0.0), double(height - 1));
-  const int x0 = std::min(static_cast<int>(x), std::max(width - 2, 0));
-  const int y0 = std::min(static_cast<int>(y), std::max(height - 2, 0));
-  const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
-  const auto texel = [&](int i, int j) -> double {
-    return table.at(table.window.x0 + i, table.window.y0 + j);
-  };
-  const double u = x - x0, v = y - y0;
-  return lerp(lerp(texel(x0, y0), texel(x1, y0), u), lerp(texel(x0, y1), texel(x1, y1), u), v);
+  return GridSpot(table, at).read(table);
 }
 
 }  // namespace limpid

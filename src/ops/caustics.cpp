@@ -56,8 +56,10 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   return light;
 }
 
-/// Of what comes from below the fog leaves a share.
-double Kernel<Caustics>::bound(const P& params, const Pass&, const Ranges& ranges) {
+/// Of what comes from below the fog leaves a share. What the surface mirrors of the bottom is lit
+/// by the same light, and nobody has looked at it.
+double Kernel<Caustics>::bound(const P& params, const Pass& c, const Ranges& ranges) {
+  if (c.eye_above < 0 && c.planes.covers(kReflectionPlanes)) return HUGE_VAL;
   return displaced(params, ranges);
 }
 

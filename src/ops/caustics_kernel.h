@@ -45,6 +45,17 @@ struct Kernel<Caustics> : Caustics {
     return p.shadows == Shadows::kRefracted ? 34 : 22;
   }
 
+  struct Light {
+    std::array<double, 3> sun, even;  ///< on a level bottom, but for a common factor
+    double rise, sine;                ///< of the angle between the sun and the level, the vertical
+    Vec2<double> level;               ///< the direction to the sun along map_x and map_y
+    bool known, moves;                ///< frames say what the sun's light is, and where it enters
+    std::array<double, 3> around;     ///< share of the light of sunlit bottoms, where that is known
+  };
+  static Light light_of(const Params& params, const Pass& c);
+  /// The depths at two places of which one counts as hidden by the other.
+  static constexpr double kSameDepth = 0.98;
+
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
@@ -156,16 +167,6 @@ struct Kernel<Caustics> : Caustics {
   }
 
  private:
-  struct Light {
-    std::array<double, 3> sun, even;  ///< on a level bottom, but for a common factor
-    double rise, sine;                ///< of the angle between the sun and the level, the vertical
-    Vec2<double> level;               ///< the direction to the sun along map_x and map_y
-    bool known, moves;                ///< frames say what the sun's light is, and where it enters
-    std::array<double, 3> around;     ///< share of the light of sunlit bottoms, where that is known
-  };
-  static Light light_of(const Params& params, const Pass& c);
-  static constexpr double kSameDepth = 0.98;
-
   template <class F, class Tap>
   static LIMPID_INLINE F mixed(const Tap& tap, PlaneId plane, Vec2<F> shift) {
     const auto quad = tap.quad(shift);

@@ -5,6 +5,7 @@
 
 #include "ops/depth_fog_kernel.h"
 #include "ops/water_light.h"
+#include "optics/fitted_water.h"
 
 namespace limpid {
 namespace {
@@ -111,7 +112,14 @@ bool Kernel<DepthFog>::neutral(const Params& p, StateSet) {
          p.crossing == Crossing::kNone;
 }
 
+void Kernel<DepthFog>::work_in(const Primaries& primaries, Params& p) {
+  p.fitted.reset();
+  if (agree(primaries, kRec709)) return;
+  p.fitted = fitted_water(primaries, {p.water_type, p.murkiness, p.sediment, p.cdom});
+}
+
 ClearAndMurky Kernel<DepthFog>::besides(const Params& params) {
+  if (params.fitted) return params.fitted->besides;
   ClearAndMurky water = sediment_water(params.sediment);
   water.absorption = water.absorption + cdom_absorption(params.cdom);
   return water;
@@ -120,6 +128,7 @@ ClearAndMurky Kernel<DepthFog>::besides(const Params& params) {
 Rgb<double> Kernel<DepthFog>::absorption(const Params& params) {
   const auto of_type = [&] {
     if (params.water_type == WaterType::kCustom) return params.absorption;
+    if (params.fitted) return params.fitted->type.absorption;
     if (params.water_type == WaterType::kCase1) return case_1_water(params.murkiness).absorption;
     return water_optics(params.water_type).absorption;
   };
@@ -127,9 +136,12 @@ Rgb<double> Kernel<DepthFog>::absorption(const Params& params) {
 }
 
 Rgb<double> Kernel<DepthFog>::scattering(const Params& params) {
-  const bool by_murkiness = params.water_type == WaterType::kCase1;
-  return (by_murkiness ? case_1_water(params.murkiness).scattering : params.scattering) +
-         besides(params).scattering;
+  const auto of_type = [&] {
+    if (params.water_type != WaterType::kCase1) return params.scattering;
+    if (params.fitted) return params.fitted->type.scattering;
+    return case_1_water(params.murkiness).scattering;
+  };
+  return of_type() + besides(params).scattering;
 }
 
 Rgb<double> Kernel<DepthFog>::extinction(const Params& params) {
@@ -154,7 +166,8 @@ ScatteringWater Kernel<DepthFog>::scattering_water(const P& params, const Pass& 
           .anisotropy = params.anisotropy,
           .beam = light.day ? glm::dot(light.to_sun, c.up) : 1,
           .ior = c.ior,
-          .surface = params.crossing == Crossing::kRadiance};
+          .surface = params.crossing == Crossing::kRadiance,
+          .inside = c.submersible};
 }
 
 double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ranges) {
@@ -294,9 +307,11 @@ Kernel<DepthFog>::Medium Kernel<DepthFog>::medium_of(const Params& params, const
             (c.has_sky ? c.sky : params.ambient);
     m.dry_sun = (light.bottom * (light.day ? above : 0)) * c.sun.color;
     m.dry_sky = light.bottom * (c.has_sky ? c.sky : params.ambient);
+    m.per_bottom = light.bottom > 0 ? 1 / light.bottom : 0;
     m.square = params.anisotropy * params.anisotropy;
     m.scatters = scattering(params) != kBlack;
     m.turns = params.anisotropy != 0;
+    m.inside = c.submersible;
   }
   m.sun = light.sun;
   m.to_sun = light.to_sun;

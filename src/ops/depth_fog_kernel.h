@@ -23,6 +23,8 @@ struct Kernel<DepthFog> : DepthFog {
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
+  /// Makes Params::fitted.
+  static void work_in(const Primaries& primaries, Params& params);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   static void reckon(const Params& params, const Pass& c, Ranges& ranges);
   /// How much the picture changes at most when the way through the water counts as endless and the
@@ -74,8 +76,10 @@ struct Kernel<DepthFog> : DepthFog {
     Rgb<double> beam, sky;         ///< E' / pi, and the sky's radiance in the water
     double cosine;                 ///< of the beam with the vertical
     Rgb<double> dry_sun, dry_sky;  ///< what `transmitted` has of a white level floor
+    double per_bottom;             ///< 1 / bottom; 0 where no light enters
     double square;                 ///< of the anisotropy
     bool scatters, turns;          ///< whether light is scattered, and unevenly
+    bool inside;                   ///< whether views may begin in the water
 
     static std::array<double, 3> channels(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
     std::array<double, 3> rates() const { return channels(rate); }
@@ -221,17 +225,47 @@ struct Kernel<DepthFog> : DepthFog {
     Often<F> red = often_down(m, 0, way, shapes, fallen.r, left.r, albedo.x);
     Often<F> green = often_down(m, 1, way, shapes, fallen.g, left.g, albedo.y);
     Often<F> blue = often_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
-    if_any(!from_air, [&] {
-      const auto choose = [&](Often<F>& down, const Often<F>& inside) {
-        down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
-      };
-      choose(red, often_inside(m, 0, way));
-      choose(green, often_inside(m, 1, way));
-      choose(blue, often_inside(m, 2, way));
-    });
+    if (m.inside) {
+      if_any(!from_air, [&] {
+        // What is above the surface, seen from below, is no bottom.
+        const Vec3<F> under = select(p.side < F(0), {F(0), F(0), F(0)}, albedo);
+        const auto choose = [&](Often<F>& down, const Often<F>& inside) {
+          down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
+        };
+        choose(red, often_inside(m, 0, way, turned, fallen.r, left.r, under.x));
+        choose(green, often_inside(m, 1, way, turned, fallen.g, left.g, under.y));
+        choose(blue, often_inside(m, 2, way, turned, fallen.b, left.b, under.z));
+      });
+    }
     p.sun_often = {red.sun, green.sun, blue.sun};
     const Rgb<F> all = p.in_scatter + p.sun_often + Rgb<F>{red.sky, green.sky, blue.sky};
     p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
+    if (m.inside) {
+      // It entered above the viewer, not where the view meets the surface: no shadow tells of it.
+      p.sun_often = select(from_air, p.sun_often, {F(0), F(0), F(0)});
+    }
+  }
+
+  /// The bottom at the end of a way, as that of a level layer.
+  template <class F>
+  struct LitBottom {
+    F reflects, back;  ///< its albedo, and what of its light comes back to it
+    F sunlit, skylit;  ///< what lights it were it black, of a beam and of a sky of radiance 1
+  };
+  template <class F>
+  static LIMPID_INLINE F layer_at(const Medium& m, std::size_t channel, const Way<F>& way) {
+    const F rate = given<F>(m.rates()[channel], "depth_fog.rate", static_cast<int>(channel));
+    return layer_variable(min(rate * way.end, F(1e6)));
+  }
+  template <class F>
+  static LIMPID_INLINE LitBottom<F> lit_bottom(const Medium& m, std::size_t channel,
+                                               const Way<F>& way, F fallen, F albedo) {
+    const ScatteredLight& light = m.often[channel];
+    const F x = layer_at(m, channel, way);
+    return {min(max(albedo, F(0)), F(ScatteredLight::kMostAlbedo)),
+            given<F>(light.back_at_once) + layer_power(light.back, x),
+            given<F>(m.cosine, "depth_fog.cosine") * fallen + layer_power(light.sun_below, x),
+            given<F>(light.sky_at_once) + layer_power(light.sky_below, x)};
   }
 
   /// Of a view from the air. `fallen` and `left`: what is left of the beam at the end of the way,
@@ -243,8 +277,7 @@ struct Kernel<DepthFog> : DepthFog {
     const ScatteredLight& light = m.often[channel];
     const int place = static_cast<int>(channel);
     const std::array<F, 2> even{shapes[0], shapes[1]};
-    const F x = layer_variable(
-        min(given<F>(m.rates()[channel], "depth_fog.rate", place) * way.end, F(1e6)));
+    const F x = layer_at(m, channel, way);
     const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
     const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
     const F water = given<F>(m.water, "depth_fog.water");
@@ -254,36 +287,54 @@ struct Kernel<DepthFog> : DepthFog {
                              : layer_power(std::array{light.sun[0], light.sun[1]}, even, x);
       up = {beam * (F(1) - fallen * left) * many, sky * layer_power(light.sky, even, x)};
     }
-    const F reflects = min(max(albedo, F(0)), F(ScatteredLight::kMostAlbedo));
+    const LitBottom<F> bottom = lit_bottom(m, channel, way, fallen, albedo);
     const F passing = left + layer_power(light.passing, even, x);
-    const F back = given<F>(light.back_at_once) + layer_power(light.back, x);
-    const F seen = reflects * passing / (F(1) - reflects * back);
-    const F sunlit =
-        given<F>(m.cosine, "depth_fog.cosine") * fallen + layer_power(light.sun_below, x);
-    const F skylit = given<F>(light.sky_at_once) + layer_power(light.sky_below, x);
-    const F had = reflects * fallen * left;
+    const F seen = bottom.reflects * passing / (F(1) - bottom.reflects * bottom.back);
+    const F had = bottom.reflects * fallen * left;
     // What `transmitted` has of the sky's light went down as the sun's, and may be too much.
     return {
-        water * up.sun + max(water * (seen * beam * sunlit) -
+        water * up.sun + max(water * (seen * beam * bottom.sunlit) -
                                  had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
                              F(0)),
-        water * (up.sky + seen * sky * skylit) -
+        water * (up.sky + seen * sky * bottom.skylit) -
             had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
   }
 
-  /// Of a view that begins in the water.
+  /// Of a view that begins in the water. The bottom is lit as that of a level layer, and seen
+  /// straight; the water between is as bright as if it had no bottom.
   template <class F>
   static LIMPID_INLINE Often<F> often_inside(const Medium& m, std::size_t channel,
-                                             const Way<F>& way) {
+                                             const Way<F>& way, F turned, F fallen, F left,
+                                             F albedo) {
     const ScatteredLight& light = m.often[channel];
     const int place = static_cast<int>(channel);
     const F rate = given<F>(m.rates()[channel], "depth_fog.rate", place);
-    const F even = sun_column(way, rate, given<F>(light.even_rate)).light;
-    const F falling =
-        sun_column(way, rate, given<F>(m.downs()[channel], "depth_fog.down", place)).light;
-    return {given<F>(m.beams()[channel], "depth_fog.beam", place) *
-                max(given<F>(light.even_sun) * even + given<F>(light.beam) * falling, F(0)),
-            given<F>(m.skies()[channel] * light.even_sky, "depth_fog.even_sky", place) * even};
+    const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
+    const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
+    Often<F> water{F(0), F(0)};
+    if (m.scatters) {
+      const auto by_sun =
+          inside_sun_shapes(way.sink, turned, given<F>(m.square, "depth_fog.square"), m.turns);
+      const auto by_sky = inside_sky_shapes(way.sink);
+      for (std::size_t i = 0; i < ScatteredLight::kFades; ++i) {
+        F of_sun(0), of_sky(0);
+        for (std::size_t k = 0; k < ScatteredLight::kInside; ++k) {
+          of_sun = of_sun + given<F>(light.inside_sun[i][k]) * by_sun[k];
+          of_sky = of_sky + given<F>(light.inside_sky[i][k]) * by_sky[k];
+        }
+        const F column = sun_column(way, rate, given<F>(light.fades[i])).light;
+        water = {water.sun + column * of_sun, water.sky + column * of_sky};
+      }
+    }
+    const LitBottom<F> bottom = lit_bottom(m, channel, way, fallen, albedo);
+    const F seen = bottom.reflects * left / (F(1) - bottom.reflects * bottom.back);
+    const F had = bottom.reflects * fallen * left * given<F>(m.per_bottom, "depth_fog.per_bottom");
+    return {max(beam * water.sun, F(0)) +
+                max(seen * beam * bottom.sunlit -
+                        had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
+                    F(0)),
+            max(sky * water.sky, F(0)) + seen * sky * bottom.skylit -
+                had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
   }
 };
 

@@ -7,6 +7,7 @@
 #include "op/operator.h"
 #include "op/screen_ray.h"
 #include "op/valid_lookup.h"
+#include "optics/facets.h"
 #include "optics/fresnel.h"
 #include "optics/refract.h"
 #include "optics/surroundings.h"
@@ -170,57 +171,69 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   // --- facets -----------------------------------------------------------------------------------
 
   /// Reflectance times mirrored light, and the reflectance, of the mean facet or, where the pixel
-  /// cannot resolve the waves, averaged over three facets: Gauss and Hermite's nodes of a Gaussian
-  /// of slopes, along the view, which is where the mean changes most.
+  /// cannot resolve the waves, averaged over three facets along the view, which is where the mean
+  /// changes most.
   template <class F, class Tap>
   static void mirror_facets(const Params& params, const Pass& c, Pixel<F>& p, const Tap& tap) {
     const Vec3<F> up = vec3_of<F>(c.up);
     const Vec3<F> level = p.to_viewer - dot(up, p.to_viewer) * up;
-    const Vec3<F> away = normalize_or(level, vec3_of<F>(c.b));
+    const Vec3<F> near = normalize_or(level, vec3_of<F>(c.b));
     const F variance = along(
-        p.slope_variance, Vec2<F>{dot(away, vec3_of<F>(c.map_x)), dot(away, vec3_of<F>(c.map_y))});
-    const auto seen = [&](Vec3<F> facet, F& fresnel) {
-      const Vec3<F> n = bent(c, p, facet);
-      fresnel = reflectance(params, c, p, n);
-      const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
-      return mirrored(params, c, p, tap, n, tilt);
-    };
+        p.slope_variance, Vec2<F>{dot(near, vec3_of<F>(c.map_x)), dot(near, vec3_of<F>(c.map_y))});
     const auto rough = variance > F(kLeastVariance);
-    const auto leaned = [&](double way) {
-      const F lean = sqrt(F(3) * max(variance, F(0))) * dot(up, p.normal);
-      return normalize_or(p.normal + F(way) * (lean * away), p.normal);
-    };
+    const F deviation = sqrt(max(variance, F(kLeastVariance))), rise = dot(up, p.normal);
+    ThreeFacets<F> facets{{F(0), F(0), F(0)}, {F(1), F(0), F(0)}};
+    if_any(rough, [&] {
+      const ThreeFacets<F> some = facets_of(c, p, near, length(level), deviation);
+      for (int i = 0; i < 3; ++i) {
+        facets.lean[i] = select(rough, deviation * some.lean[i], facets.lean[i]);
+        facets.share[i] = select(rough, some.share[i], facets.share[i]);
+      }
+    });
     const Rgb<F> black{F(0), F(0), F(0)};
-    Rgb<F> light = black, sources = black, side_light = black, side_sources = black;
-    F side_fresnel(0);
+    Rgb<F> light = black, sources = black;
+    F reflected(0);
     steps<F>(0, 3, [&](auto i) {
+      const F lean = pick<F>(i, facets.lean[0], facets.lean[1], facets.lean[2]);
+      const F share = pick<F>(i, facets.share[0], facets.share[1], facets.share[2]);
       Vec3<F> facet = p.normal;
-      only<F>(i, 1, [&] { facet = leaned(1); });
-      only<F>(i, 2, [&] { facet = leaned(-1); });
-      F fresnel(0);
-      const Mirrored<F> one = seen(facet, fresnel);
-      only<F>(i, 0, [&] {
-        p.fresnel = fresnel;
-        light = fresnel * one.light, sources = one.sources;
+      if_any(rough, [&] {
+        facet = select(rough, normalize_or(facet + (lean * rise) * near, facet), facet);
       });
-      only<F>(i, 1, [&] {
-        side_fresnel = fresnel;
-        side_light = fresnel * one.light, side_sources = one.sources;
-      });
-      only<F>(i, 2, [&] {
-        side_fresnel = side_fresnel + fresnel;
-        side_light = side_light + fresnel * one.light, side_sources = side_sources + one.sources;
-      });
+      const Vec3<F> n = bent(c, p, facet);
+      const F fresnel = share * reflectance(params, c, p, n);
+      const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
+      const Mirrored<F> one = mirrored(params, c, p, tap, n, tilt);
+      reflected = reflected + fresnel;
+      light = light + fresnel * one.light, sources = sources + share * one.sources;
       return rough;
     });
-    if_any(rough, [&] {
-      const F middle(2.0 / 3), side(1.0 / 6);
-      light = select(rough, middle * light + side * side_light, light);
-      sources = select(rough, middle * sources + side * side_sources, sources);
-      p.fresnel = select(rough, middle * p.fresnel + side * side_fresnel, p.fresnel);
-    });
+    p.fresnel = reflected;
     tell(c, sources, p);
     blend(c, light, p);
+  }
+
+  /// The facets that a pixel's slopes stand for, whose deviation is that along `near`, the level
+  /// direction to the viewer; `level` is the view's length along it.
+  template <class F>
+  static LIMPID_INLINE ThreeFacets<F> facets_of(const Pass& c, const Pixel<F>& p, Vec3<F> near,
+                                                F level, F deviation) {
+    const Vec3<F> up = vec3_of<F>(c.up);
+    const F rise = max(dot(up, p.normal), F(1e-6)), per_rise = F(1) / (rise * deviation);
+    // The facet half way between the view and a ray along the water leans away by half its angle.
+    const F half = dot(up, p.to_viewer) / (F(1) + level);
+    const auto above = p.side > F(0);
+    const F lowest = select(above, dot(near, p.normal) * per_rise + half / deviation, F(9));
+    const ThreeFacets<F> plane = plane_facets(lowest);
+    if (!c.plate_waves.moved) return plane;
+    const ThreeFacets<F> seen =
+        seen_facets(dot(p.to_viewer, p.normal) * per_rise / max(level, F(1e-6)));
+    ThreeFacets<F> facets;
+    for (int i = 0; i < 3; ++i) {
+      facets.lean[i] = select(above, seen.lean[i], plane.lean[i]);
+      facets.share[i] = select(above, seen.share[i], plane.share[i]);
+    }
+    return facets;
   }
   static constexpr double kLeastVariance = 1e-4;
 

@@ -422,16 +422,23 @@ struct Kernel<Refraction> : Refraction {
     const auto valid = [&](const auto& quad) { return lies(quad, share_of_way); };
     const auto bearable = [&](const auto& quad) { return lies(quad, F(0)); };
     const auto taps_at = [&](Vec2<F> shift) {
-      // Not over what stands in the water, which may hide itself, nor where what the layer shows
-      // is itself far before the end of the ray.
+      // Not over what stands in the water, which may hide itself, unless what hides the end of the
+      // ray is above the water and apart from it, nor where what the layer shows is itself far
+      // before the end of the ray.
       const auto fill = [&](const auto& lanes) {
         F fills(0);
         if (!layer) return fills;
         if_any(lanes && p.side > F(0), [&] {
           const BottomLayerTaps<F, Tap> taps(*layer, p, tap);
           const Vec2<F> here{F(0), F(0)};
-          const auto bottom =
-              p.side > F(0) && taps.is_bottom(here, F(0) - height_at(c, p, here, p.dry_depth));
+          F clear =
+              select(taps.is_bottom(here, F(0) - height_at(c, p, here, p.dry_depth)), F(1), F(0));
+          if_any(lanes && clear < F(0.5), [&] {
+            const auto other = height_at(c, p, shift, tap.nearest(planes.depth, shift)) >= F(0) &&
+                               taps.is_apart(c, planes.depth, shift);
+            clear = select(other, F(1), clear);
+          });
+          const auto bottom = p.side > F(0) && clear > F(0.5);
           const F calm = min(calm_depth_at(c, p, shift), ray_end);
           const F way = ray_end - calm;
           const F deeper = depth_at_drop(c, p, shift, taps.shape(shift).drop) - calm - F(0.3) * way;

@@ -25,7 +25,9 @@ Rgb<double> falling_loss(const DepthFog::Params& params) {
   const double turned = 1 - params.anisotropy;
   if (typed) {
     const ClearAndMurky besides = Kernel<DepthFog>::besides(params);
-    return water_optics(type).down_attenuation + besides.absorption + turned * besides.scattering;
+    const Rgb<double> down =
+        params.fitted ? params.fitted->down_attenuation : water_optics(type).down_attenuation;
+    return down + besides.absorption + turned * besides.scattering;
   }
   return Kernel<DepthFog>::absorption(params) + turned * Kernel<DepthFog>::scattering(params);
 }

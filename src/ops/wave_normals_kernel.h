@@ -73,7 +73,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     switch (params.model) {
       case Model::kPlate:
         if (variance) {
-          plate_with_neighbours(c, strip);
+          plate_sample(c, strip);
         } else {
           strip.own3(PlaneId::kSurfaceNormalX, [](Pixel<F>& p, Vec3<F> n) { p.normal = n; });
         }
@@ -160,30 +160,45 @@ struct Kernel<WaveNormals> : WaveNormals {
     });
   }
 
-  /// A pixel's normal is one sample of the waves in it; how much its neighbours differ tells what
-  /// else is there. Half of their variance, for they are farther apart than what the pixel sees.
+  /// A normal of the plate is one sample of the waves in the pixel. Of a Gaussian field the mean in
+  /// a footprint S, given that sample, is expected to be `kept` times it, and what is seen of the
+  /// slopes there varies around that by the rest. Where neighbours lean alike there are no waves.
   template <class Strip>
-  static void plate_with_neighbours(const Pass& c, Strip& strip) {
+  static void plate_sample(const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    const Vec3<F> up = vec3_of<F>(c.up), x = vec3_of<F>(c.map_x), y = vec3_of<F>(c.map_y);
+    const auto of_plate = [](const Sym2<double>& s, const char* name) {
+      return Sym2<F>{given<F>(s.xx, name, 0), given<F>(s.xy, name, 1), given<F>(s.yy, name, 2)};
+    };
+    const Sym2<F> variance = of_plate(c.plate_waves.variance, "plate_waves.variance");
+    const Sym2<F> turn = of_plate(c.plate_waves.turn, "plate_waves.turn");
+    const F turn_area = max(turn.xx * turn.yy - turn.xy * turn.xy, F(0));
+    const F enough = F(kWavy) * max(variance.xx + variance.yy, F(1e-12));
+    const Vec3<F> up = vec3_of<F>(c.up);
     strip.around3(PlaneId::kSurfaceNormalX, [&](Pixel<F>& p, const Around<F>& normals) {
-      p.normal = normals[4];
-      Vec2<F> mean{F(0), F(0)};
-      Sym2<F> square{F(0), F(0), F(0)};
-      for (int k = 0; k < 9; ++k) {
-        const Vec3<F> n = normals[k];
-        const F weight((k % 3 == 1 ? 2 : 1) * (k / 3 == 1 ? 2 : 1) / 16.0);
-        const F per_up = F(-1) / max(dot(n, up), F(kLeastUp));
-        const Vec2<F> slope{per_up * dot(n, x), per_up * dot(n, y)};
-        mean = mean + weight * slope;
-        square = square + weight * Sym2<F>{slope.x * slope.x, slope.x * slope.y, slope.y * slope.y};
-      }
-      const Sym2<F> of_mean{mean.x * mean.x, mean.x * mean.y, mean.y * mean.y};
-      const Sym2<F> spread = F(0.5) * (square + F(-1) * of_mean);
-      p.slope_variance = {max(spread.xx, F(0)), spread.xy, max(spread.yy, F(0))};
+      const Vec3<F> n = normals[4];
+      const Sym2<F> s = footprint(c, p);
+      const F along = turn.xx * s.xx + F(2) * turn.xy * s.xy + turn.yy * s.yy;
+      const F area = max(s.xx * s.yy - s.xy * s.xy, F(0));
+      const F square = F(1) / (F(1) + max(along, F(0)) + turn_area * area);
+      const F kept = sqrt(square), rise = dot(n, up);
+      p.normal = n;
+      p.slope_variance = {F(0), F(0), F(0)};
+      const auto coarse = square < F(kResolved);
+      if_any(coarse, [&] {
+        Vec3<F> sum{F(0), F(0), F(0)};
+        for (int k = 0; k < 9; ++k) sum = sum + normals[k];
+        // Unit normals that differ by little are shorter in the mean by half their variance.
+        const F differ = max(F(1) - dot(sum, sum) * F(1.0 / 81), F(0));
+        const F wavy = min(differ / enough, F(1));
+        const F lost = select(coarse, wavy * (F(1) - kept), F(0));
+        p.normal = select(coarse, normalize_or(n + lost * (rise * up - n), up), n);
+        p.slope_variance = select(coarse, wavy * (F(1) - square), F(0)) * variance;
+      });
     });
   }
-  static constexpr double kLeastUp = 0.05;  ///< no slope passes 20
+  static constexpr double kResolved = 0.9999;  ///< of a wave's variance
+  /// Share of what slopes vary over the frame that nine neighbours do where there are waves.
+  static constexpr double kWavy = 0.3;
 
   // While the models gather, p.normal holds their sums, in the axes of the map.
 

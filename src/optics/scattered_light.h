@@ -5,6 +5,8 @@
 
 #include "limpid/core/vec.h"
 
+#include "optics/absorption.h"
+
 /// @file
 /// Light that water scatters more than once, and that its bottom and its surface throw back and
 /// forth: the numbers that are left of the equation of radiative transfer (Chandrasekhar 1960,
@@ -34,6 +36,7 @@ struct ScatteringWater {
   double beam = 1;  ///< cosine of the sun's beam with the vertical, in the water, 0 ... 1
   double ior = 1.333;
   bool surface = true;  ///< whether the surface reflects what comes from below
+  bool inside = false;  ///< whether views may begin in the water
 
   bool operator==(const ScatteringWater&) const = default;
 };
@@ -64,10 +67,13 @@ struct ScatteredLight {
   Power back{};
   double back_at_once = 0;
 
-  /// For views that begin in the water, deep enough for the bottom not to matter: radiance that a
-  /// unit of way adds at depth z under the surface, as of the sun, even_sun exp(-even_rate z) and
-  /// `beam` times what is left of the beam; as of the sky, even_sky exp(-even_rate z).
-  double even_sun = 0, even_sky = 0, even_rate = 0, beam = 0;
+  /// For views that begin in the water (0 where none may), deep enough for the bottom not to
+  /// matter: radiance that a unit of way adds at depth z under the surface, by light scattered more
+  /// than once of the sun, and once and more of the sky. The sum of what fades as exp(-fades[i] z),
+  /// each by inside_sun_shapes() or inside_sky_shapes().
+  static constexpr std::size_t kFades = 4, kInside = 6;
+  std::array<double, kFades> fades{};
+  std::array<std::array<double, kInside>, kFades> inside_sun{}, inside_sky{};
 
   /// For bounds. Of light scattered more than once the largest radiance, over all views and depths,
   /// and that of an optical depth, for what is shallow; of light from the bottom the largest, its
@@ -109,6 +115,26 @@ LIMPID_INLINE F layer_power(const std::array<ScatteredLight::Power, N>& p,
     sum = coefficient + x * sum;
   }
   return x * sum;
+}
+
+/// What the light that is scattered into a view in the water depends on: the view's cosine with the
+/// downwards vertical and, of the sun's where light is scattered unevenly (`turns`), that of the
+/// angle by which the beam is turned, the wider the more often; `square` is that of the anisotropy.
+template <class F>
+LIMPID_INLINE std::array<F, ScatteredLight::kInside> inside_sky_shapes(F sink) {
+  const F square = sink * sink;
+  return {F(1), sink, square, sink * square, square * square, F(0)};
+}
+template <class F>
+LIMPID_INLINE std::array<F, ScatteredLight::kInside> inside_sun_shapes(F sink, F turned, F square,
+                                                                       bool turns) {
+  if (!turns) return {F(1), sink, sink * sink, F(0), F(0), F(0)};
+  return {F(1),
+          sink,
+          sink * sink,
+          turned,
+          henyey_greenstein(turned, square),
+          henyey_greenstein(turned, square * square)};
 }
 
 }  // namespace limpid

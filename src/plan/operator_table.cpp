@@ -80,6 +80,11 @@ constexpr OperatorEntry entry_of() {
     }
     return {};
   };
+  e.work_in = []([[maybe_unused]] const Primaries& primaries, [[maybe_unused]] Look& look) {
+    if constexpr (requires(P & p) { Op::work_in(primaries, p); }) {
+      Op::work_in(primaries, look.of<Op>());
+    }
+  };
   e.lit_by_sky = [](const Look& look) {
     if constexpr (requires(const P& p) { Op::lit_by_sky(p); }) {
       return Op::lit_by_sky(look.of<Op>());

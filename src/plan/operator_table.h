@@ -20,6 +20,7 @@ struct OperatorEntry {
   PlaneSet (*reads)(const Look&);
   Needs (*needs)(const Look&);
   double (*reach)(const Look&);
+  void (*work_in)(const Primaries&, Look&);
   bool (*neutral)(const Look&, StateSet made);
   double (*bound)(const Look&, const Pass&, const Ranges&);
   void (*reckon)(const Look&, const Pass&, Ranges&);

@@ -172,7 +172,9 @@ std::string inspect_text(std::span<const InspectedFile> files, const LayerChoice
                          const InspectedViews& views) {
   std::string text;
   for (const InspectedFile& file : files) {
-    text += visible(file.name) + "\n";
+    text += visible(file.name);
+    if (!file.color_space.empty()) text += ": " + visible(file.color_space);
+    text += "\n";
     for (std::size_t i = 0; i < file.parts.size(); ++i) {
       text += part_text(i, file.parts[i]) + aligned(layer_rows(file.parts[i]), "    ");
     }

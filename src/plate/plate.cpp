@@ -95,7 +95,7 @@ std::string Plate::inspect(const PlateRequest& request) {
   state.resolve_all(request, true);
   std::vector<InspectedFile> files;
   for (const PlateFile& file : state.files) {
-    files.push_back({file.path.string(), file.parts, file.made()});
+    files.push_back({file.path.string(), file.parts, file.made(), file.color_space()});
   }
   return inspect_text(files, state.choices, state.problems, state.views(request.view));
 }
@@ -150,13 +150,7 @@ std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
   return attributes;
 }
 
-std::vector<std::string> Plate::warnings() const {
-  const std::string primaries = other_primaries(attributes());
-  if (primaries.empty()) return {};
-  return {"the plate's chromaticities are those of " + primaries +
-          ", not of Rec.709: coefficients and colors of the water are for Rec.709 and are not "
-          "converted"};
-}
+std::optional<Primaries> Plate::primaries() const { return told_primaries(attributes()); }
 
 void Plate::refuse_without(std::string_view role) const {
   const std::vector<LayerSource> sources = state_->all_sources();

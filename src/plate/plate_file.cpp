@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "limpid/core/error.h"
+
 #include "files/content_hash.h"
+#include "plate/primaries.h"
 
 namespace limpid {
 namespace {
@@ -47,6 +50,16 @@ PlateFile PlateFile::open(const std::filesystem::path& path, const Limits& limit
 
 std::string PlateFile::content_hash() const {
   return exr ? exr->content_hash() : hash_of_file(path);
+}
+
+std::string PlateFile::color_space() const {
+  if (!exr) return "";
+  try {
+    const auto told = told_primaries(exr->attributes(0));
+    return told ? to_string(*told) : "";
+  } catch (const Error& error) {
+    return error.what();
+  }
 }
 
 std::map<std::string, std::string> PlateFile::made() const {

@@ -25,6 +25,8 @@ struct PlateFile {
   /// What limpid wrote into it of how it was made: texts whose names begin with "limpid/". Throws
   /// Error.
   std::map<std::string, std::string> made() const;
+  /// The working space that its first part tells of, "" for none; or what is wrong with it.
+  std::string color_space() const;
   /// As ExrFile::content_hash().
   std::string content_hash() const;
 };

@@ -1,41 +1,20 @@
 #include "plate/primaries.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <string_view>
+#include <vector>
+
+#include "limpid/core/error.h"
 
 namespace limpid {
 namespace {
 
+constexpr const char* kNumbers = "chromaticities";
+constexpr const char* kNames[] = {"colorInteropID", "oiio:ColorSpace"};
+
 /// x and y of red, green, blue and white.
 using Chromaticities = std::array<float, 8>;
-
-struct Space {
-  std::string_view name;
-  Chromaticities xy;
-};
-
-constexpr std::string_view kOurs = "Rec.709";
-// clang-format off
-constexpr Space kSpaces[] = {
-    {kOurs,              {.64f, .33f, .30f, .60f, .15f, .06f, .3127f, .3290f}},
-    {"ACEScg (AP1)",     {.713f, .293f, .165f, .830f, .128f, .044f, .32168f, .33767f}},
-    {"ACES2065-1 (AP0)", {.7347f, .2653f, 0, 1, .0001f, -.077f, .32168f, .33767f}},
-    {"Rec.2020",         {.708f, .292f, .170f, .797f, .131f, .046f, .3127f, .3290f}},
-    {"P3-D65",           {.680f, .320f, .265f, .690f, .150f, .060f, .3127f, .3290f}},
-    {"DCI-P3",           {.680f, .320f, .265f, .690f, .150f, .060f, .314f, .351f}},
-    {"Adobe RGB",        {.64f, .33f, .21f, .71f, .15f, .06f, .3127f, .3290f}},
-};
-// clang-format on
-
-bool agree(const Chromaticities& a, const Chromaticities& b) {
-  return std::equal(a.begin(), a.end(), b.begin(),
-                    [](float x, float y) { return std::abs(x - y) <= 0.001f; });
-}
 
 /// Little-endian, as everything in the file.
 Chromaticities chromaticities_of(const std::vector<char>& bytes) {
@@ -50,25 +29,53 @@ Chromaticities chromaticities_of(const std::vector<char>& bytes) {
   return xy;
 }
 
+std::vector<char> bytes_of(const Primaries& p) {
+  std::vector<char> bytes;
+  for (const double number :
+       {p.red.x, p.red.y, p.green.x, p.green.y, p.blue.x, p.blue.y, p.white.x, p.white.y}) {
+    const auto value = static_cast<float>(number);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    for (int b = 0; b < 4; ++b) bytes.push_back(static_cast<char>(bits >> 8 * b & 0xff));
+  }
+  return bytes;
+}
+
+/// The known space itself, where they agree with one: what files store is rounded.
+Primaries told_by(const std::vector<char>& bytes) {
+  const Chromaticities c = chromaticities_of(bytes);
+  const Primaries told{{c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}, {c[6], c[7]}};
+  told.validate();
+  return find_color_space(to_string(told)).value_or(told);
+}
+
 }  // namespace
 
-std::string other_primaries(const std::map<std::string, ExrFile::Attribute>& attributes) {
-  const auto found = attributes.find("chromaticities");
-  if (found == attributes.end() || found->second.type != "chromaticities" ||
-      found->second.bytes.size() != 8 * sizeof(float)) {
-    return "";
+std::optional<Primaries> told_primaries(const Attributes& attributes) {
+  const auto numbers = attributes.find(kNumbers);
+  if (numbers != attributes.end() && numbers->second.type == kNumbers &&
+      numbers->second.bytes.size() == sizeof(Chromaticities)) {
+    return told_by(numbers->second.bytes);
   }
-  const Chromaticities c = chromaticities_of(found->second.bytes);
-  const auto space = std::find_if(std::begin(kSpaces), std::end(kSpaces),
-                                  [&](const Space& s) { return agree(c, s.xy); });
-  if (space != std::end(kSpaces)) {
-    return space->name == kOurs ? "" : std::string(space->name);
+  for (const char* name : kNames) {
+    const auto word = attributes.find(name);
+    if (word == attributes.end() || word->second.type != "string") continue;
+    const std::vector<char>& bytes = word->second.bytes;
+    if (const auto known = find_color_space({bytes.data(), bytes.size()})) return known;
   }
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "red (%.4g, %.4g), green (%.4g, %.4g), blue (%.4g, %.4g), white (%.4g, %.4g)", c[0],
-                c[1], c[2], c[3], c[4], c[5], c[6], c[7]);
-  return text;
+  return std::nullopt;
+}
+
+void tell_primaries(Attributes& attributes, const Primaries& primaries) {
+  std::optional<Primaries> told;
+  try {
+    told = told_primaries(attributes);
+  } catch (const Error&) {
+    // Other ones stand in their place.
+  }
+  if (told ? agree(*told, primaries) : agree(kRec709, primaries)) return;
+  for (const char* name : kNames) attributes.erase(name);
+  attributes[kNumbers] = {kNumbers, bytes_of(primaries)};
 }
 
 }  // namespace limpid

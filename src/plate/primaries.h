@@ -1,14 +1,22 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 
+#include "limpid/core/color_space.h"
 #include "limpid/files/exr/exr_file.h"
 
 namespace limpid {
 
-/// What the attribute `chromaticities` says that red, green and blue are, where that is not
-/// Rec.709: the name of a known space, as "ACEScg (AP1)", else the numbers. "" for Rec.709, which
-/// goes unsaid, too. Known is what agrees to within 0.001.
-std::string other_primaries(const std::map<std::string, ExrFile::Attribute>& attributes);
+using Attributes = std::map<std::string, ExrFile::Attribute>;
+
+/// The working space that a part's attributes tell of: by `chromaticities`, else by a name that is
+/// known (find_color_space()) in `colorInteropID` or `oiio:ColorSpace`. Nothing where neither does.
+/// Throws Error for chromaticities that are none (Primaries::validate()).
+std::optional<Primaries> told_primaries(const Attributes& attributes);
+
+/// Makes the attributes of a picture in that space tell so: those of a plate that tell the same
+/// stay as they are.
+void tell_primaries(Attributes& attributes, const Primaries& primaries);
 
 }  // namespace limpid

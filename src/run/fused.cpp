@@ -142,6 +142,7 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   const Frame frame =
       completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &options.simd);
   Pass pass = pass_of(plan, scene, frame);
+  pass.plate_waves = completer.plate_waves();
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
   survey.make(plan, frame, pass, executor, options.simd);
   if (options.leaps) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "op/halve.h"
 #include "op/pixel_start.h"
 #include "run/aov_of.h"
 #include "run/fused_tile.h"
@@ -7,6 +8,9 @@
 
 /// The strip that operators are applied to in the fused pass: see op/operator.h. For inclusion by
 /// lanes_target.cpp alone.
+
+template <>
+inline constexpr bool limpid::kLooksAhead<limpid::HWY_NAMESPACE::Lane> = true;
 
 namespace limpid::HWY_NAMESPACE {
 

@@ -176,6 +176,7 @@ void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, con
   Completer completer;
   const Frame frame = completer.complete(plan, plate, pass_of(plan, scene, plate), *serial);
   Pass pass = pass_of(plan, scene, frame);
+  pass.plate_waves = completer.plate_waves();
   if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
   const Rect work = frame.work();
   ReferenceStrip strip(frame, work);

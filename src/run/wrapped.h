@@ -213,14 +213,23 @@ LIMPID_LANES_INLINE SlopeMoments<Lane> levels_slopes(const SlopeLevels& levels, 
   return {{value[0], value[1]}, {value[2], value[3], value[4]}};
 }
 
+/// Neighbours in a row are read as pairs, unless some lane goes round between them.
 template <bool kBoth>
 LIMPID_LANES_INLINE Rgb<Lane> wrapped_rgb(const Texture& texture, Vec2<Lane> periods) {
   const Rect& window = texture.channels[0].window;
   const int width = window.x1 - window.x0, height = window.y1 - window.y0;
   const WrappedSpot<kBoth> spot(width, height, periods);
+  const bool pairs = width > 1 && !any({hn::RebindMask(kD, hn::Lt(spot.x1, spot.x))});
   Lane value[3];
   for (int c = 0; c < 3; ++c) {
     const Source s(texture.channels[c], 0);
+    if (pairs && s.x_stride == 1) {
+      const Pair upper = fetch_pairs(s.data, Places(s.index(spot.x, spot.y)));
+      const Pair lower = fetch_pairs(s.data, Places(s.index(spot.x, spot.y1)));
+      value[c] = lerp(lerp(upper.left, upper.right, spot.u), lerp(lower.left, lower.right, spot.u),
+                      spot.v);
+      continue;
+    }
     const auto at = [&](VI x, VI y) { return s.gather(s.index(x, y)); };
     value[c] = lerp(lerp(at(spot.x, spot.y), at(spot.x1, spot.y), spot.u),
                     lerp(at(spot.x, spot.y1), at(spot.x1, spot.y1), spot.u), spot.v);

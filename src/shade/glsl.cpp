@@ -213,7 +213,8 @@ class Printer {
       case NodeOp::kNearest:
         return of_plane("nearest") + "(vec2(" + arg(0) + ", " + arg(1) + "))" + channel();
       case NodeOp::kBilinear:
-        return of_plane("bilinear") + "(vec2(" + arg(0) + ", " + arg(1) + "))" + channel();
+        return of_plane("bilinear") + "_" + channel_letter(plane) + "(vec2(" + arg(0) + ", " +
+               arg(1) + "))";
       case NodeOp::kBilinear3:
         return of_plane("bilinear") + "(vec2(" + arg(0) + ", " + arg(1) + ")).rgb";
       case NodeOp::kQuad:
@@ -262,6 +263,10 @@ class Printer {
     const Node& node = at(id);
     if (node.op == NodeOp::kPart) return;  // its vector has a name
     std::string words = expression(id);
+    if (node.op == NodeOp::kRow) {  // read where it is needed, which no dry pixel does
+      names_[id] = std::move(words);
+      return;
+    }
     constexpr std::size_t kLongest = 72;
     const bool once = uses_[static_cast<std::size_t>(id)] == 1;
     if (once && !pinned_[static_cast<std::size_t>(id)] && node.type <= NodeType::kMask &&

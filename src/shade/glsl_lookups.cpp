@@ -4,10 +4,17 @@ namespace limpid {
 namespace {
 
 /// `text` with each # replaced by `word`.
-std::string with(const std::string& text, const std::string& word) {
+std::string with(const std::string& text, const std::string& word, char mark = '#') {
   std::string all;
-  for (const char c : text) c == '#' ? all += word : all += c;
+  for (const char c : text) c == mark ? all += word : all += c;
   return all;
+}
+
+/// And with the letter of a plane's channel for @, its number for &.
+std::string with_channel(const char* text, PlaneId plane) {
+  const char letter = channel_letter(plane);
+  const std::string number = std::to_string(std::string("rgba").find(letter));
+  return with(with(with(text, role_word(plane)), {letter}, '@'), number, '&');
 }
 
 constexpr const char* kPlaces = R"(
@@ -50,6 +57,11 @@ constexpr const char* kBilinear = R"(vec4 limpid_bilinear_#(vec2 shift) {
   return upper + quad.w * (lower - upper);
 }
 )";
+/// Of one channel, # the role and @ the channel.
+constexpr const char* kBilinearOne = R"(float limpid_bilinear_#_@(vec2 shift) {
+  return limpid_bilinear_#(shift).@;
+}
+)";
 constexpr const char* kPlace = R"(vec2 limpid_place_#(vec4 quad, ivec2 k) {
   ivec4 window = limpid.window_#;
   ivec2 place = clamp(limpid_at(quad.xy) + k, window.xy, window.zw - 1);
@@ -57,11 +69,104 @@ constexpr const char* kPlace = R"(vec2 limpid_place_#(vec4 quad, ivec2 k) {
 }
 )";
 
-/// Of one channel, # the role and @ the channel.
 constexpr const char* kRead = R"(vec4 limpid_read_#_@(vec4 quad) {
   ivec2 corner = limpid_at(quad.xy);
   return vec4(limpid_texel_#(corner).@, limpid_texel_#(corner + ivec2(1, 0)).@,
               limpid_texel_#(corner + ivec2(0, 1)).@, limpid_texel_#(corner + ivec2(1, 1)).@);
+}
+)";
+
+/// textureGather() gives the lower left, lower right, upper right and upper left texel of four.
+constexpr const char* kMixed = R"(
+float limpid_mixed(vec4 four, vec2 w) {
+  float upper = four.w + w.x * (four.z - four.w), lower = four.x + w.x * (four.y - four.x);
+  return upper + w.y * (lower - upper);
+}
+)";
+/// Where four texels of a plane meet, so many texels from the pixel; & is the number of a channel.
+constexpr const char* kMeet = R"(
+vec2 limpid_meet_#(vec2 texels) {
+  vec2 corner = vec2(limpid_pixel) + clamp(texels, vec2(-4e6), vec2(4e6));
+  return (corner + limpid.texel_#.zw) * limpid.texel_#.xy;
+}
+)";
+/// Half a texel before that is the middle of one: the sampler takes the nearest.
+constexpr const char* kSampledNearest = R"(vec4 limpid_nearest_#(vec2 shift) {
+  return textureLod(limpid_#, limpid_meet_#(floor(shift * limpid_size() + 0.5) - 0.5), 0.0);
+}
+)";
+constexpr const char* kGatheredOne = R"(float limpid_bilinear_#_@(vec2 shift) {
+  vec4 quad = limpid_quad(shift);
+  return limpid_mixed(textureGather(limpid_#, limpid_meet_#(quad.xy), &), quad.zw);
+}
+)";
+constexpr const char* kGatheredThree = R"(vec4 limpid_bilinear_#(vec2 shift) {
+  vec4 quad = limpid_quad(shift);
+  vec2 meet = limpid_meet_#(quad.xy);
+  return vec4(limpid_mixed(textureGather(limpid_#, meet, 0), quad.zw),
+              limpid_mixed(textureGather(limpid_#, meet, 1), quad.zw),
+              limpid_mixed(textureGather(limpid_#, meet, 2), quad.zw), 1.0);
+}
+)";
+constexpr const char* kGatheredRead = R"(vec4 limpid_read_#_@(vec4 quad) {
+  return textureGather(limpid_#, limpid_meet_#(quad.xy), &).wzxy;
+}
+)";
+
+/// Where four texels of a picture that repeats meet: of a level of x by y texels, which begins at
+/// row z and has its first column and row once more at its end.
+constexpr const char* kMeetTiled = R"(
+vec2 limpid_meet_tiled(vec4 level, vec2 periods, out vec2 w) {
+  vec2 texels = max(periods - floor(periods), 0.0) * level.xy - 0.5;
+  vec2 corner = floor(texels);
+  w = texels - corner;
+  corner += mix(vec2(0.0), level.xy, lessThan(corner, vec2(0.0)));
+  return corner + vec2(1.0, 1.0 + level.z);
+}
+)";
+/// Colors in 32 bits, in units of the lowest bit of each mask. 2^23 in front of whole numbers makes
+/// floats of them, without a conversion, which is slow.
+constexpr const char* kMixedBits = R"(
+float limpid_mixed_bits(uvec4 bits, vec2 w) {
+  const float much = 8388608.0;
+  vec4 four = uintBitsToFloat(bits | 0x4b000000u);
+  float upper = (four.w - much) + w.x * (four.z - four.w);
+  float lower = (four.x - much) + w.x * (four.y - four.x);
+  return upper + w.y * (lower - upper);
+}
+)";
+constexpr const char* kPackedTiled = R"(
+vec3 limpid_tiled(vec2 periods) {
+  vec2 w, meet = limpid_meet_tiled(limpid.level_wave_map, periods, w);
+  uvec4 four = textureGather(limpid_wave_map, meet * limpid.texel_wave_map.xy);
+  return vec3(limpid_mixed_bits(four & 0xffu, w), limpid_mixed_bits(four & 0xff00u, w),
+              limpid_mixed_bits(four >> 16, w)) *
+         vec3(1.0 / 255.0, 1.0 / 65280.0, 1.0 / 255.0);
+}
+)";
+/// See TextureLevels.
+constexpr const char* kPackedLevel = R"(
+vec3 limpid_level_wave_levels(vec4 level, vec2 periods) {
+  vec2 w, meet = limpid_meet_tiled(level, periods, w);
+  uvec4 four = textureGather(limpid_wave_levels, meet * limpid.texel_wave_levels.xy);
+  return vec3(limpid_mixed_bits(four & 0x7ffu, w), limpid_mixed_bits(four & 0x3ff800u, w),
+              limpid_mixed_bits(four >> 22, w)) *
+         vec3(1.0, 1.0 / 2048.0, 1.0);
+}
+)";
+/// Planes lie one below the other: see SlopeLevels.
+constexpr const char* kSlopeLevels = R"(
+float limpid_slope(vec2 meet, float plane, vec2 w) {
+  meet.y += plane * limpid.texel_slopes.z;
+  return limpid_mixed(textureGather(limpid_slopes, meet * limpid.texel_slopes.xy), w);
+}
+vec3 limpid_level_slope_means(vec4 level, vec2 periods) {
+  vec2 w, meet = limpid_meet_tiled(level, periods, w);
+  return vec3(limpid_slope(meet, 0.0, w), limpid_slope(meet, 1.0, w), 0.0);
+}
+vec3 limpid_level_slope_squares(vec4 level, vec2 periods) {
+  vec2 w, meet = limpid_meet_tiled(level, periods, w);
+  return vec3(limpid_slope(meet, 2.0, w), limpid_slope(meet, 3.0, w), limpid_slope(meet, 4.0, w));
 }
 )";
 
@@ -87,18 +192,20 @@ vec3 limpid_wrapped(sampler2D map, ivec2 size, int top, vec2 place, bool both) {
 )";
 
 /// Of two levels, which lie one below the other: see between_levels() in op/plain_texture.h. A
-/// level is width, height and top.
+/// level is width, height and top. # is what is looked up, & its levels, @ their number.
 constexpr const char* kBetween = R"(vec3 limpid_between_#(float width, vec2 periods) {
   int last = limpid.counts.@ - 1;
   int level = min(int(floor(log2(width))), last);
   float between = width / exp2(float(level)) - 1.0;
   float rest = level == last ? 0.0 : clamp(4.0 * between - 1.5, 0.0, 1.0);
-  ivec4 first = limpid.levels_#[level];
-  vec3 near = limpid_wrapped(limpid_#, first.xy, first.z, periods, true);
+  vec3 near = limpid_level_#(limpid.levels_&[level], periods);
   if (rest <= 0.0) return near;
-  ivec4 second = limpid.levels_#[min(level + 1, last)];
-  vec3 far = limpid_wrapped(limpid_#, second.xy, second.z, periods, true);
+  vec3 far = limpid_level_#(limpid.levels_&[min(level + 1, last)], periods);
   return near + rest * (far - near);
+}
+)";
+constexpr const char* kLevel = R"(vec3 limpid_level_#(ivec4 level, vec2 periods) {
+  return limpid_wrapped(limpid_#, level.xy, level.z, periods, true);
 }
 )";
 constexpr const char* kTiled = R"(vec3 limpid_tiled(vec2 periods) {
@@ -140,6 +247,15 @@ float limpid_grid(ivec4 level, vec2 texels) {
   float upper = upper_left + w.x * (upper_right - upper_left);
   float lower = lower_left + w.x * (lower_right - lower_left);
   return upper + w.y * (lower - upper);
+}
+)";
+
+constexpr const char* kGatheredGrid = R"(
+float limpid_grid(ivec4 level, vec2 texels) {
+  vec2 place = clamp(texels, vec2(0.0), vec2(level.xy - 1));
+  ivec2 a = min(ivec2(place), max(level.xy - 2, 0));
+  vec2 meet = vec2(a + ivec2(1, 1 + level.z)) * limpid.texel_caustics.xy;
+  return limpid_mixed(textureGather(limpid_caustics, meet), place - vec2(a));
 }
 )";
 
@@ -198,7 +314,8 @@ std::string texture_sampler(int texture) {
   }
 }
 
-std::string glsl_lookups(const GlslNeeds& needs) {
+std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map) {
+  const bool planes = gathered == Gathered::kAll, made = gathered != Gathered::kNothing;
   std::string text;
   const auto op = [&](NodeOp which) { return needs.ops.count(which) > 0; };
   if (needs.infinity) text += "#define limpid_infinity uintBitsToFloat(0x7f800000u)\n";
@@ -208,66 +325,83 @@ std::string glsl_lookups(const GlslNeeds& needs) {
   const auto once = [&](const std::string& words) {
     if (done.insert(words).second) text += words;
   };
+  if (made) once(kMixed);
   for (const auto& [verb, what] : needs.lookups) {
     if (verb < NodeOp::kOwn || verb > NodeOp::kPlace) continue;
-    once(with(kPlane, role_word(static_cast<PlaneId>(what))));
+    const std::string role = role_word(static_cast<PlaneId>(what));
+    once(with(kPlane, role));
+    const bool sampled = verb == NodeOp::kNearest || verb == NodeOp::kBilinear ||
+                         verb == NodeOp::kBilinear3 || verb == NodeOp::kRead;
+    if (planes && sampled) once(with(kMeet, role));
   }
-  bool wraps = false, grids = false;
-  for (const auto& [verb, what] : needs.lookups) {
-    const std::string role =
-        verb >= NodeOp::kOwn && verb <= NodeOp::kPlace ? role_word(static_cast<PlaneId>(what)) : "";
-    const auto between = [&](const std::string& name, char count) {
-      std::string words = with(kBetween, name);
-      words.replace(words.find('@'), 1, 1, count);
-      once(words);
-    };
-    if (!wraps && verb >= NodeOp::kTiled && verb <= NodeOp::kLatLong) {
-      text += kWrapped;
-      wraps = true;
+  const auto tiled = [&] {
+    if (made && packed_map) {
+      once(kMeetTiled);
+      once(kMixedBits);
+      once(kPackedTiled);
+    } else {
+      once(kWrapped);
+      once(kTiled);
     }
+  };
+  const auto between = [&](const std::string& name, const std::string& levels, char count) {
+    once(with(with(with(kBetween, name), levels, '&'), {count}, '@'));
+  };
+  const auto slopes = [&](const std::string& name) {
+    once(made ? kMeetTiled : kWrapped);
+    once(made ? kSlopeLevels : with(kLevel, name));
+    between(name, made ? "slopes" : name, 'y');
+  };
+  for (const auto& [verb, what] : needs.lookups) {
+    const auto plane = static_cast<PlaneId>(what);
     switch (verb) {
       case NodeOp::kNearest:
-        once(with(kNearest, role));
+        once(with(planes ? kSampledNearest : kNearest, role_word(plane)));
         break;
       case NodeOp::kBilinear:
+        if (!planes) once(with(kBilinear, role_word(plane)));
+        once(with_channel(planes ? kGatheredOne : kBilinearOne, plane));
+        break;
       case NodeOp::kBilinear3:
-        once(with(kBilinear, role));
+        once(with(planes ? kGatheredThree : kBilinear, role_word(plane)));
         break;
       case NodeOp::kPlace:
-        once(with(kPlace, role));
+        once(with(kPlace, role_word(plane)));
         break;
-      case NodeOp::kRead: {
-        std::string words;
-        for (const char c : with(kRead, role)) {
-          words += c == '@' ? channel_letter(static_cast<PlaneId>(what)) : c;
-        }
-        once(words);
+      case NodeOp::kRead:
+        once(with_channel(planes ? kGatheredRead : kRead, plane));
         break;
-      }
       case NodeOp::kTiled:
-        once(kTiled);
+        tiled();
         break;
       case NodeOp::kTiledWide:
-        once(kTiled);
-        between("wave_levels", 'x');
+        tiled();
+        if (made) {
+          once(kMeetTiled);
+          once(kMixedBits);
+          once(kPackedLevel);
+        } else {
+          once(with(kLevel, "wave_levels"));
+        }
+        between("wave_levels", "wave_levels", 'x');
         once(kTiledWide);
         break;
       case NodeOp::kSlopeMean:
-        between("slope_means", 'y');
+        slopes("slope_means");
         once(kSlopeMean);
         break;
       case NodeOp::kSlopeSquare:
-        between("slope_squares", 'y');
+        slopes("slope_squares");
         once(kSlopeSquare);
         break;
       case NodeOp::kLatLong:
+        once(kWrapped);
         once(with("vec3 limpid_lat_long_" + std::to_string(what) + "(vec2 place) {\n" +
                       "  return limpid_wrapped(#, textureSize(#, 0), 0, place, false);\n}\n",
                   texture_sampler(what)));
         break;
       case NodeOp::kGrid:
-        if (!grids) text += kGrid;
-        grids = true;
+        once(made ? kGatheredGrid : kGrid);
         once("float limpid_grid_" + std::to_string(what) + "(vec2 texels) {\n" +
              "  return limpid_grid(limpid.levels_caustics[" +
              std::to_string(what - static_cast<int>(TextureId::kCaustics)) + "], texels);\n}\n");

@@ -59,6 +59,13 @@ class UniformBlock {
     declare("ivec4 " + name + "[" + std::to_string(values.size()) + "]", values.data(),
             values.size() * sizeof(glm::ivec4));
   }
+  void add(const std::string& name, const glm::vec4& value) {
+    declare("vec4 " + name, &value, sizeof value);
+  }
+  void add(const std::string& name, const std::vector<glm::vec4>& values) {
+    declare("vec4 " + name + "[" + std::to_string(values.size()) + "]", values.data(),
+            values.size() * sizeof(glm::vec4));
+  }
   /// After all of those; at which offset.
   std::size_t add(const std::string& name, float value) {
     const std::size_t offset = bytes_.size();
@@ -88,12 +95,13 @@ class Writer {
  public:
   /// `frame` is what completers made of `plate`.
   Writer(const Plan& plan, const Frame& plate, const Frame& frame, const Pass& pass,
-         const ShaderOptions& options)
+         const ShaderOptions& options, Gathered gathered)
       : plan_(plan),
         plate_(plate),
         frame_(frame),
         pass_(pass),
         options_(options),
+        gathered_(gathered),
         recording_(record(plan, pass, options.aovs)),
         body_(recording_) {}
 
@@ -108,7 +116,7 @@ class Writer {
     add_textures();
     add_levels();
     add_numbers();
-    to_.text = head() + struct_text() + glsl_lookups(body_.needs()) + function() + main();
+    to_.text = head() + struct_text() + lookups() + function() + main();
     to_.id = id_of(to_.text);
     to_.block = block_.take();
     return std::move(to_);
@@ -121,14 +129,18 @@ class Writer {
 
   /// A program as long as that of a march waits for its lookups more than it computes: the more
   /// threads share a device's registers, the better, even if some have to be put away. (NVIDIA
-  /// H100: `physical` takes .83 of the time, shorter looks 1.1 to 1.2.)
+  /// H100: `physical` takes .8 of the time, `fast` 1.1, shorter looks 1.1 to 1.2.)
   Size group() const {
     constexpr Size kShort{16, 8}, kLong{32, 32};
-    constexpr std::ptrdiff_t kLongNodes = 1500;
+    constexpr std::ptrdiff_t kLongNodes = 5000;
     const auto nodes = std::count(recording_.live.begin(), recording_.live.end(), true);
     const bool fits = kLong.width * kLong.height <= options_.most_threads;
     return fits && nodes > kLongNodes ? kLong : kShort;
   }
+
+  bool gathers_made() const { return gathered_ != Gathered::kNothing; }
+  bool packs_map() const { return gathers_made() && pass_.wave_map.bytes; }
+  std::string lookups() const { return glsl_lookups(body_.needs(), gathered_, packs_map()); }
 
   void add_outputs() {
     const auto add = [&](std::string name, int channels) {
@@ -150,23 +162,64 @@ class Writer {
   using Fill = decltype(ProgramTexture::fill);
   ProgramTexture& declare(std::string name, ShaderTexture::Source source, int channels, Size size,
                           Fill fill) {
-    samplers_ += "layout(" + layout(next_) + ") uniform sampler2D " + name + ";\n";
+    ProgramTexture& texture = declare(std::move(name), source, channels, size);
+    samplers_ += "uniform sampler2D " + texture.name + ";\n";
+    texture.fill = std::move(fill);
+    return texture;
+  }
+  using Pack = decltype(ProgramTexture::pack);
+  void declare_packed(std::string name, Size size, Pack pack) {
+    ProgramTexture& texture = declare(std::move(name), ShaderTexture::Source::kMade, 1, size);
+    samplers_ += "uniform usampler2D " + texture.name + ";\n";
+    texture.pack = std::move(pack);
+  }
+  ProgramTexture& declare(std::string name, ShaderTexture::Source source, int channels, Size size) {
+    samplers_ += "layout(" + layout(next_) + ") ";
     ProgramTexture texture;
     texture.name = std::move(name);
     texture.binding = next_++;
     texture.source = source;
     texture.channels = channels;
     texture.width = size.width, texture.height = size.height;
-    texture.fill = std::move(fill);
     to_.textures.push_back(std::move(texture));
     return to_.textures.back();
+  }
+
+  /// The same of one channel or of colors that lie as most do, which the compiler makes vectors of.
+  /// A frame's planes go through here.
+  static bool copied_plain(const std::vector<View<const float>>& views, const Rect& window, int y,
+                           float* row, int step) {
+    const auto from = [&](std::size_t k) { return &views[k].at(window.x0, y); };
+    const int width = window.width();
+    if (views.size() == 1 && step == 1) {
+      std::copy_n(from(0), width, row);
+      return true;
+    }
+    if (views.size() < 3 || step != 4) return false;
+    const float *r = from(0), *g = from(1), *b = from(2);
+    const auto put = [&](const auto& alpha) {
+      for (int x = 0; x < width; ++x) {
+        float* to = row + 4 * std::ptrdiff_t{x};
+        to[0] = r[x], to[1] = g[x], to[2] = b[x], to[3] = alpha(x);
+      }
+    };
+    if (views.size() == 3) {
+      put([](int) { return 0.0f; });
+    } else {
+      put([a = from(3)](int x) { return a[x]; });
+    }
+    return true;
   }
 
   /// Rows of a window, a channel of each view; 0 where a view does not reach.
   static Fill rows_of(std::vector<View<const float>> views) {
     const Rect window = views[0].window;
-    return [views = std::move(views), window](int row_index, float* row, int step) {
+    const bool plain = std::all_of(views.begin(), views.end(), [&](const View<const float>& view) {
+      return view.window == window && view.x_stride == 1;
+    });
+    return [views = std::move(views), window, plain](int row_index, float* row, int step) {
       const int y = window.y0 + row_index;
+      if (plain && copied_plain(views, window, y, row, step)) return;
       for (std::size_t k = 0; k < views.size(); ++k) {
         const View<const float>& view = views[k];
         const bool reaches = y >= view.window.y0 && y < view.window.y1;
@@ -208,7 +261,14 @@ class Writer {
               rows_of(views))
           .role = name;
       block_.add("window_" + name, corners(window));
+      if (gathered_ == Gathered::kAll) {
+        add_texel_size(name, window.size(), 1 - window.x0, 1 - window.y0);
+      }
     }
+  }
+
+  void add_texel_size(const std::string& name, Size size, int z = 0, int w = 0) {
+    block_.add("texel_" + name, glm::vec4(1.0 / size.width, 1.0 / size.height, z, w));
   }
 
   /// Whether the plate does not have them, or has them otherwise.
@@ -248,9 +308,20 @@ class Writer {
             rows_of({texture.channels.begin(), texture.channels.end()}));
   }
 
+  void add_packed_map() {
+    const Size map = pass_.wave_map.channels[0].window.size();
+    const Size size{map.width + 1, map.height + 1};
+    declare_packed(texture_sampler(static_cast<int>(TextureId::kWaveMap)), size,
+                   [bytes = pass_.wave_map.bytes, size](int y, std::uint32_t* row) {
+                     std::copy_n(bytes + std::ptrdiff_t{y} * size.width, size.width, row);
+                   });
+    block_.add("level_wave_map", glm::vec4(map.width, map.height, 0, 0));
+    add_texel_size("wave_map", size);
+  }
+
   void add_textures() {
     if (looks_up(NodeOp::kTiled) || looks_up(NodeOp::kTiledWide)) {
-      add_texture(TextureId::kWaveMap, pass_.wave_map);
+      packs_map() ? add_packed_map() : add_texture(TextureId::kWaveMap, pass_.wave_map);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kEnvironment)) {
       add_texture(TextureId::kEnvironment, pass_.environment);
@@ -293,13 +364,64 @@ class Writer {
                                std::move(levels));
   }
 
+  /// The same with that column and row.
+  std::vector<glm::vec4> places_of(const LevelSizes& sizes) const {
+    std::vector<glm::vec4> levels(kLevels, glm::vec4(0));
+    int top = 0;
+    for (int k = 0; k < sizes.count; ++k) {
+      levels[static_cast<std::size_t>(k)] = {sizes.width[k], sizes.height[k], top, 0};
+      top += sizes.height[k] + 1;
+    }
+    return levels;
+  }
+  static Size size_with_all(const LevelSizes& sizes) {
+    int height = 0;
+    for (int k = 0; k < sizes.count; ++k) height += sizes.height[k] + 1;
+    return {sizes.width[0] + 1, height};
+  }
+  /// The texels of a row of those, from one place on; what is right of a level is left alone.
+  template <class Texel>
+  static void copy_level_row(const LevelSizes& sizes, const Texel* texels, int y, Texel* row) {
+    int level = 0;
+    while (y > sizes.height[level]) y -= sizes.height[level++] + 1;
+    std::copy_n(texels + sizes.place(level, 0, y), sizes.width[level] + 1, row);
+  }
+
+  void add_packed_levels() {
+    const TextureLevels& levels = *pass_.wave_map.levels;
+    const Size size = size_with_all(levels.sizes);
+    declare_packed("limpid_wave_levels", size, [&levels](int y, std::uint32_t* row) {
+      copy_level_row(levels.sizes, levels.texels, y, row);
+    });
+    add_texel_size("wave_levels", size);
+    block_.add("levels_wave_levels", places_of(levels.sizes));
+  }
+  /// All planes, one below the other.
+  void add_slopes() {
+    const SlopeLevels& levels = *pass_.wave_slopes;
+    const Size one = size_with_all(levels.sizes);
+    const Size size{one.width, TextureLevels::kMoments * one.height};
+    declare("limpid_slopes", ShaderTexture::Source::kMade, 1, size,
+            [&levels, one](int y, float* row, int step) {
+              if (step != 1) throw Error("a texture of one channel has others");
+              copy_level_row(levels.sizes, levels.planes[y / one.height], y % one.height, row);
+            });
+    add_texel_size("slopes", size, one.height);
+    block_.add("levels_slopes", places_of(levels.sizes));
+  }
+
   void add_levels() {
     glm::ivec4 counts(0);
     const bool wide = looks_up(NodeOp::kTiledWide);
     const bool mean = looks_up(NodeOp::kSlopeMean), square = looks_up(NodeOp::kSlopeSquare);
-    if (wide) {
+    if (wide) counts.x = pass_.wave_map.levels->sizes.count;
+    if (mean || square) counts.y = pass_.wave_slopes->sizes.count;
+    if (gathers_made()) {
+      if (wide) add_packed_levels();
+      if (mean || square) add_slopes();
+    }
+    if (wide && !gathers_made()) {
       const TextureLevels& levels = *pass_.wave_map.levels;
-      counts.x = levels.sizes.count;
       add_level_texture("limpid_wave_levels", levels.sizes, 3, [&levels](int i, float* texel) {
         const std::uint32_t rgb = levels.texels[i];
         texel[0] = static_cast<float>(rgb & 2047);
@@ -309,13 +431,12 @@ class Writer {
     }
     const auto moments = [&](const std::string& name, int first, int channels) {
       const SlopeLevels& levels = *pass_.wave_slopes;
-      counts.y = levels.sizes.count;
       add_level_texture(name, levels.sizes, channels, [=, &levels](int i, float* texel) {
         for (int c = 0; c < channels; ++c) texel[c] = levels.planes[first + c][i];
       });
     };
-    if (mean) moments("limpid_slope_means", 0, 2);
-    if (square) moments("limpid_slope_squares", 2, 3);
+    if (mean && !gathers_made()) moments("limpid_slope_means", 0, 2);
+    if (square && !gathers_made()) moments("limpid_slope_squares", 2, 3);
     if (wide || mean || square) block_.add("counts", counts);
     for (const auto& [name, places] : level_places_) block_.add(name, places);
     if (looks_up(NodeOp::kGrid)) add_caustics();
@@ -353,7 +474,9 @@ class Writer {
         }
       }
     };
-    declare("limpid_caustics", ShaderTexture::Source::kMade, 1, {width, std::max(height, 1)}, fill);
+    const Size size{width, std::max(height, 1)};
+    declare("limpid_caustics", ShaderTexture::Source::kMade, 1, size, fill);
+    if (gathers_made()) add_texel_size("caustics", size);
     block_.add("levels_caustics", levels);
   }
 
@@ -463,6 +586,7 @@ class Writer {
   const Frame& frame_;
   const Pass& pass_;
   const ShaderOptions& options_;
+  const Gathered gathered_;
   Recording recording_;
   GlslBody body_;
   UniformBlock block_;
@@ -474,9 +598,9 @@ class Writer {
 }  // namespace
 
 ShaderProgram program_of(const Plan& plan, const Frame& plate, const Frame& frame, const Pass& pass,
-                         const ShaderOptions& options) {
+                         const ShaderOptions& options, Gathered gathered) {
   check(options);
-  return Writer(plan, plate, frame, pass, options).write();
+  return Writer(plan, plate, frame, pass, options, gathered).write();
 }
 
 }  // namespace limpid

@@ -28,6 +28,7 @@ ShaderText::ShaderText(const Plan& plan, const Frame& frame, const Scene& scene,
   Completer completer;
   const Frame completed = completer.complete(plan, frame, pass_of(plan, scene, frame), *serial);
   Pass pass = pass_of(plan, scene, completed);
+  pass.plate_waves = completer.plate_waves();
   if (!plan.reads_environment) pass.environment = {};
   ShaderProgram made = program_of(plan, frame, completed, pass, options);
   for (ProgramTexture& texture : made.textures) textures_.push_back(texture_of(texture));

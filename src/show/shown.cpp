@@ -4,9 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "limpid/core/error.h"
-#include "limpid/files/picture/preview.h"
-
 #include "files/picture/byte_of.h"
 #include "show/by_pixel.h"
 #include "show/heat_color.h"
@@ -82,17 +79,15 @@ std::optional<ShownColor> cell_color(const CellNeeds& cell) {
 
 }  // namespace
 
-Shown shown_light(const ShownViews& color, double exposure, Executor& executor) {
-  if (!(std::abs(exposure) <= 100)) {
-    throw Error("exposure = " + std::to_string(exposure) + ": expected -100 ... 100 (stops)");
-  }
+Shown shown_light(const ShownViews& color, const DisplayTransform& display, Executor& executor) {
   const Rect window = color[0].window;
   return in_bands(window, executor, [&](int y0, int y1, std::uint8_t* to) {
-    for (int c = 0; c < 3; ++c) {
-      const Plane encoded = displayed(rows_of(color[c], y0, y1), exposure);
+    const std::array<Plane, 3> encoded = display.displayed(
+        {rows_of(color[0], y0, y1), rows_of(color[1], y0, y1), rows_of(color[2], y0, y1)});
+    for (std::size_t c = 0; c < 3; ++c) {
       std::uint8_t* next = to + c;
       for (int y = y0; y < y1; ++y) {
-        const float* const row = encoded.view().row(y);
+        const float* const row = encoded[c].view().row(y);
         for (int x = 0; x < window.width(); ++x, next += 4) *next = byte_of(row[x]);
       }
     }
@@ -107,7 +102,7 @@ Shown shown_encoded(const ShownViews& color, Executor& executor) {
   });
 }
 
-Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, double exposure,
+Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, const DisplayTransform& display,
                 Executor& executor) {
   switch (aov) {
     case Aov::kTransmitted:
@@ -115,7 +110,7 @@ Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, double exposur
     case Aov::kReflected:
     case Aov::kHighlight:
     case Aov::kSky:
-      return shown_light({views[0], views[1], views[2]}, exposure, executor);
+      return shown_light({views[0], views[1], views[2]}, display, executor);
     case Aov::kPath:
     case Aov::kSurfaceDepth:
     case Aov::kReflectionDepth:
@@ -135,10 +130,10 @@ Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, double exposur
   return shown_share(views, executor);
 }
 
-Shown shown_cells(const Survey& survey, const ShownViews& color, double exposure,
+Shown shown_cells(const Survey& survey, const ShownViews& color, const DisplayTransform& display,
                   Executor& executor) {
   constexpr float kShare = 0.45f;
-  Shown shown = shown_light(color, exposure, executor);
+  Shown shown = shown_light(color, display, executor);
   const Rect window = color[0].window;
   run_each(executor, window.height(), [&](int row) {
     std::uint8_t* to = shown.rgba.data() + std::size_t{4} * row * window.width();

@@ -72,6 +72,10 @@ struct Basin {
   LevelMaker levels;
   SlopeMap slopes;
 
+  /// Whether the cliff keeps the light of calm water off, which goes so far aside.
+  bool shaded(double x, double aside_x) const {
+    return cliff && x >= 0 && x < (deep(1, 0) - deep(-1, 0)) * aside_x;
+  }
   bool of_map() const { return told == Told::kByMap || told == Told::kBySlopesOfMap; }
   std::vector<SineWave> waves() const {
     return of_map() ? periodic_waves_of(slope) : waves_of(slope);
@@ -233,6 +237,7 @@ struct Grid {
   double grid(const View<const float>& table, Vec2<double> at) const { return grid_at(table, at); }
 };
 
+/// 0 where the dry picture has the sun's shadow, whatever the table says.
 inline LightMap of_table(const Basin& basin, const CausticsTable& table) {
   const Pass pass(basin.scene, basin.buffers.frame, kIor, kWholeState, basin.swell());
   const glm::dvec3& sun = basin.scene.sun->direction;
@@ -243,6 +248,7 @@ inline LightMap of_table(const Basin& basin, const CausticsTable& table) {
     for (int x = 0; x < kSide; ++x) {
       const double deep = basin.deep(Basin::at(x), -Basin::at(y));
       const Vec2<double> entry{Basin::at(x) - deep * aside.x, -Basin::at(y) - deep * aside.y};
+      if (basin.shaded(Basin::at(x), aside.x)) continue;
       light[y * kSide + x] = caustics_at(table, Grid{}, entry, kCell);
     }
   }

@@ -71,7 +71,7 @@ TEST(Caustics, OnASlopeAreLightThatIsFollowed) {
   }
 }
 
-// Within 15 cm of it, where it casts no shadow.
+// Within 15 cm of it, and of its shadow's end.
 TEST(Caustics, BesideACliffAreLightThatIsFollowed) {
   const double upper = 0.8, lower = 1.6;
   for (const double sun : {20.0, 40.0, 60.0}) {
@@ -79,14 +79,18 @@ TEST(Caustics, BesideACliffAreLightThatIsFollowed) {
     for (const double turn : {60.0, 120.0}) {  // onto its wall, and from behind
       const double rise = std::sin(sun * std::numbers::pi / 180);
       const double level = std::sqrt(1 - rise * rise) * std::cos(turn * std::numbers::pi / 180);
-      const double shadow = (lower - upper) * aside_of({level, 0, rise}).x;
+      const double shadow = std::max((lower - upper) * aside_of({level, 0, rise}).x, 0.0);
       Basin basin;
       basin.deep = [=](double x, double) { return x < 0 ? upper : lower; };
       basin.sun_height = sun, basin.sun_turn = turn, basin.cliff = true;
-      const Beside b = judge(basin, [=](double x, double) {
-        return std::abs(x) < 0.15 && (x < 0 || x > shadow + 0.05);
-      });
-      EXPECT_LE(b.error, 0.2) << sun << " " << turn;
+      const Beside b = judge(
+          basin, [=](double x, double) { return x > -0.15 && x < 0.15 && (x < 0 || x > shadow); });
+      EXPECT_LE(b.error, 0.05) << sun << " " << turn;
+      EXPECT_NEAR(b.table_energy / b.energy, 1, 0.006) << sun << " " << turn;
+      if (shadow == 0) continue;
+      const Beside end =
+          judge(basin, [=](double x, double) { return x > shadow && x < shadow + 0.15; });
+      EXPECT_LE(end.error, 0.2) << sun << " " << turn;
     }
   }
 }

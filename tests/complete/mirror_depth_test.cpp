@@ -118,6 +118,36 @@ TEST(MirrorDepth, AGivenDepthIsMendedOnlyInside) {
   EXPECT_GT(insides, 300);
 }
 
+// Far away a row of pixels is hundreds of units of water: what the mirror saw through a far bank
+// stands right over its line.
+TEST(MirrorDepth, ARayAlongTheWaterMeetsAFarBankAtItsLine) {
+  Shore shore;
+  shore.far = 150;
+  shore.top = 60;
+  shore.buffers.set(PlaneId::kDepth,
+                    [&](int x, int y) { return static_cast<float>(shore.dry_depth(x, y)); });
+  shore.buffers.fill(PlaneId::kReflectionDepth, 28000);
+  shore.buffers.fill(PlaneId::kReflectionValid, 1);
+  const auto executor = make_executor(1);
+  const MirrorDepth& made = shore.made(*executor);
+  int line = 0, over = 0;
+  for (int y = 1; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const double height = 2 + 150 * shore.ray(x, y).y;
+      const double pixels = height / (150 * (shore.ray(x, y - 1).y - shore.ray(x, y).y));
+      const bool bank = shore.dry_depth(x, y) == 150 && height > 0;
+      if (std::abs(pixels - 3) < 0.01) continue;
+      const bool met = bank && pixels < 3;
+      EXPECT_EQ(made.depth().view().at(x, y), met ? 150 : 28000) << x << ", " << y;
+      EXPECT_EQ(made.valid().view().at(x, y), met ? 0 : 1) << x << ", " << y;
+      line += met ? 1 : 0;
+      over += bank && !met ? 1 : 0;
+    }
+  }
+  EXPECT_GT(line, 2 * kSize.width);
+  EXPECT_GT(over, 100);
+}
+
 TEST(MirrorDepth, NothingStandsInTheOpenSea) {
   Shore shore;
   shore.buffers.set(PlaneId::kDepth, [&](int x, int y) {

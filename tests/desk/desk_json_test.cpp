@@ -19,7 +19,7 @@ TEST(DeskRequestTest, HoldsSettingsInTheirOrder) {
   const PictureRequest request = picture_request(
       R"({"look": "pond", "set": {"z.text": "some words", "a.number": 0.1, "m.color": [1, 0.5, 0],
           "b.rows": [[1, 2], [3, 4]], "b.none": []}, "frame": 7, "time": 1.5, "half": true,
-          "show": "dry", "exposure": -2})");
+          "show": "dry", "exposure": -2, "display": "wall/half"})");
   EXPECT_EQ(request.look, "pond");
   EXPECT_THAT(request.settings,
               ElementsAre("z.text=some words", "a.number=0.1", "m.color=[1.0, 0.5, 0.0]",
@@ -29,6 +29,7 @@ TEST(DeskRequestTest, HoldsSettingsInTheirOrder) {
   EXPECT_TRUE(request.half);
   EXPECT_EQ(request.show, "dry");
   EXPECT_EQ(request.exposure, -2);
+  EXPECT_EQ(request.display, "wall/half");
 }
 
 TEST(DeskRequestTest, LeavesOutWhatIsUsual) {
@@ -65,7 +66,7 @@ TEST(DeskRequestTest, RefusesWhatIsWrongInASentence) {
       "request: set: a.b: expected a number, a text, or a list of numbers or of rows of them");
   EXPECT_EQ(refused(R"({"look": "a", "hlf": true})"),
             "request: unknown key 'hlf': expected some of look, set, frame, time, half, show, "
-            "exposure; did you mean 'half'?");
+            "exposure, display; did you mean 'half'?");
   EXPECT_EQ(refusal([] { pixel_request(R"({"look": "a", "x": 1})"); }),
             "request: y: expected a whole number");
   EXPECT_EQ(refusal([] { save_request(R"({"look": "a"})"); }), "request: name: expected a text");
@@ -117,6 +118,7 @@ TEST_F(DeskJsonTest, HasAllFieldsOfAllOperators) {
   EXPECT_EQ(json["window"], nlohmann::json({0, 0, 64, 36}));
   EXPECT_EQ(json["plate"], "plate.exr");
   EXPECT_EQ(json["runner"], "fused scalar");
+  EXPECT_EQ(json["displays"], nlohmann::json({"sRGB"}));
   EXPECT_EQ(json["set"], nlohmann::json({{"depth_fog.density", 3.0}}));
   EXPECT_TRUE(json["frame"].is_null());
   std::size_t fields = 0;

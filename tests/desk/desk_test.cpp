@@ -10,6 +10,7 @@
 #include "limpid/files/text/look_file.h"
 
 #include "desk/pond_desk.h"
+#include "files/picture/tiny_ocio.h"
 #include "judge/compare/heat_map.h"
 
 namespace limpid::test {
@@ -17,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 PictureRequest picture(std::vector<std::string> settings = {}) {
@@ -120,6 +122,41 @@ TEST_F(DeskTest, BrightensByStops) {
   }
   request.exposure = std::nan("");
   EXPECT_THAT(refusal([&] { desk.paint(request); }), HasSubstr("exposure = "));
+}
+
+TEST_F(DeskTest, ShowsLightByAConfigAsTheToolDoes) {
+  DeskOptions options = this->options();
+  options.display = {0, write_tiny_ocio(folder_ / "tiny.ocio"), "screen/swapped"};
+  const CompositeJob job = options.job_of({});
+  options.job_of = [job](std::optional<int>) {
+    CompositeJob acescg = job;
+    acescg.primaries = find_color_space("ACEScg");
+    return acescg;
+  };
+  Desk desk(options, *executor_);
+  EXPECT_THAT(desk.displays(), ElementsAre("screen/swapped", "screen/half", "wall/half", "sRGB"));
+  const Look& look = options.looks[0].look;
+  const auto shown_as = [&](const std::string& display, const DisplayChoice& choice) {
+    PictureRequest request = picture();
+    request.exposure = choice.exposure;
+    request.display = display;
+    DeskOptions of_tool = options;
+    of_tool.job_of = [&](std::optional<int> frame) {
+      CompositeJob one = options.job_of(frame);
+      one.output.display = choice;
+      return one;
+    };
+    EXPECT_EQ(colors(desk.paint(request).shown), previewed(of_tool, look)) << display;
+  };
+  const std::filesystem::path& config = options.display.config;
+  shown_as("", {1, config, "screen/swapped"});
+  shown_as("wall/half", {0, config, "wall/half"});
+  shown_as("sRGB", {-1, {}, ""});
+  PictureRequest request = picture();
+  request.display = "wal/half";
+  EXPECT_THAT(refusal([&] { desk.paint(request); }),
+              HasSubstr("display = 'wal/half': expected one of screen/swapped, screen/half, "
+                        "wall/half, sRGB; did you mean 'wall/half'?"));
 }
 
 TEST_F(DeskTest, ShowsAllThatItOffers) {

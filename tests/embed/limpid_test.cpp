@@ -229,6 +229,14 @@ TEST_F(LimpidC, StructsHaveSizes) {
   options.simd = "mmx";
   EXPECT_EQ(limpid_create(&conventions, &options, &water, why, sizeof why), LIMPID_REFUSED);
   EXPECT_THAT(why, HasSubstr("simd = mmx"));
+  options.simd = nullptr;
+  options.runner = 2;
+  EXPECT_EQ(limpid_create(&conventions, &options, &water, why, sizeof why), LIMPID_REFUSED);
+  EXPECT_THAT(why, StartsWith("limpid_options.runner = 2: expected LIMPID_RUNNER_FUSED or "));
+  options.runner = LIMPID_RUNNER_FUSED;
+  options.gpu = "H100";
+  EXPECT_EQ(limpid_create(&conventions, &options, &water, why, sizeof why), LIMPID_REFUSED);
+  EXPECT_THAT(why, HasSubstr("'H100': expected LIMPID_RUNNER_GPU beside it"));
   EXPECT_STREQ(limpid_version(), kVersion);
   EXPECT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);
   frame.size = sizeof frame + 1;

@@ -1,3 +1,5 @@
+#include "enter/nothing_hit.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -29,6 +31,19 @@ TEST(NothingHit, AZeroIsADepthUnlessItIsSaid) {
   EXPECT_EQ(entered({-0.0f, 1, 2, 3}, {.nothing = 0})[0], test::kInf);
   EXPECT_EQ(entered({0, 1, 1000, 3}, {.nothing = 1000}),
             (std::array<float, 4>{0, 1, test::kInf, 3}));
+}
+
+// What lies beside the plane in memory is another's.
+TEST(NothingHit, IsMarkedInThePlaneAlone) {
+  Plane wide(Rect{0, 0, 6, 1});
+  for (int x = 0; x < 6; ++x) wide.view().at(x, 0) = 0;
+  View<float> plane = wide.view();
+  plane.data += 1;
+  plane.window = {0, 0, 4, 1};
+  mark_nothing_hit(plane, {.nothing = 0});
+  for (int x = 0; x < 6; ++x) {
+    EXPECT_EQ(wide.view().at(x, 0), x == 0 || x == 5 ? 0 : test::kInf) << x;
+  }
 }
 
 TEST(NothingHit, AZeroWithoutAlphaIs) {

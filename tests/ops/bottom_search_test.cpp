@@ -1,5 +1,8 @@
 #include "op/bottom_search.h"
 
+#include <cmath>
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "op/pixel_start.h"
@@ -8,26 +11,34 @@
 namespace limpid {
 namespace {
 
-/// A flat bottom, as it is seen around one pixel, and how often somebody looks.
+/// A flat bottom, as it is seen around one pixel, and how often somebody looks. To the right of
+/// `shelf_from` it is another, and rises to that over `rise`.
 struct FlatBottom {
   const Pass& pass;
   const Pixel<double>& pixel;
   double drop;  ///< below calm water
   int& looks;
+  double mixed = drop;  ///< what a mix of four texels says instead
+  double shelf = drop, shelf_from = HUGE_VAL, rise = 1e-9;
 
   double nearest(PlaneId, Vec2<double> shift) const {
     ++looks;
+    const double risen = saturate((shift.x - shelf_from) / rise + 1);
+    return depth_at(drop + risen * (shelf - drop), shift);
+  }
+  double depth_at(double deep, Vec2<double> shift) const {
     const RowRays<double> rays(pass, (pixel.uv.y + shift.y) * pass.size.y);
     const double x = (pixel.uv.x + shift.x) * pass.size.x;
-    return rays.calm_depth(x) * (1 + drop / pass.eye_above);
+    return rays.calm_depth(x) * (1 + deep / pass.eye_above);
   }
   struct Quad {
     Vec2<double> shift;
     double weight(int) const { return 0.25; }
   };
   Quad quad(Vec2<double> shift) const { return {shift}; }
-  Four<double> read(PlaneId plane, const Quad& q) const {
-    const double depth = nearest(plane, q.shift);
+  Four<double> read(PlaneId, const Quad& q) const {
+    ++looks;
+    const double depth = depth_at(mixed, q.shift);
     return {depth, depth, depth, depth};
   }
   Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
@@ -38,41 +49,107 @@ struct FlatBottom {
   Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {drop, drop, 0}; }
 };
 
-struct Met {
-  double way;
-  int looks;
+// Not so steep as a refracted ray: there is a way to go on screen.
+constexpr Vec3<double> kDown{0, -0.5, 0.866}, kAside{0.8, -0.5, 0.3317};
+constexpr Size kSize{640, 360};
+
+/// A view of water, and the ray of one of its pixels, which falls by half of its way.
+struct View {
+  explicit View(Vec3<double> direction) : buffers(rect_of(kSize)), pass(pass_of(buffers)) {
+    const RowRays<double> rays(pass, 120.5);
+    const double calm = rays.calm_depth(320.5);
+    begin_pixel(pass, rays, 320.5, 1.0, calm, calm, pixel);
+    ray.emplace(pass, pixel, direction);
+    most = ray->s_at(reach_in(pass.dry, pixel.uv, ray->across));
+  }
+  static Pass pass_of(test::Buffers& b) {
+    b.fill(PlaneId::kDepth, 1);
+    return Pass(test::simple_scene(kSize), b.frame, 1.333, {});
+  }
+  /// In pixels, up to a way.
+  double on_screen(double way) const {
+    const Vec2<double> shift = ray->shift_at(way);
+    return std::hypot(kSize.width * shift.x, kSize.height * shift.y);
+  }
+  /// How long the way is some pixels beyond where it is so long.
+  double beyond(double way, double pixels) const {
+    return ray->at_share(ray->share_at(way, most) + pixels / on_screen(most), most);
+  }
+
+  test::Buffers buffers;
+  Pass pass;
+  Pixel<double> pixel{};
+  std::optional<ScreenRay<double>> ray;
+  double most;  ///< the way to the edge of the picture
 };
 
-Met march(double drop, bool heights) {
-  const Size size{640, 360};
-  const Scene scene = test::simple_scene(size);
-  test::Buffers b(rect_of(size));
-  b.fill(PlaneId::kDepth, 1);
-  Pass pass(scene, b.frame, 1.333, {});
-  pass.heights.known = heights;
-  const RowRays<double> rays(pass, 120.5);
-  const double calm = rays.calm_depth(320.5);
-  Pixel<double> p{};
-  begin_pixel(pass, rays, 320.5, 1.0, calm, calm * (1 + drop / pass.eye_above), p);
-  int looks = 0;
-  const FlatBottom tap{pass, p, drop, looks};
-  // Not so steep as a refracted ray: there is a way to go on screen.
-  const Vec3<double> down{0, -0.5, 0.866};
-  const ScreenRay<double> ray(pass, p, down);
-  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, pass.dry, false};
+BottomSearch<double, FlatBottom>::Found march(View& view, const FlatBottom& tap) {
+  view.pixel.dry_depth = view.pixel.surface_depth * (1 + tap.drop / view.pass.eye_above);
+  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, view.pass.dry, false};
   int expected = 0;
-  const BottomSearch<double, FlatBottom> search{pass, planes, p, tap, ray, 0.5, 0, expected};
-  const auto found = search.march();
-  EXPECT_EQ(found.sure, 1);
-  return {found.way, looks};
+  return BottomSearch<double, FlatBottom>{view.pass, planes, view.pixel, tap,
+                                          *view.ray, 0.5,    0,          expected}
+      .march();
 }
 
 TEST(BottomSearch, KnownHeightsSaveLooksAndChangeNothing) {
-  const Met each = march(1, false), known = march(1, true);
+  View view(kDown);
+  int each_looks = 0, known_looks = 0;
+  const auto each = march(view, {view.pass, view.pixel, 1, each_looks});
+  view.pass.heights.known = true;
+  const auto known = march(view, {view.pass, view.pixel, 1, known_looks});
+  EXPECT_EQ(each.sure, 1);
+  EXPECT_EQ(known.sure, 1);
   EXPECT_NEAR(each.way, 2, 1e-6);
   EXPECT_EQ(known.way, each.way);
-  EXPECT_GT(each.looks, 20);
-  EXPECT_LT(known.looks, each.looks / 2);
+  EXPECT_GT(each_looks, 20);
+  EXPECT_LT(known_looks, each_looks / 2);
+}
+
+// The level between texels is smooth, and off the staircase by a texel and a half at most.
+TEST(BottomSearch, TheLevelBetweenTexelsIsNearTheStaircase) {
+  for (const Vec3<double>& direction : {kDown, kAside}) {
+    View view(direction);
+    int looks = 0;
+    const auto way = [&](double mixed) {
+      return march(view, {view.pass, view.pixel, 1, looks, mixed}).way;
+    };
+    const double near = view.beyond(2, -1.5), far = view.beyond(2, 1.5);
+    EXPECT_NEAR(way(0.1), near, 0.1 * (2 - near));
+    EXPECT_NEAR(way(3), far, 0.1 * (far - 2));
+    EXPECT_NEAR(way(1 + 1e-4), 2 + 2e-4, 1e-9);
+  }
+}
+
+// Behind the edge of a shelf the ray is by that share of its depth under the calm surface farther
+// than what is seen. More than a quarter hides where it ends.
+TEST(BottomSearch, WhatStandsFarBeforeTheRayHidesItsEnd) {
+  View view(kAside);
+  int looks = 0;
+  const auto sure = [&](double share) {
+    return march(view,
+                 {view.pass, view.pixel, 20, looks, 20, (1 - share) * 2, view.ray->shift_at(4).x})
+        .sure;
+  };
+  EXPECT_EQ(sure(0.2), 1);
+  EXPECT_EQ(sure(0.32), 0);
+}
+
+// A cliff that rises between two looks is met, though the second is far behind its top, and by
+// less than a unit of the scene.
+TEST(BottomSearch, ACliffIsMetBetweenTwoLooks) {
+  View view(kAside);
+  int looks = 0;
+  const double stride = view.on_screen(view.most) / 48;
+  for (const double pixels : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+    const double way = view.beyond(2, pixels * stride);
+    const double from = view.ray->shift_at(way).x;
+    const double begins = view.ray->shift_at(view.beyond(way, -0.3 * stride)).x;
+    const auto found =
+        march(view, {view.pass, view.pixel, 3, looks, 3, 0.55 * 0.5 * way, from, from - begins});
+    EXPECT_EQ(found.sure, 1) << pixels;
+    EXPECT_LE(found.way, way * 1.05) << pixels;
+  }
 }
 
 }  // namespace

@@ -102,6 +102,18 @@ TEST(Caustics, MultiplyTheSunsShare) {
   EXPECT_EQ(basin.lit(4, 2).r, 0.5);
 }
 
+// What the water scatters on the 2 down to the bottom is focused no more, be it of one color alone.
+TEST(Caustics, FadeWhereTheWaterScattersThem) {
+  for (int c = 0; c < 3; ++c) {
+    Ramp ramp(1.5);
+    ramp.table.scattered[static_cast<std::size_t>(c)] = 0.7;
+    Rgb<double> expected{0.75, 0.75, 0.75};
+    (c == 0 ? expected.r : c == 1 ? expected.g : expected.b) = 0.5 + 0.25 * std::exp(-0.7 * 2);
+    Basin basin(ramp, {0, 1, 0});
+    test::expect_rgb(basin.lit(4, 2), expected);
+  }
+}
+
 // Of a level bottom: 0.6 of the sun's color, and the sky.
 TEST(Caustics, SunAndSkyTellTheShare) {
   const Ramp ramp(1.5);
@@ -230,6 +242,26 @@ TEST(Caustics, LeaveShadowsThatAreCastInTheWater) {
   const test::Picture wet = tray.wet();
   for (const int x : {7, 8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
   EXPECT_NEAR(wet.color(14, 2).r, 0.5, 1e-6);
+}
+
+// All of the surface that is seen lies in shadow. At the right edge light enters beyond the
+// picture, where nothing is known of shadows; between the two is no step.
+TEST(Caustics, LoseShadowsTowardsTheEdgeOfThePicture) {
+  Tray tray = under_a_board();
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 0).fill(PlaneId::kShadow, 1);
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
+    tray.buffers.fill(plane_after(PlaneId::kColorR, c), 0.5f);
+  }
+  const test::Picture wet = tray.wet();
+  EXPECT_NEAR(wet.color(12, 2).r, 0.2, 1e-6);
+  EXPECT_NEAR(wet.color(22, 2).r, 0.5, 1e-6);
+  int between = 0;
+  for (int x = 12; x < 22; ++x) {
+    EXPECT_GE(wet.color(x + 1, 2).r, wet.color(x, 2).r - 1e-6) << x;
+    between += wet.color(x, 2).r > 0.21 && wet.color(x, 2).r < 0.49;
+  }
+  EXPECT_GT(between, 0);
 }
 
 // Red is bent less than green, blue more: so are its view and its light.

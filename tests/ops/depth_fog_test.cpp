@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "ops/depth_fog_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/tray.h"
@@ -128,6 +130,46 @@ TEST(DepthFog, RefractedDistanceOfAFlatBottom) {
   }
   EXPECT_EQ(path(kRefracted, {}, 0.5, HUGE_VAL), HUGE_VAL);
   EXPECT_EQ(path(kRefracted, {}, std::numbers::pi / 2, HUGE_VAL), HUGE_VAL);
+}
+
+// Light that is scattered once towards the viewer is bounded by the largest value of the phase
+// function: of a sun straight above and views that go down at least as steeply as refraction leads
+// them, at the angle farthest from straight back where the water scatters forwards, else there.
+TEST(DepthFog, BoundsKnowWhichWayTheWaterScatters) {
+  Tray tray = shallow_tray();
+  tray.scene.sun = Sun{};
+  const Pass pass(tray.scene, tray.buffers.frame, 1.333, kWholeState);
+  Ranges ranges;
+  ranges.way = {0, 1};
+  ranges.color = {{{0, 0}, {0, 0}, {0, 0}}};
+  const auto bound = [&](double anisotropy) {
+    DepthFog::Params params = test::plain_fog(DepthFog::Model::kBeerLambert);
+    params.absorption = {0, 0, 0};
+    params.scattering = {0.5, 0.5, 0.5};
+    params.sunlight = DepthFog::Sunlight::kRefracted;
+    params.anisotropy = anisotropy;
+    return Kernel<DepthFog>::bound(params, pass, ranges);
+  };
+  const double sink = std::sqrt(1 - 1 / (1.333 * 1.333));
+  const double forwards = 0.36 / std::pow(1.64 + 1.6 * sink, 1.5), back = 0.36 / std::pow(0.2, 3);
+  EXPECT_NEAR(bound(0.8) / bound(0), forwards, 1e-6);
+  EXPECT_NEAR(bound(-0.8) / bound(0), back, 1e-6 * back);
+}
+
+// It lights what is scattered and, of a surface that reflects from below, the bottom.
+TEST(DepthFog, WantsLightThatIsScatteredMoreThanOnceWhereThereIsSome) {
+  DepthFog::Params params = test::plain_fog(DepthFog::Model::kRadiativeTransfer);
+  const auto wants = [&](double scattering, DepthFog::Crossing crossing) {
+    params.scattering = {scattering, scattering, scattering};
+    params.crossing = crossing;
+    return Kernel<DepthFog>::wants_scattered_light(params);
+  };
+  EXPECT_TRUE(wants(0.1, DepthFog::Crossing::kRadiance));
+  EXPECT_TRUE(wants(0.1, DepthFog::Crossing::kNone));
+  EXPECT_TRUE(wants(0, DepthFog::Crossing::kRadiance));
+  EXPECT_FALSE(wants(0, DepthFog::Crossing::kNone));
+  params.model = DepthFog::Model::kBeerLambert;
+  EXPECT_FALSE(wants(0.1, DepthFog::Crossing::kRadiance));
 }
 
 }  // namespace

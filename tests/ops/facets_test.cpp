@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "op/footprint.h"
 #include "ops/fresnel_reflection_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/wave_normals_kernel.h"
@@ -33,15 +36,19 @@ Pixel<double> pixel_at(const Pass& c, double degrees, double deviation) {
   return p;
 }
 
-Pixel<double> mirrored(Pixel<double> p, FresnelReflection::Facets facets) {
+Pixel<double> mirrored(Pixel<double> p, const Pass& c,
+                       FresnelReflection::Facets facets = FresnelReflection::Facets::kSpread) {
   FresnelReflection::Params params;
   params.source = FresnelReflection::Source::kConstant;
   params.color = {2, 3, 4};
   params.facets = facets;
   test::ProbeStrip strip;
   strip.pixels.push_back(p);
-  Kernel<FresnelReflection>::apply(params, context_of(), strip);
+  Kernel<FresnelReflection>::apply(params, c, strip);
   return strip.pixels[0];
+}
+Pixel<double> mirrored(Pixel<double> p, FresnelReflection::Facets facets) {
+  return mirrored(p, context_of(), facets);
 }
 
 /// Reflectance of a facet that leans by a slope towards the viewer.
@@ -70,6 +77,8 @@ TEST(Facets, OfResolvedWavesAreOne) {
     EXPECT_EQ(spread.fresnel, mirrored(p, FresnelReflection::Facets::kMean).fresnel);
     EXPECT_EQ(spread.fresnel, reflectance(20, 0));
   }
+  const Pixel<double> rough = pixel_at(c, 20, 0.011);
+  EXPECT_NE(mirrored(rough, FresnelReflection::Facets::kSpread).fresnel, reflectance(20, 0));
   const Pixel<double> across = [&] {
     Pixel<double> p = pixel_at(c, 20, 0);
     p.slope_variance.xx = 1;
@@ -101,11 +110,45 @@ TEST(Facets, NothingBreaksAtTheEdges) {
   }
 }
 
-/// Nine normals around a pixel, and what the model plate makes of them.
-struct Neighbours {
+// What is seen of a moved surface at a flat angle leans towards the view: many facets, each by the
+// area that is seen of it.
+TEST(Facets, OfMovedWaterCountByTheirAreaThatIsSeen) {
+  for (const double degrees : {0.5, 2.0, 5.0, 20.0, 80.0}) {
+    const double deviation = 0.05, rise = std::tan(degrees * std::numbers::pi / 180);
+    double area = 0, light = 0;
+    for (double slope = -0.4; slope < 0.4; slope += 1e-4) {
+      const double seen =
+          std::max(rise + slope, 0.0) * std::exp(-0.5 * slope * slope / (deviation * deviation));
+      // Rays that would go into the water go along it.
+      const double lean = std::max(slope, std::tan(-0.5 * degrees * std::numbers::pi / 180));
+      area += seen, light += seen * reflectance(degrees, lean);
+    }
+    Pass c = context_of();
+    c.plate_waves.moved = true;
+    const Pixel<double> p = mirrored(pixel_at(c, degrees, deviation), c);
+    EXPECT_NEAR(p.fresnel, light / area, 0.003) << degrees;
+    EXPECT_NEAR(p.reflected.r, 2 * p.fresnel, 1e-12) << degrees;
+    if (degrees > 10) continue;
+    const Pixel<double> flat = mirrored(pixel_at(c, degrees, deviation), context_of());
+    EXPECT_GT(flat.fresnel, p.fresnel + 0.04) << degrees;
+  }
+}
+
+/// Nine normals around a pixel.
+struct Nine {
   using Number = double;
+  Pixel<double> pixel;
   Around<double> normals;
-  Pixel<double> pixel{};
+
+  /// The middle one, and others that lean as far to other sides, or the same.
+  Nine(Pixel<double> p, bool alike) : pixel(p) {
+    constexpr double kTo[9] = {0, 1, 2, 3, 4.5, 5, 6, 0.5, 1.5};
+    for (int k = 0; k < 9; ++k) {
+      const double to = kTo[alike ? 4 : k];
+      normals.at[k] = {0.6 * std::cos(to), 0.8, 0.6 * std::sin(to)};
+    }
+  }
+  Vec3<double> own() const { return normals[4]; }
 
   template <class Fn>
   void each(Fn&& fn) {
@@ -113,7 +156,7 @@ struct Neighbours {
   }
   template <class Into>
   void own3(PlaneId, Into&& into) {
-    into(pixel, normals[4]);
+    into(pixel, own());
   }
   template <class Into>
   void around3(PlaneId, Into&& into) {
@@ -127,30 +170,97 @@ struct Neighbours {
   void tiled_slopes_if(Any&&...) {}
 };
 
-TEST(PlateNormals, TellWhatAPixelCannotResolveByTheirNeighbours) {
+// A normal of a plate is a sample of the waves in the pixel. Of sines with random wave vectors, of
+// the covariance `turn`, the mean over a footprint S is exp(-k' S k / 2) times that at its middle,
+// in the mean over the vectors k.
+TEST(PlateNormals, TellOfAPixelWhatItsWavesKeepOfThem) {
+  Pass c = context_of();
+  c.plate_waves.variance = {0.02, 0.004, 0.01};
+  c.plate_waves.turn = {9, 2, 4};
+  WaveNormals::Params params;
+  params.model = WaveNormals::Model::kPlate;
+  params.filter = WaveNormals::Filter::kVariance;
+  for (const double depth : {0.5, 5.0, 50.0}) {
+    Pixel<double> p = pixel_at(c, 30, 0);
+    p.surface_depth = depth;
+    Nine strip(p, false);
+    Kernel<WaveNormals>::apply(params, c, strip);
+    const Pixel<double>& filtered = strip.pixel;
+    const Sym2<double> s = footprint(c, p);
+    const Sym2<double>& turn = c.plate_waves.turn;
+    const double first = std::sqrt(turn.xx), mixed = turn.xy / first;
+    const double second = std::sqrt(turn.yy - mixed * mixed);
+    double kept = 0, all = 0;
+    for (double u = -6; u <= 6; u += 0.02) {
+      for (double v = -6; v <= 6; v += 0.02) {
+        const double weight = std::exp(-0.5 * (u * u + v * v));
+        kept += weight * std::exp(-0.5 * along(s, {first * u, mixed * u + second * v}));
+        all += weight;
+      }
+    }
+    kept /= all;
+    const Vec3<double> own = strip.own();
+    const auto slope = [&](Vec3<double> n) {
+      return dot(n, vec3_of<double>(c.map_x)) / dot(n, vec3_of<double>(c.up));
+    };
+    EXPECT_NEAR(slope(filtered.normal), kept * slope(own), 1e-3 * std::abs(slope(own))) << depth;
+    EXPECT_NEAR(filtered.slope_variance.xx, (1 - kept * kept) * 0.02, 4e-5) << depth;
+    EXPECT_NEAR(filtered.slope_variance.xy, (1 - kept * kept) * 0.004, 1e-5) << depth;
+    EXPECT_NEAR(filtered.slope_variance.yy, (1 - kept * kept) * 0.01, 2e-5) << depth;
+  }
+}
+
+// Waves that end, or a plate of which a part is calm.
+TEST(PlateNormals, ThatLeanAsTheirNeighboursDoHaveNoWavesToLose) {
+  Pass c = context_of();
+  c.plate_waves.variance = {0.02, 0.004, 0.01};
+  c.plate_waves.turn = {9, 2, 4};
+  WaveNormals::Params params;
+  params.model = WaveNormals::Model::kPlate;
+  params.filter = WaveNormals::Filter::kVariance;
+  Nine strip(pixel_at(c, 30, 0.1), true);
+  strip.pixel.surface_depth = 50;
+  Kernel<WaveNormals>::apply(params, c, strip);
+  EXPECT_NEAR(dot(strip.pixel.normal, strip.own()), 1, 1e-12);
+  EXPECT_NEAR(strip.pixel.slope_variance.xx, 0, 1e-12);
+  EXPECT_NEAR(strip.pixel.slope_variance.yy, 0, 1e-12);
+}
+
+TEST(PlateNormals, OfWhichNothingIsKnownStayAsTheyAre) {
+  const Pass c = context_of();
+  WaveNormals::Params params;
+  params.model = WaveNormals::Model::kPlate;
+  for (const auto filter :
+       {WaveNormals::Filter::kNone, WaveNormals::Filter::kMip, WaveNormals::Filter::kVariance}) {
+    params.filter = filter;
+    Nine strip(pixel_at(c, 30, 0.1), false);
+    strip.pixel.surface_depth = 5;
+    Kernel<WaveNormals>::apply(params, c, strip);
+    EXPECT_EQ(strip.pixel.slope_variance.yy, 0);
+    EXPECT_EQ(strip.pixel.normal.x, strip.own().x);
+    EXPECT_EQ(strip.pixel.normal.z, strip.own().z);
+  }
+}
+
+// One of nine leans, so steeply that its slope counts as the bound of 20, along both axes: with the
+// weight of 1/4 half the variance is (1/4 - 1/16) 20^2 / 2 of each.
+TEST(PlateNormals, NoSlopePassesTwenty) {
   const Pass c = context_of();
   WaveNormals::Params params;
   params.model = WaveNormals::Model::kPlate;
   params.filter = WaveNormals::Filter::kVariance;
-  // Rows that lean to and fro by a slope of 0.2 along map_y.
+  const Vec3<double> up = vec3_of<double>(c.up);
   Neighbours strip;
-  for (int k = 0; k < 9; ++k) {
-    const double slope = k / 3 == 1 ? 0.2 : -0.2;
-    strip.normals.at[k] = normalize_or<double>(
-        vec3_of<double>(c.up) + -slope * vec3_of<double>(c.map_y), vec3_of<double>(c.up));
-  }
+  for (int k = 0; k < 9; ++k) strip.normals.at[k] = up;
+  strip.normals.at[4] = 0.05 * up + -1.0 * vec3_of<double>(c.map_x) - vec3_of<double>(c.map_y);
   Kernel<WaveNormals>::apply(params, c, strip);
-  EXPECT_EQ(strip.pixel.normal.x, strip.normals[4].x);
-  EXPECT_EQ(strip.pixel.normal.z, strip.normals[4].z);
-  EXPECT_NEAR(strip.pixel.slope_variance.yy, 0.5 * 0.04, 1e-12);
-  EXPECT_NEAR(strip.pixel.slope_variance.xx, 0, 1e-12);
-  EXPECT_NEAR(strip.pixel.slope_variance.xy, 0, 1e-12);
-  for (const auto filter : {WaveNormals::Filter::kNone, WaveNormals::Filter::kMip}) {
-    params.filter = filter;
-    Kernel<WaveNormals>::apply(params, c, strip);
-    EXPECT_EQ(strip.pixel.slope_variance.yy, 0);
-    EXPECT_EQ(strip.pixel.normal.z, strip.normals[4].z);
-  }
+  EXPECT_NEAR(strip.pixel.slope_variance.xx, 37.5, 1e-9);
+  EXPECT_NEAR(strip.pixel.slope_variance.xy, 37.5, 1e-9);
+  EXPECT_NEAR(strip.pixel.slope_variance.yy, 37.5, 1e-9);
+  strip.normals.at[4] = 0.01 * up - vec3_of<double>(c.map_x);
+  Kernel<WaveNormals>::apply(params, c, strip);
+  EXPECT_NEAR(strip.pixel.slope_variance.xx, 37.5, 1e-9);
+  EXPECT_NEAR(strip.pixel.slope_variance.xy, 0, 1e-9);
 }
 
 }  // namespace

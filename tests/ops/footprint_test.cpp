@@ -64,6 +64,22 @@ TEST(Footprint, IsThatOfNeighbouringRays) {
   }
 }
 
+// Of a camera that stands as deep under the water as another one over it, upside down, each pixel
+// sees what the other one's does.
+TEST(Footprint, FromBelowIsThatFromAbove) {
+  Scene scene = test::simple_scene(kSize), below = scene;
+  below.camera->view = glm::scale(glm::dmat4(1), glm::dvec3(1, -1, 1)) * below.camera->view *
+                       glm::scale(glm::dmat4(1), glm::dvec3(1, -1, 1));
+  const Pass c = context_of(scene), under = context_of(below);
+  ASSERT_NEAR(under.eye_above, -c.eye_above, 1e-12);
+  for (const double y : {20.5, 30.5, 47.5}) {
+    const Sym2<double> want = footprint(c, calm_pixel(c, 13.5, y));
+    const Sym2<double> got = footprint(under, calm_pixel(under, 13.5, kSize.height - y));
+    EXPECT_NEAR(got.xx, want.xx, 1e-9 * want.xx);
+    EXPECT_NEAR(got.yy, want.yy, 1e-9 * want.yy);
+  }
+}
+
 // Four parts of a pixel lie one behind the other on the water, each a quarter as long; a rolled
 // camera has them beside one another on the screen.
 TEST(Footprint, OfAPartIsShorterTheWayTheWaterRecedes) {

@@ -115,5 +115,16 @@ TEST(Penetration, NoneFromBelow) {
   EXPECT_EQ(tray.wet().values(), without.values());
 }
 
+// At 60 degrees from straight down 0.5 x 0.5^2 is let through, and may replace light of 2.
+TEST(Penetration, BoundIsOfTheSteepestView) {
+  const Tray tray({1, 1});
+  const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
+  Ranges ranges;
+  ranges.sink = {0.1, 0.5};
+  ranges.color = {{{0, 1}, {0, 0}, {0, 0}}};
+  ranges.light = 1;
+  EXPECT_NEAR(Kernel<Penetration>::bound(view_angle(1, 0.5, 2), pass, ranges), 0.125 * 2, 1e-12);
+}
+
 }  // namespace
 }  // namespace limpid

@@ -1,6 +1,7 @@
 #include "ops/prism_split_kernel.h"
 #include "ops/probe_strip.h"
 #include "ops/tray.h"
+#include "optics/water_index.h"
 
 namespace limpid {
 namespace {
@@ -54,6 +55,21 @@ TEST(PrismSplit, ReachesAsFarAsTheSteepestTilt) {
                             strip);
   EXPECT_NEAR(strip.pixels[0].prism_r.x, Kernel<PrismSplit>::reach(params), 1e-12);
   EXPECT_NEAR(strip.pixels[0].prism_b.y, Kernel<PrismSplit>::reach(params), 1e-12);
+}
+
+// In a thin prism a channel's offset is (n - 1) / (n of green - 1) of green's.
+TEST(PrismSplit, StretchesOffsetsByTheIndexAlone) {
+  const test::Buffers buffers = test::noisy_frame(rect_of({4, 3}));
+  const auto stretch = [&](const PrismSplit::Params& params, double ior) {
+    return Kernel<PrismSplit>::stretch(params,
+                                       Pass(test::simple_scene({4, 3}), buffers.frame, ior, {}));
+  };
+  const Rgb<double> index = water_index_rgb();
+  const double widest = std::max(index.g - index.r, index.b - index.g);
+  EXPECT_NEAR(stretch({PrismSplit::Model::kDispersion, 0, 3}, 1.333), 1 + 3 * widest / 0.333,
+              1e-12);
+  EXPECT_EQ(stretch({PrismSplit::Model::kDispersion, 0, 3}, 1), 1) << "nothing is bent";
+  EXPECT_EQ(stretch({PrismSplit::Model::kAxis, 0.25, 3}, 1.333), 1);
 }
 
 TEST(PrismSplit, ReflectionIsNotSplit) {

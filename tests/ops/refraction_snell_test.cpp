@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "limpid/ops/refraction.h"
 
@@ -18,7 +19,9 @@ constexpr double kIor = 1.333;
 
 /// The bottom is the plane y = -depth + slope z (z grows towards the camera).
 struct Basin {
-  Basin(double depth, double slope) : buffers(rect_of(kSize)), scene(test::simple_scene(kSize)) {
+  Basin(double depth, double slope, double roll = 0)
+      : buffers(rect_of(kSize)), scene(test::simple_scene(kSize)) {
+    scene.camera->view = glm::rotate(glm::dmat4(1), roll, glm::dvec3(0, 0, 1)) * scene.camera->view;
     const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
     const glm::dvec3 eye = scene.camera->eye();
     for (int c = 0; c < 3; ++c) {
@@ -110,6 +113,14 @@ TEST(Snell, SlopingBottomTakesStepsOrAMarch) {
 
 /// The beach that the shore becomes towards the viewer stands before the water further down, and
 /// must not be taken for something that hides the bottom.
+TEST(Snell, RolledViewsFindTheSameEnd) {
+  for (int steps : {4, Refraction::kMarch}) {
+    Basin basin(0.5, 0.12, 0.3);
+    basin.look.of<Refraction>().steps = steps;
+    EXPECT_LT(map_error(basin, 0.5, 0.12), 0.2) << steps;
+  }
+}
+
 TEST(Snell, AShoreIsMetBeforeItRisesOutOfTheWater) {
   for (const double slope : {0.1, 0.2, 0.3}) {
     const double depth = -2 * slope;  // the waterline is at z = -2
@@ -211,6 +222,37 @@ TEST(Snell, OffTheFrameIsInventedAndSaidSo) {
       EXPECT_NEAR(got.aov(Aov::kTransmitted, 32, 47), 32 + 4700, 40);
     }
   }
+}
+
+// What is kept of the light is the share that the way is shorter by.
+TEST(Snell, FogOffTheFrameComesGradually) {
+  Basin basin(3, 0);
+  for (int c = 0; c < 3; ++c) basin.buffers.fill(plane_after(PlaneId::kColorR, c), 1);
+  basin.look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
+  const test::Picture clear = basin.wet();
+  basin.look.of<Refraction>().off_frame = Refraction::OffFrame::kFog;
+  const test::Picture fog = basin.wet();
+  int between = 0;
+  for (int y = 20; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const double kept = fog.aov(Aov::kTransmitted, x, y), way = clear.aov(Aov::kPath, x, y);
+      if (kept < 0.01 || kept > 0.99) continue;
+      ++between;
+      EXPECT_NEAR(kept * fog.aov(Aov::kPath, x, y), way, 1e-5 * way) << x << " " << y;
+    }
+  }
+  EXPECT_GT(between, 20);
+}
+
+// From below, 30 degrees over the horizon: beyond the critical angle nothing is looked up.
+TEST(Snell, WhereAllIsMirroredNothingIsUnsure) {
+  Basin basin(3, 0);
+  const glm::dmat4 upside_down = glm::scale(glm::dmat4(1), glm::dvec3(1, -1, 1));
+  basin.scene.camera->view = upside_down * basin.scene.camera->view * upside_down;
+  basin.buffers.fill(PlaneId::kDepth, 1000);
+  const test::Picture got = basin.wet();
+  EXPECT_EQ(got.aov(Aov::kConfidence, 32, 24), 1);
+  EXPECT_EQ(got.aov(Aov::kStmapG, 32, 24, 0), 32.5 / kSize.width);
 }
 
 /// A bottom 3 deep, whose color and depth go on far beyond the picture.

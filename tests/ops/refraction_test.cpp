@@ -45,6 +45,17 @@ TEST(Refraction, TapsAreClampedAtTheEdges) {
   EXPECT_NEAR(tray.wet().aov(Aov::kTransmitted, 9, 0), 0, 1e-6);
 }
 
+// What bends no light splits none either.
+TEST(Refraction, ChannelsStayTogetherInWaterOfIndexOne) {
+  Tray tray = leaning_tray();
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kColorR, c), [](int x, int) { return float(x); });
+  }
+  tray.look.water.ior = 1;
+  tray.look.of<PrismSplit>() = {PrismSplit::Model::kDispersion, 0, 10};
+  test::expect_rgb(rgb_of(tray.wet(), Aov::kTransmitted, 3, 4), {4, 4, 4}, 1e-5);
+}
+
 TEST(Refraction, CalmWaterDoesNotShift) {
   Tray tray = leaning_tray();
   tray.buffers.normal({0, 1, 0});

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "op/pixel.h"
@@ -44,14 +45,18 @@ TEST(ScreenRay, ShareOfTheWayOnScreenAndBack) {
 
 constexpr Size kSize{64, 48};
 
-/// Perspective, turned off the axes of the world, and parallel.
+/// Perspective, turned off the axes of the world, and parallel; both level and rolled.
 template <class Visit>
 void for_each_view(Visit&& visit) {
   const test::Buffers b = test::noisy_frame(rect_of(kSize));
-  for (const bool parallel : {false, true}) {
-    Scene scene = test::simple_scene(kSize);
-    if (parallel) scene.camera->projection = orthographic(2.4, 1.8, 0.1, 100, ClipSpace::kGl);
-    visit(Pass(scene, b.frame, 1.333, {}), parallel);
+  for (const double roll : {0.0, 0.3}) {
+    for (const bool parallel : {false, true}) {
+      Scene scene = test::simple_scene(kSize);
+      scene.camera->view =
+          glm::rotate(glm::dmat4(1), roll, glm::dvec3(0, 0, 1)) * scene.camera->view;
+      if (parallel) scene.camera->projection = orthographic(2.4, 1.8, 0.1, 100, ClipSpace::kGl);
+      visit(Pass(scene, b.frame, 1.333, {}), parallel);
+    }
   }
 }
 

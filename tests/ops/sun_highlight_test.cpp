@@ -1,5 +1,6 @@
 #include "limpid/ops/sun_highlight.h"
 
+#include "ops/sun_highlight_kernel.h"
 #include "ops/tray.h"
 
 namespace limpid {
@@ -19,6 +20,14 @@ Tray sunny_tray() {
 Vec3<double> half_way() {
   const double angle = std::numbers::pi / 12;
   return {std::sin(angle), std::cos(angle), 0};
+}
+
+TEST(SunHighlight, OfSlopesAloneLooksBesideThePixel) {
+  for (const auto model :
+       {SunHighlight::Model::kPhong, SunHighlight::Model::kBlinnPhong, SunHighlight::Model::kGgx}) {
+    EXPECT_EQ(Kernel<SunHighlight>::reach({.model = model}), 0);
+  }
+  EXPECT_EQ(Kernel<SunHighlight>::reach({.model = SunHighlight::Model::kSlopes}), HUGE_VAL);
 }
 
 TEST(SunHighlight, HandWorkedLobes) {

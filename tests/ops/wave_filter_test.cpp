@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "complete/slope_map.h"
 #include "judge/trace/one_pixel.h"
 #include "op/pass.h"
 #include "op/pixel_start.h"
+#include "op/plain_texture.h"
 #include "ops/tray.h"
 #include "ops/wave_normals_kernel.h"
 
@@ -47,6 +50,21 @@ TEST(WaveFilter, ChangesNothingWhereTexelsAreResolved) {
       }
     }
   }
+}
+
+// Level 0 has slopes of 1, level 1 of 3: half of both where a pixel is as wide as 1.5 texels.
+TEST(WaveFilter, LevelsPassIntoOneAnother) {
+  SlopeLevels levels;
+  levels.sizes = levels_from({4, 4});
+  std::vector<float> slopes(static_cast<std::size_t>(levels.sizes.texels), 3);
+  std::fill_n(slopes.begin(), levels.sizes.first[1], 1.0f);
+  for (const float*& plane : levels.planes) plane = slopes.data();
+  const auto slope = [&](double width) {
+    return tiled_slopes_at(levels, {0.3, 0.4}, width).mean.x;
+  };
+  for (const double width : {0.0, 0.5, 1.0, 1.375}) EXPECT_EQ(slope(width), 1) << width;
+  EXPECT_NEAR(slope(1.5), 2, 1e-12);
+  for (const double width : {1.625, 2.0, 100.0}) EXPECT_NEAR(slope(width), 3, 1e-12) << width;
 }
 
 /// A pixel that holds the whole map, or a thousand of it, sees its mean.

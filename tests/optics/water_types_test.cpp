@@ -1,5 +1,6 @@
 #include "limpid/optics/water_types.h"
 
+#include <cmath>
 #include <iterator>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,16 @@ TEST(WaterTypes, PureWaterOnlyAbsorbs) {
   const WaterOptics pure = water_optics(WaterType::kPure);
   EXPECT_EQ(pure.absorption, (Rgb<double>{.340, .0565, .00922}));
   EXPECT_EQ(pure.down_attenuation, pure.absorption);
+}
+
+// Jerlov's IA lies half way between I and IB, in every color.
+TEST(WaterTypes, OceanWatersAreEvenSteps) {
+  const Rgb<double> clear = water_optics(WaterType::kJerlovI).down_attenuation;
+  const Rgb<double> between = water_optics(WaterType::kJerlovIA).down_attenuation;
+  const Rgb<double> murkier = water_optics(WaterType::kJerlovIB).down_attenuation;
+  EXPECT_NEAR(std::sqrt(clear.r * murkier.r), between.r, 0.01 * between.r);
+  EXPECT_NEAR(std::sqrt(clear.g * murkier.g), between.g, 0.01 * between.g);
+  EXPECT_NEAR(std::sqrt(clear.b * murkier.b), between.b, 0.01 * between.b);
 }
 
 TEST(WaterTypes, MurkinessHandWorked) {

@@ -71,6 +71,22 @@ TEST(WaveGlint, HasTheEnergyOfTheDiscMirrored) {
   }
 }
 
+TEST(WaveGlint, OfStillWaterIsTheBrightest) {
+  const double mirrored = lobe(kUp, kUp, kUp, {0, 0, 0}) / fresnel_exact(1.0, kWater);
+  EXPECT_NEAR(mirrored * kRadius * kRadius, kBrightestLobe, 1e-6 * kBrightestLobe);
+}
+
+// The axes are the look-up's, not the water's: turned together, view, light and facet see the same.
+TEST(WaveGlint, IsTheSameAllAround) {
+  const auto turned = [](double turn) {
+    return lobe(leaning(20, turn), leaning(-15, turn), leaning(55.1, turn), {1e-6, 0, 1e-6});
+  };
+  ASSERT_GT(turned(0), 0);
+  for (const double turn : {30.0, 90.0, 200.0}) {
+    EXPECT_NEAR(turned(turn), turned(0), 1e-6 * turned(0)) << turn;
+  }
+}
+
 TEST(WaveGlint, FollowsTheMeanFacet) {
   const Vec3<double> v = leaning(-60), l = leaning(20), n = leaning(-20);
   EXPECT_GT(lobe(n, v, l, {1e-5, 0, 1e-5}), 50);

@@ -102,6 +102,12 @@ TEST(Plan, WithoutWavesThereIsNothingToRefract) {
             "penetration         dropped: neutral, its parameters change nothing here\n");
 }
 
+TEST(Plan, HasOnlyWhatItIsToldOf) {
+  const std::string told = text(busy_look(), {.planes = kBare});
+  EXPECT_THAT(told, HasSubstr("wave_normals        dropped: input absent, no normal map\n"));
+  EXPECT_THAT(told, HasSubstr("sun_highlight       dropped: input absent, no sun\n"));
+}
+
 TEST(Plan, DropsWhatItsParametersMakeNeutral) {
   Look look = test::article_look();
   look.of<Refraction>().strength = 0;

@@ -87,6 +87,10 @@ class Errors(unittest.TestCase):
         self.refused("mmx", simd="mmx")
         self.refused("-1", threads=-1)
         self.refused("max_error", max_error=-1.0)
+        self.refused("runner: unknown 'cuda', expected one of fused, gpu", runner="cuda")
+        self.refused("gpu or gpu_cache is 'H100', expected runner='gpu' beside it", gpu="H100")
+        self.refused("gpu or gpu_cache is 'kept', expected runner='gpu' beside it", gpu_cache="kept")
+        self.refused("expected 0 on a GPU, which leaves nothing out", runner="gpu", max_error=0.01)
 
     def test_looks(self):
         self.refused("unknown 'refracton', expected one of water, wave_normals", look={"refracton": {"steps": 2}})

@@ -30,6 +30,7 @@ class Recorded {
     const auto serial = make_executor(1);
     frame_ = completer_.complete(plan_, plate, pass_of(plan_, scene, plate), *serial);
     pass_.emplace(pass_of(plan_, scene, frame_));
+    pass_->plate_waves = completer_.plate_waves();
     if (!plan_.reads_environment) pass_->environment = {};
     recording_ = record(plan_, *pass_, made_aovs());
   }

@@ -149,31 +149,5 @@ TEST_F(PartsTest, TheOutputTellsOfItselfAlone) {
   }
 }
 
-TEST_F(PartsTest, OtherPrimariesAreWarnedOfOnceAndHandedOn) {
-  const Ran made = oiiotool({"plate.exr", "--attrib:type=float[8]", "chromaticities",
-                             "0.713,0.293,0.165,0.83,0.128,0.044,0.32168,0.33767", "-d", "float",
-                             "-o", "acescg.0001.exr"});
-  ASSERT_EQ(made.code, 0) << made.err;
-  std::filesystem::copy(folder_ / "acescg.0001.exr", folder_ / "acescg.0002.exr");
-  const Words water = {"--scene", "scene.toml", "--look", "look.toml"};
-  Words one = {"composite", "acescg.0001.exr", "-o", "wet.exr"};
-  Words two = {"composite", "acescg.####.exr", "-o", "wet.####.exr", "--frames", "1-2"};
-  const std::string warning =
-      "limpid: warning: the plate's chromaticities are those of ACEScg (AP1), not of Rec.709: "
-      "coefficients and colors of the water are for Rec.709 and are not converted\n";
-  for (Words* words : {&one, &two}) {
-    words->insert(words->end(), water.begin(), water.end());
-    const Ran ran = limpid(*words);
-    EXPECT_EQ(ran.code, 0);
-    EXPECT_EQ(ran.err, warning);
-    words->push_back("-q");
-    EXPECT_EQ(limpid(*words).err, "");
-  }
-  const auto of = [&](const std::string& file) {
-    return ExrFile::open(folder_ / file).attributes(0).at("chromaticities").bytes;
-  };
-  EXPECT_EQ(of("wet.exr"), of("acescg.0001.exr"));
-}
-
 }  // namespace
 }  // namespace limpid::test

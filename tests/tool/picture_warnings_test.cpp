@@ -63,6 +63,28 @@ TEST(PictureWarnings, TheSunsDiscIsSeenTwice) {
   EXPECT_THAT(evening.warnings(), IsEmpty());
 }
 
+TEST(PictureWarnings, WhatHidesALowSunIsOutOfThePicture) {
+  const auto unseen = testing::Contains(HasSubstr("the sun stands 10 degrees high and out of"));
+  Evening evening;
+  evening.look.of<SunHighlight>().model = SunHighlight::Model::kSlopes;
+  EXPECT_THAT(evening.warnings(), testing::Not(unseen));  // the sun is in the picture
+  evening.scene.camera->view =
+      glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 1, -1), glm::dvec3(0, 1, 0));
+  const Rays rays = rays_of(*evening.scene.camera, {kSize.width, kSize.height});
+  evening.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return y < 4 ? 1 : static_cast<float>(-3 / rays.ray_at(x + 0.5, y + 0.5).y);
+  });
+  EXPECT_THAT(evening.warnings(), unseen);
+  const glm::dvec3 low = evening.scene.sun->direction;
+  evening.scene.sun->direction = {low.z, low.y, 0};  // its glint lies far aside
+  EXPECT_THAT(evening.warnings(), testing::Not(unseen));
+  evening.scene.sun->direction = {0, 0.6, -0.8};
+  EXPECT_THAT(evening.warnings(), testing::Not(testing::Contains(HasSubstr("the sun stands"))));
+  evening.scene.sun->direction = low;
+  evening.buffers.fill(PlaneId::kSurfaceShadow, 1);
+  EXPECT_THAT(evening.warnings(), testing::Not(unseen));
+}
+
 // A pane of ten columns is told with its share; a blurred edge of two is not.
 TEST(PictureWarnings, GlassIsTakenForOpaque) {
   Evening evening;

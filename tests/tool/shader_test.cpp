@@ -65,6 +65,31 @@ TEST_F(ShaderTest, SpirvIsWordsOfAModule) {
   EXPECT_EQ(magic, 0x07230203u);
 }
 
+/// The Khronos group's own reader takes the texts, and its validator the words.
+TEST_F(ShaderTest, OtherPeoplesCompilersTakeEveryLook) {
+  const auto expect_taken = [&](const Words& command, const std::string& what) {
+    const Ran ran = run(folder_, command);
+    EXPECT_EQ(ran.code, 0) << what << ": " << ran.out << ran.err;
+  };
+  for (const std::string look : {"physical", "fast", "realistic", "monogame", "rito"}) {
+    for (const std::string main : {"compute", "fragment"}) {
+      const auto write = [&](const std::string& language, const std::string& file) {
+        const Ran ran = limpid({"shader", "--look", look, "--planes", "shadow,reflection", "--lang",
+                                language, "--main", main, "-q", "-o", file});
+        ASSERT_EQ(ran.code, 0) << ran.err;
+      };
+      const std::string stage = main.substr(0, 4), what = look + " " + main;
+      write("hlsl", "a.hlsl");
+      expect_taken({GLSLANG, "-D", "-V", "-S", stage, "-e", "main", "a.hlsl", "-o", "a.hlsl.spv"},
+                   what + " in HLSL");
+      write("glsl-es", "a." + stage);
+      expect_taken({GLSLANG, "a." + stage}, what + " in GLSL ES");
+      write("spirv", "a.spv");
+      expect_taken({SPIRV_VAL, "--target-env", "vulkan1.0", "a.spv"}, what + " in SPIR-V");
+    }
+  }
+}
+
 TEST_F(ShaderTest, PrintsTheTextWithoutAFile) {
   const Ran ran = limpid({"shader", "--look", "monogame"});
   EXPECT_EQ(ran.code, 0) << ran.err;

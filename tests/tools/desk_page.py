@@ -46,6 +46,23 @@ window.told = (id) => new Promise((done) =>
     }).observe(document.getElementById(id), {childList: true, characterData: true, subtree: true}));
 """
 
+# Half of the light, and red and blue in each other's place.
+OCIO_CONFIG = """ocio_profile_version: 1
+roles: {default: lin_rec709, scene_linear: lin_rec709}
+displays:
+  screen:
+    - !<View> {name: half, colorspace: half}
+    - !<View> {name: swapped, colorspace: swapped}
+colorspaces:
+  - !<ColorSpace> {name: lin_rec709}
+  - !<ColorSpace>
+    name: half
+    from_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
+  - !<ColorSpace>
+    name: swapped
+    from_reference: !<MatrixTransform> {matrix: [0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1]}
+"""
+
 MURKINESS = '.field[data-key="depth_fog.murkiness"]'
 CTRL, SHIFT = 2, 8
 
@@ -103,12 +120,13 @@ class Desk:
         self.browser.key("Enter", 13)
         self.run("desk.idle()")
 
-    def tools_picture(self, command):
-        """The preview that a command line makes, as the page's `tools`."""
+    def tools_picture(self, command, *options):
+        """The preview that a command line and options of the preview make, as the page's `tools`."""
         preview = self.folder / "preview.png"
         words = shlex.split(command)
         words[words.index("-o") + 1] = str(self.folder / "wet.exr")
-        subprocess.run([self.limpid, *words[1:], "--preview", preview], check=True, cwd=self.folder, capture_output=True)
+        subprocess.run([self.limpid, *words[1:], "--preview", preview, *options], check=True, cwd=self.folder,
+                       capture_output=True)
         text = base64.b64encode(preview.read_bytes()).decode()
         self.run(f"bytesOf('{text}').then((bytes) => {{ window.tools = bytes; }})")
 
@@ -226,6 +244,31 @@ def wipe(desk):
     desk.browser.key("f", 70)
 
 
+def pinch(desk):
+    desk.browser.key("1", 49)
+    x, y = desk.center("#stage")
+    sheet = "document.getElementById('picture').getBoundingClientRect()"
+
+    def touch(kind, *places):
+        points = [{"x": x + dx, "y": y + dy, "id": id} for id, (dx, dy) in enumerate(places)]
+        desk.browser.call("Input.dispatchTouchEvent", type="touch" + kind, touchPoints=points)
+
+    # What lies between the fingers, as a place on the picture.
+    between = desk.run(f"[({x} + 20 - {sheet}.left), ({y} - {sheet}.top)]")
+    touch("Start", (-30, 0), (70, 0))
+    touch("Move", (-80, 0), (120, 0))
+    touch("End")
+    expect(desk.run("textOf('zoom')"), "200 %", "two fingers twice as far apart show it twice as large")
+    after = desk.run(f"[({x} + 20 - {sheet}.left) / 2, ({y} - {sheet}.top) / 2]")
+    expect(max(abs(a - b) for a, b in zip(between, after)) <= 1, True, "what lies between them stays there")
+    left = desk.run(f"{sheet}.left")
+    touch("Start", (0, 0))
+    touch("Move", (-40, 0))
+    touch("End")
+    expect(desk.run(f"{sheet}.left") - left, -40, "one finger moves it")
+    desk.browser.key("f", 70)
+
+
 def aov_and_numbers(desk):
     desk.keep("wet")
     desk.run("choose('show', 'transmittance')")
@@ -285,6 +328,17 @@ def saving(desk):
     expect(desk.differing("tools"), 0, "the saved look makes the same picture")
 
 
+def views_of_a_config(desk, config):
+    expect(desk.run("[...document.getElementById('display').options].map((option) => option.value)"),
+           ["screen/half", "screen/swapped", "sRGB"], "the page offers the views of a config, and sRGB")
+    expect(desk.run("document.getElementById('display').offsetWidth > 0"), True, "they are seen")
+    for view in ("screen/half", "screen/swapped", "sRGB"):
+        desk.run(f"choose('display', '{view}')")
+        options = ["--display", view] if view == "sRGB" else ["--ocio", config, "--display", view]
+        desk.tools_picture(desk.copied_command(), *options)
+        expect(desk.differing("tools"), 0, f"{view} is shown as the tool has it, to the byte")
+
+
 def large_plate(desk):
     desk.run("window.askedBefore = desk.asked; 0")
     desk.run("for (let i = 1; i <= 50; ++i) desk.set('depth_fog.murkiness', i / 100)")
@@ -315,8 +369,14 @@ def main():
         sys.exit("no browser: install chromium (tools/dev setup) and configure anew")
     with tempfile.TemporaryDirectory() as folder, Browser(chromium) as browser:
         with contextlib.closing(Desk(limpid, browser, folder, "--scene", f"{data}/plates/lagoon/lagoon.toml")) as desk:
-            for check in (slider_by_the_mouse, undo_and_redo, presets, wipe, aov_and_numbers, bad_values, saving, server_gone):
+            expect(desk.run("document.getElementById('display').offsetWidth"), 0, "without a config there is no view")
+            for check in (slider_by_the_mouse, undo_and_redo, presets, wipe, pinch, aov_and_numbers, bad_values, saving, server_gone):
                 check(desk)
+        config = f"{folder}/tiny.ocio"
+        pathlib.Path(config).write_text(OCIO_CONFIG)
+        with contextlib.closing(Desk(limpid, browser, folder, "--scene", f"{data}/plates/lagoon/lagoon.toml", "--ocio",
+                                     config)) as desk:
+            views_of_a_config(desk, config)
         plate = f"{folder}/pool.exr"
         subprocess.run([limpid, "render", f"{data}/scenes/pool.toml", "--size", "3840x2160", "-o", plate], check=True,
                        capture_output=True)

@@ -64,7 +64,7 @@ CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(tiny LANGUAGES CXX)
 find_package(GTest REQUIRED)
 set(CMAKE_CXX_STANDARD 20)
-file(GLOB sources src/core/*.cpp tests/*.cpp)
+file(GLOB sources src/*/*.cpp tests/*.cpp)
 add_executable(test_tiny ${sources})
 target_include_directories(test_tiny PRIVATE src)
 target_link_libraries(test_tiny GTest::gtest_main)
@@ -104,13 +104,13 @@ def one_change(text, old):
 
 
 def check_run(root):
-    for name, text in {"src/optics/tiny.h": HEADER, "tests/tiny_test.cpp": TEST, "CMakeLists.txt": CMAKE, ".gitignore": "/build/\n"}.items():
+    for name, text in {"src/optics/tiny.h": HEADER, "src/optics/tiny.cpp": '#include "optics/tiny.h"\n', "tests/tiny_test.cpp": TEST, "CMakeLists.txt": CMAKE, ".gitignore": "/build/\n"}.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(text)
     subprocess.run(["git", "init", "-q", root], check=True)
     project = mutants.Project(root=root, folders=["src/optics"], programs=["test_tiny"], programs_folder="", cmake=[],
-                              support="src/core/mutant.cpp", checked=re.compile("^tests/"), rewritten={}, known="docs/known.md")
-    options = {"paths": [], "limit": 100, "seed": 1, "again": False, "jobs": 2, "verbose": False}
+                              support="src/core/mutant.cpp", checked=re.compile("^src/optics/"), rewritten={}, known="docs/known.md")
+    options = {"paths": [], "limit": 100, "seed": 1, "again": False, "rest": False, "minutes": None, "seconds": None, "jobs": 2, "verbose": False}
     trial.LEAST_SECONDS = 1  # the unchanged program takes none
 
     def run(**changed):
@@ -129,8 +129,8 @@ def check_run(root):
     expect("a test that fails as it is tells nothing", "not used, it fails without a mutant: test_tiny Tiny.FailsAsItIs" in said)
     results = json.loads((root / "build/mutants/results.json").read_text())
     expect("the others were noticed, one that has no end among them",
-           sorted(results.values()).count("killed") == len(results) - 4
-           and any(name.endswith("|+=") and state == "killed" for name, state in results.items()))
+           sum(result["state"] == "killed" for result in results.values()) == len(results) - 4
+           and any(name.endswith("|+=") and result["state"] == "killed" for name, result in results.items()))
 
     page = root / "docs/known.md"
     page.parent.mkdir()

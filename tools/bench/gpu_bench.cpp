@@ -73,11 +73,13 @@ class Bench {
     const Frame frame = completer.complete(plan, plate_.frame,
                                            pass_of(plan, plate_.scene, plate_.frame), *executor_);
     Pass pass = pass_of(plan, plate_.scene, frame);
+    pass.plate_waves = completer.plate_waves();
     if (!plan.reads_environment) pass.environment = {};
     ShaderOptions options;
     options.stage = ShaderOptions::Stage::kCompute;
     options.most_threads = device_->most_threads();
-    OnDevice ours(device_, program_of(plan, plate_.frame, frame, pass, options), *executor_);
+    OnDevice ours(device_, program_of(plan, plate_.frame, frame, pass, options, Gathered::kAll),
+                  *executor_);
     std::optional<OnDevice> rival;
     if (name == "realistic") {
       rival.emplace(device_, realistic_program(look, plate_.frame, plate_.scene), *executor_, true,

@@ -25,6 +25,8 @@ struct WaterOptions {
   std::string output, preview, contact_sheet, deep, runner = "fused", simd, gpu,
                                                     compression = "piz";
   std::string show;  ///< "", "auto" or how a terminal shows pictures
+  std::optional<double> exposure;
+  std::string display, ocio;
   bool store_float = false, dry_run = false;
 };
 
@@ -40,7 +42,7 @@ struct FrameOptions {
 struct CompositeArguments {
   std::vector<std::string> plates, layers;
   bool measure = false;  ///< `plan` runs it, too
-  std::string scene, view, depth_kind;
+  std::string scene, view, depth_kind, colorspace;
   std::optional<double> depth_nothing;
   int samples = 1, overscan = 0;
   std::vector<std::string> pass_through = {"none"};

@@ -160,6 +160,9 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
                 Fault::kUsage);
   }
   if (!a.depth_kind.empty()) job.depth_kind = depth_kind_named(a.depth_kind);
+  if (!a.colorspace.empty()) {
+    job.primaries = as_usage([&] { return color_space_named(a.colorspace); });
+  }
   if (a.depth_nothing) job.depth_nothing = finite_nothing(*a.depth_nothing);
   job.look = look_of(a.water);
   job.time.asked = a.water.time;

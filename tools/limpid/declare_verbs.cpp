@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "limpid/core/color_space.h"
+#include "limpid/core/error.h"
 #include "limpid/job/sequence.h"
 #include "limpid/job/water.h"
 #include "limpid/raster/render_plate.h"
@@ -70,6 +72,11 @@ void add_plate_options(CLI::App& verb, CompositeArguments& a) {
                   "Depth where no surface was hit, such as 0 (default: the scene's, and 0 where "
                   "alpha is 0)")
       ->option_text("Z");
+  verb.add_option("--colorspace", a.colorspace,
+                  "Color space of the plate: " + join(color_space_names()) +
+                      ", or eight numbers, x and y of red, green, blue and white (default: the "
+                      "scene's, else as the plate's chromaticities say, else Rec.709)")
+      ->option_text("NAME");
 }
 
 void add_composite(CLI::App& verb, CompositeArguments& a) {
@@ -92,6 +99,7 @@ void add_view(CLI::App& app, ViewArguments& a) {
   add_simd(verb, a.composite.water);
   add_runner(verb, a.composite.water);
   add_gpu(verb, a.composite.water);
+  add_display(verb, a.composite.water);
   verb.add_option("--reference", a.reference,
                   "Picture of the same size to compare with, such as a path-traced one")
       ->option_text("FILE");

@@ -67,6 +67,7 @@ TruthJob truth_job(const TruthArguments& a, const CommonArguments& common) {
   job.seed = a.seed;
   job.output.picture = choice.picture;
   job.output.preview = choice.preview;
+  job.output.display = choice.display;
   job.output.compression = choice.compression;
   job.output.store_float = choice.store_float;
   choose_aovs(a.water.aovs, job.output);

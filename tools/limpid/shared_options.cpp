@@ -16,6 +16,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostSeconds = 1e12;  ///< so that no wave's phase overflows
 constexpr double kMostFps = 1e6;
+constexpr double kMostStops = 100;
 
 }  // namespace
 
@@ -105,9 +106,22 @@ void add_simd(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--simd", a.simd, "Instruction set (default: the best)")->option_text("NAME");
 }
 
+void add_display(CLI::App& verb, WaterOptions& a) {
+  verb.add_option(
+          "--display", a.display,
+          "How light is shown: sRGB, or DISPLAY/VIEW of an OpenColorIO config, or a view of "
+          "its default display (default: the config's default, or sRGB without a config)")
+      ->option_text("sRGB|DISPLAY/VIEW");
+  verb.add_option("--ocio", a.ocio, "Config of OpenColorIO (default: $OCIO)")->option_text("FILE");
+}
+
 void add_preview(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--preview", a.preview, "Also write a picture for a screen")
       ->option_text("OUT.png");
+  verb.add_option("--exposure", a.exposure, "Stops brighter that such pictures are (default: 0)")
+      ->option_text("STOPS")
+      ->check(number_in(-kMostStops, kMostStops, "stops"));
+  add_display(verb, a);
 }
 
 void add_runner(CLI::App& verb, WaterOptions& a) {

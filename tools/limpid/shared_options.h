@@ -23,6 +23,7 @@ void add_settings(CLI::App& verb, WaterOptions& a);
 void add_look(CLI::App& verb, WaterOptions& a);
 void add_file(CLI::App& verb, WaterOptions& a);
 void add_simd(CLI::App& verb, WaterOptions& a);
+void add_display(CLI::App& verb, WaterOptions& a);
 void add_preview(CLI::App& verb, WaterOptions& a);
 void add_runner(CLI::App& verb, WaterOptions& a);
 void add_gpu(CLI::App& verb, WaterOptions& a);

@@ -98,7 +98,8 @@ void expect_no_shot_options(const ReportArguments& a) {
       {"--time", c.water.time.has_value()},    {"--samples", c.samples != 1},
       {"--simd", !c.water.simd.empty()},       {"--view", !c.view.empty()},
       {"--depth-kind", !c.depth_kind.empty()}, {"--depth-nothing", c.depth_nothing.has_value()},
-      {"--truth", !a.truth.empty()},           {"--against", !a.against.empty()}};
+      {"--colorspace", !c.colorspace.empty()}, {"--truth", !a.truth.empty()},
+      {"--against", !a.against.empty()}};
   refuse_given(given, "is for a shot: expected PLATE... or --scene beside it");
 }
 

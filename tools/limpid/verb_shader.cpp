@@ -71,6 +71,7 @@ Subject subject_of(const SceneFile& file, const ShaderArguments& a) {
   if (file.scene.sun) scene.sun = file.scene.sun;
   scene.sky = file.scene.sky;
   scene.time = file.scene.time;
+  scene.primaries = file.scene.primaries;
   const bool plates = !file.plates.empty() && a.planes.empty();
   if (plates && !file.camera) throw Error(a.scene + ": expected a [camera] for its plates");
   Subject subject = [&] {
@@ -78,6 +79,7 @@ Subject subject_of(const SceneFile& file, const ShaderArguments& a) {
     PlateRequest request;
     request.named = file.plates;
     const Plate plate = Plate::open(request);
+    if (!file.primaries) scene.primaries = plate.primaries().value_or(kRec709);
     scene.camera = camera_for(*file.camera, plate.display().size(), plate.pixel_aspect());
     const DepthMeaning depth{file.depth, file.near.value_or(0), file.far.value_or(0)};
     return Subject(scene, plate.read(plate.planes(), scene, depth));
@@ -114,10 +116,11 @@ int shader_verb(const ShaderArguments& a, const CommonArguments& common) {
   Frame frame = subject.frame;
   const LoadedTexture map = load_texture(look.of<WaveNormals>().map);
   frame.wave_map = map.texture;
-  Plan plan = make_plan(look,
-                        {frame.present(), true, subject.scene.sun.has_value(),
-                         static_cast<bool>(frame.environment), subject.scene.has_waves()},
-                        state_shown_by(options.aovs));
+  Plan plan = make_plan(
+      look,
+      {frame.present(), true, subject.scene.sun.has_value(), static_cast<bool>(frame.environment),
+       subject.scene.has_waves(), subject.scene.primaries},
+      state_shown_by(options.aovs));
   if (!subject.real) plan.completed = {};  // a host makes its own buffers or has none
   const ShaderText shader =
       as_usage([&] { return ShaderText(plan, frame, subject.scene, options); });

@@ -33,6 +33,7 @@ std::vector<std::string> command_of(const CompositeArguments& a, const CommonArg
   for (const std::string& layer : a.layers) add("--layer", layer);
   add("--view", a.view);
   add("--depth-kind", a.depth_kind);
+  add("--colorspace", a.colorspace);
   if (a.depth_nothing) add("--depth-nothing", to_string(Value(*a.depth_nothing)));
   if (a.frames.fps) add("--fps", to_string(Value(*a.frames.fps)));
   if (a.samples != 1) add("--samples", std::to_string(a.samples));
@@ -45,7 +46,9 @@ std::vector<std::string> command_of(const CompositeArguments& a, const CommonArg
 }
 
 DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) {
-  const CompositeArguments& plate = a.composite;
+  CompositeArguments plate = a.composite;
+  const DisplayChoice display = display_of(plate.water, true);
+  plate.water.display = plate.water.ocio = "";  // of the page, not of files
   const Sequence sequence = sequence_of(plate.frames, plate.water);
   const CompositeJob job = common_job(plate, sequence, common);
   expect_one_view(job, "view");
@@ -63,6 +66,7 @@ DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) 
       return read_color(frame ? name_of_frame(name, *frame) : name, limits_of(common)).planes;
     };
   }
+  options.display = display;
   options.folder = a.folder;
   if (!std::filesystem::is_directory(options.folder)) {
     throw Error("--folder " + a.folder + ": expected an existing folder", Fault::kUsage);

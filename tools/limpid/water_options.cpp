@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "limpid/core/error.h"
@@ -22,6 +23,7 @@
 namespace limpid::tool {
 namespace {
 
+constexpr const char* kPlainDisplay = "sRGB";
 constexpr int kShownAcross = 1024;  ///< pixels of a picture in a terminal, at most
 
 std::vector<Aov> aov_list(const std::vector<std::string>& names) {
@@ -135,6 +137,32 @@ void expect_output(const std::string& path) {
   exr_named("-o", path);
 }
 
+DisplayChoice display_of(const WaterOptions& a, bool shows) {
+  const auto refuse = [](const std::string& given, const std::string& expected) {
+    throw Error(given + ": expected " + expected, Fault::kUsage);
+  };
+  if (!shows) {
+    const std::string beside = "--preview, --contact-sheet or --show beside it, as the verb has it";
+    if (a.exposure) refuse("--exposure", beside);
+    if (!a.display.empty()) refuse("--display " + a.display, beside);
+    if (!a.ocio.empty()) refuse("--ocio " + a.ocio, beside);
+    return {};
+  }
+  DisplayChoice display{.exposure = a.exposure.value_or(0), .config = {}};
+  if (a.display == kPlainDisplay) {
+    if (!a.ocio.empty()) refuse("--ocio " + a.ocio, "a view of it, not --display sRGB, beside it");
+    return display;
+  }
+  const char* const environment = std::getenv("OCIO");
+  display.config = !a.ocio.empty() ? a.ocio : environment ? environment : "";
+  if (display.config.empty() && !a.display.empty()) {
+    refuse("--display " + a.display, "sRGB, or a config of OpenColorIO by --ocio or $OCIO");
+  }
+  // Its full name, so that records and pages have one.
+  if (!display.config.empty()) display.view = display_view(display.config, a.display);
+  return display;
+}
+
 OutputChoice output_of(const WaterOptions& a) {
   OutputChoice output;
   output.aovs = aov_list(a.aovs);
@@ -152,6 +180,7 @@ OutputChoice output_of(const WaterOptions& a) {
   output.preview = a.preview;
   output.contact_sheet = a.contact_sheet;
   if (!a.show.empty()) output.preview_across = kShownAcross;
+  output.display = display_of(a, output.shows());
   output.deep = exr_named("--deep", a.deep);
   validate_compression(a.compression);
   output.compression = a.compression;

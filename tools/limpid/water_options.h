@@ -47,6 +47,9 @@ Model model_to_render(const SceneFile& scene, bool draw_what_you_can,
 /// Throws the usage Error for no name, or one that is not an EXR's.
 void expect_output(const std::string& path);
 OutputChoice output_of(const WaterOptions& options);
+/// How light is shown, by the options, else $OCIO. Throws the usage Error for a view that is not
+/// there, and for any of the options where nothing `shows` it.
+DisplayChoice display_of(const WaterOptions& options, bool shows);
 
 /// What there is to say of a frame: with -v the plan, then the files written, sizes and times.
 std::string report_text(const CompositeReport& report, const Look& look, const OutputChoice& output,

@@ -120,31 +120,44 @@ def run(project, arguments, say=print):
     its_own.configure()
     its_own.compile(say)
     say(f"built in {time.monotonic() - begin:.0f} s; {len(picked) - len(its_own.picked)} do not compile")
-    judge = trial.Trial(its_own)
+    judge = trial.Trial(its_own, arguments.seconds)
     judge.record(say)
-    numbers = sorted(its_own.picked)
+    results = json.loads(results_file.read_text()) if results_file.exists() else {}
+    identities = {number: tree.identity(everything[number]) for number in sorted(its_own.picked)}
     if arguments.again:
-        last = json.loads(results_file.read_text()) if results_file.exists() else {}
-        numbers = [number for number in numbers if last.get(tree.identity(everything[number])) in SURVIVED]
+        identities = {number: identity for number, identity in identities.items() if results.get(identity, {}).get("state") in SURVIVED}
+    elif not arguments.rest:
+        results = {identity: last for identity, last in results.items() if identity not in identities.values()}
     begin = time.monotonic()
-    known, verdicts = known_survivors(project), []
-    for verdict in judge.judge_all(numbers):
-        verdicts.append(verdict)
-        site = everything[verdict.number]
-        if verdict.state in SURVIVED and key_of(site, verdict.change) not in known:
+    numbers = [number for number, identity in identities.items() if arguments.again or identity not in results]
+    for verdict in judge.judge_all(numbers, arguments.minutes):
+        results[identities[verdict.number]] = dataclasses.asdict(verdict)
+        results_file.write_text(json.dumps(results, indent=1))
+        if arguments.verbose:
+            say(f"{everything[verdict.number].name}: {verdict.state} {verdict.by}")
+    say(f"judged in {time.monotonic() - begin:.0f} s")
+    judged = [(everything[number], trial.Verdict(**results[identity])) for number, identity in identities.items() if identity in results]
+    all_told = tell(project, judged, say)
+    if len(judged) < len(identities):
+        say(f"{len(identities) - len(judged)} are not judged yet: --rest")
+    return 0 if all_told and len(judged) == len(identities) else 1
+
+
+def tell(project, judged, say):
+    """Lists the survivors, and says whether the page explains all of them."""
+    known, counts = known_survivors(project), collections.defaultdict(collections.Counter)
+    for site, verdict in judged:
+        state = "survive" if verdict.state in SURVIVED else verdict.state
+        explained = state == "survive" and key_of(site, verdict.change) in known
+        for name in (site.path.split("/")[-2], "all"):
+            counts[name].update([state, "explained"] if explained else [state])
+        if state == "survive" and not explained:
             say(show(site, verdict))
-        elif arguments.verbose:
-            say(f"{site.name}: {verdict.state} {verdict.by}")
-    results = {tree.identity(everything[verdict.number]): verdict.state for verdict in verdicts}
-    before = json.loads(results_file.read_text()) if results_file.exists() else {}
-    results_file.write_text(json.dumps({**before, **results}, indent=1))
-    states = collections.Counter(verdict.state for verdict in verdicts)
-    survivors = [verdict for verdict in verdicts if verdict.state in SURVIVED]
-    explained = [v for v in survivors if key_of(everything[v.number], v.change) in known]
-    say(f"{len(verdicts) - states['unchangeable']} mutants in {time.monotonic() - begin:.0f} s: {states['killed']} killed, "
-        f"{len(survivors)} survive, of which {project.known} explains {len(explained)}"
-        + (f"; {states['unchangeable']} places whose types have no other operator" if states["unchangeable"] else ""))
-    return 1 if len(survivors) > len(explained) else 0
+    for name, count in sorted(counts.items(), key=lambda item: (item[0] == "all", item[0])):
+        say(f"{name}: {count['killed'] + count['survive']} mutants, {count['killed']} killed, {count['survive']} survive, "
+            f"of which {project.known} explains {count['explained']}"
+            + (f"; {count['unchangeable']} places whose types have no other operator" if count["unchangeable"] else ""))
+    return counts["all"]["survive"] == counts["all"]["explained"]
 
 
 def main(words):
@@ -153,6 +166,9 @@ def main(words):
     parser.add_argument("--limit", type=int, default=320, metavar="N", help="of at most N places (320)")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="which places, the same for the same N (1)")
     parser.add_argument("--again", action="store_true", help="only those that survived when last tried")
+    parser.add_argument("--rest", action="store_true", help="only those that have not been tried, and tell of all")
+    parser.add_argument("--minutes", type=float, metavar="N", help="judge for so long; --rest goes on")
+    parser.add_argument("--seconds", type=float, metavar="N", help="of each mutant only the fastest tests that take N in all")
     parser.add_argument("--tests", type=lambda text: text.split(","), metavar="NAME,..",
                         help=f"with these test programs alone, of {' '.join(PROGRAMS)}")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="so many at once (all cores)")

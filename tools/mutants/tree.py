@@ -39,7 +39,7 @@ class Tree:
     def write(self, picked):
         """`picked`: number: Site. Only what is new is written, for the build goes by times."""
         self.picked = dict(picked)
-        self.written = {}
+        self.is_new = False  # whether a mutant is there that has never been compiled
         by_path = {}
         for number, site in picked.items():
             by_path.setdefault(site.path, []).append((number, site))
@@ -49,7 +49,7 @@ class Tree:
             kept.add(name)
             target = self.source / name
             if name in by_path:
-                put(target, in_force(self.sources[name].with_changes(by_path[name])))
+                self.is_new |= put(target, in_force(self.sources[name].with_changes(by_path[name])))
             elif name in self.project.rewritten:
                 old, new = self.project.rewritten[name]
                 text = (self.project.root / name).read_text()
@@ -90,7 +90,8 @@ class Tree:
     def compile(self, say):
         """Until all compiles: what does not compile for a change is left out."""
         environment = {**os.environ, "CCACHE_DISABLE": "1"}  # no two copies are alike
-        self.check_syntax(say)
+        if self.is_new:
+            self.check_syntax(say)
         targets = list(self.project.programs)
         while True:
             run = subprocess.run([*POLITE, "cmake", "--build", str(self.build), "--parallel", str(self.jobs), "--target",
@@ -167,10 +168,12 @@ def in_force(text):
 
 
 def put(path, content):
+    """Whether it was another before."""
     if path.is_file() and path.read_bytes() == content:
-        return
+        return False
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(content)
+    return True
 
 
 def identity(site):

@@ -2,17 +2,21 @@
 import concurrent.futures
 import dataclasses
 import json
+import math
 import os
 import pathlib
 import resource
+import shlex
 import shutil
 import signal
 import subprocess
 import tempfile
 import threading
+import time
 
 SLOWER, LEAST_SECONDS = 10, 5  # than the unchanged program: a mutant that runs longer has no end
 ADDRESS_SPACE = 8 << 30
+FIRST, SECOND, UNCHANGEABLE = 1, 2, 3  # Reached in mutant.h
 
 
 @dataclasses.dataclass
@@ -25,8 +29,8 @@ class Verdict:
 
 
 class Trial:
-    def __init__(self, tree):
-        self.tree = tree
+    def __init__(self, tree, most_seconds=None):
+        self.tree, self.most_seconds = tree, most_seconds or math.inf  # of the tests of a mutant
         self.tests_folder = tree.build / tree.project.programs_folder
         self.record_file = tree.folder / "reached.json"
 
@@ -59,60 +63,76 @@ class Trial:
     # ---- what reaches what
 
     def list_tests(self, program):
-        listed = subprocess.run([self.tests_folder / program, "--gtest_list_tests"], capture_output=True, text=True, check=True)
-        tests, suite = [], ""
-        for row in listed.stdout.splitlines():
-            name = row.split("#")[0].strip()
-            if row.startswith("  "):
-                tests.append(suite + name)
-            elif name.endswith("."):
-                suite = name
-        return [test for test in tests if "DISABLED_" not in test]
+        """Each test's name, and what it is compiled of as times: what all tests of the program share, and its own source."""
+        objects = {}
+        for entry in json.loads((self.tree.build / "compile_commands.json").read_text()):
+            words = shlex.split(entry["command"])
+            object_file = pathlib.Path(entry["directory"], words[words.index("-o") + 1])
+            if f"{program}.dir" in object_file.parts:
+                objects[entry["file"]] = object_file.stat().st_mtime_ns
+        with tempfile.NamedTemporaryFile(prefix="tests-") as file:
+            subprocess.run([self.tests_folder / program, "--gtest_list_tests", f"--gtest_output=json:{file.name}"],
+                           stdout=subprocess.DEVNULL, check=True)
+            suites = json.loads(pathlib.Path(file.name).read_text())["testsuites"]
+        sources = {f"{suite['name']}.{test['name']}": test["file"] for suite in suites for test in suite["testsuite"]}
+        shared = [built for source, built in objects.items() if source not in sources.values()]
+        shared += [library.stat().st_mtime_ns for library in self.tree.build.rglob("*.a")]
+        return {test: [max(shared), objects[source]] for test, source in sources.items() if "DISABLED_" not in test}
 
-    def record_test(self, program, test):
+    def record_test(self, program, test, built):
         with tempfile.NamedTemporaryFile(prefix="reached-") as file:
             status, seconds, text = self.run(program, [test], {"LIMPID_MUTANTS_REACHED": file.name}, 600)
             content = pathlib.Path(file.name).read_bytes()
-        return {"passed": status == 0, "seconds": seconds, "said": text[-1500:] if status else "",
+        return {"built": built, "passed": status == 0, "seconds": seconds, "said": text[-1500:] if status else "",
                 "reached": {str(number): value for number, value in enumerate(content) if value}}
 
     def record(self, say):
-        """Runs each test of the unchanged programs alone; again only where the program is a new one."""
+        """Runs each test of the unchanged programs alone; again only where it has been compiled anew."""
         known = json.loads(self.record_file.read_text()) if self.record_file.exists() else {}
         self.reached = {}
         with concurrent.futures.ThreadPoolExecutor(self.tree.jobs) as pool:
             for program in self.tree.project.programs:
-                built = (self.tests_folder / program).stat().st_mtime_ns
-                if known.get(program, {}).get("built") != built:
-                    tests = self.list_tests(program)
-                    records = dict(zip(tests, pool.map(lambda test: self.record_test(program, test), tests)))
-                    known[program] = {"built": built, "tests": records}
+                tests, before = self.list_tests(program), known.get(program, {})
+                known[program] = {test: before[test] for test, built in tests.items() if before.get(test, {}).get("built") == built}
+                new = [test for test in tests if test not in known[program]]
+                for test, record in zip(new, pool.map(lambda test: self.record_test(program, test, tests[test]), new)):
+                    known[program][test] = record
+                if new:
                     self.record_file.write_text(json.dumps(known))
-                self.reached[program] = {}
-                for test, record in known[program]["tests"].items():
-                    if record["passed"]:
-                        self.reached[program][test] = record
-                    else:
+                for test, record in known[program].items():
+                    if not record["passed"]:
                         say(f"not used, it fails without a mutant: {program} {test}\n{record['said']}")
+                self.reached[program] = {test: record for test, record in known[program].items() if record["passed"]}
                 seconds = sum(record["seconds"] for record in self.reached[program].values())
                 say(f"{program}: {len(self.reached[program])} tests, {seconds:.0f} s")
 
     # ---- mutants
 
+    def rounds(self, number):
+        """The tests that come by a place, the fastest first: a round is (seconds, program, tests), and all rounds together
+        take as long as those before it, for most mutants are noticed by any test."""
+        hits = sorted((record["seconds"], program, test) for program, tests in self.reached.items()
+                      for test, record in tests.items() if record["reached"].get(str(number)) in (FIRST, SECOND))
+        budget, spent, by_program = 1, 0, {}
+        for seconds, program, test in hits:
+            if spent and spent + seconds > self.most_seconds:
+                break
+            if spent + seconds > budget and by_program:
+                yield from by_program.values()
+                budget, by_program = 2 * (spent + seconds), {}
+            spent += seconds
+            before, _, tests = by_program.get(program, (0, program, []))
+            by_program[program] = (before + seconds, program, [*tests, test])
+        yield from by_program.values()
+
     def judge(self, number):
-        plan, change = [], 0
-        for program, tests in self.reached.items():
-            values = {test: record["reached"].get(str(number), 0) for test, record in tests.items()}
-            hits = [test for test, value in values.items() if value in (1, 2)]
-            change = max([change, *values.values()])
-            if hits:
-                plan.append((sum(tests[test]["seconds"] for test in hits), program, hits))
-        count = sum(len(hits) for _, _, hits in plan)
-        if not plan:
-            return Verdict(number, "unchangeable" if change == 3 else "unreached")
-        which = 1 if change == 2 else 0
-        for seconds, program, hits in sorted(plan):
-            status, _, text = self.run(program, hits, {"LIMPID_MUTANT": str(number)}, LEAST_SECONDS + SLOWER * seconds,
+        values = {record["reached"].get(str(number), 0) for tests in self.reached.values() for record in tests.values()}
+        rounds = list(self.rounds(number))
+        if not rounds:
+            return Verdict(number, "unchangeable" if UNCHANGEABLE in values else "unreached")
+        which, count = (1 if SECOND in values else 0), sum(len(tests) for _, _, tests in rounds)
+        for seconds, program, tests in rounds:
+            status, _, text = self.run(program, tests, {"LIMPID_MUTANT": str(number)}, LEAST_SECONDS + SLOWER * seconds,
                                        ["--gtest_fail_fast"])
             if status != 0:
                 failed = [row for row in text.splitlines() if row.startswith("[  FAILED  ]")]
@@ -120,6 +140,10 @@ class Trial:
                 return Verdict(number, "killed", which, count, f"{program} {how}")
         return Verdict(number, "survived", which, count)
 
-    def judge_all(self, numbers):
+    def judge_all(self, numbers, minutes=None):
+        """As many as can be begun in so many minutes."""
+        end = time.monotonic() + 60 * minutes if minutes else math.inf
         with concurrent.futures.ThreadPoolExecutor(self.tree.jobs) as pool:
-            yield from pool.map(self.judge, numbers)
+            for verdict in pool.map(lambda number: self.judge(number) if time.monotonic() < end else None, numbers):
+                if verdict:
+                    yield verdict

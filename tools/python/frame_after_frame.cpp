@@ -28,6 +28,16 @@ Conventions conventions_of(const py::dict& keywords) {
   return c;
 }
 
+std::optional<GpuOptions> gpu_of(const py::dict& keywords) {
+  const std::string runner = word_of(keywords["runner"], "runner");
+  GpuOptions gpu{.device = word_of(keywords["gpu"], "gpu"),
+                 .cache = word_of(keywords["gpu_cache"], "gpu_cache")};
+  if (choice_of(runner, "runner", {"fused", "gpu"}) == 1) return gpu;
+  const std::string named = gpu.device.empty() ? gpu.cache.string() : gpu.device;
+  if (named.empty()) return {};
+  throw Error("gpu or gpu_cache is '" + named + "', expected runner='gpu' beside it");
+}
+
 Look changed(const py::dict& changes) {
   Look look;
   change(look, changes);
@@ -140,11 +150,13 @@ const char* verdict_name(Verdict verdict) {
 }  // namespace
 
 FrameAfterFrame::FrameAfterFrame(const py::dict& conventions, const py::dict& look, int threads,
-                                 const std::string& simd, double max_error)
+                                 const std::string& simd, double max_error, const py::dict& runner)
     : executor_(make_executor(threads)),
-      compositor_(std::make_unique<Compositor>(
-          conventions_of(conventions), changed(look),
-          CompositorOptions{.executor = executor_.get(), .simd = simd, .max_error = max_error})) {}
+      compositor_(std::make_unique<Compositor>(conventions_of(conventions), changed(look),
+                                               CompositorOptions{.executor = executor_.get(),
+                                                                 .simd = simd,
+                                                                 .max_error = max_error,
+                                                                 .gpu = gpu_of(runner)})) {}
 
 void FrameAfterFrame::change_look(const py::dict& changes) {
   const Busy busy(busy_);
@@ -242,6 +254,11 @@ py::dict FrameAfterFrame::replaced() const {
     counts[py::str(role.name)] = kinds;
   }
   return counts;
+}
+
+std::string FrameAfterFrame::device() const {
+  const Busy busy(busy_);
+  return compositor_->device();
 }
 
 }  // namespace limpid::python

@@ -13,9 +13,10 @@ namespace limpid::python {
 /// lock; whatever is asked of it meanwhile is refused.
 class FrameAfterFrame {
  public:
-  /// `conventions` are keywords of limpid.Compositor. Threads as in make_executor().
+  /// `conventions` and `runner` (runner, gpu, gpu_cache) are keywords of limpid.Compositor. Threads
+  /// as in make_executor().
   FrameAfterFrame(const pybind11::dict& conventions, const pybind11::dict& look, int threads,
-                  const std::string& simd, double max_error);
+                  const std::string& simd, double max_error, const pybind11::dict& runner);
 
   void change_look(const pybind11::dict& changes);
   pybind11::dict look() const;
@@ -38,6 +39,7 @@ class FrameAfterFrame {
   /// (list of (name, verdict, reason, rule), list of roles that are read, text).
   pybind11::tuple plan() const;
   pybind11::dict replaced() const;
+  std::string device() const;  ///< "" where the CPU computes
 
  private:
   std::unique_ptr<Executor> executor_;

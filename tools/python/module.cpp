@@ -92,7 +92,8 @@ PYBIND11_MODULE(_limpid, module) {
   module.def("look_at", look_at_array);
   using C = FrameAfterFrame;
   py::class_<C>(module, "Compositor")
-      .def(py::init<const py::dict&, const py::dict&, int, const std::string&, double>())
+      .def(py::init<const py::dict&, const py::dict&, int, const std::string&, double,
+                    const py::dict&>())
       .def("change_look", &C::change_look)
       .def("look", &C::look)
       .def("set_wave_map", &C::set_wave_map)
@@ -100,7 +101,8 @@ PYBIND11_MODULE(_limpid, module) {
       .def("run", &C::run)
       .def("shader", &C::shader)
       .def("plan", &C::plan)
-      .def("replaced", &C::replaced);
+      .def("replaced", &C::replaced)
+      .def("device", &C::device);
 }
 
 }  // namespace limpid::python

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "limpid/core/camera.h"
+#include "limpid/core/color_space.h"
 #include "limpid/core/vec.h"
 
 namespace limpid {
@@ -78,15 +79,18 @@ struct Scene {
   std::optional<WaterPlane> water;
   std::optional<Sun> sun;
   std::optional<SkyLight> sky;  ///< of a frame whose surroundings nobody has a picture of
-  double time = 0;              ///< seconds
-  PixelPart part;               ///< all of the pixel
+  /// What red, green and blue are: of the frame's pictures, of sun and sky, and of a look's colors.
+  /// Waters that a look names are fitted to them (optics/fitted_water.h).
+  Primaries primaries = kRec709;
+  double time = 0;  ///< seconds
+  PixelPart part;   ///< all of the pixel
 
   /// Whether its water has waves of its own.
   bool has_waves() const { return water && !water->waves.empty(); }
 
   /// Throws Error for a bad camera, a water or sun direction that is not unit, a color or
-  /// diameter of the sun, a radiance of the sky or a part of a pixel out of its range, and numbers
-  /// that are not finite.
+  /// diameter of the sun, a radiance of the sky or a part of a pixel out of its range, primaries
+  /// that are none, and numbers that are not finite.
   void validate() const;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limpid/complete/beyond.h"
+#include "limpid/core/color_space.h"
 #include "limpid/core/executor.h"
 #include "limpid/files/text/scene_file.h"
 #include "limpid/job/job_time.h"
@@ -24,6 +25,9 @@ struct CompositeJob {
   SceneFile scene;
   std::optional<DepthKind> depth_kind;  ///< instead of the scene's
   std::optional<double> depth_nothing;  ///< instead of the scene's
+  /// The working space, instead of what the scene says, else the plate, else Rec.709. The picture's
+  /// file says so, too.
+  std::optional<Primaries> primaries = {};
   JobTime time;
   Look look;
 
@@ -54,9 +58,9 @@ struct CompositeReport {
   /// not in the picture's file.
   std::vector<std::string> left_out = {};
   SanitiseCounts replaced;
-  /// What the picture does not show though it was asked for, a sentence each: Plate::warnings(),
-  /// Plan::warnings, layers that are named and not read, and a picture without a wet pixel or a dry
-  /// one.
+  /// What the picture does not show though it was asked for, a sentence each: Plan::warnings,
+  /// primaries that the plate contradicts, layers that are named and not read, and a picture
+  /// without a wet pixel or a dry one.
   std::vector<std::string> warnings;
   /// `read` is what it took to get the planes: from files, or by drawing them.
   double read_seconds = 0, run_seconds = 0, write_seconds = 0;

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpid/files/picture/display.h"
 #include "limpid/run/aov_names.h"
 #include "limpid/run/target.h"
 
@@ -92,11 +93,15 @@ struct OutputChoice {
 
   std::filesystem::path picture;  ///< EXR
   std::filesystem::path preview;  ///< PNG, or empty for none
+  /// How preview, contact sheet and CompositeReport::preview show light.
+  DisplayChoice display = {};
   /// PNG with the picture and every AOV, small, named, and as their kinds are looked at, or empty
   /// for none. All AOVs are computed for it, which takes as much memory as to write them.
   std::filesystem::path contact_sheet = {};
   /// Most pixels across of CompositeReport::preview; 0 for none.
   int preview_across = 0;
+  /// Whether any of the three is wanted.
+  bool shows() const { return !preview.empty() || !contact_sheet.empty() || preview_across > 0; }
   /// Deep EXR of the water alone, or empty for none: a volume sample on each wet pixel, of color
   /// in_scatter and alpha 1 - transmittance (files/exr/deep_writer.h). What the surface mirrors is
   /// not in it. It begins at the surface, or at the near distance where the view begins in the

@@ -22,9 +22,9 @@ namespace limpid {
 /// is cast below the surface stays: that is the shadow on the bottom over that on the surface along
 /// the straight way. Near the picture's edge shadows pass into the straight ones.
 ///
-/// Where the bottom is seen from the air, or from within the water. The light of waves that are not
-/// known, beyond what was made of them, and of what is wider in a pixel than the waves are long, is
-/// that of calm water.
+/// Where the bottom is seen from the air, from within the water, or there in the surface, of frames
+/// with a reflection and its depth. The light of waves that are not known, beyond what was made of
+/// them, and of what is wider in a pixel than the waves are long, is that of calm water.
 struct Caustics {
   enum class Shadows { kStraight, kRefracted };
   struct Params {

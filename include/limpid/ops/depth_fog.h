@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -80,6 +81,9 @@ struct DepthFog {
     Rgb<double> ambient{0.1, 0.1, 0.1};
     Sunlight sunlight = Sunlight::kRefracted;
     Crossing crossing = Crossing::kRadiance;
+    /// No parameter: where red, green and blue are not those of Rec.709, what water_type,
+    /// murkiness, sediment and cdom are for them. The planner makes it.
+    std::optional<FittedWater> fitted = {};
   };
 
   static constexpr std::string_view kName = "depth_fog";

@@ -31,9 +31,10 @@ namespace limpid {
 /// empty position.
 ///
 /// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel does
-/// not resolve (slope_variance): nodes -sqrt 3, 0, sqrt 3 deviations along the view, weights 1/6,
-/// 2/3, 1/6. A facet whose mirrored ray would go into the water is tilted until the ray is parallel
-/// to it. A variance along the view below 1e-4 counts as none. `mean`: the mean normal only.
+/// not resolve (slope_variance), by three facets along the view (optics/facets.h); on a raised
+/// surface over the visible slopes. A facet whose mirrored ray would go into the water is tilted
+/// until the ray is parallel to it. A variance along the view below 1e-4 counts as none. `mean`:
+/// the mean normal only.
 ///
 /// The planar lookup, by `lookup`: `offset` at uv + strength * tilt, clamped at the edge. `ray`: at
 /// the end of the mirrored ray in the mirrored scene, where the planes show it. Its distance comes

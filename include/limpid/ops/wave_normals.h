@@ -60,9 +60,9 @@ namespace limpid {
 /// `filter` treats waves that are too small for a pixel (op/footprint.h). `none`: each pixel takes
 /// the normal at its centre. `variance`: the normal is that of the mean slope in the pixel, and
 /// slope_variance the covariance around it: for sines in closed form, for a Gaussian footprint; for
-/// the frame's normals half the variance of a pixel's nine neighbours with weights [1 2 1]^2,
-/// around the pixel's own (the normal itself is unchanged). `mip`: the mean alone; the frame's
-/// normals are unchanged.
+/// the frame's normals the expectation of a Gaussian field of slopes with the same statistics
+/// (complete/plate_waves.h), given the pixel's normal. `mip`: the mean alone; the frame's normals
+/// are unchanged.
 ///
 /// Lookups of a map with `mip` read the level, a mean of colors, whose texels are as wide as
 /// the pixel (at least a quarter of its length); `slopes` reads mean slopes instead, and with

@@ -6,7 +6,8 @@
 #include "limpid/core/vec.h"
 
 /// @file
-/// Waters by name: how much light they take, at 650, 550 and 450 nm.
+/// Waters by name: how much light they take at 650, 550 and 450 nm, which stand for red, green and
+/// blue of Rec.709. What they are for other primaries is fitted to spectra (Scene::primaries).
 
 namespace limpid {
 
@@ -84,28 +85,27 @@ struct ClearAndMurky {
   Rgb<double> absorption, scattering;
 };
 
+/// The same of one wavelength.
+struct ClearAndMurkyAt {
+  double absorption, scattering;
+};
+
 /// Case 1 waters (Morel & Prieur 1977, "Analysis of variations in ocean color"): what lives in them
 /// makes them murky and green. `murkiness` 0 ... 1 is chlorophyll C = .03 ... 30 mg/m^3, ten times
 /// as much for each third: the clearest oceans, coasts, a pond in bloom. Mobley 1994, "Light and
-/// Water", at a wavelength l in nm:
+/// Water", at a wavelength l in nm, where pure water absorbs a_pure and chlorophyll A(l) times as
+/// much as at 440 nm:
 ///
-///     a = (a_pure + .06 A(l) C^.65) (1 + .2 exp(-.014 (l - 440)))       Prieur & Sathyendranath
-///     1981 b = b_pure + .3 C^.62 550 / l                                    Gordon & Morel 1983
-///     b_pure = .00758 (400 / l)^4.32                                    Morel 1974, of sea water
-inline ClearAndMurky case_1_water(double murkiness) {
+///     a = (a_pure + .06 A(l) C^.65) (1 + .2 exp(-.014 (l - 440)))  Prieur & Sathyendranath 1981
+///     b = b_pure + .3 C^.62 550 / l                                Gordon & Morel 1983
+///     b_pure = .00758 (400 / l)^4.32                               Morel 1974, of sea water
+inline ClearAndMurkyAt case_1_water_at(double wavelength, double pure, double of_chlorophyll,
+                                       double murkiness) {
   const double chlorophyll = 0.03 * std::pow(1000, murkiness);
   const double swallows = 0.06 * std::pow(chlorophyll, 0.65);
   const double scatters = 0.3 * std::pow(chlorophyll, 0.62);
-  const auto absorption = [&](double wavelength, double pure, double of_chlorophyll) {
-    return (pure + swallows * of_chlorophyll) * (1 + 0.2 * std::exp(-0.014 * (wavelength - 440)));
-  };
-  const auto scattering = [&](double wavelength) {
-    return 0.00758 * std::pow(400 / wavelength, 4.32) + scatters * 550 / wavelength;
-  };
-  const Rgb<double>& pure = kPureWaterAbsorption;
-  return {{absorption(650, pure.r, 0.356), absorption(550, pure.g, 0.357),
-           absorption(450, pure.b, 0.944)},
-          {scattering(650), scattering(550), scattering(450)}};
+  return {(pure + swallows * of_chlorophyll) * (1 + 0.2 * std::exp(-0.014 * (wavelength - 440))),
+          0.00758 * std::pow(400 / wavelength, 4.32) + scatters * 550 / wavelength};
 }
 
 /// What a gram of mineral sediment in each cubic metre adds: nearly the same for all colors of what
@@ -114,23 +114,46 @@ inline ClearAndMurky case_1_water(double murkiness) {
 /// of blue taken (Babin et al. 2003, "Variations in the Light Absorption Coefficients of
 /// Phytoplankton, Nonalgal Particles, and Dissolved Organic Matter in Coastal Waters Around
 /// Europe").
-inline ClearAndMurky sediment_water(double grams) {
-  const auto absorption = [&](double wavelength) {
-    return 0.041 * grams * std::exp(-0.0123 * (wavelength - 443));
-  };
-  const double scattering = 0.5 * grams;
-  return {{absorption(650), absorption(550), absorption(450)},
-          {scattering, scattering, scattering}};
+inline ClearAndMurkyAt sediment_water_at(double wavelength, double grams) {
+  return {0.041 * grams * std::exp(-0.0123 * (wavelength - 443)), 0.5 * grams};
 }
 
 /// What dissolved organic matter (CDOM: humus, yellow substance) takes, by its absorption at 440
 /// nm. Bricaud, Morel & Prieur 1981, "Absorption by Dissolved Organic Matter of the Sea (Yellow
 /// Substance) in the UV and Visible Domains".
-inline Rgb<double> cdom_absorption(double at_440) {
-  const auto absorption = [&](double wavelength) {
-    return at_440 * std::exp(-0.014 * (wavelength - 440));
-  };
-  return {absorption(650), absorption(550), absorption(450)};
+inline double cdom_absorption_at(double wavelength, double at_440) {
+  return at_440 * std::exp(-0.014 * (wavelength - 440));
 }
+
+namespace detail {
+constexpr ClearAndMurky of_channels(const ClearAndMurkyAt& r, const ClearAndMurkyAt& g,
+                                    const ClearAndMurkyAt& b) {
+  return {{r.absorption, g.absorption, b.absorption}, {r.scattering, g.scattering, b.scattering}};
+}
+}  // namespace detail
+
+/// These three at 650, 550 and 450 nm.
+inline ClearAndMurky case_1_water(double murkiness) {
+  const Rgb<double>& pure = kPureWaterAbsorption;
+  return detail::of_channels(case_1_water_at(650, pure.r, 0.356, murkiness),
+                             case_1_water_at(550, pure.g, 0.357, murkiness),
+                             case_1_water_at(450, pure.b, 0.944, murkiness));
+}
+inline ClearAndMurky sediment_water(double grams) {
+  return detail::of_channels(sediment_water_at(650, grams), sediment_water_at(550, grams),
+                             sediment_water_at(450, grams));
+}
+inline Rgb<double> cdom_absorption(double at_440) {
+  return {cdom_absorption_at(650, at_440), cdom_absorption_at(550, at_440),
+          cdom_absorption_at(450, at_440)};
+}
+
+/// What a water with a name and what is mixed into it are for other channels than these three
+/// wavelengths stand for.
+struct FittedWater {
+  ClearAndMurky type;            ///< scattering of kCase1 alone; of kCustom nothing
+  Rgb<double> down_attenuation;  ///< of Jerlov's types
+  ClearAndMurky besides;         ///< sediment and dissolved organic matter
+};
 
 }  // namespace limpid

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpid/core/color_space.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/state.h"
 #include "limpid/ops/look.h"
@@ -16,8 +17,9 @@ struct Inputs {
   PlaneSet planes;        ///< that the plate has
   bool wave_map = false;  ///< a tiling normal map is at hand
   bool sun = false;
-  bool environment = false;  ///< a picture of the surroundings is at hand
-  bool waves = false;        ///< the scene has waves of its own
+  bool environment = false;       ///< a picture of the surroundings is at hand
+  bool waves = false;             ///< the scene has waves of its own
+  Primaries primaries = kRec709;  ///< Scene::primaries
 };
 
 /// Why an operator runs or does not.
@@ -56,7 +58,8 @@ std::span<const RuleInfo> rules();
 /// What of the chain will run for a job, and why the rest will not. A value: it can be printed,
 /// compared and tested without pixels.
 struct Plan {
-  Look look;                               ///< as it will run: models replaced where a rule says so
+  /// As it will run: models replaced where a rule says so, named waters fitted to the primaries.
+  Look look;
   std::vector<PlannedOperator> operators;  ///< one an operator, in chain order
   StateSet made;                           ///< by the operators that are kept
   PlaneSet planes;                         ///< that must be read from the plate

@@ -110,9 +110,10 @@ class Plate {
   /// it: without those that tell of the part's own channels or pixels, as the manifests of a
   /// cryptomatte do, and without what limpid wrote of how it was made.
   std::map<std::string, ExrFile::Attribute> attributes() const;
-  /// A sentence for each thing of the plate that the picture will not be right for: that its
-  /// chromaticities are not those of Rec.709, which coefficients and colors of the water are for.
-  std::vector<std::string> warnings() const;
+  /// The working space that these attributes tell of: `chromaticities`, else the name of a known
+  /// space in `colorInteropID` or `oiio:ColorSpace`. Nothing where neither does. Throws Error for
+  /// chromaticities that are none.
+  std::optional<Primaries> primaries() const;
   /// The layers of PlateRequest::files, and of the file that has the color, that these names mean:
   /// "all", but the color; layers, parts and channels as choose_layer() knows their names, of which
   /// each may be several; a cryptomatte as its manifest calls it; names with * and ?. Layers of

@@ -30,18 +30,19 @@ const keep = () => sessionStorage.setItem(location.pathname, JSON.stringify(hist
 // ---- what is wanted
 
 const history = new History(kept ?? {look: desk.start, set: desk.set});
-const options = {show: "picture", exposure: 0, against: ""};  // against: "", "dry", "reference" or "look NAME"
+const options = {show: "picture", exposure: 0, display: desk.displays[0], against: ""};  // against: "", "dry", "reference" or "look NAME"
 let isLive = false, ended = Promise.resolve(), endLive = () => {}, liveTimer;
 
 const madeOf = () => ({...history.now, ...timeline.at});
-const wanted = () => ({...madeOf(), show: options.show, exposure: options.exposure});
+const shownBy = () => ({exposure: options.exposure, display: options.display});
+const wanted = () => ({...madeOf(), show: options.show, ...shownBy()});
 
 // What a wipe shows on its left; null without one.
 function wantedOther() {
-  const {against, exposure} = options;
+  const {against} = options;
   if (!against) return null;
-  if (against.startsWith("look ")) return {look: against.slice(5), set: {}, ...timeline.at, show: "picture", exposure};
-  return {look: desk.start, set: {}, ...timeline.at, show: against, exposure};
+  if (against.startsWith("look ")) return {look: against.slice(5), set: {}, ...timeline.at, show: "picture", ...shownBy()};
+  return {look: desk.start, set: {}, ...timeline.at, show: against, ...shownBy()};
 }
 
 // While one drags half pictures do; once it is over, or what is dragged is held still, the full one is made.
@@ -226,6 +227,7 @@ on("show", "change", ({target}) => {
   changed();
 });
 on("against", "change", ({target}) => wipeWith(target.value));
+on("display", "change", ({target}) => { options.display = target.value; changed(); });
 on("exposure", "input", () => expose(true));
 on("exposure", "change", () => expose(false));
 on("exposure", "dblclick", () => { byId("exposure").value = 0; expose(false); });
@@ -278,6 +280,8 @@ byId("against").append(element("option", {value: ""}, "nothing"),
     ...desk.shows.filter(({name}) => name === "dry" || name === "reference")
         .map(({name}) => element("option", {value: name}, name)),
     ...lookOptions("looks", false, (name) => "look " + name), ...lookOptions("presets", true, (name) => "look " + name));
+byId("display").append(...desk.displays.map((name) => element("option", {value: name}, name)));
+byId("display_label").hidden = desk.displays.length === 1;
 byId("wipe_right").textContent = options.show;
 view.resize(...desk.size);
 view.wipes = false;

@@ -38,7 +38,7 @@ export class PixelNumbers {
   async #ask() {
     const asked = ++this.#asks;
     await this.#idle();
-    const {half, show, exposure, ...request} = this.#request();
+    const {half, show, exposure, display, ...request} = this.#request();
     let numbers;
     try {
       numbers = await api.pixel({...request, ...this.#at});

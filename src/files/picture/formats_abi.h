@@ -1,17 +1,21 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 /// The contract between the library and limpid_formats, the module that it loads at need to read
-/// and write other formats than EXR, PNG and JPEG. Plain C: no exception, allocation or C++ type
-/// crosses it. A function returns 0 when it is done; otherwise it has put one phrase into `error`,
-/// which holds kErrorSize bytes, or returns kNoMemory. A change to anything here takes a new
-/// kFormatsAbi.
+/// and write other formats than EXR, PNG and JPEG, and for OpenColorIO. Plain C: no exception,
+/// allocation or C++ type crosses it. A function returns 0 when it is done; otherwise it has put
+/// one phrase into `error`, which holds kErrorSize bytes, or returns kNoMemory. A change to
+/// anything here takes a new kFormatsAbi.
 namespace limpid::formats {
 
-inline constexpr unsigned kFormatsAbi = 2;
+inline constexpr unsigned kFormatsAbi = 3;
 inline constexpr int kNoMemory = 2;
 inline constexpr std::size_t kErrorSize = 1024;
+
+/// How lines of limpid_formats_config() begin.
+inline constexpr std::string_view kSpaceLine = "space ", kViewLine = "view ";
 
 extern "C" {
 
@@ -50,6 +54,21 @@ using FormatsTake = int(void* host, const void* bytes, std::size_t size);
                                                          int channels, const std::uint8_t* pixels,
                                                          FormatsTake* take, void* host,
                                                          char* error);
+
+/// Takes, once, a line for each color space of a config of OpenColorIO and each other name of one,
+/// and for each "DISPLAY/VIEW", that of the default display and its default view the first.
+[[gnu::visibility("default")]] int limpid_formats_config(const char* config, FormatsTake* take,
+                                                         void* host, char* error);
+
+/// A view of a config, from a color space of it, to be closed. Any threads may use it.
+struct FormatsDisplay;
+[[gnu::visibility("default")]] int limpid_formats_open_display(
+    const char* config, const char* space, const char* display, const char* view,
+    FormatsDisplay** opened, char* error);
+/// Replaces interleaved red, green and blue.
+[[gnu::visibility("default")]] int limpid_formats_display(const FormatsDisplay* display, float* rgb,
+                                                          int pixels, char* error);
+[[gnu::visibility("default")]] void limpid_formats_close_display(FormatsDisplay* display);
 }
 
 }  // namespace limpid::formats

@@ -2,13 +2,18 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include <OpenImageIO/color.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -183,7 +188,54 @@ void write8(const char* format, int width, int height, int channels, const std::
   check(take(host, bytes.data(), bytes.size()) == 0, "its bytes were not written");
 }
 
+/// Configs that have been read: each once, for the rest of the program.
+const OIIO::ColorConfig& config_at(const std::string& path) {
+  static std::mutex mutex;
+  static std::map<std::string, std::unique_ptr<OIIO::ColorConfig>> configs;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<OIIO::ColorConfig>& config = configs[path];
+  if (!config) {
+    stay_on_this_thread();
+    check(OIIO::ColorConfig::supportsOpenColorIO(), "this OpenImageIO has no OpenColorIO");
+    auto read = std::make_unique<OIIO::ColorConfig>(path);
+    check(!read->has_error(), message(read->geterror(), "is no config of OpenColorIO"));
+    config = std::move(read);
+  }
+  return *config;
+}
+
+/// The default one first.
+std::vector<std::string> default_first(std::vector<std::string> names, const char* chosen) {
+  const auto at = std::find(names.begin(), names.end(), chosen ? chosen : "");
+  if (at != names.end()) std::rotate(names.begin(), at, at + 1);
+  return names;
+}
+
+void list_config(const char* path, FormatsTake* take, void* host) {
+  const OIIO::ColorConfig& config = config_at(path);
+  std::string lines;
+  const auto add = [&](std::string_view kind, const std::string& name) {
+    if (name.find('\n') == std::string::npos) lines += std::string(kind) + name + "\n";
+  };
+  for (const std::string& space : config.getColorSpaceNames()) {
+    add(kSpaceLine, space);
+    for (const std::string& alias : config.getAliases(space)) add(kSpaceLine, alias);
+  }
+  for (const std::string& display :
+       default_first(config.getDisplayNames(), config.getDefaultDisplayName())) {
+    for (const std::string& view :
+         default_first(config.getViewNames(display), config.getDefaultViewName(display))) {
+      add(kViewLine, display + "/" + view);
+    }
+  }
+  check(take(host, lines.data(), lines.size()) == 0, "its names were not taken");
+}
+
 }  // namespace
+
+struct FormatsDisplay {
+  OIIO::ColorProcessorHandle processor;
+};
 
 unsigned limpid_formats_abi() { return kFormatsAbi; }
 
@@ -196,5 +248,30 @@ int limpid_formats_write8(const char* format, int width, int height, int channel
                           const std::uint8_t* pixels, FormatsTake* take, void* host, char* error) {
   return guarded(error, [&] { write8(format, width, height, channels, pixels, take, host); });
 }
+
+int limpid_formats_config(const char* config, FormatsTake* take, void* host, char* error) {
+  return guarded(error, [&] { list_config(config, take, host); });
+}
+
+int limpid_formats_open_display(const char* config, const char* space, const char* display,
+                                const char* view, FormatsDisplay** opened, char* error) {
+  return guarded(error, [&] {
+    const OIIO::ColorConfig& known = config_at(config);
+    auto made = std::make_unique<FormatsDisplay>();
+    made->processor = known.createDisplayTransform(display, view, space);
+    check(made->processor != nullptr,
+          "its view " + std::string(display) + "/" + view + " of " + space + " cannot be made");
+    *opened = made.release();
+  });
+}
+
+int limpid_formats_display(const FormatsDisplay* display, float* rgb, int pixels, char* error) {
+  constexpr OIIO::stride_t kSample = sizeof(float);
+  return guarded(error, [&] {
+    display->processor->apply(rgb, pixels, 1, 3, kSample, 3 * kSample, 3 * kSample * pixels);
+  });
+}
+
+void limpid_formats_close_display(FormatsDisplay* display) { delete display; }
 
 }  // namespace limpid::formats

@@ -35,20 +35,19 @@ Plane displayed(View<const float> linear, double exposure_stops) {
 void write_preview(const std::filesystem::path& path, View<const float> r, View<const float> g,
                    View<const float> b, double exposure_stops,
                    const std::map<std::string, std::string>& texts) {
-  AtomicFiles files;
-  write_preview(files, path, r, g, b, exposure_stops, texts);
-  files.commit();
-}
-
-void write_preview(AtomicFiles& files, const std::filesystem::path& path, View<const float> r,
-                   View<const float> g, View<const float> b, double exposure_stops,
-                   const std::map<std::string, std::string>& texts) {
   if (!(std::abs(exposure_stops) <= 100)) {
     throw Error(path.string() + ": exposure of " + std::to_string(exposure_stops) +
                 ": expected -100 ... 100 (stops)");
   }
-  const Plane planes[] = {displayed(r, exposure_stops), displayed(g, exposure_stops),
-                          displayed(b, exposure_stops)};
+  AtomicFiles files;
+  write_preview(files, path, {r, g, b}, DisplayTransform({.exposure = exposure_stops}), texts);
+  files.commit();
+}
+
+void write_preview(AtomicFiles& files, const std::filesystem::path& path,
+                   const std::array<View<const float>, 3>& light, const DisplayTransform& display,
+                   const std::map<std::string, std::string>& texts) {
+  const std::array<Plane, 3> planes = display.displayed(light);
   write_image8(files, path, {planes[0].view(), planes[1].view(), planes[2].view()}, texts);
 }
 

@@ -194,8 +194,11 @@ SceneFile scene_of(const TomlNode& root, const fs::path& folder) {
     if (table.key == "sun") file.scene.sun = read_table(table, kSunTable);
     if (table.key == "sky") file.scene.sky = read_table(table, kSkyTable);
     if (table.key == "scene") {
-      file.scene.time = read_table(table, kSceneTable).time;
-      if (table.find("time")) file.time = file.scene.time;
+      const Scene read = read_table(table, kSceneTable);
+      file.scene.time = read.time;
+      file.scene.primaries = read.primaries;
+      if (table.find("time")) file.time = read.time;
+      if (table.find("colorspace")) file.primaries = read.primaries;
     }
   }
   return file;
@@ -226,7 +229,9 @@ SceneFile scene_from_toml(const std::string& text, const std::string& name) {
 }
 
 std::string to_toml(const Scene& scene) {
-  std::string text = table_text(kSceneTable, scene);
+  // Nothing of primaries where they are the usual ones.
+  std::string text = agree(scene.primaries, kRec709) ? table_text(kSceneTable, scene, {"time"})
+                                                     : table_text(kSceneTable, scene);
   if (const std::optional<Camera>& camera = scene.camera) {
     CameraKeys keys;
     keys.view = camera->view;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "limpid/core/error.h"
 #include "limpid/core/field.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
@@ -133,9 +134,31 @@ inline constexpr FieldTable<SkyLight> kSkyTable{
     "sky", "A uniform sky, which lights the water if there is no environment.", kSkyKeys,
     "radiance", "its radiance, three numbers"};
 
+/// Primaries by name or as numbers, a text.
+inline constexpr Field<Scene> kColorSpaceKey = {
+    {"colorspace",
+     "",
+     FieldKind::kText,
+     {},
+     {},
+     {},
+     0,
+     "Color space of plate, sun and sky: Rec.709, Rec.2020, ACEScg, ACES2065-1, P3-D65, DCI-P3 "
+     "or Adobe RGB, or x and y of red, green, blue and white. Without it, the color space of the "
+     "plate."},
+    [](const Scene& scene) -> Value { return to_string(scene.primaries); },
+    [](Scene& scene, const Value& value) {
+      try {
+        scene.primaries = color_space_named(std::get<std::string>(value));
+      } catch (const Error& error) {
+        throw Error(std::string("scene.colorspace: ") + error.what());
+      }
+    },
+    [](const Scene& scene) -> const void* { return &scene.primaries; }};
 inline constexpr Field<Scene> kSceneKeys[] = {
     real<&Scene::time>("time", "s", kFinite,
                        "Time of the picture, for the waves; --time overrides it."),
+    kColorSpaceKey,
 };
 inline constexpr FieldTable<Scene> kSceneTable{"scene", "Keys of the whole scene.", kSceneKeys};
 

@@ -101,8 +101,9 @@ struct ShotMeasurement::Parts {
   RunTimes operator_times(const ShotWay& own);
 
   void put(ShotPicture picture, const Shown& shown);
+  DisplayTransform display() const { return DisplayTransform({}, ways.scene().primaries); }
   void put_light(const ShotPicture& picture, const ColorViews& color) {
-    put(picture, shown_light(color, 0, executor));
+    put(picture, shown_light(color, display(), executor));
   }
   void put_difference(ShotPicture picture, const ColorViews& color, const ColorViews& judge);
   /// Target of a way with one AOV.
@@ -219,7 +220,7 @@ void ShotMeasurement::Parts::measure_aovs() {
     }
     const std::string name(info.name);
     put({aov_file(name), name, std::string(info.about), "aovs"},
-        shown_aov(aov, views, 0, executor));
+        shown_aov(aov, views, display(), executor));
   }
 }
 

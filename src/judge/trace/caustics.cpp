@@ -54,8 +54,11 @@ glm::dvec2 Caustics::entry_of(const glm::dvec3& point) const {
 std::optional<Triangles::Hit> Caustics::bottom_seen(const Ray& view) const {
   Ray before = view;
   if (const auto dry = scenery_.solid.nearest(view)) before.to = dry->distance;
+  if (scenery_.view.eye_above < 0) {  // it may see the bottom in the surface
+    const auto mirror = scenery_.surface.nearest(before, false);
+    return scenery_.solid.nearest(mirror ? mirrored_down({view, view, view}, *mirror).ray : view);
+  }
   const auto wet = scenery_.surface.nearest(before, true);
-  if (!wet && scenery_.view.eye_above < 0) return scenery_.solid.nearest(view);
   if (!wet) return std::nullopt;
   return scenery_.solid.nearest(refracted_in({view, view, view}, *wet, band_.ior).ray);
 }

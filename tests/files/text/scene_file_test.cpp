@@ -423,5 +423,20 @@ TEST(SceneFile, TimeAndNothingAreKnownAsGiven) {
               HasSubstr("camera.depth_nothing"));
 }
 
+TEST(SceneFile, Primaries) {
+  EXPECT_EQ(scene_of("[scene]\ntime = 1\n").primaries, std::nullopt);
+  EXPECT_EQ(scene_of("[scene]\ncolorspace = \"ACEScg\"\n").primaries, find_color_space("ACEScg"));
+  EXPECT_EQ(scene_of("[scene]\ncolorspace = \"Rec.709\"\n").primaries, kRec709);
+  EXPECT_THAT(error_of([] { scene_of("[scene]\ncolorspace = \"sRGB\"\n"); }),
+              HasSubstr("scene.toml:2:14: scene.colorspace: color space 'sRGB': expected one of "));
+  // Written where they are not the usual ones, and read back to the bit.
+  Scene scene;
+  EXPECT_THAT(to_toml(scene), testing::Not(HasSubstr("colorspace")));
+  for (const char* text : {"ACES2065-1", "0.6 0.3 0.2 0.7 0.15 0.06 0.31 0.330001"}) {
+    scene.primaries = color_space_named(text);
+    EXPECT_EQ(scene_from_toml(to_toml(scene), "scene").scene.primaries, scene.primaries);
+  }
+}
+
 }  // namespace
 }  // namespace limpid

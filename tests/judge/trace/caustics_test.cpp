@@ -97,6 +97,26 @@ TEST(Caustics, AreThoseOfTheLensOfAWave) {
   EXPECT_GT(crest, 1.2 * trough);
 }
 
+/// From within the water, up to where its surface mirrors all light: nothing else shows the bottom.
+TEST(Caustics, LightTheBottomThatTheSurfaceMirrors) {
+  Scene scene = from_above({0.1, 1, 0.1});
+  scene.camera->view =
+      glm::lookAt(glm::dvec3(0, -0.5, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
+  scene.camera->projection = perspective(0.2, 4, 0.05, 100, ClipSpace::kGl);
+  const Look look = clear({{0.004, 0, 4 * kPi, 0, 0}});  // its crests go away from the eye
+  const Model model = model_of({level(-1)}, dark());
+  const TruthPicture even = traced(model, scene, look, with_photons(0));
+  const TruthPicture sent = traced(model, scene, look, with_photons(1000000));
+  double least = HUGE_VAL, most = 0;
+  for (int x = 0; x < kRow.width; ++x) {
+    const double focused = green(sent, x, x + 1) / green(even, x, x + 1);
+    least = std::min(least, focused), most = std::max(most, focused);
+  }
+  EXPECT_LT(least, 0.92);
+  EXPECT_GT(most, 1.08);
+  EXPECT_NEAR(green(sent) / green(even), 1, 0.05);
+}
+
 TEST(Caustics, AreTheSameForAnyThreads) {
   const Scene scene = from_above({0.3, 1, 0.1});
   const Model model = model_of({level(-1)}, dark());

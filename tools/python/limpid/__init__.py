@@ -132,7 +132,10 @@ class Compositor:
     sane: you vouch for the arrays (no NaN, shadows within 0 ... 1, unit normals): nothing is checked
     threads: 0 is one for each core
     simd: "" is the best of this machine; "avx512", "avx2", "sse4", "neon", "scalar"
-    max_error: leave out what together changes no channel by more than this (white = 1)
+    max_error: leave out what together changes no channel by more than this (white = 1); not on a GPU
+    runner: "fused" (the CPU) or "gpu" (by Vulkan 1.2)
+    gpu: a part of the device's name; "" is the first of the fastest kind
+    gpu_cache: a folder that keeps compiled shaders for the next start; "" is none
 
     Maps are not copied: do not change them while they are set. A compositor is for one thread at a
     time, else limpid.Error; several may run at once, as the interpreter's lock is released.
@@ -142,10 +145,11 @@ class Compositor:
                  environment: np.ndarray | None = None, depth_kind: str = "eye", near: float = 0.0,
                  far: float = 0.0, clip: str = "gl", looks_along_plus_z: bool = False,
                  clip_y_down: bool = False, sane: bool = False, threads: int = 0, simd: str = "",
-                 max_error: float = 0.0):
+                 max_error: float = 0.0, runner: str = "fused", gpu: str = "", gpu_cache: str = ""):
         conventions = {"depth_kind": depth_kind, "near": near, "far": far, "clip": clip,
                        "looks_along_plus_z": looks_along_plus_z, "clip_y_down": clip_y_down, "sane": sane}
-        self._core = _limpid.Compositor(conventions, _plain(look), threads, simd, max_error)
+        self._core = _limpid.Compositor(conventions, _plain(look), threads, simd, max_error,
+                                        {"runner": runner, "gpu": gpu, "gpu_cache": gpu_cache})
         self._core.set_wave_map(wave_map)
         self._core.set_environment(environment)
 
@@ -261,12 +265,18 @@ class Compositor:
         """Of the last frame: how many values meant nothing and were replaced, by role, "nan" and "inf" apart."""
         return self._core.replaced()
 
+    @property
+    def device(self) -> str:
+        """The GPU that computes, and its driver; "" where the CPU does."""
+        return self._core.device()
+
 
 def composite(*, look: Mapping | None = None, wave_map: np.ndarray | None = None,
               environment: np.ndarray | None = None, depth_kind: str = "eye", near: float = 0.0,
               far: float = 0.0, clip: str = "gl", looks_along_plus_z: bool = False,
               clip_y_down: bool = False, sane: bool = False, threads: int = 0, simd: str = "",
-              max_error: float = 0.0, **frame: Any) -> Any:
+              max_error: float = 0.0, runner: str = "fused", gpu: str = "", gpu_cache: str = "",
+              **frame: Any) -> Any:
     """One frame with water in it: these keywords as in Compositor, all others as in Compositor.run.
 
     wet = composite(color=rgba, depth=z, camera=camera, water={}, look=load_look("realistic"))
@@ -275,7 +285,7 @@ def composite(*, look: Mapping | None = None, wave_map: np.ndarray | None = None
     compositor = Compositor(look=look, wave_map=wave_map, environment=environment, depth_kind=depth_kind,
                             near=near, far=far, clip=clip, looks_along_plus_z=looks_along_plus_z,
                             clip_y_down=clip_y_down, sane=sane, threads=threads, simd=simd,
-                            max_error=max_error)
+                            max_error=max_error, runner=runner, gpu=gpu, gpu_cache=gpu_cache)
     return compositor.run(**frame)
 
 

@@ -13,7 +13,8 @@ float srgb_from_linear(float linear);
 float linear_from_srgb(float encoded);
 
 /// What a display shall show, 0 ... 1: scene-linear Rec.709 is multiplied by 2^exposure_stops,
-/// clamped to 0 ... 1 and encoded as sRGB. +inf is white; NaN is black.
+/// clamped to 0 ... 1 and encoded as sRGB. +inf is white; NaN is black. display.h has other light
+/// and other displays.
 Plane displayed(View<const float> linear, double exposure_stops = 0);
 
 /// Writes that with 8 bits as a picture to look at, in the format of the extension (.png, .jpg,

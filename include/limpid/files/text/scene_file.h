@@ -44,6 +44,7 @@ struct SceneFile {
   DepthKind depth = DepthKind::kEye;
   std::optional<double> near, far;            ///< as given; far may be +inf
   std::optional<double> depth_nothing, time;  ///< as given
+  std::optional<Primaries> primaries;         ///< as given
   /// Role -> absolute "FILE" or "FILE:CHANNELS", for split_plate().
   std::map<std::string, std::string> plates;
   std::filesystem::path geometry;     ///< glTF file, absolute, or empty
@@ -65,8 +66,8 @@ SceneFile load_scene(const std::filesystem::path& path);
 /// stands for the file in errors.
 SceneFile scene_from_toml(const std::string& text, const std::string& name);
 
-/// Camera, water, sun and time as a text that scene_from_toml() reads back to the bit. Throws Error
-/// for more than kMaxWaves.
+/// Camera, water, sun, time, and primaries other than Rec.709 as a text that scene_from_toml()
+/// reads back to the bit. Throws Error for more than kMaxWaves.
 std::string to_toml(const Scene& scene);
 
 /// "FILE:CHANNELS" in its two parts: cut at the last ':' unless a '/' follows it; channels are ""

@@ -1,4 +1,4 @@
-// A sheet of pictures on a stage: moved and scaled as a whole, by mouse, wheel and keys. What lies over the picture is
+// A sheet of pictures on a stage: moved and scaled as a whole, by mouse, wheel, fingers and keys. What lies over the picture is
 // shown left of a wipe's line, which stands still on the stage while the sheet is moved below it.
 
 import {byId, clamp} from "./dom.js";
@@ -18,12 +18,16 @@ export class Stage {
   #top = 0;
   #wipe = 0.5;  // of the stage
   #wipes = false;
+  #fingers = new Map();  // what holds the sheet, by its pointer's id: where
+  #drags = false;        // and has not only touched it
 
   // `pointed` is called with the pixel under the pointer, or with null; a wheel zooms where `zooms` says so of it.
   constructor(pointed, zooms = () => true) {
     new ResizeObserver(() => this.#fits ? this.fit() : this.#place()).observe(this.#stage);
     this.#stage.addEventListener("wheel", (event) => zooms(event) && this.#wheel(event), {passive: false});
-    this.#stage.addEventListener("pointerdown", (event) => this.#pan(event));
+    this.#stage.addEventListener("pointerdown", (event) => this.#grasp(event));
+    this.#stage.addEventListener("pointermove", (event) => this.#drag(event));
+    this.#stage.addEventListener("lostpointercapture", ({pointerId}) => this.#fingers.delete(pointerId));
     this.#stage.addEventListener("dblclick", () => this.fit());
     this.#stage.addEventListener("keydown", (event) => this.#key(event));
     this.#stage.addEventListener("pointermove", (event) => pointed(this.#pixelAt(event)));
@@ -107,21 +111,38 @@ export class Stage {
         event.clientY - top);
   }
 
-  #pan(event) {
+  #grasp(event) {
     if (event.button > 1) return;
     this.#stage.setPointerCapture(event.pointerId);
-    const start = {x: event.clientX - this.#left, y: event.clientY - this.#top};
-    let moved = false;
-    const move = ({clientX, clientY}) => {
-      moved ||= Math.hypot(clientX - event.clientX, clientY - event.clientY) > 3;
-      if (!moved) return;
-      this.#fits = false;
-      [this.#left, this.#top] = [clientX - start.x, clientY - start.y];
+    if (this.#fingers.size === 0) this.#drags = false;
+    this.#fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+  }
+
+  // The sheet goes along with what holds it, a mouse or a finger; between two fingers it is scaled, too.
+  #drag({pointerId, clientX, clientY}) {
+    const finger = this.#fingers.get(pointerId);
+    if (!finger) return;
+    this.#drags ||= Math.hypot(clientX - finger.x, clientY - finger.y) > 3;
+    if (!this.#drags) return;
+    const before = this.#grip;
+    Object.assign(finger, {x: clientX, y: clientY});
+    const after = this.#grip;
+    this.#fits = false;
+    this.#left += after.x - before.x;
+    this.#top += after.y - before.y;
+    const ratio = before.spread > 0 && after.spread > 0 ? after.spread / before.spread : 1;
+    if (ratio !== 1) {
+      const {left, top} = this.#stage.getBoundingClientRect();
+      this.zoomTo(this.#zoom * devicePixelRatio * ratio, after.x - left, after.y - top);
+    } else {
       this.#place();
-    };
-    this.#stage.addEventListener("pointermove", move);
-    this.#stage.addEventListener("lostpointercapture", () => this.#stage.removeEventListener("pointermove", move),
-        {once: true});
+    }
+  }
+
+  // Where the first two fingers hold the sheet, and how far apart they are.
+  get #grip() {
+    const [a, b = a] = this.#fingers.values();
+    return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, spread: Math.hypot(a.x - b.x, a.y - b.y)};
   }
 
   #key(event) {

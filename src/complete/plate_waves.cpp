@@ -1,0 +1,128 @@
+#include "complete/plate_waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+
+#include "complete/row_heights.h"
+
+namespace limpid {
+namespace {
+
+constexpr int kMostAcross = 64;    ///< pixels that are looked at, and so many rows
+constexpr double kLeastUp = 0.05;  ///< no slope passes 20
+constexpr double kMoved = 1.0 / 2000;
+constexpr double kMostTurn = 1e6;  ///< its square is finite in a float, times that of a footprint
+
+/// Where a wet pixel sees the water, in scene units along the axes of the map, and how it leans.
+struct Seen {
+  glm::dvec2 place, slope;
+  double fall;  ///< sine of the angle at which it is seen
+};
+
+class Surface {
+ public:
+  Surface(const Frame& frame, const WaterView& view)
+      : view_(view),
+        dry_(frame.plane(PlaneId::kDepth)),
+        depth_(frame.plane(PlaneId::kSurfaceDepth)),
+        normal_{frame.plane(PlaneId::kSurfaceNormalX), frame.plane(PlaneId::kSurfaceNormalY),
+                frame.plane(PlaneId::kSurfaceNormalZ)} {
+    window_ = intersection(dry_.window, frame.display);
+    if (depth_) window_ = intersection(window_, depth_.window);
+    for (const View<const float>& plane : normal_) {
+      if (plane) window_ = intersection(window_, plane.window);
+    }
+  }
+
+  const Rect& window() const { return window_; }
+  bool leans() const { return normal_[0] && normal_[1] && normal_[2]; }
+
+  /// Eye depth of the water, +inf where the pixel is dry.
+  double depth(int x, int y) const {
+    const RowHeights heights(view_, y);
+    const double water = depth_ ? depth_.at(x, y) : heights.depth_at(x, 0);
+    return water > 0 && water < dry_.at(x, y) && water < 1e30 ? water : HUGE_VAL;
+  }
+
+  std::optional<Seen> at(int x, int y) const {
+    const double water = depth(x, y);
+    if (!std::isfinite(water)) return std::nullopt;
+    const double column = x - view_.corner.x + 0.5, row = y - view_.corner.y + 0.5;
+    const glm::dvec3 ray = view_.rays.ray_at(column, row);
+    const glm::dvec3 point = view_.rays.origin_at(column, row) + water * ray;
+    const glm::dvec3 n(normal_[0].at(x, y), normal_[1].at(x, y), normal_[2].at(x, y));
+    const double per_up = -1 / std::max(glm::dot(n, view_.up), kLeastUp);
+    return Seen{{glm::dot(view_.map_x, point), glm::dot(view_.map_y, point)},
+                {per_up * glm::dot(n, view_.map_x), per_up * glm::dot(n, view_.map_y)},
+                std::abs(glm::dot(view_.up, glm::normalize(ray)))};
+  }
+
+ private:
+  const WaterView& view_;
+  View<const float> dry_, depth_, normal_[3];
+  Rect window_;
+};
+
+/// A weighted mean of products of vectors with themselves.
+struct Products {
+  Sym2<double> sum{0, 0, 0};
+  double weight = 0;
+
+  void add(double by, glm::dvec2 v) {
+    sum = sum + by * Sym2<double>{v.x * v.x, v.x * v.y, v.y * v.y};
+  }
+  Sym2<double> mean() const { return weight > 0 ? (1 / weight) * sum : Sym2<double>{0, 0, 0}; }
+};
+
+}  // namespace
+
+PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
+  const Surface surface(frame, view);
+  const Rect& window = surface.window();
+  const int across = std::max(1, window.width() / kMostAcross);
+  const int down = std::max(1, window.height() / kMostAcross);
+  Products slopes, turns;
+  double heights = 0, count = 0;
+  for (int y = window.y0; y + 1 < window.y1; y += down) {
+    const RowHeights row(view, y);
+    for (int x = window.x0; x + 1 < window.x1; x += across) {
+      const double depth = surface.depth(x, y);
+      if (!std::isfinite(depth)) continue;
+      heights += std::abs(row.at(x, depth));
+      ++count;
+      if (!surface.leans()) continue;
+      const std::optional<Seen> here = surface.at(x, y);
+      const std::optional<Seen> right = surface.at(x + 1, y), below = surface.at(x, y + 1);
+      const double weight = here->fall * here->fall;
+      slopes.add(weight, here->slope);
+      slopes.weight += weight;
+      if (!right || !below) continue;
+      const glm::dmat2 steps(right->place - here->place, below->place - here->place);
+      const double longest = std::max(glm::length(steps[0]), glm::length(steps[1]));
+      if (!(std::abs(glm::determinant(steps)) > 1e-9 * longest * longest)) continue;
+      const glm::dmat2 changes(right->slope - here->slope, below->slope - here->slope);
+      const glm::dmat2 per_unit = glm::transpose(changes * glm::inverse(steps));
+      const double small = 1 / (longest * longest);
+      turns.add(small, per_unit[0]);
+      turns.add(small, per_unit[1]);
+      turns.weight += small;
+    }
+  }
+  PlateWaves waves;
+  waves.moved = count > 0 && heights > kMoved * count * std::abs(view.eye_above);
+  waves.variance = slopes.mean();
+  const double whole = waves.variance.xx + waves.variance.yy;
+  if (!(whole > 1e-12)) return waves;
+  waves.turn = (1 / whole) * turns.mean();
+  const double most = waves.turn.xx + waves.turn.yy;
+  if (most > kMostTurn) waves.turn = (kMostTurn / most) * waves.turn;
+  return waves;
+}
+
+}  // namespace limpid

@@ -1,0 +1,77 @@
+#pragma once
+#include <numbers>
+
+#include "limpid/core/number.h"
+
+/// @file
+/// Three facets that stand for all of a pixel whose slopes along the view are Gaussian: a mean over
+/// them is that over the three.
+
+namespace limpid {
+
+/// Leans are in standard deviations of the slope from the mean facet towards the view; shares sum
+/// to 1.
+template <class F>
+struct ThreeFacets {
+  F lean[3], share[3];
+};
+
+/// Of z > 0 by the density of a Gaussian of deviation 1 around `mean`, the integrals of z^n.
+template <class F>
+struct AboveZero {
+  F of[5];
+
+  LIMPID_INLINE explicit AboveZero(F mean) {
+    // The Gaussian's tail, to 2e-4 of it: Abramowitz & Stegun 1964, "Handbook of Mathematical
+    // Functions", 7.1.25.
+    const F density = exp(F(-0.5) * mean * mean);
+    const F t = F(1) / (F(1) + F(0.332672) * abs(mean));
+    const F tail = density * t * (F(0.1740121) + t * (F(-0.0479399) + t * F(0.3739278)));
+    of[0] = select(mean > F(0), F(1) - tail, tail);
+    of[1] = mean * of[0] + F(0.39894228) * density;
+    for (int n = 2; n < 5; ++n) of[n] = mean * of[n - 1] + F(n - 1) * of[n - 2];
+  }
+};
+
+/// Of a plane whose normals lean and which hides no facet. A facet that would mirror rays into the
+/// water mirrors along it: `level` is how far it is from the mean facet down to those. Where few do
+/// these are the nodes of Gauss and Hermite, else those of Gauss and Radau for the slopes, those
+/// that are level in one place: exact for polynomials up to the fourth degree in both. Above
+/// 2.3 few do, where both are much alike, and below -1.5 counts as -1.5.
+template <class F>
+LIMPID_INLINE ThreeFacets<F> plane_facets(F level) {
+  constexpr double kFew = 2.3, kNode = std::numbers::sqrt3;
+  const F a = min(max(level, F(-1.5)), F(kFew));
+  const AboveZero<F> z(a);
+  const F mean = z.of[2] / z.of[1], square = z.of[3] / z.of[1], cube = z.of[4] / z.of[1];
+  const F variance = max(square - mean * mean, F(1e-4)), deviation = sqrt(variance);
+  const F skew =
+      F(0.5) * (cube - mean * (F(3) * square - F(2) * mean * mean)) / (variance * deviation);
+  const F root = sqrt(F(1) + skew * skew);
+  const F high = mean + deviation * (skew + root), low = mean + deviation * (skew - root);
+  const F high_share = F(0.5) * z.of[1] * (F(1) - skew / root) / high;
+  const F low_share = F(0.5) * z.of[1] * (F(1) + skew / root) / low;
+  const auto few = level >= F(kFew);
+  return {{select(few, F(0), low - level), select(few, F(kNode), high - level),
+           select(few, F(-kNode), F(0) - level)},
+          {select(few, F(2.0 / 3), low_share), select(few, F(1.0 / 6), high_share),
+           select(few, F(1.0 / 6), F(1) - low_share - high_share)}};
+}
+
+/// Of a surface that is moved: a facet counts by its area that the view sees. `facing`: how the
+/// mean facet faces the view, which is the view's height over it for a unit along it, over the
+/// deviation. Facets are seen by z > 0, how they face, times the Gaussian around `facing`, whose
+/// moments are those of g = 1 / (facing + phi / Phi): the mean is facing + g, the variance
+/// 2 - facing g - g^2. Smith 1967, "Geometrical Shadowing of a Random Rough Surface". Below 0 the
+/// mean facet counts as one that the view grazes.
+template <class F>
+LIMPID_INLINE ThreeFacets<F> seen_facets(F facing) {
+  const F a = max(facing, F(0)), near = min(a, F(8));
+  const AboveZero<F> z(near);
+  const F g = F(1) / (a + F(0.39894228) * exp(F(-0.5) * near * near) / z.of[0]);
+  const F middle = g - min(facing, F(0));
+  const F side = F(std::numbers::sqrt3) * sqrt(max(F(2) - a * g - g * g, F(0)));
+  return {{middle, middle + side, middle - side}, {F(2.0 / 3), F(1.0 / 6), F(1.0 / 6)}};
+}
+
+}  // namespace limpid

@@ -1,0 +1,76 @@
+#include "complete/basin.h"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "ops/tray.h"
+
+// How wide the water is around a place of its bottom.
+
+namespace limpid {
+namespace {
+
+constexpr Size kSize{81, 81};
+constexpr double kWater = 10;  ///< below the eye of the tray's camera, one scene unit a pixel
+
+/// Seen from straight above: a bottom that is drop(x, y) below the water, or above it.
+template <class Drop>
+Basin::Walls walls_of(Drop&& drop, int x = 40, int y = 40) {
+  test::Tray tray(kSize);
+  tray.buffers.set(PlaneId::kDepth, [&](int column, int row) {
+    return static_cast<float>(kWater + drop(column - 40, row - 40));
+  });
+  const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
+  return Basin(tray.buffers.frame, pass).around(x, y);
+}
+
+float all(const Basin::Walls& walls) { return std::accumulate(walls.begin(), walls.end(), 0.0f); }
+
+TEST(Basin, WallsOfAChannelStandWhereEachDirectionMeetsThem) {
+  // 4 deep, from -3 to 3: eight directions, 22.5 and 67.5 degrees off the way across, meet a wall
+  // .8 and 2 depths away.
+  const Basin::Walls walls = walls_of([](int x, int) { return std::abs(x) <= 3 ? 4.0 : -0.5; });
+  EXPECT_FLOAT_EQ(all(walls), 1);
+  EXPECT_FLOAT_EQ(walls[1], 0.5);             // .5 ... 1
+  EXPECT_FLOAT_EQ(walls[3] + walls[4], 0.5);  // 1.5 ... 2.5
+}
+
+TEST(Basin, OpenWaterHasNone) {
+  EXPECT_EQ(all(walls_of([](int, int) { return 4.0; })), 0);
+  EXPECT_EQ(all(walls_of([](int, int) { return 4.0; }, 0, 0)), 0);
+}
+
+TEST(Basin, ABeachIsNone) {
+  EXPECT_EQ(all(walls_of([](int x, int) { return 4.0 - 0.25 * std::abs(x); })), 0);
+}
+
+TEST(Basin, WhatStandsOnTheBottomUnderTheWaterIsNone) {
+  EXPECT_EQ(all(walls_of([](int x, int) { return std::abs(x) <= 3 ? 4.0 : 2.0; })), 0);
+}
+
+TEST(Basin, WallsRightBesideAPlaceTakeAllThatIsThrownBackWhole) {
+  Basin::Walls walls{};
+  walls[0] = 1;
+  const double whole = 1 - 1 / (1.333 * 1.333);
+  EXPECT_NEAR(Basin::thrown_on(walls, 0, 1.333), whole, 1e-9);
+  walls[0] = 0.5;
+  EXPECT_NEAR(Basin::thrown_on(walls, 0, 1.333), whole / 2, 1e-9);
+  // To the surface and back at 49 degrees and flatter.
+  EXPECT_LT(Basin::thrown_on(walls, 1, 1.333), whole / 2 * std::exp(-2 / 0.661));
+}
+
+TEST(Basin, LessOfTheLightReachesWallsThatAreFarther) {
+  double before = 1;
+  for (std::size_t ring = 0; ring < Basin::kRings; ++ring) {
+    Basin::Walls walls{};
+    walls[ring] = 1;
+    const double thrown = Basin::thrown_on(walls, 0.1, 1.333);
+    EXPECT_LE(thrown, before) << ring;
+    before = thrown;
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+}  // namespace
+}  // namespace limpid

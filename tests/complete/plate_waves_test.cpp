@@ -1,0 +1,110 @@
+#include "complete/plate_waves.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "op/pass.h"
+#include "optics/waves.h"
+#include "support.h"
+
+namespace limpid {
+namespace {
+
+using test::Buffers;
+
+constexpr Size kSize{96, 64};
+constexpr double kWidth = 6, kHeight = 4;
+
+/// Straight down on 6 x 4 units of water at the height 1.
+Scene seen_in_parallel() {
+  Scene scene;
+  const glm::dvec3 eye(3, 4, 2);
+  scene.camera = Camera{glm::lookAt(eye, eye - glm::dvec3(0, 1, 0), {0, 0, -1}),
+                        orthographic(kWidth, kHeight, 0.1, 100, ClipSpace::kGl), ClipSpace::kGl};
+  scene.water = WaterPlane{{0, 1, 0}, 1};
+  return scene;
+}
+
+/// A sine that repeats so many times across the picture and down it.
+SineWave wave(double amplitude, int across, int down, double phase) {
+  const double turn = 2 * std::numbers::pi;
+  return {amplitude, turn * across / kWidth, turn * down / kHeight, phase, 0};
+}
+
+/// Their normals on a plane, as a renderer's bump map has them.
+Buffers bumped(const Scene& scene, const std::vector<SineWave>& waves) {
+  Buffers b(rect_of(kSize));
+  b.fill(PlaneId::kDepth, 50);
+  const Pass pass(scene, b.frame, 1.333, kWholeState);
+  for (int i = 0; i < 3; ++i) {
+    b.set(plane_after(PlaneId::kSurfaceNormalX, i), [&](int x, int y) {
+      const glm::dvec3 p = pass.eye + pass.rays.origin_at(x + 0.5, y + 0.5);
+      const WaveHeight at =
+          wave_height(waves, glm::dot(pass.map_x, p), glm::dot(pass.map_y, p), scene.time);
+      const glm::dvec3 n =
+          glm::normalize(pass.up - at.slope_x * pass.map_x - at.slope_y * pass.map_y);
+      return static_cast<float>(n[i]);
+    });
+  }
+  return b;
+}
+
+PlateWaves waves_of(const Scene& scene, const Buffers& buffers) {
+  return plate_waves_of(buffers.frame, Pass(scene, buffers.frame, 1.333, kWholeState));
+}
+
+TEST(PlateWaves, SayHowSinesLeanAndTurn) {
+  const Scene scene = seen_in_parallel();
+  const std::vector<SineWave> waves{wave(0.03, 3, 1, 0.4), wave(0.02, -1, 4, 2)};
+  const PlateWaves found = waves_of(scene, bumped(scene, waves));
+  Sym2<double> variance{0, 0, 0}, turn{0, 0, 0};
+  double whole = 0;
+  for (const SineWave& w : waves) {
+    const double half = 0.5 * w.amplitude * w.amplitude;
+    const double energy = half * (w.k_x * w.k_x + w.k_y * w.k_y);
+    const Sym2<double> square{w.k_x * w.k_x, w.k_x * w.k_y, w.k_y * w.k_y};
+    variance = variance + half * square;
+    turn = turn + energy * square;
+    whole += energy;
+  }
+  turn = (1 / whole) * turn;
+  // Over whole periods but for a row and a column; a sine's chord over a pixel is a little shorter.
+  const double size = variance.xx + variance.yy, fast = turn.xx + turn.yy;
+  EXPECT_NEAR(found.variance.xx, variance.xx, 0.02 * size);
+  EXPECT_NEAR(found.variance.xy, variance.xy, 0.02 * size);
+  EXPECT_NEAR(found.variance.yy, variance.yy, 0.02 * size);
+  EXPECT_NEAR(found.turn.xx, turn.xx, 0.04 * fast);
+  EXPECT_NEAR(found.turn.xy, turn.xy, 0.04 * fast);
+  EXPECT_NEAR(found.turn.yy, turn.yy, 0.04 * fast);
+  EXPECT_FALSE(found.moved);
+}
+
+TEST(PlateWaves, OfCalmOrHiddenWaterAreNone) {
+  const Scene scene = seen_in_parallel();
+  for (const float depth : {50.0f, 1.0f}) {
+    Buffers calm = bumped(scene, {});
+    calm.fill(PlaneId::kDepth, depth);
+    const PlateWaves found = waves_of(scene, calm);
+    EXPECT_EQ(found.variance.xx + found.variance.yy, 0);
+    EXPECT_EQ(found.turn.xx + found.turn.yy, 0);
+    EXPECT_FALSE(found.moved);
+  }
+}
+
+// The water lies 3 under the eye; a depth in halves is off by at most a 2048th of that.
+TEST(PlateWaves, MoveTheSurfaceBeyondWhatADepthIsOff) {
+  const Scene scene = seen_in_parallel();
+  for (const double amplitude : {0.0, 0.0015, 0.01}) {
+    Buffers b = bumped(scene, {});
+    b.set(PlaneId::kSurfaceDepth, [&](int x, int) {
+      return static_cast<float>(3 + (x % 2 == 0 ? amplitude : -amplitude));
+    });
+    EXPECT_EQ(waves_of(scene, b).moved, amplitude > 0.005) << amplitude;
+  }
+}
+
+}  // namespace
+}  // namespace limpid

@@ -1,0 +1,150 @@
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tool/made_plate.h"
+#include "tool/tool.h"
+
+/// Plates in working spaces other than Rec.709.
+
+namespace limpid::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kAp1 = "0.713,0.293,0.165,0.83,0.128,0.044,0.32168,0.33767";
+constexpr const char* kBt709 = "0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329";
+
+/// A water by its name, beside which no color is given by hand: no scattering, no sun's disc.
+const char* const kClear = R"([wave_normals]
+strength = 0.0
+[depth_fog]
+model = "beer_lambert"
+water_type = "1C"
+scattering = [0.0, 0.0, 0.0]
+ambient = [0.0, 0.0, 0.0]
+[sun_highlight]
+strength = 0.0
+)";
+
+class ColorsTest : public ToolTest {
+ protected:
+  ColorsTest() {
+    write_text("clear.toml", kClear);
+    tell("told709.exr", kBt709);
+    tell("toldap1.exr", kAp1);
+  }
+  /// plate.exr with other colors, or chromaticities, or both.
+  void tell(const std::string& file, const char* chromaticities, const Words& change = {}) {
+    Words words = {"plate.exr"};
+    words.insert(words.end(), change.begin(), change.end());
+    words.insert(words.end(), {"--attrib:type=float[8]", "chromaticities", chromaticities, "-d",
+                               "float", "-o", file});
+    const Ran made = oiiotool(words);
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  Ran wet(const std::string& plate, const std::string& output, const Words& more = {}) {
+    Words words = {"composite",  plate,     "--scene", scene_, "--look",
+                   "clear.toml", "--float", "-o",      output};
+    words.insert(words.end(), more.begin(), more.end());
+    return limpid(words);
+  }
+  void wetted(const std::string& plate, const std::string& output, Words more = {}) {
+    more.push_back("-q");  // of the plate there is more to say
+    const Ran ran = wet(plate, output, more);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  std::string scene_ = "scene.toml";
+  std::string space_of(const std::string& file) { return limpid({"inspect", file}).out; }
+};
+
+TEST_F(ColorsTest, PlatesOfRec709AreWhatTheyWere) {
+  wetted("plate.exr", "silent.exr");
+  wetted("told709.exr", "told.exr");
+  wetted("plate.exr", "named.exr", {"--colorspace", "Rec.709"});
+  EXPECT_TRUE(same("silent.exr", "told.exr"));
+  EXPECT_TRUE(same("silent.exr", "named.exr"));
+  EXPECT_THAT(iinfo("silent.exr"), Not(HasSubstr("colorspace")));
+  EXPECT_EQ(text_of("silent.exr"), text_of("named.exr")) << "to the byte";
+}
+
+TEST_F(ColorsTest, OtherPrimariesAreToldByThePlateTheSceneOrTheCommandLine) {
+  wetted("toldap1.exr", "told.exr");
+  wetted("plate.exr", "named.exr", {"--colorspace", "ACEScg"});
+  write_text("ap1.toml", "[scene]\ncolorspace = \"ACEScg\"\n" + scene_toml());
+  scene_ = "ap1.toml";
+  wetted("plate.exr", "scene.exr");
+  scene_ = "scene.toml";
+  EXPECT_TRUE(same("told.exr", "named.exr"));
+  EXPECT_TRUE(same("told.exr", "scene.exr"));
+  wetted("plate.exr", "silent.exr");
+  EXPECT_FALSE(same("silent.exr", "told.exr", .01)) << "the water is another";
+  // The pictures tell of it, too, and so does how they were made.
+  for (const char* file : {"told.exr", "named.exr", "scene.exr"}) {
+    EXPECT_THAT(space_of(file), HasSubstr(std::string(file) + ": ACEScg\n"));
+    EXPECT_THAT(space_of(file), HasSubstr("colorspace = \"ACEScg\"\n"));
+  }
+}
+
+TEST_F(ColorsTest, TheCommandLineWinsAndSaysSo) {
+  const Ran ran = wet("toldap1.exr", "wet.exr", {"--colorspace", "rec2020"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("limpid: warning: the colorspace is named Rec.2020, and the "
+                                 "plate says that it is ACEScg\n"));
+  EXPECT_THAT(space_of("wet.exr"), HasSubstr("wet.exr: Rec.2020\n"));
+}
+
+TEST_F(ColorsTest, RefusesUnknownNames) {
+  expect_refused(wet("plate.exr", "wet.exr", {"--colorspace", "ACESgc"}),
+                 {"color space 'ACESgc'", "expected one of Rec.709, Rec.2020, ACEScg",
+                  "did you mean 'ACEScg'"},
+                 2);
+  write_text("bad.toml", "[scene]\ncolorspace = \"sRGB\"\n" + scene_toml());
+  scene_ = "bad.toml";
+  expect_refused(wet("plate.exr", "wet.exr"), {"bad.toml:2:", "color space 'sRGB'"}, 1);
+  scene_ = "scene.toml";
+  tell("none.exr", "0,0,0,0,0,0,0,0");
+  expect_refused(wet("none.exr", "wet.exr"), {"chromaticities 0.0 0.0", "expected x and y"}, 1);
+  EXPECT_EQ(wet("none.exr", "wet.exr", {"--colorspace", "ACEScg"}).code, 0);
+}
+
+/// A plate in ACEScg and the same one in Rec.709, in the same water by its name: converted to
+/// ACEScg beforehand or afterwards, the picture is the same but for what three rates cannot be.
+TEST_F(ColorsTest, TheSameWaterShowsTheSamePicture) {
+  const Words convert = {"--ccmatrix",
+                         ".61309732,.07019422,.02061560,0,.33952285,.91635557,.10956983,0,"
+                         ".04737928,.01345259,.86981512,0,0,0,0,1"};
+  const auto converted = [&](const std::string& from, const std::string& to) {
+    Words words = {from, "--ch", "R,G,B,A"};
+    words.insert(words.end(), convert.begin(), convert.end());
+    words.insert(words.end(), {"-d", "float", "-o", to});
+    const Ran ran = oiiotool(words);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+  };
+  const Words own = {"--layer", "depth=plate.exr:depth.Z", "--layer", "shadow=none",
+                     "--layer", "reflection=none"};
+  const auto with = [&](const Words& more) {
+    Words words = own;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  converted("plate.exr", "ap1.exr");
+  wetted("plate.exr", "before.exr", own);
+  converted("before.exr", "before_ap1.exr");
+  wetted("ap1.exr", "after.exr", with({"--colorspace", "ACEScg"}));
+  wetted("ap1.exr", "unfitted.exr", own);
+  EXPECT_TRUE(same("after.exr", "before_ap1.exr", .03));
+  EXPECT_FALSE(same("unfitted.exr", "before_ap1.exr", .06));
+}
+
+TEST_F(ColorsTest, AScenesModelIsOfRec709) {
+  write_text("model.toml", "[scene]\ncolorspace = \"ACEScg\"\n[geometry]\ngltf = \"" +
+                               std::string(LIMPID_DATA) + "/scenes/pool.gltf\"\n");
+  const Ran ran = limpid({"water", "model.toml", "-o", "wet.exr", "--size", "16x9"});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("scene.colorspace = ACEScg: expected Rec.709"));
+}
+
+}  // namespace
+}  // namespace limpid::test
