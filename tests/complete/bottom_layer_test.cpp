@@ -154,27 +154,20 @@ Look rays(double thickness = 0) {
   return look;
 }
 
-/// A plain bottom, before which a checked board stands: what stands there, and where. A rim before
-/// both is as plain.
+/// A plain bottom, before which a checked board stands: what stands there, and where.
 struct Checked {
-  using Meets = std::function<double(const glm::dvec3& from, const glm::dvec3& along)>;
   PoolOf<288, 216> pool;
-  Meets meets, rim;  ///< +inf: never
+  std::function<double(const glm::dvec3& from, const glm::dvec3& along)> meets;  ///< +inf: never
 
-  static double never(const glm::dvec3&, const glm::dvec3&) { return HUGE_VAL; }
-  explicit Checked(Meets board, Meets before = never)
-      : meets(std::move(board)), rim(std::move(before)) {
+  explicit Checked(decltype(meets) board) : meets(std::move(board)) {
     pool.rise = 0;
     pool.draw([](double, double) { return double{kPlain}; });
-    const auto plain = [&](int x, int y) {
-      return std::min(pool.dry_depth(x, y), rim({0, 0, 0}, pool.ray(x, y)));
-    };
     const auto depth = [&](int x, int y) {
-      return std::min(plain(x, y), meets({0, 0, 0}, pool.ray(x, y)));
+      return std::min(pool.dry_depth(x, y), meets({0, 0, 0}, pool.ray(x, y)));
     };
     for (int c = 0; c < 3; ++c) {
       pool.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
-        return depth(x, y) < plain(x, y) ? checks(x, y) : kPlain;
+        return depth(x, y) < pool.dry_depth(x, y) ? checks(x, y) : kPlain;
       });
     }
     pool.buffers.set(PlaneId::kDepth,
@@ -239,11 +232,6 @@ TEST(BottomLayer, NothingOfWhatHoversUnderWaterIsDraggedAlong) {
   EXPECT_EQ(Checked(box({0.1, -2.7, -4}, {0.25, 0.25, 0.25})).streaks(rays()), 0);
   // A sheet is thinner than it is wide: that one has to say.
   EXPECT_EQ(Checked(box({0.1, -2.6, -4}, {0.35, 0.01, 0.3})).streaks(rays(0.02)), 0);
-}
-
-TEST(BottomLayer, NothingIsDraggedAlongWhereARimHidesTheBottomBeforeABlock) {
-  const auto block = box({0.2, -2.9, -5.4}, {0.5, 1.1, 0.4});
-  EXPECT_EQ(Checked(block, box({0, -2.4, -1.78}, {5, 0.5, 0.5})).streaks(rays()), 0);
 }
 
 TEST(BottomLayer, ARayPassesBehindWhatIsThin) {
