@@ -242,26 +242,5 @@ TEST(PlateNormals, OfWhichNothingIsKnownStayAsTheyAre) {
   }
 }
 
-// One of nine leans, so steeply that its slope counts as the bound of 20, along both axes: with the
-// weight of 1/4 half the variance is (1/4 - 1/16) 20^2 / 2 of each.
-TEST(PlateNormals, NoSlopePassesTwenty) {
-  const Pass c = context_of();
-  WaveNormals::Params params;
-  params.model = WaveNormals::Model::kPlate;
-  params.filter = WaveNormals::Filter::kVariance;
-  const Vec3<double> up = vec3_of<double>(c.up);
-  Neighbours strip;
-  for (int k = 0; k < 9; ++k) strip.normals.at[k] = up;
-  strip.normals.at[4] = 0.05 * up + -1.0 * vec3_of<double>(c.map_x) - vec3_of<double>(c.map_y);
-  Kernel<WaveNormals>::apply(params, c, strip);
-  EXPECT_NEAR(strip.pixel.slope_variance.xx, 37.5, 1e-9);
-  EXPECT_NEAR(strip.pixel.slope_variance.xy, 37.5, 1e-9);
-  EXPECT_NEAR(strip.pixel.slope_variance.yy, 37.5, 1e-9);
-  strip.normals.at[4] = 0.01 * up - vec3_of<double>(c.map_x);
-  Kernel<WaveNormals>::apply(params, c, strip);
-  EXPECT_NEAR(strip.pixel.slope_variance.xx, 37.5, 1e-9);
-  EXPECT_NEAR(strip.pixel.slope_variance.xy, 0, 1e-9);
-}
-
 }  // namespace
 }  // namespace limpid
