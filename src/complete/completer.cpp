@@ -103,8 +103,9 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   }
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
   if (plan.keeps<WaveNormals>() && waves.filter == WaveNormals::Filter::kVariance &&
-      waves.model == WaveNormals::Model::kPlate) {
-    phrases.emplace_back("what the plate's normals do not resolve (wave_normals.filter)");
+      (waves.model == WaveNormals::Model::kPlate ||
+       (plan.planes.has(PlaneId::kSurfaceDepth) && !plan.completed.has(PlaneId::kSurfaceDepth)))) {
+    phrases.emplace_back("what the plate's surface does not resolve (wave_normals.filter)");
   }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().goes_on()) {
@@ -124,7 +125,7 @@ void Completer::complete_surface(PlaneSet made, const Pass& pass, Executor& exec
                                  const std::string* simd, Frame& frame) {
   plate_waves_ = {};
   if (made.empty()) return;
-  plate_waves_.moved = true;
+  plate_waves_.raised = 1;
   displaced_surface_.make(frame, pass, executor, simd);
   take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth(), frame);
 }

@@ -122,7 +122,7 @@ void tell_real(const WaterView& c, const View<const float>& dry, const View<cons
   for (int x = to.window.x0; x < to.window.x1; ++x) {
     const int at_x = std::clamp(x, dry.window.x0, dry.window.x1 - 1);
     const float stands = dry.at(at_x, at_y), seen = image.at(x, y);
-    const double height = heights.at(at_x, stands) * (c.eye_above > 0 ? 1 : -1);
+    const double height = heights.at(at_x, stands) * ((c.eye_above > 0) - (c.eye_above < 0));
     const auto is_seen_through = [&] {
       const float behind = (1 + kFoot) * stands;
       if (!(std::abs(seen) > behind)) return false;

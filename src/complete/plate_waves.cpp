@@ -16,7 +16,9 @@ namespace {
 
 constexpr int kMostAcross = 64;    ///< pixels that are looked at, and so many rows
 constexpr double kLeastUp = 0.05;  ///< no slope passes 20
-constexpr double kMoved = 1.0 / 2000;
+/// Mean height of the waves over the eye's: up to the first they tilt a plane, from the second on
+/// they raise it.
+constexpr double kPlane = 1.0 / 2000, kRaised = 4 * kPlane;
 constexpr double kMostTurn = 1e6;  ///< its square is finite in a float, times that of a footprint
 
 /// Where a wet pixel sees the water, in scene units along the axes of the map, and how it leans.
@@ -115,7 +117,8 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
     }
   }
   PlateWaves waves;
-  waves.moved = count > 0 && heights > kMoved * count * std::abs(view.eye_above);
+  const double eye = count * std::abs(view.eye_above);
+  if (eye > 0) waves.raised = std::clamp((heights / eye - kPlane) / (kRaised - kPlane), 0.0, 1.0);
   waves.variance = slopes.mean();
   const double whole = waves.variance.xx + waves.variance.yy;
   if (!(whole > 1e-12)) return waves;

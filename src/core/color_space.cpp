@@ -18,7 +18,7 @@ namespace {
 constexpr Chromaticity kD65{.3127, .3290}, kD60{.32168, .33767};
 
 struct Space {
-  std::array<std::string_view, 8> names;  ///< the first is ours; letters and digits of the others
+  std::array<std::string_view, 9> names;  ///< the first is ours; letters and digits of the others
   Primaries primaries;
 };
 
@@ -27,13 +27,14 @@ struct Space {
 // Forum.
 constexpr Space kSpaces[] = {
     {{"Rec.709", "linrec709", "linrec709scene", "linearrec709", "linearrec709srgb", "linsrgb",
-      "linearsrgb", "utilitylinearsrgb"},
+      "linearsrgb", "utilitylinearsrgb", "linear"},
      kRec709},
     {{"Rec.2020", "linrec2020", "linrec2020scene", "linearrec2020", "utilitylinearrec2020"},
      {{.708, .292}, {.170, .797}, {.131, .046}, kD65}},
-    {{"ACEScg", "acesacescg", "linap1", "linap1scene", "ap1", "linearap1", "acescgap1"},
+    {{"ACEScg", "acesacescg", "linap1", "linap1scene", "ap1", "linearap1", "acescgap1",
+      "linearacescg"},
      {{.713, .293}, {.165, .830}, {.128, .044}, kD60}},
-    {{"ACES2065-1", "acesaces20651", "linap0", "linap0scene", "ap0", "aces20651ap0"},
+    {{"ACES2065-1", "acesaces20651", "linap0", "linap0scene", "ap0", "aces20651ap0", "linearaces"},
      {{.7347, .2653}, {0, 1}, {.0001, -.077}, kD60}},
     {{"P3-D65", "linp3d65", "linp3d65scene", "linearp3d65", "utilitylinearp3d65"},
      {{.680, .320}, {.265, .690}, {.150, .060}, kD65}},

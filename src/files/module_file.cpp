@@ -25,8 +25,11 @@ std::vector<fs::path> module_folders() {
                     fs::path(here.dli_fname).is_absolute()) {
     const fs::path library = fs::path(here.dli_fname).parent_path();
     if (bases.empty() || bases.front() != library) bases.push_back(library);
-    bases.push_back(library /
-                    "../../..");  // Python's module: PREFIX/lib/python3/dist-packages/limpid
+    // Python's module lies in PREFIX/lib/python3/dist-packages/limpid.
+    const fs::path packages = library.parent_path().filename();
+    if (packages == "dist-packages" || packages == "site-packages") {
+      bases.push_back(library / "../../..");
+    }
   }
   std::vector<fs::path> folders;
   for (const fs::path& base : bases) {

@@ -127,6 +127,7 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   Completer completer;
   const Frame frame = completer.complete(plan, loaded.frame, pass, executor, &job.output.simd);
   Pass whole = pass_of(plan, scene, frame);
+  whole.plate_waves = completer.plate_waves();
   surveyed.survey.make(plan, frame, whole, executor, job.output.simd);
   if (gpu) {
     if (!plan.reads_environment) whole.environment = {};

@@ -172,8 +172,8 @@ struct Kernel;
 ///     void work_in(const Primaries&, Params&);
 ///     // Whether its light comes from the sky, too.
 ///     bool lit_by_sky(const Params&);
-///     // The waves that raise the water, if that is its affair: they live as long as the
-///     parameters. Swell swell(const Params&);
+///     // The waves that raise the water, if it has any; they live as long as the parameters.
+///     Swell swell(const Params&);
 ///     // How it measures StatePart::kPath, for what is made of the path (job/deep_output.h).
 ///     WayMeasure way(const Params&);
 ///     // What it is expected to cost, in ns for each pixel (plan/predict.h). Default: 1.

@@ -224,15 +224,20 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     const F half = dot(up, p.to_viewer) / (F(1) + level);
     const auto above = p.side > F(0);
     const F lowest = select(above, dot(near, p.normal) * per_rise + half / deviation, F(9));
-    const ThreeFacets<F> plane = plane_facets(lowest);
-    if (!c.plate_waves.moved) return plane;
-    const ThreeFacets<F> seen =
-        seen_facets(dot(p.to_viewer, p.normal) * per_rise / max(level, F(1e-6)));
-    ThreeFacets<F> facets;
-    for (int i = 0; i < 3; ++i) {
-      facets.lean[i] = select(above, seen.lean[i], plane.lean[i]);
-      facets.share[i] = select(above, seen.share[i], plane.share[i]);
-    }
+    ThreeFacets<F> facets = plane_facets(lowest);
+    const F raised = given<F>(c.plate_waves.raised, "plate_waves.raised");
+    const auto blends = above && raised > F(0);
+    if_any(blends, [&] {
+      const ThreeFacets<F> seen =
+          seen_facets(dot(p.to_viewer, p.normal) * per_rise / max(level, F(1e-6)));
+      const auto blend = [&](F from, F to) {
+        return select(blends, from + raised * (to - from), from);
+      };
+      for (int i = 0; i < 3; ++i) {
+        facets.lean[i] = blend(facets.lean[i], seen.lean[i]);
+        facets.share[i] = blend(facets.share[i], seen.share[i]);
+      }
+    });
     return facets;
   }
   static constexpr double kLeastVariance = 1e-4;

@@ -150,7 +150,15 @@ std::map<std::string, ExrFile::Attribute> Plate::attributes() const {
   return attributes;
 }
 
-std::optional<Primaries> Plate::primaries() const { return told_primaries(attributes()); }
+std::optional<Primaries> Plate::primaries() const {
+  try {
+    return told_primaries(attributes());
+  } catch (const Error& error) {
+    const ChannelRef& ref = state_->color_ref();
+    throw Error(state_->files[static_cast<std::size_t>(ref.file)].path.string() + ": " +
+                error.what() + ", or another colorspace named");
+  }
+}
 
 void Plate::refuse_without(std::string_view role) const {
   const std::vector<LayerSource> sources = state_->all_sources();

@@ -95,7 +95,7 @@ inline double least(const Symbol&) { return std::numeric_limits<double>::quiet_N
 inline double greatest(const Symbol&) { return std::numeric_limits<double>::quiet_NaN(); }
 
 template <class Body>
-void if_any(const SymbolMask& mask, Body&& body) {
+[[gnu::visibility("hidden")]] void if_any(const SymbolMask& mask, Body&& body) {
   Recorder::current().if_any(mask.node(), body);
 }
 

@@ -79,7 +79,7 @@ TEST(PlateWaves, SayHowSinesLeanAndTurn) {
   EXPECT_NEAR(found.turn.xx, turn.xx, 0.04 * fast);
   EXPECT_NEAR(found.turn.xy, turn.xy, 0.04 * fast);
   EXPECT_NEAR(found.turn.yy, turn.yy, 0.04 * fast);
-  EXPECT_FALSE(found.moved);
+  EXPECT_EQ(found.raised, 0);
 }
 
 TEST(PlateWaves, OfCalmOrHiddenWaterAreNone) {
@@ -90,19 +90,23 @@ TEST(PlateWaves, OfCalmOrHiddenWaterAreNone) {
     const PlateWaves found = waves_of(scene, calm);
     EXPECT_EQ(found.variance.xx + found.variance.yy, 0);
     EXPECT_EQ(found.turn.xx + found.turn.yy, 0);
-    EXPECT_FALSE(found.moved);
+    EXPECT_EQ(found.raised, 0);
   }
 }
 
-// The water lies 3 under the eye; a depth in halves is off by at most a 2048th of that.
-TEST(PlateWaves, MoveTheSurfaceBeyondWhatADepthIsOff) {
+// The water lies 3 under the eye; a depth in halves is off by at most a 2048th of that. From a
+// 2000th of it to four times as much the water goes over from a plane to a raised surface.
+TEST(PlateWaves, RaiseTheSurfaceBeyondWhatADepthIsOff) {
   const Scene scene = seen_in_parallel();
-  for (const double amplitude : {0.0, 0.0015, 0.01}) {
+  const struct {
+    double amplitude, raised;
+  } waters[] = {{0, 0}, {0.0014, 0}, {0.003, 1.0 / 3}, {0.0045, 2.0 / 3}, {0.01, 1}};
+  for (const auto& water : waters) {
     Buffers b = bumped(scene, {});
     b.set(PlaneId::kSurfaceDepth, [&](int x, int) {
-      return static_cast<float>(3 + (x % 2 == 0 ? amplitude : -amplitude));
+      return static_cast<float>(3 + (x % 2 == 0 ? 1 : -1) * water.amplitude);
     });
-    EXPECT_EQ(waves_of(scene, b).moved, amplitude > 0.005) << amplitude;
+    EXPECT_NEAR(waves_of(scene, b).raised, water.raised, 1e-3) << water.amplitude;
   }
 }
 

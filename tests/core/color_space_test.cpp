@@ -99,7 +99,10 @@ TEST(ColorSpace, OthersNamesForThem) {
                                                        {"Utility - Linear - sRGB", "Rec.709"},
                                                        {"lin_rec2020", "Rec.2020"},
                                                        {"Linear P3-D65", "P3-D65"},
-                                                       {"lin_ap0", "ACES2065-1"}};
+                                                       {"lin_ap0", "ACES2065-1"},
+                                                       {"Linear", "Rec.709"},
+                                                       {"Linear ACEScg", "ACEScg"},
+                                                       {"Linear ACES", "ACES2065-1"}};
   for (const auto& [theirs, ours] : names) {
     ASSERT_TRUE(find_color_space(theirs)) << theirs;
     EXPECT_EQ(to_string(*find_color_space(theirs)), ours) << theirs;

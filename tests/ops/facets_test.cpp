@@ -124,7 +124,7 @@ TEST(Facets, OfMovedWaterCountByTheirAreaThatIsSeen) {
       area += seen, light += seen * reflectance(degrees, lean);
     }
     Pass c = context_of();
-    c.plate_waves.moved = true;
+    c.plate_waves.raised = 1;
     const Pixel<double> p = mirrored(pixel_at(c, degrees, deviation), c);
     EXPECT_NEAR(p.fresnel, light / area, 0.003) << degrees;
     EXPECT_NEAR(p.reflected.r, 2 * p.fresnel, 1e-12) << degrees;

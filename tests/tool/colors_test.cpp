@@ -105,7 +105,9 @@ TEST_F(ColorsTest, RefusesUnknownNames) {
   expect_refused(wet("plate.exr", "wet.exr"), {"bad.toml:2:", "color space 'sRGB'"}, 1);
   scene_ = "scene.toml";
   tell("none.exr", "0,0,0,0,0,0,0,0");
-  expect_refused(wet("none.exr", "wet.exr"), {"chromaticities 0.0 0.0", "expected x and y"}, 1);
+  expect_refused(
+      wet("none.exr", "wet.exr"),
+      {"none.exr: chromaticities 0.0 0.0", "expected x and y", "or another colorspace named"}, 1);
   EXPECT_EQ(wet("none.exr", "wet.exr", {"--colorspace", "ACEScg"}).code, 0);
 }
 

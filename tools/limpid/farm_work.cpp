@@ -42,6 +42,15 @@ FarmWork begin(const std::string& verb, const FrameOptions& frames, const WaterO
   }
   work.names_simd = !water.simd.empty();
   work.simd = work.names_simd ? water.simd : simd_targets().front();
+  if (!water.preview.empty() && water.ocio.empty() && water.display != kPlainDisplay) {
+    // A task may run where $OCIO is another.
+    const DisplayChoice display = display_of(water, true);
+    if (display.config.empty()) {
+      work.display = {"--display", kPlainDisplay};
+    } else {
+      work.display = {"--ocio", display.config.string()};
+    }
+  }
   work.common = common;
   return work;
 }
@@ -140,6 +149,7 @@ std::vector<std::string> task_words(const std::vector<std::string>& command, con
   };
   if (work.common.threads == 0) add("--threads", std::to_string(cores));
   if (!work.names_simd && !work.simd.empty()) add("--simd", work.simd);
+  words.insert(words.end(), work.display.begin(), work.display.end());
   words.push_back("--resume");
   return words;
 }

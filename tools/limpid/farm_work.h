@@ -23,6 +23,9 @@ struct FarmWork {
   std::vector<std::string> outputs;  ///< names of a frame's, with %04d or ####, the picture first
   std::string simd;                  ///< instruction set that its bytes depend on, or ""
   bool names_simd = false;           ///< whether the command says so itself
+  /// How previews show light, in words that no environment changes: for a command that does not
+  /// say.
+  std::vector<std::string> display;
   CommonArguments common;
   std::function<std::vector<FrameFault>(Executor&)> faults;
   std::function<Rest(Executor&, Scrutiny)> rest;
@@ -36,7 +39,7 @@ Parsed command_of(std::vector<std::string> words);
 FarmWork farm_work(const Arguments& command);
 
 /// The words of the command that a task runs, but for its --frames: with --resume, and with the
-/// threads and the instruction set named.
+/// threads, the instruction set and the display named.
 std::vector<std::string> task_words(const std::vector<std::string>& command, const FarmWork& work,
                                     int cores);
 

@@ -118,7 +118,8 @@ void add_display(CLI::App& verb, WaterOptions& a) {
 void add_preview(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--preview", a.preview, "Also write a picture for a screen")
       ->option_text("OUT.png");
-  verb.add_option("--exposure", a.exposure, "Stops brighter that such pictures are (default: 0)")
+  verb.add_option("--exposure", a.exposure,
+                  "Exposure of --preview, --contact-sheet and --show, in stops (default: 0)")
       ->option_text("STOPS")
       ->check(number_in(-kMostStops, kMostStops, "stops"));
   add_display(verb, a);

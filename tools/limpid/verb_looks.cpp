@@ -116,7 +116,10 @@ std::string write_pictures(const LooksArguments& a, const CommonArguments& commo
 }
 
 void expect_pictures(const CompositeArguments& a) {
-  if (a.plates.empty() && a.layers.empty() && a.scene.empty() && !a.water.time) return;
+  if (a.plates.empty() && a.layers.empty() && a.scene.empty() && !a.water.time &&
+      a.colorspace.empty() && a.view.empty() && a.depth_kind.empty() && !a.depth_nothing) {
+    return;
+  }
   throw Error("limpid looks: a plate is shown in pictures: expected --pictures FILE beside it",
               Fault::kUsage);
 }

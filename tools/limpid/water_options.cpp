@@ -23,7 +23,6 @@
 namespace limpid::tool {
 namespace {
 
-constexpr const char* kPlainDisplay = "sRGB";
 constexpr int kShownAcross = 1024;  ///< pixels of a picture in a terminal, at most
 
 std::vector<Aov> aov_list(const std::vector<std::string>& names) {

@@ -47,6 +47,7 @@ Model model_to_render(const SceneFile& scene, bool draw_what_you_can,
 /// Throws the usage Error for no name, or one that is not an EXR's.
 void expect_output(const std::string& path);
 OutputChoice output_of(const WaterOptions& options);
+inline constexpr const char* kPlainDisplay = "sRGB";  ///< as --display: without a config
 /// How light is shown, by the options, else $OCIO. Throws the usage Error for a view that is not
 /// there, and for any of the options where nothing `shows` it.
 DisplayChoice display_of(const WaterOptions& options, bool shows);

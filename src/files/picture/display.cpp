@@ -71,6 +71,14 @@ std::string view_named(const std::string& name, const std::vector<std::string>& 
               Fault::kUsage);
 }
 
+/// Whether a config's space of that name is linear: it says so, or is one of ACES. A config's
+/// "Rec.709" is what a display encodes.
+bool says_linear(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name.find("lin") != std::string::npos || name.find("ap0") != std::string::npos ||
+         name.find("ap1") != std::string::npos || name.find("aces") != std::string::npos;
+}
+
 /// The space of the config that light of these primaries is in, or one that is known besides.
 struct Entry {
   std::string space;
@@ -81,7 +89,7 @@ Entry entry_of(const Config& config, const Primaries& primaries,
   std::optional<Entry> other;
   for (const std::string& name : config.spaces) {
     const auto known = find_color_space(name);
-    if (!known) continue;
+    if (!known || !says_linear(name)) continue;
     if (agree(*known, primaries)) return {name, *known};
     if (!other) other = {name, *known};
   }
@@ -97,7 +105,7 @@ float finite(float light, float gain) {
 
 }  // namespace
 
-struct DisplayTransform::Ocio {
+struct __attribute__((visibility("hidden"))) DisplayTransform::Ocio {
   Ocio(const std::filesystem::path& path, const std::string& space, const std::string& view)
       : config(path), module(formats::module(path.string(), kOcio)) {
     const std::size_t slash = view.find('/');

@@ -6,8 +6,9 @@
 
 namespace limpid::test {
 
-/// Linear Rec.709 is its reference. Of its displays `screen` is the default, with the views `half`
-/// (half of the light, linear) and `swapped` (red and blue change places); `wall` has `half` alone.
+/// Linear Rec.709 is its reference; `rec709` stands for what a display encodes. Of its displays
+/// `screen` is the default, with the views `half` (half of the light, linear) and `swapped` (red
+/// and blue change places); `wall` has `half` alone.
 inline std::filesystem::path write_tiny_ocio(const std::filesystem::path& path) {
   std::ofstream(path) << R"(ocio_profile_version: 1
 search_path: ""
@@ -25,6 +26,10 @@ displays:
 active_displays: [screen, wall]
 active_views: [half, swapped]
 colorspaces:
+  - !<ColorSpace>
+    name: rec709
+    bitdepth: 32f
+    to_reference: !<MatrixTransform> {matrix: [0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 1]}
   - !<ColorSpace>
     name: lin_rec709
     bitdepth: 32f
