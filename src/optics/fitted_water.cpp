@@ -150,11 +150,12 @@ Rgb<double> light_left(const Rgb<Spectrum>& weights, const Spectrum& rates, doub
 }
 
 Rgb<double> fitted_rates(const Rgb<Spectrum>& weights, const Spectrum& rates) {
-  const auto [low, high] = std::minmax_element(rates.begin(), rates.end());
-  if (*low == *high) return {*low, *low, *low};
+  const auto ends = std::minmax_element(rates.begin(), rates.end());
+  const double low = *ends.first, high = *ends.second;  // clang 14 captures no bindings
+  if (low == high) return {low, low, low};
   // Ways from where nothing is lost to where nothing is left.
   constexpr int kWays = 192;
-  const double first = std::log(1e-3 / *high), last = std::log(30 / *low);
+  const double first = std::log(1e-3 / high), last = std::log(30 / low);
   return each(weights, [&](const Spectrum& w) {
     std::vector<double> ways(kWays), left(kWays);
     for (int i = 0; i < kWays; ++i) {
@@ -170,7 +171,7 @@ Rgb<double> fitted_rates(const Rgb<Spectrum>& weights, const Spectrum& rates) {
       }
       return sum;
     };
-    return std::exp(least(std::log(*low / 10), std::log(*high), error));
+    return std::exp(least(std::log(low / 10), std::log(high), error));
   });
 }
 
