@@ -30,7 +30,8 @@ class Mirror {
         image_(frame.plane(PlaneId::kReflectionDepth)),
         depth_(frame.plane(PlaneId::kDepth)),
         shadow_(frame.plane(PlaneId::kShadow)),
-        above_(frame.plane(PlaneId::kSurfaceShadow)),
+        above_(pass.planes.has(PlaneId::kSurfaceShadow) ? frame.plane(PlaneId::kSurfaceShadow)
+                                                        : View<const float>{}),
         shown_(depth_.window) {
     if (shadow_) shown_ = intersection(shown_, shadow_.window);
     for (int i = 0; light_.known && i < 3; ++i) {
@@ -120,8 +121,9 @@ class Mirror {
   const Pass& pass_;
   const Frame& frame_;
   const Kernel<Caustics>::Light light_;
-  const View<const float>&image_, &depth_, &shadow_, &above_;
-  Rect shown_;    ///< where all planes are that tell of a point
+  const View<const float>&image_, &depth_, &shadow_;
+  const View<const float> above_;  ///< none where the plan does not ask for it
+  Rect shown_;                     ///< where all planes are that tell of a point
   double aside_;  ///< how far calm light goes for each unit that it sinks, over the sun's sine
 };
 

@@ -73,6 +73,10 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     }
     whole.caustics = &light_;
     if (plan.keeps<Caustics>() && plan.keeps<FresnelReflection>()) {
+      // A host may hand over more planes than the plan asks for, and jobs do not read them.
+      if (!plan.planes.has(PlaneId::kSurfaceShadow)) {
+        now.planes = now.planes - PlaneSet{PlaneId::kSurfaceShadow};
+      }
       mirrored_caustics_.light(plan.look.of<Caustics>(), light_, now, executor, whole);
     }
   }
