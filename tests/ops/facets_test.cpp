@@ -170,16 +170,26 @@ struct Nine {
   void tiled_slopes_if(Any&&...) {}
 };
 
+Pass wavy_plate() {
+  Pass c = context_of();
+  c.plate_waves.variance = {0.02, 0.004, 0.01};
+  c.plate_waves.turn = {9, 2, 4};
+  return c;
+}
+
+WaveNormals::Params filtered_plate() {
+  WaveNormals::Params params;
+  params.model = WaveNormals::Model::kPlate;
+  params.filter = WaveNormals::Filter::kVariance;
+  return params;
+}
+
 // A normal of a plate is a sample of the waves in the pixel. Of sines with random wave vectors, of
 // the covariance `turn`, the mean over a footprint S is exp(-k' S k / 2) times that at its middle,
 // in the mean over the vectors k.
 TEST(PlateNormals, TellOfAPixelWhatItsWavesKeepOfThem) {
-  Pass c = context_of();
-  c.plate_waves.variance = {0.02, 0.004, 0.01};
-  c.plate_waves.turn = {9, 2, 4};
-  WaveNormals::Params params;
-  params.model = WaveNormals::Model::kPlate;
-  params.filter = WaveNormals::Filter::kVariance;
+  const Pass c = wavy_plate();
+  const WaveNormals::Params params = filtered_plate();
   for (const double depth : {0.5, 5.0, 50.0}) {
     Pixel<double> p = pixel_at(c, 30, 0);
     p.surface_depth = depth;
@@ -212,12 +222,8 @@ TEST(PlateNormals, TellOfAPixelWhatItsWavesKeepOfThem) {
 
 // Waves that end, or a plate of which a part is calm.
 TEST(PlateNormals, ThatLeanAsTheirNeighboursDoHaveNoWavesToLose) {
-  Pass c = context_of();
-  c.plate_waves.variance = {0.02, 0.004, 0.01};
-  c.plate_waves.turn = {9, 2, 4};
-  WaveNormals::Params params;
-  params.model = WaveNormals::Model::kPlate;
-  params.filter = WaveNormals::Filter::kVariance;
+  const Pass c = wavy_plate();
+  const WaveNormals::Params params = filtered_plate();
   Nine strip(pixel_at(c, 30, 0.1), true);
   strip.pixel.surface_depth = 50;
   Kernel<WaveNormals>::apply(params, c, strip);

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "limpid/files/picture/image_file.h"
+
 #include "files/picture/png.h"
 
 namespace limpid::test {
@@ -126,6 +128,20 @@ Decoded decoded_sixel(const std::string& text) {
   EXPECT_LE(palette.size(), 256);
   EXPECT_EQ(std::count(drawn.begin(), drawn.end(), false), 0) << "pixels are not drawn";
   return picture;
+}
+
+Decoded decoded_file(const std::filesystem::path& path) {
+  const ImageFile image = read_image(path);
+  Decoded bytes{image.window.size(), {}};
+  for (int y = image.window.y0; y < image.window.y1; ++y) {
+    for (int x = image.window.x0; x < image.window.x1; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        bytes.rgb.push_back(
+            static_cast<std::uint8_t>(255 * image.planes[c].view().at(x, y) + 0.5f));
+      }
+    }
+  }
+  return bytes;
 }
 
 Apart apart(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {

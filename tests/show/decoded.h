@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct Decoded {
 Decoded decoded_kitty(const std::string& text);
 Decoded decoded_iterm(const std::string& text);
 Decoded decoded_sixel(const std::string& text);
+
+/// A picture file, as the bytes that a screen gets of it.
+Decoded decoded_file(const std::filesystem::path& path);
 
 /// How far two pictures of one size are apart, of 255.
 struct Apart {

@@ -23,20 +23,7 @@ class DisplayTest : public ToolTest {
  protected:
   DisplayTest() { write_tiny_ocio(folder_ / "tiny.ocio"); }
 
-  /// Of a picture file, interleaved.
-  Decoded decoded(const std::string& file) const {
-    const ImageFile image = read_image(folder_ / file);
-    Decoded bytes{image.window.size(), {}};
-    for (int y = image.window.y0; y < image.window.y1; ++y) {
-      for (int x = image.window.x0; x < image.window.x1; ++x) {
-        for (int c = 0; c < 3; ++c) {
-          bytes.rgb.push_back(
-              static_cast<std::uint8_t>(255 * image.planes[c].view().at(x, y) + 0.5f));
-        }
-      }
-    }
-    return bytes;
-  }
+  Decoded decoded(const std::string& file) const { return decoded_file(folder_ / file); }
   Bytes bytes_of(const std::string& file) const { return decoded(file).rgb; }
   Bytes preview(const Words& more = {}) const {
     Words words = {"--preview", "wet.png"};

@@ -1,8 +1,6 @@
 // --contact-sheet and --show: what they write beside the preview.
 #include <gmock/gmock.h>
 
-#include "limpid/files/picture/image_file.h"
-
 #include "show/decoded.h"
 #include "tool/tool.h"
 
@@ -13,20 +11,7 @@ using ::testing::HasSubstr;
 
 class ShowTest : public ToolTest {
  protected:
-  /// Of a picture file, interleaved.
-  Decoded bytes_of(const std::string& file) const {
-    const ImageFile image = read_image(folder_ / file);
-    Decoded bytes{image.window.size(), {}};
-    for (int y = image.window.y0; y < image.window.y1; ++y) {
-      for (int x = image.window.x0; x < image.window.x1; ++x) {
-        for (int c = 0; c < 3; ++c) {
-          bytes.rgb.push_back(
-              static_cast<std::uint8_t>(255 * image.planes[c].view().at(x, y) + 0.5f));
-        }
-      }
-    }
-    return bytes;
-  }
+  Decoded bytes_of(const std::string& file) const { return decoded_file(folder_ / file); }
 
   void refused(const Words& more, const Words& parts, int code = 1) const {
     Words words = {"plate.exr", "--scene", "scene.toml"};
