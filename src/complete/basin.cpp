@@ -64,19 +64,19 @@ Basin::Walls Basin::around(int x, int y) const {
   for (int k = 0; k < kDirections; ++k) {
     const double angle = (k + 0.5) * (2 * std::numbers::pi / kDirections);
     const glm::dvec3 along = std::cos(angle) * c_.t + std::sin(angle) * c_.b;
-    const auto is_dry = [&](double distance) {
+    const auto shown_at = [&](double distance) {
       return at(bottom, drop * (c_.up + distance * along), kNear * drop);
     };
     double before = 0;
     for (std::size_t ring = 0; ring < kRings; ++ring) {
-      const Shown shown = is_dry(kLooks[ring]);
+      const Shown shown = shown_at(kLooks[ring]);
       if (shown == Shown::kOutside) break;
       if (shown == Shown::kWater) before = kLooks[ring];
       if (shown != Shown::kDry) continue;
       double shore = kLooks[ring];
       for (int i = 0; i < kHalvings; ++i) {
         const double between = 0.5 * (before + shore);
-        (is_dry(between) == Shown::kWater ? before : shore) = between;
+        (shown_at(between) == Shown::kWater ? before : shore) = between;
       }
       // On a beach the bottom goes on, up to the shore.
       const double foot = std::max(before - 0.5, 0.0);

@@ -58,7 +58,7 @@ LIMPID_INLINE ThreeFacets<F> plane_facets(F level) {
            select(few, F(1.0 / 6), F(1) - low_share - high_share)}};
 }
 
-/// Of a surface that is moved: a facet counts by its area that the view sees. `facing`: how the
+/// Of a surface that waves raise: a facet counts by its area that the view sees. `facing`: how the
 /// mean facet faces the view, which is the view's height over it for a unit along it, over the
 /// deviation. Facets are seen by z > 0, how they face, times the Gaussian around `facing`, whose
 /// moments are those of g = 1 / (facing + phi / Phi): the mean is facing + g, the variance
