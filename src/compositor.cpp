@@ -199,7 +199,7 @@ struct __attribute__((visibility("hidden"))) Compositor::State {
                    .display = frame.display,
                    .nothing = conventions.depth_nothing};
     if (scene.water) rules.up = scene.water->up;
-    rules.sane = conventions.sane;
+    rules.trusted = conventions.trusted;
     rules.half = half;
     for (int i = 0; i < kPlaneCount; ++i) {
       for (const HostOutput& out : outputs) {

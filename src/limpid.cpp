@@ -109,7 +109,7 @@ Conventions conventions_of(const limpid_conventions& c) {
           .clip = named(c.clip, ClipSpace::kReversed, "limpid_conventions.clip"),
           .looks_along_plus_z = c.looks_along_plus_z != 0,
           .clip_y_down = c.clip_y_down != 0,
-          .sane = c.sane != 0};
+          .trusted = c.trusted != 0};
 }
 
 glm::dmat4 matrix_of(const double* numbers, bool row_major) {

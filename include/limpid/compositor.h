@@ -43,9 +43,9 @@ struct Conventions {
   /// but no large number), shadows and masks within 0 ... 1, unit normals. Floats of eye depth are
   /// then read without a copy, and NaN gives NaN around it. Otherwise all planes are checked, and
   /// bad values are replaced as in sanitise.h, in a copy.
-  bool sane = false;
-  /// A stored depth of exactly this value is "no surface hit", too. If the planes are not `sane`,
-  /// so is a depth of 0 with an alpha of 0.
+  bool trusted = false;
+  /// A stored depth of exactly this value is "no surface hit", too. If the planes are not
+  /// `trusted`, so is a depth of 0 with an alpha of 0.
   std::optional<double> depth_nothing = {};
 };
 

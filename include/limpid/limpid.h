@@ -134,7 +134,7 @@ typedef struct limpid_conventions {
   size_t size;
   int32_t depth; /**< limpid_depth */
   int32_t clip;  /**< limpid_clip */
-  int32_t looks_along_plus_z, clip_y_down, sane;
+  int32_t looks_along_plus_z, clip_y_down, trusted;
   /** Matrices lie in memory row after row. 0: column after column, as OpenGL has them (which is
    * also how matrices for row vectors lie that are stored by rows, as Direct3D has them). */
   int32_t row_major;

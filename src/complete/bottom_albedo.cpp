@@ -13,9 +13,9 @@
 namespace limpid {
 namespace {
 
-constexpr int kStep = 2;        ///< pixels: every second one is enough for sums
-constexpr float kDepths = 1;    ///< of water that sums reach to each side
-constexpr int kMostReach = 24;  ///< cells
+constexpr int kStep = 2;       ///< pixels: every second one is enough for sums
+constexpr float kDepths = 1;   ///< of water that sums reach to each side
+constexpr int kMaxReach = 24;  ///< cells
 
 Rect window_of(const Frame& frame) {
   Rect window = frame.work();
@@ -104,7 +104,7 @@ float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t chan
   const double of_floor = std::clamp(
       (even * sums.count + sunlit * level / std::numbers::pi) / sums.light[channel], 0.0, 1.0);
   const double lost = (1 - of_floor) * sums.walls[channel] / sums.count;
-  const double most = std::min<double>(albedo, ScatteredLight::kMostAlbedo);
+  const double most = std::min<double>(albedo, ScatteredLight::kMaxAlbedo);
   if (!(light.back_at_once > 0 && lost > 0 && most > 0)) return albedo;
   // Of the light that comes up, what has come to the bottom and up without a turn is in the dry
   // picture already.
@@ -124,7 +124,7 @@ int BottomAlbedo::reach() const {
   double sum = 0, count = 0;
   for (const Cell& cell : cells_) sum += cell.reach, count += cell.count;
   if (!(count > 0)) return 0;
-  return std::clamp(static_cast<int>(kDepths * sum / count / kCell), 1, kMostReach);
+  return std::clamp(static_cast<int>(kDepths * sum / count / kCell), 1, kMaxReach);
 }
 
 /// Sums of all cells within `reach`, across and down.

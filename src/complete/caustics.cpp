@@ -30,11 +30,11 @@ constexpr const CausticsTarget* kTargets[] = {
 #undef LIMPID_TARGET
 };
 
-constexpr int kLooks = 320;       ///< along the longer side of the picture
-constexpr double kMostSun = 100;  ///< over the rest of the light, where that is almost nothing
+constexpr int kLooks = 320;      ///< along the longer side of the picture
+constexpr double kMaxSun = 100;  ///< over the rest of the light, where that is almost nothing
 /// At which light is followed, of all levels: for each pixel, and at least as many as these; but no
 /// more than 64 for each pixel.
-constexpr double kPointsOfPixel = 0.5, kPoints = 1e6, kMostPointsOfPixel = 64;
+constexpr double kPointsOfPixel = 0.5, kPoints = 1e6, kMaxPointsOfPixel = 64;
 constexpr std::size_t kEvery = 7;  ///< of these is asked how wide texels shall be
 constexpr double kFine = 0.05;     ///< share of the pixels that may want finer texels
 constexpr double kSpread = 4;      ///< times the depth at which light begins to fold
@@ -60,7 +60,7 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
   table_.least = table_.most = 1;
   table_.scale = 1;
   table_.depth = deepest;
-  table_.first = within_water() ? CausticsTable::kMostLevels : 0;
+  table_.first = within_water() ? CausticsTable::kMaxLevels : 0;
   const glm::dvec3& direction = pass.sun.direction;
   Sunlight sun{};
   sun.to_sun = {glm::dot(direction, pass.map_x), glm::dot(direction, pass.map_y),
@@ -131,7 +131,7 @@ void CausticsMaker::weigh_sun(const Frame& frame, const Pass& c, Executor& execu
   for (std::size_t k = 0; k < 3; ++k) {
     double sun = 0, rest = 0;
     for (const Weights& of_row : weights_) sun += of_row.sun[k], rest += of_row.rest[k];
-    table_.sun_over_rest[k] = rest > 0 ? std::min(sun / rest, kMostSun) : 0;
+    table_.sun_over_rest[k] = rest > 0 ? std::min(sun / rest, kMaxSun) : 0;
   }
 }
 
@@ -247,7 +247,7 @@ bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
   const glm::dvec2 eye(glm::dot(pass.eye, pass.map_x), glm::dot(pass.eye, pass.map_y));
   for (CausticsLevel& level : levels_) level.leave_out();
   double points = 0;
-  for (int i = 0; i < CausticsTable::kMostLevels; ++i) {
+  for (int i = 0; i < CausticsTable::kMaxLevels; ++i) {
     CausticsLevel::Layout layout;
     const double texel = layout.texel = std::ldexp(1, exponent + i);
     if (texel > widest) break;
@@ -289,8 +289,7 @@ bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
     points += level.rays();
   }
   const double pixels = double(pass.size.x) * pass.size.y;
-  return points <=
-         std::min(std::max(kPoints, kPointsOfPixel * pixels), kMostPointsOfPixel * pixels);
+  return points <= std::min(std::max(kPoints, kPointsOfPixel * pixels), kMaxPointsOfPixel * pixels);
 }
 
 }  // namespace limpid

@@ -104,7 +104,7 @@ class Mirror {
       const auto k = static_cast<std::size_t>(i);
       if (!light_.known) {
         const double direct = lit * light_.sun[k];
-        share[k] = direct / std::max(direct + light_.even[k], 1e-30);
+        share[k] = direct / std::max(direct + light_.ambient[k], 1e-30);
       } else if (shown) {
         const double whole = frame_.plane(plane_after(PlaneId::kColorR, i)).at(x, y);
         const double sun = frame_.plane(plane_after(PlaneId::kSunColorR, i)).at(x, y);

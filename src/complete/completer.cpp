@@ -14,7 +14,7 @@ namespace {
 PlaneSet made_by(std::string_view name, const Plan& plan, const Frame& frame) {
   for (const CompleterInfo& completer : completers()) {
     if (completer.name != name || !frame.present().covers(completer.inputs)) continue;
-    return plan.completed & ((completer.makes - frame.present()) | completer.mends);
+    return plan.completed & ((completer.makes - frame.present()) | completer.corrects);
   }
   return {};
 }
@@ -99,7 +99,7 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   }
   for (const CompleterInfo& completer : completers()) {
     const bool of_windows = completer.name == "displaced_surface";
-    if (of_windows || !plan.completed.meets(completer.makes | completer.mends)) continue;
+    if (of_windows || !plan.completed.meets(completer.makes | completer.corrects)) continue;
     phrases.push_back("the planes of " + std::string(completer.name));
   }
   if (plan.planes.covers(kBelowPlanes)) {

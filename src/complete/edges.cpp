@@ -150,7 +150,7 @@ struct __attribute__((visibility("hidden"))) Edges::State {
 /// What is behind is the layer below.
 void Edges::State::take_deep(Frame& frame, const Pass& pass, Executor& executor) {
   if (!frame.present().covers(kBelowPlanes)) return;
-  const std::array<View<const float>, 4> before = frame.before_water;
+  const std::array<View<const float>, 4> before = frame.foreground;
   const Frame given = frame;
   const EdgePicture picture(frame, pass);
   Rect window = intersection(picture.window, before[3].window);
@@ -408,7 +408,7 @@ Edges& Edges::operator=(Edges&&) noexcept = default;
 void Edges::make(Frame& frame, const Pass& pass, Executor& executor) {
   if (pass.submersible) return;
   State& s = *state_;
-  if (frame.before_water[3]) return s.take_deep(frame, pass, executor);
+  if (frame.foreground[3]) return s.take_deep(frame, pass, executor);
   const EdgePicture picture(frame, pass);
   if (picture.window.empty() || !s.find_bands(picture, executor)) return;
   static_assert(EdgeBlur::kLadder[EdgeBlur::kWidths - 1] == kFarthest);

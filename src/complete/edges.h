@@ -13,7 +13,7 @@ namespace limpid {
 /// of what is behind. What is not wet behind stays as it is, and so do all pixels of views that may
 /// begin in the water.
 ///
-/// Deep samples tell it (Frame::before_water, with the layer below the water behind it). Where
+/// Deep samples tell it (Frame::foreground, with the layer below the water behind it). Where
 /// there are none it is estimated. An edge is where something dry stands before something wet: the
 /// steps of color across such edges, at growing distances, say in each part of the picture how far
 /// they are blurred. Where they are not, nothing is touched. In the band that is left the share of

@@ -90,7 +90,7 @@ HeightError march_error(const Pass& c) {
 }
 
 /// 0 where lookups are not those that SeenHeights::covers speaks of.
-double share_of_way(const Plan& plan, const Frame& frame, const Pass& pass) {
+double path_fraction(const Plan& plan, const Frame& frame, const Pass& pass) {
   const Refraction::Params& params = plan.look.of<Refraction>();
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   const bool kept_in_frame = params.off_frame == Refraction::OffFrame::kShorten ||
@@ -159,7 +159,7 @@ void Heights::look_below(const Plan& plan, const Frame& frame, const Pass& pass,
   // Where no water is drawn the calm level stands for it.
   bound_.most = std::max(bound_.most, 0.0f) + error.over;
   if (!seen_from_above(pass, bound_.most)) return;
-  const SeenFrom from{error, bound_.most, share_of_way(plan, frame, pass), planes.below};
+  const SeenFrom from{error, bound_.most, path_fraction(plan, frame, pass), planes.below};
   look_at(depth.window, executor, heights_, [&](const Rect& pixels, Blocks blocks, auto* to) {
     target.seen_heights(pass, from, depth, surface, pixels, blocks, to);
   });

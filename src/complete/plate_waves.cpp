@@ -14,12 +14,12 @@
 namespace limpid {
 namespace {
 
-constexpr int kMostAcross = 64;    ///< pixels that are looked at, and so many rows
+constexpr int kMaxAcross = 64;     ///< pixels that are looked at, and so many rows
 constexpr double kLeastUp = 0.05;  ///< no slope passes 20
 /// Mean height of the waves over the eye's: up to the first they tilt a plane, from the second on
 /// they raise it.
 constexpr double kPlane = 1.0 / 2000, kRaised = 4 * kPlane;
-constexpr double kMostTurn = 1e6;  ///< its square is finite in a float, times that of a footprint
+constexpr double kMaxTurn = 1e6;  ///< its square is finite in a float, times that of a footprint
 
 /// Where a wet pixel sees the water, in scene units along the axes of the map, and how it leans.
 struct Seen {
@@ -87,8 +87,8 @@ struct Products {
 PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
   const Surface surface(frame, view);
   const Rect& window = surface.window();
-  const int across = std::max(1, window.width() / kMostAcross);
-  const int down = std::max(1, window.height() / kMostAcross);
+  const int across = std::max(1, window.width() / kMaxAcross);
+  const int down = std::max(1, window.height() / kMaxAcross);
   Products slopes, turns;
   double heights = 0, count = 0;
   for (int y = window.y0; y + 1 < window.y1; y += down) {
@@ -124,7 +124,7 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
   if (!(whole > 1e-12)) return waves;
   waves.turn = (1 / whole) * turns.mean();
   const double most = waves.turn.xx + waves.turn.yy;
-  if (most > kMostTurn) waves.turn = (kMostTurn / most) * waves.turn;
+  if (most > kMaxTurn) waves.turn = (kMaxTurn / most) * waves.turn;
   return waves;
 }
 

@@ -180,7 +180,7 @@ class Channel {
     const std::size_t last = layers.size() - 1;
     for (std::size_t k = last + 1; k-- > 0;) {
       const SlabLight& layer = layers[k];
-      const double most = ScatteredLight::kMostAlbedo;
+      const double most = ScatteredLight::kMaxAlbedo;
       const double again = most / (1 - most * layer.back);
       double sun_off = 0, sky_off = 0, bottom_sun = 0, bottom_sky = 0;
       each_view([&](std::size_t i, int a) {

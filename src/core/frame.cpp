@@ -10,28 +10,28 @@
 namespace limpid {
 namespace {
 
-constexpr float kNothingHit = std::numeric_limits<float>::infinity();
+constexpr float kNoHit = std::numeric_limits<float>::infinity();
 
 constexpr Role kRoles[] = {
     {"color", PlaneId::kColorR, 4, 0, Sanitise::kColor, "color", "R G B A|R G B", Storage::kHalf,
      "the dry picture: scene-linear, premultiplied"},
-    {"depth", PlaneId::kDepth, 1, kNothingHit, Sanitise::kDepth, "depth", "Z", Storage::kFloat,
+    {"depth", PlaneId::kDepth, 1, kNoHit, Sanitise::kDepth, "depth", "Z", Storage::kFloat,
      "depth of the dry scene"},
     {"shadow", PlaneId::kShadow, 1, 1, Sanitise::kShadow, "shadow", "Y", Storage::kHalf,
      "visibility of the sun: 1 lit, 0 in shadow"},
     {"reflection", PlaneId::kReflectionR, 3, 0, Sanitise::kColor, "reflection", "R G B",
      Storage::kHalf, "what a flat mirror in the water plane shows at each pixel"},
-    {"surface_depth", PlaneId::kSurfaceDepth, 1, kNothingHit, Sanitise::kDepth, "surface", "Z",
+    {"surface_depth", PlaneId::kSurfaceDepth, 1, kNoHit, Sanitise::kDepth, "surface", "Z",
      Storage::kFloat, "depth of the water surface"},
     {"surface_normal", PlaneId::kSurfaceNormalX, 3, 0, Sanitise::kNormal, "surface", "NX NY NZ",
      Storage::kHalf, "world normal of the water surface"},
     {"reflection_valid", PlaneId::kReflectionValid, 1, 0, Sanitise::kMask, "reflection", "A",
      Storage::kHalf, "1 where the reflection is valid, 0 inside of clipped objects"},
-    {"reflection_depth", PlaneId::kReflectionDepth, 1, kNothingHit, Sanitise::kDepth, "reflection",
-     "Z", Storage::kFloat, "depth of the reflection along the mirrored ray"},
+    {"reflection_depth", PlaneId::kReflectionDepth, 1, kNoHit, Sanitise::kDepth, "reflection", "Z",
+     Storage::kFloat, "depth of the reflection along the mirrored ray"},
     {"below_color", PlaneId::kBelowR, 3, 0, Sanitise::kColor, "below", "R G B", Storage::kHalf,
      "the dry scene without the objects above the water"},
-    {"below_depth", PlaneId::kBelowDepth, 1, kNothingHit, Sanitise::kDepth, "below", "Z",
+    {"below_depth", PlaneId::kBelowDepth, 1, kNoHit, Sanitise::kDepth, "below", "Z",
      Storage::kFloat, "depth of below_color"},
     {"surface_shadow", PlaneId::kSurfaceShadow, 1, 1, Sanitise::kShadow, "surface_shadow", "Y",
      Storage::kHalf, "visibility of the sun at the water surface"},

@@ -88,7 +88,7 @@ void LevelMaker::make(const Texture& map) {
   }
   Size base = whole;
   int halvings = 0;
-  for (; std::max(base.width, base.height) > TextureLevels::kMostBase; ++halvings) {
+  for (; std::max(base.width, base.height) > TextureLevels::kMaxBase; ++halvings) {
     base = halved(base);
   }
   const std::size_t plane = static_cast<std::size_t>(rect_of(base).area());
@@ -108,7 +108,7 @@ Sym2<double> slope_variance(const TextureLevels& map, const FourShifts& shifts) 
   const Size base = map.base;
   const std::int64_t area = rect_of(base).area();
   const double within = map.halvings > 0 ? kept_within(shifts, base) : 0;
-  float h_x[TextureLevels::kMostBase], h_y[TextureLevels::kMostBase];
+  float h_x[TextureLevels::kMaxBase], h_y[TextureLevels::kMaxBase];
   const auto moment = [&](int c, std::ptrdiff_t at) -> double {
     return map.moments[c * area + at];
   };

@@ -8,7 +8,7 @@ namespace {
 std::int64_t bytes_of(const Frame& frame) {
   std::int64_t pixels = 0;
   for (const View<const float>& plane : frame.planes) pixels += plane ? plane.window.area() : 0;
-  for (const View<const float>& plane : frame.before_water) {
+  for (const View<const float>& plane : frame.foreground) {
     pixels += plane ? plane.window.area() : 0;
   }
   return pixels * std::int64_t{sizeof(float)};

@@ -205,7 +205,7 @@ class Asked {
   Json json_;
 };
 
-constexpr double kMostSeconds = 1e12;  ///< so that no wave's phase overflows
+constexpr double kMaxSeconds = 1e12;  ///< so that no wave's phase overflows
 
 std::string numbers_text(const Json& list) {
   std::vector<std::string> texts;
@@ -242,7 +242,7 @@ void put_choice(const Asked& asked, DeskChoice& choice) {
   if (asked.find("frame")) choice.frame = asked.count("frame");
   if (asked.find("time")) {
     choice.time = asked.real("time", 0);
-    if (!(std::abs(*choice.time) <= kMostSeconds)) Asked::refuse("time", "-1e12 ... 1e12 (s)");
+    if (!(std::abs(*choice.time) <= kMaxSeconds)) Asked::refuse("time", "-1e12 ... 1e12 (s)");
   }
 }
 

@@ -99,8 +99,8 @@ HalfPlate::HalfPlate(const Frame& frame, Executor& executor)
   };
   run_each(executor, kPlaneCount + 4, [&](int index) {
     if (index >= kPlaneCount) {
-      const View<const float>& whole = frame.before_water[index - kPlaneCount];
-      if (whole) before_water_[index - kPlaneCount] = half_mean(whole, halving_);
+      const View<const float>& whole = frame.foreground[index - kPlaneCount];
+      if (whole) foreground_[index - kPlaneCount] = half_mean(whole, halving_);
       return;
     }
     for (const Role& role : roles()) {
@@ -111,7 +111,7 @@ HalfPlate::HalfPlate(const Frame& frame, Executor& executor)
   Plane* const normal = &planes_[index_of(PlaneId::kSurfaceNormalX)];
   if (normal[0]) make_unit(normal[0].view(), normal[1].view(), normal[2].view());
   for (int i = 0; i < kPlaneCount; ++i) frame_.planes[i] = planes_[i].view();
-  for (int i = 0; i < 4; ++i) frame_.before_water[i] = before_water_[i].view();
+  for (int i = 0; i < 4; ++i) frame_.foreground[i] = foreground_[i].view();
 }
 
 Camera HalfPlate::camera(const Camera& of_frame) const {

@@ -43,7 +43,7 @@ class HalfPlate {
   Halving halving_;
   Frame frame_;
   std::vector<Plane> planes_;
-  std::array<Plane, 4> before_water_;
+  std::array<Plane, 4> foreground_;
 };
 
 }  // namespace limpid

@@ -27,7 +27,7 @@ constexpr int kThreads = 32;
 constexpr int kWaiting = 64;
 constexpr int kSecondsToBegin = 1;
 constexpr int kSeconds = 5;
-constexpr std::size_t kMostBody = std::size_t{1} << 20;
+constexpr std::size_t kMaxBody = std::size_t{1} << 20;
 
 struct Module {
   decltype(&limpid_http_open) open;
@@ -94,8 +94,8 @@ void answer(void* host, const HttpRequest* request, HttpReply* reply, void* to) 
 }  // namespace
 
 HttpServer::HttpServer(int port, Host host) : host_(std::move(host)) {
-  const HttpOptions options{port,     kThreads,  kWaiting, kSecondsToBegin,
-                            kSeconds, kMostBody, kHeaders, std::size(kHeaders)};
+  const HttpOptions options{port,     kThreads, kWaiting, kSecondsToBegin,
+                            kSeconds, kMaxBody, kHeaders, std::size(kHeaders)};
   const HttpHost called{&host_, &admits, &answer};
   std::string sentence;
   const auto put = [](void* to, const char* bytes, std::size_t size) {

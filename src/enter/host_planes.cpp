@@ -63,7 +63,7 @@ struct EnteredPlanes::Entry {
   }
   /// Whether it is the depth of a scene whose alpha says where there is something.
   bool covered(const Role& role) const {
-    return role.first == PlaneId::kDepth && !rules.sane && host[index_of(PlaneId::kColorA)];
+    return role.first == PlaneId::kDepth && !rules.trusted && host[index_of(PlaneId::kColorA)];
   }
   static int bands(const Way& way) { return (way.window.height() + kBandRows - 1) / kBandRows; }
 
@@ -90,8 +90,8 @@ struct EnteredPlanes::Entry {
     if (way.window.empty()) return;
     const bool read_anew = rules.depth.kind != DepthKind::kEye || rules.depth.nothing;
     way.copied |= role.sanitise == Sanitise::kDepth && read_anew;
-    way.copied |= role.sanitise == Sanitise::kNormal && !rules.sane;
-    way.watched = !way.copied && !rules.sane;
+    way.copied |= role.sanitise == Sanitise::kNormal && !rules.trusted;
+    way.watched = !way.copied && !rules.trusted;
     if (!way.copied && !way.watched) return;
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = plane(role, i);
@@ -136,8 +136,8 @@ struct EnteredPlanes::Entry {
       if (covered(role)) depth.uncovered = [&](int x, int y) { return is_zero(alpha, x, y); };
       if (role.sanitise == Sanitise::kDepth) {
         const bool read_anew = depth.kind != DepthKind::kEye || depth.nothing;
-        if (!rules.sane || read_anew) replaced += make_eye_depth(rows, depth);
-      } else if (!rules.sane) {
+        if (!rules.trusted || read_anew) replaced += make_eye_depth(rows, depth);
+      } else if (!rules.trusted) {
         if (role.sanitise == Sanitise::kColor) {
           replaced += sanitise_color(rows, largest_of(plane_after(role.first, i)));
         }
@@ -145,7 +145,7 @@ struct EnteredPlanes::Entry {
         if (role.sanitise == Sanitise::kMask) replaced += sanitise_mask(rows);
       }
     }
-    if (role.sanitise == Sanitise::kNormal && !rules.sane && band[0] && band[1] && band[2]) {
+    if (role.sanitise == Sanitise::kNormal && !rules.trusted && band[0] && band[1] && band[2]) {
       replaced += sanitise_normal(band[0], band[1], band[2], rules.up);
     }
     way(role).nan.fetch_add(replaced.nan, std::memory_order_relaxed);

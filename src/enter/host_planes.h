@@ -20,7 +20,7 @@ using HostPlanes = std::array<HostInput, kPlaneCount>;
 struct EntryRules {
   DepthSource depth;       ///< of the depth planes but for `half`, which is found for each
   glm::dvec3 up{0, 1, 0};  ///< in place of normals that are none
-  bool sane = false;       ///< numbers and eye depths are in the conventions of a Frame already
+  bool trusted = false;    ///< numbers and eye depths are in the conventions of a Frame already
   PlaneSet written;        ///< these lie where the picture will be
   const HalfTarget* half = nullptr;
 };

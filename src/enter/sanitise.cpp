@@ -13,7 +13,7 @@
 namespace limpid {
 namespace {
 
-constexpr float kNothingHit = std::numeric_limits<float>::infinity();
+constexpr float kNoHit = std::numeric_limits<float>::infinity();
 
 template <class Fn>
 void for_each_pixel(const View<float>& plane, Fn&& fn) {
@@ -43,10 +43,10 @@ Replaced convert_depth(const View<float>& plane, Missed&& missed, Convert&& conv
   Replaced replaced;
   for_each_pixel(plane, [&](float& z, int x, int y) {
     const float depth =
-        missed(z) ? kNothingHit : static_cast<float>(convert(static_cast<double>(z), x, y));
-    const bool means_nothing = !(depth > -kNothingHit);
+        missed(z) ? kNoHit : static_cast<float>(convert(static_cast<double>(z), x, y));
+    const bool means_nothing = !(depth > -kNoHit);
     if (means_nothing) count(replaced, std::isfinite(z) ? depth : z);
-    z = means_nothing ? kNothingHit : depth;
+    z = means_nothing ? kNoHit : depth;
   });
   return replaced;
 }
@@ -150,9 +150,9 @@ Replaced make_eye_depth(const View<float>& plane, const DepthSource& source) {
     case DepthKind::kEye: {
       Replaced replaced;
       for_each_insane(plane, sane_range(Sanitise::kDepth, nothing), [&](float& z, int, int) {
-        if (z > -kNothingHit && z < nothing) return;
-        if (!(z > -kNothingHit)) count(replaced, z);
-        z = kNothingHit;
+        if (z > -kNoHit && z < nothing) return;
+        if (!(z > -kNoHit)) count(replaced, z);
+        z = kNoHit;
       });
       return replaced;
     }

@@ -9,7 +9,7 @@
 namespace limpid {
 
 int frames_a_task(double seconds_a_frame, std::size_t frames, std::size_t most_tasks) {
-  const double most = kMostFramesATask;
+  const double most = kMaxFramesATask;
   const double of_time = std::clamp(kTaskSeconds / std::max(seconds_a_frame, 1e-9), 1.0, most);
   const double count = static_cast<double>(frames);
   const double tasks =
@@ -17,7 +17,7 @@ int frames_a_task(double seconds_a_frame, std::size_t frames, std::size_t most_t
   const double size = std::ceil(count / std::max(tasks, 1.0));
   if (size > most) {
     throw Error(std::to_string(frames) + " frames: expected at most " +
-                    std::to_string(most_tasks * kMostFramesATask) + ", in " +
+                    std::to_string(most_tasks * kMaxFramesATask) + ", in " +
                     std::to_string(most_tasks) + " tasks",
                 Fault::kUsage);
   }

@@ -16,10 +16,10 @@ using Chunk = std::vector<int>;
 /// lost when its node is.
 inline constexpr double kTaskSeconds = 120;
 /// So that a chunk fits into one word of a command line.
-inline constexpr int kMostFramesATask = 10'000;
+inline constexpr int kMaxFramesATask = 10'000;
 
-/// How many frames a task of about kTaskSeconds has, 1 ... kMostFramesATask, for at most so many
-/// tasks, all of them about as long. Throws Error where not even kMostFramesATask is enough.
+/// How many frames a task of about kTaskSeconds has, 1 ... kMaxFramesATask, for at most so many
+/// tasks, all of them about as long. Throws Error where not even kMaxFramesATask is enough.
 int frames_a_task(double seconds_a_frame, std::size_t frames, std::size_t most_tasks);
 
 /// Chunks of that size; the last may be shorter.

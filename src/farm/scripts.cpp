@@ -130,7 +130,7 @@ std::string task_script(const FarmPlan& plan) {
   std::string body(kTask);
   constexpr std::string_view kTries = "@TRIES@";
   for (std::size_t at; (at = body.find(kTries)) != std::string::npos;) {
-    body.replace(at, kTries.size(), std::to_string(kMostTries));
+    body.replace(at, kTries.size(), std::to_string(kMaxTries));
   }
   return std::string(kTaskHead) + "#SBATCH --job-name=" + sbatch_name(plan.name) +
          "\n#SBATCH --array=1-" + std::to_string(plan.tasks) + "\n" + sbatch_lines(plan) +

@@ -27,7 +27,7 @@ struct FarmPlan {
 };
 
 /// How often Slurm begins a task anew that ended in a way worth trying again.
-inline constexpr int kMostTries = 10;
+inline constexpr int kMaxTries = 10;
 
 /// Throws the usage Error for a word that a line of #SBATCH does not hold as it is, and for an
 /// option that is the farm's own.

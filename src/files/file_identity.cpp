@@ -23,8 +23,8 @@ bool is_link(const fs::path& path) {
 
 /// What the last link of a chain names, without a look at whether it is there.
 fs::path end_of_links(fs::path path) {
-  constexpr int kMostLinks = 40;  // as the system has it
-  for (int i = 0; i < kMostLinks && is_link(path); ++i) {
+  constexpr int kMaxLinks = 40;  // as the system has it
+  for (int i = 0; i < kMaxLinks && is_link(path); ++i) {
     std::error_code failed;
     const fs::path next = fs::read_symlink(path, failed);
     if (failed) break;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kVersion = VK_API_VERSION_1_2;
 /// Frames whose transfers and shaders overlap need as many; more give nothing.
-constexpr std::uint32_t kMostQueues = 4;
+constexpr std::uint32_t kMaxQueues = 4;
 
 /// What is asked of a device before it is opened.
 struct Candidate {
@@ -73,7 +73,7 @@ Candidate candidate_of(const Vulkan& vk, VkPhysicalDevice handle) {
   for (std::uint32_t i = 0; i < count && made.family < 0; ++i) {
     if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
     made.family = static_cast<int>(i);
-    made.queues = std::min(families[i].queueCount, kMostQueues);
+    made.queues = std::min(families[i].queueCount, kMaxQueues);
   }
   return made;
 }
@@ -187,7 +187,7 @@ std::shared_ptr<GpuDevice> GpuDevice::open(const std::string& name) {
   const std::vector<Candidate> candidates = instance.candidates();
   const Candidate& candidate = chosen(candidates, name);
   std::shared_ptr<GpuDevice> made(new GpuDevice);
-  const std::array<float, kMostQueues> priorities{1, 1, 1, 1};
+  const std::array<float, kMaxQueues> priorities{1, 1, 1, 1};
   auto queues = vulkan_struct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queues.queueFamilyIndex = static_cast<std::uint32_t>(candidate.family);
   queues.queueCount = candidate.queues;

@@ -15,7 +15,7 @@
 namespace limpid {
 namespace {
 
-constexpr int kMostInFlight = 16;
+constexpr int kMaxInFlight = 16;
 
 static_assert(sizeof(VkImage) == sizeof(VkImage_T*), "handles are pointers on 64 bits");
 
@@ -206,9 +206,9 @@ void GpuCompositor::State::copy_color(VkCommandBuffer c, const GpuImageView& col
 GpuCompositor::GpuCompositor(const GpuHost& host, const Look& look,
                              const GpuCompositorOptions& options) {
   look.validate();
-  if (options.in_flight < 1 || options.in_flight > kMostInFlight) {
+  if (options.in_flight < 1 || options.in_flight > kMaxInFlight) {
     throw Error("frames in flight = " + std::to_string(options.in_flight) + ": expected 1 ... " +
-                std::to_string(kMostInFlight));
+                std::to_string(kMaxInFlight));
   }
   state_ = std::make_unique<State>(host, look, options);
 }

@@ -38,8 +38,8 @@ float block_mean(const View<float>& from, int x, int y, int n) {
 
 void expect_samples(const OutputChoice& choice) {
   const std::string said = "wave_samples = " + std::to_string(choice.wave_samples);
-  if (choice.wave_samples < 1 || choice.wave_samples > OutputChoice::kMostWaveSamples) {
-    throw Error(said + ": expected 1 ... " + std::to_string(OutputChoice::kMostWaveSamples),
+  if (choice.wave_samples < 1 || choice.wave_samples > OutputChoice::kMaxWaveSamples) {
+    throw Error(said + ": expected 1 ... " + std::to_string(OutputChoice::kMaxWaveSamples),
                 Fault::kUsage);
   }
   if (choice.wave_samples > 1 && !choice.deep.empty()) {
@@ -49,9 +49,9 @@ void expect_samples(const OutputChoice& choice) {
 }
 
 void expect_overscan(const OutputChoice& choice) {
-  if (choice.overscan >= 0 && choice.overscan <= OutputChoice::kMostOverscan) return;
+  if (choice.overscan >= 0 && choice.overscan <= OutputChoice::kMaxOverscan) return;
   throw Error("overscan = " + std::to_string(choice.overscan) + ": expected 0 ... " +
-                  std::to_string(OutputChoice::kMostOverscan) + " (pixels)",
+                  std::to_string(OutputChoice::kMaxOverscan) + " (pixels)",
               Fault::kUsage);
 }
 

@@ -169,8 +169,8 @@ void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>
 }
 
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
-                       Executor& executor, Scrutiny scrutiny) {
-  return rest_of_jobs(CompositeKind(), sequence, job_of, executor, scrutiny);
+                       Executor& executor, VerifyLevel level) {
+  return rest_of_jobs(CompositeKind(), sequence, job_of, executor, level);
 }
 
 std::vector<FrameFault> faults_of_composite(const Sequence& sequence,

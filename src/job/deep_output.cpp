@@ -14,15 +14,15 @@ namespace limpid {
 namespace {
 
 /// As the last operator of the chain measures it that does.
-WayMeasure way_of(const Look& look) {
-  WayMeasure way;
-  for (const OperatorEntry& entry : operator_table()) way = entry.way(look).value_or(way);
+PathLength path_length_of(const Look& look) {
+  PathLength way;
+  for (const OperatorEntry& entry : operator_table()) way = entry.path_length(look).value_or(way);
   return way;
 }
 
 /// How long the way through water without end is made: there it is as dense as it gets. Nothing
 /// where it takes no light.
-std::optional<double> endless_way(const WayMeasure& way) {
+std::optional<double> infinite_path(const PathLength& way) {
   const Rgb<double>& e = way.extinction;
   return way.ends ? way.ends : deep_reach({e.r, e.g, e.b});
 }
@@ -36,8 +36,8 @@ struct Extent {
 
 WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scene,
                          const Target& target) {
-  const WayMeasure way = way_of(plan.look);
-  const std::optional<double> endless = endless_way(way);
+  const PathLength way = path_length_of(plan.look);
+  const std::optional<double> endless = infinite_path(way);
   const WaterView view(scene, frame.display, swell_of(frame, swell_of(plan)));
   const View<float>&path = target.of(Aov::kPath)[0], &surface = target.of(Aov::kSurfaceDepth)[0];
 

@@ -8,7 +8,7 @@ namespace {
 
 /// Slopes of a map that differ from those of none by more than this, all together, are a fold, a
 /// jump, or too strong a lens to be undone.
-constexpr double kMostBending = 1;
+constexpr double kMaxBending = 1;
 
 struct Place {
   double x, y;
@@ -39,7 +39,7 @@ class Map {
     const double xy = (down.x - up.x) / 2, yy = (down.y - up.y) / 2;
     const double bending = (xx - 1) * (xx - 1) + yx * yx + xy * xy + (yy - 1) * (yy - 1);
     const double area = xx * yy - xy * yx;
-    if (!(bending < kMostBending * kMostBending) || !(area > 0)) return looked_up;
+    if (!(bending < kMaxBending * kMaxBending) || !(area > 0)) return looked_up;
     return {(yy * looked_up.x - xy * looked_up.y) / area,
             (xx * looked_up.y - yx * looked_up.x) / area};
   }

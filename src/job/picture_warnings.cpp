@@ -105,7 +105,7 @@ void warn_of_depth(const Frame& frame, std::vector<std::string>& warnings) {
 /// likewise, and are narrow.
 void warn_of_glass(const Frame& frame, std::vector<std::string>& warnings) {
   const View<const float>& alpha = frame.plane(PlaneId::kColorA);
-  if (!alpha || frame.before_water[3]) return;
+  if (!alpha || frame.foreground[3]) return;
   const Rect w = frame.work();
   const auto clear = [&](int x, int y) {
     const float a = alpha.at(x, y);

@@ -84,8 +84,8 @@ void render_sequence(const Model& model, const Sequence& sequence,
 }
 
 Rest rest_of_render(const Model& model, const Sequence& sequence,
-                    const JobOfFrame<RenderJob>& job_of, Executor& executor, Scrutiny scrutiny) {
-  return rest_of_jobs(RenderKind(model), sequence, job_of, executor, scrutiny);
+                    const JobOfFrame<RenderJob>& job_of, Executor& executor, VerifyLevel level) {
+  return rest_of_jobs(RenderKind(model), sequence, job_of, executor, level);
 }
 
 }  // namespace limpid

@@ -26,10 +26,10 @@ bool is_there(const fs::path& file) {
 }
 
 /// Throws Error unless the file is as it was written, as far as it is looked at.
-void check(const ExrFile& file, Scrutiny scrutiny) {
+void check(const ExrFile& file, VerifyLevel level) {
   const std::string name = file.path().string();
   if (!file.is_whole()) throw Error(name + ": is incomplete");
-  if (scrutiny == Scrutiny::kWhole) return;
+  if (level == VerifyLevel::kWhole) return;
   const std::optional<bool> as_written = file.is_as_written();
   if (!as_written) throw Error(name + " has no hash of its bytes");
   if (!*as_written) throw Error(name + " has changed since it was written (its hash is another)");
@@ -37,10 +37,10 @@ void check(const ExrFile& file, Scrutiny scrutiny) {
 
 /// What the file says under the names of the record. Throws Error for one that cannot be read or
 /// does not pass.
-Record said_by(const fs::path& file, const Record& record, Scrutiny scrutiny) {
+Record said_by(const fs::path& file, const Record& record, VerifyLevel level) {
   if (!holds_exr(file)) return read_image_texts(file);
   const ExrFile exr = ExrFile::open(file);
-  check(exr, scrutiny);
+  check(exr, level);
   Record said;
   for (const auto& [name, text] : record) {
     if (const auto found = exr.text_attribute(0, name)) said[name] = *found;
@@ -49,9 +49,9 @@ Record said_by(const fs::path& file, const Record& record, Scrutiny scrutiny) {
 }
 
 /// Why the file is not as it would be made now, or "".
-std::string why_not(const fs::path& file, const Record& record, Scrutiny scrutiny) {
+std::string why_not(const fs::path& file, const Record& record, VerifyLevel level) {
   try {
-    const Record said = said_by(file, record, scrutiny);
+    const Record said = said_by(file, record, level);
     std::vector<std::string> others;
     for (const auto& [name, text] : record) {
       const auto found = said.find(name);
@@ -70,7 +70,7 @@ struct Found {
   std::string why;  ///< it is not, though its picture is there
 };
 
-Found find(const ExpectedOutput& output, Scrutiny scrutiny) {
+Found find(const ExpectedOutput& output, VerifyLevel level) {
   const std::vector<fs::path>& files = output.files.outputs;
   if (!is_there(files.front())) return {};
   for (const fs::path& file : files) {
@@ -83,7 +83,7 @@ Found find(const ExpectedOutput& output, Scrutiny scrutiny) {
     return {};  // it will be told when the frame is made
   }
   for (const fs::path& file : files) {
-    const std::string why = why_not(file, record, scrutiny);
+    const std::string why = why_not(file, record, level);
     if (!why.empty()) return {false, why};
   }
   return {true, ""};
@@ -99,7 +99,7 @@ struct Candidate {
 
 Rest rest_of_frames(const Sequence& sequence,
                     const std::function<ExpectedOutput(int frame)>& output_of, Executor& executor,
-                    Scrutiny scrutiny) {
+                    VerifyLevel level) {
   check(sequence);
   expect_apart(sequence.frames, [&](int frame) { return output_of(frame).files; });
   Rest rest;
@@ -121,7 +121,7 @@ Rest rest_of_frames(const Sequence& sequence,
         }
       },
       [&](int place, int) {
-        if (at(place).output) at(place).found = find(*at(place).output, scrutiny);
+        if (at(place).output) at(place).found = find(*at(place).output, level);
       },
       [&](int place, int frame) {
         const Found& found = at(place).found;

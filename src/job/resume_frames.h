@@ -17,6 +17,6 @@ struct ExpectedOutput {
 /// What is left to do of a sequence (job/resume.h). `output_of` is asked as JobOfFrame is.
 Rest rest_of_frames(const Sequence& sequence,
                     const std::function<ExpectedOutput(int frame)>& output_of, Executor& executor,
-                    Scrutiny scrutiny);
+                    VerifyLevel level);
 
 }  // namespace limpid

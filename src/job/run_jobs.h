@@ -88,12 +88,12 @@ void run_jobs(Kind kind, const Sequence& sequence, const JobOfFrame<typename Kin
 
 template <JobKind Kind>
 Rest rest_of_jobs(Kind kind, const Sequence& sequence, const JobOfFrame<typename Kind::Job>& job_of,
-                  Executor& executor, Scrutiny scrutiny) {
+                  Executor& executor, VerifyLevel level) {
   const auto output_of = [&](int frame) -> ExpectedOutput {
     auto job = std::make_shared<const typename Kind::Job>(job_of(frame));
     return {kind.files(*job), [&kind, job] { return kind.record(*job, kind.prepare(*job)); }};
   };
-  return rest_of_frames(sequence, output_of, executor, scrutiny);
+  return rest_of_frames(sequence, output_of, executor, level);
 }
 
 template <JobKind Kind>

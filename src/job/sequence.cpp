@@ -10,9 +10,9 @@
 namespace limpid {
 
 void check(const Sequence& sequence) {
-  if (sequence.in_flight < 1 || sequence.in_flight > kMostInFlight) {
+  if (sequence.in_flight < 1 || sequence.in_flight > kMaxInFlight) {
     throw Error("frames in flight = " + std::to_string(sequence.in_flight) + ": expected 1 ... " +
-                    std::to_string(kMostInFlight),
+                    std::to_string(kMaxInFlight),
                 Fault::kUsage);
   }
 }

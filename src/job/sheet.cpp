@@ -11,7 +11,7 @@
 namespace limpid {
 namespace {
 
-constexpr int kMostAcross = 480;  ///< pixels of a cell
+constexpr int kMaxAcross = 480;  ///< pixels of a cell
 
 /// A canvas that is at most so wide: the same, or a smaller one that is made of it.
 class Smaller {
@@ -63,7 +63,7 @@ std::string label_of(const std::string& name, const Shown& shown) {
 Shown sheet_of(const Canvas& canvas, const Rect& display, const DisplayTransform& light) {
   OutputChoice all;
   all.contact_sheet = "all";  // so that all of them are there
-  const Smaller smaller(canvas, display, kMostAcross, all);
+  const Smaller smaller(canvas, display, kMaxAcross, all);
   const auto executor = make_executor(1);  // of small pictures
   std::vector<SheetCell> cells{{"picture", shown_color(smaller, light, *executor)}};
   for (const AovInfo& info : aovs()) {

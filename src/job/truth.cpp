@@ -193,8 +193,8 @@ void truth_sequence(const Model& model, const Sequence& sequence,
 }
 
 Rest rest_of_truth(const Model& model, const Sequence& sequence, const JobOfFrame<TruthJob>& job_of,
-                   Executor& executor, Scrutiny scrutiny) {
-  return rest_of_jobs(TruthKind(model), sequence, job_of, executor, scrutiny);
+                   Executor& executor, VerifyLevel level) {
+  return rest_of_jobs(TruthKind(model), sequence, job_of, executor, level);
 }
 
 std::vector<FrameFault> faults_of_truth(const Model& model, const Sequence& sequence,

@@ -52,7 +52,7 @@ void truth_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<TruthJob>& job_of, const OnFrameOf<TruthReport>& on_frame,
                     Executor& executor);
 Rest rest_of_truth(const Model& model, const Sequence& sequence, const JobOfFrame<TruthJob>& job_of,
-                   Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
+                   Executor& executor, VerifyLevel level = VerifyLevel::kWhole);
 std::vector<FrameFault> faults_of_truth(const Model& model, const Sequence& sequence,
                                         const JobOfFrame<TruthJob>& job_of, Executor& executor);
 

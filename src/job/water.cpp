@@ -28,9 +28,9 @@ Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {
 }
 
 void check(const WaterJob& job) {
-  if (job.samples < 1 || job.samples > kMostSamples) {
+  if (job.samples < 1 || job.samples > kMaxSamples) {
     throw Error("samples = " + std::to_string(job.samples) + ": expected 1 ... " +
-                    std::to_string(kMostSamples),
+                    std::to_string(kMaxSamples),
                 Fault::kUsage);
   }
   if (job.samples > 1 && !job.output.deep.empty()) {
@@ -39,7 +39,7 @@ void check(const WaterJob& job) {
                 Fault::kUsage);
   }
   const Size size = job.render.size;
-  const int most = kMostRenderedSide / job.samples;
+  const int most = kMaxRenderedSide / job.samples;
   if (std::max({size.width, size.height, job.render.overscan}) > most) {
     throw Error("size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
                     ", overscan " + std::to_string(job.render.overscan) + ", samples " +
@@ -155,8 +155,8 @@ void water_sequence(const Model& model, const Sequence& sequence,
 }
 
 Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
-                   Executor& executor, Scrutiny scrutiny) {
-  return rest_of_jobs(WaterKind(model), sequence, job_of, executor, scrutiny);
+                   Executor& executor, VerifyLevel level) {
+  return rest_of_jobs(WaterKind(model), sequence, job_of, executor, level);
 }
 
 std::vector<FrameFault> faults_of_water(const Model& model, const Sequence& sequence,

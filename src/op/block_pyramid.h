@@ -10,14 +10,14 @@ namespace limpid {
 template <class Cell>
 struct BlockPyramid {
   static constexpr int kWidth = 16, kHeight = 8;  ///< texels a block
-  static constexpr int kMostLevels = 32;
-  static constexpr int kMostCells = 16;  ///< that are looked at for a box
+  static constexpr int kMaxLevels = 32;
+  static constexpr int kMaxCells = 16;  ///< that are looked at for a box
   struct Level {
     const Cell* cells;
     int across;  ///< in a row
   };
 
-  Level levels[kMostLevels] = {};
+  Level levels[kMaxLevels] = {};
   int x0 = 0, y0 = 0;  ///< the first texel of the first block
   bool known = false;  ///< false: there is nothing to ask
 
@@ -28,7 +28,7 @@ struct BlockPyramid {
     int top = (y_low - y0) / kHeight, bottom = (y_high - y0) / kHeight;
     const Level* level = levels;
     // Long and narrow boxes are not to be answered by wide ones.
-    for (; (right - left + 1) * (bottom - top + 1) > kMostCells; ++level) {
+    for (; (right - left + 1) * (bottom - top + 1) > kMaxCells; ++level) {
       left >>= 1, right >>= 1, top >>= 1, bottom >>= 1;
     }
     const Cell* row = level->cells + top * level->across;

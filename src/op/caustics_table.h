@@ -15,7 +15,7 @@ namespace limpid {
 /// whatever the slope of the bottom. Made by complete/. Levels of the same table, each with texels
 /// twice as wide as the one before, of what of it the picture sees.
 struct CausticsTable {
-  static constexpr int kMostLevels = 8;
+  static constexpr int kMaxLevels = 8;
   struct Level {
     View<const float> light;
     /// Of the centre of the first texel: along map_x and map_y from the point of the calm surface
@@ -25,7 +25,7 @@ struct CausticsTable {
   };
   int count = 0;  ///< 0: the light is 1 everywhere
   int first = 0;  ///< place of the first level among those of all tables of a frame
-  std::array<Level, kMostLevels> levels;
+  std::array<Level, kMaxLevels> levels;
   double scale = 1;  ///< times that of caustics_texel() is what texels are wide
   /// Of sunlit bottoms: the sun's light over the rest, of frames with sun_color; else 0.
   std::array<double, 3> sun_over_rest{};

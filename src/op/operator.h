@@ -112,7 +112,7 @@ struct InReach {
 };
 
 /// How an operator measures the way through the water: what its path means.
-struct WayMeasure {
+struct PathLength {
   bool along_axis = false;  ///< of a view from the air: along the view's axis, else along the ray
   /// Behind this length it is as dense as it gets; nothing where `extinction` alone says so.
   std::optional<double> ends;
@@ -140,7 +140,7 @@ struct Kernel;
 ///
 ///     // Widens or narrows what later bounds are made of to what holds after it, be it left out or
 ///     // not. Default: changes nothing.
-///     void reckon(const Params&, const Pass&, Ranges&);
+///     void propagate_ranges(const Params&, const Pass&, Ranges&);
 ///     // How much more the picture changes than the bound of the operator which makes
 ///     // StatePart::kPosition says, when that one is left out. Default: HUGE_VAL for one that uses
 ///     // what comes of the position, else 0.
@@ -175,7 +175,7 @@ struct Kernel;
 ///     // The waves that raise the water, if it has any; they live as long as the parameters.
 ///     Swell swell(const Params&);
 ///     // How it measures StatePart::kPath, for what is made of the path (job/deep_output.h).
-///     WayMeasure way(const Params&);
+///     PathLength path_length(const Params&);
 ///     // What it is expected to cost, in ns for each pixel (plan/predict.h). Default: 1.
 ///     double ns(const Params&, const Running&);
 template <class T>

@@ -44,10 +44,10 @@ struct Pixel {
   /// second in that of the point where the ray ends.
   Rgb<F> sun_near, sun_far;
   /// Of in_scatter, too: what of the sun was scattered more than once, or came from the bottom.
-  Rgb<F> sun_often;
+  Rgb<F> sun_multiple;
   /// How the place on the surface at which sunlight enters moves with a unit of the way.
   Vec3<F> sun_entry;
-  F sun_way;  ///< after which it is scattered once on average, of the way
+  F mean_scatter_distance;  ///< after which it is scattered once on average, of the way
   F fresnel;
   Rgb<F> reflected;
   /// Shares of what is mirrored, whose sum is 1: r from the reflection, g from the picture itself,

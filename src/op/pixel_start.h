@@ -74,9 +74,9 @@ LIMPID_INLINE void begin_state(StateSet parts, const WaterView& view, Rgb<F> dry
   if (parts.has(StatePart::kTransmittance)) p.transmittance = {F(1), F(1), F(1)};
   if (parts.has(StatePart::kTransmitted)) p.transmitted = select(endless, black, dry_color);
   if (parts.has(StatePart::kInScatter)) p.in_scatter = black;
-  if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = p.sun_often = black;
+  if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = p.sun_multiple = black;
   p.sun_entry = {F(0), F(0), F(0)};
-  p.sun_way = F(0);
+  p.mean_scatter_distance = F(0);
   if (parts.has(StatePart::kFresnel)) p.fresnel = F(0);
   if (parts.has(StatePart::kReflected)) p.reflected = black;
   if (parts.has(StatePart::kMirrorSources)) p.mirror_sources = black;

@@ -28,16 +28,16 @@ struct Ranges {
   Range shadow_of_water{0, 1};  ///< on the surface, wherever sunlight enters, or at the pixels
 
   // What operators make of it.
-  Range hit{0, HUGE_VAL};   ///< eye depth of what is seen, less the surface's
-  Range path{0, HUGE_VAL};  ///< the refracted way, as refraction leaves it
-  Range way{0, HUGE_VAL};   ///< the way that the light is dimmed by
-  double through = 1;       ///< largest share of what is looked up that is left by the fog
-  double light = HUGE_VAL;  ///< largest |transmitted + in_scatter| of a channel
-  double sun_light = 0;     ///< largest part of in_scatter that the sun lights
-  double sun_far = 0;       ///< and of that, the part at the end of the way
-  double above = 0;         ///< largest |reflected + highlight|
-  double focused = 0;       ///< how much focused sunlight changes what is looked up, at most
-  double shafts = 0;        ///< and what the sun lights of in_scatter
+  Range hit{0, HUGE_VAL};       ///< eye depth of what is seen, less the surface's
+  Range path{0, HUGE_VAL};      ///< of the refracted ray, as refraction leaves it
+  Range fog_path{0, HUGE_VAL};  ///< the path along which fog dims the light
+  double transmittance = 1;     ///< largest share of what is looked up that is left by the fog
+  double light = HUGE_VAL;      ///< largest |transmitted + in_scatter| of a channel
+  double sun_light = 0;         ///< largest part of in_scatter that the sun lights
+  double sun_far = 0;           ///< and of that, the part at the end of the path
+  double above = 0;             ///< largest |reflected + highlight|
+  double focused = 0;           ///< how much focused sunlight changes what is looked up, at most
+  double shafts = 0;            ///< and what the sun lights of in_scatter
 
   /// cos of the angle between the view and the calm surface's normal.
   Range cosine() const {

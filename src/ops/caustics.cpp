@@ -48,10 +48,10 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   }
   const Rgb<double>& color = c.sun.color;
   light.sun = {light.rise * color.r, light.rise * color.g, light.rise * color.b};
-  light.even = {c.sky.r, c.sky.g, c.sky.b};
+  light.ambient = {c.sky.r, c.sky.g, c.sky.b};
   if (!c.has_sky) {
     light.sun.fill(params.sun_share);
-    light.even.fill(1 - params.sun_share);
+    light.ambient.fill(1 - params.sun_share);
   }
   return light;
 }
@@ -65,12 +65,12 @@ double Kernel<Caustics>::bound(const P& params, const Pass& c, const Ranges& ran
 
 /// Looked up elsewhere, or not at all.
 double Kernel<Caustics>::displaced(const P&, const Ranges& ranges) {
-  return bound_product(ranges.through, ranges.focused);
+  return bound_product(ranges.transmittance, ranges.focused);
 }
 
 /// The table tells how much brighter or darker the sun's share may become; where shadows move, all
 /// of it may come or go.
-void Kernel<Caustics>::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   ranges.focused = 0;
   const Light light = light_of(params, c);
   const double gain = c.caustics ? params.strength * (c.caustics->most - 1) : HUGE_VAL;
@@ -82,7 +82,7 @@ void Kernel<Caustics>::reckon(const P& params, const Pass& c, Ranges& ranges) {
     double share = 1;
     if (!light.known) {
       const double direct = bound_product(lit, light.sun[i]);
-      share = direct / std::max(direct + light.even[i], 1e-30);
+      share = direct / std::max(direct + light.ambient[i], 1e-30);
     }
     change = std::max(change, bound_product(share, std::max(gain, loss)));
     const bool all_lit = ranges.shadow.min >= 1 && ranges.shadow_of_water.min >= 1;

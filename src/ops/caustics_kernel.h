@@ -37,20 +37,20 @@ struct Kernel<Caustics> : Caustics {
   static std::string_view prefer(Params& params, const AtHand& has);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   /// Of the light from below, what later bounds are made of.
-  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
   static double displaced(const Params& params, const Ranges& ranges);
 
-  static constexpr CellKind kSkipped{"even", "no sunlight is focused"};
+  static constexpr CellKind kSkipped{"no_caustics", "no sunlight is focused"};
   static double ns(const Params& p, const Running&) {
     return p.shadows == Shadows::kRefracted ? 34 : 22;
   }
 
   struct Light {
-    std::array<double, 3> sun, even;  ///< on a level bottom, but for a common factor
-    double rise, sine;                ///< of the angle between the sun and the level, the vertical
-    Vec2<double> level;               ///< the direction to the sun along map_x and map_y
-    bool known, moves;                ///< frames say what the sun's light is, and where it enters
-    std::array<double, 3> around;     ///< share of the light of sunlit bottoms, where that is known
+    std::array<double, 3> sun, ambient;  ///< on a level bottom, but for a common factor
+    double rise, sine;             ///< of the angle between the sun and the level, the vertical
+    Vec2<double> level;            ///< the direction to the sun along map_x and map_y
+    bool known, moves;             ///< frames say what the sun's light is, and where it enters
+    std::array<double, 3> around;  ///< share of the light of sunlit bottoms, where that is known
   };
   static Light light_of(const Params& params, const Pass& c);
   /// The depths at two places of which one counts as hidden by the other.
@@ -144,8 +144,8 @@ struct Kernel<Caustics> : Caustics {
             sun = min(max(select(hidden, as_around, shown), F(0)), max(transmitted, F(0)));
           } else {
             const F direct = lit * of_channel(i, light.sun, "caustics.sun");
-            const F even = of_channel(i, light.even, "caustics.even");
-            sun = direct / max(direct + even, F(1e-30)) * transmitted;
+            const F ambient = of_channel(i, light.ambient, "caustics.ambient");
+            sun = direct / max(direct + ambient, F(1e-30)) * transmitted;
           }
           const F rest = transmitted - sun;
           F whole = sun;

@@ -171,7 +171,7 @@ ScatteringWater Kernel<DepthFog>::scattering_water(const P& params, const Pass& 
 }
 
 double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ranges) {
-  const double way = ranges.way.max, bright = ranges.brightest();
+  const double way = ranges.fog_path.max, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
     return bound_product(veil(params, way), apart(params.color, ranges));
   }
@@ -185,7 +185,7 @@ double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ran
          m.most_often(way);
 }
 
-void Kernel<DepthFog>::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   // Should refraction run, hit and path are its own; else they are the pixel's.
   Range way = c.made.has(StatePart::kPosition) ? ranges.hit : ranges.own;
   if (params.distance == Distance::kRefracted && c.made.has(StatePart::kPosition)) {
@@ -200,38 +200,38 @@ void Kernel<DepthFog>::reckon(const P& params, const Pass& c, Ranges& ranges) {
   } else if (params.distance == Distance::kRay) {
     way = {way.min * ranges.ray_length.min, bound_product(way.max, ranges.ray_length.max)};
   }
-  ranges.way = {0.999 * way.min, 1.001 * way.max};  // they are computed in float
+  ranges.fog_path = {0.999 * way.min, 1.001 * way.max};  // they are computed in float
 
   const double bright = ranges.brightest();
   if (params.model == Model::kLinear) {
-    ranges.through = 1 - veil(params, ranges.way.min);
+    ranges.transmittance = 1 - veil(params, ranges.fog_path.min);
     ranges.light = std::max({ranges.light, bright, largest(params.color)});
     return;
   }
   const Medium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   const auto sun_of = [&](auto part) {
-    return bound_product(sun * part(m.sun), column(part(m.rate), ranges.way.max));
+    return bound_product(sun * part(m.sun), column(part(m.rate), ranges.fog_path.max));
   };
-  ranges.through =
-      largest_of([&](auto part) { return m.bottom * survives(part(m.rate), ranges.way.min); });
-  const double often = m.most_often(ranges.way.max);
+  ranges.transmittance =
+      largest_of([&](auto part) { return m.bottom * survives(part(m.rate), ranges.fog_path.min); });
+  const double often = m.most_often(ranges.fog_path.max);
   ranges.sun_light = largest_of(sun_of) + often;
   ranges.sun_far = largest_of([&](auto part) {
-    const double tau = bound_product(part(m.rate), ranges.way.min);
+    const double tau = bound_product(part(m.rate), ranges.fog_path.min);
     return bound_product(sun_of(part), tau > 2 ? 1 / tau : 0.5);
   });
   ranges.sun_far += often;
   ranges.light = std::max(
-      ranges.light, largest_of([&](auto part) {
-                      return bright +
-                             bound_product(part(m.ambient), column(part(m.rate), ranges.way.max)) +
-                             sun_of(part);
-                    }) + often);
+      ranges.light,
+      largest_of([&](auto part) {
+        return bright + bound_product(part(m.ambient), column(part(m.rate), ranges.fog_path.max)) +
+               sun_of(part);
+      }) + often);
 }
 
 double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ranges) {
-  const double way = ranges.way.min, bright = ranges.brightest();
+  const double way = ranges.fog_path.min, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
     const double full = veil(params, HUGE_VAL);
     return bound_product(1 - full, ranges.contrast()) +
@@ -322,8 +322,8 @@ Kernel<DepthFog>::Medium Kernel<DepthFog>::medium_of(const Params& params, const
   return m;
 }
 
-WayMeasure Kernel<DepthFog>::way(const P& params) {
-  WayMeasure way{.along_axis = params.distance == Distance::kEye, .ends = {}};
+PathLength Kernel<DepthFog>::path_length(const P& params) {
+  PathLength way{.along_axis = params.distance == Distance::kEye, .ends = {}};
   if (params.model != Model::kLinear) {
     way.extinction = extinction(params);
   } else if (params.density > 0) {

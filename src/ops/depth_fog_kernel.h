@@ -26,12 +26,12 @@ struct Kernel<DepthFog> : DepthFog {
   /// Makes Params::fitted.
   static void work_in(const Primaries& primaries, Params& params);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
   /// How much the picture changes at most when the way through the water counts as endless and the
   /// light at its end as the pixel's own, for refraction is left out. 0 where no bit of it is left.
   static double beyond(const Params& params, const Pass& c, const Ranges& ranges);
   /// In water it measures from the eye and along the ray, whatever its `distance`.
-  static WayMeasure way(const Params& params);
+  static PathLength path_length(const Params& params);
   /// What it makes of another place is in the bound of the operator that finds the place.
   static double displaced(const Params&, const Ranges&) { return 0; }
   static double ns(const Params& p, const Running&) { return p.model == Model::kLinear ? 0.6 : 9; }
@@ -129,9 +129,9 @@ struct Kernel<DepthFog> : DepthFog {
       p.transmittance = {clear, clear, clear};
       p.transmitted = clear * p.transmitted;
       p.in_scatter = veil * color;
-      p.sun_near = p.sun_far = p.sun_often = {F(0), F(0), F(0)};
+      p.sun_near = p.sun_far = p.sun_multiple = {F(0), F(0), F(0)};
       p.sun_entry = {F(0), F(0), F(0)};
-      p.sun_way = F(0);
+      p.mean_scatter_distance = F(0);
     });
   }
 
@@ -167,7 +167,7 @@ struct Kernel<DepthFog> : DepthFog {
       const Rgb<F> lit = select(from_air, bottom, F(1)) * fallen;
       p.transmitted = lit * p.transmittance * p.transmitted;
 
-      p.in_scatter = p.sun_near = p.sun_far = p.sun_often = {F(0), F(0), F(0)};
+      p.in_scatter = p.sun_near = p.sun_far = p.sun_multiple = {F(0), F(0), F(0)};
       if (medium.glows) {
         const Rgb<F>& left = p.transmittance;
         p.in_scatter = ambient * Rgb<F>{column_light(rate.r, length, left.r),
@@ -176,7 +176,7 @@ struct Kernel<DepthFog> : DepthFog {
       }
       const F turned = dot(to_sun, view);
       p.sun_entry = select(from_air, view + (sink * per_rise) * to_sun, {F(0), F(0), F(0)});
-      p.sun_way = F(0);
+      p.mean_scatter_distance = F(0);
       if (medium.sunlit) {
         const F seen = select(from_air, water, F(1)) * henyey_greenstein(turned, anisotropy);
         // sun_left() of ways that begin at the surface and go down, as all from the air do: what
@@ -195,7 +195,8 @@ struct Kernel<DepthFog> : DepthFog {
         p.sun_near = light - p.sun_far;
         // Of endless ways the share is no number of a float any more.
         const F fading = max(rate.g + down.g * sink, F(1e-30));
-        p.sun_way = select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
+        p.mean_scatter_distance =
+            select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
         p.in_scatter = p.in_scatter + light;
       }
       if (medium.often) add_often(medium, way, turned, fallen, albedo, p);
@@ -237,12 +238,12 @@ struct Kernel<DepthFog> : DepthFog {
         choose(blue, often_inside(m, 2, way, turned, fallen.b, left.b, under.z));
       });
     }
-    p.sun_often = {red.sun, green.sun, blue.sun};
-    const Rgb<F> all = p.in_scatter + p.sun_often + Rgb<F>{red.sky, green.sky, blue.sky};
+    p.sun_multiple = {red.sun, green.sun, blue.sun};
+    const Rgb<F> all = p.in_scatter + p.sun_multiple + Rgb<F>{red.sky, green.sky, blue.sky};
     p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
     if (m.inside) {
       // It entered above the viewer, not where the view meets the surface: no shadow tells of it.
-      p.sun_often = select(from_air, p.sun_often, {F(0), F(0), F(0)});
+      p.sun_multiple = select(from_air, p.sun_multiple, {F(0), F(0), F(0)});
     }
   }
 
@@ -262,7 +263,7 @@ struct Kernel<DepthFog> : DepthFog {
                                                const Way<F>& way, F fallen, F albedo) {
     const ScatteredLight& light = m.often[channel];
     const F x = layer_at(m, channel, way);
-    return {min(max(albedo, F(0)), F(ScatteredLight::kMostAlbedo)),
+    return {min(max(albedo, F(0)), F(ScatteredLight::kMaxAlbedo)),
             given<F>(light.back_at_once) + layer_power(light.back, x),
             given<F>(m.cosine, "depth_fog.cosine") * fallen + layer_power(light.sun_below, x),
             given<F>(light.sky_at_once) + layer_power(light.sky_below, x)};

@@ -45,7 +45,7 @@ double Kernel<FresnelReflection>::bound(const P& params, const Pass&, const Rang
   return std::max({params.color.r, params.color.g, params.color.b}) + ranges.light;
 }
 
-void Kernel<FresnelReflection>::reckon(const P& params, const Pass&, Ranges& ranges) {
+void Kernel<FresnelReflection>::propagate_ranges(const P& params, const Pass&, Ranges& ranges) {
   const bool known = params.source == Source::kConstant;
   ranges.above += known ? std::max({params.color.r, params.color.g, params.color.b}) : HUGE_VAL;
 }

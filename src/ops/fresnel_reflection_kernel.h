@@ -59,7 +59,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return PlaneId::kReflectionDepth;
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
 
   static constexpr bool kLooksAbove = true;
   /// What it dims is light that has been counted.

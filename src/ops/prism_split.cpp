@@ -25,7 +25,7 @@ std::span<const Field<P>> PrismSplit::fields() { return kFields; }
 
 /// Each channel of a lookup becomes another that is in reach; its path stays the common one.
 double Kernel<PrismSplit>::bound(const P&, const Pass&, const Ranges& ranges) {
-  return bound_product(ranges.through, ranges.contrast());
+  return bound_product(ranges.transmittance, ranges.contrast());
 }
 
 double Kernel<PrismSplit>::stretch(const P& params, const Pass& c) {

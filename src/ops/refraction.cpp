@@ -41,7 +41,7 @@ double Kernel<Refraction>::bound(const P&, const Pass& c, const Ranges& ranges) 
   return c.made.has(StatePart::kTransmittance) ? HUGE_VAL : ranges.contrast();
 }
 
-void Kernel<Refraction>::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<Refraction>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   const Range surface = ranges.surface, seen = ranges.looked_up;
   const bool fades = params.off_frame == OffFrame::kFog;
   // Where not even a pixel's own texel of the layer below holds anything, the depth there is none.

@@ -36,7 +36,7 @@ struct Kernel<Refraction> : Refraction {
            (p.strength == 0 || !made.has(StatePart::kNormal));
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
 
   static bool foreground_free(const Params& params, const InReach& reach);
   static double ns(const Params& params, const Running& running);
@@ -370,7 +370,7 @@ struct Kernel<Refraction> : Refraction {
     const BottomLayer* layer = params.looks_behind() ? c.bottom_layer : nullptr;
     // Where the end of the ray was not seen, only the bottom counts.
     const F snell(params.model == Model::kSnell ? kShareOfWay : 0);
-    const F share_of_way =
+    const F path_fraction =
         layer ? select(p.confidence < F(1), F(BottomLayer::kOfBottom), snell) : snell;
     // In open water only what lies under it may hide where a ray ends.
     const bool all_seen = !layer || !any(tap.wet() && p.confidence < F(1));
@@ -419,7 +419,7 @@ struct Kernel<Refraction> : Refraction {
       }
       return counts;
     };
-    const auto valid = [&](const auto& quad) { return lies(quad, share_of_way); };
+    const auto valid = [&](const auto& quad) { return lies(quad, path_fraction); };
     const auto bearable = [&](const auto& quad) { return lies(quad, F(0)); };
     const auto taps_at = [&](Vec2<F> shift) {
       // Not over what stands in the water, which may hide itself, unless what hides the end of the

@@ -36,7 +36,7 @@ double Kernel<SunHighlight>::bound(const P& params, const Pass& c, const Ranges&
   return params.strength * lobe * light * (finds_shadow ? 1 : std::max(ranges.own_shadow.max, 0.0));
 }
 
-void Kernel<SunHighlight>::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<SunHighlight>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   ranges.above += bound(params, c, ranges);
 }
 

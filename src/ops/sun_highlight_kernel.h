@@ -22,7 +22,7 @@ struct Kernel<SunHighlight> : SunHighlight {
   static double reach(const Params& p) { return p.model == Model::kSlopes ? HUGE_VAL : 0; }
   static bool neutral(const Params& p, StateSet) { return p.strength == 0; }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
 
   static constexpr bool kLooksAbove = true;
   static double ns(const Params& p, const Running&) {

@@ -41,7 +41,7 @@ double Kernel<WaterShadow>::brightened(const P& params, const Pass& c, const Ran
   return bound_product(1.0001 * params.shafts * lit, bound_product(change, ranges.sun_light));
 }
 
-void Kernel<WaterShadow>::reckon(const P& params, const Pass& c, Ranges& ranges) {
+void Kernel<WaterShadow>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   ranges.shafts = brightened(params, c, ranges);
   ranges.light += ranges.shafts;
 }

@@ -3,7 +3,7 @@
 
 #include "op/operator.h"
 #include "op/screen_ray.h"
-#include "ops/light_of_way.h"
+#include "ops/path_light.h"
 
 namespace limpid {
 
@@ -32,7 +32,7 @@ struct Kernel<WaterShadow> : WaterShadow {
            (p.model == Model::kScatter && !made.has(StatePart::kSunScatter));
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  static void reckon(const Params& params, const Pass& c, Ranges& ranges);
+  static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
   /// When the shadow is looked up elsewhere in reach, or as if no sunlight were scattered at the
   /// end of the way.
   static double displaced(const Params& params, const Ranges& ranges);
@@ -69,8 +69,9 @@ struct Kernel<WaterShadow> : WaterShadow {
     if (focused) add_shafts(params, c, strip);
     if (!c.planes.has(PlaneId::kShadow)) return;
     strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_near); });
-    strip.bilinear(PlaneId::kShadow, where,
-                   [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_far + p.sun_often); });
+    strip.bilinear(PlaneId::kShadow, where, [&](Pixel<F>& p, F shadow) {
+      take(p, F(1) - shadow, p.sun_far + p.sun_multiple);
+    });
   }
 
  private:
@@ -82,7 +83,7 @@ struct Kernel<WaterShadow> : WaterShadow {
     using F = typename Strip::Number;
     const F strength = given<F>(params.strength), shafts = given<F>(params.shafts);
     strip.probe([&](Pixel<F>& p, const auto& tap) {
-      const LightOfWay<F> more = light_of_way(c, p, tap, strength);
+      const PathLight<F> more = path_light(c, p, tap, strength);
       const Rgb<F> all = p.in_scatter + shafts * (more.near * p.sun_near + more.far * p.sun_far);
       p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
     });
@@ -101,15 +102,15 @@ struct Kernel<WaterShadow> : WaterShadow {
       for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * (F(1) - lit[k]);
       return sum;
     };
-    const F mean = p.sun_way, whole = min(p.path, F(1e30));
+    const F mean = p.mean_scatter_distance, whole = min(p.path, F(1e30));
     const ScreenRay<F> line(c, p, p.sun_entry);
     if (!is_lit(Vec2<F>{F(0), F(0)}, line.shift_at(whole))) {
       // All parts send as much in clear water, where the mean way is half of the whole; they fade
       // exponentially in murky water.
       const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
       F near_shade(0), far_shade(0), near_sum(0), far_sum(0);
-      for (int i = 0; i < kWayPlaces; ++i) {
-        const F even((2 * i + 1) / double(kWayPlaces)), fading(kWayFading[i]);
+      for (int i = 0; i < kPathSamples; ++i) {
+        const F even((2 * i + 1) / double(kPathSamples)), fading(kPathFalloff[i]);
         const F way = min(mean * (fading + even_share * (even - fading)), whole);
         const F there = way / max(whole, F(1e-30)), lost = shade(line.shift_at(way));
         near_shade = near_shade + (F(1) - there) * lost, near_sum = near_sum + (F(1) - there);
@@ -118,7 +119,7 @@ struct Kernel<WaterShadow> : WaterShadow {
       take(p, near_shade / max(near_sum, F(1e-6)), p.sun_near);
       take(p, far_shade / max(far_sum, F(1e-6)), p.sun_far);
     }
-    const Rgb<F>& often = p.sun_often;
+    const Rgb<F>& often = p.sun_multiple;
     if_any(often.r + often.g + often.b > F(0), [&] {
       // Around where light of the mean way entered, as far away as that.
       const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
@@ -133,7 +134,7 @@ struct Kernel<WaterShadow> : WaterShadow {
       if (is_lit(low, high)) return;
       F lost(0);
       for (const Vec2<F>& shift : around) lost = lost + F(1.0 / kAround) * shade(shift);
-      take(p, lost, p.sun_often);
+      take(p, lost, p.sun_multiple);
     });
   }
 };

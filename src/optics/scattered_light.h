@@ -48,7 +48,7 @@ struct ScatteringWater {
 /// layer's solution at optical depths 1/64 ... 8192.
 struct ScatteredLight {
   static constexpr int kDegree = 6;
-  static constexpr double kMostAlbedo = 0.9;  ///< of a bottom
+  static constexpr double kMaxAlbedo = 0.9;  ///< of a bottom
   /// What the radiance of the sun's light depends on besides: 1, the cosine of the view with the
   /// vertical, that of the angle by which the beam is turned, and the phase function of light that
   /// is scattered twice at that angle.
@@ -77,7 +77,7 @@ struct ScatteredLight {
 
   /// For bounds. Of light scattered more than once the largest radiance, over all views and depths,
   /// and that of an optical depth, for what is shallow; of light from the bottom the largest, its
-  /// albedo kMostAlbedo.
+  /// albedo kMaxAlbedo.
   double most_sun = 0, most_sky = 0, slope_sun = 0, slope_sky = 0;
   double most_bottom_sun = 0, most_bottom_sky = 0;
   /// How far all that is from endless water, in layers of optical depth kFirstLayer, and each twice

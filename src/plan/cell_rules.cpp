@@ -98,7 +98,7 @@ void CellRules::skip_invisible(CellState& cell) const {
     const double bound = bound_of(i, cell);
     if ((bound > 0 && !has(loose_, i)) || !affords(cell, i, bound)) continue;
     cell.needs.skips = cell.needs.skips | bit(i);
-    if (i == hider_) cell.ranges.through = 1;
+    if (i == hider_) cell.ranges.transmittance = 1;
   }
 }
 
@@ -125,7 +125,7 @@ Ranges CellRules::reckoned(const Ranges& planes, bool endless) const {
   for (int i = 0; i < Chain::kCount; ++i) {
     if (!has(kept_, i)) continue;
     if (i == hider_ && endless) ranges.hit = ranges.path = {HUGE_VAL, HUGE_VAL};
-    entry_of(i).reckon(plan_.look, pass_, ranges);
+    entry_of(i).propagate_ranges(plan_.look, pass_, ranges);
   }
   return ranges;
 }

@@ -25,9 +25,9 @@ constexpr OperatorEntry entry_of() {
   };
   if constexpr (requires { Op::kLooksAbove; }) e.looks_above = Op::kLooksAbove;
   if constexpr (requires { Op::kSkipped; }) e.skipped = Op::kSkipped;
-  e.reckon = [](const Look& look, const Pass& pass, Ranges& ranges) {
-    if constexpr (requires(const P& p) { Op::reckon(p, pass, ranges); }) {
-      Op::reckon(look.of<Op>(), pass, ranges);
+  e.propagate_ranges = [](const Look& look, const Pass& pass, Ranges& ranges) {
+    if constexpr (requires(const P& p) { Op::propagate_ranges(p, pass, ranges); }) {
+      Op::propagate_ranges(look.of<Op>(), pass, ranges);
     }
   };
   e.displaced = [](const Look& look, const Ranges& ranges) -> double {
@@ -95,8 +95,9 @@ constexpr OperatorEntry entry_of() {
     if constexpr (requires(const P& p) { Op::swell(p); }) return Op::swell(look.of<Op>());
     return {};
   };
-  e.way = [](const Look& look) -> std::optional<WayMeasure> {
-    if constexpr (requires(const P& p) { Op::way(p); }) return Op::way(look.of<Op>());
+  e.path_length = [](const Look& look) -> std::optional<PathLength> {
+    if constexpr (requires(const P& p) { Op::path_length(p); })
+      return Op::path_length(look.of<Op>());
     return std::nullopt;
   };
   e.ns = [](const Look& look, const Running& running) -> double {

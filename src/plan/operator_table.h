@@ -23,7 +23,7 @@ struct OperatorEntry {
   void (*work_in)(const Primaries&, Look&);
   bool (*neutral)(const Look&, StateSet made);
   double (*bound)(const Look&, const Pass&, const Ranges&);
-  void (*reckon)(const Look&, const Pass&, Ranges&);
+  void (*propagate_ranges)(const Look&, const Pass&, Ranges&);
   double (*displaced)(const Look&, const Ranges&);
   double (*beyond)(const Look&, const Pass&, const Ranges&);
   bool (*foreground_free)(const Look&, const InReach&);
@@ -34,7 +34,7 @@ struct OperatorEntry {
   PlaneSet (*wants)(const Look&, const AtHand&);
   bool (*lit_by_sky)(const Look&);
   Swell (*swell)(const Look&);
-  std::optional<WayMeasure> (*way)(const Look&);
+  std::optional<PathLength> (*path_length)(const Look&);
   double (*ns)(const Look&, const Running&);
 };
 

@@ -74,7 +74,7 @@ Plan make_plan_without(const std::vector<std::string>& left_out, const Look& loo
   }
   for (const CompleterInfo& completer : completers()) {
     if (plan.completed.meets(completer.makes)) {
-      plan.planes = plan.planes | completer.inputs | completer.helped;
+      plan.planes = plan.planes | completer.inputs | completer.optional_inputs;
     }
   }
   plan.planes = plan.planes & inputs.planes;

@@ -85,7 +85,7 @@ void drop_unread(Plan& plan, const Inputs&) {
   }
 }
 
-void look_around(Plan& plan, const Inputs& inputs) {
+void use_environment(Plan& plan, const Inputs& inputs) {
   for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
     const std::string_view reason = entry.looks_around(plan.look, at_hand(inputs));
     if (reason.empty()) return;
@@ -94,7 +94,7 @@ void look_around(Plan& plan, const Inputs& inputs) {
   });
 }
 
-void tell_of_input(Plan& plan, const Inputs& inputs) {
+void warn_of_input(Plan& plan, const Inputs& inputs) {
   for_each_kept(plan, [&](PlannedOperator&, const OperatorEntry& entry) {
     const std::string_view warning = entry.warning(plan.look, at_hand(inputs));
     if (!warning.empty()) plan.warnings.emplace_back(warning);
@@ -118,7 +118,7 @@ void complete_planes(Plan& plan, const Inputs& inputs) {
     const PlaneSet wanted = entry.wants(plan.look, at_hand(inputs));
     for (const CompleterInfo& completer : completers()) {
       const PlaneSet makes = wanted & completer.makes;
-      const PlaneSet made = (makes - inputs.planes) | (makes & completer.mends);
+      const PlaneSet made = (makes - inputs.planes) | (makes & completer.corrects);
       if (made.empty() || !inputs.planes.covers(completer.inputs)) continue;
       plan.completed = plan.completed | made;
       add_reason(op, std::string(completer.name) + " is made");
@@ -132,9 +132,10 @@ constexpr Rule kRules[] = {
     {"drop_neutral", "An operator whose parameters make it the identity does not run.",
      drop_neutral},
     {"drop_unread", "An operator whose results no other operator reads does not run.", drop_unread},
-    {"look_around", "The environment is mirrored where no other source shows the mirrored objects.",
-     look_around},
-    {"tell_of_input", "A warning names an input that an operator lacks.", tell_of_input},
+    {"use_environment",
+     "The environment is mirrored where no other source shows the mirrored objects.",
+     use_environment},
+    {"warn_of_input", "A warning names an input that an operator lacks.", warn_of_input},
     {"take_sky", "The environment lights the water.", take_sky},
     {"complete_planes", "Completers compute missing planes that an operator can use.",
      complete_planes},

@@ -29,10 +29,10 @@ HeightError calm_error(const WaterView& view);
 
 /// What SeenHeights are made for.
 struct SeenFrom {
-  HeightError error;    ///< of who asks
-  float most;           ///< HeightBound::most
-  double share_of_way;  ///< that SeenHeights::covers speaks of, or 0 where nobody asks
-  bool calm_ashore;     ///< the calm surface stands for one that is infinitely far
+  HeightError error;     ///< of who asks
+  float most;            ///< HeightBound::most
+  double path_fraction;  ///< that SeenHeights::covers speaks of, or 0 where nobody asks
+  bool calm_ashore;      ///< the calm surface stands for one that is infinitely far
 };
 
 /// Blocks of a row of them, `width` pixels wide from x0 on. Memory is read fastest along a row of

@@ -242,8 +242,8 @@ void seen_heights(const WaterView& view, const SeenFrom& from, const View<const 
                   SeenHeights* out) {
   const RayError off_by(view, from.error);
   const Lane infinite(HUGE_VAL), none(-HUGE_VAL), far(1e30);
-  const bool covers = from.share_of_way > 0;
-  const Lane share(covers ? from.share_of_way : 1);
+  const bool covers = from.path_fraction > 0;
+  const Lane share(covers ? from.path_fraction : 1);
   HeightLanes lanes[Blocks::kMost];
   for_each_height(view, depth, pixels, blocks,
                   [&](int block, int y, int x, int count, Lane z, Lane over, Lane under) {

@@ -92,8 +92,8 @@ void read_deep_planes(const ExrFile& file, int part, PlaneSet planes, const Rect
   for (Plane* plane : {&layers.depth, &layers.below_depth}) make_eye_depth(plane->view(), source);
   if (surface) {
     for (std::size_t c = 0; c < 4; ++c) {
-      loaded.before_water[c] = std::move(layers.before_water[c]);
-      loaded.frame.before_water[c] = loaded.before_water[c].view();
+      loaded.foreground[c] = std::move(layers.foreground[c]);
+      loaded.frame.foreground[c] = loaded.foreground[c].view();
     }
   }
   loaded.transparent = std::max(loaded.transparent, layers.transparent);

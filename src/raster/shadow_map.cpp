@@ -68,9 +68,9 @@ void keep_within(const Box& bounds, const glm::dmat3& sun_from_world, Extent& ex
 
 ShadowMap make_shadow_map(const Model& model, const Sun& sun, const std::optional<Box>& bounds,
                           int size, Executor& executor, const std::string& simd) {
-  if (size < 1 || size > kMostShadowMap) {
+  if (size < 1 || size > kMaxShadowMap) {
     throw Error("shadow map of " + std::to_string(size) + " texels: expected 1 ... " +
-                    std::to_string(kMostShadowMap),
+                    std::to_string(kMaxShadowMap),
                 Fault::kUsage);
   }
   Scene scene;

@@ -206,7 +206,7 @@ void Interpreter::run_node(int id, const At& at) {
     case NodeOp::kGrid: {
       const int place = node.what - static_cast<int>(TextureId::kCaustics);
       const CausticsTable* table = pass_.caustics;
-      while (place >= table->first + CausticsTable::kMostLevels) table = table->in_water;
+      while (place >= table->first + CausticsTable::kMaxLevels) table = table->in_water;
       const auto level = static_cast<std::size_t>(place - table->first);
       return number(grid_at(table->levels[level].light, shift()));
     }

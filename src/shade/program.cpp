@@ -412,7 +412,7 @@ class Writer {
     };
     std::vector<Level> all;
     const std::size_t tables = pass_.caustics->in_water ? 2 : 1;
-    std::vector<glm::ivec4> levels(tables * CausticsTable::kMostLevels, glm::ivec4(0));
+    std::vector<glm::ivec4> levels(tables * CausticsTable::kMaxLevels, glm::ivec4(0));
     int width = 1, height = 0;
     for (const CausticsTable* table = pass_.caustics; table; table = table->in_water) {
       for (int k = 0; k < table->count; ++k) {

@@ -42,15 +42,15 @@ Recording record(const Plan& plan, const Pass& frame_pass, std::span<const Aov> 
   for (CausticsTable& table : tables) {
     if (!*named) break;
     table = **named;
-    for (int k = table.count; k < CausticsTable::kMostLevels; ++k) {
+    for (int k = table.count; k < CausticsTable::kMaxLevels; ++k) {
       table.levels[static_cast<std::size_t>(k)] = {};  // which may be left from another frame
     }
-    table.count = CausticsTable::kMostLevels;
+    table.count = CausticsTable::kMaxLevels;
     *named = &table;
     named = &table.in_water;
   }
-  const Homes homes(plan, pass);
-  Recorder recorder(homes);
+  const NameTable names(plan, pass);
+  Recorder recorder(names);
   SymbolStrip strip(pass);
   Pixel<Symbol>& p = strip.pixel();
 

@@ -37,7 +37,7 @@ std::size_t Recorder::Hash::operator()(const Key& key) const {
   return hash * 1000003 + static_cast<std::size_t>(bits_of(n.number) >> 20);
 }
 
-Recorder::Recorder(const Homes& homes) : homes_(homes) {
+Recorder::Recorder(const NameTable& names) : names_(names) {
   if (recorder) throw Error("a recording is going on on this thread");
   recorder = this;
   made_.blocks.emplace_back();
@@ -58,7 +58,7 @@ int Recorder::mask(bool value) {
 }
 
 int Recorder::given(double value, const void* home) {
-  const std::string* name = homes_.name_of(home);
+  const std::string* name = names_.name_of(home);
   if (!name) throw Error("a number of the frame lies where no name is known: given() needs one");
   return given(value, name->c_str(), -1);
 }

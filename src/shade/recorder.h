@@ -3,7 +3,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "shade/homes.h"
+#include "shade/name_table.h"
 #include "shade/recording.h"
 
 namespace limpid {
@@ -31,7 +31,7 @@ class Handle {
 /// are one, numbers that are known are reckoned with, and what no output needs is left out.
 class Recorder {
  public:
-  explicit Recorder(const Homes& homes);
+  explicit Recorder(const NameTable& names);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -119,7 +119,7 @@ class Recorder {
   bool end_loop(Flow& flow, int condition, std::vector<Carried>& carried);
   void assign(Handle& to, int node);
 
-  const Homes& homes_;
+  const NameTable& names_;
   Recording made_;
   std::vector<OpenBlock> open_;
   std::unordered_map<Key, std::vector<int>, Hash> known_;

@@ -17,7 +17,7 @@ TEST(Allocations, NoneAfterACompositorsFirstFrame) {
   const test::Picture picture(rect_of(size));
   test::HostMemory halves(4, rect_of(size), {.sample = Sample::kHalf, .interleaved = true});
   for (const Conventions& conventions :
-       {Conventions{.sane = true}, Conventions{}, Conventions{.depth = DepthKind::kInverse}}) {
+       {Conventions{.trusted = true}, Conventions{}, Conventions{.depth = DepthKind::kInverse}}) {
     for (const bool half : {false, true}) {
       HostFrame frame = test::host_frame(b.frame, scene);
       HostPicture out = test::host_picture(picture.target, {Aov::kPath});

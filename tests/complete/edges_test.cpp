@@ -210,7 +210,7 @@ struct DeepPost {
           plane.view().at(x, y) = c == 3 ? cover : cover * Post::channel(post.dark, c);
         }
       }
-      post.buffers.frame.before_water[static_cast<std::size_t>(c)] = plane.view();
+      post.buffers.frame.foreground[static_cast<std::size_t>(c)] = plane.view();
     }
     post.buffers.set(PlaneId::kBelowDepth, [&](int, int y) { return post.bottom_depth(y); });
     for (int c = 0; c < 3; ++c) {

@@ -311,14 +311,14 @@ TEST(Shafts, ChangeNoMoreThanTheirBound) {
   Ranges ranges;
   ranges.color = {{{0, 0}, {0, 0}, {0, 0}}};
   ranges.shadow = ranges.shadow_of_water = {1, 1};
-  Kernel<DepthFog>::reckon(look.of<DepthFog>(), pass, ranges);
+  Kernel<DepthFog>::propagate_ranges(look.of<DepthFog>(), pass, ranges);
   const double bound = Kernel<WaterShadow>::bound(look.of<WaterShadow>(), pass, ranges);
   double most = 0;
   for (const double more : more_of(murk, 1, 1, 1)) most = std::max(most, std::abs(more));
   EXPECT_LE(most, bound);
   EXPECT_GE(most, 0.05 * bound);  // no way has four times the brightest texel
   const double light = ranges.light;
-  Kernel<WaterShadow>::reckon(look.of<WaterShadow>(), pass, ranges);
+  Kernel<WaterShadow>::propagate_ranges(look.of<WaterShadow>(), pass, ranges);
   EXPECT_GE(ranges.light, light + most);
 }
 

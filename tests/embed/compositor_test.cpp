@@ -29,8 +29,8 @@ using test::wet;
 
 TEST(Compositor, GivesTheBitsOfTheFusedRunner) {
   const Subject s;
-  Compositor sane({.sane = true}, busy_look()), careful({}, busy_look());
-  EXPECT_TRUE(same_bits(wet(sane, test::host_frame(s.buffers.frame, s.scene)), s.expected));
+  Compositor trusted({.trusted = true}, busy_look()), careful({}, busy_look());
+  EXPECT_TRUE(same_bits(wet(trusted, test::host_frame(s.buffers.frame, s.scene)), s.expected));
   const Buffers raw = raw_frame(kSize);
   EXPECT_TRUE(same_bits(wet(careful, test::host_frame(raw.frame, s.scene)), s.expected));
   EXPECT_EQ(careful.replaced().total(), 0);
@@ -52,7 +52,7 @@ TEST(Compositor, TakesAnyStridesAndKeepsTheHostsMemory) {
     for (int c = 0; c < 3; ++c) picture.color[static_cast<std::size_t>(c)] = out.channel(c);
     picture.alpha = out.channel(3);
     const std::vector<std::byte> before = memory.bytes();
-    Compositor compositor({.sane = true}, busy_look());
+    Compositor compositor({.trusted = true}, busy_look());
     compositor.run(frame, picture);
     EXPECT_EQ(memory.bytes(), before);
     Picture got(rect_of(kSize));
@@ -81,7 +81,7 @@ TEST(Compositor, TakesAndGivesHalves) {
   }
   const std::vector<float> expected = test::judged(busy_look(), s.buffers.frame, s.scene);
   for (const std::string& simd : simd_targets()) {
-    Compositor compositor({.sane = true}, busy_look(), {.simd = simd});
+    Compositor compositor({.trusted = true}, busy_look(), {.simd = simd});
     HostMemory out(4, rect_of(kSize), {.sample = Sample::kHalf, .interleaved = true});
     HostPicture picture;
     for (int c = 0; c < 3; ++c) picture.color[static_cast<std::size_t>(c)] = out.channel(c);
@@ -126,7 +126,7 @@ TEST(Compositor, MakesEyeDepthOfEveryKind) {
     Scene scene = s.scene;
     scene.camera->projection = perspective(0.9, 67.0 / 41, 0.1, c.far, c.clip);
     scene.camera->clip = c.clip;
-    Buffers raw = raw_frame(kSize), sane = sane_frame(kSize), entered = sane_frame(kSize);
+    Buffers raw = raw_frame(kSize), trusted = sane_frame(kSize), entered = sane_frame(kSize);
     for (const PlaneId id : {PlaneId::kDepth, PlaneId::kSurfaceDepth, PlaneId::kReflectionDepth,
                              PlaneId::kBelowDepth}) {
       const auto stored = [&](int x, int y) {
@@ -145,7 +145,7 @@ TEST(Compositor, MakesEyeDepthOfEveryKind) {
         }
       };
       raw.set(id, stored);
-      sane.set(id, stored);
+      trusted.set(id, stored);
       Plane plane(rect_of(kSize));
       for (int y = 0; y < kSize.height; ++y) {
         for (int x = 0; x < kSize.width; ++x) plane.view().at(x, y) = stored(x, y);
@@ -160,9 +160,9 @@ TEST(Compositor, MakesEyeDepthOfEveryKind) {
     const std::vector<float> expected = test::judged(busy_look(), entered.frame, scene);
     for (const bool vouched : {false, true}) {
       Conventions conventions = c.conventions;
-      conventions.sane = vouched;
+      conventions.trusted = vouched;
       Compositor compositor(conventions, busy_look());
-      HostFrame frame = test::host_frame((vouched ? sane : raw).frame, scene);
+      HostFrame frame = test::host_frame((vouched ? trusted : raw).frame, scene);
       frame.scene.camera->clip = ClipSpace::kGl;  // does not count
       EXPECT_TRUE(same_bits(wet(compositor, frame), expected))
           << static_cast<int>(conventions.depth) << static_cast<int>(c.clip) << vouched;
@@ -177,11 +177,11 @@ TEST(Compositor, CamerasOfOtherConventionsShowTheSame) {
   const glm::dmat4 view = frame.scene.camera->view, projection = frame.scene.camera->projection;
   const glm::dmat4 turned = glm::scale(glm::dmat4(1), {1, 1, -1});
   const glm::dmat4 down = glm::scale(glm::dmat4(1), {1, -1, 1});
-  Compositor plus_z({.looks_along_plus_z = true, .sane = true}, busy_look());
+  Compositor plus_z({.looks_along_plus_z = true, .trusted = true}, busy_look());
   frame.scene.camera->view = turned * view;
   frame.scene.camera->projection = projection * turned;
   EXPECT_TRUE(same_bits(wet(plus_z, frame), s.expected));
-  Compositor vulkan({.clip_y_down = true, .sane = true}, busy_look());
+  Compositor vulkan({.clip_y_down = true, .trusted = true}, busy_look());
   frame.scene.camera->view = view;
   frame.scene.camera->projection = down * projection;
   EXPECT_TRUE(same_bits(wet(vulkan, frame), s.expected));
@@ -200,7 +200,7 @@ TEST(Compositor, WorksInPlace) {
       (c < 3 ? here.color[static_cast<std::size_t>(c)] : here.alpha) = memory.channel(c);
       (c < 3 ? there.color[static_cast<std::size_t>(c)] : there.alpha) = apart.channel(c);
     }
-    Compositor compositor({.sane = true}, busy_look());
+    Compositor compositor({.trusted = true}, busy_look());
     compositor.run(frame, there);
     compositor.run(frame, here);
     EXPECT_EQ(memory.bytes(), apart.bytes());
@@ -268,9 +268,9 @@ TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
       return x > 20 && x < 30 && y > 20 ? nothing : of.frame.plane(PlaneId::kDepth).at(x, y);
     };
   };
-  const Buffers raw = raw_frame(kSize), sane = sane_frame(kSize);
+  const Buffers raw = raw_frame(kSize), trusted = sane_frame(kSize);
   zeros.set(PlaneId::kDepth, with(0, raw));
-  clean.set(PlaneId::kDepth, with(test::kInf, sane));
+  clean.set(PlaneId::kDepth, with(test::kInf, trusted));
   const std::vector<float> expected = test::judged(busy_look(), clean.frame, scene);
   Compositor plain({}, busy_look()), asked({.depth_nothing = 0}, busy_look());
   EXPECT_FALSE(same_bits(wet(plain, test::host_frame(zeros.frame, scene)), expected));
@@ -292,7 +292,7 @@ TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
 
 TEST(Compositor, LooksChangeBetweenFrames) {
   const Subject s;
-  Compositor compositor({.sane = true}, {});
+  Compositor compositor({.trusted = true}, {});
   const HostFrame frame = test::host_frame(s.buffers.frame, s.scene);
   EXPECT_FALSE(same_bits(wet(compositor, frame), s.expected));
   compositor.set_look(busy_look());
@@ -308,7 +308,7 @@ TEST(Compositor, LooksChangeBetweenFrames) {
 
 TEST(Compositor, PlansForWhatThereIs) {
   const Subject s;
-  Compositor compositor({.sane = true}, busy_look());
+  Compositor compositor({.trusted = true}, busy_look());
   HostFrame frame = test::host_frame(s.buffers.frame, s.scene);
   wet(compositor, frame);
   const std::string with_sun = to_text(compositor.plan());
@@ -322,7 +322,7 @@ TEST(Compositor, PlansForWhatThereIs) {
 
 TEST(Compositor, WritesAovs) {
   const Subject s;
-  Compositor compositor({.sane = true}, busy_look());
+  Compositor compositor({.trusted = true}, busy_look());
   Picture picture(rect_of(kSize)), judge(rect_of(kSize));
   compositor.run(test::host_frame(s.buffers.frame, s.scene),
                  test::host_picture(picture.target, {Aov::kPath, Aov::kStmapB, Aov::kNormal}));
@@ -346,7 +346,7 @@ TEST(Compositor, LooksUpTexturesOfTheHost) {
   }
   const Scene scene = test::simple_scene(kSize);
   const test::NoiseMap map(16, 8), surroundings(32, 16);
-  Compositor compositor({.sane = true}, busy_look());
+  Compositor compositor({.trusted = true}, busy_look());
   const std::vector<float> without = wet(compositor, test::host_frame(b.frame, scene));
   compositor.set_wave_map(map.texture);
   compositor.set_environment(surroundings.texture);
@@ -380,7 +380,7 @@ class CountingExecutor : public Executor {
 TEST(Compositor, ComputesOnTheHostsThreads) {
   const Subject s;
   CountingExecutor host;
-  Compositor compositor({.sane = true}, busy_look(), {.executor = &host});
+  Compositor compositor({.trusted = true}, busy_look(), {.executor = &host});
   EXPECT_TRUE(same_bits(wet(compositor, test::host_frame(s.buffers.frame, s.scene)), s.expected));
   EXPECT_GT(host.tasks, 1);
 }
@@ -396,11 +396,11 @@ TEST(CompositorThreads, ManyAtOnceGiveTheSameBits) {
       const Size size{67 + 8 * t, 41};
       const Subject s(size);
       const Buffers raw = raw_frame(size);
-      const bool sane = t % 2 == 0;
+      const bool trusted = t % 2 == 0;
       const auto own = make_executor(2);
-      Compositor compositor({.sane = sane}, busy_look(),
+      Compositor compositor({.trusted = trusted}, busy_look(),
                             {.executor = t < 2 ? shared.get() : own.get()});
-      const HostFrame host = test::host_frame((sane ? s.buffers : raw).frame, s.scene);
+      const HostFrame host = test::host_frame((trusted ? s.buffers : raw).frame, s.scene);
       for (int frame = 0; frame < kFrames; ++frame) {
         right += same_bits(wet(compositor, host), s.expected);
       }

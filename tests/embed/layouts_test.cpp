@@ -115,7 +115,7 @@ TEST(CompositorLayouts, GiveTheBitsOfPlainPlanes) {
   look.set("wave_normals", "waves", Rows{{0.03, 2.1, 0.6, 0}, {0.02, -1.3, 3.2, 1}});
   const auto executor = make_executor(1);
   Compositor careful({}, look, {.executor = executor.get()});
-  Compositor sane({.sane = true}, look, {.executor = executor.get()});
+  Compositor trusted({.trusted = true}, look, {.executor = executor.get()});
   Chance chance;
   int in_place = 0;
   for (int i = 0; i < 200; ++i) {
@@ -137,7 +137,7 @@ TEST(CompositorLayouts, GiveTheBitsOfPlainPlanes) {
                                                   over.x_stride, over.y_stride, over.window};
       }
     }
-    Compositor& compositor = i % 2 == 0 ? careful : sane;
+    Compositor& compositor = i % 2 == 0 ? careful : trusted;
     compositor.run(frames.plain, expected);
     compositor.run(frames.laid, got);
     const std::vector<float> a = values(expected, display), b = values(got, display);

@@ -53,7 +53,7 @@ class LimpidC : public testing::Test {
     picture.size = sizeof picture;
     picture.outputs = outputs.data();
     picture.output_count = outputs.size();
-    conventions.sane = 1;
+    conventions.trusted = 1;
     limpid_create(&conventions, nullptr, &water, nullptr, 0);
   }
   ~LimpidC() override { limpid_destroy(water); }

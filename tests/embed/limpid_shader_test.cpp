@@ -203,7 +203,7 @@ TEST_F(LimpidCShader, RefusesWhatIsNone) {
   EXPECT_TRUE(make()) << limpid_message(water);
 }
 
-/// Without `sane` a frame may hold NaN: what is replaced is not the shader's concern.
+/// Without `trusted` a frame may hold NaN: what is replaced is not the shader's concern.
 TEST_F(LimpidCShader, TakesFramesThatAreNotSane) {
   limpid_destroy(water);
   ASSERT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);

@@ -32,7 +32,7 @@ std::string refusal(Compositor& compositor, const HostFrame& frame, const HostPi
 /// A refused frame leaves the picture alone.
 TEST(Compositor, RefusesBeforeItWrites) {
   const Subject s;
-  Compositor compositor({.sane = true}, busy_look());
+  Compositor compositor({.trusted = true}, busy_look());
   const HostFrame good = test::host_frame(s.buffers.frame, s.scene);
   Picture picture(rect_of(kSize));
   const HostPicture out = test::host_picture(picture.target);

@@ -36,14 +36,14 @@ TEST(CompositorShader, IsThatOfTheFrameAsItIsEntered) {
   const ShaderOptions options{.set = 1, .aovs = {Aov::kPath}};
   const ShaderText expected = expected_of(busy_look(), s.buffers.frame, s.scene, options);
   HostFrame frame = test::host_frame(s.buffers.frame, s.scene);
-  Compositor sane({.sane = true}, busy_look()), careful({}, busy_look());
-  expect_same(sane.shader(frame, options), expected);
+  Compositor trusted({.trusted = true}, busy_look()), careful({}, busy_look());
+  expect_same(trusted.shader(frame, options), expected);
   expect_same(careful.shader(frame, options), expected);
 
   const glm::dmat4 view = frame.scene.camera->view, projection = frame.scene.camera->projection;
   const glm::dmat4 turned = glm::scale(glm::dmat4(1), {1, 1, -1});
   const glm::dmat4 down = glm::scale(glm::dmat4(1), {1, -1, 1});
-  Compositor other({.looks_along_plus_z = true, .clip_y_down = true, .sane = true}, busy_look());
+  Compositor other({.looks_along_plus_z = true, .clip_y_down = true, .trusted = true}, busy_look());
   frame.scene.camera->view = turned * view;
   frame.scene.camera->projection = down * projection * turned;
   expect_same(other.shader(frame, options), expected);
@@ -55,7 +55,7 @@ TEST(CompositorShader, HasTheMapsOfTheHost) {
   look.of<WaveNormals>().model = WaveNormals::Model::kFourMaps;
   for (int c = 0; c < 3; ++c) s.buffers.frame.planes[index_of(PlaneId::kSurfaceNormalX) + c] = {};
   const test::NoiseMap map(16, 8), sky(12, 6);
-  Compositor compositor({.sane = true}, look);
+  Compositor compositor({.trusted = true}, look);
   compositor.set_wave_map(map.texture);
   compositor.set_environment(sky.texture);
   const ShaderText made = compositor.shader(test::host_frame(s.buffers.frame, s.scene));
@@ -77,7 +77,7 @@ TEST(CompositorShader, HasTheMapsOfTheHost) {
 TEST(CompositorShader, LeavesTheLastFrameAlone) {
   const Subject s;
   const HostFrame frame = test::host_frame(s.buffers.frame, s.scene);
-  Compositor compositor({.sane = true}, busy_look());
+  Compositor compositor({.trusted = true}, busy_look());
   EXPECT_TRUE(test::same_bits(test::wet(compositor, frame), s.expected));
   const std::string plan = to_text(compositor.plan());
   HostFrame half = frame;

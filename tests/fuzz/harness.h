@@ -30,13 +30,13 @@ inline void expect(bool holds, const char* promise) {
 /// Whether `work` returned: false when it threw Error. Its sentence must be one to be read.
 template <class Work>
 bool accepts(Work&& work) {
-  constexpr std::size_t kMostSentence = 1 << 16;
+  constexpr std::size_t kMaxSentence = 1 << 16;
   try {
     work();
     return true;
   } catch (const Error& error) {
     const std::size_t size = std::string(error.what()).size();
-    expect(size > 0 && size < kMostSentence, "an Error has a sentence of moderate length");
+    expect(size > 0 && size < kMaxSentence, "an Error has a sentence of moderate length");
     return false;
   }
 }

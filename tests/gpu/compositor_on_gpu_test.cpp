@@ -41,7 +41,7 @@ std::string refusal(const CompositorOptions& options) {
 TEST_F(CompositorOnGpu, GivesTheBitsOfTheRunnerFrameAfterFrame) {
   const Size size{53, 31};
   const Scene scene = test::simple_scene(size);
-  Compositor water({.sane = true}, {}, {.gpu = GpuOptions{}});
+  Compositor water({.trusted = true}, {}, {.gpu = GpuOptions{}});
   EXPECT_THAT(water.device(), StartsWith(gpu_devices()[0].name));
   EXPECT_EQ(Compositor().device(), "");
   for (const Size& of_frame : {size, Size{20, 41}, size}) {

@@ -174,8 +174,8 @@ TEST(Caustics, AreBoundByTheTablesValuesAndMeetTheirBound) {
     Ranges ranges;
     for (Range& color : ranges.color) color = {0.1, 0.5};
     ranges.shadow = {1, 1};
-    ranges.through = 0.25;
-    Kernel<Caustics>::reckon(basin.params, basin.pass(), ranges);
+    ranges.transmittance = 0.25;
+    Kernel<Caustics>::propagate_ranges(basin.params, basin.pass(), ranges);
     const double change = 0.25 * std::abs(basin.lit(4, 2).r - 0.5);
     const double bound = Kernel<Caustics>::bound(basin.params, basin.pass(), ranges);
     EXPECT_NEAR(change, 0.25 * 0.5 * 0.5 * 0.6 * std::abs(value - 1), 1e-7);

@@ -279,8 +279,8 @@ TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
       Op::apply(params, pass, brighter);
       Ranges ranges;
       for (Range& color : ranges.color) color = {0, 1};
-      if constexpr (requires { Op::reckon(params, pass, ranges); }) {
-        Op::reckon(params, pass, ranges);
+      if constexpr (requires { Op::propagate_ranges(params, pass, ranges); }) {
+        Op::propagate_ranges(params, pass, ranges);
       }
       const double share = std::max(ranges.color[0].max, 1.0);
       for (int i = 0; i < 8; ++i) {
@@ -303,13 +303,14 @@ TEST(Contract, BoundsAreNoNumbersBelowZero) {
       dark.color = {{{0, 0}, {0, 0}, {0, 0}}};
       dark.light = dark.sun_light = 0;
       EXPECT_GE(Op::bound(params, pass, dark), 0) << what;
-      if constexpr (requires { Op::reckon(params, pass, dark); }) {
-        Op::reckon(params, pass, dark);
-        for (const Range& r : {dark.hit, dark.path, dark.way}) {
+      if constexpr (requires { Op::propagate_ranges(params, pass, dark); }) {
+        Op::propagate_ranges(params, pass, dark);
+        for (const Range& r : {dark.hit, dark.path, dark.fog_path}) {
           EXPECT_GE(r.min, 0) << what;
           EXPECT_LE(r.min, r.max) << what;
         }
-        for (double x : {dark.through, dark.light, dark.sun_light, dark.sun_far, dark.above}) {
+        for (double x :
+             {dark.transmittance, dark.light, dark.sun_light, dark.sun_far, dark.above}) {
           EXPECT_GE(x, 0) << what;
         }
       }

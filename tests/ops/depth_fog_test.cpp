@@ -140,7 +140,7 @@ TEST(DepthFog, BoundsKnowWhichWayTheWaterScatters) {
   tray.scene.sun = Sun{};
   const Pass pass(tray.scene, tray.buffers.frame, 1.333, kWholeState);
   Ranges ranges;
-  ranges.way = {0, 1};
+  ranges.fog_path = {0, 1};
   ranges.color = {{{0, 0}, {0, 0}, {0, 0}}};
   const auto bound = [&](double anisotropy) {
     DepthFog::Params params = test::plain_fog(DepthFog::Model::kBeerLambert);

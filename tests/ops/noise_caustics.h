@@ -20,7 +20,7 @@ struct NoiseCaustics {
     }
     water = table;
     water.depth = 0.5;
-    water.first = CausticsTable::kMostLevels;
+    water.first = CausticsTable::kMaxLevels;
     table.in_water = &water;
   }
   NoiseCaustics(const NoiseCaustics&) = delete;

@@ -256,7 +256,7 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
   if (random.has(StatePart::kTransmittance)) p.transmittance = 0.5 * rgb();
   if (random.has(StatePart::kSunScatter)) {
     p.sun_near = 0.1 * rgb(), p.sun_far = 0.1 * rgb();
-    p.sun_entry = {0.3, 0, 0.2}, p.sun_way = 0.8;
+    p.sun_entry = {0.3, 0, 0.2}, p.mean_scatter_distance = 0.8;
   }
   if (random.has(StatePart::kTransmitted)) p.transmitted = rgb();
   if (random.has(StatePart::kInScatter)) p.in_scatter = rgb();

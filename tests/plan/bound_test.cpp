@@ -122,14 +122,14 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     ranges.path = {0, 0};
     ranges.light = ranges.brightest();
     Kernels::for_each([&]<class Op, int I>() {
-      if constexpr (requires { Op::reckon(plan.look.of<Op>(), pass, ranges); }) {
-        if (whole.keeps(I)) Op::reckon(plan.look.of<Op>(), pass, ranges);
+      if constexpr (requires { Op::propagate_ranges(plan.look.of<Op>(), pass, ranges); }) {
+        if (whole.keeps(I)) Op::propagate_ranges(plan.look.of<Op>(), pass, ranges);
       }
     });
     const CausticsTable* in_water = pass.caustics ? pass.caustics->in_water : nullptr;
     with_shafts += plan.keeps<WaterShadow>() && in_water && in_water->count > 0;
     const bool fog = plan.keeps<DepthFog>();
-    if (!fog) ranges.through = 1;
+    if (!fog) ranges.transmittance = 1;
     const Picture all = test::picture_of(plan, frame, scene, test::by_reference);
     Kernels::for_each([&]<class Op, int I>() {
       if (!plan.keeps(I)) return;

@@ -107,7 +107,7 @@ class Arrays(unittest.TestCase):
         del frame["shadow"], frame["reflection"]
         small = {**frame, "color": np.full((8, 8, 3), 0.5, np.float32), "depth": np.full((8, 8), 9, np.float32)}
         trusting = limpid.Compositor(look={"refraction": {"model": "normal_offset", "strength": 0}},
-                                     sane=True, threads=1)
+                                     trusted=True, threads=1)
         np.testing.assert_array_equal(trusting.run(**frame, display=(0, 0, 8, 8)), trusting.run(**small))
 
     def test_overscan(self):

@@ -82,7 +82,7 @@ class Errors(unittest.TestCase):
         self.refused("depth_kind: unknown 'eyes', expected one of eye, ", depth_kind="eyes")
         self.refused("clip: unknown 'dx', expected one of gl, d3d, reversed", clip="dx")
         self.refused("near", depth_kind="normalised")
-        self.refused("sane is a int, expected True or False", sane=1)
+        self.refused("trusted is a int, expected True or False", trusted=1)
         self.refused("far is a NoneType, expected a number", far=None)
         self.refused("mmx", simd="mmx")
         self.refused("-1", threads=-1)

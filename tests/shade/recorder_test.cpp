@@ -34,7 +34,7 @@ class RecorderTest : public testing::Test {
   test::World world_;
   Plan plan_;
   Pass pass_;
-  Homes homes_;
+  NameTable homes_;
   Recorder recorder_;
 };
 

@@ -14,7 +14,7 @@
 namespace limpid::test {
 namespace {
 
-constexpr int kMostMebibytes = 2048;
+constexpr int kMaxMebibytes = 2048;
 
 /// 1 MiB where the environment asks for it, else `coarse`: that much memory takes minutes to sweep.
 int step_of(int coarse) { return std::getenv("LIMPID_EACH_MEBIBYTE") ? 1 : coarse; }
@@ -53,7 +53,7 @@ class MemorySweepTest : public ToolTest, public ::testing::WithParamInterface<Li
     const std::vector<std::string> before = files();
     int mebibytes = GetParam().least;
     Ran ran = limited(mebibytes, arguments);
-    while (ran.code == 1 && mebibytes < kMostMebibytes) {
+    while (ran.code == 1 && mebibytes < kMaxMebibytes) {
       ASSERT_THAT(ran.err, ::testing::MatchesRegex("limpid ERROR: .*memory.*\n")) << mebibytes;
       ASSERT_THAT(ran.err, ::testing::Not(::testing::HasSubstr("damaged"))) << mebibytes;
       ASSERT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << mebibytes << ran.err;

@@ -80,7 +80,7 @@ class Host {
     for (std::size_t c = 0; c < 3; ++c) picture.color[c] = host_view(target_.color[c]);
     picture.alpha = host_view(target_.alpha);
     const CompositorOptions options{.executor = executor_.get(), .simd = simd};
-    add("planes of float, vouched for", {.sane = true}, look, options, planar, picture);
+    add("planes of float, vouched for", {.trusted = true}, look, options, planar, picture);
     add("planes of float, looked through", {}, look, options, planar, picture);
 
     HostFrame device = planar;
@@ -90,7 +90,7 @@ class Host {
       device.plane(role.first) = host_view(as_device_depth(depth));
     }
     add("planes of float, device depth",
-        {.depth = DepthKind::kDevice, .clip = plate_.scene.camera->clip, .sane = true}, look,
+        {.depth = DepthKind::kDevice, .clip = plate_.scene.camera->clip, .trusted = true}, look,
         options, device, picture);
 
     add_interleaved(Sample::kFloat, "RGBA of float", look, options, planar);
@@ -154,8 +154,8 @@ class Host {
       frame.planes[c] = to;
     }
     if (sample == Sample::kFloat) add_runner(name, options.simd, frame, apart);
-    add(name + ", vouched for", {.sane = true}, look, options, frame, apart);
-    add(name + ", vouched for, in place", {.sane = true}, look, options, frame, here);
+    add(name + ", vouched for", {.trusted = true}, look, options, frame, apart);
+    add(name + ", vouched for, in place", {.trusted = true}, look, options, frame, here);
   }
 
   MadePlate plate_;

@@ -12,7 +12,7 @@
 namespace limpid::bench {
 namespace {
 
-constexpr float kNothingHit = std::numeric_limits<float>::infinity();
+constexpr float kNoHit = std::numeric_limits<float>::infinity();
 
 constexpr PlaneId kPlanes[] = {PlaneId::kColorR,      PlaneId::kColorG,      PlaneId::kColorB,
                                PlaneId::kColorA,      PlaneId::kDepth,       PlaneId::kShadow,
@@ -70,7 +70,7 @@ MadePlate::MadePlate(Size size) {
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const glm::dvec3 ray = rays.ray_at(x + 0.5, y + 0.5);
-      const double water = ray.y < 0 ? -eye.y / ray.y : kNothingHit;
+      const double water = ray.y < 0 ? -eye.y / ray.y : kNoHit;
       // The bottom falls away from the viewer, then rises to a far shore; rocks are bumps on a
       // grid.
       const glm::dvec3 at = eye + std::min(water, 60.0) * ray;
@@ -82,7 +82,7 @@ MadePlate::MadePlate(Size size) {
       const bool ashore = at.z < -28 || water > 60;
       double depth = water * (1 + (0.3 + 0.1 * std::sin(at.x) + 0.02 * -at.z) / eye.y);
       if (on_rock) depth = water * 0.97;
-      if (ashore) depth = ray.y < 0.02 ? 30 : kNothingHit;
+      if (ashore) depth = ray.y < 0.02 ? 30 : kNoHit;
       put(PlaneId::kDepth, x, y, depth);
       put(PlaneId::kSurfaceDepth, x, y, water);
       const double texture = 0.5 + 0.3 * std::sin(9 * at.x) * std::sin(8 * at.z) +

@@ -142,10 +142,10 @@ void add_render(CLI::App& verb, RenderArguments& a) {
   add_scene(verb, a.scene, a.size, a.draw_what_you_can);
   verb.add_option("--overscan", a.overscan, "Pixels beyond each side of the picture (default: 0)")
       ->option_text("N")
-      ->check(whole_number_in(0, kMostRenderedSide / 2));
+      ->check(whole_number_in(0, kMaxRenderedSide / 2));
   verb.add_option("--shadow-map", a.shadow_map, "Texels per side (default: 2048)")
       ->option_text("N")
-      ->check(whole_number_in(1, kMostShadowMap));
+      ->check(whole_number_in(1, kMaxShadowMap));
   add_frames(verb, a.frames, kRenderedFrames);
 }
 
@@ -156,19 +156,19 @@ CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
   verb.add_option("--samples", a.samples,
                   "N x N samples per pixel; 1 is the pixel centre (default: 1)")
       ->option_text("N")
-      ->check(whole_number_in(1, kMostTruthSamples));
+      ->check(whole_number_in(1, kMaxTruthSamples));
   verb.add_option("--light", a.light,
                   "paths: multiple scattering and reflection; once: single scattering, in closed "
                   "form (default: paths)")
       ->option_text("NAME");
   verb.add_option("--paths", a.paths, "Random light paths per sample (default: 16)")
       ->option_text("N")
-      ->check(whole_number_in(1, kMostTruthPaths));
+      ->check(whole_number_in(1, kMaxTruthPaths));
   verb.add_option("--photons", a.photons,
                   "Photons of the sun through the waves, for caustics (default: 0, sunlight enters "
                   "through the calm plane)")
       ->option_text("N")
-      ->check(whole_number_in(0, kMostTruthPhotons));
+      ->check(whole_number_in(0, kMaxTruthPhotons));
   verb.add_option("--seed", a.seed, "Seed of sample positions and light paths (default: 0)")
       ->option_text("N")
       ->check(whole_number_in(0, std::numeric_limits<std::uint64_t>::max()));
@@ -261,7 +261,7 @@ void add_report(CLI::App& app, ReportArguments& a) {
   verb.add_option("--rounds", a.rounds,
                   "Timed runs, of which the best counts (default: 5; quick: 2)")
       ->option_text("N")
-      ->check(whole_number_in(1, kMostRounds));
+      ->check(whole_number_in(1, kMaxRounds));
   verb.add_flag("--quick", a.quick, "Small pictures and few rounds, as a test");
   verb.add_option("--gpu", a.gpu,
                   "Also measure a GPU: part of its name (default: a hardware device)")
@@ -282,7 +282,7 @@ void add_farm(CLI::App& app, FarmArguments& a) {
           "--chunk", a.chunk,
           "Frames per task (default: about two minutes of work, estimated from one timed frame)")
       ->option_text("N")
-      ->check(whole_number_in(1, kMostFramesATask));
+      ->check(whole_number_in(1, kMaxFramesATask));
   verb.add_option("--local", a.at_once,
                   "Run the tasks on this machine, N at a time, without a scheduler")
       ->option_text("N")
@@ -325,7 +325,7 @@ void declare_verbs(CLI::App& app, Arguments& a) {
                   "Also write N pixels beyond each side of the picture, as far as all buffers have "
                   "them (default: 0)")
       ->option_text("N")
-      ->check(whole_number_in(0, OutputChoice::kMostOverscan));
+      ->check(whole_number_in(0, OutputChoice::kMaxOverscan));
 
   CLI::App& water =
       *app.add_subcommand("water", "Render a scene and put water into it: SCENE.toml -o OUT.exr");
@@ -334,7 +334,7 @@ void declare_verbs(CLI::App& app, Arguments& a) {
       .add_option("--samples", a.render.samples,
                   "N x N samples per pixel, filtered after compositing (default: 1)")
       ->option_text("N")
-      ->check(whole_number_in(1, kMostSamples));
+      ->check(whole_number_in(1, kMaxSamples));
   add_resume(water, a.render.frames);
   add_look(water, a.render.water);
   add_picture(water, a.render.water);

@@ -67,7 +67,7 @@ FarmWork composite_work(const CompositeArguments& a, const CommonArguments& comm
   work.faults = [sequence = work.sequence, filled](Executor& executor) {
     return faults_of_composite(sequence, filled.job_of, executor);
   };
-  work.rest = [sequence = work.sequence, filled](Executor& executor, Scrutiny scrutiny) {
+  work.rest = [sequence = work.sequence, filled](Executor& executor, VerifyLevel scrutiny) {
     return rest_of_composite(sequence, filled.job_of, executor, scrutiny);
   };
   return work;
@@ -83,7 +83,7 @@ FarmWork water_work(const RenderArguments& a, const CommonArguments& common) {
   work.faults = [=, sequence = work.sequence](Executor& executor) {
     return faults_of_water(*model, sequence, job_of, executor);
   };
-  work.rest = [=, sequence = work.sequence](Executor& executor, Scrutiny scrutiny) {
+  work.rest = [=, sequence = work.sequence](Executor& executor, VerifyLevel scrutiny) {
     return rest_of_water(*model, sequence, job_of, executor, scrutiny);
   };
   return work;
@@ -100,7 +100,7 @@ FarmWork truth_work(const TruthArguments& a, const CommonArguments& common) {
   work.faults = [=, sequence = work.sequence](Executor& executor) {
     return faults_of_truth(*model, sequence, job_of, executor);
   };
-  work.rest = [=, sequence = work.sequence](Executor& executor, Scrutiny scrutiny) {
+  work.rest = [=, sequence = work.sequence](Executor& executor, VerifyLevel scrutiny) {
     return rest_of_truth(*model, sequence, job_of, executor, scrutiny);
   };
   return work;

@@ -28,7 +28,7 @@ struct FarmWork {
   std::vector<std::string> display;
   CommonArguments common;
   std::function<std::vector<FrameFault>(Executor&)> faults;
-  std::function<Rest(Executor&, Scrutiny)> rest;
+  std::function<Rest(Executor&, VerifyLevel)> rest;
 };
 
 /// The command line that the words behind `limpid` are. Throws the usage Error for none.

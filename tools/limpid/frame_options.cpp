@@ -65,9 +65,9 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs) {
 
 Sequence rest_of(const Sequence& sequence, const FrameOptions& options,
                  const CommonArguments& common,
-                 const std::function<Rest(const Sequence&, Scrutiny)>& find) {
+                 const std::function<Rest(const Sequence&, VerifyLevel)>& find) {
   if (!options.resume) return sequence;
-  const Rest rest = find(sequence, options.verify ? Scrutiny::kContents : Scrutiny::kWhole);
+  const Rest rest = find(sequence, options.verify ? VerifyLevel::kContents : VerifyLevel::kWhole);
   tell_rest(rest, common);
   return {rest.frames, sequence.in_flight};
 }

@@ -26,7 +26,7 @@ Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs);
 /// What `find` finds left of the sequence with --resume, which is told; without, all of it.
 Sequence rest_of(const Sequence& sequence, const FrameOptions& options,
                  const CommonArguments& common,
-                 const std::function<Rest(const Sequence&, Scrutiny)>& find);
+                 const std::function<Rest(const Sequence&, VerifyLevel)>& find);
 
 /// That --missing names.
 Missing missing_named(const std::string& name);

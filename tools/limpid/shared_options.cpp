@@ -14,9 +14,9 @@ namespace limpid::tool {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kMostSeconds = 1e12;  ///< so that no wave's phase overflows
-constexpr double kMostFps = 1e6;
-constexpr double kMostStops = 100;
+constexpr double kMaxSeconds = 1e12;  ///< so that no wave's phase overflows
+constexpr double kMaxFps = 1e6;
+constexpr double kMaxStops = 100;
 
 }  // namespace
 
@@ -40,14 +40,14 @@ void add_time(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--time", a.time,
                   "Time in seconds, for waves and their drift (default: the scene's, or 0)")
       ->option_text("S")
-      ->check(number_in(-kMostSeconds, kMostSeconds, "s"));
+      ->check(number_in(-kMaxSeconds, kMaxSeconds, "s"));
 }
 
 void add_frame_numbers(CLI::App& verb, FrameOptions& a, const std::string& about) {
   verb.add_option("--frames", a.range, about)->option_text("RANGE");
   verb.add_option("--fps", a.fps, "Frames per second (default: 24)")
       ->option_text("N")
-      ->check(number_in(1 / kMostFps, kMostFps));
+      ->check(number_in(1 / kMaxFps, kMaxFps));
 }
 
 void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
@@ -56,7 +56,7 @@ void add_frames(CLI::App& verb, FrameOptions& a, const std::string& about) {
                   "Frames in the pipeline of reading, compositing and writing, each in its own "
                   "memory (default: 3)")
       ->option_text("N")
-      ->check(whole_number_in(1, kMostInFlight));
+      ->check(whole_number_in(1, kMaxInFlight));
 }
 
 void add_resume(CLI::App& verb, FrameOptions& a) {
@@ -121,7 +121,7 @@ void add_preview(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--exposure", a.exposure,
                   "Exposure of --preview, --contact-sheet and --show, in stops (default: 0)")
       ->option_text("STOPS")
-      ->check(number_in(-kMostStops, kMostStops, "stops"));
+      ->check(number_in(-kMaxStops, kMaxStops, "stops"));
   add_display(verb, a);
 }
 
@@ -141,7 +141,7 @@ void add_wave_samples(CLI::App& verb, CompositeArguments& a) {
                   "Samples per pixel of the water and its waves; plates are read once, and the run "
                   "takes N times as long (default: 1)")
       ->option_text("N")
-      ->check(whole_number_in(1, OutputChoice::kMostWaveSamples));
+      ->check(whole_number_in(1, OutputChoice::kMaxWaveSamples));
 }
 
 void add_picture(CLI::App& verb, WaterOptions& a) {

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// Of a task, where the command names no --threads.
 constexpr int kUsualCores = 4;
 /// So many frames are tried, where the first cannot be made.
-constexpr std::size_t kMostMeasured = 5;
+constexpr std::size_t kMaxMeasured = 5;
 
 /// A frame that was made, and what that took.
 struct Measured {
@@ -45,7 +45,7 @@ int cores_of(const FarmArguments& a, const FarmWork& work) {
 /// The first of the frames that can be made.
 Measured measure(const std::vector<std::string>& words, const std::vector<int>& frames) {
   std::string said;
-  for (std::size_t i = 0; i < std::min(frames.size(), kMostMeasured); ++i) {
+  for (std::size_t i = 0; i < std::min(frames.size(), kMaxMeasured); ++i) {
     std::vector<std::string> command{this_program().string()};
     command.insert(command.end(), words.begin(), words.end());
     command.insert(command.end(), {"--frames", std::to_string(frames[i])});
@@ -116,7 +116,7 @@ void expect_sound(const FarmWork& work, Executor& executor) {
 }
 
 Rest rest_of(const FarmWork& work, const CommonArguments& common, Executor& executor) {
-  Rest rest = work.rest(executor, Scrutiny::kWhole);
+  Rest rest = work.rest(executor, VerifyLevel::kWhole);
   tell_rest(rest, common);
   return rest;
 }
@@ -190,7 +190,7 @@ void Submission::write() const {
 
 std::string summarise(const FarmFolder& folder, const FarmWork& work, const FarmStatus& status,
                       Executor& executor) {
-  const Rest rest = work.rest(executor, Scrutiny::kContents);
+  const Rest rest = work.rest(executor, VerifyLevel::kContents);
   FarmVerdict verdict;
   verdict.frames = work.sequence.frames.size();
   verdict.missing = rest.frames;

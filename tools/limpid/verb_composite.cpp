@@ -64,7 +64,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
       missing_named(a.frames.missing));
   tell_missing(filled, sequence.frames.size(), common);
   sequence.frames = filled.frames;
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
     return rest_of_composite(all, filled.job_of, *executor, scrutiny);
   });
   if (sequence.frames.empty()) return 0;

@@ -32,7 +32,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
     one.output.plate = output_of_frame(choice, frame).picture;
     return one;
   };
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
     return rest_of_render(model, all, job_of_frame, *executor, scrutiny);
   });
   Progress progress(common);
@@ -64,7 +64,7 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
     if (shown_by) show(report.preview, *shown_by);
     return 0;
   }
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
     return rest_of_water(model, all, job_of_frame, *executor, scrutiny);
   });
   Progress progress(common);

@@ -19,7 +19,7 @@ ReportOptions options_of(const ReportArguments& a, const CommonArguments& common
     options.size = {160, 90};
     options.rounds = 2;
   }
-  if (a.size) options.size = size_named(*a.size, kLeastReportSide, kMostReportSide);
+  if (a.size) options.size = size_named(*a.size, kLeastReportSide, kMaxReportSide);
   if (a.rounds) options.rounds = *a.rounds;
   options.threads = common.threads;
   options.gpu = a.gpu;

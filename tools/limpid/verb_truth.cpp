@@ -47,7 +47,7 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
   }
   const auto job_of_frame = [&](int frame) { return truth_job_of_frame(job, a, frame); };
   sequence.in_flight = 1;  // tracing keeps all threads busy
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, Scrutiny scrutiny) {
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
     return rest_of_truth(model, all, job_of_frame, *executor, scrutiny);
   });
   Progress progress(common);

@@ -34,7 +34,7 @@ std::vector<std::string> aov_names(const std::vector<std::string>& names,
 std::unique_ptr<Executor> executor_of(const CommonArguments& common);
 
 /// WxH, each in least ... most. Throws the usage Error of an option --size.
-Size size_named(const std::string& text, int least = 1, int most = kMostRenderedSide);
+Size size_named(const std::string& text, int least = 1, int most = kMaxRenderedSide);
 
 Look look_of(const WaterOptions& options);
 

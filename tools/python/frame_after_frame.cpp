@@ -24,7 +24,7 @@ Conventions conventions_of(const py::dict& keywords) {
   c.far = number_in(keywords["far"], "far");
   c.looks_along_plus_z = flag_in(keywords["looks_along_plus_z"], "looks_along_plus_z");
   c.clip_y_down = flag_in(keywords["clip_y_down"], "clip_y_down");
-  c.sane = flag_in(keywords["sane"], "sane");
+  c.trusted = flag_in(keywords["trusted"], "trusted");
   return c;
 }
 

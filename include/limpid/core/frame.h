@@ -174,7 +174,7 @@ struct Frame {
   const CausticsTable* caustics = nullptr;
   /// What stands before the water, of deep samples: red, green, blue, premultiplied, and alpha, its
   /// share of the pixel. None or all are there, and cover work(); `color` then shows it, too.
-  std::array<View<const float>, 4> before_water;
+  std::array<View<const float>, 4> foreground;
   /// Pixels that something before the water covers in part; null, or made by complete/. Color and
   /// depth are then those of what is behind it.
   const EdgeCover* edges = nullptr;

@@ -39,7 +39,7 @@ struct TextureLevels {
   /// Of the map's slopes (-n_x, -n_y) / n_z, n_z at least .05, over the texels of `base`: the mean
   /// along x and y, and the moments xx, xy and yy, one plane after the other. The map's size,
   /// halved until it is at most 512x512.
-  static constexpr int kMostBase = 512;
+  static constexpr int kMaxBase = 512;
   static constexpr int kMoments = 5;
   Size base{0, 0};
   int halvings = 0;  ///< from the map's size to that of base

@@ -75,18 +75,18 @@ struct OutputChoice {
   double max_error = 0;
 
   /// In so many parts of each pixel the water is met and its waves are filtered (PixelPart), 1 ...
-  /// kMostWaveSamples; the frame's planes are read at the pixel. It takes as many times as long.
+  /// kMaxWaveSamples; the frame's planes are read at the pixel. It takes as many times as long.
   /// Colors and shares are the means of all parts, depths, normals and maps those of the middle
   /// part (the one before the middle, of an even number). Without a deep file: its samples have no
   /// mean.
   int wave_samples = 1;
-  static constexpr int kMostWaveSamples = 64;
+  static constexpr int kMaxWaveSamples = 64;
 
   /// So many pixels beyond each side of the display window are written, too, as far as all buffers
   /// that are read have them: the data window of the files is as much larger, the preview is not.
   /// For composite() alone.
   int overscan = 0;
-  static constexpr int kMostOverscan = 16000;
+  static constexpr int kMaxOverscan = 16000;
 
   /// Whether what would be a warning is an Error, before anything is written.
   bool strict = false;

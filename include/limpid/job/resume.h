@@ -23,7 +23,7 @@ struct Rest {
 };
 
 /// The check of the files of a frame.
-enum class Scrutiny {
+enum class VerifyLevel {
   /// Headers, and that all pixels are there: finds a truncated or replaced file, but not a changed
   /// byte among the pixels of an EXR. PNGs have checksums, which are checked.
   kWhole,
@@ -40,11 +40,11 @@ enum class Scrutiny {
 /// abandoned temporary files (files/unfinished.h) from the folders of all outputs. Throws Error as
 /// the sequences do, first of all for outputs that are inputs or other outputs.
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
-                       Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
+                       Executor& executor, VerifyLevel level = VerifyLevel::kWhole);
 Rest rest_of_render(const Model& model, const Sequence& sequence,
                     const JobOfFrame<RenderJob>& job_of, Executor& executor,
-                    Scrutiny scrutiny = Scrutiny::kWhole);
+                    VerifyLevel level = VerifyLevel::kWhole);
 Rest rest_of_water(const Model& model, const Sequence& sequence, const JobOfFrame<WaterJob>& job_of,
-                   Executor& executor, Scrutiny scrutiny = Scrutiny::kWhole);
+                   Executor& executor, VerifyLevel level = VerifyLevel::kWhole);
 
 }  // namespace limpid

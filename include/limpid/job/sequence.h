@@ -14,12 +14,12 @@
 
 namespace limpid {
 
-inline constexpr int kMostInFlight = 64;
+inline constexpr int kMaxInFlight = 64;
 
 /// The frames, and the number of them in the pipeline.
 struct Sequence {
   std::vector<int> frames;  ///< their numbers, in the order of the work
-  int in_flight = 3;        ///< 1 ... kMostInFlight; each of these holds the buffers of one frame
+  int in_flight = 3;        ///< 1 ... kMaxInFlight; each of these holds the buffers of one frame
 };
 /// The check with which all functions below begin: throws Error of Fault::kUsage for an `in_flight`
 /// out of range.

@@ -28,7 +28,7 @@ struct RenderJob : SceneJob {
 };
 void render(const Model& model, const RenderJob& job, Executor& executor);
 
-inline constexpr int kMostSamples = 16;
+inline constexpr int kMaxSamples = 16;
 
 /// `limpid water`: renders and composites without a file between. With samples = N the picture is
 /// rendered N times as wide and high and the composited picture filtered down last, so that no
@@ -36,7 +36,7 @@ inline constexpr int kMostSamples = 16;
 struct WaterJob : SceneJob {
   RenderOptions render;
   Look look;
-  int samples = 1;  ///< 1 ... kMostSamples
+  int samples = 1;  ///< 1 ... kMaxSamples
   OutputChoice output;
 };
 

@@ -13,16 +13,16 @@ namespace limpid {
 /// no sky light.
 ///
 /// `scatter`: removes the sun's part of the scattered light where the sun does not reach the water:
-/// in_scatter -= strength ((1 - v_near) sun_near + (1 - v_far) sun_far + (1 - v_often) sun_often),
-/// never below 0. Clear water shows no shadow of its own; the shadow of the bottom is already in
-/// the dry picture.
+/// in_scatter -= strength ((1 - v_near) sun_near + (1 - v_far) sun_far + (1 - v_multiple)
+/// sun_multiple), never below 0. Clear water shows no shadow of its own; the shadow of the bottom
+/// is already in the dry picture.
 ///
 /// If the frame has a shadow on the surface, it is looked up at the entry points of the sunlight
 /// that is scattered along the path to the viewer: at four points, each for an equal part of the
 /// light, on the line in the calm surface from the pixel to the entry point for the path's end.
 /// v_near and v_far are means of these, weighted by their distances from the line's two ends;
-/// v_often is the mean of four points, one mean free path around the middle one. Else v_near is the
-/// shadow at the pixel itself, and v_far and v_often that at uv'.
+/// v_multiple is the mean of four points, one mean free path around the middle one. Else v_near is
+/// the shadow at the pixel itself, and v_far and v_multiple that at uv'.
 ///
 /// `shafts`, of `scatter`: focused sunlight is as uneven in the water as on the bottom, and so is
 /// its single-scattered light: in_scatter += shafts (e_near sun_near + e_far sun_far), seen from

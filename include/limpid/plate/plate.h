@@ -51,8 +51,8 @@ struct LoadedPlate {
   Frame frame;  ///< views into `planes`
   SanitiseCounts replaced;
   std::vector<Plane> planes;
-  std::array<Plane, 4> before_water;  ///< of deep samples, or none
-  double transparent = 0;             ///< share of the wet pixels, as DeepLayers has it
+  std::array<Plane, 4> foreground;  ///< of deep samples, or none
+  double transparent = 0;           ///< share of the wet pixels, as DeepLayers has it
 };
 
 /// Layers of one part of a plate that are handed on to a picture as they are.

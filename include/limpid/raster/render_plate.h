@@ -10,13 +10,13 @@
 namespace limpid {
 
 /// Of a picture with its overscan.
-inline constexpr int kMostRenderedSide = 32000;
-inline constexpr int kMostShadowMap = 16384;
+inline constexpr int kMaxRenderedSide = 32000;
+inline constexpr int kMaxShadowMap = 16384;
 
 struct RenderOptions {
-  Size size{1920, 1080};       ///< 1 ... kMostRenderedSide a side
+  Size size{1920, 1080};       ///< 1 ... kMaxRenderedSide a side
   int overscan = 0;            ///< pixels beyond each side of the display window
-  int shadow_map_size = 2048;  ///< texels a side, 1 ... kMostShadowMap
+  int shadow_map_size = 2048;  ///< texels a side, 1 ... kMaxShadowMap
   std::string simd = {};       ///< "" for the best
 };
 

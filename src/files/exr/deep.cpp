@@ -132,7 +132,7 @@ DeepLayers empty_layers(const ExrFile& file, const Rect& window, bool water) {
   for (Plane& plane : layers.color) plane = Plane(window);
   for (Plane& plane : layers.below_color) plane = Plane(window);
   if (water) {
-    for (Plane& plane : layers.before_water) plane = Plane(window);
+    for (Plane& plane : layers.foreground) plane = Plane(window);
   }
   layers.depth = Plane(window);
   layers.below_depth = Plane(window);
@@ -199,7 +199,7 @@ DeepLayers read_deep_layers(const ExrFile& file, int part, View<const float> sur
         layers.below_depth.view().at(x, y) = float_of(below.depth);
         const FlatPixel before = flattener.flatten(samples, -HUGE_VAL, surface.at(x, y));
         for (int c = 0; c < 4; ++c)
-          layers.before_water[c].view().at(x, y) = float_of(before.color[c]);
+          layers.foreground[c].view().at(x, y) = float_of(before.color[c]);
         ++wet;
         transparent[place(window, x, y)] = is_transparent(samples, below.depth);
       }

@@ -24,8 +24,8 @@
 namespace limpid {
 namespace {
 
-constexpr float kMostAlpha = 1 - 0x1p-24f;                ///< the float before 1
-constexpr double kMostOpticalDepth = 16.635532333438686;  ///< -ln(2^-24)
+constexpr float kMaxAlpha = 1 - 0x1p-24f;                ///< the float before 1
+constexpr double kMaxOpticalDepth = 16.635532333438686;  ///< -ln(2^-24)
 
 enum Channel { kZ, kBack, kA, kAr, kR = kAr + 3, kChannels = kR + 3 };
 constexpr const char* kNames[kChannels] = {"Z", "ZBack", "A", "AR", "AG", "AB", "R", "G", "B"};
@@ -76,11 +76,11 @@ std::optional<Sample> sample_at(const DeepWater& water, std::optional<double> re
     if (!std::isfinite(color)) {
       throw Error("in-scatter " + std::to_string(color) + at(x, y) + ": expected a number");
     }
-    sample[kAr + c] = std::min(1 - std::clamp(transmittance, 0.0f, 1.0f), kMostAlpha);
+    sample[kAr + c] = std::min(1 - std::clamp(transmittance, 0.0f, 1.0f), kMaxAlpha);
     sample[kR + c] = color;
     coverage += sample[kAr + c];
   }
-  sample[kA] = std::min(static_cast<float>(coverage / 3), kMostAlpha);
+  sample[kA] = std::min(static_cast<float>(coverage / 3), kMaxAlpha);
   return sample;
 }
 
@@ -190,7 +190,7 @@ void write_samples(Imf::DeepScanLineOutputFile& file, const DeepWater& water) {
 std::optional<double> deep_reach(const std::array<double, 3>& extinction) {
   std::optional<double> reach;
   for (double e : extinction) {
-    if (e > 0) reach = std::max(reach.value_or(0), kMostOpticalDepth / e);
+    if (e > 0) reach = std::max(reach.value_or(0), kMaxOpticalDepth / e);
   }
   return reach;
 }

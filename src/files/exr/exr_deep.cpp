@@ -12,8 +12,8 @@
 namespace limpid {
 namespace {
 
-constexpr std::int64_t kMostLines = 32;
-constexpr std::int64_t kMostSamples = std::int64_t{1} << 20;
+constexpr std::int64_t kMaxLines = 32;
+constexpr std::int64_t kMaxSamples = std::int64_t{1} << 20;
 
 /// The address of pixel (0, 0) when that of the window's first pixel is `memory`. It may lie
 /// outside the memory, so it is computed in integers.
@@ -99,9 +99,9 @@ void read_lines(Imf::MultiPartInputFile& file, const DeepRequest& request,
   for (Rect lines = data; lines.y0 < data.y1; lines.y0 = lines.y1) {
     std::int64_t samples = 0;
     lines.y1 = lines.y0;
-    while (lines.y1 < data.y1 && lines.y1 - lines.y0 < kMostLines) {
+    while (lines.y1 < data.y1 && lines.y1 - lines.y0 < kMaxLines) {
       const std::int64_t more = line_samples[static_cast<std::size_t>(lines.y1 - data.y0)];
-      if (lines.y1 > lines.y0 && samples + more > kMostSamples) break;
+      if (lines.y1 > lines.y0 && samples + more > kMaxSamples) break;
       samples += more;
       ++lines.y1;
     }

@@ -24,7 +24,7 @@
 namespace limpid {
 namespace {
 
-constexpr std::size_t kMostNamesInError = 40;
+constexpr std::size_t kMaxNamesInError = 40;
 
 /// OpenEXR's message without the file name it may begin with, as part of a sentence.
 std::string cause(const std::string& message, const std::string& path) {
@@ -105,7 +105,7 @@ void check_channel(const ExrPart& part, const std::string& where, const std::str
   if (channel == part.channels.end()) {
     std::vector<std::string> known, listed;
     for (const ExrChannel& c : part.channels) known.push_back(c.name);
-    listed.assign(known.begin(), known.begin() + std::min(known.size(), kMostNamesInError));
+    listed.assign(known.begin(), known.begin() + std::min(known.size(), kMaxNamesInError));
     if (listed.size() < known.size()) {
       listed.push_back("... (" + std::to_string(known.size()) + " in all)");
     }

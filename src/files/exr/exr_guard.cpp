@@ -12,9 +12,9 @@ namespace {
 /// Lines stored together, and the most that a chunk can shrink; both by compression. DEFLATE
 /// shrinks to 1/1032 at best, PXR24 to 3/4 of that; DWA may do so with 1/64 of the values.
 constexpr std::int64_t kChunkLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
-constexpr std::int64_t kMostShrink[] = {1, 64, 1040, 1040, 1040, 1400, 3, 11, 70000, 70000};
+constexpr std::int64_t kMaxShrink[] = {1, 64, 1040, 1040, 1040, 1400, 3, 11, 70000, 70000};
 /// Keeps the products below within 64 bits, whatever the limits.
-constexpr std::int64_t kMostTileSide = 1 << 18;
+constexpr std::int64_t kMaxTileSide = 1 << 18;
 /// Place in the table of chunks plus the shortest chunk.
 constexpr std::int64_t kLeastChunkBytes = 8 + 8;
 
@@ -91,7 +91,7 @@ std::int64_t chunks_of(const ExrHeader& header) {
 }
 
 std::int64_t most_unpacked(const ExrHeader& header, std::int64_t packed) {
-  return packed * kMostShrink[header.compression];
+  return packed * kMaxShrink[header.compression];
 }
 
 int threads_for(const std::vector<ExrHeader>& headers, const Limits& limits) {
@@ -128,7 +128,7 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
     check_window("display window", part.display, limits);
     if (part.tiled) {
       const std::int64_t longest = std::max(header.tile_width, header.tile_height);
-      const std::int64_t most = std::min<std::int64_t>(limits.max_side, kMostTileSide);
+      const std::int64_t most = std::min<std::int64_t>(limits.max_side, kMaxTileSide);
       if (std::min(header.tile_width, header.tile_height) < 1 || longest > most) {
         throw Error("tiles of " + size_text(header.tile_width, header.tile_height) +
                     " pixels: expected sides of 1 ... " + std::to_string(most));
@@ -138,7 +138,7 @@ void check_exr_headers(const std::vector<ExrHeader>& headers, const Limits& limi
 
     const std::int64_t chunks = std::max(chunks_of(header), header.chunk_count);
     const std::int64_t pixels = sample_bytes(part, part.data.width(), part.data.height());
-    const std::int64_t least = part.deep ? 0 : pixels / kMostShrink[header.compression];
+    const std::int64_t least = part.deep ? 0 : pixels / kMaxShrink[header.compression];
     needed += std::max(chunks * kLeastChunkBytes, chunks * 8 + least);
     if (needed > room) {
       throw Error("truncated or damaged (" + size_text(part.data.width(), part.data.height()) +

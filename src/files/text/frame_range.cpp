@@ -12,7 +12,7 @@
 namespace limpid {
 namespace {
 
-constexpr int kMostNumber = std::numeric_limits<int>::max();
+constexpr int kMaxNumber = std::numeric_limits<int>::max();
 constexpr int kDigitsOfOne = 4;
 
 [[noreturn]] void refuse(std::string_view range) {
@@ -25,10 +25,10 @@ constexpr int kDigitsOfOne = 4;
 int take_number(std::string_view& text, std::string_view range) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc::result_out_of_range || number < -kMostNumber) {
+  if (error == std::errc::result_out_of_range || number < -kMaxNumber) {
     throw Error("frames '" + std::string(range) + "': " + std::string(text.data(), end) +
-                    ": expected numbers -" + std::to_string(kMostNumber) + " ... " +
-                    std::to_string(kMostNumber),
+                    ": expected numbers -" + std::to_string(kMaxNumber) + " ... " +
+                    std::to_string(kMaxNumber),
                 Fault::kUsage);
   }
   if (error != std::errc()) refuse(range);
@@ -107,9 +107,9 @@ std::vector<int> frames_of(std::string_view range) {
     rest.remove_prefix(comma + 1);
   }
   if (count == 0) refuse(range);
-  if (count > kMostFrames) {
+  if (count > kMaxFrames) {
     throw Error("frames '" + std::string(range) + "' are " + std::to_string(count) +
-                    ": expected at most " + std::to_string(kMostFrames),
+                    ": expected at most " + std::to_string(kMaxFrames),
                 Fault::kUsage);
   }
   std::vector<int> frames;

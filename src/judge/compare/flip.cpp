@@ -73,7 +73,7 @@ struct Tone {
 };
 
 constexpr double kShownTone = 0.85;  // of the pixel that an exposure is made for
-constexpr double kMostStops = 24;
+constexpr double kMaxStops = 24;
 
 }  // namespace
 
@@ -100,7 +100,7 @@ Exposures exposures_of(const ColorViews& reference) {
   std::nth_element(values.begin(), middle, values.end());
   const double upper = *middle;
   const double lower = values.size() % 2 == 1 ? upper : *std::max_element(values.begin(), middle);
-  const double median = std::max(0.5 * (lower + upper), brightest * std::exp2(-kMostStops));
+  const double median = std::max(0.5 * (lower + upper), brightest * std::exp2(-kMaxStops));
   Exposures exposures;
   exposures.start = std::log2(Tone::inverse(kShownTone) / brightest);
   exposures.stop = std::log2(Tone::inverse(kShownTone) / median);

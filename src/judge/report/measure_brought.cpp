@@ -20,7 +20,7 @@ namespace limpid {
 namespace {
 
 /// For Subject::of_plate(): every pixel is taken.
-constexpr Size kWhole{kMostReportSide, kMostReportSide};
+constexpr Size kWhole{kMaxReportSide, kMaxReportSide};
 
 /// Times that a triangle of the water is parted into four. Of the scenes' own grids those of the
 /// wide waters are too wide for their waves, so that a picture by these waves would be judged by

@@ -89,13 +89,13 @@ void ReportOptions::validate() const {
   const auto expect = [](bool holds, const std::string& what) {
     if (!holds) throw Error("report." + what, Fault::kUsage);
   };
-  const auto within = [](int side) { return side >= kLeastReportSide && side <= kMostReportSide; };
+  const auto within = [](int side) { return side >= kLeastReportSide && side <= kMaxReportSide; };
   expect(within(size.width) && within(size.height),
          "size = " + std::to_string(size.width) + "x" + std::to_string(size.height) +
              ": expected " + std::to_string(kLeastReportSide) + " ... " +
-             std::to_string(kMostReportSide) + " pixels a side");
-  expect(rounds >= 1 && rounds <= kMostRounds,
-         "rounds = " + std::to_string(rounds) + ": expected 1 ... " + std::to_string(kMostRounds));
+             std::to_string(kMaxReportSide) + " pixels a side");
+  expect(rounds >= 1 && rounds <= kMaxRounds,
+         "rounds = " + std::to_string(rounds) + ": expected 1 ... " + std::to_string(kMaxRounds));
 }
 
 Report measure_report(const ReportOptions& options) {

@@ -9,7 +9,7 @@
 
 namespace limpid {
 
-inline constexpr int kLeastReportSide = 16, kMostReportSide = 8192, kMostRounds = 1000;
+inline constexpr int kLeastReportSide = 16, kMaxReportSide = 8192, kMaxRounds = 1000;
 
 /// What `limpid report` is to measure: the looks, scenes and plates of a data folder.
 struct ReportOptions {

@@ -17,7 +17,7 @@
 #include "judge/report/numbers.h"
 #include "judge/shot/shot_error.h"
 #include "judge/shot/shot_files.h"
-#include "judge/shot/shot_ways.h"
+#include "judge/shot/shot_variants.h"
 #include "show/encoded.h"
 #include "show/shown.h"
 
@@ -92,21 +92,21 @@ struct ShotMeasurement::Parts {
 
   Shot measure(const PictureSink& put_out);
 
-  void describe(const ShotWay& own);
+  void describe(const ShotVariant& own);
   void measure_aovs();
-  void show_plate(const ShotWay& own);
-  void measure_looks(std::vector<ShotWay>& looks);
-  void judge_fast(const std::vector<ShotWay>& looks, const std::vector<Color>& colors);
-  void measure_operators(const ShotWay& own);
-  RunTimes operator_times(const ShotWay& own);
+  void show_plate(const ShotVariant& own);
+  void measure_looks(std::vector<ShotVariant>& looks);
+  void judge_fast(const std::vector<ShotVariant>& looks, const std::vector<Color>& colors);
+  void measure_operators(const ShotVariant& own);
+  RunTimes operator_times(const ShotVariant& own);
 
   void put(ShotPicture picture, const Shown& shown);
-  DisplayTransform display() const { return DisplayTransform({}, ways.scene().primaries); }
+  DisplayTransform display() const { return DisplayTransform({}, variants.scene().primaries); }
   void put_light(const ShotPicture& picture, const ColorViews& color) {
     put(picture, shown_light(color, display(), executor));
   }
   void put_difference(ShotPicture picture, const ColorViews& color, const ColorViews& judge);
-  /// Target of a way with one AOV.
+  /// Target of a variant with one AOV.
   std::array<View<float>, 3> painted(Aov aov);
   std::optional<ShotError> beside_truth(const ColorViews& color) const {
     if (!options.truth) return {};
@@ -116,7 +116,7 @@ struct ShotMeasurement::Parts {
 
   ShotOptions options;
   Executor& executor;
-  ShotWays ways;
+  ShotVariants variants;
   ColorViews truth{};
   const PictureSink* sink = nullptr;
   Shot shot;
@@ -125,20 +125,20 @@ struct ShotMeasurement::Parts {
 };
 
 ShotMeasurement::Parts::Parts(ShotOptions chosen, Executor& on)
-    : options(std::move(chosen)), executor(on), ways(options.job, on) {
+    : options(std::move(chosen)), executor(on), variants(options.job, on) {
   if (options.job.output.runner != Runner::kFused) {
     throw Error("runner " + std::string(runner_name(options.job.output.runner)) +
                     ": expected fused, the only runner that times operators",
                 Fault::kUsage);
   }
-  if (options.rounds < 1 || options.rounds > kMostRounds) {
+  if (options.rounds < 1 || options.rounds > kMaxRounds) {
     throw Error("rounds = " + std::to_string(options.rounds) + ": expected 1 ... " +
-                    std::to_string(kMostRounds),
+                    std::to_string(kMaxRounds),
                 Fault::kUsage);
   }
-  ways.planned("", options.job.look);  // throws where nothing can be made of plate and look
+  variants.planned("", options.job.look);  // throws where nothing can be made of plate and look
   depth_of(options.job);
-  if (options.truth) truth = fitting(*options.truth, ways.window());
+  if (options.truth) truth = fitting(*options.truth, variants.window());
 }
 
 void ShotMeasurement::Parts::say(const std::string& what, double milliseconds,
@@ -166,14 +166,14 @@ void ShotMeasurement::Parts::put_difference(ShotPicture picture, const ColorView
 }
 
 std::array<View<float>, 3> ShotMeasurement::Parts::painted(Aov aov) {
-  std::vector<ShotWay> one{ways.planned("", options.job.look, {aov})};
-  ways.read(one);
-  return ways.run(one[0]).of(aov);
+  std::vector<ShotVariant> one{variants.planned("", options.job.look, {aov})};
+  variants.read(one);
+  return variants.run(one[0]).of(aov);
 }
 
 // --- what the shot is ---
 
-void ShotMeasurement::Parts::describe(const ShotWay& own) {
+void ShotMeasurement::Parts::describe(const ShotVariant& own) {
   shot.made = now_text();
   shot.machine = this_machine();
   shot.build = this_build();
@@ -181,21 +181,21 @@ void ShotMeasurement::Parts::describe(const ShotWay& own) {
   shot.scene = std::filesystem::path(own.job.scene.file).filename().string();
   shot.look = own.name;
   shot.truth = options.truth ? options.truth->name : "";
-  shot.size = ways.window().size();
-  shot.time = ways.scene().time;
+  shot.size = variants.window().size();
+  shot.time = variants.scene().time;
   shot.rounds = options.rounds;
   const int cores = std::max(1, shot.machine.cores);
   shot.threads = options.threads == 0 ? cores : std::min(options.threads, cores);
   shot.samples = own.job.output.wave_samples;
   shot.simd = own.job.output.simd.empty() ? simd_targets().front() : own.job.output.simd;
-  shot.warnings = warnings_of(own.job, ways.plate(), own.plan);
-  warn_of_pixels(own.plan, own.frame, ways.scene(), ways.transparent(), shot.warnings);
-  shot.beyond = beyond_of(own.plan, own.frame, ways.scene());
+  shot.warnings = warnings_of(own.job, variants.plate(), own.plan);
+  warn_of_pixels(own.plan, own.frame, variants.scene(), variants.transparent(), shot.warnings);
+  shot.beyond = beyond_of(own.plan, own.frame, variants.scene());
 }
 
 /// One AOV at a time, for all of a large picture take much memory. Finds which pixels are wet, too.
 void ShotMeasurement::Parts::measure_aovs() {
-  const Rect w = ways.window();
+  const Rect w = variants.window();
   const View<float> surface = painted(Aov::kSurfaceDepth)[0];
   for (int y = w.y0; y < w.y1; ++y) {
     for (int x = w.x0; x < w.x1; ++x) wet.push_back(std::isfinite(surface.at(x, y)) ? 1 : 0);
@@ -224,10 +224,10 @@ void ShotMeasurement::Parts::measure_aovs() {
   }
 }
 
-void ShotMeasurement::Parts::show_plate(const ShotWay& own) {
+void ShotMeasurement::Parts::show_plate(const ShotVariant& own) {
   ColorViews dry{};
   for (int c = 0; c < 3; ++c) {
-    dry[c] = cropped(own.frame.plane(plane_after(PlaneId::kColorR, c)), ways.window());
+    dry[c] = cropped(own.frame.plane(plane_after(PlaneId::kColorR, c)), variants.window());
   }
   put_light({kDryFile, "dry", "the dry plate", "pictures"}, dry);
   put_light({kWetFile, "wet", "with the look " + own.name, "pictures"}, whole->views());
@@ -242,37 +242,37 @@ void ShotMeasurement::Parts::show_plate(const ShotWay& own) {
 
 // --- speed and error ---
 
-void ShotMeasurement::Parts::measure_looks(std::vector<ShotWay>& looks) {
-  ways.time(looks, options.rounds);
+void ShotMeasurement::Parts::measure_looks(std::vector<ShotVariant>& looks) {
+  variants.time(looks, options.rounds);
   std::vector<Color> colors;
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    const ShotWay& way = looks[i];
-    colors.emplace_back(ways.run(way));
+    const ShotVariant& variant = looks[i];
+    colors.emplace_back(variants.run(variant));
     const ColorViews color = colors.back().views();
     std::string file = kWetFile;
     if (i > 0) {
       file = look_file(i);
-      put_light({file, way.name, "with the look " + way.name, "pictures"}, color);
-      put_difference({difference_file(file), way.name + " beside wet", "where they differ", ""},
+      put_light({file, variant.name, "with the look " + variant.name, "pictures"}, color);
+      put_difference({difference_file(file), variant.name + " beside wet", "where they differ", ""},
                      color, whole->views());
     }
-    ShotLook row{way.name,
+    ShotLook row{variant.name,
                  file,
-                 kMilliseconds * way.seconds,
+                 kMilliseconds * variant.seconds,
                  shot_error(color, whole->views(), wet),
                  beside_truth(color),
-                 differences(way.plan, looks[0].plan)};
+                 differences(variant.plan, looks[0].plan)};
     say("look " + row.name, row.milliseconds, row.error);
     shot.looks.push_back(std::move(row));
   }
   judge_fast(looks, colors);
 }
 
-void ShotMeasurement::Parts::judge_fast(const std::vector<ShotWay>& looks,
+void ShotMeasurement::Parts::judge_fast(const std::vector<ShotVariant>& looks,
                                         const std::vector<Color>& colors) {
   const auto place_of = [&](const char* name) {
     const auto at = std::find_if(looks.begin(), looks.end(),
-                                 [&](const ShotWay& way) { return way.name == name; });
+                                 [&](const ShotVariant& variant) { return variant.name == name; });
     return static_cast<std::size_t>(at - looks.begin());
   };
   const std::size_t fast = place_of("fast"), physical = place_of("physical");
@@ -282,28 +282,28 @@ void ShotMeasurement::Parts::judge_fast(const std::vector<ShotWay>& looks,
 }
 
 /// Of the run whose sum is the least.
-RunTimes ShotMeasurement::Parts::operator_times(const ShotWay& own) {
+RunTimes ShotMeasurement::Parts::operator_times(const ShotVariant& own) {
   const auto sum = [](const RunTimes& times) {
     return std::accumulate(times.operators.begin(), times.operators.end(), times.rest);
   };
   RunTimes best;
   for (int round = 0; round < options.rounds; ++round) {
     RunTimes times;
-    ways.run(own, &times);
+    variants.run(own, &times);
     if (round == 0 || sum(times) < sum(best)) best = times;
   }
   return best;
 }
 
-void ShotMeasurement::Parts::measure_operators(const ShotWay& own) {
+void ShotMeasurement::Parts::measure_operators(const ShotVariant& own) {
   const RunTimes times = operator_times(own);
   shot.rest_milliseconds = kMilliseconds * times.rest;
-  std::vector<ShotWay> chains{own};  // whole, and without an operator each
+  std::vector<ShotVariant> chains{own};  // whole, and without an operator each
   for (const std::string& name : kept_by(own.plan)) {
-    chains.push_back(ways.planned(name, options.job.look, {}, {name}));
+    chains.push_back(variants.planned(name, options.job.look, {}, {name}));
   }
-  ways.read(chains);
-  ways.time(chains, options.rounds);
+  variants.read(chains);
+  variants.time(chains, options.rounds);
   shot.chain_milliseconds = kMilliseconds * chains[0].seconds;
   auto left = chains.begin() + 1;
   for (int i = 0; i < Chain::kCount; ++i) {
@@ -313,7 +313,7 @@ void ShotMeasurement::Parts::measure_operators(const ShotWay& own) {
     row.planned = to_text(op);
     row.runs = own.plan.keeps(i);
     if (row.runs) {
-      const Color color(ways.run(*left));
+      const Color color(variants.run(*left));
       row.milliseconds = kMilliseconds * times.operators[static_cast<std::size_t>(i)];
       row.without_milliseconds = kMilliseconds * left->seconds;
       for (int j = 0; j < Chain::kCount; ++j) {
@@ -341,20 +341,21 @@ Shot ShotMeasurement::Parts::measure(const PictureSink& put_out) {
   sink = &put_out;
   shot = {};
   wet.clear();
-  std::vector<ShotWay> looks{ways.planned(options.job.look.name, options.job.look)};
+  std::vector<ShotVariant> looks{variants.planned(options.job.look.name, options.job.look)};
   for (const Look& look : options.others) {
-    if (!same_parameters(look, options.job.look)) looks.push_back(ways.planned(look.name, look));
+    if (!same_parameters(look, options.job.look))
+      looks.push_back(variants.planned(look.name, look));
   }
   // Most planes at once, for to read more is to read all again.
-  ways.read(looks);
+  variants.read(looks);
   measure_aovs();
-  ways.read(looks);
+  variants.read(looks);
   describe(looks[0]);
-  whole.emplace(ways.run(looks[0]));
+  whole.emplace(variants.run(looks[0]));
   show_plate(looks[0]);
   measure_looks(looks);
-  std::vector<ShotWay> own{ways.planned(options.job.look.name, options.job.look)};
-  ways.read(own);
+  std::vector<ShotVariant> own{variants.planned(options.job.look.name, options.job.look)};
+  variants.read(own);
   measure_operators(own[0]);
   return std::move(shot);
 }

@@ -18,7 +18,7 @@ inline Vec3<double> formula_of(const glm::dvec3& v) { return vec3_of<double>(v);
 inline glm::dvec3 glm_of(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
 
 /// Length of a way that meets nothing.
-inline constexpr double kEndlessWay = 3e38;
+inline constexpr double kInfinitePath = 3e38;
 
 /// The points origin + s direction, from <= s < to.
 struct Ray {

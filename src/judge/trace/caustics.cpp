@@ -47,7 +47,7 @@ Caustics::Caustics(const Scenery& scenery, const Eye& eye, Size size, int photon
 /// in.
 glm::dvec2 Caustics::entry_of(const glm::dvec3& point) const {
   const WaterView& c = scenery_.view;
-  const glm::dvec3 entry = point + scenery_.sun_way.depth_of(point) / rise_ * band_.light.to_sun;
+  const glm::dvec3 entry = point + scenery_.sun_path.depth_of(point) / rise_ * band_.light.to_sun;
   return {glm::dot(entry, c.map_x), glm::dot(entry, c.map_y)};
 }
 
@@ -75,9 +75,9 @@ void Caustics::choose_region(const Eye& eye, Size size) {
       const Beam beam = eye.beam_at((i + 0.5) / kViewsAcross * size.width,
                                     (j + 0.5) / kViewsAcross * size.height, 1);
       const auto hit = bottom_seen(beam.ray);
-      if (!hit || scenery_.sun_way.depth_of(hit->point) <= 0) continue;
+      if (!hit || scenery_.sun_path.depth_of(hit->point) <= 0) continue;
       seen.push_back(
-          {glm::length(hit->point), scenery_.sun_way.depth_of(hit->point), entry_of(hit->point)});
+          {glm::length(hit->point), scenery_.sun_path.depth_of(hit->point), entry_of(hit->point)});
     }
   }
   if (seen.empty()) return;

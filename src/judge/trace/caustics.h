@@ -9,7 +9,7 @@
 #include "judge/trace/eye.h"
 #include "judge/trace/medium.h"
 #include "judge/trace/solid.h"
-#include "judge/trace/sun_way.h"
+#include "judge/trace/sun_path.h"
 #include "judge/trace/surface.h"
 
 namespace limpid::trace {
@@ -29,7 +29,7 @@ class Caustics {
     const Solid& solid;
     const Surface& surface;
     const Medium& medium;
-    const SunWay& sun_way;
+    const SunPath& sun_path;
     glm::dvec3 to_sun;  ///< in the air
   };
 

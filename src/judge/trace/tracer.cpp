@@ -45,18 +45,18 @@ Tracer::Tracer(const Model& model, const Scene& scene, const Look& look,
       medium_(pass, look, options.light),
       solid_(model, pass.eye),
       surface_(model, scene, look, options.wave_map, pass),
-      sun_way_(pass, solid_, medium_, sun_.to_sun),
+      sun_path_(pass, solid_, medium_, sun_.to_sun),
       sky_(pass, environment_, even_sky(scene, look)),
       caustics_(caustics_of(options, eye, executor)),
-      walk_(solid_, surface_, medium_, sun_way_, sun_, sky_, caustics_ ? &*caustics_ : nullptr) {}
+      walk_(solid_, surface_, medium_, sun_path_, sun_, sky_, caustics_ ? &*caustics_ : nullptr) {}
 
 std::optional<Caustics> Tracer::caustics_of(const TruthOptions& options, const Eye& eye,
                                             Executor& executor) const {
   const bool wanted = light_ == TruthOptions::Light::kPaths && options.photons > 0;
   if (!wanted || !medium_.bends_sun) return std::nullopt;
   return std::make_optional<Caustics>(
-      Caustics::Scenery{pass_, solid_, surface_, medium_, sun_way_, sun_.to_sun}, eye, options.size,
-      options.photons, options.seed, executor);
+      Caustics::Scenery{pass_, solid_, surface_, medium_, sun_path_, sun_.to_sun}, eye,
+      options.size, options.photons, options.seed, executor);
 }
 
 Light Tracer::seen(const Beam& beam, bool in_water, int steps, Samples& samples,
@@ -155,7 +155,7 @@ Rgb<double> Tracer::end_light(const SolidPoint* dry, const Beam& beam, double le
       dry ? bottom_light(*dry, beam, band, view) : background(beam.ray.direction, view);
   const Rgb<double> arrives = transmittance(length, medium_.rate) * end;
   if (light_ == TruthOptions::Light::kPaths && dry) return arrives;
-  const double depth = sun_way_.depth_of(dry ? dry->hit.point : beam.ray.at(length));
+  const double depth = sun_path_.depth_of(dry ? dry->hit.point : beam.ray.at(length));
   const double leaves = view.from_air ? band.light.bottom : 1;
   return leaves * (transmittance(depth, band.light.down) * arrives);
 }
@@ -177,7 +177,7 @@ Tracer::Leg Tracer::through_water(const Beam& beam, const Band& band, View view)
     wet = surface_.nearest(ray, false);
   }
   if (!wet && dry && dry->opacity < 1) return through_layer(*dry, beam, band, view);
-  const double length = wet ? wet->distance : dry ? dry->hit.distance : kEndlessWay;
+  const double length = wet ? wet->distance : dry ? dry->hit.distance : kInfinitePath;
   Leg leg;
   leg.transmittance = transmittance(length, medium_.rate);
   leg.in_scatter = scattered(beam.ray, length, band, view);
@@ -230,7 +230,7 @@ Rgb<double> Tracer::scattered_once(const Ray& ray, double length, const Band& ba
 double Tracer::sunlit_column(const Ray& ray, double length, double rate, double down,
                              const Band& band, const View& view) const {
   const double sinks = -glm::dot(ray.direction, pass_.up);
-  const double begin = sun_way_.under_calm(ray.origin), end = begin + sinks * length;
+  const double begin = sun_path_.under_calm(ray.origin), end = begin + sinks * length;
   const double crossing = begin * end < 0 ? -begin / sinks : length;
   struct Part {
     double from, length, begin, end, light;
@@ -261,26 +261,26 @@ double Tracer::sunlit_column(const Ray& ray, double length, double rate, double 
 /// exp(-loss s). Places are drawn by that weight, one in each of `steps` parts of equal light.
 double Tracer::sunlit_share(const Ray& ray, double length, double loss, int steps, const Band& band,
                             const View& view) const {
-  const double size = std::abs(loss), whole = size * std::min(length, kEndlessWay);
+  const double size = std::abs(loss), whole = size * std::min(length, kInfinitePath);
   int reached = 0;
   for (int i = 0; i < steps; ++i) {
     const double part = (i + view.samples.next()) / steps;
     double s = part * length;
     if (whole > 1e-6) s = -std::log1p(part * std::expm1(-whole)) / size;
     if (loss < 0) s = length - s;
-    reached += sun_way_.reaches(ray.at(s), band);
+    reached += sun_path_.reaches(ray.at(s), band);
   }
   return static_cast<double>(reached) / steps;
 }
 
 Rgb<double> Tracer::bottom_lit_once(const SolidPoint& point, const Beam& beam,
                                     const Band& band) const {
-  if (!medium_.bends_sun || sun_way_.depth_of(point.hit.point) <= 0) return walk_.dry(point, beam);
+  if (!medium_.bends_sun || sun_path_.depth_of(point.hit.point) <= 0) return walk_.dry(point, beam);
   // Of a sun that is reflected whole there is nothing.
   const Sunlight sun{band.light.to_sun, band.light.spread,
                      band.light.spread > 0 ? sun_.color : kBlack};
   return solid_.color(point, beam, sun, [&] {
-    return sun_way_.reaches(point.off_towards(band.light.to_sun), band) ? 1.0 : 0.0;
+    return sun_path_.reaches(point.off_towards(band.light.to_sun), band) ? 1.0 : 0.0;
   });
 }
 

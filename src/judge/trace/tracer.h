@@ -2,7 +2,7 @@
 #include "judge/trace/medium.h"
 #include "judge/trace/samples.h"
 #include "judge/trace/solid.h"
-#include "judge/trace/sun_way.h"
+#include "judge/trace/sun_path.h"
 #include "judge/trace/surface.h"
 #include "judge/trace/truth.h"
 #include "judge/trace/walk.h"
@@ -88,7 +88,7 @@ class Tracer {
   Medium medium_;
   Solid solid_;
   Surface surface_;
-  SunWay sun_way_;
+  SunPath sun_path_;
   Sky sky_;
   std::optional<Caustics> caustics_;
   Walk walk_;

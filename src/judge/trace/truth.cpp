@@ -31,9 +31,9 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
   look.validate();
   check_rendered(scene, options.size);
   renderable(model, scene);
-  expect_in("samples", options.samples, 1, kMostTruthSamples);
-  expect_in("paths", options.paths, 1, kMostTruthPaths);
-  expect_in("photons", options.photons, 0, kMostTruthPhotons);
+  expect_in("samples", options.samples, 1, kMaxTruthSamples);
+  expect_in("paths", options.paths, 1, kMaxTruthPaths);
+  expect_in("photons", options.photons, 0, kMaxTruthPhotons);
   for (Aov aov : options.aovs) {
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
     if (!info.of_buffers) continue;

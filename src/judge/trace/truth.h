@@ -12,7 +12,7 @@
 
 namespace limpid {
 
-inline constexpr int kMostTruthSamples = 16, kMostTruthPaths = 65536, kMostTruthPhotons = 50000000;
+inline constexpr int kMaxTruthSamples = 16, kMaxTruthPaths = 65536, kMaxTruthPhotons = 50000000;
 
 /// The light that would really arrive, by tracing rays through a model: what the chain, which only
 /// looks things up in pictures, is judged by.
@@ -80,12 +80,12 @@ struct TruthOptions {
   };
 
   Size size{1920, 1080};
-  /// N x N samples a pixel, stratified and filtered by their mean, 1 ... kMostTruthSamples. One is
+  /// N x N samples a pixel, stratified and filtered by their mean, 1 ... kMaxTruthSamples. One is
   /// the pixel's centre, as in the chain.
   int samples = 1;
   Light light = Light::kPaths;
-  int paths = 16;  ///< random ones of each sample with kPaths, 1 ... kMostTruthPaths
-  /// Of the sun's light on the bottom, through the waves, which focus it: 0 ... kMostTruthPhotons,
+  int paths = 16;  ///< random ones of each sample with kPaths, 1 ... kMaxTruthPaths
+  /// Of the sun's light on the bottom, through the waves, which focus it: 0 ... kMaxTruthPhotons,
   /// 40 bytes each. With 0 it comes through the calm plane. Only for kPaths, and where depth_fog's
   /// `sunlight` is refracted.
   int photons = 0;

@@ -23,7 +23,7 @@ Rgb<double> Walk::scattered(const Ray& ray, double length, const Band& band,
   const Rgb<double>& rate = medium_.rate;
   Way way{.chances = Chances(band.mask, samples.next())};
   // Every way is scattered before it ends, and stands for those alone that are.
-  const auto share = [&](double of) { return -std::expm1(-of * std::min(length, kEndlessWay)); };
+  const auto share = [&](double of) { return -std::expm1(-of * std::min(length, kInfinitePath)); };
   const Rgb<double> shares{share(rate.r), share(rate.g), share(rate.b)};
   const double drawn = way.chances.drawn(shares);
   if (!(drawn > 0)) return kBlack;
@@ -109,11 +109,12 @@ Walk::Going Walk::through_air(Way& way, const Band& band, Samples& samples) cons
 Walk::Going Walk::scatter(Way& way, const glm::dvec3& at, const Band& band,
                           Samples& samples) const {
   way.from_dry = false;
-  if (band.sun_on_water != kBlack && sun_way_.reaches(at, band)) {
+  if (band.sun_on_water != kBlack && sun_path_.reaches(at, band)) {
     const double turned =
         henyey_greenstein(glm::dot(band.light.to_sun, way.ray.direction), medium_.anisotropy);
-    way.light = way.light + (way.scale * turned) * (way.chances.worth() * medium_.albedo *
-                                                    band.sun_on_water * sun_way_.left_at(at, band));
+    way.light =
+        way.light + (way.scale * turned) * (way.chances.worth() * medium_.albedo *
+                                            band.sun_on_water * sun_path_.left_at(at, band));
   }
   if (samples.next() >= way.chances.drawn(medium_.albedo) || lost_below(at)) return false;
   way.chances.go_on(medium_.albedo);
@@ -158,7 +159,7 @@ Walk::Going Walk::meet_surface(Way& way, const SurfacePoint& at, const Band& ban
 Rgb<double> Walk::own_light(const SolidPoint& point, const Beam& beam, const Band& band,
                             Samples& samples) const {
   Sunlight sun{band.light.to_sun, 1, band.sun_on_bottom};
-  if (sun.color != kBlack) sun.color = sun.color * sun_way_.left_at(point.hit.point, band);
+  if (sun.color != kBlack) sun.color = sun.color * sun_path_.left_at(point.hit.point, band);
   const Rgb<double> lit = solid_.color(point, beam, sun, [&] { return sunlit(point, band); });
   const Rgb<double> ambient = solid_.ambient_light(point);
   if (ambient == kBlack) return lit;
@@ -170,7 +171,7 @@ double Walk::sunlit(const SolidPoint& point, const Band& band) const {
   if (caustics_) {
     if (const std::optional<double> focused = caustics_->at(point)) return *focused;
   }
-  return sun_way_.reaches(point.off_towards(band.light.to_sun), band) ? 1 : 0;
+  return sun_path_.reaches(point.off_towards(band.light.to_sun), band) ? 1 : 0;
 }
 
 /// What of an even sky's light comes straight down to what lies level there, by one of its
@@ -179,7 +180,7 @@ Rgb<double> Walk::skylight_at(const glm::dvec3& point, const Band& band, Samples
   const double cosine = std::sqrt(samples.next());
   const double enters = medium_.crosses ? 1 - fresnel_exact(cosine, 1 / band.ior) : 1;
   if (enters == 0) return kBlack;
-  const double way = sun_way_.depth_of(point) / std::max(cosine, 1e-30);
+  const double way = sun_path_.depth_of(point) / std::max(cosine, 1e-30);
   return enters * band.square * transmittance(way, medium_.rate);
 }
 
@@ -187,7 +188,7 @@ Rgb<double> Walk::skylight_at(const glm::dvec3& point, const Band& band, Samples
 bool Walk::lost_below(const glm::dvec3& point) const {
   const Rgb<double>& rate = medium_.rate;
   const double least = std::min({rate.r, rate.g, rate.b}) * (1 - medium_.anisotropy);
-  return sun_way_.depth_of(point) * least > 2000;
+  return sun_path_.depth_of(point) * least > 2000;
 }
 
 }  // namespace limpid::trace

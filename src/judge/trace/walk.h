@@ -5,7 +5,7 @@
 #include "judge/trace/samples.h"
 #include "judge/trace/sky.h"
 #include "judge/trace/solid.h"
-#include "judge/trace/sun_way.h"
+#include "judge/trace/sun_path.h"
 #include "judge/trace/surface.h"
 
 namespace limpid::trace {
@@ -22,12 +22,12 @@ class Walk {
  public:
   /// All must outlive it. `sun`: of dry surfaces in the air. Without caustics sunlight comes
   /// through the calm plane.
-  Walk(const Solid& solid, const Surface& surface, const Medium& medium, const SunWay& sun_way,
+  Walk(const Solid& solid, const Surface& surface, const Medium& medium, const SunPath& sun_path,
        const Sunlight& sun, const Sky& sky, const Caustics* caustics)
       : solid_(solid),
         surface_(surface),
         medium_(medium),
-        sun_way_(sun_way),
+        sun_path_(sun_path),
         sun_(sun),
         sky_(sky),
         caustics_(caustics) {}
@@ -71,7 +71,7 @@ class Walk {
   const Solid& solid_;
   const Surface& surface_;
   const Medium& medium_;
-  const SunWay& sun_way_;
+  const SunPath& sun_path_;
   const Sunlight& sun_;
   const Sky& sky_;
   const Caustics* caustics_;

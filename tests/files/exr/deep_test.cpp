@@ -75,34 +75,34 @@ TEST(Deep, PointsAreCompositedFrontToBack) {
   EXPECT_EQ(p.below_depth, 6);
 }
 
-std::array<float, 4> before_water(std::vector<DeepValues> samples, float surface) {
+std::array<float, 4> foreground(std::vector<DeepValues> samples, float surface) {
   const DeepLayers layers = one_pixel(std::move(samples), surface, {"ZBack"});
   std::array<float, 4> rgba;
-  for (std::size_t c = 0; c < 4; ++c) rgba[c] = layers.before_water[c].view().at(0, 0);
+  for (std::size_t c = 0; c < 4; ++c) rgba[c] = layers.foreground[c].view().at(0, 0);
   return rgba;
 }
 
 // Two panes over each other before water at 5: .125 + .75 .25, and 1 - .75 .5 of the pixel.
 TEST(Deep, WhatStandsBeforeTheWaterIsALayer) {
   const auto rgba =
-      before_water({point(8, 0.5f, 1), point(3, 0.25f, 0.5f), point(2, 0.125f, 0.25f)}, 5);
+      foreground({point(8, 0.5f, 1), point(3, 0.25f, 0.5f), point(2, 0.125f, 0.25f)}, 5);
   EXPECT_FLOAT_EQ(rgba[0], 0.125f + 0.75f * 0.25f);
   EXPECT_FLOAT_EQ(rgba[1], 2 * rgba[0]);
   EXPECT_FLOAT_EQ(rgba[3], 1 - 0.75f * 0.5f);
   // A point on the surface is before it, one behind it is not.
-  EXPECT_FLOAT_EQ(before_water({point(5, 0.25f, 0.5f)}, 5)[3], 0.5f);
-  EXPECT_EQ(before_water({point(5.01f, 0.25f, 0.5f)}, 5)[3], 0);
-  EXPECT_EQ(before_water({point(2, 0.25f, 0.5f)}, kInf)[3], 0);  // no water
+  EXPECT_FLOAT_EQ(foreground({point(5, 0.25f, 0.5f)}, 5)[3], 0.5f);
+  EXPECT_EQ(foreground({point(5.01f, 0.25f, 0.5f)}, 5)[3], 0);
+  EXPECT_EQ(foreground({point(2, 0.25f, 0.5f)}, kInf)[3], 0);  // no water
 }
 
 // Of a volume from 3 to 7 that lets a quarter through, the half before the water at 5 lets through
 // a half; before and behind, over each other, are the whole.
 TEST(Deep, TheSurfaceSplitsAVolume) {
-  const auto rgba = before_water({volume(3, 7, 0.75f, 0.75f)}, 5);
+  const auto rgba = foreground({volume(3, 7, 0.75f, 0.75f)}, 5);
   EXPECT_FLOAT_EQ(rgba[3], 0.5f);
   const Pixel p = flattened({volume(3, 7, 0.75f, 0.75f)}, 5);
   EXPECT_FLOAT_EQ(rgba[0] + (1 - rgba[3]) * p.below_r, p.r);
-  EXPECT_FLOAT_EQ(before_water({volume(3, 7, 0.75f, 1)}, 5)[3], 1);
+  EXPECT_FLOAT_EQ(foreground({volume(3, 7, 0.75f, 1)}, 5)[3], 1);
 }
 
 /// The share of transparent pixels of 4 x 3, of which these hold a pane under water at 5.

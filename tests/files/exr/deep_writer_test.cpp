@@ -28,7 +28,7 @@ using ::testing::StartsWith;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kMostAlpha = 1 - 0x1p-24f;
+constexpr float kMaxAlpha = 1 - 0x1p-24f;
 const Rect kData{-3, 2, 8, 7};
 const Rect kDisplay{0, 0, 6, 6};
 constexpr double kExtinction[] = {0.4, 0.1, 0.05};
@@ -257,7 +257,7 @@ TEST(DeepWriter, AlphaStaysBelowOneSoThatItCanBeSplit) {
   write_deep_water(path, pool.water());
   const auto samples = samples_of(path);
   for (const char* alpha : {"A", "AR", "AG", "AB"}) {
-    EXPECT_EQ(samples.at({0, 2}).at(alpha), kMostAlpha);
+    EXPECT_EQ(samples.at({0, 2}).at(alpha), kMaxAlpha);
     EXPECT_LT(alpha_until(samples.at({0, 2}), alpha, 8.5), 0.9999);
   }
   EXPECT_EQ(samples.at({2, 2}).at("AG"), 0);
@@ -274,7 +274,7 @@ TEST(DeepWriter, EndlessWaterEndsWhereItsClearestLightIsGone) {
     write_deep_water(path, water);
     const Sample sample = samples_of(path).at({0, 2});
     EXPECT_NEAR(sample.at("ZBack"), 7 + std::log(std::pow(2, 24)) / 0.05, 1e-4);
-    EXPECT_EQ(sample.at("AB"), kMostAlpha);
+    EXPECT_EQ(sample.at("AB"), kMaxAlpha);
     EXPECT_NEAR(1 - alpha_until(sample, "AB", 17), std::exp(-0.05 * 10), 1e-5);
   }
   DeepWater water = pool.water();

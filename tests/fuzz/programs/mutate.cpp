@@ -1,5 +1,5 @@
 // Reads damaged copies of every file below a folder, each in a process of its own: none may
-// crash, take longer than kMostSeconds, or more memory than the limit and a tenth.
+// crash, take longer than kMaxSeconds, or more memory than the limit and a tenth.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace limpid::fuzz;
 
-constexpr int kMostSeconds = 2;
+constexpr int kMaxSeconds = 2;
 constexpr long long kLimit = 256LL << 20;
 
 struct File {
@@ -71,12 +71,12 @@ int run(const fs::path& folder, std::uint64_t count) {
   const std::vector<File> files = files_below(folder);
   MemoryFile memory;
   Tally tally;
-  const long long baseline = probe([] {}, kMostSeconds).memory;
+  const long long baseline = probe([] {}, kMaxSeconds).memory;
   for (std::size_t f = 0; f < files.size(); ++f) {
     const File& other = files[(f + 1) % files.size()];
     for (std::uint64_t number = 0; number < count; ++number) {
       memory.hold(damaged(files[f].bytes, other.bytes, number));
-      Outcome outcome = probe([&] { read_exr(memory.path(), limits); }, kMostSeconds, 4 * kLimit);
+      Outcome outcome = probe([&] { read_exr(memory.path(), limits); }, kMaxSeconds, 4 * kLimit);
       outcome.memory -= std::min(outcome.memory, baseline);
       tally.add(outcome, files[f].path.string() + " #" + std::to_string(number) + " (" +
                              std::string(name_of(damage_of(number))) + ")");
@@ -84,7 +84,7 @@ int run(const fs::path& folder, std::uint64_t count) {
   }
   std::printf("%zu files, %lld copies: %lld read, %lld refused, %lld broken\n", files.size(),
               tally.copies, tally.accepted, tally.refused, tally.broken);
-  std::printf("slowest  %.3f s of the processor, at most %d: %s\n", tally.slowest, kMostSeconds,
+  std::printf("slowest  %.3f s of the processor, at most %d: %s\n", tally.slowest, kMaxSeconds,
               tally.slowest_name.c_str());
   std::printf("largest  %.1f MiB, at most %.1f: %s\n",
               static_cast<double>(tally.largest) / (1 << 20), 1.1 * (kLimit >> 20),

@@ -343,7 +343,7 @@ TEST(Paths, AreTheSameForAnyThreadsAndOthersForEachSeed) {
   EXPECT_NE(one, sum(1));
   options.paths = 0;
   EXPECT_THROW(sum(1), Error);
-  options.paths = kMostTruthPaths + 1;
+  options.paths = kMaxTruthPaths + 1;
   EXPECT_THROW(sum(1), Error);
 }
 

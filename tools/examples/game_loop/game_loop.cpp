@@ -67,8 +67,8 @@ int main() {
   look.set("wave_normals", "waves", Rows{{0.03, 2.1, 0.6, 0}, {0.02, -1.3, 3.2, 1}});
   look.set("fresnel_reflection", "source", "constant");
   look.set("fresnel_reflection", "color", Rgb<double>{0.5, 0.7, 1});
-  Compositor water({.depth = DepthKind::kDevice, .clip = ClipSpace::kReversed, .sane = true}, look,
-                   {.executor = &pool});
+  Compositor water({.depth = DepthKind::kDevice, .clip = ClipSpace::kReversed, .trusted = true},
+                   look, {.executor = &pool});
 
   // Once: where things lie. Whatever stays as it is need not be said again.
   HostFrame frame{.display = rect_of(kSize), .planes = {}, .scene = {}};

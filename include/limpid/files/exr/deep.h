@@ -16,7 +16,7 @@ struct DeepLayers {
   std::array<Plane, 3> below_color;
   Plane below_depth;  ///< of the nearest such sample with any alpha; +inf: none
   /// R G B A in front of the surface; 0 where there is no water. None without a surface.
-  std::array<Plane, 4> before_water;
+  std::array<Plane, 4> foreground;
   /// Share of the pixels with water whose nearest sample behind it is a transparent point with
   /// others behind, as in all pixels around: glass, or a wide blur.
   double transparent = 0;

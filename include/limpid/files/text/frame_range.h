@@ -5,11 +5,11 @@
 
 namespace limpid {
 
-inline constexpr int kMostFrames = 1'000'000;
+inline constexpr int kMaxFrames = 1'000'000;
 
 /// The frames that a range names, as oiiotool reads it: "1-5", "1-100x33" (every 33rd), "10-1y3"
 /// (all but every 3rd), "1,3,7-9"; ranges may run down. Throws Error (Fault::kUsage) for anything
-/// else, for none at all and for more than kMostFrames.
+/// else, for none at all and for more than kMaxFrames.
 std::vector<int> frames_of(std::string_view range);
 
 /// The name with its frame number put in: %d or %04d, a lone # (four digits, as oiiotool reads it),

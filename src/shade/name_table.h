@@ -11,9 +11,9 @@ namespace limpid {
 /// Where the numbers of a frame lie, and what they are called: parameters of the look by their
 /// operator ("refraction.strength"), what camera and water say ("camera.eye_above"), and what was
 /// made for the frame ("continuation.offset"). Refers to what it was made of.
-class Homes {
+class NameTable {
  public:
-  Homes(const Plan& plan, const Pass& pass);
+  NameTable(const Plan& plan, const Pass& pass);
   /// Of the number that begins at this address; null for none.
   const std::string* name_of(const void* address) const;
 

@@ -10,10 +10,10 @@ namespace limpid::trace {
 
 /// The way of the sun's light down to points of the water and of the bottom, through the calm
 /// plane.
-class SunWay {
+class SunPath {
  public:
   /// `to_sun`: in the air, unit.
-  SunWay(const WaterView& view, const Solid& solid, const Medium& medium, const glm::dvec3& to_sun)
+  SunPath(const WaterView& view, const Solid& solid, const Medium& medium, const glm::dvec3& to_sun)
       : view_(view), solid_(solid), medium_(medium), to_sun_(to_sun) {}
 
   /// How far below the calm plane, and the same but never less than 0.

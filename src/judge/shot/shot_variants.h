@@ -12,8 +12,8 @@
 
 namespace limpid {
 
-/// One way to put water into a plate: a look, or one without an operator.
-struct ShotWay {
+/// One variant of a composited plate: a look, or a look without one operator.
+struct ShotVariant {
   std::string name;
   CompositeJob job;
   Plan plan;
@@ -22,11 +22,11 @@ struct ShotWay {
   double seconds = 0;          ///< the best round
 };
 
-/// A plate that water is put into in many ways, one at a time, in one canvas.
-class ShotWays {
+/// A plate that is composited in many variants, one at a time, on one canvas.
+class ShotVariants {
  public:
   /// Opens the plate. Throws Error. The executor must outlive it.
-  ShotWays(const CompositeJob& job, Executor& executor);
+  ShotVariants(const CompositeJob& job, Executor& executor);
 
   const CompositeJob& job() const { return held_.job(); }
   const Plate& plate() const { return held_.plate(); }
@@ -37,15 +37,15 @@ class ShotWays {
   Rect window() const { return held_.plate().display(); }
 
   /// Throws Error as plan_of().
-  ShotWay planned(std::string name, const Look& look, std::vector<Aov> aovs = {},
-                  const std::vector<std::string>& left_out = {}) const;
-  /// Reads what all of them need. Frames of ways before these may be stale then.
-  void read(std::vector<ShotWay>& ways);
+  ShotVariant planned(std::string name, const Look& look, std::vector<Aov> aovs = {},
+                      const std::vector<std::string>& left_out = {}) const;
+  /// Reads what all of them need. Frames of variants before these may be stale then.
+  void read(std::vector<ShotVariant>& variants);
 
   /// Valid until the next.
-  const Target& run(const ShotWay& way, RunTimes* times = nullptr);
+  const Target& run(const ShotVariant& variant, RunTimes* times = nullptr);
   /// Runs all in turn, round after round, after one that does not count.
-  void time(std::vector<ShotWay>& ways, int rounds);
+  void time(std::vector<ShotVariant>& variants, int rounds);
 
  private:
   Executor& executor_;

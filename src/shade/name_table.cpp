@@ -1,4 +1,4 @@
-#include "shade/homes.h"
+#include "shade/name_table.h"
 
 #include "op/bottom_layer.h"
 #include "op/caustics_table.h"
@@ -14,22 +14,22 @@ std::string at(const std::string& name, std::size_t place) {
 
 }  // namespace
 
-Homes::Homes(const Plan& plan, const Pass& pass) {
+NameTable::NameTable(const Plan& plan, const Pass& pass) {
   add_view(pass);
   add_made(pass);
   add_look(plan.look);
 }
 
-const std::string* Homes::name_of(const void* address) const {
+const std::string* NameTable::name_of(const void* address) const {
   const auto found = names_.find(address);
   return found == names_.end() ? nullptr : &found->second;
 }
 
-void Homes::add_three(const std::string& name, const glm::dvec3& vector) {
+void NameTable::add_three(const std::string& name, const glm::dvec3& vector) {
   add(at(name, 0), vector.x), add(at(name, 1), vector.y), add(at(name, 2), vector.z);
 }
 
-void Homes::add_rays(const std::string& name, const Rays& rays) {
+void NameTable::add_rays(const std::string& name, const Rays& rays) {
   add_three(name + ".origin", rays.origin);
   add_three(name + ".origin_dx", rays.origin_dx);
   add_three(name + ".origin_dy", rays.origin_dy);
@@ -38,12 +38,12 @@ void Homes::add_rays(const std::string& name, const Rays& rays) {
   add_three(name + ".ray_dy", rays.ray_dy);
 }
 
-void Homes::add_bounds(const std::string& name, const Bounds& bounds) {
+void NameTable::add_bounds(const std::string& name, const Bounds& bounds) {
   add(name + ".low[0]", bounds.low.x), add(name + ".low[1]", bounds.low.y);
   add(name + ".high[0]", bounds.high.x), add(name + ".high[1]", bounds.high.y);
 }
 
-void Homes::add_view(const Pass& pass) {
+void NameTable::add_view(const Pass& pass) {
   add_rays("camera", pass.rays);
   add_rays("camera.part", pass.part);
   add_three("camera.forward", pass.forward);
@@ -68,7 +68,7 @@ void Homes::add_view(const Pass& pass) {
   add_bounds("planes.reflection", pass.reflection), add_bounds("planes.surface", pass.surface);
 }
 
-void Homes::add_made(const Pass& pass) {
+void NameTable::add_made(const Pass& pass) {
   if (const Continuation* on = pass.continuation) {
     add_three("continuation.normal", on->normal);
     add("continuation.offset", on->offset), add("continuation.least_drop", on->least_drop);
@@ -81,7 +81,7 @@ void Homes::add_made(const Pass& pass) {
     add("bottom_layer.most_drop", layer->most_drop);
   }
   for (const CausticsTable* table = pass.caustics; table; table = table->in_water) {
-    for (std::size_t k = 0; k < CausticsTable::kMostLevels; ++k) {
+    for (std::size_t k = 0; k < CausticsTable::kMaxLevels; ++k) {
       const std::size_t place = static_cast<std::size_t>(table->first) + k;
       add(at("caustics.corner_x", place), table->levels[k].corner.x);
       add(at("caustics.corner_y", place), table->levels[k].corner.y);
@@ -98,7 +98,7 @@ void Homes::add_made(const Pass& pass) {
   }
 }
 
-void Homes::add_look(const Look& look) {
+void NameTable::add_look(const Look& look) {
   Chain::for_each([&]<class Op, int I>() {
     const auto& params = look.of<Op>();
     for (const auto& field : Op::fields()) {

@@ -8,23 +8,22 @@ namespace limpid {
 /// By how much the waves brighten, of 1, what the sun's light sends once scattered: of the near and
 /// of the far share of the way.
 template <class F>
-struct LightOfWay {
+struct PathLight {
   F near, far;
 };
 
 /// Places of the way that send as much each, and where they are, in its mean, where it fades
 /// exponentially: -log(1 - (i + 1/2) / 4).
-constexpr int kWayPlaces = 4;
-constexpr double kWayFading[kWayPlaces] = {0.1335, 0.4700, 0.9808, 2.0794};
+constexpr int kPathSamples = 4;
+constexpr double kPathFalloff[kPathSamples] = {0.1335, 0.4700, 0.9808, 2.0794};
 
 /// Of what a view from the air sees, as WaterShadow has it; 0 of others. `shade` is how dark full
 /// shadow is. Light that is looked up as wide as the view passes it: a place alone would stand for
 /// light that it does not have, up to seven times as uneven.
 template <class F, class Tap>
-LIMPID_INLINE LightOfWay<F> light_of_way(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                         F shade) {
+LIMPID_INLINE PathLight<F> path_light(const Pass& c, const Pixel<F>& p, const Tap& tap, F shade) {
   // From -log(1 - i / 4) to the next; the last is as long as 97 % of the light come from.
-  constexpr double kLong[kWayPlaces] = {0.2877, 0.4055, 0.6931, 2.1};
+  constexpr double kLong[kPathSamples] = {0.2877, 0.4055, 0.6931, 2.1};
   // A level whose texels are so wide passes as much of a wave as the mean over 1 does.
   constexpr double kWide = 0.6;
   const CausticsTable& table = *c.caustics->in_water;
@@ -49,21 +48,21 @@ LIMPID_INLINE LightOfWay<F> light_of_way(const Pass& c, const Pixel<F>& p, const
           sink = refracted_cosine(cosine, given<F>(1 / c.ior, "water.per_ior"));
   const F pixel = caustics_texel(c, p.surface_depth, cosine);
   const F across = sqrt(aside.x * aside.x + aside.y * aside.y);
-  const F whole = min(p.path, F(1e6)), mean = min(p.sun_way, whole);
+  const F whole = min(p.path, F(1e6)), mean = min(p.mean_scatter_distance, whole);
   const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
   const F deepest = max(min(sink * whole, given<F>(table.depth, "caustics.depth")), F(1e-6));
   const F scattered = given<F>(table.scattered[1], "caustics.scattered_above");
   F near(0), far(0), near_sum(0), far_sum(0);
-  each<F>(kWayPlaces, [&](auto i) {
+  each<F>(kPathSamples, [&](auto i) {
     F even(0), fading(0), stretch(0);
-    for (int k = 0; k < kWayPlaces; ++k) {
+    for (int k = 0; k < kPathSamples; ++k) {
       only<F>(i, k, [&] {
-        even = F((2 * k + 1) / double(kWayPlaces)), fading = F(kWayFading[k]),
+        even = F((2 * k + 1) / double(kPathSamples)), fading = F(kPathFalloff[k]),
         stretch = F(kLong[k]);
       });
     }
     const F way = min(mean * (fading + even_share * (even - fading)), whole);
-    const F length = min(mean * (stretch + even_share * (F(2.0 / kWayPlaces) - stretch)), whole);
+    const F length = min(mean * (stretch + even_share * (F(2.0 / kPathSamples) - stretch)), whole);
     const F there = way / max(whole, F(1e-30)), depth = sink * way;
     const F lit = of_surface ? lit_at(PlaneId::kSurfaceShadow, line.shift_at(way))
                              : begins + there * (ends - begins);
