@@ -54,8 +54,7 @@
 /// for numbers of the type F
 ///
 ///   - no branch of C++ depends on a number: if_any(), repeat() and steps() (core/number.h) say
-///   what
-///     to do where a mask holds, and how many times. any() may leave out work without effect;
+///     what to do where a mask holds, and how many times. any() may leave out work without effect;
 ///   - a body of these functions changes numbers and masks that live outside of it, nothing else,
 ///     and may run several times;
 ///   - a mask stays a mask: auto, never bool;
