@@ -10,20 +10,20 @@ namespace limpid {
 namespace {
 
 constexpr int kDirections = 8;
-/// How far away one looks, in depths of the bottom.
+/// Distances at which walls are searched, in depths of the bottom.
 constexpr std::array<double, Basin::kRings> kLooks{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 8, 11, 16};
-/// A wall lies nearer to where it is looked for than this, in depths: a thing that merely stands
-/// before that place in the picture does not.
+/// A wall lies nearer than this, in depths, to the place at which it is searched; a farther surface
+/// is an unrelated object in front of that place in the picture.
 constexpr double kNear = 1.5;
 constexpr int kHalvings = 3;
-constexpr double kTexels = 1e-3;  ///< of a depth, by which a plane may be off
+constexpr double kTexels = 1e-3;  ///< error of a plane, as a share of depth
 
-/// In depths: where the walls of a ring are.
+/// Distance of a ring's walls, in depths.
 double middle_of(std::size_t ring) {
   return 0.5 * ((ring > 0 ? kLooks[ring - 1] : 0) + kLooks[ring]);
 }
 
-/// Square of the sine of the way up that comes down so many depths away.
+/// Square of the sine of light's upward direction that comes down this many depths away.
 double square_at(double distance) {
   const double tangent = distance / 2;
   return tangent * tangent / (1 + tangent * tangent);
@@ -31,8 +31,8 @@ double square_at(double distance) {
 
 }  // namespace
 
-/// What the picture shows where a point is, a way from a place. `near`: how far off, over the plane
-/// of the water, what is dry may lie.
+/// The surface that the picture shows at a point, `by` from a place. `near`: how far from it, over
+/// the plane of the water, a dry surface may lie.
 Basin::Shown Basin::at(const Place& place, const glm::dvec3& by, double near) const {
   const double z = place.z + glm::dot(c_.forward, by), w = c_.w_origin + c_.w_depth * z;
   if (!(w > 0)) return Shown::kOutside;
@@ -78,7 +78,7 @@ Basin::Walls Basin::around(int x, int y) const {
         const double between = 0.5 * (before + shore);
         (shown_at(between) == Shown::kWater ? before : shore) = between;
       }
-      // On a beach the bottom goes on, up to the shore.
+      // On a beach the bottom continues up to the shore.
       const double foot = std::max(before - 0.5, 0.0);
       if (at(bottom, drop * (foot * along + 0.5 * c_.up), 0) == Shown::kWater) {
         walls[ring] += 1.0f / kDirections;
@@ -90,10 +90,10 @@ Basin::Walls Basin::around(int x, int y) const {
 }
 
 double Basin::thrown_on(const Walls& walls, double depth, double ior) {
-  const double whole = 1 / (ior * ior);  // above it, all is thrown back
+  const double whole = 1 / (ior * ior);  // beyond it, total reflection
   double beyond = 0, sum = 0;
   for (std::size_t ring = kRings; ring-- > 0;) {
-    // What comes down between the walls of this ring and of the next.
+    // Light that comes down between the walls of this ring and of the next.
     const double from = std::max(square_at(middle_of(ring)), whole);
     const double to = ring + 1 < kRings ? std::max(square_at(middle_of(ring + 1)), whole) : 1;
     const double cosine = std::sqrt(std::max(1 - 0.5 * (from + to), 1e-6));

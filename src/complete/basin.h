@@ -12,24 +12,23 @@
 
 namespace limpid {
 
-/// How wide the water is around places of its bottom, by what the depth plane shows: light that
-/// rises from the bottom and is thrown back by the surface comes down farther away, on the bottom
-/// or on a wall.
+/// Width of the water around places of its bottom, from the depth plane: light that rises from the
+/// bottom and that the surface reflects comes down farther away, on the bottom or on a wall.
 class Basin {
  public:
-  /// Distances from a place, between which walls are told apart.
+  /// Distances from a place at which walls are searched.
   static constexpr std::size_t kRings = 13;
-  /// Of the directions in which one may go from a place, the share that comes to a wall in each.
+  /// Share of the directions from a place that lead to a wall in each ring.
   using Walls = std::array<float, kRings>;
 
   Basin(const Frame& frame, const Pass& pass) : c_(pass), depth_(frame.plane(PlaneId::kDepth)) {}
 
-  /// Around what a pixel shows under the water. A wall is what rises out of the water steeper than
-  /// 45 degrees; what the picture does not show is water.
+  /// The walls around the point under water that a pixel shows. A wall rises out of the water
+  /// steeper than 45 degrees; outside the picture there is water.
   Walls around(int x, int y) const;
 
-  /// Of light that leaves a level bottom evenly, the share that comes down from the surface, not
-  /// scattered on its way, on these walls. `depth`: of the bottom, optical; `ior`: of the water.
+  /// Share of the light leaving a level bottom evenly that the surface reflects onto these walls,
+  /// without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
   static double thrown_on(const Walls& walls, double depth, double ior);
 
  private:

@@ -9,13 +9,13 @@
 
 namespace limpid {
 
-/// The layer below the water drawn on into the overscan of color and depth, where it has less of
-/// its own: there it is what the dry scene shows under the calm level, and empty where something
-/// stands higher.
+/// Extends the layer below the water into the overscan of color and depth, where its own is
+/// smaller: there it shows the dry scene under the calm level, and is empty where an object stands
+/// higher.
 class BelowOverscan {
  public:
-  /// Replaces the frame's views, if color and depth go farther than the layer in any direction.
-  /// What is kept is copied.
+  /// Replaces the frame's views, if color and depth extend farther than the layer in any direction.
+  /// Copies the texels that it keeps.
   void widen(Frame& frame, const Pass& pass, Executor& executor);
 
  private:

@@ -13,8 +13,8 @@
 namespace limpid {
 namespace {
 
-constexpr int kStep = 2;       ///< pixels: every second one is enough for sums
-constexpr float kDepths = 1;   ///< of water that sums reach to each side
+constexpr int kStep = 2;       ///< pixels: half of them in each direction are enough for sums
+constexpr float kDepths = 1;   ///< distance to which sums reach on each side, in depths of water
 constexpr int kMaxReach = 24;  ///< cells
 
 Rect window_of(const Frame& frame) {
@@ -27,7 +27,7 @@ Rect window_of(const Frame& frame) {
 
 }  // namespace
 
-/// A row of cells.
+/// Sums the cells of one row.
 void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& sky, int row) {
   const Rect window = window_of(frame);
   const View<const float>& depth = frame.plane(PlaneId::kDepth);
@@ -38,7 +38,7 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
                                  static_cast<float>(rise * c.sun.color.b)};
   const std::array<float, 3> even{static_cast<float>(sky.r), static_cast<float>(sky.g),
                                   static_cast<float>(sky.b)};
-  const double pixels = glm::length(c.to_u) * c.size.x;  // of a length at w = 1
+  const double pixels = glm::length(c.to_u) * c.size.x;  // pixels per unit of length at w = 1
   Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
   std::fill_n(cells, columns_, Cell{});
   const int begin = window.y0 + row * kCell;
@@ -63,7 +63,7 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
   }
 }
 
-/// A row of blocks, each by the texel in its middle.
+/// Searches walls for a row of blocks, each by the texel in its middle.
 void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const WaterOver& water,
                                   int row) {
   const Rect window = window_of(frame);
@@ -89,15 +89,15 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
   }
 }
 
-/// Of an endless floor, as bright in this water as one of an albedo in a basin. `even`: the sky's
-/// part of the light.
+/// The albedo of an endless floor that is as bright in this water as the basin's floor. `even`: the
+/// sky's part of the light.
 float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t channel, float even,
                                 const WaterOver& water) {
   const ScatteredLight& light = water.light[channel];
   const double rate = std::array{water.rate.r, water.rate.g, water.rate.b}[channel];
   const double depth = std::min(rate * sums.drop / sums.count, 1e6), x = layer_variable(depth);
   const double back = light.back_at_once + layer_power(light.back, x);
-  // Walls all around have the sun on half of them, and its light by the cosine with each.
+  // Walls all around: the sun lights half of them, by the cosine with each.
   const double cosine = std::clamp(water.beam, 0.02, 1.0);
   const double level = std::sqrt(1 - cosine * cosine) / cosine;
   const double sunlit = sums.light[channel] - even * sums.count;
@@ -106,8 +106,7 @@ float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t chan
   const double lost = (1 - of_floor) * sums.walls[channel] / sums.count;
   const double most = std::min<double>(albedo, ScatteredLight::kMaxAlbedo);
   if (!(light.back_at_once > 0 && lost > 0 && most > 0)) return albedo;
-  // Of the light that comes up, what has come to the bottom and up without a turn is in the dry
-  // picture already.
+  // The dry picture already has the light that reached the bottom and rose without scattering.
   const double beam = cosine * std::exp(-depth / cosine), left = std::exp(-depth);
   const double passing = left + layer_power(light.passing, std::array{1.0, 1.0}, x);
   const double lit = beam + layer_power(light.sun_below, x);
@@ -119,7 +118,7 @@ float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t chan
   return static_cast<float>(std::min(2 * more / std::max(linear + root, 1e-30), most));
 }
 
-/// In cells, the same for all of the picture: the mean of what its pixels ask for.
+/// In cells, equal for the whole picture: the mean over its pixels.
 int BottomAlbedo::reach() const {
   double sum = 0, count = 0;
   for (const Cell& cell : cells_) sum += cell.reach, count += cell.count;
@@ -127,7 +126,7 @@ int BottomAlbedo::reach() const {
   return std::clamp(static_cast<int>(kDepths * sum / count / kCell), 1, kMaxReach);
 }
 
-/// Sums of all cells within `reach`, across and down.
+/// Sums all cells within `reach`, across and down.
 void BottomAlbedo::spread(int reach, Executor& executor) {
   const auto add = [](Cell& to, const Cell& cell, float sign) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -137,7 +136,7 @@ void BottomAlbedo::spread(int reach, Executor& executor) {
     }
     to.drop += sign * cell.drop, to.count += sign * cell.count;
   };
-  /// Of a line of `count` cells, `step` apart.
+  /// A line of `count` cells, `step` apart.
   const auto line = [&](const Cell* from, Cell* to, int count, int step) {
     for (int i = 0; i < count; ++i) {
       Cell sum;
@@ -158,7 +157,7 @@ void BottomAlbedo::spread(int reach, Executor& executor) {
   }
 }
 
-/// Between the middles of the cells, linearly.
+/// Linear between the centres of the cells.
 void BottomAlbedo::draw_row(const Rect& window, int y) {
   const float at_y = (static_cast<float>(y - window.y0) + 0.5f) / kCell - 0.5f;
   const int low = static_cast<int>(std::floor(at_y));
@@ -175,7 +174,7 @@ void BottomAlbedo::draw_row(const Rect& window, int y) {
     };
     float left = middle(-1), right = middle(0);
     for (int column = 0; column <= columns_; ++column) {
-      // From the middle of the last cell to that of this one.
+      // From the centre of the last cell to the centre of this cell.
       const int first = column * kCell - kCell / 2;
       for (int k = 0; k < kCell; ++k) {
         const int x = first + k;

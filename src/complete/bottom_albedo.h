@@ -11,25 +11,25 @@
 
 namespace limpid {
 
-/// The water over a bottom: what of the bottom's light comes back to it.
+/// The water over a bottom, which returns part of the bottom's light to it.
 struct WaterOver {
   const ScatteredLights& light;
   Rgb<double> rate;  ///< a + b, 1/scene unit
   double beam;       ///< cosine of the sunlight with the vertical, in the water
 };
 
-/// The albedo of what lies under the calm water, smooth: what a dry picture shows of it over what a
-/// white level floor would show in the light that falls on it, sun (where `shadow` lets it) and
-/// sky, each summed over some two depths of water around. As ratios of sums they stay right in
-/// shadows and below 1 on walls; single pixels do not.
+/// The albedo of surfaces under the calm water, smoothed: their radiance in the dry picture over
+/// that of a white level floor in the same light, sun (where `shadow` lets it) and sky, each summed
+/// over about two depths of water around. Ratios of sums are right in shadows and stay below 1 on
+/// walls; ratios of single pixels do not.
 ///
 /// In a narrow basin it is less: that of an endless floor which the water makes as bright. What the
 /// surface throws back there comes from walls in part (Basin), which have less light than the
 /// floor: the sun's on half of them alone, by the cosine of its way down.
 class BottomAlbedo {
  public:
-  /// Looks at color, depth and, where it is there, shadow. `sky`: radiance of an even sky. 0 where
-  /// there is no bottom near, or no light; at most 1 else.
+  /// Reads color, depth and, if present, shadow. `sky`: radiance of an even sky. 0 where there is
+  /// no bottom near, or no light; else at most 1.
   void make(const Frame& frame, const Pass& pass, const Rgb<double>& sky, const WaterOver& water,
             Executor& executor);
 
@@ -37,9 +37,9 @@ class BottomAlbedo {
 
  private:
   static constexpr int kCell = 8;   ///< pixels a side
-  static constexpr int kBlock = 4;  ///< cells a side of which one looks for walls
+  static constexpr int kBlock = 4;  ///< cells a side that share a search of walls
 
-  /// Sums over a cell: of its texels, how many there are, and what tells how far to look around.
+  /// Sums over a cell: its texels, their number, and the distance to sum around it.
   struct Cell {
     std::array<float, 3> color{}, light{}, walls{};
     float drop = 0, count = 0, reach = 0;

@@ -16,21 +16,21 @@ namespace {
 
 constexpr int kCellsAcross = 240;  ///< of the longer side of a picture, but at least kLeastCell
 constexpr int kLeastCell = 4;      ///< pixels
-constexpr int kLooks = 2;          ///< across a cell, and down
-/// The widest window that closes is this share of the cells across to each side.
+constexpr int kLooks = 2;          ///< lookups across a cell, and down
+/// The widest window of the closing reaches this share of the cells to each side.
 constexpr int kReachShare = 8;
 constexpr float kOfBottom = BottomLayer::kOfBottom;
-/// What a cell counts of which not all is bottom: edges are mixed colors.
+/// Weight of a cell that is not all bottom: its edges have mixed colors.
 constexpr float kMixed = 1e-3f;
 
-/// From a cell to the next, a smooth bottom changes 1 / depth by at most so many times as much as
-/// to the cell before, and by this share.
+/// From cell to cell, a smooth bottom changes 1 / depth by at most this factor times the change
+/// before, and by this share.
 constexpr float kStep = 3, kSmooth = 0.002f;
 
-/// Things are as thick behind what is seen of them as this share of their width: a ray that goes
-/// behind one passes its outline, where what is round is thinnest.
+/// Thickness of an object behind its visible side, as a share of its width: a ray that goes behind
+/// it passes the outline, where a round object is thinnest.
 constexpr float kThickness = 0.25f;
-/// The least share of a window that a thing is taken to cover.
+/// The least share of a window that an object is assumed to cover.
 constexpr float kThinnest = 0.05f;
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
@@ -45,7 +45,7 @@ void best_of_three(const float* in, float* out, int count, int step, Better bett
   for (int x = end; x < count; ++x) out[x] = better(in[x], better(ended(x - step), in[count - 1]));
 }
 
-/// Windows that reached `reach` to each side then reach `step` farther: at most 2 reach + 1.
+/// Widens windows from `reach` to each side by `step`: at most 2 reach + 1.
 template <class Better>
 void widen(std::vector<float>& field, std::vector<float>& room, Size size, int step,
            Better better) {
@@ -110,7 +110,7 @@ struct BottomLayerMaker::Scan {
   }
 };
 
-/// Calls fn of a cell and those around it.
+/// Calls fn for a cell and its neighbours.
 template <class Fn>
 void BottomLayerMaker::each_near(Size size, int column, int row, Fn&& fn) const {
   for (int y = std::max(row - 1, 0); y <= std::min(row + 1, size.height - 1); ++y) {
@@ -120,10 +120,10 @@ void BottomLayerMaker::each_near(Size size, int column, int row, Fn&& fn) const 
   }
 }
 
-/// What is highest in each cell.
+/// Finds the highest texel of each cell.
 void BottomLayerMaker::survey(const Scan& scan, Executor& executor) {
   const Pass& c = scan.c;
-  const double pixels = glm::length(c.to_u) * c.size.x;  // of a length at w = 1
+  const double pixels = glm::length(c.to_u) * c.size.x;  // pixels per unit of length at w = 1
   cells_.resize(scan.index(0, scan.cells.height));
   each_row(executor, {0, 0, scan.cells.width, scan.cells.height}, [&](int row) {
     Cell* cells = cells_.data() + scan.index(0, row);
@@ -138,11 +138,11 @@ void BottomLayerMaker::survey(const Scan& scan, Executor& executor) {
   });
 }
 
-/// Whether anything stands before the bottom. Afterwards each cell has the window that fills what
-/// stands there, and the depth to which what is of the bottom reaches.
+/// Whether any object stands in front of the bottom. Sets for each cell the window that fills the
+/// object there, and the depth down to which surfaces belong to the bottom.
 bool BottomLayerMaker::find_standing(Size cells) {
   const int most = std::max(1, std::max(cells.width, cells.height) / kReachShare);
-  // Round the picture as wide as windows are: a bottom that rises there is to stay as it is.
+  // Padded by the width of the windows, so that a bottom that rises at the edge stays unchanged.
   const Size wide{cells.width + 2 * most, cells.height + 2 * most};
   const auto at = [&](int x, int y) {
     return static_cast<std::size_t>(y + most) * wide.width + (x + most);
@@ -184,8 +184,8 @@ bool BottomLayerMaker::find_standing(Size cells) {
   return stands;
 }
 
-/// Whether a cell of land goes on as the bottom beside it does, so that the bottom ends there, and
-/// not behind it.
+/// Whether the bottom beside a cell of land continues into that cell: then the bottom ends there,
+/// and does not continue behind it.
 bool BottomLayerMaker::is_shore(Size cells, int column, int row) const {
   const auto at = [&](int x, int y) -> const Cell* {
     const bool inside = x >= 0 && x < cells.width && y >= 0 && y < cells.height;
@@ -202,7 +202,7 @@ bool BottomLayerMaker::is_shore(Size cells, int column, int row) const {
   return false;
 }
 
-/// Means of what is of the bottom, which are drawn on. False where nothing is.
+/// Means of the texels of the bottom, extended over the rest. False if there are none.
 bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
   const Size size = scan.cells;
   auto& level = bottom_.finest(size);
@@ -265,7 +265,7 @@ const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
     for (int x = 0; x < window.x1; ++x) {
       const PullPush<4>::Texel& texel = bottom_.finest().at(x, y);
       for (std::size_t i = 0; i < 4; ++i) planes_[i].view().at(x, y) = texel[i];
-      // Lookups are between cells: what is beside a thing is as thin.
+      // Lookups interpolate between cells: the neighbours of an object get its thinness.
       float& thinness = planes_[4].view().at(x, y);
       thinness = 0;
       each_near(window.size(), x, y,

@@ -12,7 +12,7 @@
 
 namespace limpid {
 
-/// Makes the layer of the bottom that refraction looks up where a ray goes behind something.
+/// Makes the layer of the bottom that refraction looks up where a ray goes behind an object.
 ///
 /// In cells of a few pixels, about as many for each size of picture. What stands up from the bottom
 /// is what a grey closing of the depth below the water fills (Serra 1982, "Image Analysis and
@@ -21,9 +21,9 @@ namespace limpid {
 /// drawn on over these cells and those of what stands above the water, by a pyramid of means.
 class BottomLayerMaker {
  public:
-  /// Null where nothing stands before a bottom, no bottom is seen, the eye is in the water, or the
-  /// frame brings a layer of what lies below.
-  /// Valid until the next call. The same for any number of threads.
+  /// Null where no object stands in front of the bottom, no bottom is visible, the eye is in the
+  /// water, or the frame has a layer below the water. Valid until the next call. The same for any
+  /// number of threads.
   const BottomLayer* make(const Frame& frame, const Pass& pass, Executor& executor);
 
  private:

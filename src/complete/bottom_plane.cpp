@@ -23,11 +23,11 @@
 namespace limpid {
 namespace {
 
-constexpr int kSamples = 1024;       ///< of the bottom, at most about so many
+constexpr int kSamples = 1024;       ///< of the bottom, about this number at most
 constexpr int kShareSamples = 4096;  ///< of the wet pixels, likewise
-constexpr std::size_t kEnough = 16;  ///< of them
+constexpr std::size_t kEnough = 16;  ///< samples
 constexpr int kTries = 32;
-constexpr double kSteepest = 1.5;  ///< slope of a bottom; a wall is none
+constexpr double kSteepest = 1.5;  ///< slope of a bottom; a steeper surface is a wall
 
 using Sample = BottomSample;
 
@@ -36,7 +36,7 @@ int step_for(const Rect& window, int samples) {
   return std::max(1, static_cast<int>(std::sqrt(area / samples)));
 }
 
-/// Points of the picture's rays, relative to the eye.
+/// Points on the picture's rays, relative to the eye.
 glm::dvec3 point_at(const Pass& c, double x, double y, double depth) {
   const double column = x + 0.5 - c.corner.x, row = y + 0.5 - c.corner.y;
   return c.rays.origin_at(column, row) + depth * c.rays.ray_at(column, row);
@@ -92,7 +92,7 @@ double votes(const std::vector<Sample>& samples, const Plane3& plane, double sla
   return sum;
 }
 
-/// By least squares, of what lies near a plane.
+/// By least squares, over the samples near a plane.
 Plane3 refined(const std::vector<Sample>& samples, const Plane3& plane, double slack) {
   glm::dmat3 products(0.0);
   glm::dvec3 sums(0.0);
@@ -106,7 +106,7 @@ Plane3 refined(const std::vector<Sample>& samples, const Plane3& plane, double s
   return is_bottom(better) ? better : plane;
 }
 
-/// Which that share of the samples does not reach.
+/// The depth that this share of the samples does not reach.
 double drop_of(std::vector<Sample>& samples, double share) {
   const auto at =
       samples.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size()));
@@ -135,7 +135,7 @@ Plane3 best_plane(const std::vector<Sample>& samples, double drop, double eye_ab
   return best;
 }
 
-/// Of the water: the calm one where the frame has none.
+/// Normal of the water: the calm normal where the frame has none.
 Vec3<double> normal_at(const Frame& frame, const Pass& c, int x, int y) {
   if (!c.planes.covers(kSurfaceNormalPlanes)) return vec3_of<double>(c.up);
   const auto part = [&](int i) -> double {
@@ -144,7 +144,8 @@ Vec3<double> normal_at(const Frame& frame, const Pass& c, int x, int y) {
   return {part(0), part(1), part(2)};
 }
 
-/// Whether, and where, the water of a pixel makes one look at the bottom: in pixels.
+/// Whether refraction by the water of a pixel moves the lookup of the bottom, and by how many
+/// pixels.
 std::optional<glm::dvec2> looks_at(const BottomPlane& bottom, const Frame& frame, const Pass& c,
                                    int x, int y) {
   const RowRays<double> rays(c, y - c.corner.y + 0.5);
@@ -164,7 +165,7 @@ std::optional<glm::dvec2> looks_at(const BottomPlane& bottom, const Frame& frame
   return glm::dvec2(x + shift.x * c.size.x, y + shift.y * c.size.y);
 }
 
-/// Up to this, in pixels, a lookup between the centres of texels needs none beyond them.
+/// A lookup this near to the centre of a texel, in pixels, needs no texel beyond.
 constexpr double kRounding = 1e-3;
 
 }  // namespace

@@ -17,7 +17,7 @@
 
 namespace limpid {
 
-// One for each instruction set that the build names, made by caustics_target.cpp.
+// One for each instruction set that the build names, defined in caustics_target.cpp.
 #define LIMPID_TARGET(name, highway) extern const CausticsTarget kCaustics_##name;
 #include "core/targets.inc"
 #undef LIMPID_TARGET
@@ -103,7 +103,7 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
   return &table_;
 }
 
-/// Over bottoms that are lit, every few pixels.
+/// Over lit bottoms, every few pixels.
 void CausticsMaker::weigh_sun(const Frame& frame, const Pass& c, Executor& executor) {
   table_.sun_over_rest = {};
   if (!c.planes.covers(kSunColorPlanes | PlaneSet{PlaneId::kShadow})) return;
@@ -135,9 +135,9 @@ void CausticsMaker::weigh_sun(const Frame& frame, const Pass& c, Executor& execu
   }
 }
 
-/// At each few pixels: what the dry scene shows below the calm surface, and what a pixel of the
-/// water sees of a level bottom that deep. Where the eye is in the water, also what the surface
-/// mirrors: the bottom then lies as deep as its image stands high.
+/// Every few pixels: the dry scene's depth below the calm surface, and the footprint on a level
+/// bottom at that depth of a pixel of the water. If the eye is in the water, also the bottom that
+/// the surface mirrors: it lies as deep as its image stands high.
 void CausticsMaker::look(const Frame& frame, const Pass& c, const Sunlight& sun,
                          Executor& executor) {
   const View<const float>& dry = frame.plane(SeenPlanes::of(c).depth);
@@ -203,8 +203,8 @@ CausticsSample CausticsMaker::look_at(const Pass& c, const Sunlight& sun, int x,
   return to;
 }
 
-/// Texels are powers of two wide and lie on a grid that stays with the world: what moves is the
-/// light. Where that makes too many texels, all pixels take wider ones.
+/// Texels have a power of two as width and lie on a grid fixed to the world: only the light moves.
+/// If that makes too many texels, all pixels take wider texels.
 void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun) {
   wanted_.clear();
   double deepest = 0, sum = 0;
@@ -222,7 +222,7 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
       wanted_.begin() + static_cast<std::ptrdiff_t>(kFine * static_cast<double>(wanted_.size()));
   std::nth_element(wanted_.begin(), fine, wanted_.end());
   const double disc = 2 * mean * std::max(sun.along, sun.across);
-  // Views go across the light of the water, and see the mean of much of it.
+  // Views cross the light of the water, and see the mean of much of it.
   const double widest = std::max(waves.shortest(), (within_water() ? 0.5 : 0.1) * waves.longest());
   for (double scale = 1; scale < 1e6; scale *= std::numbers::sqrt2) {
     const double finest = std::max({scale * *fine, disc, 1e-9});
@@ -231,7 +231,7 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
       continue;
     }
     table_.scale = scale;
-    // Levels that no pixel asks for are left out.
+    // Levels that no pixel needs are left out.
     for (CausticsLevel& level : levels_) {
       if (level.empty()) continue;
       std::swap(level, levels_[static_cast<std::size_t>(table_.count)]);
@@ -241,7 +241,7 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
   }
 }
 
-/// False where it would take more points than kPoints.
+/// False if it would take more points than kPoints.
 bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun,
                             double scale, int exponent, double widest, double deepest) {
   const glm::dvec2 eye(glm::dot(pass.eye, pass.map_x), glm::dot(pass.eye, pass.map_y));
@@ -266,7 +266,7 @@ bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
     if (levels_.size() <= static_cast<std::size_t>(i))
       levels_.resize(static_cast<std::size_t>(i) + 1);
     layout.depth = depth / count;
-    // Waves move what is seen, too.
+    // Waves move the visible bottom, too.
     seen.widen(6 * texel + 2 * deviation_of(waves, layout.depth, 0.25));
     const auto snapped = [&](double at, double of_eye) {
       return std::floor((at + of_eye) / texel) * texel - of_eye;

@@ -14,8 +14,8 @@
 
 namespace limpid {
 
-/// Follows sunlight down from the waves and adds it up where it meets the bottom (Arvo 1986,
-/// "Backward Ray Tracing", with a regular grid of rays as they leave the surface).
+/// Traces sunlight down from the waves and accumulates it on the bottom (Arvo 1986, "Backward Ray
+/// Tracing", with a regular grid of rays at the surface).
 ///
 /// The bottom's depth is that of the frame's planes, over the place where calm water lets light in,
 /// drawn on where nobody sees it; where two bottoms lie below one place, their mean. Light goes to
@@ -24,11 +24,11 @@ namespace limpid {
 /// to 35 ms for 1920x1080 pixels on one thread, that of the bottom as that in the water.
 class CausticsMaker {
  public:
-  /// A table without levels where the sun is down, or the waves focus less than kLeastContrast of
-  /// its light. Until the next call. `simd` as in FusedOptions; without it one ray at a
-  /// time. `scattering` is that of the water, 1/scene unit: light that is scattered on its way down
-  /// is taken for spread over all of the bottom. Where the bottom is deeper than `deepest` the
-  /// table is of that depth, and of what views from the air see down to twice as deep.
+  /// Valid until the next call. A table without levels if the sun is down, or the waves focus less
+  /// than kLeastContrast of its light. `simd` as in FusedOptions; without it one ray at a time.
+  /// `scattering` is that of the water, 1/scene unit: scattered light counts as spread over all of
+  /// the bottom. A bottom deeper than `deepest` counts as that deep, and views from the air count
+  /// down to twice that depth.
   const CausticsTable* make(const WaveNormals::Params& waves, const Rgb<double>& scattering,
                             const Frame& frame, const Pass& pass, Executor& executor,
                             const std::string* simd = nullptr, double deepest = HUGE_VAL);

@@ -9,11 +9,11 @@
 namespace limpid {
 namespace {
 
-/// Variance of a ray that is a texel wide, of a texel and of a lookup between texels: light that is
-/// not focused is wider, and blurred less.
+/// Variance of a beam one texel wide, plus a texel, plus a lookup between texels: light that is not
+/// focused is wider, and blurred less.
 constexpr float kBlur = 1.0f / 3;
-constexpr float kOfEdge = 1.2f;  ///< what is deeper than so many times the edge is not of it
-/// Times what a wall that the sun shines on falls over a cell: what falls more is an edge.
+constexpr float kOfEdge = 1.2f;  ///< a texel deeper than this factor times the edge lies beyond it
+/// An edge falls more over a cell than this factor times a wall that the sun lights.
 constexpr double kSteep = 1.5;
 
 }  // namespace
@@ -46,7 +46,7 @@ void CausticsLevel::lay_out(const Layout& layout) {
   }
 }
 
-/// Of the table's rows from `begin` to before `end`.
+/// Columns that the rows from `begin` to before `end` see.
 CausticsLevel::Span CausticsLevel::seen_in(int begin, int end) const {
   Span sum{std::numeric_limits<int>::max(), 0};
   const int last = std::min(end - 1, layout_.size.height - 1) / kTall;
@@ -111,7 +111,7 @@ void CausticsLevel::find_bottom(std::span<const CausticsSample> samples, Executo
                  [](const auto& cell) { return cell[0]; });
 }
 
-/// Makes room for light in rows that none came to before.
+/// Makes room for light in rows that have none yet.
 void CausticsLevel::reach(Band& band, RowsHit rows) const {
   const auto clear = [&](int begin, int end) {
     if (begin >= end) return;
@@ -129,7 +129,7 @@ void CausticsLevel::reach(Band& band, RowsHit rows) const {
   band.first = std::min(band.first, first), band.last = std::max(band.last, last);
 }
 
-/// A grid of rays; a band has some of its rows.
+/// Sends a grid of rays; a band has some of its rows.
 void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const CausticsTarget& target,
                          int band) {
   Band& kept = bands_[static_cast<std::size_t>(band)];
@@ -175,7 +175,7 @@ void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const Caust
       .cell_x = static_cast<float>(layout_.margin + coarse_) / static_cast<float>(coarse_) - 0.5f,
       .edge = static_cast<float>(kSteep * coarse_ * layout_.texel /
                                  std::max(glm::length(sun.aside), 1e-9))};
-  /// Rays of a row and one more at each end, if the next row asks for it, too.
+  /// Traces the rays of a row and one more at each end, if the next row needs it, too.
   const auto follow = [&](int row) {
     Span span = rays_[std::clamp(row, 0, down - 1)];
     for (const int beside : {row - 1, row + 1}) {
@@ -214,8 +214,8 @@ void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const Caust
   }
 }
 
-/// The sum of the bands; [v/2, 1 - v, v/2] along each axis, where v is the variance of the sun's
-/// disc on the bottom, in texels, less that of splat and lookup.
+/// The sum of the bands, filtered by [v/2, 1 - v, v/2] along each axis, where v is the variance of
+/// the sun's disc on the bottom, in texels, less that of splat and lookup.
 void CausticsLevel::finish(const Sunlight& sun, const CausticsTarget& target, int band) {
   const Size size = layout_.size;
   Band& own = bands_[static_cast<std::size_t>(band)];
@@ -233,7 +233,7 @@ void CausticsLevel::finish(const Sunlight& sun, const CausticsTarget& target, in
   const auto row_at = [&](int i) { return own.rows.data() + i * whole + kRoom; };
   const auto half_at = [&](int y) { return row_at((std::clamp(y, 0, size.height - 1) + 3) % 3); };
   float* sum = row_at(3);
-  // Depths of the two rows of cells that were asked for last.
+  // Depths of the last two rows of cells used.
   std::array<int, 2> cell_rows{-1, -1};
   const auto depths_at = [&](int y, const Span& span) {
     const int row = (y + margin) / coarse_;

@@ -25,16 +25,16 @@ struct CausticsSample {
   float enters_x, enters_y;  ///< where it begins to see them: there, or where it enters the water
 };
 
-/// Light in the water: how far it goes aside for each unit that it sinks, in calm water.
+/// Light in calm water, with its sideways travel per unit of depth.
 struct Sunlight {
   glm::dvec3 to_sun;  ///< along map_x, map_y and up
   glm::dvec2 aside;
   double ior, passes, focus;
-  double along, across;  ///< the sun's disc on the bottom, as a deviation, for each unit of depth
-  bool low;              ///< so that how much passes the surface changes from wave to wave
+  double along, across;  ///< the sun's disc on the bottom, as a deviation, per unit of depth
+  bool low;              ///< the sun is so low that transmission changes from wave to wave
 };
 
-/// Around places: along x, y, x + y and x - y no farther than they are.
+/// Bounds of places along x, y, x + y and x - y.
 struct Octagon {
   std::array<double, 4> low{HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL},
       high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -54,12 +54,12 @@ struct Octagon {
 };
 
 /// One level of the table, made in steps: lay it out, find the bottom, send each band of rays,
-/// finish each band of its rows. Bands of a step do not meet.
+/// finish each band of its rows. Bands of a step share no memory.
 class CausticsLevel {
  public:
-  static constexpr int kBands = 4;  ///< each splatted on its own, whatever the number of threads
+  static constexpr int kBands = 4;  ///< splatted separately, for any number of threads
 
-  /// Texels from the corner on, `margin` of them beyond each side that send light into it.
+  /// Texels from the corner on, with a `margin` of texels beyond each side that send light into it.
   struct Layout {
     glm::dvec2 corner{0, 0};
     double texel = 1, depth = 0;  ///< mean
@@ -67,7 +67,7 @@ class CausticsLevel {
     int density = 1;  ///< rays along a texel
     int margin = 0;
     int coarse = 2;  ///< texels along a cell of the bottom
-    Octagon seen;    ///< rays that come to what lies outside are not followed
+    Octagon seen;    ///< rays that end outside are not traced
   };
   void lay_out(const Layout& layout);
   bool empty() const { return layout_.size.width == 0; }
@@ -85,17 +85,17 @@ class CausticsLevel {
   double most() const;
 
  private:
-  static constexpr int kTall = 16;   ///< rows of texels that are seen from one column to another
-  static constexpr int kBorder = 3;  ///< texels around the table that light may come to
+  static constexpr int kTall = 16;   ///< rows of texels per span of visible columns
+  static constexpr int kBorder = 3;  ///< texels around the table that may receive light
   static constexpr int kRoom = 16;   ///< a vector may begin before a row or end beyond it
   struct Span {
-    int begin, end;  ///< columns; none where they meet
+    int begin, end;  ///< columns; equal: none
     bool empty() const { return begin >= end; }
   };
-  /// What one band of rays adds to the table, and room for some rows of them.
+  /// The light that one band of rays adds to the table, and room for some of its rows.
   struct Band {
     std::vector<float> light, rows;
-    int first = 0, last = -1;  ///< rows that light came to, from that before the table's border on
+    int first = 0, last = -1;  ///< lit rows, counted from the one before the table's border
     std::vector<int> texels;
     WaveRows::Room room;
     float least = 1, most = 1;
@@ -106,8 +106,8 @@ class CausticsLevel {
   void reach(Band& band, RowsHit rows) const;
 
   Layout layout_;
-  std::vector<Span> spans_;    ///< seen of each kTall rows
-  std::vector<Span> rays_;     ///< of each row of rays, counted from the corner of the margin
+  std::vector<Span> spans_;    ///< visible columns of each kTall rows
+  std::vector<Span> rays_;     ///< rays of each row, counted from the corner of the margin
   std::vector<float> bottom_;  ///< depths of cells, from one cell before the margin's corner on
   std::vector<int> places_;    ///< the cell of each sample, or -1
   int coarse_ = 2;             ///< texels along a cell

@@ -17,7 +17,7 @@ struct Lookup {
   double grid(const View<const float>& light, Vec2<double> at) const { return grid_at(light, at); }
 };
 
-/// A reflection, and the light of what it mirrors.
+/// A reflection, and the light on the bottom that it mirrors.
 class Mirror {
  public:
   Mirror(const Caustics::Params& params, const CausticsTable& table, const Pass& pass,
@@ -43,7 +43,7 @@ class Mirror {
     aside_ = 1 / (pass.ior * std::sqrt(1 - sine * sine));
   }
 
-  /// By how much the light of a pixel grows, of each color of it.
+  /// Factor of the light of a pixel, for each color.
   std::array<double, 3> gain_at(int x, int y) const {
     const double far = image_.at(x, y);
     if (!(far > 0 && far < 1e30)) return {1, 1, 1};
@@ -67,10 +67,9 @@ class Mirror {
   }
 
  private:
-  /// The pixel that a point lies in, if it is one of `window`.
+  /// The pixel in which a point lies, if it is in `window`.
   std::optional<glm::ivec2> pixel_of(const glm::dvec3& point, const Rect& window) const {
-    const glm::dvec3 way =
-        point - pass_.rays.origin;  // that of the picture's corner, where uv is 0
+    const glm::dvec3 way = point - pass_.rays.origin;  // from the picture's corner, where uv is 0
     const double w = pass_.w_origin + pass_.w_depth * glm::dot(pass_.forward, way);
     const double x = glm::dot(pass_.to_u, way) / w * pass_.size.x + pass_.corner.x;
     const double y = glm::dot(pass_.to_v, way) / w * pass_.size.y + pass_.corner.y;
@@ -84,7 +83,7 @@ class Mirror {
                      std::clamp(pixel.y, window.y0, window.y1 - 1));
   }
 
-  /// The sun's, of the light of a point, to which light enters at another.
+  /// The sun's share in the light of a point whose sunlight enters at another point.
   std::array<double, 3> share_of(const glm::dvec3& point, const glm::dvec3& enters) const {
     const double near = glm::dot(pass_.forward, point);
     const std::optional<glm::ivec2> pixel = pixel_of(point, shown_);
@@ -122,9 +121,9 @@ class Mirror {
   const Frame& frame_;
   const Kernel<Caustics>::Light light_;
   const View<const float>&image_, &depth_, &shadow_;
-  const View<const float> above_;  ///< none where the plan does not ask for it
-  Rect shown_;                     ///< where all planes are that tell of a point
-  double aside_;  ///< how far calm light goes for each unit that it sinks, over the sun's sine
+  const View<const float> above_;  ///< none if the plan does not read it
+  Rect shown_;                     ///< where all planes are that show a point
+  double aside_;  ///< sideways travel of calm light per unit of depth, over the sun's sine
 };
 
 }  // namespace

@@ -11,19 +11,19 @@
 
 namespace limpid {
 
-/// The net of light on what a view from within the water sees of the bottom in the surface, which
-/// mirrors all of the light beyond the critical angle: the reflection planes, each pixel lit as
-/// Caustics lights a pixel of the bottom, at the point whose mirror image it shows.
+/// Caustics on the bottom that the surface mirrors to a view from within the water; beyond the
+/// critical angle it mirrors all light: the reflection planes, each pixel lit as Caustics lights a
+/// pixel of the bottom, at the point whose mirror image it shows.
 ///
-/// That point lies as deep as the reflection's depth puts its image high. Of its light the sun's
-/// share is what the dry picture tells, should it show the point too; else as much as sunlit
-/// bottoms have, where frames say that, or what sun and sky send, by the shadow on the surface
-/// where light enters to it. Where no plane shows that place, either, it counts as lit.
+/// That point lies as deep as the reflection's depth puts its image high. The sun's share in its
+/// light comes from the dry picture, if it shows the point; else it is that of sunlit bottoms, for
+/// frames that have it, or that of sun and sky, by the shadow on the surface at the entry point.
+/// Where no plane shows the entry point either, the point counts as lit.
 class MirroredCaustics {
  public:
   /// Replaces the views of the frame's reflection, if the eye is in the water and the reflection
-  /// has a depth; holds until the next call. `table` is that of all that is seen, as CausticsMaker
-  /// makes it of this frame; `pass` knows the frame's planes.
+  /// has a depth; valid until the next call. `table` is the one of CausticsMaker for this frame;
+  /// `pass` has the frame's planes.
   void light(const Caustics::Params& params, const CausticsTable& table, const Pass& pass,
              Executor& executor, Frame& frame);
 

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set, as run/lanes_target.cpp is; the same holds here.
+// Compiled once for each instruction set, under the same rules as run/lanes_target.cpp.
 #include "complete/caustics_target.h"
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace limpid::HWY_NAMESPACE {
 namespace {
 
-/// Rows have room for whole vectors. A vector's sines and cosines turn into the next one's; they
-/// are taken anew before rounding adds up.
+/// Rows have room for whole vectors. The sines and cosines of a vector are rotated to those of the
+/// next vector, and computed anew before rounding adds up.
 void add_sines(std::span<const SineOfRow> sines, int count, const SurfaceRow& to) {
   constexpr int kTurns = 64;
   constexpr double kTurn = 6.283185307179586;
@@ -74,7 +74,7 @@ struct Bottom {
     const VI row = whole_of(within(cell_of(y) + Lane(0.5), light.down));
     return fetch(light.bottom, Places(index(column, row)));
   }
-  /// Between the cells, but for those of two sides of an edge: there it is as deep as the nearest.
+  /// Bilinear between cells; across an edge, the depth of the nearest cell.
   LIMPID_LANES_INLINE Lane between(Lane x, Lane y) const {
     const Lane at_x = within(cell_of(x), light.across - 1),
                at_y = within(cell_of(y), light.down - 1);
@@ -102,8 +102,9 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const L
     const Lane slope_x(hn::LoadU(kD, surface.slope_x + i)),
         slope_y(hn::LoadU(kD, surface.slope_y + i));
     const Lane height(hn::LoadU(kD, surface.height + i));
-    // Snell's law for the normal (-slope_x, -slope_y, 1) as it is: cosines are times its length,
-    // and `bend` is what it adds to the light's direction, times the square of that.
+    // Snell's law for the normal (-slope_x, -slope_y, 1) without normalising it: cosines are times
+    // its length, and `bend` is its share in the light's direction, times the square of that
+    // length.
     const Lane facing = sun_z - sun_x * slope_x - sun_y * slope_y;
     const Lane square = one + slope_x * slope_x + slope_y * slope_y;
     const Lane bend = eta * facing - sqrt(unbent * square + eta * eta * facing * facing);
@@ -121,7 +122,8 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const L
     Lane power = max(facing, Lane(0)) * Lane(light.share);
     const Mask rises = first - depth > Lane(light.edge);
     if (any(rises)) {
-      // Past the edge it goes on, down to what the edge shades: calm water lets no light in there.
+      // A ray past the edge continues down to the shadow of the edge, for which calm water has no
+      // entry point.
       const Mask passes = rises && bottom.nearest(x, y) - depth > Lane(light.edge);
       power = select(passes, Lane(0), power);
     }
@@ -135,7 +137,7 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const L
   }
 }
 
-/// Parts of a row whose rays take turns; spread() ends rows with as many rays without light.
+/// Parts of a row whose rays alternate; spread() ends rows with as many rays without light.
 constexpr int kTurns = 8;
 
 /// Of a box as wide as the ray, around it, what lies on each of three texels from the first one on:

@@ -4,41 +4,41 @@
 
 namespace limpid {
 
-/// A sine along a row: its phase, in rad, at the row's first place, and what it adds there.
+/// A sine along a row: its phase, in rad, and its height at the row's first place.
 struct SineOfRow {
-  double phase, step;  ///< and how much the phase gains from one place to the next
+  double phase, step;  ///< step: gain of the phase from place to place
   float amplitude, slope_x, slope_y;
 };
 
-/// A row of a tile of slopes, x and y in turns, the first texel once more at its end.
+/// A row of a tile of slopes, x and y interleaved, with the first texel repeated at its end.
 struct TileRow {
   const float* slopes;
   int texels;
-  double first, step;  ///< of the places, in texels; the first within the tile
+  double first, step;  ///< of the places, in texels; the first lies within the tile
 };
 
-/// Of places side by side in a row of the surface.
+/// Adjacent places in a row of the surface.
 struct SurfaceRow {
   float *height, *slope_x, *slope_y;
 };
 
-/// Where sunlight goes from a row of the surface. Lengths are in texels of the table, places from
-/// its first texel.
+/// Sunlight from a row of the surface. Lengths are in texels of the table, places from its first
+/// texel.
 struct LightRow {
-  float sun_x, sun_y, sun_z;    ///< unit, towards the sun, z up
-  float ior, eta;               ///< index and 1 / index
-  float per_calm;               ///< 1 / what passes a calm surface; 0: as much passes all waves
-  float calm_x, calm_y;         ///< how far aside calm light goes for each unit that it sinks
-  float share;                  ///< of a ray, were the sun straight above, of the light of a texel
-  float per_length;             ///< texels in a scene unit
+  float sun_x, sun_y, sun_z;  ///< unit, towards the sun, z up
+  float ior, eta;             ///< index and 1 / index
+  float per_calm;             ///< 1 / transmission of a calm surface; 0: all waves transmit equally
+  float calm_x, calm_y;       ///< sideways travel of calm light per unit of depth
+  float share;                ///< share of a texel's light in a ray of a sun straight above
+  float per_length;           ///< texels per scene unit
   float first_x, step_x, at_y;  ///< places of the row
   const float* bottom;          ///< depths in scene units, `across` cells in each of `down` rows
   int across, down;
-  float per_cell, cell_x;  ///< of a cell in texels; the table's first texel is in the cell's middle
-  float edge;              ///< cells side by side that differ by more are parted by an edge
+  float per_cell, cell_x;  ///< 1 / texels of a cell; the first texel is in its middle
+  float edge;              ///< an edge parts neighbouring cells whose depths differ by more
 };
 
-/// Where the light of each place comes to, in texels, and how much it is.
+/// The place that each ray lights, in texels, and its light.
 struct LitRow {
   float *x, *y, *power;
 };
@@ -53,27 +53,27 @@ struct BeamRow {
 /// one that gets nothing, so that a row is a vector of four.
 struct SplatRow {
   int* texel;
-  float *along, *down;  ///< four of each ray: light of each column, share of each row
+  float *along, *down;  ///< four per ray: light of each column, share of each row
 };
 
-/// Rows of the table that any light of a row comes to: none if last is before first.
+/// Rows of the table that a row's light reaches: none if last is before first.
 struct RowsHit {
   int first, last;
 };
 
-/// Light of a row, and what lies before and after each texel along an axis.
+/// Light of a row, and its neighbours before and after each texel along an axis.
 struct FilterRow {
   const float *before, *here, *after;
   const float* depth;
-  float spread;  ///< variance of the sun's disc on the bottom, in texels, one unit deep
-  float blur;    ///< that of what has blurred the light already
+  float spread;  ///< variance of the sun's disc on the bottom, in texels, per unit of depth
+  float blur;    ///< variance of the blur that the light already has
 };
 
 struct Extremes {
   float least, most;
 };
 
-/// Rows of CausticsMaker as compiled for one instruction set.
+/// Row functions of CausticsMaker, compiled for one instruction set.
 struct CausticsTarget {
   void (*add_sines)(std::span<const SineOfRow> sines, int count, const SurfaceRow& to);
   void (*read_tile)(const TileRow& tile, int count, const SurfaceRow& to);

@@ -10,7 +10,7 @@
 namespace limpid {
 namespace {
 
-/// What the completer of this name is to make of a plane that is there is a mended one.
+/// If the plane is present, the completer of this name makes a repaired one.
 PlaneSet made_by(std::string_view name, const Plan& plan, const Frame& frame) {
   for (const CompleterInfo& completer : completers()) {
     if (completer.name != name || !frame.present().covers(completer.inputs)) continue;
@@ -73,7 +73,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     }
     whole.caustics = &light_;
     if (plan.keeps<Caustics>() && plan.keeps<FresnelReflection>()) {
-      // A host may hand over more planes than the plan asks for, and jobs do not read them.
+      // A host may pass more planes than the plan reads; jobs do not read those.
       if (!plan.planes.has(PlaneId::kSurfaceShadow)) {
         now.planes = now.planes - PlaneSet{PlaneId::kSurfaceShadow};
       }

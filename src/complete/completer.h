@@ -25,30 +25,28 @@
 
 namespace limpid {
 
-/// Makes the planes of Plan::completed, which nobody rendered, from those that are there, and of
-/// the wave map what the plan's waves read where a pixel is wider than a texel; moves depths to the
-/// part of each pixel that is seen; parts pixels that something before the water covers in part;
-/// draws a layer below the water on as far as color and depth go; makes the continuation of the
-/// bottom for rays that leave the picture, the layer of the bottom for those that end behind
-/// something, the light that the water scatters more than once, the table of sunlight that
-/// waves focus on the bottom; lights by it what the surface mirrors of the bottom. Each only where
-/// the plan asks for it. Once a frame, before its pixels; operators read the result as they read
-/// the plate's planes. The result does not depend on
-/// the number of threads. Keeps its memory from frame to frame.
+/// Makes missing data from the planes that a frame has: the planes of Plan::completed; the slope
+/// map for pixels wider than a texel of the wave map; depths on the rays of a part of each pixel;
+/// the parts of pixels that objects in front of the water cover; the layer below the water,
+/// extended as far as color and depth; the continuation of the bottom for rays that leave the
+/// picture; the bottom behind objects, for rays that end there; multiple scattering; the table of
+/// caustics, and caustics in the reflection. Each only if the plan needs it. Runs once per frame,
+/// before its pixels; operators read the results like the plate's planes. The result does not
+/// depend on the number of threads. Keeps its memory from frame to frame.
 class Completer {
  public:
-  /// The frame with what was made; its views hold until the next call. `context` is that of the
-  /// frame as it is. A plane whose inputs the frame lacks is not made. Nothing but views is copied.
-  /// `simd` as in FusedOptions; without it formulas run in double.
+  /// The frame with the planes made for it; its views are valid until the next call. `context` is
+  /// that of the original frame. A plane whose inputs the frame lacks is not made. Copies views
+  /// only, no pixels. `simd` as in FusedOptions; without it formulas run in double.
   Frame complete(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                  const std::string* simd = nullptr);
-  /// The same of a frame whose planes tell their windows alone, for their pixels lie elsewhere:
-  /// what is made of pixels (made_of_pixels()) is not made.
+  /// The same for a frame whose planes have windows but no pixels here, because the pixels lie on a
+  /// device: results made of pixels (made_of_pixels()) are left out.
   Frame complete_windows(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                          const std::string& simd);
-  /// Of the last frame: for its pass.
+  /// Waves of the last frame: for its pass.
   const PlateWaves& plate_waves() const { return plate_waves_; }
-  /// What a plan asks for that is made of pixels, a phrase each.
+  /// The results that a plan needs and that are made of pixels, a phrase each.
   static std::vector<std::string> made_of_pixels(const Plan& plan);
 
  private:
@@ -73,7 +71,7 @@ class Completer {
   ScatteredLightMaker scattered_light_;
   BottomAlbedo bottom_albedo_;
   CausticsMaker caustics_, shafts_;
-  CausticsTable light_;  ///< of both
+  CausticsTable light_;  ///< of the bottom and of the water
   MirroredCaustics mirrored_caustics_;
 };
 

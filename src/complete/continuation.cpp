@@ -17,27 +17,29 @@
 namespace limpid {
 namespace {
 
-constexpr int kEdgeStep = 4;  ///< so many pixels of an edge apart water is asked where one looks
-constexpr int kColors = 64;   ///< round the edge
-/// How far along the edge, and how far from it, texels count for a color: in widths and heights of
-/// the picture.
+constexpr int kEdgeStep = 4;  ///< pixels along an edge between tests for water
+constexpr int kColors = 64;   ///< around the edge
+/// Distances along the edge, and from it, within which texels count for a color: in widths and
+/// heights of the picture.
 constexpr double kAlong = 0.15, kDeep = 0.125;
 constexpr int kTexelsAlong = 16, kTexelsDeep = 8;
-/// How near to an edge lines are looked for, in heights of the picture, and at how many texels.
+/// Depth of the strip at an edge in which lines are searched, in heights of the picture, and its
+/// number of texels.
 constexpr double kLinesDeep = 1.0 / 3;
-constexpr double kLongest = 64;  ///< pixels between which a change is looked at
+constexpr double kLongest = 64;  ///< pixels, longest distance over which a change is measured
 constexpr int kLineSamples = 12288;
-/// The direction of the view counts as much as lines that are this share of all that is seen.
+/// The direction of the view counts as much as lines with this share of all slopes.
 constexpr double kViewCounts = 0.05;
-/// Slopes at less than this cosine from the steepest change say where it is, so many times over.
+/// Slopes at less than this cosine from the steepest change refine its direction, in several
+/// rounds.
 constexpr double kNear = 0.8;
 constexpr int kRefinements = 4;
-/// What goes on from the edge is as long, in pixels, as the height of the picture by this.
+/// Range in pixels of the edge's influence: the height of the picture over this.
 constexpr double kFade = 24, kSettle = 24;
 
 float luminance(const Rgb<float>& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
-/// What refraction looks up, in the places at which it is the bottom.
+/// The planes that refraction looks up, where they show the bottom.
 struct Bottom {
   const Pass& c;
   std::array<View<const float>, 3> color;
@@ -76,9 +78,9 @@ struct Bottom {
   }
 };
 
-/// Relative change of brightness a scene unit along Pass::t and ::b, around a texel of the
-/// bottom; nothing at its end. Both over the same length, that of the longer side of the texel, for
-/// texels seen at a grazing angle blur what lies along the view.
+/// Relative change of brightness per scene unit along Pass::t and ::b, around a texel of the
+/// bottom; nothing at its border. Both over the same length, that of the longer side of the texel,
+/// because texels at a grazing angle blur along the view.
 std::optional<glm::dvec2> slope_at(const Bottom& bottom, const BottomPlane& plane, int x, int y) {
   const glm::dvec2 at = bottom.level_at(plane, x, y);
   const glm::dmat2 steps(bottom.level_at(plane, x + 1, y) - at,
@@ -102,7 +104,7 @@ std::optional<glm::dvec2> slope_at(const Bottom& bottom, const BottomPlane& plan
   return glm::dvec2(*along, *away) / length;
 }
 
-/// At places without an order, for lines may have one.
+/// At irregular places, because lines may be regular.
 void gather_slopes(const Bottom& bottom, const BottomPlane& plane, const Beyond& beyond,
                    std::vector<glm::dvec2>& slopes) {
   const Rect& w = bottom.window;
@@ -125,8 +127,8 @@ void gather_slopes(const Bottom& bottom, const BottomPlane& plane, const Beyond&
   }
 }
 
-/// The direction in which a bottom changes least, along Pass::t and ::b, and by how much less
-/// than across it: 0 ... 1.
+/// The direction in which a bottom changes least, along Pass::t and ::b, and how much less than
+/// across it: 0 ... 1.
 struct Lines {
   glm::dvec2 direction;
   double coherence;
@@ -136,7 +138,7 @@ struct Tensor {
   double differs, together, all;  ///< along t less along b; both; the sum of both
 };
 
-/// Of the slopes that `counts`.
+/// Sums over the slopes that `counts` accepts.
 template <class Counts>
 Tensor tensor_of(const std::vector<glm::dvec2>& slopes, Counts&& counts) {
   Sym2<double> sum{0, 0, 0};
@@ -147,12 +149,12 @@ Tensor tensor_of(const std::vector<glm::dvec2>& slopes, Counts&& counts) {
 }
 
 /// By the structure tensor (Bigun & Granlund 1987, "Optimal Orientation Detection of Linear
-/// Symmetry"), then by that of slopes alone which run across the lines found; away from the viewer
-/// where there are no lines.
+/// Symmetry"), then by the tensor of only those slopes that cross the lines found; away from the
+/// viewer if there are no lines.
 Lines lines_of(const std::vector<glm::dvec2>& slopes) {
   const Tensor whole = tensor_of(slopes, [](const glm::dvec2&) { return true; });
   const double coherence = std::min(std::hypot(whole.differs, whole.together) / whole.all, 1.0);
-  // Twice the angle of the steepest change, and of one across the view.
+  // Twice the angle of the steepest change, and of a change across the view.
   double across = 0.5 * std::atan2(whole.together, whole.differs + kViewCounts * whole.all);
   for (int i = 0; i < kRefinements; ++i) {
     const glm::dvec2 steepest(std::cos(across), std::sin(across));
@@ -165,7 +167,7 @@ Lines lines_of(const std::vector<glm::dvec2>& slopes) {
   return {{-std::sin(across), std::cos(across)}, coherence};
 }
 
-/// The mean of the middle 40 % by brightness: posts and shadows pull at no color.
+/// The mean of the middle 40 % by brightness: posts and shadows do not shift it.
 Rgb<float> robust_mean(std::vector<Rgb<float>>& colors) {
   std::sort(colors.begin(), colors.end(),
             [](const Rgb<float>& a, const Rgb<float>& b) { return luminance(a) < luminance(b); });
@@ -176,7 +178,7 @@ Rgb<float> robust_mean(std::vector<Rgb<float>>& colors) {
   return (1 / static_cast<float>(end - begin)) * sum;
 }
 
-/// The place on the edge of a window, in shares of it, and inwards from there.
+/// The place on the edge of a window, in shares of it, and the inward direction.
 struct EdgePlace {
   glm::dvec2 at, along, inwards;
 };
@@ -205,7 +207,7 @@ void gather_near(const Bottom& bottom, const EdgePlace& edge, std::vector<Rgb<fl
   }
 }
 
-/// Colors that are not known become those of the nearest place round the edge that is.
+/// Unknown colors become those of the nearest known place around the edge.
 void close_gaps(std::array<View<float>, 3> colors, const std::array<bool, kColors>& known) {
   for (int i = 0; i < kColors; ++i) {
     if (known[static_cast<std::size_t>(i)]) continue;
@@ -257,7 +259,7 @@ const Continuation* ContinuationMaker::make(const Frame& frame, const Pass& c) {
   continuation_.along = glm::normalize(level + rise * c.up);
   continuation_.least_drop = 0.5 * plane->shallow;
   continuation_.lift = 0.25 * plane->drop;
-  // Sand and gravel have some lines, too, by chance.
+  // Sand and gravel show some lines by chance.
   const double clear = saturate((lines.coherence - 0.15) / 0.35), loose = 1 - 0.9 * clear;
   continuation_.fade = loose * loose * kFade / c.size.y;
   continuation_.settle = kSettle / c.size.y;

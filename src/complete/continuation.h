@@ -10,12 +10,12 @@
 
 namespace limpid {
 
-/// Makes what rays see that leave the picture under the water. Looks at a few thousand texels of
-/// what refraction looks up, on its edges most.
+/// Makes the bottom for rays that leave the picture under water. Samples a few thousand texels of
+/// the planes that refraction looks up, mostly at their edges.
 class ContinuationMaker {
  public:
-  /// Null, for which nothing but the plane of the bottom was looked for, where no ray of the
-  /// water leaves the picture. Valid until the next call.
+  /// Null if no ray of the water leaves the picture: then only the plane of the bottom was fitted.
+  /// Valid until the next call.
   const Continuation* make(const Frame& frame, const Pass& pass);
 
  private:
@@ -23,7 +23,7 @@ class ContinuationMaker {
 
   Continuation continuation_;
   Plane colors_[3];
-  // Room for texels near a place of the edge, those of the bottom, and how they change.
+  // Texels near a place of the edge, texels of the bottom, and their slopes.
   std::vector<Rgb<float>> near_;
   std::vector<BottomSample> samples_;
   std::vector<glm::dvec2> slopes_;

@@ -7,7 +7,7 @@
 
 namespace limpid {
 
-// One for each instruction set that the build names, made by surface_target.cpp.
+// One for each instruction set that the build names, defined in surface_target.cpp.
 #define LIMPID_TARGET(name, highway) extern const SurfaceTarget kSurface_##name;
 #include "core/targets.inc"
 #undef LIMPID_TARGET

@@ -10,15 +10,14 @@
 
 namespace limpid {
 
-/// The depth of water that sine waves raise and lower: for each pixel the first point at which its
-/// ray meets the surface z = sum of the sines of WaterView::waves.
+/// The depth of water raised by sine waves: for each pixel, the first point at which its ray meets
+/// the surface z = sum of the sines of WaterView::waves.
 ///
-/// Made for waves that are known as such, of the scene or of the look. Water from tiling maps or
-/// from the frame's own normals stays flat: those say how the surface leans, and what a map adds up
-/// to is no height.
+/// Only for waves with known heights, of the scene or of the look. Water with tiling maps or the
+/// frame's own normals stays flat: these give slopes, which do not sum to heights.
 class DisplacedSurface {
  public:
-  /// Looks at the window of the dry depth. `simd` as in FusedOptions; without it in double.
+  /// Reads the window of the dry depth. `simd` as in FusedOptions; without it in double.
   void make(const Frame& frame, const WaterView& view, Executor& executor, const std::string* simd);
 
   const Plane& depth() const { return depth_; }  ///< eye depth, +inf where no water is met

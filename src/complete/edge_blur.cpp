@@ -7,20 +7,20 @@
 namespace limpid {
 namespace {
 
-/// Growth that tells of a blur: the narrowest, of one pixel's own box, has 1.28.
+/// Growth that indicates a blur: the narrowest, the box of one pixel, grows by 1.28.
 constexpr double kGrows = 1.12;
-/// A ramp that is not full at a distance has more than doubled on the way there; what grows slowly
-/// is light and texture of the two sides.
+/// A ramp that is not yet full at a distance has more than doubled up to there; slower growth is
+/// light and texture of the two sides.
 constexpr double kRamp = 1.6;
-/// So much of the square of the contrast on both sides of the band tells of light that rises
-/// evenly: that has ((k + 1) / (2 k + 1))^2, at least 0.25.
+/// This share of the squared contrast on both sides of the band indicates light that rises evenly:
+/// it has ((k + 1) / (2 k + 1))^2, at least 0.25.
 constexpr double kBeside = 0.2;
-/// Share of steps at single pixels: of sides drawn by lot, more than this where either has a tenth.
+/// Share of steps at single pixels: for random sides it is larger if either side has a tenth.
 constexpr double kSpeckled = 0.3;
 
 double dot(const Rgb<double>& a, const Rgb<double>& b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
 
-/// The pixel so far from the dry or the wet end of a step, and kept in the window.
+/// The pixel at a distance from the dry or the wet end of a step, clamped to the window.
 struct Along {
   const EdgeBlur::Step& step;
   const Rect& window;
@@ -71,7 +71,7 @@ void each_difference(const std::uint8_t* a, const std::uint8_t* b, int count, co
   }
 }
 
-/// Whether the pixels to both sides of one in a row are of another side.
+/// Whether both neighbours of a pixel in a row are of another side.
 bool alone(const std::uint8_t* sides, int i, int count) {
   return i > 0 && i + 1 < count && sides[i - 1] != sides[i] && sides[i + 1] != sides[i];
 }
@@ -98,10 +98,11 @@ bool EdgeBlur::Growth::grows_at(int rung) const {
 int EdgeBlur::Growth::full_at() const {
   for (int rung = 0; rung < kWidths; ++rung) {
     const auto i = static_cast<std::size_t>(rung);
-    if (!(own[i] > 0)) return 0;  // nothing is seen so far away
+    if (!(own[i] > 0)) return 0;  // nothing is seen at that distance
     const bool goes_on = grows_at(rung) && (i == 0 || next[i - 1] > kRamp * own[i - 1]);
     if (goes_on) continue;
-    // What is thinner than its blur changes beside it, too, but the water behind does not.
+    // An object thinner than its blur changes beside the step, too, but the water behind it does
+    // not.
     const bool beside = std::min(dry[i], wet[i]) > kBeside * own[i];
     return beside && speckled < kSpeckled * steps ? 0 : rung;
   }
@@ -140,8 +141,8 @@ EdgeBlur::Growth EdgeBlur::growth_of(const Step& step, int rungs) const {
   return growth;
 }
 
-/// A shore is no edge: there the ground goes on from before the water to behind it, and its inverse
-/// depth, linear along a plane, changes as it does beside.
+/// A shore is no edge: the ground continues from in front of the water to behind it, and its
+/// inverse depth, linear along a plane, changes as it does beside the step.
 bool EdgeBlur::occludes(const Step& step) const {
   const Along along{step, picture_.window};
   const auto inverse = [&](int x, int y) { return picture_.inverse_depth(x, y); };
@@ -181,7 +182,7 @@ bool EdgeBlur::any(std::vector<std::uint8_t>& sides, std::vector<Step>& steps) c
   std::uint8_t *upper = sides.data(), *lower = upper + w.width();
   Growth growth;
   for (int i = 0; i * apart < w.height(); ++i) {
-    // Not at even distances, which edges of a model could have, too.
+    // At uneven distances, because a model's edges may be evenly spaced.
     const int y = w.y0 + i * apart + i * 5 % apart;
     if (y >= w.y1) break;
     const bool last = y + 1 == w.y1;

@@ -9,47 +9,46 @@
 
 namespace limpid {
 
-/// How far edges are blurred: of steps between a dry pixel and a wet one that lies behind it, how
-/// the difference of color grows with the distance between the two that are compared. At a hard
-/// edge it is there at once, at a blurred one it grows until both are out of the blur.
+/// Width of the blur at edges: at steps between a dry pixel and a wet pixel behind it, the
+/// difference of color as a function of the distance between the two compared pixels. At a hard
+/// edge it is full at once; at a blurred edge it grows until both pixels are outside the blur.
 class EdgeBlur {
  public:
   /// Distances from the step to each side, in pixels.
   static constexpr std::array<int, 7> kLadder{0, 1, 3, 7, 15, 31, 63};
-  static constexpr int kWidths = 6;  ///< how many of them an edge can be blurred by
+  static constexpr int kWidths = 6;  ///< number of possible widths
 
-  /// Sums over steps of the products of the differences of color at distance i of the ladder with
-  /// themselves, with the next and, at the first two, with that after; each step counts by its
-  /// relative contrast, and not where that goes out of the picture. The
-  /// last two: squares of the differences between distance i and the next on one side alone.
+  /// Sums over steps of the products of the color differences at distance i of the ladder with
+  /// themselves, with the next and, at the first two, with the one after that; each step counts by
+  /// its relative contrast, and not where the ladder leaves the picture. The last two: squares of
+  /// the differences between distance i and the next on one side alone.
   struct Growth {
     std::array<double, kWidths> own{}, next{}, dry{}, wet{};
     std::array<double, 2> after{};
-    int steps = 0, speckled = 0;  ///< how many they are, and how many of Step::speckle
+    int steps = 0, speckled = 0;  ///< number of steps, and of those with Step::speckle
     void add(const Growth& other);
     bool grows_at(int rung) const;
-    /// Where on the ladder the difference is full. 0: at a hard edge, or none, and where color
-    /// changes as much on both sides of the edge as across it, as light does, but for sides that
-    /// alternate from pixel to pixel, as in depth of one sample of many.
+    /// The first distance on the ladder with full difference. 0: a hard edge or none, and where
+    /// color changes as much beside the edge as across it, like a change of light; but not for
+    /// sides that alternate from pixel to pixel, as in depth taken from one sample of many.
     int full_at() const;
   };
 
-  /// Between two pixels side by side.
+  /// A step between two neighbouring pixels.
   struct Step {
     int x, y;   ///< of the left or upper one
-    bool down;  ///< whether the other is below, and not to the right
+    bool down;  ///< whether the other pixel is below instead of to the right
     bool dry_first;
-    bool speckle;  ///< at a pixel that is alone of its side in its row
+    bool speckle;  ///< a pixel that is the only one of its side in its row
   };
 
   explicit EdgeBlur(const EdgePicture& picture) : picture_(picture) {}
 
-  /// Whether some edge is blurred, by a look at some rows.
-  /// `sides` and `steps` are room that it uses.
+  /// Whether any edge is blurred, by some sampled rows. `sides` and `steps` are scratch memory.
   bool any(std::vector<std::uint8_t>& sides, std::vector<Step>& steps) const;
 
-  /// Adds the steps of the row y, and from it to the next. `sides` are of both, from window.x0 on;
-  /// `below` is null in the last row.
+  /// Adds the steps within the row y, and to the next row. `sides` and `below` are the sides of
+  /// both, from window.x0 on; `below` is null in the last row.
   void find(int y, const std::uint8_t* sides, const std::uint8_t* below,
             std::vector<Step>& steps) const;
 

@@ -14,7 +14,7 @@ using Square = std::array<double, 6>;
 
 glm::dvec3 vector_of(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
 
-/// Of the colors around their mean, times the weight.
+/// Scatter of the colors around their mean, times the weight.
 Square scatter_of(const EdgeMoments& m) {
   Square s = m.square;
   const Square mean = EdgeMoments::products(m.color);
@@ -29,10 +29,10 @@ glm::dvec3 solved(const Square& s, double ridge, const glm::dvec3& b) {
   return glm::inverse(matrix) * b;
 }
 
-/// Colors are compared to a hundredth of the contrast: that much noise is taken for granted.
+/// Assumed noise of colors, as a share of the contrast.
 constexpr double kNoise = 0.01;
 
-/// A side of which a corner is seen alone is none.
+/// A side of which only a corner is visible does not count.
 bool is_side(const EdgeAround& around, EdgeKind kind) {
   double all = 0;
   for (const EdgeMoments& moments : around.kinds) all += moments.weight;
@@ -61,7 +61,8 @@ std::optional<Matte> matte_between(const EdgeAround& around) {
   const double spread = 1 / std::sqrt(distance);
   const double place = glm::dot(d, -vector_of(wet)) / distance;
   const double cover = std::clamp((place - spread) / (1 - 2 * spread), 0.0, 1.0);
-  // What neither side explains is of both by their shares; a color like neither tells of a third.
+  // The part that neither side explains belongs to both by their shares; a color unlike both would
+  // be a third object.
   const Rgb<double> rest = cover * dry + (1 - cover) * wet;
   if (glm::dot(vector_of(rest), vector_of(rest)) > 0.25 * contrast) return std::nullopt;
   return Matte{cover, wet - (1 - cover) * rest};

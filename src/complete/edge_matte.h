@@ -9,7 +9,7 @@
 
 namespace limpid {
 
-/// Weighted sums over pixels of one kind around a pixel, colors less that of the pixel itself.
+/// Weighted sums over pixels of one kind around a pixel, of colors less the pixel's own.
 struct EdgeMoments {
   double weight = 0, alpha = 0;
   Rgb<double> color{0, 0, 0};
@@ -29,10 +29,10 @@ struct EdgeMoments {
   Rgb<double> mean() const { return (1 / weight) * color; }
 };
 
-/// Of a plane's inverse depth, which is linear on the screen, at the places that show it.
+/// Fits the inverse depth of a plane, which is linear on the screen.
 struct EdgePlane {
   std::array<double, 6> place{};  ///< weighted sums of 1 x y xx xy yy
-  std::array<double, 3> value{};  ///< and of the inverse depth times 1 x y
+  std::array<double, 3> value{};  ///< weighted sums of the inverse depth times 1 x y
   double least = HUGE_VAL, most = 0;
 
   void add(double w, int right, int down, double inverse_depth) {
@@ -43,15 +43,15 @@ struct EdgePlane {
     least = std::min(least, inverse_depth);
     most = std::max(most, inverse_depth);
   }
-  /// The plane at the pixel (0, 0), by least squares, within what was seen.
+  /// The plane at the pixel (0, 0), by least squares, clamped to the depths seen.
   double here() const;
 };
 
-/// A kind of pixels around one in the band of a blurred edge: `sure` beyond the band; dry, where
-/// they stand before the water of the one, or wet.
+/// A kind of pixels around a pixel in the band of a blurred edge: `sure` beyond the band; dry in
+/// front of the pixel's water, or wet.
 enum class EdgeKind : std::uint8_t { kDry, kWet, kSureDry, kSureWet };
 
-/// What there is around a pixel.
+/// The pixels around a pixel.
 struct EdgeAround {
   std::array<EdgeMoments, 4> kinds;
   EdgeMoments& of(EdgeKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
@@ -60,25 +60,25 @@ struct EdgeAround {
 
 struct Matte {
   double cover;  ///< share of the pixel that is dry, 0 ... 1
-  /// What is seen beside that, less the color of the pixel, of the whole pixel.
+  /// The remaining light of the pixel, less the pixel's color.
   Rgb<double> behind;
 };
 
-/// The share of a pixel that what stands before the water covers. Nothing where its color does not
-/// tell: where one of the sides is not there, the two are alike, or it is off the line between them
-/// by more than half of what they are apart.
+/// The share of a pixel that an object in front of the water covers. Nothing if the pixel's color
+/// does not determine it: one of the sides is missing, the two are alike, or the color is off the
+/// line between them by more than half of their distance.
 ///
 /// cover = d.(c - w) / d.(f - w), f and w the mean colors of the sure pixels, d = (S + e)^-1 (f -
 /// w), S the covariance within the sides (Fisher 1936, "The Use of Multiple Measurements in
 /// Taxonomic Problems"). Its standard deviation over texture is s = 1 / sqrt(d.(f - w)); (cover -
-/// s) / (1 - 2 s) takes that for nothing, and sides less than 3 s apart for one. What texture of
-/// the bottom the pixel shows, stays in `behind` by its share.
+/// s) / (1 - 2 s) treats that as noise, and sides less than 3 s apart count as alike. The bottom's
+/// texture in the pixel stays in `behind` by its share.
 std::optional<Matte> matte_between(const EdgeAround& around);
 
-/// The same of what has no sure pixels of its own, being thinner than its blur: the linear
-/// regression of "dry" on color over all. Nothing where that explains less than a quarter.
+/// The same for an object without sure pixels, thinner than its blur: the linear regression of
+/// "dry" on color over all pixels. Nothing if that explains less than a quarter of the variance.
 std::optional<Matte> matte_by_regression(const EdgeAround& around);
-/// Whether it may tell anything, by the weights alone.
+/// Whether the regression can succeed, by the weights alone.
 bool may_regress(const EdgeAround& around);
 
 }  // namespace limpid

@@ -10,7 +10,7 @@ std::uint8_t side_of(bool wet, float dry) {
 
 }  // namespace
 
-/// The calm surface lies in front where over / under < dry: multiplied out, it takes no division.
+/// The calm surface lies in front where over / under < dry: multiplied out, to avoid the division.
 void EdgePicture::sides(int y, int x0, int x1, std::uint8_t* to) const {
   const float* dry = &depth.at(x0, y);
   const std::ptrdiff_t step = depth.x_stride;

@@ -10,19 +10,19 @@
 
 namespace limpid {
 
-/// What a pixel shows.
+/// The content of a pixel.
 enum class Side : std::uint8_t {
-  kWet,   ///< water, and what is behind it
-  kDry,   ///< something without water before it
-  kNone,  ///< nothing was hit, and no water before that
+  kWet,   ///< water, and the scene behind it
+  kDry,   ///< a surface without water in front
+  kNone,  ///< no surface and no water
 };
 
-/// The planes of a frame that its edges are looked for in.
+/// The planes of a frame in which its edges are searched.
 struct EdgePicture {
   const Pass& pass;
   std::array<View<const float>, 3> color;
-  View<const float> alpha, depth, surface;  ///< of which the first and the last may be absent
-  Rect window;                              ///< where all of them are
+  View<const float> alpha, depth, surface;  ///< alpha and surface may be absent
+  Rect window;                              ///< where all planes are
 
   EdgePicture(const Frame& frame, const Pass& c)
       : pass(c),
@@ -71,7 +71,7 @@ struct EdgePicture {
     std::array<Texels, 3> color_{};
   };
 
-  /// 1 over the depth of the water of the pixels of a row, 0 where there is none.
+  /// 1 / depth of the water for the pixels of a row, 0 where there is none.
   class Water {
    public:
     Water(const EdgePicture& picture, int y)

@@ -21,25 +21,25 @@ namespace {
 
 using Steps = std::vector<EdgeBlur::Step>;
 
-/// What covers less, or leaves less uncovered, is not there.
+/// A smaller cover, or a smaller rest, counts as 0.
 constexpr double kLeast = 0.02;
 
-/// How wide the blur around a pixel is across edges that go down and across those that go to the
-/// right: a rung of EdgeBlur::kLadder, 0 for none.
+/// Width of the blur around a pixel, across vertical and across horizontal edges: a rung of
+/// EdgeBlur::kLadder, 0 for none.
 struct Band {
   std::array<std::uint8_t, 2> rung{};
   bool none() const { return rung[0] == 0 && rung[1] == 0; }
 };
 
-/// So many pixels square, what is seen of edges counts together.
+/// Tiles of this many pixels square share their statistics of edges.
 constexpr int kTile = 64;
 
-/// Which pixels around one in a band tell of it, and how much: a Gaussian that reaches from
-/// one end of the band beyond the other, looked up at some dozen places along each axis.
+/// The pixels around a pixel of a band that count, and their weight: a Gaussian that reaches from
+/// one end of the band beyond the other, sampled at about a dozen places along each axis.
 struct Kernel {
   int step = 1, reach = 0;
   std::array<double, 8> weight{};  ///< at 0, step, 2 step ...
-  std::array<int, 8> width{};      ///< to the sides, so many rows away: a disc
+  std::array<int, 8> width{};      ///< half width of each row of the disc
 
   static Kernel of(int half_width) {
     Kernel kernel;
@@ -62,7 +62,7 @@ struct Place {
   double water;
 };
 
-/// Columns of a row from the first to the last that lies in a band.
+/// Columns of a row from the first to the last in a band.
 struct Span {
   int begin = std::numeric_limits<int>::max(), end = std::numeric_limits<int>::min();
 };
@@ -81,7 +81,7 @@ struct __attribute__((visibility("hidden"))) Edges::State {
   std::array<std::vector<EdgeBlur::Growth>, 2> growth;  ///< of each tile, to the right and down
   std::array<std::vector<int>, 2> rungs;                ///< of EdgeBlur::kLadder, likewise
 
-  /// Color and depth from now on lie in planes of this.
+  /// Copies color and depth into planes of this object.
   void take_over(Frame& frame, Executor& executor) {
     constexpr std::array kMended{PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB,
                                  PlaneId::kDepth};
@@ -147,7 +147,7 @@ struct __attribute__((visibility("hidden"))) Edges::State {
   }
 };
 
-/// What is behind is the layer below.
+/// The layer below is the scene behind the objects.
 void Edges::State::take_deep(Frame& frame, const Pass& pass, Executor& executor) {
   if (!frame.present().covers(kBelowPlanes)) return;
   const std::array<View<const float>, 4> before = frame.foreground;
@@ -175,7 +175,7 @@ void Edges::State::take_deep(Frame& frame, const Pass& pass, Executor& executor)
   });
 }
 
-/// Whether some pixel lies in the band of a blurred edge.
+/// Whether any pixel lies in the band of a blurred edge.
 bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
   const Rect& w = picture.window;
   const auto width = static_cast<std::size_t>(w.width());
@@ -224,7 +224,7 @@ bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
   return some;
 }
 
-/// Of a tile and those around it: an edge in its corner is that of the next one.
+/// Over a tile and its neighbours: an edge in the tile's corner belongs to the next tile as well.
 EdgeBlur::Growth Edges::State::growth_around(std::size_t down, int tile, const Rect& tiles) const {
   EdgeBlur::Growth sum;
   const int column = tile % tiles.x1, row = tile / tiles.x1;
@@ -236,11 +236,11 @@ EdgeBlur::Growth Edges::State::growth_around(std::size_t down, int tile, const R
   return sum;
 }
 
-/// The step is between two pixels, either of which is in the band.
+/// The step is between two pixels, both of which may be in the band.
 void Edges::State::paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung) {
   const Rect& w = picture.window;
   const int full = EdgeBlur::kLadder[static_cast<std::size_t>(rung)];
-  const int half = full + full / 4;  // nearly full is full
+  const int half = full + full / 4;  // nearly full counts as full
   const int across = step.down ? 0 : half, along = step.down ? half : 0;
   const Rect both{step.x, step.y, step.x + (step.down ? 1 : 2), step.y + (step.down ? 2 : 1)};
   const Rect band =
@@ -266,8 +266,8 @@ void Edges::State::part_row(const EdgePicture& picture, int y) {
   }
 }
 
-/// What there is around a pixel: see(weight, right, down, texels, column, is wet, is sure), where
-/// what is not before the water of the pixel, and not wet, does not count.
+/// The pixels around a pixel: see(weight, right, down, texels, column, is wet, is sure). Dry pixels
+/// behind the pixel's water do not count.
 template <class See>
 void Edges::State::each_around(const EdgePicture& picture, const Place& place, const Kernel& kernel,
                                const See& see) const {
@@ -293,7 +293,7 @@ void Edges::State::each_around(const EdgePicture& picture, const Place& place, c
   }
 }
 
-/// The moments of what is sure, and the weights of what lies in the band.
+/// The moments of the sure pixels, and the weights of the band's pixels.
 EdgeAround Edges::State::sides_around(const EdgePicture& picture, const Place& place,
                                       const Kernel& kernel) const {
   const Rgb<double> color = picture.color_at(place.x, place.y);
@@ -311,7 +311,7 @@ EdgeAround Edges::State::sides_around(const EdgePicture& picture, const Place& p
   return sums;
 }
 
-/// The moments of what lies in the band.
+/// The moments of the band's pixels.
 void Edges::State::add_band(const EdgePicture& picture, const Place& place, const Kernel& kernel,
                             EdgeAround& sums) const {
   const Rgb<double> color = picture.color_at(place.x, place.y);
@@ -325,7 +325,7 @@ void Edges::State::add_band(const EdgePicture& picture, const Place& place, cons
               });
 }
 
-/// Of what is dry around the pixel, or of what is surely wet; 0 where there is no such thing.
+/// Inverse depth of the dry pixels around the pixel, or of the surely wet pixels; 0 without any.
 double Edges::State::inverse_depth_around(const EdgePicture& picture, const Place& place,
                                           const Kernel& kernel, Side side) const {
   EdgePlane plane;
@@ -338,10 +338,10 @@ double Edges::State::inverse_depth_around(const EdgePicture& picture, const Plac
   return plane.most > 0 ? plane.here() : 0;
 }
 
-/// The share of the pixel, and the kernel by which what is around tells it, if any does. The blur
-/// of an edge that goes nearly along is far wider along than across, where it counts: the narrower
-/// of both goes first. From the middle of a thin thing the water begins behind all of its blur:
-/// something wider goes last.
+/// The pixel's share, and the kernel whose surroundings determine it, if any does. The blur across
+/// a nearly parallel direction looks far wider than the true blur: so the narrower of both
+/// directions is tried first. In the middle of a thin object the water begins beyond all of its
+/// blur: so a wider kernel is tried last.
 std::optional<Matte> Edges::State::matte_at(const EdgePicture& picture, const Place& place,
                                             const Band& band, const Kernel*& kernel) const {
   const auto [narrow, wide] = std::minmax(band.rung[0], band.rung[1]);
@@ -382,7 +382,7 @@ void Edges::State::part(const EdgePicture& picture, const Place& place, const Ba
   const double behind = inverse_depth_around(picture, place, *kernel, Side::kWet);
   if (!(behind < water)) return;
   const double open = 1 - matte->cover;
-  // What is before the water sends no less than nothing.
+  // Light from an object in front is not negative.
   const auto shared = [&](double whole, double part) {
     return std::clamp(whole + part, 0.0, std::max(whole, 0.0) / open);
   };

@@ -8,24 +8,24 @@
 
 namespace limpid {
 
-/// Parts pixels that show water and something before it, as at edges that a filter, motion or a
-/// lens has blurred: what covers the pixel goes into Frame::edges, and color and depth become those
-/// of what is behind. What is not wet behind stays as it is, and so do all pixels of views that may
-/// begin in the water.
+/// Separates pixels that show both water and an object in front of it, as at edges blurred by a
+/// filter, motion or a lens: the covering part goes into Frame::edges, and color and depth become
+/// those of the scene behind. Pixels without water behind stay unchanged, and so do all pixels of
+/// views that may begin in the water.
 ///
-/// Deep samples tell it (Frame::foreground, with the layer below the water behind it). Where
-/// there are none it is estimated. An edge is where something dry stands before something wet: the
-/// steps of color across such edges, at growing distances, say in each part of the picture how far
-/// they are blurred. Where they are not, nothing is touched. In the band that is left the share of
-/// a pixel is where its color lies between those of the two sides beyond the band, along Fisher's
-/// discriminant (1936, "The Use of Multiple Measurements in Taxonomic Problems"), so that their
-/// texture does not count; what is thinner than the band, by the regression of the sides that depth
-/// tells on color, for renderers draw depth at one sample of many. Where behind the water nothing
-/// was hit and alpha is 0 around, the alpha of the pixel is its share. Where colors do not tell the
-/// two sides apart, depth alone does.
+/// Deep samples give the parts exactly (Frame::foreground, with the layer below the water behind
+/// it). Without them the parts are estimated. An edge is a dry surface in front of a wet one: the
+/// steps of color across such edges, at growing distances, give the width of the blur in each part
+/// of the picture. Where there is no blur, nothing changes. In the band of the blur, the share of a
+/// pixel is the place of its color between those of the two sides beyond the band, along Fisher's
+/// discriminant (1936, "The Use of Multiple Measurements in Taxonomic Problems"), which ignores
+/// their texture; for an object thinner than the band, by the regression of the sides that depth
+/// gives on color, because renderers take depth from one sample of many. Where behind the water
+/// nothing was hit and alpha is 0 around, the alpha of the pixel is its share. Where colors do not
+/// distinguish the two sides, depth alone decides.
 class Edges {
  public:
-  /// How far from its middle an edge may be blurred, in pixels; beyond it stays hard.
+  /// Widest blur from the middle of an edge, in pixels; beyond it an edge stays hard.
   static constexpr int kFarthest = 31;
 
   Edges();
@@ -33,8 +33,8 @@ class Edges {
   Edges(Edges&&) noexcept;
   Edges& operator=(Edges&&) noexcept;
 
-  /// Puts planes of its own in place of color and depth and sets Frame::edges, where there are such
-  /// pixels; these hold until the next call. `context` is that of the frame. Keeps its memory.
+  /// Replaces color and depth by own planes and sets Frame::edges, if there are such pixels; valid
+  /// until the next call. `context` is that of the frame. Keeps its memory.
   void make(Frame& frame, const Pass& pass, Executor& executor);
 
  private:

@@ -15,7 +15,7 @@
 namespace limpid {
 namespace {
 
-using Blocked = BlockPyramid<SeenHeights>;  // as large as those of others
+using Blocked = BlockPyramid<SeenHeights>;  // all pyramids have this size
 
 /// Blocks that cover a window, from its corner on.
 Size blocks_of(const Rect& window) {
@@ -29,8 +29,8 @@ Size half_of(Size blocks) { return {(blocks.width + 1) / 2, (blocks.height + 1) 
 
 bool is_one(Size blocks) { return blocks.width == 1 && blocks.height == 1; }
 
-/// Fills the blocks of a window, in `cells`, which has room for all levels then, by
-/// look(pixels, blocks, to) at some of a row of them.
+/// Fills the blocks of a window by look(pixels, blocks, to) on parts of a row of blocks. `cells`
+/// gets room for all levels.
 template <class Cell, class Look>
 void look_at(const Rect& window, Executor& executor, std::vector<Cell>& cells, Look&& look) {
   const Size all = blocks_of(window);
@@ -49,7 +49,7 @@ void look_at(const Rect& window, Executor& executor, std::vector<Cell>& cells, L
   run_each(executor, all.height, look_at_row);
 }
 
-/// The other levels on the first one, which is there.
+/// Builds the other levels from the first one.
 template <class Cell>
 void stack_levels(const Rect& window, std::vector<Cell>& cells, BlockPyramid<Cell>& pyramid) {
   Size size = blocks_of(window);
@@ -76,7 +76,7 @@ void stack_levels(const Rect& window, std::vector<Cell>& cells, BlockPyramid<Cel
   pyramid.known = true;
 }
 
-/// Of a march, in which products may cancel: a few roundings of each.
+/// The error of a march, whose products may cancel: a few roundings of each.
 HeightError march_error(const Pass& c) {
   const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
     const glm::dvec3 size =
@@ -89,7 +89,7 @@ HeightError march_error(const Pass& c) {
       static_cast<float>(most(r.ray, r.ray_dx, r.ray_dy))};
 }
 
-/// 0 where lookups are not those that SeenHeights::covers speaks of.
+/// 0 if lookups are not those for which SeenHeights::covers holds.
 double path_fraction(const Plan& plan, const Frame& frame, const Pass& pass) {
   const Refraction::Params& params = plan.look.of<Refraction>();
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
@@ -102,7 +102,7 @@ double path_fraction(const Plan& plan, const Frame& frame, const Pass& pass) {
   return known ? Kernel<Refraction>::kShareOfWay : 0;
 }
 
-/// Whether all water that reaches up to `most` is seen from above: what stands higher is nearer.
+/// Whether all water up to `most` is seen from above: then surfaces higher than that are nearer.
 bool seen_from_above(const Pass& pass, float most) {
   const bool parallel = pass.w_depth == 0;
   return parallel ? glm::dot(pass.up, pass.rays.ray) < 0 : pass.eye_above > most;
@@ -156,7 +156,7 @@ void Heights::look_below(const Plan& plan, const Frame& frame, const Pass& pass,
     const std::size_t count = count_of(blocks_of(surface.window));
     bound_.most = *std::max_element(water_.data(), water_.data() + count);
   }
-  // Where no water is drawn the calm level stands for it.
+  // Where no water is drawn the calm level replaces it.
   bound_.most = std::max(bound_.most, 0.0f) + error.over;
   if (!seen_from_above(pass, bound_.most)) return;
   const SeenFrom from{error, bound_.most, path_fraction(plan, frame, pass), planes.below};

@@ -12,23 +12,23 @@ namespace limpid {
 
 struct ScanTarget;
 
-/// Makes what saves an operator looks at a frame: the HeightBound of what refraction may look up,
-/// the RangeBound of the depths that the mirror may meet, and that of the shadow on the surface.
+/// Makes bounds that save lookups: the HeightBound for refracted lookups, the RangeBound of the
+/// depths that mirrored rays may meet, and that of the shadow on the surface.
 ///
-/// Each texel counts with the greatest height, and with the least, at which any ray through it may
-/// see it, or +inf where one does not lead down. What stands higher than the highest water does not
-/// count for SeenHeights::highest, for a march passes it by, nor does what is infinitely far, as
-/// where a layer below is empty.
+/// Each texel counts with the greatest and the least height at which any ray through it may see its
+/// surface, or +inf if a ray does not lead down. SeenHeights::highest ignores surfaces higher than
+/// the highest water, which a march passes, and surfaces infinitely far, as where a layer below is
+/// empty.
 class Heights {
  public:
-  /// Looks at a frame that has been checked (the runners do that), with the Pass that the plan
-  /// runs with. `simd` as in FusedOptions. No heights are known then where the plan does not march,
-  /// or where water may be seen from below; no ranges are where no operator marches over the plane
-  /// or looks it up. Makes no allocation after the first frame of a size.
+  /// Reads a frame that has been checked (the runners do that), with the Pass of the plan. `simd`
+  /// as in FusedOptions. Makes no heights if the plan does not march, or if water may be seen from
+  /// below; no ranges if no operator marches over the plane or looks it up. Allocates no memory
+  /// after the first frame of a size.
   void make(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
             const std::string& simd = {});
 
-  /// Of the last make(), until the next one.
+  /// From the last make(), until the next one.
   const HeightBound& bound() const { return bound_; }
   const RangeBound& mirrored() const { return mirrored_; }
   const RangeBound& lit() const { return lit_; }

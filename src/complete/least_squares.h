@@ -6,14 +6,14 @@
 
 namespace limpid {
 
-/// The combination of N functions that is nearest to given values, by the sum of squares. What the
-/// values do not tell apart stays small.
+/// The combination of N functions nearest to given values, by the sum of squares. Components that
+/// the values do not determine stay small.
 template <std::size_t N>
 class LeastSquares {
  public:
   using Row = std::array<double, N>;
 
-  /// One place: each function's value there, and that which their combination should have.
+  /// One equation: the functions' values, and the value of their combination.
   void add(const Row& functions, double value) {
     for (std::size_t i = 0; i < N; ++i) {
       for (std::size_t j = 0; j <= i; ++j) products_[i][j] += functions[i] * functions[j];
@@ -21,7 +21,7 @@ class LeastSquares {
     }
   }
 
-  /// How much of each function. By Cholesky's factors of the normal equations.
+  /// The coefficient of each function. By Cholesky's factors of the normal equations.
   Row solved() const {
     constexpr double kLeast = 1e-13;  // of a function's own square
     std::array<std::array<double, N>, N> factor{};

@@ -17,8 +17,8 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-/// The nearest of all that is seen at one pixel, whatever the order: depths above 0 and their bits
-/// are ordered alike.
+/// Keeps the nearest depth at a pixel, for any order of threads: positive floats and their bits
+/// have the same order.
 void keep_nearest(float& at, float depth) {
   static_assert(std::numeric_limits<float>::is_iec559);
   const std::uint32_t mine = std::bit_cast<std::uint32_t>(depth);
@@ -34,8 +34,8 @@ int whole_of(double x) {
   return whole - (whole > x);
 }
 
-/// From a point to its mirror image the way is straight down, which crosses the screen as a
-/// ScreenRay does.
+/// A point's mirror image lies straight below it, and the line to it crosses the screen like a
+/// ScreenRay.
 void scatter_row(const WaterView& c, const View<const float>& dry, int y, const View<float>& to) {
   const double down_depth = -glm::dot(c.forward, c.up), w_step = c.w_depth * down_depth;
   const double down_u = -glm::dot(c.to_u, c.up), down_v = -glm::dot(c.to_v, c.up);
@@ -58,15 +58,15 @@ void scatter_row(const WaterView& c, const View<const float>& dry, int y, const 
   }
 }
 
-/// A hole with that many neighbours is one between points, or a pixel beside an edge, which gains
-/// what a row of points between two pixels has lost.
+/// A hole with this many neighbours lies between points, or is a pixel beside an edge, which gains
+/// the row that points between two pixels have lost.
 constexpr int kLeastNeighbours = 3;
 
-/// 0 where nothing is seen.
+/// 0 where nothing was hit.
 float finite_of(float depth) { return std::abs(depth) < kNothing ? std::abs(depth) : 0.0f; }
 float known_of(float depth) { return std::abs(depth) < kNothing ? 1.0f : 0.0f; }
 
-/// What closes a hole is negative, until tell_real() has seen that it was one.
+/// A depth that closes a hole is negative, until tell_real() has confirmed the hole.
 void close_holes(const View<const float>& from, int y, const View<float>& to) {
   const Rect& window = from.window;
   const int width = window.width();
@@ -74,7 +74,7 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
   for (int i = 0; i < 3; ++i) rows[i] = from.row(std::clamp(y + i - 1, window.y0, window.y1 - 1));
   float* out = to.row(y);
   std::copy_n(rows[1], width, out);
-  // Without branches, for most pixels of most pictures are such holes; first of each column, which
+  // Without branches, because in most pictures most pixels are such holes; column sums first, which
   // three pixels share.
   constexpr int kColumns = 256;
   float greatest[kColumns + 2], known[kColumns + 2];
@@ -98,16 +98,16 @@ void close_holes(const View<const float>& from, int y, const View<float>& to) {
   }
 }
 
-/// So many times its depth a thing that stands in the water is taken to be thick at its foot: there
-/// the mirror saw into it, whatever else would be seen through it.
+/// Assumed thickness of an object at its foot in the water, times its depth: there the mirror saw
+/// into the object, whatever it shows through it.
 constexpr float kFoot = 0.15f;
 
-/// So many pixels over the water's line of a thing a ray along the water, which comes just there,
-/// has met it, whatever the mirror saw through it: far away these are all that lie between the line
-/// and the horizon.
+/// Within this many pixels over an object's water line, a ray along the water has met the object,
+/// whatever the mirror saw through it: far away these pixels are all between the line and the
+/// horizon.
 constexpr double kLine = 3;
 
-/// How much a pixel is high on something at an eye depth.
+/// Height of a pixel on a surface at an eye depth.
 double pixel_height(const WaterView& c, double depth) {
   const auto step = [&](const glm::dvec3& origin, const glm::dvec3& ray) {
     return glm::dot(c.up, origin + depth * ray);
@@ -155,7 +155,7 @@ void MirrorDepth::make(const Frame& frame, const WaterView& view, Executor& exec
   } else {
     each_row(executor, window, [&](int y) { std::fill_n(depth.row(y), window.width(), kNothing); });
     each_row(executor, dry.window, [&](int y) { scatter_row(view, dry, y, depth); });
-    // The other plane is room for the depths until it is made.
+    // The other plane holds the depths until it is made itself.
     each_row(executor, window, [&](int y) { close_holes(depth, y, valid); });
     each_row(executor, window, [&](int y) { close_holes(valid, y, depth); });
   }

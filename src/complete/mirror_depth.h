@@ -7,27 +7,27 @@
 
 namespace limpid {
 
-/// The depth of a reflection that came without one, and which of its pixels are real. A depth and a
-/// validity that the reflection has are kept, but for the insides of things.
+/// The depth of a reflection that has none, and its valid pixels. A depth and a validity that the
+/// reflection has are kept, except inside objects.
 ///
-/// Each point of the dry scene on the eye's side of the calm water is put where its mirror image is
-/// seen; the nearest one wins. Small holes, between points that lie farther apart in the mirror
-/// than in the picture, get the greatest depth of their neighbours, and edges grow by up to two
-/// pixels. What the dry scene does not show remains infinitely far, as the sky is.
+/// Each point of the dry scene on the eye's side of the calm water is splatted at its mirror image;
+/// the nearest point wins. Small holes, between points farther apart in the mirror than in the
+/// picture, get the greatest depth of their neighbours, and edges grow by up to two pixels. Pixels
+/// that the dry scene does not fill remain infinitely far, like the sky.
 ///
-/// A renderer that cuts the scene at the water shows objects that stand in it from within. A pixel
-/// at which something dry stands before the water counts as such an inside where no mirror image is
-/// known, and where the water lies hardly farther than that thing, at most 0.15 of its depth: the
-/// image of what is behind would be seen through its foot. So it does within three pixels of the
-/// line in which that thing meets the water where what is seen there lies farther, even if it is
-/// told to be real. An inside is not real, and a ray that comes there has met that thing.
+/// A renderer that clips the scene at the water shows the insides of objects that stand in it. A
+/// pixel with a dry object in front of the water counts as such an inside if no mirror image is
+/// known there, and the water lies at most 0.15 of the object's depth farther: a mirror image would
+/// be seen through its foot. A pixel within three pixels of the object's water line counts as an
+/// inside, too, if the mirror image there is farther, even if the reflection marks it as valid. An
+/// inside is not valid, and a ray that reaches it has met the object.
 class MirrorDepth {
  public:
-  /// Looks at depth, at the window of the reflection, and at reflection_depth and reflection_valid
-  /// where they are there.
+  /// Reads depth, the window of the reflection, and reflection_depth and reflection_valid if
+  /// present.
   void make(const Frame& frame, const WaterView& view, Executor& executor);
 
-  const Plane& depth() const { return depth_; }  ///< eye depth, +inf where nothing is known
+  const Plane& depth() const { return depth_; }  ///< eye depth, +inf where it is not known
   const Plane& valid() const { return valid_; }  ///< 1 or 0
 
  private:

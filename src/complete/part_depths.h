@@ -9,18 +9,18 @@
 
 namespace limpid {
 
-/// The depths of a frame on the rays of a part of each pixel (Scene::part): each point is as high
-/// over the calm water there as at the pixel's centre, so that a pixel remains wet or dry. What
-/// stands over the water is at most as deep as at the centre. Where such a ray does not reach that
-/// height, the depth is that of the centre.
+/// The depths of a frame on the rays of a part of each pixel (Scene::part): each point keeps the
+/// height over the calm water that it has at the pixel's centre, so that a pixel remains wet or
+/// dry. Points over the water are at most as deep as at the centre. Where such a ray does not reach
+/// that height, the depth is that of the centre.
 class PartDepths {
  public:
-  /// Planes of depths that are read at rays of pixels.
+  /// Depth planes that are read along pixel rays.
   static constexpr std::array kPlanes{PlaneId::kDepth, PlaneId::kSurfaceDepth,
                                       PlaneId::kBelowDepth};
 
-  /// Puts depths of its own in the place of those that the frame has; they hold until the next
-  /// call. `context` is that of the part.
+  /// Replaces the depths of the frame by own planes; they are valid until the next call. `context`
+  /// is that of the part.
   void move(Frame& frame, const WaterView& view, Executor& executor);
 
  private:

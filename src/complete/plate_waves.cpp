@@ -14,17 +14,17 @@
 namespace limpid {
 namespace {
 
-constexpr int kMaxAcross = 64;     ///< pixels that are looked at, and so many rows
-constexpr double kLeastUp = 0.05;  ///< no slope passes 20
-/// Mean height of the waves over the eye's: up to the first they tilt a plane, from the second on
-/// they raise it.
+constexpr int kMaxAcross = 64;     ///< sampled pixels per row, and sampled rows
+constexpr double kLeastUp = 0.05;  ///< limits slopes to 20
+/// Mean height of the waves over the eye's: up to the first value they tilt a plane, from the
+/// second on they raise it.
 constexpr double kPlane = 1.0 / 2000, kRaised = 4 * kPlane;
 constexpr double kMaxTurn = 1e6;  ///< its square is finite in a float, times that of a footprint
 
-/// Where a wet pixel sees the water, in scene units along the axes of the map, and how it leans.
+/// Where a wet pixel sees the water, in scene units along the axes of the map, and its slopes.
 struct Seen {
   glm::dvec2 place, slope;
-  double fall;  ///< sine of the angle at which it is seen
+  double fall;  ///< sine of the angle of the view to the surface
 };
 
 class Surface {
@@ -71,7 +71,7 @@ class Surface {
   Rect window_;
 };
 
-/// A weighted mean of products of vectors with themselves.
+/// A weighted mean of the outer products of vectors with themselves.
 struct Products {
   Sym2<double> sum{0, 0, 0};
   double weight = 0;

@@ -6,13 +6,13 @@
 
 namespace limpid {
 
-/// Of the frame's surface_depth and, where it has them, surface_normal, over the wet pixels of a
-/// grid of about 64 x 64. `raised`: from 0 where the mean height over the calm water is a 2000th of
-/// the eye's, which is what a depth in half floats is off at most, to 1 at four times as much.
-/// Surfaces that are not finite count as dry. `variance`: the mean
-/// square of slopes, each weighed by the square of the sine at which it is seen, for at flat angles
-/// a raised surface shows the slopes that face the view. `turn`: that of the slopes' differences
-/// from pixel to pixel, per scene unit, over the variance, where pixels are small.
+/// From the frame's surface_depth and, if present, surface_normal, over the wet pixels of a grid of
+/// about 64 x 64. `raised`: from 0, if the mean height over the calm water is a 2000th of the eye's
+/// (the largest error of a depth in half floats), to 1 at four times as much. Surfaces that are not
+/// finite count as dry. `variance`: the mean square of slopes, each weighted by the square of the
+/// sine at which it is seen, because at flat angles a raised surface shows the slopes that face the
+/// view. `turn`: the mean square of the slopes' differences from pixel to pixel, per scene unit,
+/// over the variance, where pixels are small.
 PlateWaves plate_waves_of(const Frame& frame, const WaterView& view);
 
 }  // namespace limpid

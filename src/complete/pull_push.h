@@ -11,9 +11,9 @@
 
 namespace limpid {
 
-/// A pyramid of means that draws what is known of a picture on over the rest of it, smoothly
-/// (Gortler et al. 1996, "The Lumigraph", pull-push). A texel has kChannels values and, last, how
-/// much of it is known, 0 ... 1. Keeps its memory from picture to picture.
+/// A pyramid of means that extends the known texels of a picture smoothly over the rest of it
+/// (Gortler et al. 1996, "The Lumigraph", pull-push). A texel has kChannels values and, last, its
+/// known share, 0 ... 1. Keeps its memory from picture to picture.
 template <std::size_t kChannels>
 class PullPush {
  public:
@@ -28,7 +28,7 @@ class PullPush {
     const Texel& at(int x, int y) const {
       return texels[static_cast<std::size_t>(y) * size.width + x];
     }
-    /// Bilinear, at texel (x, y) of a level or picture that is twice as large.
+    /// Bilinear, at texel (x, y) of a level or picture twice as large.
     Texel between(int x, int y) const {
       const int x0 = (x - 1) >> 1, y0 = (y - 1) >> 1;
       const float u = x % 2 == 0 ? 0.75f : 0.25f, v = y % 2 == 0 ? 0.75f : 0.25f;
@@ -43,13 +43,13 @@ class PullPush {
     }
   };
 
-  /// Half of a picture of this size, in which texel(x, y) is known as far as its last value says.
+  /// Half of a picture of this size, in which texel(x, y) is known by the share in its last value.
   template <class At>
   void begin(Size picture, Executor& executor, At&& texel) {
     if (levels_.empty()) levels_.resize(1);
     reduce(picture, levels_[0], executor, texel);
   }
-  /// The level of begin(), or room for one that the caller fills.
+  /// The level of begin(), or memory for a level that the caller fills.
   Level& finest(Size size) {
     if (levels_.empty()) levels_.resize(1);
     Level& level = levels_[0];
@@ -59,7 +59,7 @@ class PullPush {
   }
   const Level& finest() const { return levels_[0]; }
 
-  /// False, and nothing is drawn on, where nothing is known.
+  /// False, without a result, if no texel is known.
   bool draw_on(Executor& executor) {
     std::size_t count = 1;
     for (Size s = levels_[0].size; s.width > 1 || s.height > 1; s = half_of(s)) ++count;
@@ -105,7 +105,7 @@ class PullPush {
     });
   }
 
-  /// What a level lacks, from the coarser one, of which all is known.
+  /// Fills the unknown part of a level from the coarser level, which is fully known.
   static void fill(Level& finer, const Level& coarser, Executor& executor) {
     each_row(executor, {0, 0, finer.size.width, finer.size.height}, [&](int y) {
       for (int x = 0; x < finer.size.width; ++x) {

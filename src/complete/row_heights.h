@@ -6,8 +6,8 @@
 
 namespace limpid {
 
-/// Heights over the calm water of what lies on the rays of one row, at eye depths: over + depth
-/// under, each linear in the column. `off` moves the rays by that many pixels.
+/// Heights over the calm water on the rays of one row, at eye depths: over + depth under, each
+/// linear in the column. `off` moves the rays by that many pixels.
 struct RowHeights {
   double over, over_step, under, under_step;
 
@@ -21,7 +21,7 @@ struct RowHeights {
   double at(int x, double depth) const {
     return over + x * over_step + depth * (under + x * under_step);
   }
-  /// The depth at which a height is reached; no finite one, or below 0, where it is not.
+  /// The depth at which a height is reached; infinite or below 0 where it is not.
   double depth_at(int x, double height) const {
     return (height - over - x * over_step) / (under + x * under_step);
   }

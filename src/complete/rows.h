@@ -6,8 +6,8 @@
 
 namespace limpid {
 
-/// work(y) for each row of a window, some rows a task. Hidden, for what headers instantiate of it
-/// is no symbol for hosts.
+/// work(y) for each row of a window, some rows per task. Hidden, so that its instantiations in
+/// headers export no symbol to hosts.
 template <class Work>
 [[gnu::visibility("hidden")]] void each_row(Executor& executor, const Rect& window,
                                             const Work& work) {

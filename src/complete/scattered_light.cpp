@@ -14,16 +14,16 @@ namespace {
 
 constexpr int kDegree = ScatteredLight::kDegree, kShapes = ScatteredLight::kShapes;
 constexpr int kCount = SlabDirections::kCount, kModes = 4;
-/// In endless water, where all fades with depth: less light than kDark, and what is optically
-/// deeper than kDeepest, counts as nothing. The rates by which light fades stay apart: that of the
-/// beam is kApart of the slowest or more, the fastest kFast of that, the one between at least what
-/// kSlow of the beam's would make it.
+/// In endless water, where all light fades with depth: less light than kDark, and layers optically
+/// deeper than kDeepest, count as nothing. The rates of fading are kept apart: the beam's rate is
+/// at least kApart times the slowest, the fastest is kFast times the beam's, and the one between is
+/// at least kSlow of the beam's.
 constexpr double kDark = 1e-6, kDeepest = 128, kApart = 1.3, kFast = 4, kSlow = 0.05;
-/// The directions that a view from the air has in the water.
+/// The directions in the water of a view from the air.
 constexpr int kFirstSeen = SlabDirections::kInside;
 
-/// Moments of what is left of the phase function without its peak, over its share. Legendre
-/// polynomials, fitted relatively from 10 degrees on.
+/// Moments of the phase function without its peak, over its share. Legendre polynomials, fitted
+/// relatively from 10 degrees on.
 std::array<double, SlabWater::kMoments> moments_of(double anisotropy) {
   constexpr std::size_t kFitted = SlabWater::kMoments - 1;
   const double rest = 1 - narrow_share(anisotropy);
@@ -48,7 +48,7 @@ std::array<double, SlabWater::kMoments> moments_of(double anisotropy) {
   return moments;
 }
 
-/// Fits a number for each layer.
+/// Fits one number per layer.
 ScatteredLight::Power power_fit(const SlabLayers& layers, auto&& of) {
   LeastSquares<kDegree> fit;
   for (const SlabLight& layer : layers) {
@@ -146,7 +146,7 @@ class Channel {
 
   static double azimuth_of(int a) { return a * std::numbers::pi / (kAzimuths - 1); }
 
-  /// Scattered more than once, in a direction, by layer.
+  /// Multiple scattering of sunlight in a direction, by layer.
   double sun_of(std::size_t layer, std::size_t direction, int a) const {
     double sum = modes_[0][layer].sun[direction];
     for (std::size_t m = 1; m < mode_count_; ++m) {
@@ -155,7 +155,7 @@ class Channel {
     return sum;
   }
 
-  /// Relative to all of the sun's light that comes up, that scattered once included.
+  /// Relative to all sunlight that comes up, single scattering included.
   void fit_sun() {
     ShapesFit<kShapes> fit;
     const double level_beam = std::sqrt(1 - beam_ * beam_);
@@ -205,7 +205,7 @@ class Channel {
     }
   }
 
-  /// Calls visit(direction, azimuth) for what a view from the air may see.
+  /// Calls visit(direction, azimuth) for the directions of views from the air.
   template <class Visit>
   void each_view(Visit&& visit) const {
     const int azimuths = mode_count_ > 1 ? kAzimuths : 1;
@@ -228,8 +228,8 @@ class Channel {
       modes[mode] = solve_inside(directions_, slab, reflects, beam_, static_cast<int>(mode));
     }
     const InsideLights& even = modes[0];
-    std::size_t count = 1;  // of layers in which there is light
-    double slowest = 0;     // how fast what is left far down fades
+    std::size_t count = 1;  // of layers with light
+    double slowest = 0;     // rate of fading far down
     for (; count < even.size() && even[count].depth <= kDeepest; ++count) {
       const double before = directions_.flux(even[count - 1].sky_down);
       const double now = directions_.flux(even[count].sky_down);

@@ -6,14 +6,14 @@
 namespace limpid {
 
 /// Solves the equation of radiative transfer for a layer of water under sun and sky, per channel,
-/// and fits what the chain's pixels ask of it. 1 to 3 ms, twice that where views
-/// may begin in the water; the last water's is kept.
+/// and fits the functions that the chain's pixels evaluate. 1 to 3 ms, twice that if views may
+/// begin in the water; the result for the last water is kept.
 ///
 /// The peak of the phase function counts as not scattered (narrow_share); the rest of it is
-/// represented by 16 moments that fit it, relatively, at all other angles (Hu et al. 2000,
-/// "Delta-Fit: a Fast and Accurate Treatment of Particle Scattering Phase Functions").
-/// `sun` leaves out light that was scattered once, which is exact elsewhere (Nakajima & Tanaka
-/// 1988, "Algorithms for Radiative Intensity Calculations in Moderately Thick Atmospheres").
+/// represented by 16 moments fitted, relatively, at all other angles (Hu et al. 2000, "Delta-Fit: a
+/// Fast and Accurate Treatment of Particle Scattering Phase Functions"). `sun` leaves out single
+/// scattering, which is computed exactly elsewhere (Nakajima & Tanaka 1988, "Algorithms for
+/// Radiative Intensity Calculations in Moderately Thick Atmospheres").
 class ScatteredLightMaker {
  public:
   /// Red, green, blue; until the next call.

@@ -13,7 +13,7 @@ using Texel = PullPush<3>::Texel;
 struct Picture {
   std::array<View<const float>, 3> color;
   View<const float> alpha, depth;
-  Rect window;  ///< where color and depth are
+  Rect window;  ///< where both color and depth are
 
   explicit Picture(const Frame& frame)
       : color{frame.plane(PlaneId::kColorR), frame.plane(PlaneId::kColorG),

@@ -9,11 +9,11 @@
 
 namespace limpid {
 
-/// The sky of a frame where something stands before it: the color where nothing was hit and alpha
-/// is above half, and elsewhere a smooth continuation of it (pull_push.h).
+/// The sky of a frame behind its objects: the color where nothing was hit and alpha is above half,
+/// and elsewhere a smooth continuation of it (pull_push.h).
 class Sky {
  public:
-  /// Looks at color and depth. False, and nothing is made, where the frame shows no sky.
+  /// Reads color and depth. False, without a result, if the frame shows no sky.
   bool make(const Frame& frame, Executor& executor);
 
   const Plane& color(int channel) const { return color_[static_cast<std::size_t>(channel)]; }

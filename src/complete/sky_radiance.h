@@ -4,8 +4,8 @@
 namespace limpid {
 
 /// The radiance of an even sky that lights level water as an environment does: the mean of the
-/// directions above the horizon by their cosine with the water's up. Of a large map some hundred
-/// rows and columns are looked at.
+/// directions above the horizon, weighted by their cosine with the water's up. Samples some hundred
+/// rows and columns of a large map.
 Rgb<double> sky_radiance(const Texture& environment);
 
 }  // namespace limpid

@@ -10,7 +10,7 @@ namespace {
 constexpr int kCount = SlabDirections::kCount, kMoments = SlabWater::kMoments;
 constexpr double kThin = 1.0 / 8192, kEndless = 8192;  ///< optical depths
 using Radiance = SlabDirections::Radiance;
-using Matrix = std::array<Radiance, kCount>;  ///< rows: what goes out; columns: what comes in
+using Matrix = std::array<Radiance, kCount>;  ///< rows: outgoing light; columns: incoming light
 
 Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix product{};
@@ -50,8 +50,8 @@ Matrix operator+(Matrix a, const Matrix& b) {
   return a;
 }
 
-/// 1 / (1 - a): all that goes to and fro. By Gauss and Jordan; what goes to and fro gets less, so
-/// that the largest entries stay on the diagonal.
+/// 1 / (1 - a): the sum over all reflections to and fro. By Gauss and Jordan; each reflection loses
+/// light, so the largest entries stay on the diagonal.
 Matrix to_and_fro(const Matrix& a) {
   Matrix left, right{};
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -102,13 +102,13 @@ double mode_between(const SlabWater& water, int mode, const Values& a, const Val
   return sum;
 }
 
-/// A layer without a surface: what it makes of what comes in, and of the beam.
+/// A layer without a surface: its response to incoming light, and to the beam.
 struct Layer {
   double depth;
-  Matrix back, through;  ///< of what comes in from either side
-  Radiance up, down;     ///< of the beam, out at the top and the bottom
+  Matrix back, through;  ///< of light incoming from either side
+  Radiance up, down;     ///< of the beam, outgoing at the top and the bottom
 
-  /// Thin enough for light to meet its water no more than once.
+  /// Thin enough for single scattering.
   Layer(const SlabDirections& directions, const SlabWater& water, double beam, int mode,
         double thin)
       : depth(thin) {
@@ -122,8 +122,8 @@ struct Layer {
         back[i][j] = share * mode_between(water, mode, of[i], of[j], true);
         through[i][j] = share * mode_between(water, mode, of[i], of[j], false);
       }
-      // Not exp(-...): what is met is met above, and where nothing is absorbed not a bit of light
-      // may be won, for it would be won again by each doubling.
+      // Not exp(-...): the scattered light is computed to first order, and without absorption no
+      // light may be gained, because each doubling would gain it again.
       through[i][i] += 1 - thin / directions.cosine[i];
       up[i] = met / 2 * mode_between(water, mode, of[i], from_beam, true);
       down[i] = met / 2 * mode_between(water, mode, of[i], from_beam, false);
@@ -146,7 +146,7 @@ struct Layer {
 
 SlabLight light_of(const Layer& layer, const SlabDirections& directions, const SlabWater& water,
                    const Radiance& reflects, double beam, int mode) {
-  Matrix under = layer.back;  // what the surface throws down and the layer up again
+  Matrix under = layer.back;  // light that the surface reflects down and the layer up again
   for (Radiance& row : under) row = each(reflects, row);
   const Matrix between = to_and_fro(under);
   SlabLight light;
@@ -166,7 +166,7 @@ SlabLight light_of(const Layer& layer, const SlabDirections& directions, const S
   even.fill(1);
   light.passing = between * (layer.through * even);
   light.back = directions.flux(layer.back * even + layer.through * each(reflects, light.passing));
-  // From the sky: what the surface lets in fills, at its own radiance, the cone in the water.
+  // From the sky: transmitted light fills, at its own radiance, the cone in the water.
   Radiance entering;
   for (std::size_t i = 0; i < kCount; ++i) entering[i] = 1 - reflects[i];
   light.sky = between * (layer.back * entering);
@@ -174,7 +174,7 @@ SlabLight light_of(const Layer& layer, const SlabDirections& directions, const S
   return light;
 }
 
-/// Gauss and Legendre's nodes between two numbers.
+/// Gauss-Legendre nodes of an interval.
 void put_nodes(double from, double to, int count, double* nodes, double* weights) {
   for (int i = 0; i < count; ++i) {
     double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 0;
@@ -232,11 +232,11 @@ InsideLights solve_inside(const SlabDirections& directions, const SlabWater& wat
     Matrix under = layer.back;
     for (Radiance& row : under) row = each(reflects, row);
     const Matrix between = to_and_fro(under);
-    // At the top up, for light `up` from below and what is sent up and let in above.
+    // Light at the top, upwards, for light `up` from below and light sent up and transmitted above.
     const auto top = [&](const Radiance& sent, const Radiance& up) {
       return between * (sent + layer.through * up);
     };
-    // What of the light from below comes down again, for each of its directions.
+    // Light from below that comes down again, for each of its directions.
     Matrix again;
     for (std::size_t j = 0; j < kCount; ++j) {
       Radiance one{};

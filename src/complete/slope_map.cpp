@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMoments = TextureLevels::kMoments;
 
-/// The first column once more, and so the first row.
+/// Repeats the first column and the first row.
 void close_row(const LevelSizes& sizes, int level, int y, float* plane) {
   plane[sizes.place(level, sizes.width[level], y)] = plane[sizes.place(level, 0, y)];
   if (y > 0) return;

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set, as run/lanes_target.cpp is; the same holds here.
+// Compiled once for each instruction set, under the same rules as run/lanes_target.cpp.
 #include "complete/surface_target.h"
 
 #include "core/lanes.h"

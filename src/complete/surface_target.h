@@ -7,7 +7,7 @@
 
 namespace limpid {
 
-/// DisplacedSurface as compiled for one instruction set: one row of it.
+/// One row of DisplacedSurface, compiled for one instruction set.
 struct SurfaceTarget {
   void (*row)(const WaterView& view, const RaisedWater<float>& water, int y,
               const View<float>& depth);

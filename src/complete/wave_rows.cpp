@@ -12,8 +12,8 @@
 namespace limpid {
 namespace {
 
-/// Places of the surface as pixels of the operator that makes the waves. There is no frame: planes
-/// read as absent ones do.
+/// Places of the surface as pixels for the operator wave_normals. There is no frame: planes read as
+/// absent planes do.
 class Places {
  public:
   using Number = double;
@@ -58,7 +58,7 @@ class Places {
   std::span<Pixel<double>> pixels_;
 };
 
-/// Along map_x and map_y. What stands upright leans as the steepest waves do.
+/// Along map_x and map_y. A vertical surface gets the slope of the steepest waves.
 Vec2<double> slopes_of(const Pass& c, const Vec3<double>& n) {
   constexpr double kLeastUp = 0.05;
   const double up = std::max(dot(n, vec3_of<double>(c.up)), kLeastUp);
@@ -127,8 +127,8 @@ void WaveRows::row(double x, double y, double step, int count, const CausticsTar
 
 // --- maps ---------------------------------------------------------------------------------------
 
-/// One period of what the model makes of the map; two_flows looks one of its maps up half as
-/// densely.
+/// One period of the model's sum over the map; two_flows looks up one of its maps at half the
+/// density.
 void WaveRows::make_tile(const WaveNormals::Params& waves, Executor& executor) {
   const Pass& c = *pass_;
   WaveNormals::Params plain = waves;
@@ -166,8 +166,8 @@ void WaveRows::make_tile(const WaveNormals::Params& waves, Executor& executor) {
   });
 }
 
-/// Of a level that is as large, if there is one: four lookups for each texel take longer than all
-/// else that the table takes.
+/// Copies a level of the same size, if there is one: four lookups per texel would take longer than
+/// the rest of the table.
 bool WaveRows::copy_tile(const SlopeLevels& slopes, double scale) {
   const LevelSizes& sizes = slopes.sizes;
   int level = 0;
@@ -208,7 +208,7 @@ void WaveRows::measure_tile() {
 
 void WaveRows::row_of_tile(double x, double y, double step, int count, const CausticsTarget& target,
                            std::vector<float>& room, const SurfaceRow& to) const {
-  const auto wrapped = [&](double at) {  // a texel's place is that of its middle
+  const auto wrapped = [&](double at) {  // a texel's place is its middle
     const double turns = at / period_ - 0.5 / kTile;
     return (turns - std::floor(turns)) * kTile;
   };
@@ -268,7 +268,7 @@ void WaveRows::row_of_normals(double x, double y, double step, int count,
     view.data = &view.at(window.x0, window.y0);
     view.window = window;
   }
-  // From the picture's corner, where uv is 0. What is divided below goes evenly along the row.
+  // From the picture's corner, where uv is 0. Numerators and denominators are linear along the row.
   const glm::dvec3 first = x * c.map_x + y * c.map_y - c.eye_above * c.up - c.rays.origin;
   const auto along = [&](const glm::dvec3& axis, double times, double plus) {
     return glm::dvec2(plus + times * glm::dot(axis, first), times * step * glm::dot(axis, c.map_x));

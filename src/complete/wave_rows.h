@@ -12,32 +12,32 @@
 
 namespace limpid {
 
-/// The water's surface where no pixel shows it: its height and its slopes at places along rows of
-/// the calm surface, by the waves that the look has. Of sines both; of tiling maps the slopes,
-/// whatever model adds them up, from a tile of them; of the frame's own normals the scene's sines,
-/// where it has any, else their slopes, in the picture, and calm water beyond it. Without a height
-/// the water is as high as calm water, as it is for the pixels.
+/// The water's surface where no pixel shows it: its height and slopes at places along rows of the
+/// calm surface, by the waves of the look. For sines both; for tiling maps the slopes, by any
+/// model, from a tile of them; for the frame's own normals the scene's sines, if it has any, else
+/// the slopes of the normals within the picture, and calm water beyond it. Without a height the
+/// water is at the calm level, as it is for the pixels.
 class WaveRows {
  public:
-  /// False where the water is calm. The frame, the pass and the waves must live as long.
+  /// False if the water is calm. The frame, the pass and the waves must live as long.
   bool make(const WaveNormals::Params& waves, const Frame& frame, const Pass& pass,
             Executor& executor);
 
-  /// The root mean square of the slope, of its change over a length (the curvature of both
-  /// directions added up), and the length below which nothing changes much.
+  /// The root mean square of the slope and of its change per length (the curvature of both
+  /// directions added), and the length below which the surface is smooth.
   double slope() const { return slope_; }
   double curvature() const { return curvature_; }
   double shortest() const { return shortest_; }
   double longest() const { return longest_; }
 
-  /// For a row.
+  /// Memory for one row.
   struct Room {
     std::vector<SineOfRow> sines;
     std::vector<float> tile;
   };
 
-  /// Of `count` places, `step` apart along map_x, from (x, y) on, in scene units from the point of
-  /// the calm surface below the eye. Rows have room for 16 more.
+  /// `count` places, `step` apart along map_x, from (x, y) on, in scene units from the point of the
+  /// calm surface below the eye. Rows have room for 16 more.
   void row(double x, double y, double step, int count, const CausticsTarget& target, Room& room,
            const SurfaceRow& to) const;
 
@@ -57,7 +57,7 @@ class WaveRows {
   std::vector<SineWave> sines_;
   bool raised_ = false;
   static constexpr int kTile = 256;  ///< texels along a side of the tile
-  std::vector<float> tile_;          ///< slopes x y; the first column and row once more at the end
+  std::vector<float> tile_;          ///< slopes x y; the first column and row repeated at the end
   double period_ = 0;                ///< of the tile, in scene units
   glm::dvec2 tile_at_{0, 0};         ///< the eye's place in it
   double slope_ = 0, curvature_ = 0, shortest_ = 0, longest_ = 0;

@@ -6,8 +6,8 @@
 
 namespace limpid {
 
-/// The mean, over the area that the texel (x, y) of a picture of size `to` has in one of size
-/// `from`, of at(x, y) there: N floats a texel.
+/// Mean of at(x, y), N floats per texel, over the area in a picture of size `from` that corresponds
+/// to the texel (x, y) of a picture of size `to`.
 template <int N, class At>
 std::array<float, N> box_mean(Size from, Size to, int x, int y, const At& at) {
   struct Span {

@@ -47,7 +47,7 @@ DepthRow perspective_depth(double near, double far, ClipSpace clip) {
   return {};
 }
 
-/// Solved for the depth that has this one after the division.
+/// The eye depth with this device depth.
 double eye_depth_of(const glm::dmat4& p, double device) {
   return (at(p, 2, 3) - device * at(p, 3, 3)) / (at(p, 2, 2) - device * at(p, 3, 2));
 }
@@ -106,7 +106,7 @@ double Camera::near_depth() const {
 
 double Camera::far_depth() const {
   const double far = eye_depth_of(projection, far_device_depth());
-  return far > near_depth() ? far : HUGE_VAL;  // an infinite far plane, by rounding
+  return far > near_depth() ? far : HUGE_VAL;  // an infinite far plane, but for rounding
 }
 
 glm::dmat4 perspective(double fov_y, double aspect, double near, double far, ClipSpace clip,

@@ -18,13 +18,12 @@ namespace {
 constexpr Chromaticity kD65{.3127, .3290}, kD60{.32168, .33767};
 
 struct Space {
-  std::array<std::string_view, 9> names;  ///< the first is ours; letters and digits of the others
+  std::array<std::string_view, 9> names;  ///< limpid's name first; letters and digits of the others
   Primaries primaries;
 };
 
 // ITU-R BT.709 and BT.2020, SMPTE EG 432-1 and RP 431-2, Academy S-2014-004 and TB-2014-004, Adobe
-// RGB (1998). Other names: of OpenColorIO's ACES configs, of Blender's, and of the Color Interop
-// Forum.
+// RGB (1998). Other names: from OpenColorIO's ACES configs, Blender, and the Color Interop Forum.
 constexpr Space kSpaces[] = {
     {{"Rec.709", "linrec709", "linrec709scene", "linearrec709", "linearrec709srgb", "linsrgb",
       "linearsrgb", "utilitylinearsrgb", "linear"},
@@ -48,7 +47,7 @@ std::array<double, kNumbers> numbers_of(const Primaries& p) {
   return {p.red.x, p.red.y, p.green.x, p.green.y, p.blue.x, p.blue.y, p.white.x, p.white.y};
 }
 
-/// Letters and digits, small.
+/// Letters and digits, in lower case.
 std::string plain(std::string_view name) {
   std::string letters;
   for (const char c : name) {
@@ -69,7 +68,7 @@ const Space* space_called(std::string_view name) {
   return nullptr;
 }
 
-/// Eight numbers between spaces, or nothing.
+/// Eight numbers with spaces between them, or nothing.
 std::optional<Primaries> numbers_in(std::string_view text) {
   std::array<double, kNumbers> n{};
   const char *at = text.data(), *const end = text.data() + text.size();
@@ -83,7 +82,7 @@ std::optional<Primaries> numbers_in(std::string_view text) {
   return Primaries{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
 }
 
-/// Of Y = 1.
+/// With Y = 1.
 glm::dvec3 xyz_of(const Chromaticity& c) { return {c.x / c.y, 1, (1 - c.x - c.y) / c.y}; }
 
 /// x, y and z of red, green and blue, a column each.
@@ -92,12 +91,12 @@ glm::dmat3 places_of(const Primaries& p) {
   return {place(p.red), place(p.green), place(p.blue)};
 }
 
-/// How much of red, green and blue there is in white.
+/// The amounts of red, green and blue in white.
 glm::dvec3 shares_of(const Primaries& p) { return glm::inverse(places_of(p)) * xyz_of(p.white); }
 
 glm::dmat3 scaled(const glm::dvec3& by) { return {{by.x, 0, 0}, {0, by.y, 0}, {0, 0, by.z}}; }
 
-// By rows, as it is published; GLM has columns.
+// By rows, as published; GLM has columns.
 const glm::dmat3 kBradford = glm::transpose(
     glm::dmat3{{.8951, .2664, -.1614}, {-.7502, 1.7135, .0367}, {.0389, -.0685, 1.0296}});
 

@@ -9,7 +9,7 @@ namespace {
 
 std::size_t difference(std::size_t a, std::size_t b) { return a > b ? a - b : b - a; }
 
-/// Letters left out, put in, replaced, and neighbours swapped count one each.
+/// Number of deletions, insertions, replacements and swaps of neighbouring letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), row(before), next(before);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -5,7 +5,7 @@
 
 namespace limpid {
 
-/// An executor of two threads or more; 0: as many as the machine has cores.
+/// An executor of two or more threads; 0: one per core of the machine.
 std::unique_ptr<Executor> make_pool(int threads);
 
 }  // namespace limpid

@@ -3,19 +3,19 @@
 
 /// Texels at places that differ from lane to lane. For inclusion by the *_target.cpp files alone.
 ///
-/// Lanes are loaded one by one: on Zen 4 that takes half the time of the gather instruction, and
-/// two neighbours at once, as bilinear filtering wants them, a third of two gathers.
+/// Lanes are loaded one by one: on Zen 4 this takes half the time of the gather instruction, and
+/// two neighbours at once, for bilinear filtering, a third of two gathers.
 
 namespace limpid::HWY_NAMESPACE {
 
-/// An index a lane, in memory.
+/// One index per lane, in memory.
 struct Places {
   alignas(64) std::int32_t at[kLanes];
   Places() = default;
   LIMPID_LANES_INLINE explicit Places(VI index) { hn::Store(index, kDI, at); }
 };
 
-/// What lies at a place and right after it.
+/// The values at a place and right after it.
 struct Pair {
   Lane left, right;
 };
@@ -29,7 +29,7 @@ LIMPID_LANES_INLINE __m128 load_four(const float* data, const std::int32_t* at) 
 }
 
 LIMPID_LANES_INLINE __m128 load_two_pairs(const float* data, const std::int32_t* at) {
-  // Loads that ask for no alignment, as those of a double would.
+  // Unaligned loads, which those of a double would not be.
   const __m128i first = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(data + at[0]));
   return _mm_loadh_pi(_mm_castsi128_ps(first), reinterpret_cast<const __m64*>(data + at[1]));
 }

@@ -21,7 +21,7 @@ bool is_one_of(std::span<const std::string_view> words, const std::string* word)
   return word && std::find(words.begin(), words.end(), *word) != words.end();
 }
 
-/// "; did you mean 'x'?" where the value is a word that is near one of them.
+/// "; did you mean 'x'?" if the value is a word similar to a known one.
 std::string slip(const std::string* word, const std::vector<std::string>& known) {
   return word ? did_you_mean(*word, known) : "";
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::ptrdiff_t kFloat = sizeof(float);
 
-/// Addresses, first and one past the last.
+/// First address, and one past the last.
 struct Span {
   std::uintptr_t begin, end;
 };

@@ -4,10 +4,10 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
-/// The number type of the fused pass: one SIMD vector of float lanes, with the functions that
+/// The number type of the fused pass: a SIMD vector of float lanes, with the functions that
 /// formulas call (see core/number.h). For inclusion by the *_target.cpp files alone, which are
-/// compiled once for each instruction set: everything here lives in Highway's namespace for that
-/// set, so that no two copies share a symbol.
+/// compiled once for each instruction set: all names here live in Highway's namespace for that set,
+/// so that no two copies share a symbol.
 
 namespace limpid::HWY_NAMESPACE {
 
@@ -60,13 +60,13 @@ LIMPID_LANES_INLINE Lane abs(Lane a) { return Lane(hn::Abs(a.v)); }
 LIMPID_LANES_INLINE Lane sqrt(Lane a) { return Lane(hn::Sqrt(a.v)); }
 LIMPID_LANES_INLINE Lane floor(Lane a) { return Lane(hn::Floor(a.v)); }
 
-/// first, first + 1, ... (Highway's Iota of a number known only at run time goes through memory.)
+/// first, first + 1, ... (Highway's Iota for a number known only at run time goes through memory.)
 LIMPID_LANES_INLINE VI count_from(int first) {
   return hn::Add(hn::Iota(kDI, 0), hn::Set(kDI, first));
 }
 
-/// The integer towards zero, of a number that an int can hold. (Highway's own conversion takes time
-/// for those that it cannot.)
+/// The integer towards zero, for numbers in the range of int. (Highway's own conversion spends time
+/// on others.)
 LIMPID_LANES_INLINE VI whole_of(Lane a) {
 #if HWY_TARGET == HWY_AVX3
   return VI{_mm512_cvttps_epi32(a.v.raw)};
@@ -82,8 +82,8 @@ LIMPID_LANES_INLINE VI whole_of(Lane a) {
 /// e^x by Highway's polynomial. Relative error below 3e-7 for x in -87 ... 88; 0 below -104.
 LIMPID_LANES_INLINE Lane exp(Lane x) { return Lane(hn::Exp(kD, x.v)); }
 
-/// Highway's polynomial for the arctangent of 0 ... 1, laid out around the turn. Absolute error
-/// below 5e-7 for |x| and |y| in 1e-36 ... 1e36, or 0.
+/// Highway's polynomial for the arctangent of 0 ... 1, extended to the circle. Absolute error below
+/// 5e-7 for |x| and |y| in 1e-36 ... 1e36, or 0.
 LIMPID_LANES_INLINE Lane atan2(Lane y, Lane x) {
   const Lane across = abs(x), up = abs(y);
   const Lane slope = min(across, up) / max(max(across, up), Lane(1e-37));
@@ -102,7 +102,7 @@ LIMPID_LANES_INLINE Lane pow(Lane x, Lane p) {
   return select(p <= Lane(0), Lane(1), select(positive, power, Lane(0)));
 }
 
-/// The same for one exponent of all lanes. A whole one up to 256 is a chain of products, with a
+/// The same with one exponent for all lanes. An integer up to 256 is a chain of products, with a
 /// relative error below p / 2^24.
 LIMPID_LANES_INLINE Lane pow(Lane x, double p) {
   const int whole = p <= 256 ? static_cast<int>(p) : 0;
@@ -117,7 +117,7 @@ LIMPID_LANES_INLINE Lane pow(Lane x, double p) {
   return pow(x, Lane(p));
 }
 
-/// By Highway's polynomials. Absolute error below 1.5e-7 for x in -1000 ... 1000, whatever the
+/// By Highway's polynomials. Absolute error below 1.5e-7 for x in -1000 ... 1000, for any
 /// instruction set.
 LIMPID_LANES_INLINE Lane sin(Lane x) { return Lane(hn::Sin(kD, x.v)); }
 LIMPID_LANES_INLINE Lane cos(Lane x) { return Lane(hn::Cos(kD, x.v)); }

@@ -7,8 +7,7 @@
 
 namespace limpid {
 
-/// A move along an axis as texels and the share of the next one. What is not a number moves
-/// nothing.
+/// A shift along an axis as texels and the weight of the next texel. NaN shifts by 0.
 struct Moved {
   int texels = 0;
   float rest = 0;
@@ -27,7 +26,7 @@ inline void add_turned(const float* from, int width, int shift, float weight, fl
   for (int x = until; x < width; ++x) to[x] += weight * from[x - until];
 }
 
-/// Means of one plane that repeats, over the four lookups, for a row of it.
+/// Means of a row of one repeating plane, over the four lookups.
 inline void mean_of_four(const float* plane, Size size, const FourShifts& shifts, int y,
                          float* to) {
   std::fill_n(to, size.width, 0.0f);
@@ -44,7 +43,7 @@ inline void mean_of_four(const float* plane, Size size, const FourShifts& shifts
   }
 }
 
-/// The share of what varies within texels that the mean of the four keeps.
+/// Share of the variance within texels that the mean of the four keeps.
 inline double kept_within(const FourShifts& shifts, Size size) {
   double sum = 0;
   for (const Vec2<double>& a : shifts.of) {

@@ -1,15 +1,15 @@
 #pragma once
 #include <cstddef>
 
-/// What the system would give this process, asked by taking it and giving it back. Another thread
-/// may have it the moment after.
+/// Memory that the system would give this process, tested by allocating and freeing it. Another
+/// thread may take it right after.
 
 namespace limpid {
 
-/// Whether there are so many bytes to write to.
+/// Whether this many bytes can be allocated and written.
 bool has_memory(std::size_t bytes);
 
-/// Whether there are so many addresses in a row, which `ulimit -v` counts and others do not.
+/// Whether this many contiguous addresses are free, which `ulimit -v` limits.
 bool has_addresses(std::size_t bytes);
 
 }  // namespace limpid

@@ -23,8 +23,8 @@ Plane::Plane(Rect window) : window_(window) {
   y_stride_ = (window.width() + kFloatsPerLine - 1) / kFloatsPerLine * kFloatsPerLine;
   const std::size_t bytes = static_cast<std::size_t>(y_stride_) *
                             static_cast<std::size_t>(window.height()) * sizeof(float);
-  // Fresh memory is zero already, and comes page by page to the threads that fill it: clearing it
-  // would touch all of it once more, on one thread. calloc() clears only what was in use before.
+  // Fresh memory is zero already, and is mapped page by page by the threads that fill it: clearing
+  // would touch all of it once more, on one thread. calloc() clears only reused memory.
   std::size_t space = bytes + kAlignment;
   void* block = std::calloc(space, 1);
   if (block == nullptr) throw std::bad_alloc();

@@ -29,8 +29,8 @@ void expect_light(const char* name, const Rgb<double>& light) {
   }
 }
 
-/// sqrt(9.81 |k|), of |k| / 256: the product stays finite for every finite k, and the powers of two
-/// are exact.
+/// sqrt(9.81 |k|), from |k| / 256: the product stays finite for every finite k, and the powers of
+/// two are exact.
 double deep_water_omega(double k_x, double k_y) {
   return 16 * std::sqrt(9.81 * std::hypot(k_x / 256, k_y / 256));
 }

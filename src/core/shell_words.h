@@ -4,7 +4,7 @@
 
 namespace limpid {
 
-/// Words as a line that a POSIX shell takes apart into the very same words.
+/// A line that a POSIX shell splits into exactly these words.
 std::string shell_line(const std::vector<std::string>& words);
 
 }  // namespace limpid

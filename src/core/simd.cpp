@@ -11,7 +11,7 @@ namespace {
 
 struct Candidate {
   const char* name;
-  std::int64_t highway;  ///< 0 for what every machine has
+  std::int64_t highway;  ///< 0 for the baseline that every machine has
 };
 
 constexpr Candidate kCandidates[] = {

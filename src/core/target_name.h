@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the files that are compiled once for each instruction set name after it:
-/// LIMPID_OF_TARGET(kFused_) is kFused_avx2 in the copy for avx2.
+/// Names in files that are compiled once for each instruction set: LIMPID_OF_TARGET(kFused_) is
+/// kFused_avx2 in the copy for avx2.
 
 #define LIMPID_JOIN_(a, b) a##b
 #define LIMPID_JOIN(a, b) LIMPID_JOIN_(a, b)

@@ -16,21 +16,22 @@
 namespace limpid {
 namespace {
 
-/// oneTBB's, or what the program has set for its threads if that is less.
+/// oneTBB's stack size, or the program's thread stack size if it is smaller.
 std::size_t stack_bytes() {
   using tbb::global_control;
   return std::min(global_control::active_value(global_control::thread_stack_size),
                   usual_stack_bytes());
 }
 
-/// As many as asked for, as the machine has, and as can be made; the calling thread is one.
+/// The least of the requested threads, the machine's cores, and the threads that can be made,
+/// including the calling thread.
 int threads_of(int asked) {
   const int most = tbb::this_task_arena::max_concurrency();
   return 1 + threads_to_be_had((asked == 0 ? most : std::min(asked, most)) - 1, stack_bytes());
 }
 
-/// The last of these to go joins the pool's threads. Left to themselves they would still be ending
-/// while the program ends, which leak checkers stumble over.
+/// The destructor of the last executor joins the pool's threads. Otherwise they could still be
+/// ending while the program ends, which leak checkers report.
 class TbbExecutor : public Executor {
  public:
   explicit TbbExecutor(int threads) : arena_(threads_of(threads)) {}
@@ -38,10 +39,10 @@ class TbbExecutor : public Executor {
   ~TbbExecutor() override {
     if (lacks_thread_) return;  // finalize() would wait for a thread that never began
     arena_.terminate();
-    tbb::finalize(pool_, std::nothrow);  // false while somebody else still uses the pool
+    tbb::finalize(pool_, std::nothrow);  // false if another user of the pool remains
   }
 
-  /// Isolated: who waits for the last tiles must not begin with something else, such as another
+  /// Isolated: a thread that waits for the last tiles must not start other work, such as another
   /// frame's file.
   void run(int count, Task task, void* context) override {
     const auto all = [&] { tbb::parallel_for(0, count, [&](int index) { task(context, index); }); };

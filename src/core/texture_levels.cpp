@@ -15,7 +15,7 @@ using Moments = std::array<float, TextureLevels::kMoments>;
 Color color_at(const Texture& map, int x, int y) {
   const Rect& window = map.channels[0].window;
   Color color;
-  if (map.bytes) {  // k / 255, whatever their reader has made of it
+  if (map.bytes) {  // exactly k / 255, independent of the reader's floats
     const std::uint32_t texel = map.bytes[std::ptrdiff_t{y} * (window.width() + 1) + x];
     for (int c = 0; c < 3; ++c) {
       color[static_cast<std::size_t>(c)] = static_cast<float>(texel >> (8 * c) & 255) / 255.0f;
@@ -43,7 +43,7 @@ Color unpacked(std::uint32_t texel) {
   return {part(texel & 2047, 2047), part(texel >> 11 & 2047, 2047), part(texel >> 22, 511)};
 }
 
-/// As WaveNormals::slopes() has it.
+/// As in WaveNormals::slopes().
 Moments moments_of(const Color& color) {
   const float per_z = 1 / std::max(2 * color[2] - 1, 0.05f);
   const float x = (2 * color[0] - 1) * per_z, y = (2 * color[1] - 1) * per_z;

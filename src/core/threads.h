@@ -3,12 +3,12 @@
 
 namespace limpid {
 
-/// Bytes of the stack of a thread for which nobody asks for another.
+/// Default stack size of a thread, in bytes.
 std::size_t usual_stack_bytes();
 
-/// How many of `wanted` threads with such stacks the system lets this process have: so many are
-/// made, and end. The C library keeps their stacks (up to 40 MiB), so that the threads that a
-/// library makes next find them even when memory has come to an end meanwhile.
+/// The number of `wanted` threads with such stacks that the system allows this process: it makes
+/// them, and ends them. The C library keeps their stacks (up to 40 MiB), so that a library's next
+/// threads find them even if memory has run out by then.
 int threads_to_be_had(int wanted, std::size_t stack_bytes);
 
 }  // namespace limpid

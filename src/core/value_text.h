@@ -11,7 +11,7 @@
 
 namespace limpid {
 
-/// A value of any kind as a text, from how a number and a word are written.
+/// A value of any kind as text, by functions for a number and a word.
 template <class NumberText, class WordText>
 std::string value_text(const Value& value, NumberText&& number_text, WordText&& word_text) {
   const auto list_text = [&](const auto& numbers) {
@@ -29,7 +29,7 @@ std::string value_text(const Value& value, NumberText&& number_text, WordText&& 
   return "[" + join(rows) + "]";
 }
 
-/// "name = value" and the end of the line, as TOML files have it; it reads back to the bit.
+/// "name = value" with a line end, as in TOML files; it parses to the same bits.
 inline std::string toml_line(std::string_view name, const Value& value) {
   const auto number = [](double x) { return toml_text(x); };
   const auto word = [](const std::string& text) { return toml_text(text); };

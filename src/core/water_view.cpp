@@ -13,8 +13,8 @@
 namespace limpid {
 namespace {
 
-/// `v` without its part along `axis`, unit; `fallback` instead of `v` where that leaves (almost)
-/// nothing.
+/// `v` without its component along `axis`, unit; `fallback` instead of `v` if (almost) nothing is
+/// left.
 glm::dvec3 on_plane(const glm::dvec3& axis, const glm::dvec3& v, const glm::dvec3& fallback) {
   const auto flat = [&](const glm::dvec3& w) { return w - glm::dot(w, axis) * axis; };
   const glm::dvec3 first = flat(v);
@@ -22,7 +22,7 @@ glm::dvec3 on_plane(const glm::dvec3& axis, const glm::dvec3& v, const glm::dvec
 }
 
 /// The direction on screen, unit, in pixels to the right and down, in which the calm water recedes:
-/// the heights of equally deep points change fastest along it. Down, where they do not.
+/// the heights of equally deep points change fastest along it. Down if they do not change.
 glm::dvec2 receding(const Rays& rays, const glm::dvec3& up) {
   const glm::dvec2 near(glm::dot(up, rays.origin_dx), glm::dot(up, rays.origin_dy));
   const glm::dvec2 far(glm::dot(up, rays.ray_dx), glm::dot(up, rays.ray_dy));
@@ -31,7 +31,7 @@ glm::dvec2 receding(const Rays& rays, const glm::dvec3& up) {
   return steep > 1e-12 ? falls / steep : glm::dvec2(0, 1);
 }
 
-/// The camera whose pixels are looked through that far from their centres, in pixels.
+/// The camera with its pixel centres moved by this, in pixels.
 Camera moved(Camera camera, glm::dvec2 pixels, glm::dvec2 size) {
   const glm::dvec2 by = 2.0 * pixels / size;
   for (int column = 0; column < 4; ++column) {
@@ -42,7 +42,7 @@ Camera moved(Camera camera, glm::dvec2 pixels, glm::dvec2 size) {
   return camera;
 }
 
-/// Rays whose steps are as many times narrower along a direction on screen.
+/// Rays whose steps are this many times narrower along a direction on screen.
 Rays narrower(Rays rays, glm::dvec2 along, int times) {
   const auto narrow = [&](glm::dvec3& dx, glm::dvec3& dy) {
     const glm::dvec3 lost = (1 - 1.0 / times) * (along.x * dx + along.y * dy);
@@ -93,7 +93,7 @@ WaterView::WaterView(const Scene& scene, const Rect& window, const Swell& swell)
   forward = glm::dvec3(0, 0, -1) * to_view;
   w_origin = p[3][3];
   w_depth = -p[2][3];
-  // z / w in 0 ... 1, whatever range the projection has: GL's is twice as long, reversed ones run
+  // z / w in 0 ... 1, for any range of the projection: GL's is twice as long, reversed ones run
   // backwards.
   const glm::dvec2 z(p[3][2], -p[2][2]), one(w_origin, w_depth);
   const glm::dvec2 device = camera.clip == ClipSpace::kGl    ? 0.5 * (z + one)

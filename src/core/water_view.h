@@ -17,7 +17,7 @@ LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v) {
 }
 template <class F>
 LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3&& v) = delete;
-/// Of a vector that lies nowhere; see given().
+/// Replaces the address of a vector that has none; see given().
 template <class F>
 LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v, const char* name) {
   return {given<F>(v.x, name, 0), given<F>(v.y, name, 1), given<F>(v.z, name, 2)};
@@ -25,36 +25,37 @@ LIMPID_INLINE Vec3<F> vec3_of(const glm::dvec3& v, const char* name) {
 
 /// The waves that raise the water of a frame.
 struct Swell {
-  bool raises = false;              ///< without, that water is calm
-  std::span<const SineWave> waves;  ///< those of the scene where there are none
+  bool raises = false;              ///< without, the water is calm
+  std::span<const SineWave> waves;  ///< the scene's waves if it has some
   double scale = 1;                 ///< of their heights
 };
 
-/// What camera and water plane say of a picture, in double: made once a frame of a scene and the
-/// window that the picture has, without looking at a pixel.
+/// Camera and water plane as the numbers of a picture, in double: made once per frame from a scene
+/// and the picture's window, without reading a pixel.
 ///
-/// t, b: tangent frame of the calm surface as the camera sees it: t is the camera's right projected
-/// on the plane (its up, should right be parallel to the plane's normal), b = cross(up, t) points
-/// away from the camera. map_x, map_y: tangent frame that stays with the world, for tiling maps:
-/// world x (z, should x be parallel to up) projected on the plane, and cross(up, map_x).
+/// t, b: tangent frame of the calm surface relative to the camera: t is the camera's right
+/// projected on the plane (its up, if right is parallel to the plane's normal), b = cross(up, t)
+/// points away from the camera. map_x, map_y: tangent frame fixed to the world, for tiling maps:
+/// world x (z, if x is parallel to up) projected on the plane, and cross(up, map_x).
 struct WaterView {
   /// Throws Error unless the scene is valid and has a camera and a water plane. The waves of
   /// `swell` must live as long.
   WaterView(const Scene& scene, const Rect& window, const Swell& swell = {});
 
   Rays rays;
-  Rays part;  ///< `rays` with the steps of the part of a pixel that is seen (Scene::part)
-  glm::dvec2 off_centre;  ///< where the middle of that part is, in pixels from the pixel's centre
+  Rays part;              ///< `rays` with the steps of the visible part of a pixel (Scene::part)
+  glm::dvec2 off_centre;  ///< the middle of that part, in pixels from the pixel's centre
   glm::dvec3 eye;
   glm::dvec3 up, t, b;
   glm::dvec3 map_x, map_y;
   double eye_above;  ///< signed height of the eye over the calm surface
-  /// A picture is seen through a window at the near distance; where that lies lower than the water,
-  /// the view begins in it. False when no pixel's does, as for orthographic cameras.
+  /// A picture is seen through a window at the near distance; where the window lies below the
+  /// water, the view begins in the water. False if no pixel's view does, and for orthographic
+  /// cameras.
   bool submersible;
   double near;                      ///< eye depth of that window
-  bool raised;                      ///< waves raise and lower the water; without it is calm
-  std::span<const SineWave> waves;  ///< those that do: of the scene, or of the look
+  bool raised;                      ///< waves raise the water; without it is calm
+  std::span<const SineWave> waves;  ///< the waves that raise it: of the scene, or of the look
   double wave_scale;                ///< of their heights
   /// The screen, for directions d from the eye: uv = (dot(to_u, d), dot(to_v, d)) / w, and eye
   /// depth = dot(forward, d). A point at eye depth Z has w = w_origin + w_depth Z.
@@ -62,7 +63,8 @@ struct WaterView {
   double w_origin, w_depth;
   double device_offset, device_scale;  ///< of device_depth()
   /// Height over the calm surface of a point at eye depth Z on the ray at uv: eye_above + over + Z
-  /// under, where over and under change by these over the width and the height of the picture.
+  /// under, where over and under change by these steps over the width and the height of the
+  /// picture.
   glm::dvec2 over_step, under_step;
   glm::ivec2 size;    ///< of the window
   glm::ivec2 corner;  ///< of the window
@@ -86,9 +88,9 @@ struct RowRays {
   Vec3<F> origin, origin_dx, ray, ray_dx;
   F v;  ///< of the row's centre, 0 ... 1 down the picture
   F calm_over, calm_over_dx, calm_under, calm_under_dx;
-  F window;  ///< eye depth where the view begins, should it be able to begin in the water; else 0
+  F window;  ///< eye depth where the view begins, if it can begin in the water; else 0
 
-  RowRays() = default;  ///< for whoever has them already
+  RowRays() = default;  ///< for callers that set all members
   RowRays(const WaterView& view, double y)
       : origin(vec3_of<F>(view.rays.origin + y * view.rays.origin_dy, "row.origin")),
         origin_dx(vec3_of<F>(view.rays.origin_dx)),
@@ -104,7 +106,7 @@ struct RowRays {
   LIMPID_INLINE Vec3<F> ray_at(F x) const { return ray + x * ray_dx; }
   LIMPID_INLINE Vec3<F> origin_at(F x) const { return origin + x * origin_dx; }
 
-  /// Eye depth of the calm surface, +inf where the ray does not meet it where the view is.
+  /// Eye depth of the calm surface, +inf if the ray does not meet it beyond the begin of the view.
   LIMPID_INLINE F calm_depth(F x) const {
     const F over = calm_over + x * calm_over_dx;
     const F under = calm_under + x * calm_under_dx;

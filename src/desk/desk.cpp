@@ -47,7 +47,7 @@ ShownViews cropped(ShownViews views, const Rect& to) {
   return views;
 }
 
-/// The view to begin with first, and plain sRGB last.
+/// The initial view first, and plain sRGB last.
 std::vector<std::string> displays_of(const DisplayChoice& display) {
   std::vector<std::string> all;
   if (!display.config.empty()) all = display_views(display.config);
@@ -57,7 +57,7 @@ std::vector<std::string> displays_of(const DisplayChoice& display) {
   return all;
 }
 
-/// One text for one choice.
+/// A unique text for each choice.
 std::string text_of(const DeskChoice& choice) {
   std::string text = choice.look;
   for (const std::string& setting : choice.settings) text += "\n" + setting;
@@ -68,7 +68,7 @@ std::string text_of(const DeskChoice& choice) {
 
 }  // namespace
 
-/// What a run has left; valid until the next.
+/// The result of a run; valid until the next one.
 struct Desk::Painted {
   Frame frame;
   HeldTextures textures;      ///< of the frame
@@ -76,7 +76,7 @@ struct Desk::Painted {
   bool half = false;
   Halving halving;
   Rect display;  ///< of the plate
-  Rect window;   ///< that was computed
+  Rect window;   ///< the computed window
   Primaries primaries = kRec709;
   const Canvas* canvas = nullptr;
   RunTimes times;

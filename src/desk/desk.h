@@ -24,97 +24,97 @@
 
 namespace limpid {
 
-/// A look that the desk offers, by the word that `--look` names it with.
+/// A look that the desk offers, by its name for `--look`.
 struct DeskLook {
   std::string word;
   Look look;
 
-  /// Another look with the numbers of one water.
+  /// A look based on another look, with the numbers of one water.
   bool is_preset() const { return !look.bases.empty(); }
 };
 
-/// What lies on a desk.
+/// The inputs of a desk.
 struct DeskOptions {
-  /// Plate and scene, or those of a frame; its look and what it writes count for nothing, but how
-  /// it is computed does. `frames` are empty where there is one picture.
+  /// Plate and scene of a frame; the job's look and outputs are ignored, its runner is used.
+  /// `frames` is empty for a single picture.
   std::function<CompositeJob(std::optional<int> frame)> job_of;
   std::vector<int> frames = {};
   double fps = 24;
 
   std::vector<DeskLook> looks;
-  std::string start;                       ///< one of their words
-  std::vector<std::string> settings = {};  ///< of the start, as `--set` has them
+  std::string start;                       ///< name of one of them
+  std::vector<std::string> settings = {};  ///< applied to the start, in the syntax of `--set`
 
   /// Red, green and blue of a picture to compare with, scene-linear; empty where there is none.
   std::function<std::array<Plane, 3>(std::optional<int> frame)> reference = {};
 
-  std::filesystem::path folder = ".";  ///< where looks are saved
-  /// The command line that names plate, scene and the way to compute: "composite", "dry.exr", ...
+  std::filesystem::path folder = ".";  ///< for saved looks
+  /// The command line with plate, scene and runner: "composite", "dry.exr", ...
   std::vector<std::string> command = {};
-  std::string range = {};  ///< of the frames, as `--frames` has it
+  std::string range = {};  ///< the frames in the syntax of `--frames`
 
-  /// How light is shown: a config of OpenColorIO, or none for sRGB, and the view of it to begin
-  /// with. The exposure is the request's.
+  /// The display of light: a config of OpenColorIO, or none for sRGB, and its initial view. The
+  /// request has the exposure.
   DisplayChoice display = {};
 
-  /// Frames are kept in memory until they take more: the last one always.
+  /// Memory limit for frames; the last frame is always kept.
   std::int64_t most_bytes = std::int64_t{1} << 30;
 };
 
-/// Which picture is meant.
+/// The picture to show.
 struct DeskChoice {
-  std::string look;                        ///< a DeskLook's word
-  std::vector<std::string> settings = {};  ///< upon it, as `--set` has them
-  std::optional<int> frame = {};           ///< the first, where there are some
-  std::optional<double> time = {};         ///< seconds; the frame's own
+  std::string look;                        ///< name of a DeskLook
+  std::vector<std::string> settings = {};  ///< applied to it, in the syntax of `--set`
+  std::optional<int> frame = {};           ///< the first frame if empty
+  std::optional<double> time = {};         ///< seconds; empty: the frame's own
 };
 
 struct PictureRequest : DeskChoice {
   bool half = false;
   std::string show = "picture";  ///< of Desk::shows()
-  double exposure = 0;           ///< stops, of light
-  std::string display = {};      ///< of Desk::displays(); "" for the first
+  double exposure = 0;           ///< stops, for light
+  std::string display = {};      ///< one of Desk::displays(); "" for the first
 };
 
 struct DeskPicture {
   Shown shown;
   bool half = false;
-  /// What it took in milliseconds, in the order of the work: "all" by the clock, "read", each
-  /// operator and "rest" by all threads together.
+  /// Times in milliseconds, in the order of the work: "all" is wall-clock time, "read", each
+  /// operator and "rest" are sums over all threads.
   std::vector<std::pair<std::string, double>> milliseconds;
-  /// CompositeReport's, but that what looks beyond the frame is advice. Of half the size, those of
-  /// plate and look alone.
+  /// Those of CompositeReport, with lookups beyond the frame as advice. At half the size, only
+  /// those of plate and look.
   std::vector<std::string> warnings, advice;
-  std::optional<double> wet;  ///< share of pixels, at most; by the fused runner
+  std::optional<double> wet;  ///< share of pixels, upper bound; by the fused runner
 };
 
 struct PixelNumbers {
   Rgb<float> dry, picture;
-  std::vector<std::pair<Aov, std::vector<float>>> aovs;  ///< a number a channel
+  std::vector<std::pair<Aov, std::vector<float>>> aovs;  ///< one number per channel
 };
 
-/// Something that can be shown instead of the picture.
+/// An AOV or measure that can replace the picture.
 struct DeskShow {
   std::string name, about;
 };
 
-/// A file is there, and nobody said that it may be replaced.
+/// A file exists, and replacing was not allowed.
 struct NameTaken : Error {
   using Error::Error;
 };
 
-/// A plate that looks are tried on. Any threads may ask; they are served one at a time.
+/// A plate for trying looks. Any number of threads may call it; calls run one at a time.
 class Desk {
  public:
-  /// Reads the first frame, so that what is wrong with plate, scene, look, reference or display is
-  /// an Error now. The executor must outlive it.
+  /// Reads the first frame, so that errors of plate, scene, look, reference or display are found
+  /// now. The executor must outlive it.
   Desk(DeskOptions options, Executor& executor);
 
   const DeskOptions& options() const { return options_; }
   /// "fused avx2"
   std::string runner() const;
   std::vector<DeskShow> shows() const;
-  /// How light can be shown: the view to begin with, the others of the config, and sRGB.
+  /// The displays of light: the initial view, the others of the config, and sRGB.
   const std::vector<std::string>& displays() const { return displays_; }
   struct Facts {
     Rect window;  ///< of the picture, in display coordinates
@@ -135,8 +135,8 @@ class Desk {
   PixelNumbers pixel(const DeskChoice& choice, int x, int y);
 
   /// Writes the look into the folder, as a look file that reads back as the same picture: `name`
-  /// ends in .toml and names no other folder. Throws NameTaken for a file that is there and is not
-  /// to be replaced, and Error for a name that cannot be, for an input, and where writing fails.
+  /// ends in .toml and names no other folder. Throws NameTaken for an existing file without
+  /// `replace`, and Error for an invalid name, for an input, and if writing fails.
   std::filesystem::path save(const DeskChoice& choice, const std::string& name, bool replace);
 
   /// The command line that writes the picture, quoted for a shell.
@@ -146,7 +146,7 @@ class Desk {
   Look look_of(const DeskChoice& choice) const;
 
  private:
-  struct Painted;  // what a run has left
+  struct Painted;  // the result of a run
 
   const DeskLook& look_named(const std::string& word) const;
   DeskFrame& frame_at(std::optional<int> frame);
@@ -167,7 +167,7 @@ class Desk {
     std::optional<int> number;
     std::unique_ptr<DeskFrame> frame;
   };
-  std::list<Kept> frames_;  ///< the last one first
+  std::list<Kept> frames_;  ///< most recently used first
   struct Reference {
     std::optional<int> frame;
     std::array<Plane, 3> color;
@@ -176,7 +176,7 @@ class Desk {
   SharedTextures textures_;
   HeldGpu gpu_;
   std::optional<Canvas> whole_, half_, numbers_;
-  std::string numbers_of_;  ///< the choice whose numbers `numbers_` has, or ""
+  std::string numbers_of_;  ///< the choice of `numbers_`, or ""
 };
 
 }  // namespace limpid

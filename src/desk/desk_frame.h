@@ -9,8 +9,8 @@
 
 namespace limpid {
 
-/// One frame of what lies on the desk: its plate, and the planes that looks have asked for so far,
-/// whole and of half the size.
+/// One frame of the desk: its plate, and the planes that looks have needed so far, at full and at
+/// half size.
 class DeskFrame {
  public:
   /// Opens the plate of the job. Throws Error as Plate::open().
@@ -20,19 +20,19 @@ class DeskFrame {
   const Plate& plate() const { return held_.plate(); }
   double transparent() const { return held_.transparent(); }
 
-  /// As HeldPlate has it.
+  /// As HeldPlate::whole().
   Frame whole(PlaneSet planes, const Scene& scene);
   struct Half {
     Frame frame;
     Camera camera;
   };
-  /// The same of half the size, and the camera that sees it.
+  /// The same at half size, with its camera.
   Half half(PlaneSet planes, const Scene& scene, Executor& executor);
 
-  /// Which pixels of whole() are one of half().
+  /// The mapping from pixels of whole() to pixels of half().
   Halving halving() const;
 
-  /// Of all planes in memory.
+  /// Memory of all planes.
   std::int64_t bytes() const;
 
  private:

@@ -15,9 +15,9 @@
 namespace limpid {
 namespace {
 
-using Json = nlohmann::ordered_json;  // settings count in their order
+using Json = nlohmann::ordered_json;  // the order of settings matters
 
-// --- what is said ---
+// --- answers ---
 
 std::string_view kind_name(FieldKind kind) {
   switch (kind) {
@@ -65,7 +65,7 @@ Json words_json(std::span<const std::string_view> words) {
   return list;
 }
 
-/// An end of a range, and null where there is none.
+/// An end of a range, null if infinite.
 Json bound(double x) {
   return std::abs(x) < std::numeric_limits<double>::max() ? number(x) : Json(nullptr);
 }
@@ -124,7 +124,7 @@ Json look_json(const DeskLook& look) {
           {"values", std::move(values)}};
 }
 
-/// What the settings came to, by the names that they have.
+/// The values of the settings, by their names.
 Json settings_json(const std::vector<std::string>& settings, const Look& look) {
   Json set = Json::object();
   for (const std::string& setting : settings) {
@@ -141,14 +141,14 @@ Json optional_json(const std::optional<int>& x) { return x ? Json(*x) : Json(nul
 
 Json pixel_of(const Rgb<float>& c) { return {number(c.r), number(c.g), number(c.b)}; }
 
-/// Names of files may be no UTF-8.
+/// Names of files may be invalid UTF-8.
 std::string dumped(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// --- what is asked ---
+// --- requests ---
 
-/// A JSON object whose keys are asked for one by one; others are refused.
+/// A JSON object whose keys are read one by one; unread keys are refused.
 class Asked {
  public:
   explicit Asked(std::string_view text, std::initializer_list<const char*> more)
@@ -163,7 +163,7 @@ class Asked {
     }
   }
 
-  /// Null where there is none.
+  /// Null if it is missing.
   const Json* find(const char* key) const {
     const auto found = json_.find(key);
     return found == json_.end() || found->is_null() ? nullptr : &*found;
@@ -218,7 +218,7 @@ bool is_numbers(const Json& value) {
   return value.is_array() && std::all_of(value.begin(), value.end(), is_number);
 }
 
-/// As `--set` has it.
+/// In the syntax of `--set`.
 std::string setting_text(const std::string& key, const Json& value) {
   if (value.is_string()) return key + "=" + value.get<std::string>();
   if (value.is_number()) return key + "=" + toml_text(value.get<double>());

@@ -4,12 +4,12 @@
 
 #include "desk/desk.h"
 
-/// What a page says to a desk and hears of it, as JSON.
+/// Requests and answers between a page and a desk, as JSON.
 
 namespace limpid {
 
-/// All that a page needs to begin with: plate, looks with their values, operators with their
-/// fields, what can be shown.
+/// The data for the start of a page: plate, looks with their values, operators with their fields,
+/// and what can be shown.
 std::string desk_json(Desk& desk);
 
 /// The requests. Throw Error, which names key and expectation, for what is no JSON, for keys that
@@ -26,7 +26,7 @@ struct SaveRequest : DeskChoice {
 };
 SaveRequest save_request(std::string_view json);
 
-/// The facts as JSON after their size as four bytes, the lowest first; then the pixels.
+/// The size of the JSON as four bytes, the lowest first; the JSON; then the pixels.
 std::string picture_bytes(const DeskPicture& picture);
 /// Numbers that are not finite are null.
 std::string pixel_json(const PixelRequest& request, const PixelNumbers& numbers);

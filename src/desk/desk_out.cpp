@@ -1,4 +1,4 @@
-// What leaves the desk: looks that are saved, and command lines.
+// Results of the desk: saved looks, and command lines.
 #include <set>
 #include <system_error>
 
@@ -26,7 +26,7 @@ void expect_file_name(const std::string& name) {
               "': expected the name of a file that ends in .toml, without a folder");
 }
 
-/// What the pictures of all frames are made from, of frames that are wrong what can be told.
+/// The inputs of the pictures of all frames; for frames with errors, as far as they are known.
 std::vector<fs::path> inputs_of(const DeskOptions& options) {
   std::set<fs::path> inputs;
   const auto add = [&](std::optional<int> frame) {
@@ -34,7 +34,7 @@ std::vector<fs::path> inputs_of(const DeskOptions& options) {
       const JobFiles files = files_of(options.job_of(frame));
       inputs.insert(files.inputs.begin(), files.inputs.end());
     } catch (const Error&) {
-      // It will be told when the frame is shown.
+      // Reported when the frame is shown.
     }
   };
   if (options.frames.empty()) add(std::nullopt);
@@ -69,7 +69,7 @@ fs::path Desk::save(const DeskChoice& choice, const std::string& name, bool repl
 }
 
 std::string Desk::command(const DeskChoice& choice) const {
-  look_of(choice);  // refused here, not in the shell
+  look_of(choice);  // refuses errors here, before the shell
   std::vector<std::string> words = {"limpid"};
   words.insert(words.end(), options_.command.begin(), options_.command.end());
   words.insert(words.end(), {"--look", choice.look});

@@ -6,11 +6,11 @@
 namespace limpid {
 namespace {
 
-/// Rounded down, of negative ones too.
+/// Rounded down, also below 0.
 int half_down(int x) { return x >= 0 ? x / 2 : -((1 - x) / 2); }
 int half_up(int x) { return -half_down(-x); }
 
-/// Calls make(x, y, pixels) for each half pixel, `pixels` being those of the window.
+/// Calls make(x, y, pixels) for each half pixel; `pixels` are those in the window.
 template <class Make>
 Plane halved(const Rect& window, const Halving& halving, const Make& make) {
   Plane half(halving.of(window));
@@ -23,13 +23,13 @@ Plane halved(const Rect& window, const Halving& halving, const Make& make) {
   return half;
 }
 
-/// The upper left of what there is: that which the tool's own smaller pictures take, too.
+/// The upper left of the existing pixels, as in the tool's other reduced pictures.
 Plane half_sample(const View<const float>& plane, const Halving& halving) {
   return halved(plane.window, halving,
                 [&](const Rect& four) { return plane.at(four.x0, four.y0); });
 }
 
-/// Of those that are valid, in their shares; the plain mean where none is.
+/// The mean of the valid pixels by their shares; the plain mean if none is valid.
 Plane half_valid_mean(const View<const float>& plane, const View<const float>& valid,
                       const Halving& halving) {
   return halved(plane.window, halving, [&](const Rect& four) {
@@ -56,7 +56,7 @@ void make_unit(const View<float>& x, const View<float>& y, const View<float>& z)
     for (int column = w.x0; column < w.x1; ++column) {
       float &a = x.at(column, row), &b = y.at(column, row), &c = z.at(column, row);
       const float length = std::sqrt(a * a + b * b + c * c);
-      if (!(length > 0)) continue;  // of opposite ones: as little a direction as it was
+      if (!(length > 0)) continue;  // opposite vectors cancel: no direction either
       a /= length;
       b /= length;
       c /= length;
@@ -116,7 +116,7 @@ HalfPlate::HalfPlate(const Frame& frame, Executor& executor)
 
 Camera HalfPlate::camera(const Camera& of_frame) const {
   const Rect seen = halving_.covered(frame_.display);
-  // Places -1 ... 1 of the display window, y up, among those of what is seen now.
+  // Places -1 ... 1 of the display window, y up, within the visible window.
   const double sx = display_.width() / double(seen.width());
   const double sy = display_.height() / double(seen.height());
   const double tx = sx - 1 + 2.0 * (display_.x0 - seen.x0) / seen.width();

@@ -1,4 +1,4 @@
-// The only source that knows cpp-httplib; built as limpid_http.so and loaded by http_server.cpp.
+// The only source that includes cpp-httplib; built as limpid_http.so, which http_server.cpp loads.
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -25,7 +25,7 @@ using httplib::Response;
 
 constexpr const char* kText = "text/plain; charset=utf-8";
 
-// A bounded number of threads and of connections that wait for one: who gives more waits.
+// A bounded number of threads and of queued connections: a further connection blocks its caller.
 class BoundedThreads : public httplib::TaskQueue {
  public:
   BoundedThreads(int threads, int waiting) : most_(static_cast<std::size_t>(waiting)) {
@@ -74,7 +74,7 @@ class BoundedThreads : public httplib::TaskQueue {
 
 HttpText text_of(const std::string& text) { return {text.data(), text.size()}; }
 
-// The header's value, held by `kept`.
+// The header's value, stored in `kept`.
 HttpText header_of(const Request& request, const char* name, std::string& kept) {
   if (!request.has_header(name)) return {nullptr, 0};
   kept = request.get_header_value(name);
@@ -84,8 +84,8 @@ HttpText header_of(const Request& request, const char* name, std::string& kept) 
 void put_reply(Response& response, int status, const char* type, std::string bytes) {
   response.status = status;
   if (bytes.empty()) return response.set_content("", type);
-  // As a provider: a body would be compressed where the browser knows how, at the cost of more time
-  // than its way takes.
+  // As a provider: the library would compress a body for a browser that accepts it, which takes
+  // more time than the transfer.
   const auto held = std::make_shared<const std::string>(std::move(bytes));
   const auto provide = [held](std::size_t offset, std::size_t size, httplib::DataSink& sink) {
     return sink.write(held->data() + offset, size);
@@ -102,14 +102,14 @@ class HttpServer {
   HttpServer(const HttpOptions& options, const HttpHost& host) : host_(host) {
     const int threads = options.threads, waiting = options.waiting;
     server_.new_task_queue = [=] { return new BoundedThreads(threads, waiting); };
-    // A connection a request: what is left of a body that was refused is no next request, and no
-    // browser that keeps one open takes a thread.
+    // One request per connection: the rest of a refused body is not read as a request, and no
+    // browser that keeps a connection open occupies a thread.
     server_.set_keep_alive_max_count(1);
     server_.set_keep_alive_timeout(options.seconds_to_begin);
     server_.set_read_timeout(options.seconds);
     server_.set_write_timeout(options.seconds);
     server_.set_payload_max_length(options.most_body);
-    // Not the library's own SO_REUSEPORT, with which another program could listen here, too.
+    // Not the library's own SO_REUSEPORT, which would let another program listen here, too.
     server_.set_socket_options([](int socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -133,7 +133,7 @@ class HttpServer {
     server_.Post(".*", answer);
   }
 
-  // The port, or 0 where there is none to be had.
+  // The port, or 0 if none is free.
   int bind(int port) {
     if (port == 0) return std::max(0, server_.bind_to_any_port("127.0.0.1"));
     return server_.bind_to_port("127.0.0.1", port) ? port : 0;
@@ -145,7 +145,7 @@ class HttpServer {
   }
 
   void stop() {
-    // It can be stopped once it runs.
+    // stop() works only once it runs.
     while (!server_.is_running() && !ended_) std::this_thread::yield();
     server_.stop();
   }
@@ -168,7 +168,7 @@ class HttpServer {
     return admitted && has_plain_body(request, response, most);
   }
 
-  // Bodies of unknown length, and packed ones, would be larger than they say.
+  // Bodies of unknown length, or compressed, could exceed their stated size.
   static bool has_plain_body(const Request& request, Response& response, std::size_t most) {
     const auto refuse = [&](int status, const char* sentence) {
       put_reply(response, status, kText, sentence);
@@ -185,7 +185,7 @@ class HttpServer {
     const char* const end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, length);
     const bool too_large = read.ec == std::errc::result_out_of_range || length > most;
-    if (too_large) return refuse(413, "body: larger than is allowed\n");
+    if (too_large) return refuse(413, "body: larger than allowed\n");
     if (read.ec != std::errc() || read.ptr != end ||
         request.get_header_value_count("Content-Length") > 1) {
       return refuse(400, "Content-Length: expected a number\n");

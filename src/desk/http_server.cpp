@@ -12,7 +12,7 @@
 namespace limpid {
 namespace {
 
-/// For the page itself and what it shows, no other.
+/// For the page itself and its pictures only.
 constexpr HttpHeader kHeaders[] = {
     {"Content-Security-Policy",
      "default-src 'self' 'unsafe-inline' blob: data:; frame-ancestors 'none'"},
@@ -22,7 +22,7 @@ constexpr HttpHeader kHeaders[] = {
     {"Cross-Origin-Resource-Policy", "same-origin"},
 };
 
-/// Connections that say nothing, as browsers open in advance, take a thread for a second.
+/// Idle connections, which browsers open in advance, occupy a thread for a second.
 constexpr int kThreads = 32;
 constexpr int kWaiting = 64;
 constexpr int kSecondsToBegin = 1;
@@ -69,13 +69,13 @@ void send(const WebReply& with, HttpReply* reply, void* to) {
   reply(to, with.status, with.type.c_str(), with.bytes.data(), with.bytes.size());
 }
 
-/// No exception crosses into the module.
+/// No exception may cross into the module.
 template <class Work>
 std::optional<WebReply> guarded(const Work& work) {
   try {
     return work();
   } catch (const std::exception&) {
-    return WebReply{503, "text/plain; charset=utf-8", "the desk has no memory for it\n"};
+    return WebReply{503, "text/plain; charset=utf-8", "the desk is out of memory\n"};
   }
 }
 

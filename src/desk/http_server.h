@@ -8,7 +8,7 @@
 
 namespace limpid {
 
-/// What a browser asks. The views last as long as the call that hands them over.
+/// A browser's request. The views are valid during the call.
 struct WebRequest {
   std::string_view method, path;
   std::optional<std::string_view> host, origin;
@@ -20,27 +20,26 @@ struct WebReply {
   std::string type, bytes;
 };
 
-/// Speaks HTTP on 127.0.0.1, by the module limpid_http: with a bounded number of threads, of
-/// connections that wait, of bytes of a body (1 MiB), and of seconds of silence. A connection a
-/// request.
+/// Serves HTTP on 127.0.0.1, by the module limpid_http: with a bounded number of threads, of queued
+/// connections, of bytes of a body (1 MiB), and of seconds of silence. One request per connection.
 class HttpServer {
  public:
   struct Host {
     /// The refusal of a request whose body has not been read, or none.
     std::function<std::optional<WebReply>(const WebRequest&)> refusal;
-    /// Of a request that was not refused. Called from several threads at once.
+    /// The reply to an admitted request. Called from several threads at once.
     std::function<WebReply(const WebRequest&)> answer;
   };
 
-  /// Listens; answers from now on, on threads of its own. `port` 0 is any. Throws Error for one
-  /// that is taken, and where the module is not there.
+  /// Listens; replies from now on, on threads of its own. `port` 0 is any. Throws Error for a port
+  /// in use, and if the module is missing.
   HttpServer(int port, Host host);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
   int port() const { return port_; }
-  /// Returns when the system lets it accept no more connections.
+  /// Returns when the system accepts no more connections.
   void wait();
 
  private:

@@ -21,8 +21,8 @@ std::optional<std::string> built_in(std::string_view name) {
   return std::nullopt;
 }
 
-/// For work on the page itself: with the environment variable LIMPID_DESK_PAGE its files are read
-/// from that folder each time, so that a browser's reload shows what was just written.
+/// For development of the page: with the environment variable LIMPID_DESK_PAGE its files are read
+/// from that folder each time, so that a browser's reload shows changes.
 std::optional<std::string> being_worked_on(std::string_view name) {
   const char* const folder = std::getenv("LIMPID_DESK_PAGE");
   if (!folder || name.find('/') != std::string_view::npos) return std::nullopt;

@@ -6,12 +6,12 @@
 namespace limpid {
 
 struct PageFile {
-  std::string type;  ///< of its content, as HTTP names it
+  std::string type;  ///< MIME type
   std::string text;
 };
 
 /// A file of the folder page, or the style that all pages share, by its name without folders; none
-/// where there is no such file. "" is the page itself, desk.html.
+/// for an unknown file. "" is the page itself, desk.html.
 std::optional<PageFile> page_file(std::string_view name);
 
 }  // namespace limpid

@@ -16,7 +16,7 @@ bool is_set(const Parameter& p, const std::vector<Parameter>& defaults) {
   });
 }
 
-/// Whether setting something else that is set sets this, too: then it must be said what it is.
+/// Whether setting another set parameter also sets this one: then its value must be written.
 bool follows(const Parameter& p, const std::vector<Parameter>& all,
              const std::vector<Parameter>& defaults) {
   return std::any_of(all.begin(), all.end(), [&](const Parameter& other) {
@@ -26,7 +26,7 @@ bool follows(const Parameter& p, const std::vector<Parameter>& all,
   });
 }
 
-/// `file` as it is named from the folder.
+/// The path of `file` relative to the folder.
 std::string name_from(const std::string& file, const fs::path& folder) {
   const fs::path name = fs::path(file).lexically_relative(fs::absolute(folder).lexically_normal());
   return name.empty() || *name.begin() == ".." ? file : name.string();

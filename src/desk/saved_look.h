@@ -6,9 +6,9 @@
 
 namespace limpid {
 
-/// A look as a look file for the folder: what is not at its default, a line each with unit and
-/// sentence, and what it was in the look `of` where that is something else. It reads back as the
-/// same look. A wave map in or below the folder is named from there, others by their whole path.
+/// A look as a look file for the folder: parameters that differ from their default, a line each
+/// with unit and sentence, and the value in the look `of` if that differs. It reads back as the
+/// same look. A wave map in or below the folder has a relative path, others an absolute one.
 std::string saved_look(const Look& look, const DeskLook& of, const std::filesystem::path& folder);
 
 }  // namespace limpid

@@ -21,7 +21,7 @@ WebReply refused(int status, const std::string& sentence) {
   return {status, kJson, text_json("error", sentence)};
 }
 
-/// What is asked for below the root, or none.
+/// The path below the root, or none.
 std::optional<std::string_view> below(std::string_view path, const std::string& root) {
   if (!is_same(path.substr(0, root.size()), root)) return std::nullopt;
   return path.substr(root.size());

@@ -6,12 +6,12 @@
 
 namespace limpid {
 
-/// A desk for the browsers of this machine's user: the page, and what it asks for below an address
-/// that nobody can guess.
+/// Serves a desk to the browsers of this machine's user: the page and its requests, below an
+/// address that cannot be guessed.
 ///
-/// Every path but those below the secret is one that is not there. A request whose Host is not this
-/// server, as one has that came by another name of the machine, or whose Origin is another page, is
-/// refused before its body is read. Nothing is written but looks that are saved.
+/// All paths outside of the secret do not exist. A request whose Host is not this server (it came
+/// by another name of the machine) or whose Origin is another page is refused before its body is
+/// read. Nothing is written but saved looks.
 class DeskServer {
  public:
   /// Listens at once. The desk must outlive it. Throws Error as HttpServer.
@@ -19,7 +19,7 @@ class DeskServer {
 
   /// "http://127.0.0.1:PORT/SECRET/"
   std::string address() const;
-  /// Returns when no more can be served.
+  /// Returns when no more requests can be served.
   void wait() { server_.wait(); }
 
  private:

@@ -6,8 +6,8 @@
 namespace limpid {
 namespace {
 
-/// Device depth (z_scale z + z_offset) / (w_scale z + w_offset) grows with the distance -z where
-/// this is positive, everywhere.
+/// Device depth (z_scale z + z_offset) / (w_scale z + w_offset) grows with the distance -z
+/// everywhere if this is positive.
 double device_depth_growth(const Camera& camera) {
   const DeviceDepth rows = device_depth_of(camera);
   return rows.z_offset * rows.w_scale - rows.z_scale * rows.w_offset;

@@ -3,8 +3,8 @@
 
 namespace limpid {
 
-/// Throws Error unless device depth runs from near to far as camera.clip says: else it would be
-/// read as nonsense.
+/// Throws Error unless device depth runs from near to far as camera.clip says: otherwise depths
+/// would be wrong.
 void expect_clip_direction(const Camera& camera);
 
 }  // namespace limpid

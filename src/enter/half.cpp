@@ -4,7 +4,7 @@
 
 namespace limpid {
 
-// One for each instruction set that the build names, made by half_target.cpp.
+// One for each instruction set that the build names, defined in half_target.cpp.
 #define LIMPID_TARGET(name, highway) extern const HalfTarget kHalf_##name;
 #include "core/targets.inc"
 #undef LIMPID_TARGET

@@ -1,10 +1,10 @@
-// Compiled once for each instruction set, as run/lanes_target.cpp is: those with an instruction for
+// Compiled once for each instruction set, as run/lanes_target.cpp is: sets with an instruction for
 // halves use it.
 #include <cfloat>
 #include <cstdint>
 #include <cstring>
 
-#define IMATH_HALF_NO_LOOKUP_TABLE  // which would have to be linked
+#define IMATH_HALF_NO_LOOKUP_TABLE  // the table would have to be linked
 #include <Imath/half.h>
 #include <hwy/highway.h>
 
@@ -35,7 +35,7 @@ void narrow(const float* floats, std::byte* halves, std::ptrdiff_t stride, int c
 }
 
 #if defined(__F16C__) || HWY_TARGET == HWY_NEON
-/// A vector's worth.
+/// Converts one vector.
 bool narrow_lanes(const float* floats, hwy::float16_t* halves) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::ScalableTag<float> d;
@@ -48,8 +48,7 @@ bool narrow_lanes(const float* floats, hwy::float16_t* halves) {
   return hn::AllTrue(bits, hn::Eq(hn::BitCast(bits, again), hn::BitCast(bits, value)));
 }
 constexpr int kLanes = hwy::HWY_NAMESPACE::MaxLanes(hwy::HWY_NAMESPACE::ScalableTag<float>());
-#else  // without an instruction for it Highway gives infinities and the smallest halves another
-       // value
+#else  // without that instruction Highway converts infinities and the smallest halves differently
 bool narrow_lanes(const float* floats, hwy::float16_t* halves) {
   const std::uint16_t half = imath_float_to_half(*floats);
   const float again = imath_half_to_float(half);

@@ -26,7 +26,7 @@ void copy_row(const HostInput& from, int y, float* to, const HalfTarget& half) {
   }
 }
 
-/// Whether a plane of alpha is 0 there. Where it does not reach, nobody knows.
+/// Whether an alpha plane is 0 there; false outside of it.
 bool is_zero(const HostInput& alpha, int x, int y) {
   if (!alpha.window.contains({x, y, x + 1, y + 1})) return false;
   const auto* row = static_cast<const std::byte*>(alpha.data) +
@@ -35,7 +35,7 @@ bool is_zero(const HostInput& alpha, int x, int y) {
   if (alpha.sample == Sample::kHalf) {
     std::uint16_t half;
     std::memcpy(&half, at, sizeof half);
-    return (half & 0x7fff) == 0;  // of either sign
+    return (half & 0x7fff) == 0;  // +0 or -0
   }
   float value;
   std::memcpy(&value, at, sizeof value);
@@ -49,19 +49,19 @@ View<float> rows_of(const View<float>& view, int y0, int y1) {
 
 }  // namespace
 
-/// Bands of rows are the tasks: those of each role that goes that way, one after another.
+/// Bands of rows are the tasks: those of each role that is copied, one after another.
 struct EnteredPlanes::Entry {
   EnteredPlanes& self;
   const HostPlanes& host;
   const EntryRules& rules;
-  PlaneSet wanted;  ///< and there
+  PlaneSet wanted;  ///< wanted and present
 
   Way& way(const Role& role) const { return self.ways_[index_of(role.first)]; }
   HostInput plane(const Role& role, int i) const {
     const PlaneId id = plane_after(role.first, i);
     return wanted.has(id) ? host[index_of(id)] : HostInput{};
   }
-  /// Whether it is the depth of a scene whose alpha says where there is something.
+  /// Whether this is the depth of a scene whose alpha tells where a surface was hit.
   bool covered(const Role& role) const {
     return role.first == PlaneId::kDepth && !rules.trusted && host[index_of(PlaneId::kColorA)];
   }

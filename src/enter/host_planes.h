@@ -16,34 +16,34 @@ namespace limpid {
 
 using HostPlanes = std::array<HostInput, kPlaneCount>;
 
-/// What planes of a host hold, and what is known of them.
+/// The content of a host's planes, and what is known about it.
 struct EntryRules {
-  DepthSource depth;       ///< of the depth planes but for `half`, which is found for each
-  glm::dvec3 up{0, 1, 0};  ///< in place of normals that are none
-  bool trusted = false;    ///< numbers and eye depths are in the conventions of a Frame already
-  PlaneSet written;        ///< these lie where the picture will be
+  DepthSource depth;       ///< of the depth planes except `half`, which is found for each
+  glm::dvec3 up{0, 1, 0};  ///< replaces invalid normals
+  bool trusted = false;    ///< numbers and eye depths follow the conventions of a Frame already
+  PlaneSet written;        ///< planes whose memory the picture will overwrite
   const HalfTarget* half = nullptr;
 };
 
-/// The planes of a host as those of a Frame: where they lie, if they can be taken so, else copies
-/// in its conventions. Those that may be insane are looked through first, and copied if something
-/// is wrong. Memory is kept: none is allocated after the first frame of a size.
+/// The planes of a host as those of a Frame: the host's memory where it fits, else copies in the
+/// frame's conventions. Planes that may hold invalid values are scanned first, and copied if any is
+/// found. Memory is kept: none is allocated after the first frame of a size.
 class EnteredPlanes {
  public:
-  /// Sets frame.planes, to the wanted ones alone. Throws Error for a plane without pixels and for
-  /// normals of several sizes; `rules` must be fit for their kind of depth.
+  /// Sets frame.planes, to the wanted planes only. Throws Error for a plane without pixels and for
+  /// normals of several sizes; `rules` must suit the kind of depth.
   SanitiseCounts enter(const HostPlanes& host, PlaneSet wanted, const EntryRules& rules,
                        Executor& executor, Frame& frame);
 
  private:
   struct Entry;  // of one frame
 
-  /// What becomes of the planes of a role.
+  /// How the planes of a role enter.
   struct Way {
     bool watched = false, copied = false;
-    Rect window;  ///< of all its planes together
+    Rect window;  ///< the window that all its planes share
     std::atomic<bool> wrong = false;
-    std::atomic<std::int64_t> nan = 0, inf = 0;  ///< that were replaced
+    std::atomic<std::int64_t> nan = 0, inf = 0;  ///< values that were replaced
   };
 
   std::array<Plane, kPlaneCount> planes_;

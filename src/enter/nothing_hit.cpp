@@ -5,7 +5,7 @@
 namespace limpid {
 namespace {
 
-/// What a plane holds where nothing was hit.
+/// The value of a plane where nothing was hit.
 float nothing_value(const DepthSource& source) {
   switch (source.kind) {
     case DepthKind::kEye:
@@ -24,7 +24,7 @@ float nothing_value(const DepthSource& source) {
 }  // namespace
 
 bool row_has(float value, const float* row, std::ptrdiff_t stride, int count) {
-  int has = 0;  // without a branch: compilers make vectors of it
+  int has = 0;  // without a branch, so that compilers vectorise it
   if (stride == 1) {
     for (int i = 0; i < count; ++i) has |= static_cast<int>(row[i] == value);
   } else {

@@ -3,8 +3,8 @@
 
 namespace limpid {
 
-/// Gives the pixels that the source itself says are "nothing hit" (DepthSource::nothing and
-/// ::uncovered) the value that means so in a plane of its kind.
+/// Gives pixels that the source marks as "nothing hit" (DepthSource::nothing and ::uncovered) the
+/// value with that meaning in a plane of its kind.
 void mark_nothing_hit(const View<float>& plane, const DepthSource& source);
 
 /// Whether any of `count` numbers, `stride` floats apart, is this one.

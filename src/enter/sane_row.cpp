@@ -7,8 +7,8 @@
 namespace limpid {
 namespace {
 
-/// Without a branch, and in integers as wide as floats: compilers make vectors of it, which go
-/// through memory as fast as it comes.
+/// Without a branch, and in integers as wide as floats: compilers vectorise it, and it runs at the
+/// speed of memory.
 template <class At>
 bool all_sane(const SaneRange& range, int count, At&& at) {
   const SaneRange r = range;

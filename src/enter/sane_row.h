@@ -5,14 +5,14 @@
 
 namespace limpid {
 
-/// What numbers need not be touched on entry: NaN never is one of them.
+/// Range of numbers that entry leaves unchanged: NaN never is in it.
 struct SaneRange {
   float least, most;
-  float besides;  ///< one more; none where it is NaN
+  float besides;  ///< one more number; NaN for none
 };
 
-/// Of a frame's plane. Normals have none: they are hardly ever unit to the last bit. `nothing_hit`
-/// counts for kDepth alone: from that depth on nothing was hit.
+/// The range for a frame's plane. Normals have none: they are hardly ever unit to the last bit.
+/// `nothing_hit` applies to kDepth only: depths from it on mean that nothing was hit.
 SaneRange sane_range(Sanitise kind, float nothing_hit = 1e9f);
 
 /// Whether all of `count` numbers, `stride` floats apart, are in the range.

@@ -23,8 +23,8 @@ void for_each_pixel(const View<float>& plane, Fn&& fn) {
   }
 }
 
-/// All values of rows that hold any insane one, which nearly always none does. `fn` leaves the sane
-/// ones as they are.
+/// Passes all values of rows with any invalid value, which nearly no row has, to `fn`; `fn` leaves
+/// valid values unchanged.
 template <class Fn>
 void for_each_insane(const View<float>& plane, const SaneRange& range, Fn&& fn) {
   const Rect& w = plane.window;
@@ -36,8 +36,8 @@ void for_each_insane(const View<float>& plane, const SaneRange& range, Fn&& fn) 
 
 void count(Replaced& replaced, float value) { ++(std::isnan(value) ? replaced.nan : replaced.inf); }
 
-/// Applies convert(value, x, y) to what is not "nothing hit"; counts the values that were, or were
-/// converted to, NaN or -inf.
+/// Applies convert(value, x, y) to values that are not "nothing hit"; counts values that were, or
+/// were converted to, NaN or -inf.
 template <class Missed, class Convert>
 Replaced convert_depth(const View<float>& plane, Missed&& missed, Convert&& convert) {
   Replaced replaced;
@@ -51,7 +51,7 @@ Replaced convert_depth(const View<float>& plane, Missed&& missed, Convert&& conv
   return replaced;
 }
 
-/// Clamped to 0 ... 1; NaN and inf become `otherwise` and are counted.
+/// Clamps to 0 ... 1; NaN and inf become `otherwise` and are counted.
 Replaced sanitise_share(const View<float>& plane, Sanitise kind, float otherwise) {
   Replaced replaced;
   for_each_insane(plane, sane_range(kind), [&](float& s, int, int) {

@@ -5,33 +5,33 @@
 #include <vector>
 
 /// @file
-/// How the frames of a farm are cut into tasks.
+/// How the frames of a farm are split into tasks.
 
 namespace limpid {
 
-/// The frames of one task, in the order in which they are made.
+/// The frames of one task, in their order.
 using Chunk = std::vector<int>;
 
-/// What a task should take: long beside what a scheduler needs to start it, short beside what is
-/// lost when its node is.
+/// Planned seconds of a task: long compared to a scheduler's overhead, short compared to the loss
+/// if its node fails.
 inline constexpr double kTaskSeconds = 120;
-/// So that a chunk fits into one word of a command line.
+/// Keeps a chunk within one word of a command line.
 inline constexpr int kMaxFramesATask = 10'000;
 
-/// How many frames a task of about kTaskSeconds has, 1 ... kMaxFramesATask, for at most so many
-/// tasks, all of them about as long. Throws Error where not even kMaxFramesATask is enough.
+/// Frames per task of about kTaskSeconds, 1 ... kMaxFramesATask, for at most `most_tasks` tasks of
+/// about equal length. Throws Error if even kMaxFramesATask is too few.
 int frames_a_task(double seconds_a_frame, std::size_t frames, std::size_t most_tasks);
 
 /// Chunks of that size; the last may be shorter.
 std::vector<Chunk> chunks_of(const std::vector<int>& frames, int size);
 
-/// "3,5,7", as --frames takes it.
+/// "3,5,7", the syntax of --frames.
 std::string frames_text(const std::vector<int>& frames);
 
-/// A file of chunks: task N makes the frames on line N, each line as --frames takes it.
+/// A file of chunks: line N has the frames of task N, in the syntax of --frames.
 std::string chunks_text(const std::vector<Chunk>& chunks);
-/// Throws Error, which names the line, for what frames_of() (files/text/frame_range.h) does not
-/// read.
+/// Throws Error, which names the line, for a line that frames_of() (files/text/frame_range.h)
+/// refuses.
 std::vector<Chunk> chunks_in(std::string_view text);
 
 }  // namespace limpid

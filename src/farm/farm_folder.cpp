@@ -61,7 +61,7 @@ fs::path farm_folder_of(const std::string& output) {
   }
   std::string name = fs::path(output).stem().string();
   if (has_frame_number(name)) {
-    // The number is what two numbers differ in: nothing of it is left.
+    // The digits in which two names differ are removed.
     const std::string one = name_of_frame(name, 1), two = name_of_frame(name, 2);
     std::size_t last = 0;
     while (one[last] == two[last]) ++last;
@@ -107,7 +107,7 @@ FarmRecord FarmFolder::record() const {
     return record;
   } catch (const json::exception& error) {
     throw Error(name.string() + ": " + error.what());
-  } catch (const std::logic_error&) {  // of stoi
+  } catch (const std::logic_error&) {  // from stoi
     throw Error(name.string() + ": before: expected numbers of frames");
   }
 }
@@ -149,7 +149,7 @@ std::map<int, std::string> FarmFolder::failed() const {
     if (read.ec != std::errc() || std::string_view(read.ptr) != ".txt") continue;
     std::string sentence = text_of(entry.path());
     sentence.erase(sentence.find_last_not_of('\n') + 1);
-    // An empty one is of a full disk: the task's log may say more.
+    // An empty one comes from a full disk: the task's log may have the sentence.
     if (!sentence.empty()) failures[frame] = without_frame(sentence, frame);
   }
   return failures;

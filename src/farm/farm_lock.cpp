@@ -1,4 +1,4 @@
-// Who submits or runs a farm.
+// The lock of a farm.
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -31,7 +31,7 @@ struct Holder {
   }
 };
 
-/// Nobody where there is no lock.
+/// No holder if there is no lock.
 Holder read_holder(const fs::path& file) {
   Holder holder;
   std::ifstream in(file);
@@ -44,7 +44,7 @@ Holder read_holder(const fs::path& file) {
 }  // namespace
 
 FarmLock::FarmLock(const FarmFolder& folder) : file_(folder.file("lock")) {
-  // A lock has its text at once: it is made under another name, and linked to its own.
+  // A lock has its text at once: it is written under another name, then linked.
   const fs::path made =
       folder.file(("lock." + machine() + "." + std::to_string(::getpid())).c_str());
   {

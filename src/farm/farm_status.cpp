@@ -39,14 +39,14 @@ double time_of(const fs::path& file) {
          1e-9 * static_cast<double>(status.st_mtim.tv_nsec);
 }
 
-/// The last that is known of each task.
+/// The latest state of each task.
 std::map<int, SlurmTask> last_of(const std::vector<SlurmTask>& tasks) {
   std::map<int, SlurmTask> last;
   for (const SlurmTask& task : tasks) last[task.task] = task;
   return last;
 }
 
-/// What became of a task that has not made all of its frames and does not work on them.
+/// How a task ended that has frames left and does not run.
 std::string end_of(const FarmFolder& folder, const FarmRecord& record, int task,
                    const SlurmTask* known) {
   const std::string job = record.jobs.empty() ? "local" : std::to_string(record.jobs.front());
@@ -167,7 +167,7 @@ std::string summary_text(const FarmVerdict& verdict, const FarmStatus& status) {
   for (const FarmFailure& failure : status.failed) {
     for (const int frame : failure.frames) why.emplace(frame, failure.sentence);
   }
-  why.insert(verdict.why.begin(), verdict.why.end());  // where no task has said more
+  why.insert(verdict.why.begin(), verdict.why.end());  // does not replace a task's sentence
   std::string text = std::to_string(verdict.frames - verdict.missing.size()) + " of " +
                      std::to_string(verdict.frames) +
                      " frames are there and whole, by the hashes that they carry\n";

@@ -21,7 +21,7 @@
 namespace limpid {
 namespace {
 
-/// The programs that run, and whether more may.
+/// The running programs, and whether new ones may start.
 struct Running {
   std::mutex mutex;
   std::set<pid_t> processes;
@@ -33,7 +33,7 @@ Running& running() {
   return all;
 }
 
-/// What a program prints goes in at `in`, and is read at `out`.
+/// The output of a program is written to `in`, and read from `out`.
 struct Pipe {
   int out = -1, in = -1;
   Pipe() {
@@ -93,7 +93,7 @@ pid_t start(const std::vector<std::string>& words, const Pipe& out, const Pipe& 
   return process;
 }
 
-/// Until both pipes have ended.
+/// Reads until both pipes have ended.
 void read_all(const Pipe& out, const Pipe& err, ProgramRun& run) {
   std::array<pollfd, 2> ends{{{out.out, POLLIN, 0}, {err.out, POLLIN, 0}}};
   std::array<std::string*, 2> texts{&run.out, &run.err};
@@ -106,7 +106,7 @@ void read_all(const Pipe& out, const Pipe& err, ProgramRun& run) {
       if (got > 0) {
         texts[i]->append(part.data(), static_cast<std::size_t>(got));
       } else if (got == 0 || errno != EINTR) {
-        ends[i].fd = -1;  // which poll() passes over
+        ends[i].fd = -1;  // poll() skips it
       }
     }
   }
@@ -122,7 +122,7 @@ ProgramRun run_program(const std::vector<std::string>& words) {
   out.close_in();
   err.close_in();
   read_all(out, err, run);
-  // Until it is waited for, its number is nobody else's: it can be told to stop.
+  // Until it is waited for, its process number is not reused: it can be signalled.
   siginfo_t ended{};
   while (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT) != 0) {
   }

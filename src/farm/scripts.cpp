@@ -16,8 +16,7 @@ bool is_plain(char c) {
          kPlain.find(c) != std::string_view::npos;
 }
 
-/// Names of files go into the text of a script, not into its comments or lines of #SBATCH, which
-/// know no quotes.
+/// Removes characters that comments and #SBATCH lines, which have no quotes, cannot hold.
 std::string sbatch_name(const std::string& name) {
   std::string plain = "limpid-" + name;
   for (char& c : plain) {
@@ -41,7 +40,7 @@ std::string sbatch_lines(const FarmPlan& plan) {
   return lines;
 }
 
-/// What both scripts work with.
+/// The variables of both scripts.
 std::string variables(const FarmPlan& plan) {
   return "\nlimpid=" + shell_line({plan.program.string()}) +
          "\nfolder=" + shell_line({plan.folder.string()}) +

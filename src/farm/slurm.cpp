@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Whether Slurm's programs say that their controller does not answer: it may later.
+/// kRetry if Slurm's controller does not respond, because it may respond later.
 Fault fault_of(const ProgramRun& run) {
   const auto says = [&](const char* words) { return run.err.find(words) != std::string::npos; };
   const bool silent = says("Unable to contact slurm controller") || says("Socket timed out") ||
@@ -34,7 +34,7 @@ std::string jobs_text(const std::vector<long>& jobs) {
   return text;
 }
 
-/// squeue names an unknown job an error where it is the only one: then there is none.
+/// squeue reports an error if the only job is unknown: then the queue is empty.
 std::vector<SlurmTask> queued(const std::vector<long>& jobs) {
   const ProgramRun run =
       run_program({"squeue", "--noheader", "--array", "--states=all", "--jobs=" + jobs_text(jobs),
@@ -45,7 +45,7 @@ std::vector<SlurmTask> queued(const std::vector<long>& jobs) {
   return tasks_of_squeue(run.out);
 }
 
-/// None where there is no accounting.
+/// Empty without accounting.
 std::vector<SlurmTask> accounted(const std::vector<long>& jobs) {
   try {
     const ProgramRun run =
@@ -91,7 +91,7 @@ FarmQueue queue_of(const std::vector<long>& jobs) {
     const std::vector<SlurmTask> now = queued(jobs);
     queue.at_work = std::any_of(now.begin(), now.end(),
                                 [](const SlurmTask& task) { return !is_over(task.state); });
-    // What squeue has forgotten comes first, so that what it knows counts.
+    // sacct's rows come first, so that squeue's newer rows win.
     queue.tasks = accounted(jobs);
     queue.tasks.insert(queue.tasks.end(), now.begin(), now.end());
     std::erase_if(queue.tasks, [&](const SlurmTask& task) { return task.job != jobs.front(); });

@@ -11,20 +11,19 @@
 
 namespace limpid {
 
-/// The most tasks of one job here, or what Slurm has where nothing else is set. Throws Error where
-/// there is no Slurm.
+/// The most tasks of one job on this cluster, or Slurm's default. Throws Error without Slurm.
 std::size_t most_slurm_tasks();
 
 /// Submits the scripts of the folder: task.sh, and verify.sh to follow when all tasks have ended.
-/// Returns their jobs' numbers. Where the second is refused, the first is taken back. Throws Error,
-/// of Fault::kRetry where Slurm does not answer.
+/// Returns their job numbers. If the second is refused, cancels the first. Throws Error, of
+/// Fault::kRetry if Slurm does not respond.
 std::vector<long> submit(const FarmFolder& folder);
 
-/// What squeue, and sacct where there is accounting, say of jobs. Throws nothing: a note tells what
-/// could not be asked.
+/// The state of jobs from squeue, and from sacct if there is accounting. Throws nothing: a note
+/// names a failed query.
 FarmQueue queue_of(const std::vector<long>& jobs);
 
-/// Takes the jobs from the queue and ends what runs of them. Throws Error.
+/// Removes the jobs from the queue and ends their running tasks. Throws Error.
 void cancel(const std::vector<long>& jobs);
 
 }  // namespace limpid

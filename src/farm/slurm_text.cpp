@@ -28,7 +28,7 @@ std::optional<Number> number_of(std::string_view text) {
   return number;
 }
 
-/// The lines that are not empty, each taken apart at its bars.
+/// The nonempty lines, each split at its bars.
 std::vector<std::vector<std::string_view>> rows(std::string_view text, std::size_t columns,
                                                 const std::string& program) {
   std::vector<std::vector<std::string_view>> all;
@@ -42,7 +42,7 @@ std::vector<std::vector<std::string_view>> rows(std::string_view text, std::size
   return all;
 }
 
-/// "" for what stands where there is nothing to say.
+/// "" for Slurm's placeholders of an empty value.
 std::string said(std::string_view text) {
   return text == "None" || text == "None assigned" || text == "(null)" ? "" : std::string(text);
 }
@@ -106,7 +106,7 @@ std::optional<int> most_tasks_of(std::string_view config) {
     if (!line.starts_with("MaxArraySize")) continue;
     const std::size_t last = line.find_last_of(" =");
     const auto size = number_of<int>(line.substr(last == std::string_view::npos ? 0 : last + 1));
-    if (size && *size > 1) return *size - 1;  // their numbers end before it
+    if (size && *size > 1) return *size - 1;  // the exclusive upper limit of task numbers
   }
   return std::nullopt;
 }

@@ -5,41 +5,41 @@
 #include <vector>
 
 /// @file
-/// What Slurm's programs print, taken apart.
+/// Parses the output of Slurm's programs.
 
 namespace limpid {
 
-/// A task of an array, or a job that is none.
+/// A task of an array, or a single job.
 struct SlurmTask {
-  long job = 0;        ///< number of the job, of an array the array's
+  long job = 0;        ///< number of the job or of the array
   int task = 0;        ///< number in the array, or 0
   std::string state;   ///< PENDING, RUNNING, COMPLETED, FAILED, TIMEOUT ...
   std::string reason;  ///< why it waits, or how it ended; or ""
-  std::string node;    ///< where it runs or ran, or ""
+  std::string node;    ///< its node, or ""
 
   bool operator==(const SlurmTask&) const = default;
 };
 
-/// Whether a task in that state waits, runs, or is about to: nothing of it may be begun elsewhere.
-/// A state of a later Slurm counts as one that is not over.
+/// Whether a task in that state has ended: a task that has not may not be started elsewhere. An
+/// unknown state, of a later Slurm, counts as not ended.
 bool is_over(std::string_view state);
 bool is_running(std::string_view state);
 
-/// What squeue prints of --array --noheader with this format.
+/// squeue's output with --array --noheader and this format.
 inline constexpr const char* kSqueueFormat = "%F|%K|%T|%r|%N";
-/// Throws Error for a line of another form.
+/// Throws Error for a malformed line.
 std::vector<SlurmTask> tasks_of_squeue(std::string_view text);
 
-/// What sacct prints of --noheader --parsable2 with this format; steps are left out, and of tasks
-/// that wait together, as "12_[5-9]", there is none.
+/// sacct's output with --noheader --parsable2 and this format; steps are skipped, and tasks that
+/// wait together, as "12_[5-9]", are not listed.
 inline constexpr const char* kSacctFormat = "JobID,State,ExitCode,NodeList";
-/// Throws Error for a line of another form.
+/// Throws Error for a malformed line.
 std::vector<SlurmTask> tasks_of_sacct(std::string_view text);
 
-/// The number of the job that `sbatch --parsable` has submitted. Throws Error.
+/// The number of the job in the output of `sbatch --parsable`. Throws Error.
 long job_of_sbatch(std::string_view text);
 
-/// The most tasks of an array, of what `scontrol show config` prints.
+/// The most tasks of an array, in the output of `scontrol show config`.
 std::optional<int> most_tasks_of(std::string_view config);
 
 }  // namespace limpid

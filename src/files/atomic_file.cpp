@@ -22,13 +22,13 @@
 namespace limpid {
 namespace {
 
-/// The temporary files that exist. A temporary file comes and goes only under the lock.
+/// The existing temporary files. A temporary file is made and removed only under the lock.
 struct Unfinished {
   std::mutex mutex;
   std::set<std::filesystem::path> files;
   std::set<std::filesystem::path> tidied;  ///< folders
 
-  /// Never destroyed: a signal may come while the process ends.
+  /// Never destroyed: a signal may arrive while the process ends.
   static Unfinished& all() {
     static Unfinished& instance = *new Unfinished;
     return instance;
@@ -60,9 +60,8 @@ bool is_temporary_name(std::string_view name) {
   return skip_number() && (name.empty() || name.front() == '.');
 }
 
-/// Locks a file that was just made. False when another process has tidied it away in between: that
-/// process had locked the file, or the file has no name any more. Where no process tidies there is
-/// nothing to lock.
+/// Locks a new file. False if another process has removed it before: that process had the lock, or
+/// the file has lost its name. Where no process removes abandoned files no lock is needed.
 bool locked(int descriptor) {
   if (!is_local(descriptor)) return true;
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
@@ -70,8 +69,8 @@ bool locked(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
 }
 
-/// Removes the file unless somebody has locked it. Whoever gets the lock while the file still has
-/// this name knows that its maker is gone, or will find it gone in locked().
+/// Removes the file unless it is locked. A process that gets the lock while the file still has this
+/// name knows that its maker has ended, or will find it removed in locked().
 void remove_if_abandoned(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -85,7 +84,7 @@ void remove_if_abandoned(const std::filesystem::path& path) {
   ::close(descriptor);
 }
 
-/// A file system that cannot flush folders is no reason to fail.
+/// A file system that cannot flush folders is no error.
 void flush_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -93,7 +92,7 @@ void flush_folder(const std::filesystem::path& folder) {
   ::close(descriptor);
 }
 
-/// What `path` leads to, which is a file or not there.
+/// The target of `path`, a file or nothing.
 std::filesystem::path target_of(const std::filesystem::path& path) {
   std::filesystem::path target = followed(path);
   std::error_code ignored;
@@ -116,8 +115,9 @@ Error not_written(const std::filesystem::path& path, int system_error) {
                fault_of(system_error));
 }
 
-/// The error with which a file in the folder would not begin, or 0. A file without a name (open(2),
-/// O_TMPFILE) tells without a trace; where the file system has none, the folder's permissions do.
+/// The error with which creating a file in the folder would fail, or 0. A file without a name
+/// (open(2), O_TMPFILE) tests this without a trace; where the file system has none, the folder's
+/// permissions do.
 int error_of_new_file(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (descriptor >= 0) {

@@ -4,14 +4,13 @@
 #include <new>
 #include <vector>
 
-#define XXH_INLINE_ALL  // hosts in memory need no library for it
+#define XXH_INLINE_ALL  // so that hosts in memory need no library for it
 #include <xxhash.h>
 
 namespace limpid {
 namespace {
 
-constexpr std::size_t kBlockBytes = std::size_t{1}
-                                    << 18;  ///< stays in the cache while it is hashed
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  ///< fits in the cache while it is hashed
 
 std::string text_of(XXH128_hash_t hash) {
   XXH128_canonical_t bytes;
@@ -59,7 +58,7 @@ std::string hash_of(const FileHandle& file) {
   std::vector<char> block(kBlockBytes);
   for (std::uint64_t offset = 0; offset < file.size();) {
     const std::size_t got = file.read(block.data(), block.size(), offset);
-    if (got == 0) break;  // it became shorter
+    if (got == 0) break;  // the file was truncated
     hash.add(block.data(), got);
     offset += got;
   }

@@ -9,8 +9,8 @@
 
 namespace limpid {
 
-/// A hash that tells contents apart, not a seal against forgery: XXH3 of 128 bits, the same on
-/// every machine, far faster than bytes come from a disk.
+/// A hash to compare contents, not a protection against forgery: XXH3 of 128 bits, the same on
+/// every machine, far faster than a disk.
 class ContentHash {
  public:
   ContentHash();
@@ -19,7 +19,7 @@ class ContentHash {
   ContentHash& operator=(ContentHash&&) noexcept;
 
   void add(const void* bytes, std::size_t count);
-  /// Of all that was added: 32 hexadecimal digits, as `xxhsum -H2` prints them.
+  /// The hash of all bytes added: 32 hexadecimal digits, as `xxhsum -H2` prints them.
   std::string text() const;
 
  private:
@@ -28,7 +28,7 @@ class ContentHash {
 };
 
 std::string hash_of(std::string_view bytes);
-/// Of all bytes of a file. Throws Error that begins with the path.
+/// The hash of all bytes of a file. Throws Error that begins with the path.
 std::string hash_of(const FileHandle& file);
 std::string hash_of_file(const std::filesystem::path& path);
 

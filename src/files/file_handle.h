@@ -20,7 +20,7 @@ class FileHandle {
   std::uint64_t size() const { return size_; }
   /// Reads up to `bytes` from `offset`; fewer at the end of the file only. Throws Error.
   std::size_t read(char* into, std::size_t bytes, std::uint64_t offset) const;
-  /// All that is in it. Throws Error for more than `most` bytes.
+  /// The whole content. Throws Error for more than `most` bytes.
   std::string all(std::int64_t most) const;
 
  private:
@@ -29,8 +29,8 @@ class FileHandle {
   std::uint64_t size_;
 };
 
-/// Whether a failed system call is worth another try (disk full, file-size limit, network file
-/// gone) or not.
+/// Whether retrying after a failed system call may help (disk full, file-size limit, network file
+/// gone).
 Fault fault_of(int system_error);
 
 /// "no space left on device" for the number of a failed system call.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
 
-/// The attribute as it lies in the header, up to its text: name, type, size.
+/// The attribute in the header, up to its text: name, type, size.
 std::string heading() {
   std::string bytes(kFileHashName);
   bytes += '\0';
@@ -25,7 +25,7 @@ void add(ContentHash& hash, const FileHandle& file, std::uint64_t from, std::uin
   while (from < to) {
     const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), to - from));
     const std::size_t got = file.read(block.data(), wanted, from);
-    if (got == 0) return;  // it became shorter
+    if (got == 0) return;  // the file was truncated
     hash.add(block.data(), got);
     from += got;
   }

@@ -21,9 +21,9 @@ bool is_link(const fs::path& path) {
   return fs::is_symlink(fs::symlink_status(path, ignored));
 }
 
-/// What the last link of a chain names, without a look at whether it is there.
+/// The target of a chain of links, existing or not.
 fs::path end_of_links(fs::path path) {
-  constexpr int kMaxLinks = 40;  // as the system has it
+  constexpr int kMaxLinks = 40;  // the system's own limit
   for (int i = 0; i < kMaxLinks && is_link(path); ++i) {
     std::error_code failed;
     const fs::path next = fs::read_symlink(path, failed);
@@ -56,7 +56,7 @@ fs::path followed(const fs::path& path) {
     if (errno != ENOENT) refuse(errno);
     return end;
   }
-  // The links of /proc may name what is no more.
+  // The links of /proc may name deleted files.
   if (::stat(end.c_str(), &by_name) != 0 || !same(by_system, by_name)) refuse(ENOENT);
   return end;
 }

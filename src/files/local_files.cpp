@@ -9,7 +9,7 @@
 namespace limpid {
 namespace {
 
-// Not all of them are in <linux/magic.h>.
+// Some are missing in <linux/magic.h>.
 constexpr unsigned long kBcachefs = 0xca451a4e, kExfat = 0x2011bab0, kZfs = 0x2fc12fc1;
 
 constexpr unsigned long kLocal[] = {

@@ -2,13 +2,13 @@
 
 namespace limpid {
 
-/// Whether the descriptor is open on a file system of this machine, where a lock (flock) is seen by
-/// all who see the file and keeps nobody from writing. Only what is known to be one is: on SMB,
-/// locks shut out other descriptors of the same process; on NFS and FUSE they may end at this
-/// machine while others write.
+/// Whether the descriptor is open on a local file system, where all users of the file see its lock
+/// (flock), and the lock prevents no writing. Only known types count: on SMB, locks block other
+/// descriptors of the same process; on NFS and FUSE they may end at this machine while other
+/// machines write.
 bool is_local(int descriptor);
 
-/// The same by a type of statfs(2).
+/// The same for a type of statfs(2).
 bool is_local_type(unsigned long type);
 
 }  // namespace limpid

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The build tree has the modules where an installed tree has them.
+/// The build tree has the modules in the folders of an installed tree.
 std::vector<fs::path> module_folders() {
   if (const char* named = std::getenv("LIMPID_MODULE_DIR")) return {named};
   std::vector<fs::path> bases;
@@ -20,12 +20,12 @@ std::vector<fs::path> module_folders() {
   if (const fs::path program = fs::read_symlink("/proc/self/exe", ignored); !program.empty()) {
     bases.push_back(program.parent_path());
   }
-  // A relative name would be looked for in the current folder: anybody's.
+  // A relative name would be searched in the current folder, which is untrusted.
   if (Dl_info here; dladdr(reinterpret_cast<const void*>(&module_file), &here) != 0 &&
                     fs::path(here.dli_fname).is_absolute()) {
     const fs::path library = fs::path(here.dli_fname).parent_path();
     if (bases.empty() || bases.front() != library) bases.push_back(library);
-    // Python's module lies in PREFIX/lib/python3/dist-packages/limpid.
+    // The Python module lies in PREFIX/lib/python3/dist-packages/limpid.
     const fs::path packages = library.parent_path().filename();
     if (packages == "dist-packages" || packages == "site-packages") {
       bases.push_back(library / "../../..");

@@ -9,7 +9,7 @@ namespace limpid {
 
 bool is_for_want_of_memory(const std::exception& error) {
   const std::string_view text = error.what();
-  // What a thread of OpenEXR has met it hands on as text, and it has sentences of its own.
+  // OpenEXR passes on a thread's exception as text, with sentences of its own.
   for (const std::string_view words : {"bad_alloc", "allocate memory"}) {
     if (text.find(words) != text.npos) return true;
   }

@@ -7,7 +7,7 @@ namespace limpid {
 
 GpuBindings::GpuBindings(std::shared_ptr<const GpuDevice> device,
                          std::shared_ptr<const GpuPipeline> pipeline, const ShaderProgram& program)
-    : GpuBindings() {  // so that the pool is destroyed when the set cannot be made
+    : GpuBindings() {  // a delegating constructor: the pool is destroyed if the set cannot be made
   device_ = std::move(device);
   pipeline_ = std::move(pipeline);
   const Vulkan& vk = device_->vk();

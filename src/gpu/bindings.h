@@ -6,7 +6,7 @@
 
 namespace limpid {
 
-/// What is bound where while a pipeline runs: a descriptor set.
+/// The resources bound while a pipeline runs: a descriptor set.
 class GpuBindings {
  public:
   GpuBindings() = default;
@@ -18,11 +18,11 @@ class GpuBindings {
 
   const GpuPipeline* pipeline() const { return pipeline_.get(); }
   void bind_block(int binding, VkBuffer buffer) const;
-  /// Read by texel, unless a sampler is given.
+  /// Fetched by texel, unless a sampler is given.
   void bind_texture(int binding, VkImageView view, VkImageLayout layout,
                     VkSampler sampler = VK_NULL_HANDLE) const;
   void bind_output(int binding, VkImageView view) const;  ///< in layout general
-  /// A thread for each pixel.
+  /// One thread per pixel.
   void dispatch(VkCommandBuffer commands, const ShaderProgram& program) const;
 
  private:

@@ -42,7 +42,7 @@ void GpuCommands::run(const std::function<void(VkCommandBuffer)>& write) {
   try {
     write(commands_);
   } catch (...) {
-    vk.vkEndCommandBuffer(commands_);  // as the next begin expects it
+    vk.vkEndCommandBuffer(commands_);  // as the next begin expects
     throw;
   }
   expect(vk.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");

@@ -6,7 +6,7 @@
 
 namespace limpid {
 
-/// Commands that are written down, run and waited for, one time after another.
+/// Commands that are recorded, run and waited for, again and again.
 class GpuCommands {
  public:
   explicit GpuCommands(std::shared_ptr<GpuDevice> device);
@@ -25,7 +25,7 @@ class GpuCommands {
   VkFence fence_ = VK_NULL_HANDLE;
 };
 
-/// What a picture is used for, before a command or behind it.
+/// The use of an image before or after a command.
 struct ImageUse {
   VkImageLayout layout;
   VkPipelineStageFlags stage;
@@ -41,7 +41,7 @@ inline constexpr ImageUse kRead{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
 inline constexpr ImageUse kWritten{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                                    VK_ACCESS_SHADER_WRITE_BIT};
 
-/// Waits between two uses.
+/// A barrier between two uses.
 void turn(const Vulkan& vk, VkCommandBuffer commands, VkImage image, const ImageUse& from,
           const ImageUse& to);
 

@@ -13,19 +13,19 @@ namespace limpid {
 namespace {
 
 constexpr std::uint32_t kVersion = VK_API_VERSION_1_2;
-/// Frames whose transfers and shaders overlap need as many; more give nothing.
+/// Enough for frames whose transfers and shaders overlap; more queues gain nothing.
 constexpr std::uint32_t kMaxQueues = 4;
 
-/// What is asked of a device before it is opened.
+/// Properties of a device before it is opened.
 struct Candidate {
   VkPhysicalDevice handle;
   VkPhysicalDeviceProperties properties;
   std::string driver, uuid;
   bool keeps_infinity = false;
-  int family = -1;  ///< of queues that compute, or none
+  int family = -1;  ///< of compute queues, or -1
   std::uint32_t queues = 0;
 
-  /// Discrete ones first, software last.
+  /// Discrete devices first, software last.
   int rank() const {
     switch (properties.deviceType) {
       case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -39,7 +39,7 @@ struct Candidate {
     }
   }
   std::string name() const { return properties.deviceName; }
-  /// Why it cannot be used, or "".
+  /// Why the device cannot be used, or "".
   std::string fault() const {
     if (properties.apiVersion < kVersion) return "knows a Vulkan older than 1.2";
     if (family < 0) return "has no compute queue";
@@ -83,7 +83,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// An instance of our own, and what is to be seen through it.
+/// An own instance, and the devices visible through it.
 struct Instance {
   VkInstance handle = VK_NULL_HANDLE;
   Vulkan vk;
@@ -109,7 +109,7 @@ struct Instance {
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  /// Fastest kinds first, otherwise as the loader has them.
+  /// Fastest kinds first, otherwise in the loader's order.
   std::vector<Candidate> candidates() const {
     std::uint32_t count = 0;
     expect(vk.vkEnumeratePhysicalDevices(handle, &count, nullptr), "vkEnumeratePhysicalDevices");

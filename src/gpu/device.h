@@ -18,22 +18,22 @@ namespace limpid {
 
 class GpuPipeline;
 
-/// A device: the handles that everything on it is made with, and the pipelines that it keeps. Any
-/// threads may use it at once.
+/// A device: the handles from which all its objects are made, and the pipelines that it keeps. Any
+/// number of threads may use it at once.
 class GpuDevice {
  public:
-  /// One that a host has opened; it stays the host's. Throws Error as open().
+  /// A device that a host has opened; it stays the host's. Throws Error as open().
   GpuDevice(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice physical,
             VkDevice device);
   ~GpuDevice();
   GpuDevice(const GpuDevice&) = delete;
   GpuDevice& operator=(const GpuDevice&) = delete;
 
-  /// Opens one; all who ask for the same one at a time have it together. `name` is a part of its
-  /// name, in any case, or "" for the first of the fastest kind. Throws Error where there is none,
-  /// or none that promises what shaders rely on: Vulkan 1.2, and infinity among floats.
+  /// Opens a device; simultaneous users of the same device share it. `name` is a part of its name,
+  /// in any case, or "" for the first of the fastest kind. Throws Error if there is no such device,
+  /// or none with the features that shaders need: Vulkan 1.2, and infinity in floats.
   static std::shared_ptr<GpuDevice> open(const std::string& name);
-  /// All that open() would open, those of the fastest kind first.
+  /// All devices that open() can open, the fastest kind first.
   static std::vector<GpuInfo> known();
 
   const Vulkan& vk() const { return vk_; }
@@ -41,22 +41,22 @@ class GpuDevice {
   VkPhysicalDevice physical() const { return physical_; }
   VkDevice handle() const { return device_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
-  /// Of a group (ShaderOptions::most_threads).
+  /// Largest number of threads in a group (ShaderOptions::most_threads).
   int most_threads() const { return static_cast<int>(limits_.maxComputeWorkGroupInvocations); }
   /// "NVIDIA H100 80GB HBM3 (NVIDIA 580.159)": the device, and its driver.
   const std::string& name() const { return name_; }
   std::uint32_t family() const { return family_; }  ///< of its queues
 
-  /// Runs commands and waits for their end. Queues are handed out in turn.
+  /// Runs commands and waits for their end. Queues are used in turn.
   void submit(VkCommandBuffer commands, VkFence fence);
 
-  /// Device memory for what needs it, of the first kind that has all of `must`, if there is one
-  /// with all of `may` besides. Throws Error.
+  /// Allocates device memory, of the first kind that has all properties of `must` and, if possible,
+  /// all of `may`. Throws Error.
   VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags must,
                           VkMemoryPropertyFlags may = 0) const;
 
-  /// The pipeline of a program: made when it is first asked for, or read from a file of the folder
-  /// `cache`, if that is not empty, where a pipeline that is made is left, too.
+  /// The pipeline of a program: made on the first request, or read from a file in the folder
+  /// `cache`, if the name is not empty. A new pipeline is stored there, too.
   std::shared_ptr<const GpuPipeline> pipeline(const ShaderProgram& program,
                                               const std::filesystem::path& cache);
 

@@ -19,13 +19,13 @@ constexpr int kMaxInFlight = 16;
 
 static_assert(sizeof(VkImage) == sizeof(VkImage_T*), "handles are pointers on 64 bits");
 
-/// A plane of the host's: a window, and one value that nobody is to read.
+/// A plane of the host's: a window, with one value that is never read.
 View<const float> unseen(const Rect& window) {
   static constexpr float kNothing = 0;
   return {&kNothing, 0, 0, window};
 }
 
-/// Whether halves are written to an image of this format; throws Error for others.
+/// Whether an image of this format holds halves; throws Error for other formats.
 bool holds_halves(int format) {
   if (format == VK_FORMAT_R16G16B16A16_SFLOAT) return true;
   if (format == VK_FORMAT_R32G32B32A32_SFLOAT) return false;
@@ -33,7 +33,7 @@ bool holds_halves(int format) {
               ", expected R16G16B16A16_SFLOAT (97) or R32G32B32A32_SFLOAT (109)");
 }
 
-/// The same frame in memory, as far as windows go.
+/// The same frame in memory, with windows only.
 Frame windows_of(const GpuFrame& host) {
   Frame frame;
   frame.display = host.display;
@@ -57,7 +57,7 @@ Frame windows_of(const GpuFrame& host) {
   return frame;
 }
 
-/// What changes only when the host sets it.
+/// Whether the texture changes only when the host sets it.
 bool is_set_by_host(const std::string& texture) {
   return texture == "limpid_wave_map" || texture == "limpid_wave_levels" ||
          texture == "limpid_environment";
@@ -75,13 +75,13 @@ PFN_vkGetInstanceProcAddr loader_of(const GpuHost& host) {
 }  // namespace
 
 struct __attribute__((visibility("hidden"))) GpuCompositor::State {
-  /// What a frame has until it has been run.
+  /// The state of a frame until it has run.
   struct Slot {
-    std::string id;  ///< of the program that is bound
+    std::string id;  ///< of the bound program
     GpuBindings bindings;
     GpuBuffer block;
     std::map<std::string, Passage> inputs;  ///< textures that are not the host's
-    std::map<std::string, bool> filled;     ///< those that need not be again
+    std::map<std::string, bool> filled;     ///< textures that are up to date
   };
 
   State(const GpuHost& host, const Look& first, const GpuCompositorOptions& chosen)
@@ -109,7 +109,7 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
   std::shared_ptr<GpuDevice> device;
   Look look;
   std::unique_ptr<Executor> executor;
-  Frame textures;  ///< wave map and environment alone
+  Frame textures;  ///< wave map and environment only
   std::vector<std::uint32_t> wave_map_bytes;
   LevelMaker wave_map_levels;
   Completer completer;
@@ -118,7 +118,7 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
   bool planned_sun = false, planned_waves = false;
   Primaries planned_primaries = kRec709;
   std::vector<std::string> left_out;
-  bool recorded = false;  ///< a frame, with this plan
+  bool recorded = false;  ///< a frame was recorded with this plan
   std::vector<Slot> slots;
   std::size_t next = 0;
   GpuImage in_place;  ///< a copy of color
@@ -147,7 +147,7 @@ void GpuCompositor::State::make_plan(const Frame& windows, const Scene& scene) {
   planned_primaries = scene.primaries;
 }
 
-/// Pipeline, textures and bindings for the program.
+/// Makes pipeline, textures and bindings for the program.
 void GpuCompositor::State::fit(Slot& slot, const ShaderProgram& program, const GpuFrame& host) {
   if (slot.id != program.id) {
     slot.id.clear();
@@ -182,7 +182,7 @@ void GpuCompositor::State::fit_copy(const GpuImageView& color) {
                       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
 }
 
-/// So that lookups do not find what was just written.
+/// Copies the color, so that lookups do not read pixels just written.
 void GpuCompositor::State::copy_color(VkCommandBuffer c, const GpuImageView& color) {
   const Vulkan& vk = device->vk();
   const ImageUse read_and_written{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,

@@ -8,12 +8,12 @@
 
 namespace limpid {
 
-/// Of a compute shader that makes the picture and, of these AOVs, those that are not planes of the
+/// Options of a compute shader for the picture and those of these AOVs that are not planes of the
 /// frame.
 ShaderOptions compute_shader(const std::vector<Aov>& aovs);
 
-/// What a frame asks of a GPU and of the CPU beside it, two lines: its shader, what is carried
-/// there and back, and what is made before.
+/// The work of a frame for GPU and CPU, two lines: its shader, the transfers in both directions,
+/// and the completers before it.
 std::string gpu_load_text(const Plan& plan, const ShaderProgram& program);
 
 }  // namespace limpid

@@ -19,7 +19,7 @@
 namespace limpid {
 namespace {
 
-/// AOVs that are wanted.
+/// The AOVs of the target.
 std::vector<Aov> aovs_of(const Target& target) {
   std::vector<Aov> list;
   for (int i = 0; i < kAovCount; ++i) {
@@ -44,14 +44,14 @@ struct __attribute__((visibility("hidden"))) GpuRunner::Kept {
   std::shared_ptr<GpuDevice> device;
   GpuCommands commands;
   Completer completer;
-  std::string id;  ///< of the program that is bound
+  std::string id;  ///< of the bound program
   GpuBindings bindings;
   GpuBuffer block;
   std::map<std::string, Passage> inputs;  ///< by the names of the program's textures
   std::vector<Passage> outputs;
 };
 
-/// Pipeline and memory for the program.
+/// Makes pipeline and memory for the program.
 void GpuRunner::Kept::fit(const ShaderProgram& program) {
   if (id != program.id) {
     id.clear();
@@ -134,7 +134,7 @@ void GpuRunner::run(const Plan& plan, const Frame& plate, const Scene& scene, co
       k.completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &k.options.simd);
   Pass pass = pass_of(plan, scene, frame);
   pass.plate_waves = k.completer.plate_waves();
-  if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
+  if (!plan.reads_environment) pass.environment = {};  // not checked
   ShaderOptions options = compute_shader(aovs_of(target));
   options.most_threads = k.device->most_threads();
   const ShaderProgram program = program_of(plan, plate, frame, pass, options, Gathered::kAll);

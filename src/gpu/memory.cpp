@@ -10,7 +10,7 @@ namespace limpid {
 
 GpuBuffer::GpuBuffer(std::shared_ptr<const GpuDevice> device, std::size_t size,
                      VkBufferUsageFlags usage)
-    : GpuBuffer() {  // so that what is made is destroyed when the next step fails
+    : GpuBuffer() {  // a delegating constructor: what exists is destroyed if the next step fails
   device_ = std::move(device);
   size_ = size;
   const Vulkan& vk = device_->vk();
@@ -21,7 +21,7 @@ GpuBuffer::GpuBuffer(std::shared_ptr<const GpuDevice> device, std::size_t size,
   expect(vk.vkCreateBuffer(d, &info, nullptr, &buffer_), "vkCreateBuffer");
   VkMemoryRequirements needs;
   vk.vkGetBufferMemoryRequirements(d, buffer_, &needs);
-  // Memory without a cache is slow to read, and to write in steps.
+  // Uncached memory is slow to read, and to write with a stride.
   memory_ = device_->allocate(
       needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
       VK_MEMORY_PROPERTY_HOST_CACHED_BIT);

@@ -8,7 +8,7 @@
 
 namespace limpid {
 
-/// Bytes that both the device and this program reach.
+/// Memory that both the device and this program access.
 class GpuBuffer {
  public:
   GpuBuffer() = default;
@@ -30,11 +30,11 @@ class GpuBuffer {
   std::size_t size_ = 0;
 };
 
-/// A picture of the device's own.
+/// An image in device memory.
 class GpuImage {
  public:
   GpuImage() = default;
-  /// Throws Error for a picture larger than the device knows.
+  /// Throws Error for an image larger than the device supports.
   GpuImage(std::shared_ptr<const GpuDevice> device, Size size, VkFormat format,
            VkImageUsageFlags usage);
   ~GpuImage();

@@ -30,7 +30,8 @@ VkFormat format_of(Passage::Storage storage, int channels) {
   return kFormats[static_cast<int>(storage)][channels == 1 ? 0 : 1];
 }
 
-/// Devices turn bytes into floats to rounding: not for planes, whose dry pixels stay as they are.
+/// Devices round when they convert bytes to floats: so not for planes, whose dry pixels must stay
+/// bit for bit.
 Passage::Storage narrowest(const ProgramTexture& texture) {
   if (texture.pack) return Passage::Storage::kBits;
   switch (texture.source) {
@@ -44,7 +45,7 @@ Passage::Storage narrowest(const ProgramTexture& texture) {
   return Passage::Storage::kFloat;
 }
 
-/// Whole 255ths. Returns whether all values are such.
+/// Multiples of 1/255. Returns whether all values are.
 bool as_bytes(const std::vector<float>& floats, std::byte* bytes) {
   for (std::size_t i = 0; i < floats.size(); ++i) {
     const float scaled = 255 * floats[i];
@@ -62,7 +63,7 @@ void Passage::fit(const std::shared_ptr<GpuDevice>& device, Size size, int chann
                   VkImageUsageFlags image_use, VkBufferUsageFlags buffer_use) {
   const int stored = channels == 1 ? 1 : 4;
   if (image.size() == size && step == stored && storage == chosen) return;
-  *this = {};  // before another is made
+  *this = {};  // freed before new ones are made
   image = GpuImage(device, size, format_of(chosen, stored), image_use);
   const std::size_t texels = static_cast<std::size_t>(size.width) * size.height;
   buffer = GpuBuffer(device, texels * stored * bytes_of(chosen), buffer_use);
@@ -98,7 +99,7 @@ void Passage::fill(const std::shared_ptr<GpuDevice>& device, const ProgramTextur
         texture.fill(y, reinterpret_cast<float*>(to), step);
       } else if (exact) {
         thread_local std::vector<float> floats;
-        floats.assign(static_cast<std::size_t>(row), 0.0f);  // channels that nobody reads, too
+        floats.assign(static_cast<std::size_t>(row), 0.0f);  // unused channels, too
         texture.fill(y, floats.data(), step);
         const bool fits = tried == Storage::kByte
                               ? as_bytes(floats, to)

@@ -9,28 +9,28 @@
 
 namespace limpid {
 
-/// A picture on the device, and the memory through which it comes or goes.
+/// An image on the device, and the memory for its transfers.
 struct Passage {
-  /// How a channel is stored; bits: 32 of them for a whole texel.
+  /// Storage of a channel; bits: 32 bits for a whole texel.
   enum class Storage { kByte, kHalf, kFloat, kBits };
 
   GpuImage image;
   GpuBuffer buffer;
-  int step = 0;  ///< channels a texel: 1 or 4
+  int step = 0;  ///< channels per texel: 1 or 4
   Storage storage = Storage::kFloat;
 
-  /// Makes both for a picture that a program writes, in float, unless they are there.
+  /// Makes both, unless they exist, for an image that a program writes, in float.
   void fit_output(const std::shared_ptr<GpuDevice>& device, Size size);
 
-  /// Takes the values of a program's texture into the memory, and makes an image that fits them:
-  /// of halves, or for what is no plane of the frame of bytes, if those are the very values.
-  /// Shaders are faster the narrower it is, and so is the bus. Once values of a size were not such,
-  /// they stay wide.
+  /// Copies the values of a program's texture into the memory, and makes an image for them: of
+  /// halves or, for textures that are not planes of the frame, of bytes, if those represent the
+  /// values exactly. Narrow images are faster for shaders and for the bus. Once values of a size
+  /// did not fit, the image stays wide.
   void fill(const std::shared_ptr<GpuDevice>& device, const ProgramTexture& texture,
             Executor& executor);
-  /// From there to the device, for shaders to read.
+  /// From the memory to the device, for shaders to read.
   void upload(const Vulkan& vk, VkCommandBuffer commands) const;
-  /// From the device, where shaders have written it, into the memory.
+  /// From the device, after shaders have written, into the memory.
   void download(const Vulkan& vk, VkCommandBuffer commands) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace limpid {
 namespace {
 
-/// A VkPipelineCache for the time of making one pipeline.
+/// A VkPipelineCache during the creation of one pipeline.
 class PipelineCache {
  public:
   PipelineCache(const GpuDevice& device, const std::vector<std::byte>& code) : device_(device) {
@@ -104,7 +104,7 @@ GpuPipeline::GpuPipeline(const GpuDevice& device, const ShaderProgram& program,
   try {
     write_pipeline(path, *compiled);
   } catch (const Error&) {
-    // Nothing is lost but time at the next start.
+    // Without the file, only the next start is slower.
   }
 }
 

@@ -11,7 +11,7 @@ namespace limpid {
 
 class GpuDevice;
 
-/// What is bound to a program.
+/// The kinds of resources bound to a program.
 inline constexpr VkDescriptorType kBlockType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 inline constexpr VkDescriptorType kTextureType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 inline constexpr VkDescriptorType kOutputType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
@@ -19,10 +19,10 @@ inline constexpr VkDescriptorType kOutputType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
 /// A program, compiled for a device: of Stage::kCompute, in descriptor set 0.
 class GpuPipeline {
  public:
-  /// With a folder `cache` what was compiled is read from a file there, or left in one; where none
-  /// can be written the next start takes as long as this one. `uuid`: of the driver, in whose form
-  /// pipelines lie in the file. Throws Error for a program that binds more than the device can, and
-  /// as spirv_of() does.
+  /// With a folder `cache`, the compiled program is read from a file there, or stored there; if the
+  /// folder cannot be written, the next start takes as long as this one. `uuid`: that of the
+  /// driver, whose format the file has. Throws Error for a program with more bindings than the
+  /// device supports, and as spirv_of() does.
   GpuPipeline(const GpuDevice& device, const ShaderProgram& program,
               const std::filesystem::path& cache, const std::string& uuid);
   ~GpuPipeline();

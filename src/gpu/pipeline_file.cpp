@@ -14,7 +14,8 @@
 namespace limpid {
 namespace {
 
-/// The file: this, the hash of all behind it, the number of SPIR-V's words, those, and the rest.
+/// The file: this line, the hash of the rest, the number of SPIR-V's words, the words, and device
+/// code.
 constexpr std::string_view kMagic = "limpid pipeline 1\n";
 constexpr std::size_t kHash = 32;
 

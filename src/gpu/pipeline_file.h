@@ -7,16 +7,16 @@
 
 namespace limpid {
 
-/// What a start with the same look, device and driver need not compile again.
+/// Compiled code that a start with the same look, device and driver can reuse.
 struct CompiledPipeline {
   std::vector<std::uint32_t> spirv;
   std::vector<std::byte> device_code;  ///< VkPipelineCache's data
 };
 
-/// None where the file is not there, or not as it was written: a driver trusts what it is given.
+/// None if the file does not exist, or has changed: drivers do not check their input.
 std::optional<CompiledPipeline> read_pipeline(const std::filesystem::path& path);
 
-/// Makes the folder, too. Throws Error where that or the file cannot be written.
+/// Makes the folder, too. Throws Error if the folder or the file cannot be written.
 void write_pipeline(const std::filesystem::path& path, const CompiledPipeline& compiled);
 
 }  // namespace limpid

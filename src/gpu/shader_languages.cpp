@@ -32,7 +32,7 @@ std::string translated(const std::string& glsl, Stage stage, ShadersLanguage lan
   return made;
 }
 
-/// An entry point for languages that know no shader without.
+/// Adds an entry point, for languages that need one.
 std::string with_entry_point(const ShaderText& shader) {
   if (shader.options().stage != Stage::kFunction) return shader.text();
   return shader.text() + "\nlayout(location = 0) out vec4 limpid_out_color;\nvoid main() {\n" +

@@ -1,5 +1,5 @@
-// The only source that knows glslang and SPIRV-Cross; built as limpid_shaders.so and loaded by
-// shader.cpp.
+// The only source that includes glslang and SPIRV-Cross; built as limpid_shaders.so, which
+// shader.cpp loads.
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -105,7 +105,7 @@ unsigned limpid_shaders_abi() { return kShadersAbi; }
 
 int limpid_shaders_translate(const char* glsl, std::size_t size, int compute,
                              ShadersLanguage language, ShadersPut* put, void* to) {
-  static std::mutex mutex;  // glslang keeps tables that all threads share
+  static std::mutex mutex;  // glslang has tables that all threads share
   try {
     const std::lock_guard lock(mutex);
     const std::vector<std::uint32_t> spirv = spirv_of(std::string(glsl, size), compute != 0);

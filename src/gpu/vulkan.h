@@ -6,8 +6,8 @@
 #include <vulkan/vulkan_core.h>
 
 /// @file
-/// libvulkan, the loader of Vulkan's drivers: opened when it is first needed, never linked, for
-/// most machines that render have no device.
+/// libvulkan, the loader of Vulkan's drivers: opened when first needed, never linked, because most
+/// render machines have no device.
 
 namespace limpid {
 
@@ -72,26 +72,26 @@ namespace limpid {
   F(vkWaitForFences)               \
   F(vkResetFences)
 
-/// The functions of Vulkan that we call, by their names.
+/// The Vulkan functions that limpid calls, by name.
 struct Vulkan {
 #define LIMPID_VULKAN(name) PFN_##name name = nullptr;
   LIMPID_VULKAN_OF_INSTANCE(LIMPID_VULKAN)
   LIMPID_VULKAN_OF_DEVICE(LIMPID_VULKAN)
 #undef LIMPID_VULKAN
 
-  /// Those of an instance. Throws Error where one is not there.
+  /// Loads the functions of an instance. Throws Error if one is missing.
   void load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance);
-  /// And of a device of it.
+  /// Loads the functions of a device of it.
   void load_device(VkDevice device);
 };
 
-/// Of libvulkan.so.1. Throws Error where it cannot be opened.
+/// The entry of libvulkan.so.1. Throws Error if it cannot be opened.
 PFN_vkGetInstanceProcAddr vulkan_loader();
 
 /// Throws Error unless a call has succeeded: "vkCreateImage: no device memory is left".
 void expect(VkResult result, const std::string& call);
 
-/// A struct of Vulkan, zero but for its type.
+/// A struct of Vulkan, zero except for its type.
 template <class T>
 T vulkan_struct(VkStructureType type) {
   T made{};

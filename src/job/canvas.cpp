@@ -19,7 +19,7 @@
 namespace limpid {
 namespace {
 
-/// Whether both are the same part of the same file: what views share is written once.
+/// Whether both are the same part of the same file: a part that views share is written once.
 bool is_same_copy(const ExrOutput& a, const ExrOutput& b) {
   const ExrCopy &of_a = a.copies.front(), &of_b = b.copies.front();
   return of_a.from->path() == of_b.from->path() && of_a.part == of_b.part &&
@@ -55,8 +55,8 @@ void expect_overscan(const OutputChoice& choice) {
               Fault::kUsage);
 }
 
-/// What is written beside the pictures, each part once. One that not all views share is of its
-/// view, and called after it where it does not say so itself.
+/// The parts beside the pictures, each once. A part that not all views share belongs to its view,
+/// and gets the view's name unless its own name has it.
 std::vector<ExrOutput> parts_beside(const std::vector<WrittenView>& views) {
   std::vector<ExrOutput> parts;
   const auto has = [](const std::vector<ExrOutput>& list, const ExrOutput& part) {
@@ -186,7 +186,7 @@ void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
   Scene seen = scene;
   for (int i = 1; i <= choice.wave_samples; ++i) {
     seen.part = {(middle + i) % choice.wave_samples,
-                 choice.wave_samples};  // the middle one comes last
+                 choice.wave_samples};  // the middle sample comes last
     switch (choice.runner) {
       case Runner::kReference:
         run_reference(plan, frame, seen, target_);
@@ -217,7 +217,7 @@ void Canvas::take_mean(int count, Executor& executor) {
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     if (!means_[i]) means_[i] = Plane(window_);
     const View<float> mean = means_[i].view();
-    // So written that equal parts have their own bits for a mean.
+    // In this order, the mean of equal parts has their exact bits.
     const float share = 1 / static_cast<float>(count);
     each_row(executor, window_, [&](int y) {
       float *so_far = mean.row(y), *last = mixed[i].row(y);

@@ -15,24 +15,23 @@
 
 namespace limpid {
 
-/// The AOVs that are computed: those that are asked for and those that a deep file or a contact
-/// sheet is made of.
+/// The AOVs to compute: the requested AOVs, and those from which a deep file or a contact sheet is
+/// made.
 std::vector<Aov> computed_aovs(const OutputChoice& choice);
 
-/// Throws the Error that writing would end with, before the work is done: for a folder that is not
-/// there or cannot be written to, for AOVs that are named twice, for samples that cannot be, and
-/// for a display that is not there.
+/// Throws the Error with which writing would end, before the work is done: for a folder that is
+/// missing or not writable, AOVs that are named twice, impossible samples, and an unknown display.
 void expect_writable(const OutputChoice& choice);
 void expect_writable(const std::filesystem::path& file);
 void expect_preview_writable(const std::filesystem::path& file);
 void expect_display(const DisplayChoice& display);
 
-/// The picture and the wanted AOVs in memory, with their names in the file.
+/// The picture and the AOVs of an output in memory, with their names in the file.
 class Canvas {
  public:
   Canvas(Rect window, const OutputChoice& choice);
 
-  /// Whether it is as one made from these.
+  /// Whether a new canvas made from these would be equal.
   bool fits(Rect window, const OutputChoice& choice) const;
 
   /// Runs the plan on the frame, by the chosen runner. The plan must make what computed_aovs()
@@ -41,15 +40,15 @@ class Canvas {
   void paint(const Plan& plan, const Frame& frame, const Scene& scene, const OutputChoice& choice,
              Executor& executor, RunTimes* times = nullptr);
 
-  /// Of the last frame that the fused runner has painted.
+  /// Survey of the last frame that the fused runner has painted.
   const Survey& survey() const { return runner_.survey(); }
 
-  /// The same picture with each n x n block of pixels made one: lights and shares by their mean,
-  /// depths and normals by the sample nearest to the middle (the upper left of the four, for an
-  /// even n). Without what a deep file needs: its samples have no mean.
+  /// The same picture with each n x n block of pixels reduced to a pixel: lights and shares to
+  /// their mean, depths and normals to the sample nearest to the middle (the upper left of the
+  /// four, for an even n). Without the AOVs of a deep file: its samples have no mean.
   Canvas filtered(int n, const OutputChoice& choice) const;
 
-  /// write_frame() of this picture alone; `described` has windows and attributes.
+  /// write_frame() for this picture only; `described` has windows and attributes.
   void write(ExrOutput described, const OutputChoice& choice) const;
 
   const Target& target() const { return target_; }
@@ -59,7 +58,7 @@ class Canvas {
   DeepWater deep_water(const ExrHeading& heading, const OutputChoice& choice) const;
 
  private:
-  /// Takes the picture as the last of `count` parts that are mixed, and shows their mean.
+  /// Adds the picture as the last of `count` samples, and shows their mean.
   void take_mean(int count, Executor& executor);
   View<float> add();
   View<float> add(const std::string& name, bool half);
@@ -75,28 +74,28 @@ class Canvas {
   Made made_;
   std::vector<Plane> planes_;
   std::vector<ExrOutputChannel> channels_;
-  std::vector<Plane> means_;  ///< of parts of pixels
+  std::vector<Plane> means_;  ///< of the samples
   Target target_;
   FusedRunner runner_;
-  std::optional<GpuRunner> gpu_;  ///< once it has painted
-  WaterExtent extent_;            ///< of what is painted, if a deep file is to be written
+  std::optional<GpuRunner> gpu_;  ///< made for the first frame that it paints
+  WaterExtent extent_;            ///< of the painted frame, for a deep file
 };
 
-/// What a file has of one view.
+/// One view of a file.
 struct WrittenView {
   const Canvas* canvas;
   ExrOutput described;                 ///< windows, attributes, channels besides the canvas's
   std::vector<ExrOutput> others = {};  ///< parts beside the picture's
   std::string view = {};               ///< its name, if there are several
-  Primaries primaries = kRec709;       ///< of its light
+  Primaries primaries = kRec709;       ///< of its colors
 };
 
-/// Writes preview and deep file, of the first view, and the picture, of all; the preview gets the
-/// texts of `described`. The picture comes last: when anything fails, what was under its name
-/// before is still there.
+/// Writes preview and deep file, of the first view, and the picture, of all views; the preview gets
+/// the texts of `described`. The picture is written last: if anything fails, the former file of
+/// that name remains.
 void write_frame(std::vector<WrittenView> views, const OutputChoice& choice);
 
-/// The canvas that is kept, if it fits, or a new one in its place.
+/// The canvas in `kept`, if it fits, or a new one in its place.
 Canvas& canvas_for(std::optional<Canvas>& kept, Rect window, const OutputChoice& choice);
 
 }  // namespace limpid

@@ -18,8 +18,7 @@
 namespace limpid {
 namespace {
 
-/// What a survey looks at: depths, colors, shadows and where the water's normals point; not what it
-/// mirrors.
+/// A survey reads depths, colors, shadows and the water's normals; not the reflected planes.
 constexpr PlaneSet kUnsurveyed =
     kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid, PlaneId::kReflectionDepth};
 

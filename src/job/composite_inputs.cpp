@@ -14,7 +14,7 @@
 namespace limpid {
 namespace {
 
-/// What the job says of the working space, on the command line or in the scene.
+/// The working space that the command line or the scene names.
 std::optional<Primaries> named_primaries(const CompositeJob& job) {
   return job.primaries ? job.primaries : job.scene.primaries;
 }
@@ -24,7 +24,7 @@ Primaries primaries_of(const CompositeJob& job, const Plate& plate) {
   return named ? *named : plate.primaries().value_or(kRec709);
 }
 
-/// Of chromaticities that are none nobody need know where others are named.
+/// Invalid chromaticities of a plate do not matter if the working space is named.
 std::string contradiction(const Primaries& named, const Plate& plate) {
   std::string told;
   try {

@@ -12,7 +12,7 @@
 namespace limpid {
 namespace {
 
-/// The name of the picture's part, beside others, where the plate has none for it.
+/// The name of the picture's part beside other parts, if the plate has no name for it.
 constexpr const char* kPicturePart = "rgba";
 
 }  // namespace

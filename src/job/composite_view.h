@@ -17,9 +17,9 @@
 
 namespace limpid {
 
-/// What is decided before a pixel is read.
+/// The decisions before a pixel is read.
 struct PreparedView {
-  std::string name;  ///< of the view, as the job calls it, or ""
+  std::string name;  ///< the job's name of the view, or ""
   Plate plate;
   Scene scene;
   DepthMeaning depth;
@@ -30,25 +30,25 @@ struct PreparedView {
 };
 PreparedView prepare_view(const CompositeJob& job);
 
-/// The job of one of the views alone, 0 being the first.
+/// The job of one view alone, 0 being the first.
 CompositeJob job_of_view(const CompositeJob& job, std::size_t view);
 
 /// Scene, inputs, look and plan; `gpu` as picture_options().
 Record record_of(const CompositeJob& job, const PreparedView& view, SharedTextures& textures,
                  const std::string& gpu);
 
-/// The buffers of a view, which the next frame uses again.
+/// The buffers of a view, reused by the next frame.
 class CompositeView {
  public:
-  /// Reads the planes, and finds what is written besides. What is to be warned of goes into the
-  /// report, which gets the plan.
+  /// Reads the planes, and finds the other parts to write. Warnings go into the report, which gets
+  /// the plan.
   void read(const CompositeJob& job, PreparedView view, SharedTextures& textures,
             CompositeReport& report);
   void run(const CompositeJob& job, const Plan& plan, Executor& executor, RunTimes* times);
-  /// For write_frame(); `record` goes into the picture's part. What it tells of is kept until
+  /// The view for write_frame(); `record` goes into the picture's part. Referenced data lives until
   /// forget().
   WrittenView written(Record record);
-  /// Lets go of the plate's files.
+  /// Closes the plate's files.
   void forget();
 
   const Survey& survey() const { return canvas_->survey(); }
@@ -60,7 +60,7 @@ class CompositeView {
   LoadedPlate loaded_;
   HeldTextures textures_;
   std::optional<Plate> plate_;     ///< whose layers are passed through
-  ExrOutput file_;                 ///< all but the picture's channels and the record
+  ExrOutput file_;                 ///< without the picture's channels and the record
   std::vector<ExrOutput> others_;  ///< parts beside it
   MotionChannels motion_;
   std::optional<Canvas> canvas_;

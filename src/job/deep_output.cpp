@@ -13,21 +13,21 @@
 namespace limpid {
 namespace {
 
-/// As the last operator of the chain measures it that does.
+/// From the last operator of the chain that has a path length.
 PathLength path_length_of(const Look& look) {
   PathLength way;
   for (const OperatorEntry& entry : operator_table()) way = entry.path_length(look).value_or(way);
   return way;
 }
 
-/// How long the way through water without end is made: there it is as dense as it gets. Nothing
-/// where it takes no light.
+/// The finite length that replaces an endless path: there the water is as dense as it gets. Nothing
+/// if the water does not dim light.
 std::optional<double> infinite_path(const PathLength& way) {
   const Rgb<double>& e = way.extinction;
   return way.ends ? way.ends : deep_reach({e.r, e.g, e.b});
 }
 
-/// The front and the back of one pixel.
+/// Front and back of the water in one pixel.
 struct Extent {
   double front, back;
 };

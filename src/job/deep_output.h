@@ -9,19 +9,19 @@
 
 namespace limpid {
 
-/// What a deep file of the water is made of.
+/// The AOVs from which a deep file of the water is made.
 inline constexpr Aov kDeepAovs[] = {Aov::kInScatter, Aov::kTransmittance, Aov::kPath,
                                     Aov::kSurfaceDepth};
 
-/// Where the water begins and ends on the straight ray of each pixel, in eye depth. The front is
-/// +inf on dry pixels; the back is always finite, and the front again where there is no sample.
+/// Front and back of the water on the straight ray of each pixel, in eye depth. The front is +inf
+/// on dry pixels; the back is always finite, and equals the front where there is no sample.
 struct WaterExtent {
   Plane front, back;
-  std::array<Plane, 3> in_scatter;  ///< of whole pixels, also where something stands before a part
+  std::array<Plane, 3> in_scatter;  ///< of whole pixels, also where an object covers a part
 };
 
-/// From the AOVs path, surface_depth and in_scatter of a frame that was run, and its uncovered;
-/// OutputChoice::deep says how.
+/// From the AOVs path, surface_depth and in_scatter of a frame that was run, and its uncovered; as
+/// OutputChoice::deep defines it.
 WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scene,
                          const Target& target);
 

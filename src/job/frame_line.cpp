@@ -14,8 +14,8 @@
 namespace limpid {
 namespace {
 
-/// The frames' way through the steps, and the first failure. Frame i is in place i % in_flight,
-/// which is free by then: that is what Executor::pipeline promises.
+/// The path of frames through the steps, and the first failure. Frame i has the place i %
+/// in_flight, which is free by then, as Executor::pipeline promises.
 class Line {
  public:
   Line(const Sequence& sequence, std::span<const FrameStep> steps)
@@ -32,7 +32,7 @@ class Line {
  private:
   int frame(int index) const { return frames_[static_cast<std::size_t>(index)]; }
 
-  /// One step of a frame, unless it or one before it has failed.
+  /// One step of a frame, skipped if this frame or one before it has failed.
   template <std::size_t kStep>
   static void step(void* context, int index) {
     Line& line = *static_cast<Line*>(context);
@@ -61,7 +61,7 @@ class Line {
   int places_;
   std::span<const FrameStep> steps_;
   std::mutex mutex_;
-  std::atomic<int> failed_ = std::numeric_limits<int>::max();  ///< place of the first that has
+  std::atomic<int> failed_ = std::numeric_limits<int>::max();  ///< place of the first failed frame
   std::optional<Error> failure_;
 };
 

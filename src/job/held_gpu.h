@@ -8,16 +8,15 @@
 
 namespace limpid {
 
-/// What a runner on a GPU is made with.
+/// Options of a GPU runner for an output.
 inline GpuOptions gpu_options(const OutputChoice& choice) {
   return {.device = choice.gpu, .cache = choice.gpu_cache, .simd = choice.simd};
 }
 
-/// Keeps the device of many frames open, so that none opens it anew. Any threads may ask.
+/// Keeps a device open over many frames. Any number of threads may use it.
 class HeldGpu {
  public:
-  /// GpuRunner::device() of the one that is chosen; "" for other runners. Throws Error as
-  /// GpuRunner.
+  /// GpuRunner::device() of the chosen device; "" for other runners. Throws Error as GpuRunner.
   std::string name(const OutputChoice& choice) {
     if (choice.runner != Runner::kGpu) return "";
     const std::lock_guard lock(mutex_);

@@ -4,8 +4,7 @@
 
 namespace limpid {
 
-/// A plate that several looks are put on: opened, with the planes in memory that they have asked
-/// for so far.
+/// An open plate for several looks, with the planes in memory that the looks have needed so far.
 class HeldPlate {
  public:
   /// Opens the plate of the job. Throws Error as Plate::open().
@@ -13,24 +12,24 @@ class HeldPlate {
 
   const CompositeJob& job() const { return job_; }
   const Plate& plate() const { return plate_; }
-  /// As LoadedPlate has it, of what was read.
+  /// LoadedPlate::transparent of the planes read so far.
   double transparent() const { return loaded_.transparent; }
 
-  /// Reads what is not in memory of these planes; true where that was something, and views of
-  /// before are none any more. Throws Error as Plate::read().
+  /// Reads those of these planes that are not in memory; true if there were any: earlier views are
+  /// then invalid. Throws Error as Plate::read().
   bool read(PlaneSet planes, const Scene& scene);
-  /// All that is in memory.
+  /// All planes in memory.
   const Frame& frame() const { return loaded_.frame; }
   /// The frame that composite() would read for a plan of these planes: the same planes, no others.
-  /// What is not in memory is read. Valid until more is read.
+  /// Reads missing planes. Valid until more planes are read.
   Frame whole(PlaneSet planes, const Scene& scene);
-  /// The same of a frame like frame(): without the planes that composite() would not read.
+  /// `frame`, which is like frame(), without the planes that composite() would not read.
   Frame as_read_for(PlaneSet planes, Frame frame) const;
 
  private:
   CompositeJob job_;
   Plate plate_;
-  PlaneSet read_;  ///< what was asked for together
+  PlaneSet read_;  ///< all planes requested so far
   LoadedPlate loaded_;
 };
 

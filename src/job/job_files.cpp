@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 using FilesOfFrame = std::function<JobFiles(int)>;
 
-/// Who has a file: a frame, or the only job.
+/// The user of a file: a frame, or the only job.
 struct Use {
   std::optional<int> frame;
   bool writes = false;
 };
 
-/// The files of all frames so far. Paths are not kept: of 10^5 frames they would take more memory
-/// than all else.
+/// The files of all frames so far, by identity. Paths are not kept: for 10^5 frames they would need
+/// more memory than all other data.
 class Uses {
  public:
   explicit Uses(FilesOfFrame files_of_frame) : files_of_frame_(std::move(files_of_frame)) {}
@@ -50,7 +50,7 @@ class Uses {
     refuse(name_of(identity, before), before, file, use);
   }
 
-  /// How the frame names the file.
+  /// The path by which the frame names the file.
   fs::path name_of(const FileIdentity& identity, const Use& use) const {
     const JobFiles files = files_of_frame_(use.frame.value_or(0));
     for (const fs::path& file : use.writes ? files.outputs : files.inputs) {
@@ -74,7 +74,7 @@ class Uses {
 
   FilesOfFrame files_of_frame_;
   std::unordered_map<FileIdentity, Use, FileIdentityHash> uses_;
-  Files inputs_;  ///< of the frame before
+  Files inputs_;  ///< of the previous frame
 };
 
 void add_texture_files(const SceneFile& scene, const Look& look, Files& inputs) {
@@ -133,12 +133,12 @@ void expect_apart(std::span<const int> frames, const FilesOfFrame& files_of_fram
   Uses uses(files_of_frame);
   std::unordered_set<int> seen;
   for (const int frame : frames) {
-    if (!seen.insert(frame).second) continue;  // the same twice
+    if (!seen.insert(frame).second) continue;  // duplicate
     std::optional<JobFiles> files;
     try {
       files = files_of_frame(frame);
     } catch (...) {
-      continue;  // it will be told when the frame is made
+      continue;  // reported when the frame is made
     }
     uses.add(*files, frame);
   }

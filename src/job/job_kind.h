@@ -9,17 +9,17 @@
 
 namespace limpid {
 
-/// What a kind of job must give so that its jobs can be run alone and in sequences, and resumed
-/// (job/run_jobs.h). A kind holds what does not change from frame to frame, such as the model and
-/// textures; any threads may use it at once.
+/// The functions of a kind of job, so that its jobs can run alone and in sequences, and be resumed
+/// (job/run_jobs.h). A kind holds data that does not change from frame to frame, such as the model
+/// and textures; any number of threads may use it at once.
 ///
 /// - files: all files that a job reads or may read, and all that it writes, the picture first.
-/// - prepare: what is decided before a pixel is looked at, such as scene and plan. Throws Error for
-///   what is wrong with the job.
-/// - record: what the files say of how they were made. No pixel is decoded or drawn for it.
-/// - expect_writable: throws the Error that writing would end with.
-/// - Frame: the buffers of a frame, which the next one uses again. read(), run() and write() get
-///   the same job, each on any thread. The report's times are kept by the caller.
+/// - prepare: the decisions before a pixel is read, such as scene and plan. Throws Error if the
+///   job is wrong.
+/// - record: how the files were made, for their attributes. Decodes and draws no pixel.
+/// - expect_writable: throws the Error with which writing would end.
+/// - Frame: the buffers of a frame, reused by the next one. read(), run() and write() get the
+///   same job, each on any thread. The caller measures the report's times.
 template <class K>
 concept JobKind = requires(K& kind, const typename K::Job& job, typename K::Prepared prepared,
                            typename K::Frame& frame, Executor& executor, Record record) {

@@ -13,13 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The nearest before, else the first after.
+/// The nearest existing frame before, else the first after.
 int stand_in_for(int frame, const std::set<int>& there) {
   const auto after = there.lower_bound(frame);
   return after == there.begin() ? *after : *std::prev(after);
 }
 
-/// The job of a frame that is there.
+/// The job of an existing frame.
 CompositeJob own_job(const JobOfFrame<CompositeJob>& job_of, int frame) {
   CompositeJob job = job_of(frame);
   if (const auto gone = missing_file(job)) {
@@ -71,7 +71,7 @@ FilledSequence fill_missing(const std::vector<int>& frames, const JobOfFrame<Com
         there.insert(frame);
       }
     } catch (const Error&) {
-      unclear.insert(frame);  // it will be told when its turn comes
+      unclear.insert(frame);  // reported when its turn comes
     }
   }
   if (there.empty() && unclear.empty()) {

@@ -6,8 +6,8 @@
 namespace limpid {
 namespace {
 
-/// Slopes of a map that differ from those of none by more than this, all together, are a fold, a
-/// jump, or too strong a lens to be undone.
+/// Slopes of a map that differ from the identity's by more than this in sum are a fold, a jump, or
+/// a distortion too strong to be inverted.
 constexpr double kMaxBending = 1;
 
 struct Place {
@@ -29,7 +29,8 @@ class Map {
     return {of_.display.x0 + of_.u.at(x, y) * static_cast<double>(of_.display.width()),
             of_.display.y0 + (1 - of_.v.at(x, y)) * static_cast<double>(of_.display.height())};
   }
-  /// The motion on the picture, y down, that moves the place that is looked up by `looked_up`.
+  /// The motion in the picture, y down, that corresponds to the motion `looked_up` of the place of
+  /// the lookup.
   Place motion_of(int x, int y, const Place& looked_up) const {
     if (!is_wet(x - 1, y) || !is_wet(x + 1, y) || !is_wet(x, y - 1) || !is_wet(x, y + 1)) {
       return looked_up;

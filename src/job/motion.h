@@ -9,18 +9,18 @@
 
 namespace limpid {
 
-/// The maps that say where a picture has looked: Aov::kStmapG, and Aov::kSurfaceDepth, which is
-/// +inf on dry pixels.
+/// The maps of a picture's lookups: Aov::kStmapG, and Aov::kSurfaceDepth, which is +inf on dry
+/// pixels.
 struct LookedUp {
   View<const float> u, v, surface_depth;
   Rect display;
 };
 
-/// The vectors of what pixels show, of pairs of planes with vectors of the dry picture, in pixels,
-/// x to the right, y up: each pixel has that of the texel it was looked up at, as the inverse of
-/// the map's slopes turns and stretches it. It is exact to the first order of the motion where
-/// camera and water stand still; a map that folds, jumps or stretches twofold and more hands the
-/// texel's vector on as it is. What is not finite is 0.
+/// Motion vectors of the picture from pairs of planes with vectors of the dry picture, in pixels, x
+/// to the right, y up: each pixel has the vector of the texel that it looked up, transformed by the
+/// inverse of the map's slopes. Exact to the first order of the motion if camera and water stand
+/// still; where the map folds, jumps or stretches twofold and more, the texel's vector is not
+/// transformed. Vectors that are not finite become 0.
 void carry_motion(const LookedUp& looked_up, View<const float> x, View<const float> y,
                   View<float> to_x, View<float> to_y);
 
@@ -29,7 +29,7 @@ class MotionChannels {
  public:
   /// Reads the layers' planes.
   void read(const Plate& plate, std::vector<MotionLayer> layers);
-  /// Carries them to where the picture shows them.
+  /// Carries the vectors to the pixels that show their texels.
   void carry(const LookedUp& looked_up, const Rect& window);
   /// Of a file; half unless all is stored as float.
   std::vector<ExrOutputChannel> channels(const OutputChoice& choice) const;

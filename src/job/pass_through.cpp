@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kLossless[] = {"none", "rle", "zips", "zip", "piz"};
 
-/// What the picture's part has under each name.
+/// The source of each channel name in the picture's part.
 std::map<std::string, std::string> written_names(const std::vector<MotionLayer>& motion,
                                                  const OutputChoice& choice) {
   std::map<std::string, std::string> names;

@@ -18,13 +18,13 @@
 namespace limpid {
 namespace {
 
-/// What there is among the pixels that were looked at.
+/// Counts of the sampled pixels.
 struct Found {
   bool wet = false, dry = false, in_water = false;
   bool both() const { return wet && dry; }
 };
 
-/// Every `step`-th pixel of every `step`-th row, until both kinds are found.
+/// Samples every `step`-th pixel of every `step`-th row, until both kinds are found.
 Found look_at(const Frame& frame, const Pass& pass, int step) {
   Found found;
   RaisedWater<double> raised;
@@ -61,7 +61,7 @@ std::string glass_text(double share, const std::string& what) {
          "is put behind them";
 }
 
-/// Whether there are pixels of both kinds, as in a picture that was meant.
+/// Whether there are pixels of both kinds, as a meaningful picture has.
 bool warn_of_wet(const Frame& frame, const Pass& pass, std::vector<std::string>& warnings) {
   if (look_at(frame, pass, kCoarse).both()) return true;
   const Found found = look_at(frame, pass, 1);
@@ -101,8 +101,8 @@ void warn_of_depth(const Frame& frame, std::vector<std::string>& warnings) {
   }
 }
 
-/// What has a depth and shows what is behind it, too, in all pixels around one: glass. Edges do
-/// likewise, and are narrow.
+/// Glass: pixels with a depth and partial alpha whose neighbours all are like them. Edges are like
+/// that, too, but narrow.
 void warn_of_glass(const Frame& frame, std::vector<std::string>& warnings) {
   const View<const float>& alpha = frame.plane(PlaneId::kColorA);
   if (!alpha || frame.foreground[3]) return;
@@ -123,7 +123,7 @@ void warn_of_glass(const Frame& frame, std::vector<std::string>& warnings) {
   if (found > 0) warnings.push_back(glass_text(double(found) / double(seen), "the pixels are"));
 }
 
-/// Looks where a mirror shows the sun, which is infinitely far away.
+/// Checks the place where a mirror shows the sun, which is infinitely far away.
 void warn_of_sun(const Plan& plan, const Frame& frame, const Pass& c,
                  std::vector<std::string>& warnings) {
   const View<const float>& red = frame.plane(PlaneId::kReflectionR);
@@ -145,15 +145,15 @@ void warn_of_sun(const Plan& plan, const Frame& frame, const Pass& c,
       brightest = std::max(brightest, red.at(column, row));
     }
   }
-  // A disc is thousands of times as bright as what it lights; a sky around it is tens at most.
+  // A disc is thousands of times as bright as surfaces in its light; the sky around it is at most
+  // tens.
   if (brightest < 200 * std::max(c.sun.color.r, 0.01)) return;
   warnings.push_back("the reflection shows the sun's disc (" + toml_text(brightest) +
                      "), and sun_highlight adds it again; expected a reflection rendered without "
                      "the disc, or sun_highlight.strength = 0");
 }
 
-/// A low sun that is out of the picture, though its glint would be in it: nothing that the picture
-/// shows stands before it.
+/// A low sun outside of the picture with its glint inside: no visible object stands in front of it.
 void warn_of_glint(const Plan& plan, const Frame& frame, const Pass& c,
                    std::vector<std::string>& warnings) {
   const SunHighlight::Params& glint = plan.look.of<SunHighlight>();
@@ -193,7 +193,7 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
     }
   }
   if (!plan.reads_wave_map) return;
-  // The nearest water's pixels lie at the bottom of most pictures, at the top of a few.
+  // The nearest water lies at the bottom of most pictures, at the top of a few.
   const Rect work = frame.work();
   double nearest = HUGE_VAL;
   for (const int y : {work.y0, work.y1 - 1}) {
@@ -213,9 +213,8 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
   }
 }
 
-/// Where sunlight enters that calm water lets down to what the picture shows of the bottom: how
-/// much of it lies beyond the frame's own normals, if the waves are these and nothing else tells of
-/// them.
+/// Entry points of sunlight for the visible bottom under calm water: the share of them beyond the
+/// frame's own normals, if these are the only source of waves.
 void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
                    std::vector<std::string>& warnings) {
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
@@ -249,7 +248,7 @@ void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
                   row <= normals.y1);
     }
   }
-  constexpr double kMuch = 0.1;  // a rim of less is hardly missed
+  constexpr double kMuch = 0.1;  // a smaller rim is hardly noticed
   if (lit == 0 || beyond < kMuch * lit) return;
   char percent[16];
   std::snprintf(percent, sizeof percent, "%.0f %%", 100.0 * beyond / lit);
@@ -264,7 +263,7 @@ void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings) {
   const Pass pass = pass_of(plan, scene, frame);
-  // What is to be said of the rest would be of another picture than the one that was meant.
+  // Further warnings would describe an unintended picture.
   if (!warn_of_wet(frame, pass, warnings)) return;
   warn_of_depth(frame, warnings);
   warn_of_glass(frame, warnings);

@@ -14,32 +14,31 @@ namespace limpid {
 ///
 /// - No pixel of Frame::work() is wet, or all are, seen from the air: then water, camera and depth
 ///   do not fit together.
-/// - The depth is nearly the same everywhere, or in 0 ... 1 everywhere, as that of a mist pass is.
+/// - The depth is nearly constant, or in 0 ... 1 everywhere, as that of a mist pass is.
 /// - Part of the picture has an alpha between 0 and 1 and a depth, as glass has: it counts as
-/// opaque.
+///   opaque.
 /// - The reflection shows the sun's disc, which the highlight adds, too.
-/// - Nothing tells of what hides a sun below 20 degrees that is out of the picture, and its glint
-/// is in it.
+/// - The plate has no shadow for a sun below 20 degrees outside of the picture, and the sun's glint
+///   is in the picture.
 /// - A period of the tiling waves is smaller than two of the nearest water's pixels, or so large
 ///   that the whole picture shows a hundredth of it; or waves are higher than the camera.
-/// - Of caustics by the frame's own normals: the light of a tenth of the bottom or more enters
-/// where
+/// - Caustics use the frame's own normals: the light of a tenth of the bottom or more enters where
 ///   the frame has none.
 ///
-/// Looks at few pixels, unless it is all wet or all dry.
+/// Samples few pixels, unless the picture is all wet or all dry.
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings);
 
-/// Adds a sentence where a thousandth of the wet pixels or more is LoadedPlate::transparent.
+/// Adds a sentence if a thousandth of the wet pixels or more is LoadedPlate::transparent.
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings);
 
-/// Where the plan's refraction looks beyond the picture; nowhere, if it follows no rays.
+/// Where the plan's refraction looks beyond the picture; empty if it traces no rays.
 Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene);
 
-/// Adds to_text() of it where a hundredth of the wet pixels or more do.
+/// Adds to_text(beyond) if a hundredth of the wet pixels or more look beyond the picture.
 void warn_of_beyond(const Beyond& beyond, std::vector<std::string>& warnings);
 
-/// Throws the first of them as an Error, if `strict`.
+/// Throws the first warning as an Error, if `strict`.
 void refuse_warnings(bool strict, const std::vector<std::string>& warnings);
 
 }  // namespace limpid

@@ -14,7 +14,7 @@
 namespace limpid {
 namespace {
 
-/// Adds the numbers of which a model is made, each list behind its length.
+/// Hashes the numbers of a model, each list after its length.
 class ModelHash {
  public:
   template <class... Numbers>
@@ -38,7 +38,7 @@ static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8 && sizeof(glm::v
                   sizeof(glm::dmat4) == 128,
               "lists of vectors are hashed as their numbers, without gaps");
 
-/// Names do not count, nor what was left out: nothing of them is seen.
+/// Names do not count, nor parts that were left out: they are not drawn.
 std::string hash_of_model(const Model& model) {
   ModelHash hash;
   hash.add_count(model.meshes.size());
@@ -107,7 +107,7 @@ Record record_of(const Scene& scene, const std::string& inputs, const std::strin
 }
 
 void add_look(Record& record, const Look& look) {
-  // The map by its name, not where it lay; what is in it is among the inputs.
+  // The map by its name, without its folder; the inputs record its contents.
   Look recorded = look;
   std::string& map = recorded.of<WaveNormals>().map;
   map = std::filesystem::path(map).filename().string();

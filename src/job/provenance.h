@@ -14,8 +14,8 @@
 
 #include "job/shared_textures.h"
 
-/// What an output says of how it was made, in attributes "limpid/..." (job/output.h lists them).
-/// Nothing in it depends on where files lie, nor on date, host or threads.
+/// How an output was made, as attributes "limpid/..." (job/output.h lists them). Independent of
+/// folders, date, host and threads.
 
 namespace limpid {
 
@@ -23,24 +23,24 @@ using Record = std::map<std::string, std::string>;
 
 /// Version, scene, inputs, options, and the hash of scene and inputs.
 Record record_of(const Scene& scene, const std::string& inputs, const std::string& options);
-/// The look as it was asked for.
+/// The look as requested.
 void add_look(Record& record, const Look& look);
-/// And what the plan made of it.
+/// And the look as planned.
 void add_look(Record& record, const Look& look, const Plan& plan);
 
-/// A model and what stands for it in a record: the hash of all that is drawn of it.
+/// A model and its representation in a record: the hash of all its drawn parts.
 struct HashedModel {
   explicit HashedModel(const Model& named);
   const Model* model;
   std::string hash;
 };
 
-/// Parts of `inputs`: TOML, some lines each.
+/// Parts of `inputs`: a few lines of TOML each.
 std::string model_inputs(const HashedModel& model, Size size);
 std::string model_inputs(const HashedModel& model, const RenderOptions& options);
 std::string texture_inputs(const TextureFiles& files, SharedTextures& textures);
 
-/// A line of TOML: the value is given as it stands there.
+/// A line of TOML; `value` is used verbatim.
 std::string line(std::string_view key, const std::string& value);
 /// `aovs = ["path", "visible"]`.
 std::string aovs_line(const std::vector<Aov>& aovs, bool visible = false);

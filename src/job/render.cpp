@@ -39,7 +39,7 @@ class RenderKind {
       report_.size = job.render.size;
     }
     void run(const RenderJob& job, Executor& executor) {
-      plate_ = {};  // before another is made
+      plate_ = {};  // freed before a new one is made
       plate_ = render_plate(model_, scene_, job.render, renderable(model_, scene_), executor);
     }
     void write(const RenderJob& job, Record record) {

@@ -25,7 +25,7 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, ignored);
 }
 
-/// Throws Error unless the file is as it was written, as far as it is looked at.
+/// Throws Error unless the file is complete and unchanged, as far as `level` checks.
 void check(const ExrFile& file, VerifyLevel level) {
   const std::string name = file.path().string();
   if (!file.is_whole()) throw Error(name + ": is incomplete");
@@ -35,8 +35,8 @@ void check(const ExrFile& file, VerifyLevel level) {
   if (!*as_written) throw Error(name + " has changed since it was written (its hash is another)");
 }
 
-/// What the file says under the names of the record. Throws Error for one that cannot be read or
-/// does not pass.
+/// The file's values for the names of the record. Throws Error if it cannot be read or fails the
+/// check.
 Record said_by(const fs::path& file, const Record& record, VerifyLevel level) {
   if (!holds_exr(file)) return read_image_texts(file);
   const ExrFile exr = ExrFile::open(file);
@@ -48,7 +48,7 @@ Record said_by(const fs::path& file, const Record& record, VerifyLevel level) {
   return said;
 }
 
-/// Why the file is not as it would be made now, or "".
+/// Why the file differs from what would be written now, or "".
 std::string why_not(const fs::path& file, const Record& record, VerifyLevel level) {
   try {
     const Record said = said_by(file, record, level);
@@ -64,10 +64,10 @@ std::string why_not(const fs::path& file, const Record& record, VerifyLevel leve
   }
 }
 
-/// What there is of a frame.
+/// The state of a frame's output.
 struct Found {
   bool kept = false;
-  std::string why;  ///< it is not, though its picture is there
+  std::string why;  ///< why it is not done, although its picture exists
 };
 
 Found find(const ExpectedOutput& output, VerifyLevel level) {
@@ -80,7 +80,7 @@ Found find(const ExpectedOutput& output, VerifyLevel level) {
   try {
     record = output.record();
   } catch (const Error&) {
-    return {};  // it will be told when the frame is made
+    return {};  // reported when the frame is made
   }
   for (const fs::path& file : files) {
     const std::string why = why_not(file, record, level);
@@ -89,7 +89,7 @@ Found find(const ExpectedOutput& output, VerifyLevel level) {
   return {true, ""};
 }
 
-/// A frame that is being looked at.
+/// A frame to be checked.
 struct Candidate {
   std::optional<ExpectedOutput> output;
   Found found;
@@ -117,7 +117,7 @@ Rest rest_of_frames(const Sequence& sequence,
             folders.insert(fs::absolute(followed(file)).parent_path());
           }
         } catch (const Error&) {
-          return;  // it will be told when the frame is made
+          return;  // reported when the frame is made
         }
       },
       [&](int place, int) {

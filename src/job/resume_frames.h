@@ -8,13 +8,13 @@
 
 namespace limpid {
 
-/// What a frame's job would write, whatever its kind.
+/// The output of a frame's job, for any kind.
 struct ExpectedOutput {
   JobFiles files;                  ///< the outputs' picture first
   std::function<Record()> record;  ///< throws Error as the job would
 };
 
-/// What is left to do of a sequence (job/resume.h). `output_of` is asked as JobOfFrame is.
+/// The rest of a sequence (job/resume.h). `output_of` is called like JobOfFrame.
 Rest rest_of_frames(const Sequence& sequence,
                     const std::function<ExpectedOutput(int frame)>& output_of, Executor& executor,
                     VerifyLevel level);

@@ -11,11 +11,11 @@
 #include "job/stopwatch.h"
 
 /// @file
-/// One frame, many frames, the rest of many, and what is wrong with them, for every kind of job.
+/// One frame, many frames, the rest of many, and their errors, for every kind of job.
 
 namespace limpid {
 
-/// A slot whose frames are jobs of a kind.
+/// A slot for frames that are jobs of a kind.
 template <JobKind Kind>
 class JobSlot : public FrameSlot {
  public:
@@ -58,7 +58,7 @@ class JobSlot : public FrameSlot {
   Record record_;
 };
 
-/// A sequence of one, whose frame has no number for an Error to name.
+/// A sequence of one frame, which an Error does not name by number.
 template <JobKind Kind>
 typename Kind::Report run_job(Kind kind, const typename Kind::Job& job, Executor& executor) {
   typename Kind::Report report;

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a plane of the frame with texel (0, 0) at the corner of its window.
+/// One channel of the texture, with texel (0, 0) at the corner of the plane's window.
 View<const float> channel_of(const ShaderTexture& texture, int k, const Frame* frame,
                              const Rect& window) {
   if (texture.source == ShaderTexture::Source::kPlanes) {

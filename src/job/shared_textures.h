@@ -12,10 +12,10 @@
 
 namespace limpid {
 
-/// Whether the scene file names surroundings. Throws Error when it does and they are not there.
+/// Whether the scene file names surroundings. Throws Error if their file does not exist.
 bool has_environment(const SceneFile& scene);
 
-/// The files of the textures that a job looks up; an empty path where it does not.
+/// The files of the textures that a job reads; an empty path for a texture that it does not read.
 struct TextureFiles {
   std::filesystem::path wave_map;     ///< the tiling normal map
   std::filesystem::path environment;  ///< the surroundings
@@ -29,13 +29,13 @@ struct HeldTextures {
   void show_in(Frame& frame) const;
 };
 
-/// The textures of many frames: loaded when a job first reads them, and again only where another
-/// file is meant. Any threads may ask.
+/// The textures of many frames: loaded when a job first reads them, and again only for another
+/// file. Any number of threads may use it.
 class SharedTextures {
  public:
   HeldTextures load(const TextureFiles& files, const Limits& limits = {});
 
-  /// The hash of the bytes of such a file, as ExrFile::content_hash(): taken once. Throws Error.
+  /// The hash of the bytes of such a file, as ExrFile::content_hash(): computed once. Throws Error.
   std::string hash_of(const std::filesystem::path& path);
 
  private:
@@ -53,7 +53,7 @@ class SharedTextures {
   std::map<std::filesystem::path, std::string> hashes_;
 };
 
-/// The view of what is held, if anything is.
+/// The view of a loaded texture, if there is one.
 inline Texture texture_of(const std::shared_ptr<const LoadedTexture>& held) {
   return held ? held->texture : Texture{};
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxAcross = 480;  ///< pixels of a cell
 
-/// A canvas that is at most so wide: the same, or a smaller one that is made of it.
+/// A canvas of at most that width: the same, or a reduced copy.
 class Smaller {
  public:
   Smaller(const Canvas& canvas, const Rect& display, int most_across, const OutputChoice& choice)
@@ -62,9 +62,9 @@ std::string label_of(const std::string& name, const Shown& shown) {
 
 Shown sheet_of(const Canvas& canvas, const Rect& display, const DisplayTransform& light) {
   OutputChoice all;
-  all.contact_sheet = "all";  // so that all of them are there
+  all.contact_sheet = "all";  // to compute all AOVs
   const Smaller smaller(canvas, display, kMaxAcross, all);
-  const auto executor = make_executor(1);  // of small pictures
+  const auto executor = make_executor(1);  // the pictures are small
   std::vector<SheetCell> cells{{"picture", shown_color(smaller, light, *executor)}};
   for (const AovInfo& info : aovs()) {
     const Aov aov = aov_named(info.name);

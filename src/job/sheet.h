@@ -8,12 +8,12 @@
 namespace limpid {
 
 /// The picture of a canvas and all its AOVs, which must have been computed, with their names and
-/// what their darkest and brightest stand for; of the window what lies in `display`. Pictures wider
-/// than 480 pixels are made smaller, as Canvas::filtered().
+/// the values of their darkest and brightest tones; the part of the window within `display`.
+/// Pictures wider than 480 pixels are reduced by Canvas::filtered().
 Shown sheet_of(const Canvas& canvas, const Rect& display, const DisplayTransform& light);
 
-/// CompositeReport::preview, as the choice wants it: nothing for no pixels. `primaries` are those
-/// of the canvas.
+/// CompositeReport::preview, by the choice: empty for no preview. `primaries` are those of the
+/// canvas.
 PreviewPixels preview_pixels(const Canvas& canvas, const Rect& display, const OutputChoice& choice,
                              const Primaries& primaries = kRec709);
 

@@ -20,7 +20,7 @@
 namespace limpid {
 namespace {
 
-/// What the look reads beside the model: raised meshes have normals of their own.
+/// The textures that the look reads besides the model: meshes of waves have normals of their own.
 TextureFiles textures_of(const Model& model, const Scene& scene, const TruthJob& job) {
   TextureFiles files;
   const WaveNormals::Params& waves = job.look.of<WaveNormals>();
@@ -72,7 +72,7 @@ std::string options_text(const TruthJob& job) {
          file_options(job.output.compression, job.output.store_float);
 }
 
-/// A hundredth of it tells nothing.
+/// More digits would be noise.
 std::string noise_text(double relative_error) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", relative_error);
@@ -111,7 +111,7 @@ class TruthKind {
     TextureFiles textures = textures_of(*model_.model, scene, job);
     return {std::move(scene), std::move(textures)};
   }
-  /// All but `limpid/noise`, which is known when the picture is.
+  /// Without `limpid/noise`, which is known only after tracing.
   Record record(const TruthJob& job, const Prepared& prepared) {
     const std::string inputs =
         model_inputs(model_, job.size) + texture_inputs(prepared.textures, textures_);
@@ -146,7 +146,7 @@ class TruthKind {
                                  job.output.visible,
                                  texture_of(textures_.wave_map),
                                  texture_of(textures_.environment)};
-      picture_ = {};  // before another is made
+      picture_ = {};  // freed before a new one is made
       picture_ = trace_truth(*kind_.model_.model, scene_, job.look, options, executor);
       report_.relative_error = picture_.relative_error;
     }

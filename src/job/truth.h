@@ -13,7 +13,7 @@
 
 namespace limpid {
 
-/// `limpid truth`: a ray-traced picture of a model with its water, to judge the chain by.
+/// `limpid truth`: a ray-traced picture of a model with its water, the standard for the chain.
 struct TruthOutput {
   std::vector<Aov> aovs;          ///< as TruthOptions has it
   bool visible = false;           ///< as visible.R ... visible_below.B
@@ -34,7 +34,7 @@ struct TruthJob : SceneJob {
   TruthOutput output;
 };
 
-/// What was done, for the report line.
+/// Result, for the report line.
 struct TruthReport {
   Size size;
   double relative_error = 0;  ///< as TruthPicture has it
@@ -42,12 +42,12 @@ struct TruthReport {
 };
 
 /// Traces and writes. Throws Error as trace_truth() does, for textures that cannot be read, and for
-/// an output that is one of the inputs or another output; nothing is left under the output's name
-/// then but what was there before.
+/// an output that is one of the inputs or another output; the former file of the output's name then
+/// remains.
 TruthReport truth(const Model& model, const TruthJob& job, Executor& executor);
 
-/// Many frames, the rest of many, and what is wrong with them, as those of water() are
-/// (job/sequence.h, job/resume.h, job/frame_faults.h).
+/// Many frames, the rest of many, and their errors, as for water() (job/sequence.h, job/resume.h,
+/// job/frame_faults.h).
 void truth_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<TruthJob>& job_of, const OnFrameOf<TruthReport>& on_frame,
                     Executor& executor);

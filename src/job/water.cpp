@@ -97,14 +97,14 @@ class WaterKind {
       RenderOptions options = job.render;
       options.size = {options.size.width * job.samples, options.size.height * job.samples};
       options.overscan *= job.samples;
-      plate_ = {};  // before another is made
+      plate_ = {};  // freed before a new one is made
       plate_ = render_plate(*kind_.model_.model, scene_, options, report_.plan.planes, executor);
       report_.replaced = sanitise_planes(plate_.planes, scene_.water->up);
       textures_.show_in(plate_.frame);
       report_.warnings = report_.plan.warnings;
       warn_of_picture(report_.plan, plate_.frame, scene_, report_.warnings);
       refuse_warnings(job.output.strict, report_.warnings);
-      const double drawn = watch.lap();  // in the place of reading
+      const double drawn = watch.lap();  // drawing replaces reading
       report_.read_seconds += drawn;
       report_.run_seconds -= drawn;
       canvas_for(canvas_, plate_.frame.work(), job.output)

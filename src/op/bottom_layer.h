@@ -4,26 +4,27 @@
 #include "op/screen_ray.h"
 
 /// @file
-/// The bottom where nobody rendered it: behind what stands in the water, or before it.
+/// The bottom where no buffer shows it: behind objects that stand in the water, or in front of
+/// them.
 
 namespace limpid {
 
-/// What the bottom of a frame looks like, and how deep it lies, as if nothing stood before it. Made
-/// by complete/ for frames in which something does; coarse, for what is known is looked up in the
-/// planes.
+/// Color and depth of the bottom of a frame, as if no object stood in front of it. Made by
+/// complete/ for frames in which objects stand in the water. Coarse: where the bottom is visible,
+/// the planes themselves are looked up.
 struct BottomLayer {
-  /// What reaches down to this share of the depth around it is of the bottom.
+  /// A surface at this share of the depth around it, or deeper, belongs to the bottom.
   static constexpr double kOfBottom = 0.75;
 
   Texture colors;
   /// Red and green: depth of the bottom below the calm surface, in scene units. Blue: 1 / thickness
   /// of what stands before the bottom, 0 where nothing does.
   Texture shape;
-  glm::dvec2 scale, offset;  ///< from uv of the picture to that of the textures
+  glm::dvec2 scale, offset;  ///< from the picture's uv to the textures' uv
   double most_drop;          ///< the largest depth in `shape`
 };
 
-/// Of a pixel, or of a vector of pixels.
+/// The bottom layer as one pixel, or one vector of pixels, looks it up.
 template <class F, class Tap>
 class BottomLayerTaps {
  public:
@@ -31,22 +32,21 @@ class BottomLayerTaps {
       : layer_(layer), p_(pixel), tap_(tap) {}
 
   struct Shape {
-    F drop;      ///< below the calm surface
-    F thinness;  ///< 1 / thickness
+    F drop;      ///< depth below the calm surface
+    F thinness;  ///< 1 / thickness of the object
   };
   Shape shape(Vec2<F> shift) const {
     const Rgb<F> there = tap_.lat_long_rgb(layer_.shape, place(shift));
     return {there.r, there.b};
   }
-  /// Shape::drop alone, which takes a third of the lookups.
+  /// Shape::drop alone, for a third of the lookups.
   F bottom(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.shape, place(shift)).r; }
   /// Whether what is seen at `shift`, `drop` below the calm surface, is of the bottom.
   auto is_bottom(Vec2<F> shift, F drop) const {
     return drop >= F(BottomLayer::kOfBottom) * bottom(shift);
   }
-  /// Whether bottom is seen on the screen between the pixel and `shift`: what stands at the one is
-  /// no part of what stands at the other, as the sides of a hull are of its inside. `depth` is the
-  /// plane.
+  /// Whether bottom is visible on the screen between the pixel and `shift`: then the two belong to
+  /// different objects. The sides of a hull and its inside do not. `depth` is the depth plane.
   auto is_apart(const Pass& c, PlaneId depth, Vec2<F> shift) const {
     constexpr int kPlaces = 8;
     F apart(0);
@@ -61,7 +61,7 @@ class BottomLayerTaps {
   Rgb<F> color(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.colors, place(shift)); }
 
  private:
-  /// Between the centres of the outermost texels, for the lookup goes round in x.
+  /// Kept between the centres of the outermost texels, because the lookup wraps around in x.
   Vec2<F> place(Vec2<F> shift) const {
     const auto& window = layer_.shape.channels[0].window;
     const auto kept = [](double size, F at, int axis) {

@@ -7,7 +7,7 @@
 #include "op/seen_planes.h"
 
 /// @file
-/// Where a ray under the water meets what the depth plane shows.
+/// Where a refracted ray meets the surfaces that the depth plane shows.
 
 namespace limpid {
 
@@ -16,14 +16,14 @@ template <class F, class Tap>
 class BottomSearch {
  public:
   struct Found {
-    F way;   ///< along the ray, +inf where it meets nothing
-    F sure;  ///< 1 where the bottom was seen, 0 where it is a guess
+    F way;   ///< distance along the ray, +inf where it meets nothing
+    F sure;  ///< 1 where the bottom was seen, 0 where the distance is a guess
   };
 
-  /// `fall` is the distance from the calm surface that the ray gains per unit of its way,
-  /// `thickness` that of thin things along the view, in scene units; 0: by Pass::bottom_layer.
-  /// `expected` goes from one search to the next one beside it, 0 before the first: how far the ray
-  /// may be expected to go. It saves looks and changes no result.
+  /// `fall`: the distance from the calm surface that the ray gains per unit of its length.
+  /// `thickness`: that of thin objects along the view, in scene units; 0: as Pass::bottom_layer has
+  /// it. `expected`: about how far the ray will go, as the search of the neighbouring pixel left
+  /// it, 0 before the first search. It saves lookups and changes no result.
   LIMPID_INLINE BottomSearch(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel,
                              const Tap& taps, const ScreenRay<F>& way, F falls,
                              const double& thickness, int& expected)
@@ -36,17 +36,18 @@ class BottomSearch {
         thickness_(thickness),
         expected_(expected) {}
 
-  /// k times as deep as the bottom that the last guess has found, from that at the pixel itself on.
+  /// k fixed-point steps: each takes the bottom as deep as where the last step landed, from the
+  /// depth at the pixel itself on.
   Found iterate(int steps) const {
     F way = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
     repeat<F>(steps, [&] { way = to_level(way); });
     const auto meets = way < F(1e20);
-    // From below it is the sky that is met without end, and that is seen.
+    // From below, an endless ray meets the sky, which is visible.
     return {select(meets, way, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
   }
 
-  /// To where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU
-  /// Screen-Space Ray Tracing"), with equal steps on screen, then bisection.
+  /// Marches to where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU
+  /// Screen-Space Ray Tracing"): equal steps on screen, then bisection.
   Found march() const {
     constexpr int kGuesses = 4;
     const F end = ray_.s_at(reach_in(planes_.bounds, p_.uv, ray_.across));
@@ -54,13 +55,13 @@ class BottomSearch {
     const F pixels = max(length_on_screen(ray_.shift_at(most)), F(1));
     const F stride = F(1.0 / kSteps) * pixels;
     const F own_drop = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth);
-    // In shallow water the bottom may be met, and the shore crossed, before the first step ends: a
-    // look goes before it, to a little under the bottom at the pixel itself.
+    // In shallow water the ray may meet the bottom and cross the shore within the first step. So
+    // one lookup comes before that step, a little below the bottom at the pixel itself.
     const F shallow = min(F(1.25) * own_drop / fall_, most);
     const F first = min(ray_.share_at(shallow, most), F(1.0 / kSteps));
     const auto wet = tap_.wet();
     F before = F(0), after = F(1), found = F(0), hidden = F(0);
-    // Looks at a share t of the way; those go on that have met nothing.
+    // Tests the ray at a share t of its length; lanes that have met nothing stay open.
     const auto look_at = [&](F t, F texels, bool begins) {
       const auto open = wet && found < F(0.5);
       const F way = ray_.at_share(t, most);
@@ -69,7 +70,7 @@ class BottomSearch {
       const F hides = past(at, texels);
       auto hit = at.behind >= F(0) && hides < F(0.5);
       if (begins) hit = hit || passes_level_near(way);
-      // A bottom that rises steeply looks like something that hides it, until its edge is found.
+      // A steep rise of the bottom looks like an object in front of it until its edge is found.
       const auto doubtful = open && hidden < F(0.5) && at.behind >= F(0) && !hit;
       if_any(doubtful, [&] {
         const F edge = ray_.at_share(edge_between(before, t, most), most);
@@ -82,8 +83,8 @@ class BottomSearch {
       return wet && found < F(0.5);
     };
     if_any(look_at(first, F(2), true), [&] {
-      int goal = 0, next_leap = c_.heights.known ? 1 : kSteps + 1;  // the step at which to try one
-      int next_doubt = next_leap;  // and after which to ask whether anything may be met yet
+      int goal = 0, next_leap = c_.heights.known ? 1 : kSteps + 1;  // the step to which to leap
+      int next_doubt = next_leap;  // the step after which to test for misses
       const auto leap = [&](int i) {
         const auto open = wet && found < F(0.5);
         if (i > next_doubt && !any(open && hidden < F(0.5))) {
@@ -92,8 +93,8 @@ class BottomSearch {
           next_doubt = i - 1 + kLooksBetweenDoubts;
         }
         if (i < next_leap) return i;
-        // The first ones almost to where the rays before have met the bottom, or else to where the
-        // level of that at the pixel itself is met.
+        // The first steps lead almost to where the neighbouring rays met the bottom, or else to the
+        // level of the bottom at the pixel itself.
         const auto steps_to_level = [&] {
           const F level = ray_.share_at(min(own_drop / fall_, most), most);
           return static_cast<int>(kSteps * least(select(open, saturate(level), F(1))));
@@ -114,11 +115,11 @@ class BottomSearch {
     if_any(meets, [&] {
       after = edge_between(before, after, most);
       const F met = ray_.at_share(after, most);
-      // The bisection may have gone to the edge of what hides the bottom.
+      // The bisection may have ended at the edge of an object in front of the bottom.
       const F at_edge = past(look(met), F(2));
       sure = select(meets && hidden < F(0.5) && at_edge < F(0.5), F(1), F(0));
-      // The depth plane is a staircase; the level between its texels is smooth, and at most a texel
-      // or so away.
+      // Nearest lookups make the depth plane a staircase; the interpolated level between its texels
+      // is smooth, and at most about a texel away.
       const F smooth = to_level(met);
       const F texel = F(1.5) / pixels;
       way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
@@ -140,13 +141,12 @@ class BottomSearch {
   static constexpr int kSteps = 48;
   static constexpr int kLeap = 16, kLooksBetweenLeaps = 6, kLooksBetweenDoubts = 3;
   static constexpr double kHiding = 0.25;      ///< see past()
-  static constexpr double kLeastFall = 0.021;  ///< below it `fall` may be more than the ray falls
+  static constexpr double kLeastFall = 0.021;  ///< below it `fall` may exceed the true fall
   static constexpr int kStepsBehind = 12, kSecants = 3;
 
-  /// i, or a later step if from i up to it a look would find nothing: the rays stay above all that
-  /// they pass, by Pass::heights. Leaps to the step `goal` are shorter and shorter, for the
-  /// nearer to the bottom the ray comes, the less of it may be asked about at once; those from
-  /// there on are longer and longer.
+  /// Step i, or a later step if the lookups from i up to it would find nothing: there Pass::heights
+  /// shows that the rays stay above all that they pass. Leaps up to the step `goal` become shorter
+  /// and shorter, because near the bottom only short ones are safe; leaps beyond it become longer.
   template <class Lanes>
   int leap_from(int i, int goal, Lanes open, F most) const {
     const F top = surface_height();
@@ -175,15 +175,15 @@ class BottomSearch {
     return i;
   }
 
-  /// Of the surface point, above the calm surface.
+  /// Height of the surface point above the calm surface.
   LIMPID_INLINE F surface_height() const {
     return given<F>(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
   }
 
-  /// Whether rays that have passed behind something stay far behind all that they still pass, by
-  /// Pass::heights: past() would say of each look from `way` on that it is hidden. Along the
-  /// view ray of a texel depths go as heights do, so behind > slack is what is written here, of the
-  /// calm water's height times -1; the texels' share is greatest at one of the two ends.
+  /// Whether rays that have passed behind an object stay far behind all that they still pass, by
+  /// Pass::heights: past() would return hidden for each lookup from `way` on. Along the view ray of
+  /// a texel, depths are proportional to heights. So behind > slack is written here for calm water,
+  /// times -1; the texels' share is largest at one of the two ends.
   template <class Lanes>
   bool stays_behind(Lanes open, F way, F most, F texels) const {
     const F top = surface_height();
@@ -195,30 +195,33 @@ class BottomSearch {
            tap_.heights(planes_.depth, open, from, to).deepest;
   }
 
-  /// How far calm_depth_step() leads down along the view ray at `shift`.
+  /// The height that calm_depth_step() spans along the view ray at `shift`.
   LIMPID_INLINE F calm_step_down(Vec2<F> shift) const {
     const F falls = height_at(c_, p_, shift, F(0)) - height_at(c_, p_, shift, F(1));
     return falls * calm_depth_step(c_, p_, shift);
   }
 
-  /// How far below the surface point (above it, from below) a point seen on the screen lies.
+  /// How far a point seen on the screen lies below the surface point (above it, for a view from
+  /// below).
   LIMPID_INLINE F drop_to(Vec2<F> shift, F depth) const {
     return max(p_.side * (surface_height() - height_at(c_, p_, shift, depth)), F(0));
   }
 
-  /// The same of what a texel shows: 0 where that tells nothing, for it stands above the surface or
-  /// the layer below is empty there (cut away, where the bottom rises out of the water).
+  /// The same for what a texel shows; 0 where the texel gives no depth of the bottom: it shows an
+  /// object above the surface, or the layer below is empty there (the bottom rises out of the water
+  /// and was clipped).
   LIMPID_INLINE F seen_drop(Vec2<F> shift, F depth) const {
     const F drop = drop_to(shift, depth);
     return planes_.below ? select(depth < F(1e30), drop, F(0)) : drop;
   }
 
-  /// Where a ray stands against what the depth plane shows there.
+  /// The ray at a point, compared with the depth plane there.
   struct Sight {
-    F drop;    ///< of what is seen, below the surface point; 0 when it stands before the water
-    F behind;  ///< how far the ray has passed behind it, -1 where it has not
+    F drop;    ///< depth of the visible surface below the surface point; 0 if it stands in front of
+               ///< the water
+    F behind;  ///< how far the ray has passed behind it, -1 where the ray is in front
     Vec2<F> shift;
-    F own;  ///< depth of the ray
+    F own;  ///< eye depth of the ray
   };
 
   LIMPID_INLINE Sight look(F way) const {
@@ -228,7 +231,7 @@ class BottomSearch {
     return {drop, select(drop > F(0) && own >= seen, own - seen, F(-1)), shift, own};
   }
 
-  /// Whether the ray runs before a bottom that is seen.
+  /// Whether the ray runs in front of a visible bottom.
   LIMPID_INLINE static auto is_free(const Sight& at) { return at.behind < F(0) && at.drop > F(0); }
 
   /// Where the rays of `lanes` meet the bottom of Pass::bottom_layer, which goes on behind what
@@ -270,8 +273,8 @@ class BottomSearch {
     const F level = max(end + room_after / fall_, F(0));
     const F way = select(found > F(0.5), met, level);
     const F behind = max(way, F(0));
-    // What stands in the water may hide itself: its level goes on. What is above the water just
-    // beyond, and apart from it, hides others.
+    // An object in the water may occlude its own parts: there its level continues. An object just
+    // beyond, apart from it and above the water, occludes the bottom.
     const Vec2<F> here{F(0), F(0)};
     const auto stands = !layer.is_bottom(here, F(0) - height_at(c_, p_, here, p_.dry_depth));
     F ends = behind;
@@ -284,8 +287,8 @@ class BottomSearch {
     return ends;
   }
 
-  /// Where the ray passes behind what is seen, between two shares of its way on screen, the later
-  /// of which is behind.
+  /// Where the ray passes behind the visible surface, between two shares of its length on screen;
+  /// at `after` it is behind.
   [[gnu::noinline]] F edge_between(F before, F after, F most) const {
     return halve<F>(
                {before, after}, 6,
@@ -295,9 +298,9 @@ class BottomSearch {
         .high;
   }
 
-  /// 1 where what is seen lies far before the ray: it hides the bottom, it is not hit. A slope is
-  /// missed by as much as its depth changes from texel to texel, so many of which are forgiven. A
-  /// thing of which the thickness is known hides what is behind that.
+  /// 1 where the visible surface lies far in front of the ray: it hides the bottom and is not hit.
+  /// On a slope the ray may be behind by as much as depth changes from texel to texel; `texels`
+  /// such steps are allowed. An object of known thickness hides what lies behind that thickness.
   LIMPID_INLINE F past(const Sight& at, F texels) const {
     F hides(0);
     if_any(at.behind >= F(0), [&] {
@@ -321,15 +324,15 @@ class BottomSearch {
     return select(stands && at.behind > thickness, F(1), F(0));
   }
 
-  /// In pixels.
+  /// Length in pixels.
   LIMPID_INLINE F length_on_screen(Vec2<F> shift) const {
     const F x = given<F>(c_.size.x) * shift.x, y = given<F>(c_.size.y) * shift.y;
     return sqrt(x * x + y * y);
   }
 
-  /// Where the ray meets the level of the bottom that is seen at `way`, mixed from four texels, and
-  /// +inf where half of what is seen or more has none; `way` itself where nothing below the surface
-  /// is seen.
+  /// Where the ray meets the level of the bottom seen at `way`, mixed from four texels; +inf where
+  /// half of their weight or more has no bottom; `way` itself where no texel lies below the
+  /// surface.
   F to_level(F way) const {
     if (c_.bottomless) return to_level_if_any(way);
     const auto quad = tap_.quad(ray_.shift_at(way));
@@ -345,7 +348,7 @@ class BottomSearch {
     return select(seen, level / (max(weight, F(1e-3)) * fall_), way);
   }
 
-  /// The same where there may be no bottom. On its own, for the march is to stay small.
+  /// to_level() where there may be no bottom. A function of its own, to keep the march small.
   [[gnu::noinline]] F to_level_if_any(F way) const {
     const auto quad = tap_.quad(ray_.shift_at(way));
     const Four<F> depths = tap_.read(planes_.depth, quad);
@@ -363,9 +366,9 @@ class BottomSearch {
     return select(endless > F(1e-3) && endless >= weight, F(HUGE_VAL), met);
   }
 
-  /// Whether the ray has passed the level of a bottom that is so near on screen that the staircase
-  /// of depths need not show it. A beach that rises out of the water there would show nothing
-  /// later.
+  /// Whether the ray has passed the level of a bottom so near on screen that the staircase of
+  /// depths need not show it. On a beach that rises out of the water there, no later lookup would
+  /// show it.
   LIMPID_INLINE auto passes_level_near(F way) const {
     auto passes = length_on_screen(ray_.shift_at(way)) < F(2);
     if_any(passes, [&] { passes = passes && to_level(way) < way; });

@@ -5,43 +5,41 @@
 #include "op/pass.h"
 
 /// @file
-/// Sunlight that waves focus on the bottom.
+/// Sunlight on the bottom, focused by waves.
 
 namespace limpid {
 
-/// The sun's light on the bottom over what it would be under calm water, by the place where calm
-/// water would let it in: P - D t for a point P of the bottom, D below the calm surface, and light
-/// that goes t aside for each unit that it sinks. In these coordinates calm light is 1 everywhere,
-/// whatever the slope of the bottom. Made by complete/. Levels of the same table, each with texels
-/// twice as wide as the one before, of what of it the picture sees.
+/// Sunlight on the bottom over sunlight under calm water, by the entry point under calm water: P -
+/// D t for a point P of the bottom at depth D below the calm surface, where light travels t
+/// sideways per unit of depth. In these coordinates calm light is 1 everywhere, for any slope of
+/// the bottom. Made by complete/. A frame has several levels of this table, each with texels twice
+/// as wide as those of the level before, over the area that the picture sees at that size.
 struct CausticsTable {
   static constexpr int kMaxLevels = 8;
   struct Level {
     View<const float> light;
-    /// Of the centre of the first texel: along map_x and map_y from the point of the calm surface
+    /// The centre of the first texel, along map_x and map_y from the point of the calm surface
     /// below the eye, in scene units.
     glm::dvec2 corner{0, 0};
     double texel = 1;  ///< in scene units
   };
   int count = 0;  ///< 0: the light is 1 everywhere
-  int first = 0;  ///< place of the first level among those of all tables of a frame
+  int first = 0;  ///< index of the first level among the levels of all tables of the frame
   std::array<Level, kMaxLevels> levels;
-  double scale = 1;  ///< times that of caustics_texel() is what texels are wide
-  /// Of sunlit bottoms: the sun's light over the rest, of frames with sun_color; else 0.
+  double scale = 1;  ///< width of a texel over caustics_texel()
+  /// On sunlit bottoms: the sun's light over all other light, for frames with sun_color; else 0.
   std::array<double, 3> sun_over_rest{};
-  /// Share of the focused light that the water scatters, and so spreads, for each unit that it
-  /// sinks, of red, green, blue.
+  /// Share of the focused light that the water scatters, and so spreads, per unit of depth, of red,
+  /// green, blue.
   std::array<double, 3> scattered{};
-  double least = 1, most = 1;  ///< no value is smaller or larger
-  /// The same light where nothing is deeper than `depth`, for what it lights on its way; null where
-  /// nobody asks for it.
+  double least = 1, most = 1;  ///< bounds on all values
+  /// The same light above `depth`, for light shafts in the water; null if no operator needs it.
   const CausticsTable* in_water = nullptr;
   double depth = HUGE_VAL;
 };
 
-/// How wide, in scene units, texels shall be where the bottom is seen at eye depth `depth`, by a
-/// view whose angle with the vertical has this cosine above the water: as the pixel, which is
-/// longer than wide there.
+/// Width of texels, in scene units, for a bottom seen at eye depth `depth` by a view at this cosine
+/// from the vertical above the water: the size of the pixel, which is longer than wide there.
 template <class F>
 LIMPID_INLINE F caustics_texel(const WaterView& c, F depth, F cosine) {
   const auto length = [](const glm::dvec3& v, const char* name) {
@@ -52,9 +50,9 @@ LIMPID_INLINE F caustics_texel(const WaterView& c, F depth, F cosine) {
   return wide / sqrt(max(cosine, F(0.05)));
 }
 
-/// What the table has at a place, for pixels that ask for texels so wide. Finest level first; the
-/// next one where a pixel is wider than a texel, or the level ends; 1 beyond the last. Never below
-/// 0.
+/// The table's value at a place, for pixels that want texels of this width. The finest level first;
+/// the next level where a pixel is wider than a texel, or the level ends; 1 beyond the last. Never
+/// below 0.
 template <class F, class Tap>
 F caustics_at(const CausticsTable& table, const Tap& tap, Vec2<F> entry, F texel) {
   F light(0), rest(1);

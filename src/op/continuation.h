@@ -3,36 +3,36 @@
 #include "op/pixel.h"
 
 /// @file
-/// What a ray sees under the water that leaves the picture.
+/// The bottom beyond the edge of the picture, for rays that leave the picture under water.
 
 namespace limpid {
 
-/// The bottom beyond the picture: a plane, and what it looks like there. Made by complete/ for
-/// frames in which a ray leaves the picture.
+/// The bottom beyond the picture: a plane and its colors. Made by complete/ for frames in which a
+/// ray leaves the picture.
 struct Continuation {
   glm::dvec3 normal;  ///< of the plane, unit, towards the water
   double offset;      ///< dot(normal, p) of its points p, which are relative to the eye
-  /// Unit, on the plane: along it the bottom changes least, as along the lines of a pool. What the
-  /// edge of the picture shows goes on in this direction.
+  /// Unit, on the plane: the direction in which the bottom changes least, as along the tiles of a
+  /// pool. Colors at the edge of the picture continue in this direction.
   glm::dvec3 along;
-  double least_drop;  ///< below the calm surface, in scene units: no ray ends higher
-  double lift;        ///< what is seen at the edge is of the bottom up to this far off the plane
-  /// The share of what goes on from the edge is e^(-fade pixels), that of the bottom's depth there
-  /// e^(-settle pixels), by how many pixels beyond the edge a ray ends.
+  double least_drop;  ///< below the calm surface, in scene units: the highest end of a ray
+  double lift;  ///< surfaces at the edge within this distance of the plane belong to the bottom
+  /// The edge's color has the weight e^(-fade pixels), the depth of its bottom e^(-settle pixels),
+  /// by the distance of the ray's end from the edge in pixels.
   double fade, settle;
-  /// What the rest is of: the colors near the edge, in one row round the picture from its upper
-  /// left corner, to the right, down, to the left and up, a quarter of the row for each side.
+  /// The remaining weight: colors near the edge, in one row around the picture from its upper left
+  /// corner, to the right, down, to the left and up, a quarter of the row for each side.
   Texture colors;
 };
 
 /// The ray of one pixel, or of one vector of pixels, beyond the picture. `falls` as in a
-/// BottomSearch, `direction` that of `way`.
+/// BottomSearch, per unit along `direction`.
 template <class F, class Tap>
 class BeyondPicture {
  public:
   struct Seen {
-    F way;          ///< along the ray
-    Vec2<F> shift;  ///< of the place at the edge that stands for its end
+    F way;          ///< distance along the ray
+    Vec2<F> shift;  ///< shift of the place at the edge that stands for the ray's end
     Rgb<F> color;
   };
 
@@ -47,7 +47,7 @@ class BeyondPicture {
         direction_(direction),
         fall_(falls) {}
 
-  /// `guess` is the way to where the ray would end by what is seen in the picture.
+  /// `guess`: the distance to the ray's end by the bottom visible in the picture.
   Seen look(F guess) const {
     const F calm = way_to_plane(F(0), guess);
     const F share = exp((F(0) - given<F>(on_.settle)) * pixels_beyond(ray_.shift_at(calm)));
@@ -61,7 +61,7 @@ class BeyondPicture {
   }
 
  private:
-  /// In pixels, at most a million.
+  /// Length in pixels, at most a million.
   F length_on_screen(Vec2<F> shift) const {
     const F x = given<F>(c_.size.x) * shift.x, y = given<F>(c_.size.y) * shift.y;
     return min(sqrt(x * x + y * y), F(1e6));
@@ -73,8 +73,8 @@ class BeyondPicture {
   }
   F pixels_beyond(Vec2<F> shift) const { return length_on_screen(shift - kept_in(shift)); }
 
-  /// To the plane `lift` higher; never above Continuation::least_drop, and by the guess where the
-  /// ray hardly nears the plane.
+  /// Distance to the plane raised by `lift`; never above Continuation::least_drop, and `guess`
+  /// where the ray is nearly parallel to the plane.
   F way_to_plane(F lift, F guess) const {
     const Vec3<F> normal = vec3_of<F>(on_.normal);
     const F nears = F(0) - dot(normal, direction_);
@@ -83,8 +83,8 @@ class BeyondPicture {
     return max(way, given<F>(on_.least_drop) / fall_);
   }
 
-  /// How far over the plane the bottom lies that is seen where the ray leaves the picture; 0 where
-  /// that is no bottom.
+  /// Height over the plane of the bottom seen where the ray leaves the picture; 0 where the picture
+  /// shows no bottom there.
   F lift_at_edge(F guess) const {
     const Vec2<F> end = ray_.shift_at(guess);
     const Vec2<F> edge = min(reach_in(planes_.bounds, p_.uv, end), F(1)) * end;
@@ -95,7 +95,7 @@ class BeyondPicture {
     return select(bottom, lift, F(0));
   }
 
-  /// Where the line along the bottom that ends with the ray enters the picture.
+  /// Where the line along the bottom through the ray's end enters the picture.
   Vec2<F> along_to_edge(Vec2<F> end) const {
     const F step = given<F>(c_.w_depth * dot_of(c_.forward, on_.along), "continuation.w_along");
     const Vec2<F> across{
@@ -111,7 +111,7 @@ class BeyondPicture {
         select(abs(lacks.x) * given<F>(c_.size.x) > abs(lacks.y) * given<F>(c_.size.y), x, y);
     const F both = select(abs(x) > abs(y), x, y);
     const F by = select(one_way, both, main);
-    // A line that is nearly parallel to the edge would come from anywhere.
+    // A line nearly parallel to the edge would start at an arbitrary place.
     const F far = max(abs(by * across.x), abs(by * across.y));
     const F near = saturate(F(2) - far) * select(by * step < F(0.98), F(1), F(0));
     return kept_in(end + select(near > F(0), near * by, F(0)) * across);
@@ -119,7 +119,7 @@ class BeyondPicture {
 
   struct Texels {
     Rgb<F> color;
-    F share;  ///< of them that show what lies under the water
+    F share;  ///< share of the colors that show the bottom
   };
   Texels texels_at(Vec2<F> shift) const {
     const auto quad = tap_.quad(shift);
@@ -139,7 +139,7 @@ class BeyondPicture {
     return sum;
   }
 
-  /// Where a place is in Continuation::colors.
+  /// The coordinate of a place in Continuation::colors.
   F round_edge(Vec2<F> shift) const {
     const Bounds& b = planes_.bounds;
     const F x = saturate((p_.uv.x + shift.x - given<F>(b.low.x)) /

@@ -4,15 +4,15 @@
 
 namespace limpid {
 
-/// Covariance of the places on the calm water that one pixel, or the part of it that is seen, sees,
-/// along WaterView::map_x and map_y, in scene units squared: of a pixel wide box, 1/12 of a pixel
-/// squared each way, through the derivatives of the view's rays (Igehy 1999, "Tracing Ray
-/// Differentials"). At the horizon, where it has no bounds, at most 1e12.
+/// Footprint: covariance of the places on the calm water that one pixel, or its visible part,
+/// covers, along WaterView::map_x and map_y, in scene units squared. A box one pixel wide, so 1/12
+/// of a pixel squared in each direction, through the derivatives of the view's rays (Igehy 1999,
+/// "Tracing Ray Differentials"). At most 1e12: at the horizon it is unbounded.
 template <class F>
 LIMPID_INLINE Sym2<F> footprint(const WaterView& c, const Pixel<F>& p) {
   const Vec3<F> up = vec3_of<F>(c.up);
   const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
-  const F fall = dot(up, p.to_viewer);  // per unit of way
+  const F fall = dot(up, p.to_viewer);  // per unit of distance
   const F least = F(1e-6);
   const F steep = select(fall < F(0), min(fall, F(0) - least), max(fall, least));
   const auto moved = [&](const glm::dvec3& origin_step, const glm::dvec3& ray_step) {
@@ -28,12 +28,12 @@ LIMPID_INLINE Sym2<F> footprint(const WaterView& c, const Pixel<F>& p) {
           share * (dx.y * dx.y + dy.y * dy.y)};
 }
 
-/// How many texels of a tiling map with so many texels in a scene unit, along map_x and map_y, the
-/// pixel is wide: the wider side of the box that a footprint is, or this share of it where it is
-/// longer than that in one direction. At most 1e7.
+/// Width of the pixel in texels of a tiling map with this many texels per scene unit, along map_x
+/// and map_y: the wider side of the footprint as a box, or this share of its longer side. At most
+/// 1e7.
 template <class F>
 LIMPID_INLINE F texels_wide(Sym2<F> footprint, Vec2<double> texels, double share) {
-  // Kept to what a float can square.
+  // Kept in the range whose squares a float can hold.
   const auto kept = [](F x) { return min(max(x, F(-1e12)), F(1e12)); };
   const auto square = [&](double a, double b, int place) {
     return given<F>(12 * a * b, "wave_map.texels_square", place);

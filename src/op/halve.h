@@ -3,20 +3,20 @@
 
 namespace limpid {
 
-/// Whether looks that do not wait for one another are nearly free, as with lanes on a CPU, which
-/// waits for each of them to come from memory.
+/// Whether independent lookups are nearly free, as with SIMD lanes on a CPU, where each lookup
+/// waits for memory.
 template <class F>
 inline constexpr bool kLooksAhead = false;
 
-/// An interval at whose low end something does not hold, and does at its high end.
+/// An interval: a condition does not hold at its low end, and holds at its high end.
 template <class F>
 struct Bracket {
   F low, high;
 };
 
-/// Halved `times` times, holds(t) at the middle saying which half. Ahead, both quarters are looked
-/// at together with the middle, and one of them for nothing: two halvings in the time of one, to
-/// the same bits.
+/// Bisects `times` times by holds(t) at the middle. With `ahead`, both quarters are tested together
+/// with the middle, one of them in vain: two bisections in the time of one, with the same bits as
+/// result.
 template <class F, class Holds>
 LIMPID_INLINE Bracket<F> halve(Bracket<F> at, int times, Holds&& holds) {
   const auto once = [&] {

@@ -7,15 +7,15 @@
 
 namespace limpid {
 
-/// What refraction may see in some texels, as heights over the calm surface, seen from above.
+/// Bounds on what refraction may see in some texels, as heights over the calm surface, from above.
 struct SeenHeights {
-  /// Nothing that lies under water, be it as high as HeightBound::most, is seen above it: -inf
-  /// where there is nothing, +inf where all may be.
+  /// No surface under water is seen above this height, even if the water is as high as
+  /// HeightBound::most; -inf where there is none, +inf where it is not known.
   float highest = HUGE_VALF;
-  /// Nothing is seen farther below the calm surface; +inf where something is infinitely far.
+  /// No surface is seen farther below the calm surface; +inf where one is infinitely far.
   float deepest = HUGE_VALF;
-  /// All texels lie under the surface in front of them, and so far that they count for any lookup
-  /// whose ray ends above this; +inf where that is not known.
+  /// All texels lie under the surface in front of them, deep enough to count for any lookup whose
+  /// ray ends above this height; +inf where that is not known.
   float covers = HUGE_VALF;
 
   static LIMPID_INLINE float greater(float a, float b) { return a < b ? b : a; }
@@ -25,12 +25,13 @@ struct SeenHeights {
   }
 };
 
-/// Of the depth plane that refraction looks up.
+/// Bounds on the depth plane that refraction looks up.
 struct HeightBound : BlockPyramid<SeenHeights> {
-  float most = 0;  ///< of all water; what surely stands higher is nearer and does not count
+  float most = 0;  ///< height of the highest wave; surfaces above it stand in front of the water
+                   ///< and do not count
 };
 
-/// Least and greatest value in some texels; of those that count, be there none, +inf and -inf.
+/// Least and greatest value of the texels that count; +inf and -inf if none does.
 struct SeenRange {
   float low = -HUGE_VALF, high = HUGE_VALF;
 
@@ -39,7 +40,7 @@ struct SeenRange {
   }
 };
 
-/// Of a plane.
+/// Bounds on the values of a plane.
 struct RangeBound : BlockPyramid<SeenRange> {
   PlaneId plane = PlaneId::kDepth;
 };

@@ -3,15 +3,14 @@
 #include "op/screen_ray.h"
 
 /// @file
-/// Where a mirrored ray meets what a depth plane shows.
+/// Where a mirrored ray meets the surfaces that a depth plane shows.
 
 namespace limpid {
 
-/// How a ray is followed over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
-/// Tracing", by `steps` that grow with the distance from the pixel, the last three times as long as
-/// the first, then bisection. What is seen is taken to be `thick` times its depth thick, and at
-/// most as much again, `thin` times the eye's height over the calm water: a ray farther behind it
-/// has passed it.
+/// How a ray is marched over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
+/// Tracing", in `steps` that grow with the distance from the pixel, the last three times as long as
+/// the first, then bisection. A visible surface counts as `thick` times its depth thick, and at
+/// most `thin` times the eye's height over the calm water more: a ray farther behind has passed it.
 struct MirrorSteps {
   int steps;
   double thin, thick;
@@ -22,7 +21,7 @@ template <class F, class Tap>
 class MirrorSearch {
  public:
   struct Found {
-    F way;  ///< along the ray, +inf where it meets nothing
+    F way;  ///< distance along the ray, +inf where it meets nothing
     F hit;  ///< 1 or 0
   };
 
@@ -34,8 +33,8 @@ class MirrorSearch {
                      Accept&& accept) {
     const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
     const Vec2<F> end = ray.shift_at(most);
-    // Its depth at a share t of the way on screen is ray.depth + t gain / (1 - t bend), which is
-    // compared with others without a division.
+    // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend),
+    // which is compared with other depths without a division.
     const F scale = F(1) / max(ray.w + most * ray.w_step, F(1e-6) * ray.w);
     const F gain = (most * scale) * (ray.w * ray.depth_step), bend = (most * scale) * ray.w_step;
     const auto is_behind = [&](F t, F depth) {
@@ -46,7 +45,7 @@ class MirrorSearch {
       const F seen = min(tap.nearest(plane, shift), F(1e30));
       return select(accept(shift, seen), seen, F(1e30));
     };
-    // Whether the ray lies between front and back of what is seen.
+    // Whether the ray lies between front and back of the visible surface.
     const F thin = F(how.thin) * abs(height);
     const auto back_of = [&](F seen) {
       const F thick = F(how.thick) * seen;
@@ -55,7 +54,7 @@ class MirrorSearch {
     const auto within = [&](F t, F seen) {
       return is_behind(t, seen) && !is_behind(t, back_of(seen)) && seen < F(1e29);
     };
-    // Where `hits` changes between two shares of the way.
+    // Where `hits` changes between two shares of the length.
     const auto edge = [&](F low, F high, auto&& hits) {
       repeat<F>(kHalvings, [&] {
         const F t = F(0.5) * (low + high);

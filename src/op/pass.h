@@ -12,47 +12,47 @@
 
 namespace limpid {
 
-/// Where planes can be looked up: the centres of their outermost texels, in uv.
+/// Range of the centres of a plane's outermost texels, in uv.
 struct Bounds {
   glm::dvec2 low, high;
 };
 
-/// The waves that raise the water of this frame: where the frame has a depth of its surface, that
-/// one tells how high they are.
+/// The waves that raise the water of this frame: with a depth of its surface, the frame's own; else
+/// `swell`.
 Swell swell_of(const Frame& frame, Swell swell = {});
 
-/// What all pixels of one run over a frame have in common, made once: the view, and what is at hand
-/// for operators, who see planes by their strip alone.
+/// Data shared by all pixels of one run over a frame, made once: the view, and inputs for
+/// operators, which read planes only through their strip.
 struct Pass : WaterView {
-  /// `made`: what the operators of the plan make. Water whose depth the frame has is raised,
-  /// whatever `swell` says. Throws Error as WaterView does. The waves of `swell` and all that the
-  /// frame refers to must live as long.
+  /// `made`: state that the plan's operators make. Water counts as raised if the frame has its
+  /// depth, for any `swell`. Throws Error as WaterView does. The waves of `swell` and all data that
+  /// the frame refers to must live as long.
   Pass(const Scene& scene, const Frame& frame, double ior, StateSet made, const Swell& swell = {});
 
-  PlaneSet planes;  ///< that the frame has: for operators that take more where there is more
-  Bounds dry, below, reflection;  ///< of color with depth, of the two others with theirs
-  Bounds surface;                 ///< of the water's depth; `dry` where the frame has none
-  bool surface_ends;              ///< before `dry` does: the calm level stands for the rest of it
-  Sun sun;                        ///< operators that need one declare it
-  bool has_sun;                   ///< for those that do with or without
+  PlaneSet planes;                ///< planes of the frame, for operators that use optional ones
+  Bounds dry, below, reflection;  ///< of color with depth, of the others with theirs
+  Bounds surface;                 ///< of the water's depth; `dry` if the frame has none
+  bool surface_ends;              ///< before `dry` does: beyond it the calm level is used
+  Sun sun;                        ///< for operators that declare it as a need
+  bool has_sun;                   ///< for operators with an optional sun
   double ior;
   Texture wave_map, environment;
   const SlopeLevels* wave_slopes;         ///< of the wave map at this time, or null
   Sym2<double> wave_variance;             ///< likewise, or 0
   const ScatteredLight* scattered_light;  ///< of red, green, blue, or null
-  Rgb<double> sky;                        ///< radiance of an even sky, 0 where nobody knows it
+  Rgb<double> sky;                        ///< radiance of an even sky, 0 if it is not known
   bool has_sky;
-  StateSet made;  ///< what the operators of the plan make: neutral or absent ones make nothing
-  /// False where it is known that nothing stands before the water in any place that refraction may
-  /// look up (plan/survey.h): an operator may leave out its test for that.
+  StateSet made;  ///< state that the plan's operators make; neutral or absent ones make none
+  /// False if no object stands in front of the water anywhere that refraction may look up
+  /// (plan/survey.h): an operator may leave out its test for that.
   bool foreground = true;
-  /// False where it is known that something was hit in every place that refraction may look up: an
-  /// operator may leave out its test for nothing().
+  /// False if a surface was hit everywhere that refraction may look up: an operator may leave out
+  /// its test for nothing().
   bool bottomless = true;
-  /// Of what refraction may look up, where a runner has made it (complete/heights.h). It saves
-  /// looks and changes no result.
+  /// Bounds on the texels that refraction may look up, if a runner has made them
+  /// (complete/heights.h). They save lookups and change no result.
   HeightBound heights = {};
-  RangeBound mirrored = {};          ///< likewise, of what the mirror marches over and may hit
+  RangeBound mirrored = {};          ///< likewise, of the depths for mirrored marches
   RangeBound lit = {};               ///< likewise, of the shadow on the surface
   PlateWaves plate_waves = {};       ///< of the frame's own surface, where a runner has made it
   const Continuation* continuation;  ///< of the bottom beyond the picture, or null

@@ -23,35 +23,35 @@ struct Pixel {
 
   Vec3<F> normal;  ///< wave normal, unit, world; begins as the calm normal
   Vec2<F> tilt;    ///< (n.t, -n.b): x right, y down; begins as 0
-  /// Of the slopes along WaterView::map_x and map_y around those of `normal`: what waves too small
-  /// for the pixel do to it. Begins as 0.
+  /// Variance of the slopes along WaterView::map_x and map_y around those of `normal`, for waves
+  /// too small for the pixel. Begins as 0.
   Sym2<F> slope_variance;
   Vec2<F> prism_r, prism_g, prism_b;  ///< shift of each channel beyond `shift`; begin as 0
-  Rgb<F> dispersion;  ///< index of refraction of each channel, beyond the common one; begins as 0
+  Rgb<F> dispersion;  ///< index of refraction of each channel, less the common index; begins as 0
 
   Vec2<F> shift;                      ///< where the refracted ray ends; begins as 0
-  Vec2<F> shift_r, shift_g, shift_b;  ///< where each channel is looked up in the end; begin as 0
+  Vec2<F> shift_r, shift_g, shift_b;  ///< where each channel is finally looked up; begin as 0
   F hit_depth;                        ///< dry eye depth at `shift`; begins as dry_depth
   F path;                ///< scene units, >= 0, +inf where the ray meets nothing; begins as 0
-  F confidence;          ///< begins as 1; as 0 where water without a bottom begins
+  F confidence;          ///< begins as 1; as 0 at the begin of water without a bottom
   Rgb<F> transmittance;  ///< begins as 1
 
-  /// Begins as the dry color at this pixel; as 0 where nothing was hit and no surface lies between
-  /// that and water: what is seen there is the water itself.
+  /// Begins as the dry color at this pixel; as 0 if nothing was hit and no surface lies in between:
+  /// there the view shows the water itself.
   Rgb<F> transmitted;
-  Rgb<F> in_scatter;  ///< begins as 0, as do all below
-  /// Parts of in_scatter that the sun lights: the first in the shadow of the surface point, the
-  /// second in that of the point where the ray ends.
+  Rgb<F> in_scatter;  ///< begins as 0, as do all members below
+  /// Sunlit parts of in_scatter: the first in the shadow of the surface point, the second in that
+  /// of the end of the ray.
   Rgb<F> sun_near, sun_far;
-  /// Of in_scatter, too: what of the sun was scattered more than once, or came from the bottom.
+  /// Part of in_scatter: sunlight scattered more than once, or reflected by the bottom.
   Rgb<F> sun_multiple;
-  /// How the place on the surface at which sunlight enters moves with a unit of the way.
+  /// Movement of the entry point of sunlight on the surface per unit of the path.
   Vec3<F> sun_entry;
-  F mean_scatter_distance;  ///< after which it is scattered once on average, of the way
+  F mean_scatter_distance;  ///< mean distance along the path to the scattering
   F fresnel;
   Rgb<F> reflected;
-  /// Shares of what is mirrored, whose sum is 1: r from the reflection, g from the picture itself,
-  /// b from what is infinitely far (surroundings, sky, or a constant). Made for an AOV alone.
+  /// Shares of the mirrored light, whose sum is 1: r from the reflection, g from the picture
+  /// itself, b from infinitely far (surroundings, sky, or a constant). Computed only for an AOV.
   Rgb<F> mirror_sources;
   Rgb<F> highlight;
 

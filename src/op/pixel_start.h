@@ -5,14 +5,14 @@
 #include "op/pixel.h"
 
 /// @file
-/// What a pixel is before the first operator, for all runners.
+/// The state of a pixel before the first operator, for all runners.
 
 namespace limpid {
 
-/// Where a pixel starts: whether water is to be seen, from which side, and at which depths. What
-/// takes the place of the depths of a dry pixel keeps the formulas away from infinities; the result
-/// is thrown away. A pixel that looks through water alone, into the distance, has no surface, but a
-/// finite number for it.
+/// The start of a pixel: whether it is wet, on which side its view begins, and its depths. Finite
+/// numbers replace the depths of a dry pixel, whose results are discarded, to keep infinities out
+/// of the formulas. A pixel that looks through water alone, into the distance, has no surface, but
+/// a finite depth for it.
 template <class F>
 struct PixelStart {
   using Mask = decltype(F() < F());
@@ -35,7 +35,7 @@ struct PixelStart {
   }
 };
 
-/// Fills what no operator writes; see Pixel.
+/// Sets the members that no operator writes; see Pixel.
 template <class F>
 LIMPID_INLINE void begin_pixel(const WaterView& view, const RowRays<F>& row, F x, F side,
                                F surface_depth, F dry_depth, Pixel<F>& p) {
@@ -49,7 +49,7 @@ LIMPID_INLINE void begin_pixel(const WaterView& view, const RowRays<F>& row, F x
   p.side = side;
 }
 
-/// Gives these parts of the state what Pixel says that they begin as, once begin_pixel() is done.
+/// Initialises these parts of the state as Pixel states, after begin_pixel().
 template <class F>
 LIMPID_INLINE void begin_state(StateSet parts, const WaterView& view, Rgb<F> dry_color,
                                Pixel<F>& p) {

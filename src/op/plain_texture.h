@@ -6,12 +6,12 @@
 #include "limpid/core/texture_levels.h"
 #include "limpid/core/vec.h"
 
-/// Bilinear lookups in textures, in double and as plain as can be: what the fast ones are judged
-/// by.
+/// Bilinear lookups in textures, in double and as simple as possible: the standard for the fast
+/// lookups.
 
 namespace limpid {
 
-/// Positions in periods; 0 for an infinite one, so that every tap lies in the texture.
+/// Positions in periods; 0 for an infinite position, so that every tap lies in the texture.
 inline double tiled_at(const View<const float>& view, Vec2<double> periods) {
   const int width = view.window.width(), height = view.window.height();
   const auto fraction = [](double p) { return max(p - std::floor(p), 0.0); };
@@ -24,7 +24,7 @@ inline double tiled_at(const View<const float>& view, Vec2<double> periods) {
   return lerp(lerp(at(x0, y0), at(x0 + 1, y0), u), lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), u), v);
 }
 
-/// The mix of at(place) of four texels of a level, as bilinear filtering has it.
+/// Bilinear filtering of at(place) over four texels of a level.
 template <class At>
 LIMPID_INLINE auto mixed_level(const LevelSizes& sizes, int level, Vec2<double> periods,
                                const At& at) {
@@ -40,9 +40,9 @@ LIMPID_INLINE auto mixed_level(const LevelSizes& sizes, int level, Vec2<double> 
          v * ((1 - u) * texel(x0, y0 + 1) + u * texel(x0 + 1, y0 + 1));
 }
 
-/// The mix of two levels, for a pixel that is as wide as `width` texels of the first one, at least
-/// 1: that of which a texel is 2^k of them, and the next one. From one to the other it goes over a
-/// quarter of the way between both.
+/// Blends two levels for a pixel that is `width` texels of the first level wide, at least 1: the
+/// level whose texel is 2^k of them, and the next one. The transition takes a quarter of the
+/// interval between two levels.
 template <class At>
 LIMPID_INLINE auto between_levels(const LevelSizes& sizes, double width, Vec2<double> periods,
                                   const At& at) {
@@ -55,7 +55,7 @@ LIMPID_INLINE auto between_levels(const LevelSizes& sizes, double width, Vec2<do
          rest * mixed_level(sizes, std::min(level + 1, last), periods, at);
 }
 
-/// Goes round in x and ends at the poles in y (optics/surroundings.h).
+/// Wraps around in x and ends at the poles in y (optics/surroundings.h).
 inline double lat_long_at(const View<const float>& view, Vec2<double> place) {
   const int width = view.window.width(), height = view.window.height();
   const double x = (place.x - std::floor(place.x)) * width - 0.5, y = place.y * height - 0.5;
@@ -73,7 +73,7 @@ inline Rgb<double> tiled_rgb_at(const Texture& texture, Vec2<double> periods) {
           tiled_at(texture.channels[2], periods)};
 }
 
-/// The map as a pixel that is `width` texels wide sees it. One texel wide or less, it is the map
+/// The map for a pixel that is `width` texels wide. For a pixel of one texel or less, the map
 /// itself.
 inline Rgb<double> tiled_rgb_at(const Texture& texture, Vec2<double> periods, double width) {
   const double share = saturate(4 * width - 5.5);  // as between two levels
@@ -89,7 +89,7 @@ inline Rgb<double> tiled_rgb_at(const Texture& texture, Vec2<double> periods, do
   return near + share * (far - near);
 }
 
-/// Of a pixel that is `width` texels of the first level wide.
+/// For a pixel that is `width` texels of the first level wide.
 inline SlopeMoments<double> tiled_slopes_at(const SlopeLevels& levels, Vec2<double> periods,
                                             double width) {
   const auto texel = [&](std::int32_t place) {
@@ -104,8 +104,8 @@ inline Rgb<double> lat_long_rgb_at(const Texture& texture, Vec2<double> place) {
           lat_long_at(texture.channels[2], place)};
 }
 
-/// Where bilinear filtering looks in a table that ends at its edges; `at` in texels from the centre
-/// of the first one. For any table of that size.
+/// The place of a bilinear lookup in a table that ends at its edges; `at` in texels from the centre
+/// of the first texel. For any table of that size.
 struct GridSpot {
   int x0, y0, x1, y1;
   double u, v;

@@ -5,25 +5,25 @@
 #include "core/water_view.h"
 
 /// @file
-/// Where rays meet water that sine waves raise and lower.
+/// The meeting of rays with water that sine waves raise.
 
 namespace limpid {
 
-/// A sine wave as it is around the eye: its height is amplitude sin(2 pi (begin + k_x u + k_y v))
-/// at (u, v), along WaterView::map_x and map_y from the point below the eye. N: float or double.
+/// A sine wave relative to the eye: its height is amplitude sin(2 pi (begin + k_x u + k_y v)) at
+/// (u, v), along WaterView::map_x and map_y from the point below the eye. N: float or double.
 template <class N>
 struct WaveTerm {
   N amplitude, k_x, k_y, begin;
 };
 
-/// All of them.
+/// All sine waves of the water.
 template <class N>
 struct RaisedWater {
   std::vector<WaveTerm<N>> waves;
-  N crest = 0;     ///< over the calm surface; no wave reaches higher, nor lower than its negative
-  N steepest = 0;  ///< slope that none of the water passes
+  N crest = 0;     ///< the largest height over the calm surface; no wave is lower than its negative
+  N steepest = 0;  ///< the largest slope of the water
 
-  /// Of WaterView::waves. Makes no allocation where there were as many.
+  /// From WaterView::waves. Allocates no memory if there are no more waves than before.
   void make(const WaterView& c) {
     constexpr double kTurn = 2 * std::numbers::pi;
     double height = 0, slope = 0;
@@ -41,7 +41,7 @@ struct RaisedWater {
   }
 };
 
-/// One ray and the water: how high the ray is over the water at each eye depth.
+/// One ray and the water: the ray's height over the water at each eye depth.
 template <class F, class N>
 class RaisedRay {
  public:
@@ -58,9 +58,9 @@ class RaisedRay {
     start_ = F(c.w_depth == 0 ? 0 : c.near);
   }
 
-  /// Eye depth of the first meeting, +inf where there is none. Between the highest and the lowest
-  /// possible water six steps look for a change of sides, and the point is found between two of
-  /// them. A ray that sinks faster than any wave has one meeting and needs no steps.
+  /// Eye depth of the first meeting, +inf if there is none. Six steps between the highest and the
+  /// lowest possible water search a change of sides, and the point is refined between two of them.
+  /// A ray that sinks faster than any wave has a single meeting and needs no steps.
   LIMPID_INLINE F first_meeting() const {
     const F crest(water_.crest), infinite(HUGE_VAL);
     const auto level = abs(under_) < F(1e-30);
@@ -74,9 +74,9 @@ class RaisedRay {
       const auto inside = abs(first) < crest;
       F clear = select(inside, F(0), first);
       if_any(inside && in_reach, [&] { clear = select(inside, height(start_), first); });
-      // From here on heights count on the side on which the ray begins.
+      // From here on heights are positive on the side where the ray begins.
       const F side = select(clear < F(0), F(-1), F(1));
-      const auto comes = side * under_ < F(0);  // it leaves the water's reach on the other side
+      const auto comes = side * under_ < F(0);  // it leaves the water on the other side
       const auto sinks =
           abs(under_) > F(water_.steepest) * sqrt(u_step_ * u_step_ + v_step_ * v_step_);
       Bracket b{begin, end, select(inside, abs(clear), crest), F(-1) * crest,
@@ -91,10 +91,10 @@ class RaisedRay {
 
  private:
   static constexpr int kSteps = 6, kRefinements = 12;
-  static constexpr double kSettled = 3e-7;  ///< share of the depth that is rounding
+  static constexpr double kSettled = 3e-7;  ///< rounding, as a share of the depth
   static constexpr double kFarthest = 1e30;
 
-  /// Two eye depths and how far on the first side the ray is there: above 0, and not.
+  /// Two eye depths and the ray's heights there: above 0, and not.
   struct Bracket {
     F near, far, at_near, at_far;
     F found;  ///< 1 or 0
@@ -102,13 +102,13 @@ class RaisedRay {
 
   LIMPID_INLINE F calm_height(F depth) const { return over_ + depth * under_; }
 
-  /// Over the water.
+  /// Height over the water.
   LIMPID_INLINE F height(F depth) const {
     const F u = u_ + depth * u_step_, v = v_ + depth * v_step_;
     F height = calm_height(depth);
     for (const WaveTerm<N>& wave : water_.waves) {
       const F turns = F(wave.begin) + F(wave.k_x) * u + F(wave.k_y) * v;
-      // Too far for a number to tell crest from trough: they average out.
+      // Beyond this a number cannot resolve the phase: the waves average out.
       const auto known = abs(turns) < F(1e6);
       const F within = select(known, turns - floor(turns), F(0));
       height = height - F(wave.amplitude) * sin(F(2 * std::numbers::pi) * within);
@@ -122,10 +122,10 @@ class RaisedRay {
     F open = select(seeks, F(1), F(0)), near = b.near, at_near = b.at_near;
     steps<F>(1, kSteps + 1, [&](auto i) {
       const F even = Loop<F>::ratio(i, kSteps);
-      // From between the waves the next one is looked for more closely.
+      // A ray that begins between the waves has smaller steps at its begin.
       const F depth = begin + select(inside, even * even, even) * way;
       const F here = side * height(depth);
-      const auto last = comes && even > F(1 - 0.5 / kSteps);  // whatever the rounding
+      const auto last = comes && even > F(1 - 0.5 / kSteps);  // despite rounding
       const auto met = open > F(0.5) && (here <= F(0) || last);
       b.near = select(met, near, b.near), b.at_near = select(met, at_near, b.at_near);
       b.far = select(met, depth, b.far), b.at_far = select(met, min(here, F(0)), b.at_far);
@@ -136,13 +136,13 @@ class RaisedRay {
     });
   }
 
-  /// Between the two by secants, by halves where one would lead out.
+  /// Narrows the bracket by secants, by bisection if a secant leads out.
   LIMPID_INLINE F narrowed(F side, Bracket& b) const {
     F slope = (b.at_far - b.at_near) / (b.far - b.near);
     F depth = b.near - b.at_near / slope, last = b.near, at_last = b.at_near, open = b.found;
     steps<F>(0, kRefinements, [&](auto) {
       const F here = side * height(depth), change = here - at_last;
-      // Of two heights that are almost the same the rounding would tell.
+      // For nearly equal heights rounding would decide the slope.
       slope = select(abs(change) > F(1e-4 * water_.crest), change / (depth - last), slope);
       const auto before = here > F(0);
       b.near = select(before, depth, b.near);

@@ -3,15 +3,15 @@
 #include "op/pixel.h"
 
 /// @file
-/// What operators know of the screen: where a ray that leaves the surface passes over it, and how
-/// high above the calm water what is seen there lies.
+/// Screen geometry for operators: the path of a ray from the surface across the screen, and the
+/// height of visible surfaces above the calm water.
 
 namespace limpid {
 
 /// A ray from a pixel's surface point, as it crosses the screen. At s scene units from the surface
-/// it is seen shift_at(s) away from the pixel's own centre, at eye depth depth_at(s). Computed from
+/// it appears shift_at(s) away from the pixel's own centre, at eye depth depth_at(s). Computed from
 /// differences, never from two positions: exact in float at any size of picture, and 0 at s = 0.
-/// Surfaces at the eye itself count as a little before it, against 0 / 0.
+/// Surfaces at the eye itself count as slightly in front of it, against 0 / 0.
 template <class F>
 struct ScreenRay {
   static constexpr double kLeastW = 1e-30;  ///< a millionth of it is no denormal float
@@ -36,26 +36,26 @@ struct ScreenRay {
   }
   LIMPID_INLINE F depth_at(F s) const { return depth + min(s, F(1e30)) * depth_step; }
 
-  /// The s at a share t in 0 ... 1 of the way, on screen, to where it is at s = `end`.
+  /// The s at a share t in 0 ... 1 of the screen distance to the place at s = `end`.
   LIMPID_INLINE F at_share(F t, F end) const {
     return t * end * (w / max(w + (F(1) - t) * end * w_step, F(1e-6) * w));
   }
 
-  /// The other way round: at_share(share_at(s, end), end) = s, for s in 0 ... end.
+  /// The inverse: at_share(share_at(s, end), end) = s, for s in 0 ... end.
   LIMPID_INLINE F share_at(F s, F end) const {
     return s * max(w / end + w_step, F(0)) / max(w + s * w_step, F(1e-6) * w);
   }
 
-  /// The s at which the shift has grown to `reach` times `across`, as in shift_at; +inf when it
-  /// never does.
+  /// The s at which the shift has grown to `reach` times `across`, as in shift_at; +inf if it never
+  /// does.
   LIMPID_INLINE F s_at(F reach) const {
     const F rest = F(1) - reach * w_step;
     return select(rest > F(0), reach * w / select(rest > F(0), rest, F(1)), F(HUGE_VAL));
   }
 };
 
-/// Height over the calm surface of what lies at eye depth `depth` (+inf counts as 1e30) on the ray
-/// of the picture at `shift` from the pixel.
+/// Height over the calm surface of the point at eye depth `depth` (+inf counts as 1e30) on the view
+/// ray at `shift` from the pixel.
 template <class F>
 LIMPID_INLINE F height_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
   const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
@@ -66,8 +66,8 @@ LIMPID_INLINE F height_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, 
   return given<F>(c.eye_above) + there_over + min(depth, F(1e30)) * there_under;
 }
 
-/// The way from the pixel's surface point to what is seen at `shift` from the pixel at eye depth
-/// `depth` (+inf counts as 1e30). From differences, like a ScreenRay.
+/// The vector from the pixel's surface point to the point at eye depth `depth` (+inf counts as
+/// 1e30) on the view ray at `shift`. From differences, like a ScreenRay.
 template <class F>
 LIMPID_INLINE Vec3<F> way_to(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
   const Rays& rays = c.rays;
@@ -80,8 +80,8 @@ LIMPID_INLINE Vec3<F> way_to(const WaterView& c, const Pixel<F>& p, Vec2<F> shif
   return (p.ray_length * (p.surface_depth - far)) * p.to_viewer + origin + far * ray;
 }
 
-/// How many times `across` fits between uv and the edge that it leads to. Rounding that leads over
-/// the edge of the outermost texel does not stop a way along it.
+/// Number of times that `across` fits between uv and the edge to which it leads. A ray along the
+/// edge does not stop because of rounding over the outermost texel.
 template <class F>
 LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
   const auto along = [](F at, F low, F high, F step) {
@@ -92,8 +92,8 @@ LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
              along(uv.y, given<F>(b.low.y), given<F>(b.high.y), across.y));
 }
 
-/// Eye depth at which the ray of the picture at `shift` from the pixel is `drop` below the calm
-/// surface, +inf where it never is.
+/// Eye depth at which the view ray at `shift` from the pixel is `drop` below the calm surface, +inf
+/// if it never is.
 template <class F>
 LIMPID_INLINE F depth_at_drop(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F drop) {
   const F under = dot(vec3_of<F>(c.up), p.to_viewer) * (F(0) - p.ray_length);
@@ -106,13 +106,13 @@ LIMPID_INLINE F depth_at_drop(const WaterView& c, const Pixel<F>& p, Vec2<F> shi
   return select(meets, (above + drop) / select(meets, falls, F(1)), F(HUGE_VAL));
 }
 
-/// The same of the calm surface itself.
+/// The same for the calm surface itself.
 template <class F>
 LIMPID_INLINE F calm_depth_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift) {
   return depth_at_drop(c, p, shift, F(0));
 }
 
-/// How much calm_depth_at changes from one row of pixels to the next.
+/// Change of calm_depth_at from one row of pixels to the next.
 template <class F>
 LIMPID_INLINE F calm_depth_step(const WaterView& c, const Pixel<F>& p, Vec2<F> shift) {
   const F row = given<F>(1.0 / c.size.y, "camera.row");

@@ -3,12 +3,12 @@
 
 namespace limpid {
 
-/// What refracted rays look up: the dry scene, or that below the water alone, where the frame has
-/// it and the view does not begin in the water.
+/// The planes that refracted rays look up: the dry scene, or the layer below the water, if the
+/// frame has it and the view does not begin in the water.
 struct SeenPlanes {
   PlaneId color, depth;
   const Bounds& bounds;
-  bool below;  ///< holds what lies under the crests of the water alone, +inf where there is nothing
+  bool below;  ///< the layer below the crests of the water, +inf where it is empty
 
   static SeenPlanes of(const Pass& pass) {
     if (pass.planes.covers(kBelowPlanes) && !pass.submersible)

@@ -6,26 +6,27 @@
 #include "op/pixel.h"
 
 /// @file
-/// Bilinear lookups in which only some texels count: those below the surface for refraction, those
-/// that the mirror really saw for reflection. What lies in front never bleeds in, in any channel.
+/// Bilinear lookups in which only some texels count: for refraction those below the surface, for
+/// reflection the valid ones of the mirror. Objects in front never bleed in, in any channel.
 ///
-/// A `valid(quad)` says 1 or 0 of each of the four taps. The share of valid weight is a continuous
-/// function of the place; where it is 1 the lookup is plain bilinear filtering. What is missing is
-/// made up from the last valid place on the way there (the offset is shortened), in proportion: so
-/// the picture has no step where a silhouette is crossed. The pixel's own texel must be valid.
+/// A `valid(quad)` returns 1 or 0 for each of the four taps. The share of valid weight is a
+/// continuous function of the place; where it is 1 the lookup is plain bilinear filtering. The
+/// missing share is taken from the last valid place on the line from the pixel (the offset is
+/// shortened), in proportion: so the picture has no step at a silhouette. The pixel's own texel
+/// must be valid.
 
 namespace limpid {
 
 template <class F, class Quad>
 struct ValidTaps {
   Quad there, shortened;
-  Four<F> weight_there, weight_shortened;  ///< sum to 1, over both and what is filled
-  F share;                                 ///< of `there`: 1 real, 0 made up
-  F filled;                                ///< of what stands in, which is not in the planes
-  Vec2<F> place;                           ///< where most of the lookup comes from
+  Four<F> weight_there, weight_shortened;  ///< sum to 1, over both and the filled share
+  F share;                                 ///< weight of `there`: 1 real, 0 replaced
+  F filled;                                ///< weight of the replacement that is not in the planes
+  Vec2<F> place;                           ///< the place of most of the lookup
   decltype(F() < F()) made_up;             ///< where `shortened` counts
 
-  /// 1 but for rounding; less where not even the last resort was bearable.
+  /// 1 up to rounding; less if even the last resort was not bearable.
   F weight() const {
     F sum = filled;
     for (int k = 0; k < 4; ++k) sum = sum + weight_there[k] + weight_shortened[k];
@@ -39,7 +40,7 @@ struct ValidTaps {
     return sum;
   }
 
-  /// For depths: +inf where infinite ones prevail, and no 0 x inf.
+  /// For depths: +inf if infinite ones prevail, and no 0 x inf.
   template <class Tap>
   F read_depth(const Tap& tap, PlaneId plane) const {
     const auto finite = [](Four<F> depths) {
@@ -60,7 +61,7 @@ struct ValidTaps {
   }
 };
 
-/// Share of the weight at `shift` that is valid.
+/// Valid share of the weight at `shift`.
 template <class F, class Tap, class Valid>
 F valid_share(const Tap& tap, Vec2<F> shift, Valid&& valid) {
   const auto quad = tap.quad(shift);
@@ -70,9 +71,8 @@ F valid_share(const Tap& tap, Vec2<F> shift, Valid&& valid) {
   return share;
 }
 
-/// The largest part of the way to `shift` at which half of the weight is valid: found from the far
-/// end in steps of an eighth, then by bisection, then by a secant, so that it moves smoothly with
-/// `shift`.
+/// The largest share of `shift` at which half of the weight is valid: searched from the far end in
+/// steps of an eighth, then by bisection, then by a secant, so that it moves smoothly with `shift`.
 template <class F, class Tap, class Valid>
 Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) {
   constexpr int kSteps = 8, kHalvings = 6;
@@ -101,12 +101,12 @@ Vec2<F> last_valid(const Tap& tap, Vec2<F> shift, F share_there, Valid&& valid) 
   });
   const F fall = share_low - share_high;
   const F t = low + (high - low) * saturate((share_low - F(0.5)) / max(fall, F(1e-6)));
-  // On steps wider than a texel the secant may land where nothing is valid.
+  // On steps wider than a texel the secant may end at a place without valid weight.
   const auto lands = valid_share(tap, t * shift, valid) > F(0.25);
   return select(lands, t, low) * shift;
 }
 
-/// What stands in for the texels that are missing where `taps.made_up` holds: see valid_taps().
+/// The replacement for missing texels where `taps.made_up` holds: see valid_taps().
 template <class F, class Tap, class Taps, class Valid, class Bearable, class Never>
 LIMPID_INLINE void make_up(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable,
                            Never&& never, Taps& taps) {
@@ -114,7 +114,7 @@ LIMPID_INLINE void make_up(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearabl
       never(taps.made_up) ? Vec2<F>{F(0), F(0)} : last_valid(tap, shift, taps.share, valid);
   taps.place = select(taps.share + taps.filled >= F(0.5), shift, shortened);
   taps.shortened = tap.quad(shortened);
-  // Half of the weight is valid there, unless nothing on the way is.
+  // Half of the weight is valid there, unless no place on the line is.
   const Four<F> good = valid(taps.shortened), last_resort = bearable(taps.shortened);
   F share = F(0), valid_weight = F(0);
   for (int k = 0; k < 4; ++k) share = share + taps.shortened.weight(k) * good[k];
@@ -124,7 +124,7 @@ LIMPID_INLINE void make_up(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearabl
     taps.weight_shortened.at[k] = taps.shortened.weight(k) * counts;
     valid_weight = valid_weight + taps.weight_shortened[k];
   }
-  // What stands in does so alone where nothing else is bearable.
+  // The replacement counts alone if no texel is bearable.
   const auto alone = taps.filled > F(0) && valid_weight < F(1e-6);
   taps.filled = select(alone, F(1) - taps.share, taps.filled);
   const F scale = max(F(1) - taps.share - taps.filled, F(0)) / max(valid_weight, F(1e-6));
@@ -133,10 +133,10 @@ LIMPID_INLINE void make_up(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearabl
   }
 }
 
-/// The taps for a lookup at `shift`. Of what is missing there, the share fill(lanes) is left to the
-/// caller, as `filled`. Should nothing on the way be `valid`, what is `bearable` there stands in
-/// for it: the pixel's own texel is always that. Where never(lanes) can tell that nothing is valid
-/// on the way of those lanes, nothing is looked for.
+/// The taps for a lookup at `shift`. The share fill(lanes) of the missing weight is left to the
+/// caller, as `filled`. If no place on the line is `valid`, a `bearable` texel replaces it: the
+/// pixel's own texel always is bearable. If never(lanes) shows that no place is valid for these
+/// lanes, the search is skipped.
 template <class F, class Tap, class Valid, class Bearable, class Fill, class Never>
 auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearable, Fill&& fill,
                 Never&& never) {
@@ -161,7 +161,7 @@ auto valid_taps(const Tap& tap, Vec2<F> shift, Valid&& valid, Bearable&& bearabl
   return taps;
 }
 
-/// Of no weight at all, for whoever finds out later.
+/// Taps without weight, for callers that decide later.
 template <class F, class Tap>
 LIMPID_INLINE auto no_taps(const Tap& tap, Vec2<F> shift) {
   using Quad = decltype(tap.quad(shift));

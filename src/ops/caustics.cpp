@@ -56,26 +56,26 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   return light;
 }
 
-/// Of what comes from below the fog leaves a share. What the surface mirrors of the bottom is lit
-/// by the same light, and nobody has looked at it.
+/// The fog passes on a share of the light from below. The reflection of the bottom has the same
+/// caustics in its bound.
 double Kernel<Caustics>::bound(const P& params, const Pass& c, const Ranges& ranges) {
   if (c.eye_above < 0 && c.planes.covers(kReflectionPlanes)) return HUGE_VAL;
   return displaced(params, ranges);
 }
 
-/// Looked up elsewhere, or not at all.
+/// Caustics looked up at another place, or not at all.
 double Kernel<Caustics>::displaced(const P&, const Ranges& ranges) {
   return bound_product(ranges.transmittance, ranges.focused);
 }
 
-/// The table tells how much brighter or darker the sun's share may become; where shadows move, all
-/// of it may come or go.
+/// The table bounds how much brighter or darker the sun's share may become; where shadows move, all
+/// of it may appear or vanish.
 void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   ranges.focused = 0;
   const Light light = light_of(params, c);
   const double gain = c.caustics ? params.strength * (c.caustics->most - 1) : HUGE_VAL;
   const double loss = c.caustics ? params.strength * (1 - std::max(c.caustics->least, 0.0)) : 1;
-  // What lies behind something counts as lit.
+  // The bottom behind an object counts as lit.
   const double lit = SeenPlanes::of(c).below ? 1 : ranges.shadow.max;
   double change = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -11,7 +11,6 @@
 
 namespace limpid {
 
-/// What Caustics does to pixels.
 template <>
 struct Kernel<Caustics> : Caustics {
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kPosition,
@@ -25,7 +24,7 @@ struct Kernel<Caustics> : Caustics {
                : lit;
   }
   static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
-  /// Where refraction has looked, and where sunlight enters.
+  /// The place that refraction looked up, and the entry point of sunlight.
   static double reach(const Params& p) {
     return p.strength != 0 && p.shadows == Shadows::kRefracted ? HUGE_VAL : 0;
   }
@@ -36,7 +35,7 @@ struct Kernel<Caustics> : Caustics {
   }
   static std::string_view prefer(Params& params, const AtHand& has);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  /// Of the light from below, what later bounds are made of.
+  /// Widens the light from below, from which later bounds are made.
   static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
   static double displaced(const Params& params, const Ranges& ranges);
 
@@ -46,14 +45,14 @@ struct Kernel<Caustics> : Caustics {
   }
 
   struct Light {
-    std::array<double, 3> sun, ambient;  ///< on a level bottom, but for a common factor
-    double rise, sine;             ///< of the angle between the sun and the level, the vertical
+    std::array<double, 3> sun, ambient;  ///< on a level bottom, up to a common factor
+    double rise, sine;             ///< of the angle between the sun and the horizon, the vertical
     Vec2<double> level;            ///< the direction to the sun along map_x and map_y
-    bool known, moves;             ///< frames say what the sun's light is, and where it enters
-    std::array<double, 3> around;  ///< share of the light of sunlit bottoms, where that is known
+    bool known, moves;             ///< the frame has the sun's light, and shadows at entry points
+    std::array<double, 3> around;  ///< share of the light of sunlit bottoms, if it is known
   };
   static Light light_of(const Params& params, const Pass& c);
-  /// The depths at two places of which one counts as hidden by the other.
+  /// Ratio of two depths below which the farther place counts as hidden by the nearer place.
   static constexpr double kSameDepth = 0.98;
 
   template <class Strip>
@@ -70,7 +69,7 @@ struct Kernel<Caustics> : Caustics {
     const bool split = c.made.has(StatePart::kPrism), shadowed = c.planes.has(PlaneId::kShadow);
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       const F surface = given<F>(c.eye_above) + dot(up, p.surface_point);
-      // Seen from within the water the view is straight.
+      // From within the water the view is straight.
       const Vec3<F> straight = p.surface_point + way_to(c, p, p.shift, p.hit_depth);
       const auto from_air = p.side > F(0.5);
       const auto has_way = p.path > F(0) && p.path < F(1e20);
@@ -90,19 +89,19 @@ struct Kernel<Caustics> : Caustics {
         const auto end_of = [&](const Aim<F>& way) {
           return select(from_air, p.surface_point + (drop / way.fall) * way.direction, straight);
         };
-        /// Where calm water lets sunlight in that comes to a place.
+        /// The entry point under calm water of the sunlight that reaches a place.
         const auto entry_of = [&](Vec3<F> end, F index) {
           const F sine = given<F>(light.sine, "caustics.sine") / index;
           const F aside = depth / (index * sqrt(F(1) - sine * sine));
           return Vec2<F>{dot(map_x, end) + aside * sunwards.x,
                          dot(map_y, end) + aside * sunwards.y};
         };
-        // Of the layer below nobody says what the sun does where something stands before it.
+        // In the layer below, the sunlight behind an object is not known.
         const F dry = planes.below ? mixed(tap, PlaneId::kDepth, p.shift) : p.hit_depth;
         const auto hidden = dry < F(kSameDepth) * p.hit_depth;
         const F of_plane = shadowed ? mixed(tap, PlaneId::kShadow, p.shift) : F(1);
         const F lit = select(hidden, F(1), of_plane);
-        F arrives(1);  // share of the sun's light that comes to the bottom, where shadows move
+        F arrives(1);  // share of the sunlight that reaches the bottom, where shadows move
         if (light.moves) {
           const Vec3<F> end = end_of(aim);
           const F per_rise = given<F>(1 / light.rise, "caustics.per_rise");
@@ -152,7 +151,7 @@ struct Kernel<Caustics> : Caustics {
           if (light.moves) {
             const F over_rest = of_channel(i, table.sun_over_rest, "caustics.sun_over_rest");
             whole = arrives * (sun + (F(1) - lit) * max(rest, F(0)) * over_rest);
-            // Whether the sun shines there is in the layer's color already.
+            // The layer's color already says whether the sun shines there.
             whole = select(hidden, sun, whole);
             focused = select(hidden, F(1) + arrives * (focused - F(1)), focused);
           }
@@ -176,9 +175,9 @@ struct Kernel<Caustics> : Caustics {
     return sum;
   }
 
-  /// The share of the sun's light that comes to a place on the bottom, refracted. Its light enters
-  /// at `entry`; straight, it would at `level`; `lit` is what the straight light's share is, unless
-  /// that is `hidden`.
+  /// The share of sunlight that reaches a place on the bottom by refraction. Refracted light enters
+  /// at `entry`, straight light would enter at `level`; `lit` is the share for straight light,
+  /// unless the place is `hidden`.
   template <class F, class Tap, class Mask>
   static LIMPID_INLINE F moved(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> entry,
                                Vec2<F> level, F lit, Mask hidden) {
@@ -193,13 +192,13 @@ struct Kernel<Caustics> : Caustics {
       above = select(nothing(tap.nearest(PlaneId::kSurfaceDepth, enters)), F(0), above);
     }
     const F straight = mixed(tap, PlaneId::kSurfaceShadow, would);
-    // What the surface's shadow does not explain is cast in the water.
+    // A shadow that the surface's shadow does not explain is cast under water.
     const F cast = select(straight > F(0.05), min(lit / max(straight, F(0.05)), F(1)), F(1));
     const F below = select(hidden, F(1), F(1) + known_at(c, p, would) * (cast - F(1)));
     return lit + known_at(c, p, enters) * (above * below - lit);
   }
 
-  /// 1 in the picture, 0 beyond it, between near its edge.
+  /// 1 in the picture, 0 beyond it, a ramp near its edge.
   template <class F>
   static LIMPID_INLINE F known_at(const Pass& c, const Pixel<F>& p, Vec2<F> shift) {
     const F x = p.uv.x + shift.x, y = p.uv.y + shift.y;
@@ -211,7 +210,7 @@ struct Kernel<Caustics> : Caustics {
   template <class F>
   struct Aim {
     Vec3<F> direction;
-    F fall;  ///< distance from the calm surface gained per unit of way
+    F fall;  ///< distance from the calm surface gained per unit of the ray
   };
   template <class F>
   static LIMPID_INLINE Aim<F> aim_of(const Pass& c, const Pixel<F>& p, F index) {

@@ -72,7 +72,7 @@ constexpr Rgb<double> kBlack{0, 0, 0};
 
 double largest(const Rgb<double>& c) { return std::max({c.r, c.g, c.b}); }
 
-/// The largest of of(part) over the channels, where part(color) is the channel of a color.
+/// The largest of of(channel) over the channels, where channel(color) selects from a color.
 template <class Of>
 double largest_of(Of&& of) {
   return std::max({of([](const Rgb<double>& c) { return c.r; }),
@@ -80,23 +80,23 @@ double largest_of(Of&& of) {
                    of([](const Rgb<double>& c) { return c.b; })});
 }
 
-/// Largest difference between a color and what is looked up.
+/// Largest difference between a color and the colors looked up.
 double apart(const Rgb<double>& color, const Ranges& ranges) {
   const auto of = [](double c, const Range& seen) { return std::max(c - seen.min, seen.max - c); };
   return std::max(
       {of(color.r, ranges.color[0]), of(color.g, ranges.color[1]), of(color.b, ranges.color[2])});
 }
 
-/// Share that survives a way; 0 where in float no bit of it does.
+/// Share that survives a path; 0 where it rounds to 0 in float.
 double survives(double rate, double way) {
   const double tau = bound_product(rate, way);
   return tau > 104.5 ? 0 : std::exp(-tau);
 }
 
-/// No less than column_light.
+/// An upper bound of column_light.
 double column(double rate, double way) { return rate > 0 ? std::min(way, 1 / rate) : way; }
 
-/// What the linear fog puts before a way.
+/// The share of linear fog in front of the end of a path.
 double veil(const P& params, double way) {
   return params.alpha * (1 - linear_fog(way, params.density, params.offset));
 }
@@ -105,7 +105,7 @@ double veil(const P& params, double way) {
 
 std::span<const Field<P>> DepthFog::fields() { return kFields; }
 
-/// density 0 leaves every pixel as it is, unless a negative offset lifts the fog at distance 0.
+/// Density 0 leaves every pixel unchanged, unless a negative offset lifts the fog at distance 0.
 bool Kernel<DepthFog>::neutral(const Params& p, StateSet) {
   if (p.model == Model::kLinear) return p.alpha == 0 || (p.density == 0 && p.offset >= 0);
   return p.water_type == WaterType::kCustom && absorption(p) == kBlack && scattering(p) == kBlack &&
@@ -186,7 +186,7 @@ double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ran
 }
 
 void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
-  // Should refraction run, hit and path are its own; else they are the pixel's.
+  // With refraction, hit and path are those of refraction; else those of the pixel.
   Range way = c.made.has(StatePart::kPosition) ? ranges.hit : ranges.own;
   if (params.distance == Distance::kRefracted && c.made.has(StatePart::kPosition)) {
     way = ranges.path;
@@ -200,7 +200,7 @@ void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& 
   } else if (params.distance == Distance::kRay) {
     way = {way.min * ranges.ray_length.min, bound_product(way.max, ranges.ray_length.max)};
   }
-  ranges.fog_path = {0.999 * way.min, 1.001 * way.max};  // they are computed in float
+  ranges.fog_path = {0.999 * way.min, 1.001 * way.max};  // float rounds them
 
   const double bright = ranges.brightest();
   if (params.model == Model::kLinear) {
@@ -241,7 +241,7 @@ double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ra
   const double sun = m.water * brightest_phase(params, c, m);
   return largest_of([&](auto part) {
            const double rate = part(m.rate);
-           if (survives(rate, 3e38) > 0) return HUGE_VAL;  // there is no endless way in float
+           if (survives(rate, 3e38) > 0) return HUGE_VAL;  // no path is endless in float
            const double left = survives(rate, way);
            return bound_product(left, m.bottom * bright) +
                   left / rate * (part(m.ambient) + sun * part(m.sun));
@@ -276,7 +276,7 @@ double Kernel<DepthFog>::Medium::most_often(double way) const {
     const double of_sky = up_to(light.slope_sky, light.most_sky) + light.most_bottom_sky;
     most = std::max(most, water * (beams()[i] * of_sun + skies()[i] * of_sky));
   }
-  return 1.05 * most;  // for the fits
+  return 1.05 * most;  // for the error of the fits
 }
 
 /// The largest value of the phase function: views go down into the water at least as steeply as
@@ -302,7 +302,7 @@ Kernel<DepthFog>::Medium Kernel<DepthFog>::medium_of(const Params& params, const
     m.often = c.scattered_light;
     m.ambient = kBlack;
     m.beam = light.beam;
-    // What the surface lets in keeps its radiance over the square of the index.
+    // Light that the surface transmits keeps its radiance over the square of the index.
     m.sky = (params.crossing == Crossing::kRadiance ? c.ior * c.ior : 1) *
             (c.has_sky ? c.sky : params.ambient);
     m.dry_sun = (light.bottom * (light.day ? above : 0)) * c.sun.color;

@@ -9,7 +9,6 @@
 
 namespace limpid {
 
-/// What DepthFog does to pixels.
 template <>
 struct Kernel<DepthFog> : DepthFog {
   static constexpr StateSet kUses{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted};
@@ -23,30 +22,31 @@ struct Kernel<DepthFog> : DepthFog {
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
-  /// Makes Params::fitted.
+  /// Computes Params::fitted.
   static void work_in(const Primaries& primaries, Params& params);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
-  /// How much the picture changes at most when the way through the water counts as endless and the
-  /// light at its end as the pixel's own, for refraction is left out. 0 where no bit of it is left.
+  /// The largest change of the picture if the path through the water counts as endless and the
+  /// light at its end as the pixel's own, because refraction is left out. 0 if not a bit of that
+  /// light is left.
   static double beyond(const Params& params, const Pass& c, const Ranges& ranges);
-  /// In water it measures from the eye and along the ray, whatever its `distance`.
+  /// In water the path is measured from the eye and along the ray, for any `distance`.
   static PathLength path_length(const Params& params);
-  /// What it makes of another place is in the bound of the operator that finds the place.
+  /// The bound of the operator that finds another place covers the fog there.
   static double displaced(const Params&, const Ranges&) { return 0; }
   static double ns(const Params& p, const Running&) { return p.model == Model::kLinear ? 0.6 : 9; }
-  /// What a unit of the way takes from the light: a + b of beer_lambert, less the narrow peak of
+  /// Light lost per unit of the path: a + b of beer_lambert, less the narrow peak of
   /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
-  /// What sediment and cdom add to the water of a type.
+  /// Absorption and scattering that sediment and cdom add to the water of a type.
   static ClearAndMurky besides(const Params& params);
   static Rgb<double> absorption(const Params& params);
   static Rgb<double> scattering(const Params& params);
-  /// Whether light that is scattered more than once is to be made for a frame, and of what water.
+  /// Whether a frame needs multiple scattering, and of which water.
   static bool wants_scattered_light(const Params& params);
   static bool lit_by_sky(const Params& params) { return wants_scattered_light(params); }
-  /// How deep, in the mean, sunlight is scattered that comes straight up out of endless water, of
-  /// green; in scene units.
+  /// Mean depth, in scene units, at which endless water scatters the sunlight that it sends
+  /// straight up, for green.
   static double lit_depth(const Params& params, const Pass& c);
   static ScatteringWater scattering_water(const Params& params, const Pass& c);
 
@@ -161,7 +161,7 @@ struct Kernel<DepthFog> : DepthFog {
       const Way<F> way{length, sink, begin, max(begin + sink * length, F(0))};
 
       p.transmittance = transmittance(length, rate);
-      // What is above the surface, seen from below, is not lit through the water.
+      // Seen from below, surfaces above the water are not lit through the water.
       const F under = select(p.side < F(0), F(0), way.end);
       const Rgb<F> fallen = transmittance(under, down);
       const Rgb<F> lit = select(from_air, bottom, F(1)) * fallen;
@@ -179,8 +179,9 @@ struct Kernel<DepthFog> : DepthFog {
       p.mean_scatter_distance = F(0);
       if (medium.sunlit) {
         const F seen = select(from_air, water, F(1)) * henyey_greenstein(turned, anisotropy);
-        // sun_left() of ways that begin at the surface and go down, as all from the air do: what
-        // the light of their end loses, to it and from it.
+        // sun_left() of paths that begin at the surface and go down, as all paths from the air do:
+        // the share of sunlight left at the viewer after the way down to the end of the path and
+        // back.
         Rgb<F> left = p.transmittance * fallen;
         if_any(!from_air, [&] {
           left = select(from_air, left,
@@ -193,7 +194,7 @@ struct Kernel<DepthFog> : DepthFog {
         const Rgb<F> light = seen * (sun * Rgb<F>{red.light, green.light, blue.light});
         p.sun_far = light * Rgb<F>{red.far_share, green.far_share, blue.far_share};
         p.sun_near = light - p.sun_far;
-        // Of endless ways the share is no number of a float any more.
+        // On endless paths the share underflows in float.
         const F fading = max(rate.g + down.g * sink, F(1e-30));
         p.mean_scatter_distance =
             select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
@@ -228,7 +229,7 @@ struct Kernel<DepthFog> : DepthFog {
     Often<F> blue = often_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
     if (m.inside) {
       if_any(!from_air, [&] {
-        // What is above the surface, seen from below, is no bottom.
+        // Seen from below, surfaces above the water are no bottom.
         const Vec3<F> under = select(p.side < F(0), {F(0), F(0), F(0)}, albedo);
         const auto choose = [&](Often<F>& down, const Often<F>& inside) {
           down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
@@ -242,7 +243,8 @@ struct Kernel<DepthFog> : DepthFog {
     const Rgb<F> all = p.in_scatter + p.sun_multiple + Rgb<F>{red.sky, green.sky, blue.sky};
     p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
     if (m.inside) {
-      // It entered above the viewer, not where the view meets the surface: no shadow tells of it.
+      // This light entered above the viewer, not where the view meets the surface: no shadow is
+      // known for it.
       p.sun_multiple = select(from_air, p.sun_multiple, {F(0), F(0), F(0)});
     }
   }
@@ -292,7 +294,7 @@ struct Kernel<DepthFog> : DepthFog {
     const F passing = left + layer_power(light.passing, even, x);
     const F seen = bottom.reflects * passing / (F(1) - bottom.reflects * bottom.back);
     const F had = bottom.reflects * fallen * left;
-    // What `transmitted` has of the sky's light went down as the sun's, and may be too much.
+    // The sky's light in `transmitted` was dimmed as sunlight, and may be too bright.
     return {
         water * up.sun + max(water * (seen * beam * bottom.sunlit) -
                                  had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),

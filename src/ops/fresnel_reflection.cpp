@@ -39,7 +39,7 @@ constexpr Field<P> kFields[] = {
 
 std::span<const Field<P>> FresnelReflection::fields() { return kFields; }
 
-/// F is at most 1. What planes and surroundings hold is not looked at.
+/// F is at most 1. The values of planes and surroundings are not bounded.
 double Kernel<FresnelReflection>::bound(const P& params, const Pass&, const Ranges& ranges) {
   if (params.source != Source::kConstant) return HUGE_VAL;
   return std::max({params.color.r, params.color.g, params.color.b}) + ranges.light;

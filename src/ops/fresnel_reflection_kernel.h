@@ -14,7 +14,6 @@
 
 namespace limpid {
 
-/// What FresnelReflection does to pixels.
 template <>
 struct Kernel<FresnelReflection> : FresnelReflection {
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kSlopeVariance,
@@ -50,7 +49,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return p.lookup == Lookup::kRay ? HUGE_VAL : abs(p.strength);
   }
   static bool neutral(const Params&, StateSet) { return false; }
-  /// The depth plane that mirrored rays are marched over, or none.
+  /// The depth plane over which mirrored rays march, or none.
   static std::optional<PlaneId> marched(const Params& params, const Pass& c) {
     if (params.source != Source::kAuto) return {};
     if (!reads_planes(params, c)) return PlaneId::kDepth;
@@ -62,13 +61,14 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
 
   static constexpr bool kLooksAbove = true;
-  /// What it dims is light that has been counted.
+  /// The light that it dims is counted already.
   static double displaced(const Params&, const Ranges&) { return 0; }
-  /// A picture of the surroundings is the next best mirror.
+  /// Without a reflection, a picture of the surroundings is the best mirror.
   static std::string_view prefer(Params& params, const AtHand& has);
-  /// What the mirror did not see comes from the surroundings, where there is a picture of them.
+  /// Where the mirror has no valid texel, the surroundings are reflected, if the job has a picture
+  /// of them.
   static std::string_view looks_around(const Params& params, const AtHand& has);
-  /// Of a reflection without a depth: a ray over it ends where things infinitely far are.
+  /// For a reflection without a depth: its rays end infinitely far.
   static std::string_view warning(const Params& params, const AtHand& has);
   static double ns(const Params& params, const Running& running);
 
@@ -134,7 +134,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return select(p.side > F(0), above, select(p.side < F(0), below, F(0)));
   }
 
-  /// Light, and where it was taken from: Pixel::mirror_sources.
+  /// Light, and its source: Pixel::mirror_sources.
   template <class F>
   struct Mirrored {
     Rgb<F> light, sources;
@@ -152,7 +152,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     if (c.made.has(StatePart::kMirrorSources)) p.mirror_sources = sources;
   }
 
-  /// What is left of the light from below, and what is mirrored, the reflectance in it.
+  /// The share left of the light from below, and the mirrored light times the reflectance.
   template <class F>
   static LIMPID_INLINE void blend(const Pass& c, Rgb<F> reflected, Pixel<F>& p) {
     const F through = F(1) - p.fresnel;
@@ -171,8 +171,8 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   // --- facets -----------------------------------------------------------------------------------
 
   /// Reflectance times mirrored light, and the reflectance, of the mean facet or, where the pixel
-  /// cannot resolve the waves, averaged over three facets along the view, which is where the mean
-  /// changes most.
+  /// cannot resolve the waves, averaged over three facets along the view, the direction in which
+  /// the reflectance changes most.
   template <class F, class Tap>
   static void mirror_facets(const Params& params, const Pass& c, Pixel<F>& p, const Tap& tap) {
     const Vec3<F> up = vec3_of<F>(c.up);
@@ -213,7 +213,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     blend(c, light, p);
   }
 
-  /// The facets that a pixel's slopes stand for, whose deviation is that along `near`, the level
+  /// The facets that represent a pixel's slopes, whose deviation is taken along `near`, the level
   /// direction to the viewer; `level` is the view's length along it.
   template <class F>
   static LIMPID_INLINE ThreeFacets<F> facets_of(const Pass& c, const Pixel<F>& p, Vec3<F> near,
@@ -262,14 +262,14 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return params.source == Source::kPlanar ||
            (params.source == Source::kAuto && c.planes.covers(kReflectionPlanes));
   }
-  /// Whether the place of the lookup is known before any.
+  /// Whether the place of the lookup is known without another lookup.
   static bool looks_once(const Params& params, const Pass& c) {
     const bool depths = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
     return reads_planes(params, c) && !depths && !c.planes.has(PlaneId::kReflectionValid) &&
            !c.submersible;
   }
 
-  /// By the facet n, whose tilt is that of the operator wave_normals.
+  /// Light mirrored by the facet n, whose tilt is that of the operator wave_normals.
   template <class F, class Tap>
   static Mirrored<F> mirrored(const Params& params, const Pass& c, const Pixel<F>& p,
                               const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
@@ -299,14 +299,14 @@ struct Kernel<FresnelReflection> : FresnelReflection {
 
   // --- the reflection planes --------------------------------------------------------------------
 
-  /// The mirrored ray as the planes show it: in the mirrored scene it goes down into the mirror.
+  /// The mirrored ray in the reflection planes: in the mirrored scene it goes down into the mirror.
   template <class F>
   static LIMPID_INLINE ScreenRay<F> image_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
     const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, n);
     return ScreenRay<F>(c, p, ray - (F(2) * dot(up, ray)) * up);
   }
 
-  /// The shift at s scene units along the ray, or at the planes' edge before that.
+  /// The shift at s scene units along the ray, or at the edge of the planes before that.
   template <class F>
   static LIMPID_INLINE Vec2<F> place_at(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
                                         F s) {
@@ -329,8 +329,9 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return place_at(c, p, ray, way);
   }
 
-  /// From the surface point to what the planes show at `shift`; `otherwise` where that is not
-  /// valid. Depths are mixed as 1 / depth, which is even across a plane and finite beside the sky.
+  /// Distance from the surface point to the surface that the planes show at `shift`; `otherwise`
+  /// where the texels there are not valid. Depths are mixed as 1 / depth, which is linear across a
+  /// plane and finite beside the sky.
   template <class F, class Tap>
   static F distance_to(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift,
                        F otherwise) {
@@ -395,7 +396,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return {beyond + found.hit * (seen - beyond), {F(0), found.hit, F(1) - found.hit}};
   }
 
-  /// What the frame, or else the look, has of things infinitely far.
+  /// The surroundings of the frame, or else of the look.
   template <class F, class Tap>
   static Rgb<F> far_away(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
                          Vec3<F> n, const ScreenRay<F>& ray) {

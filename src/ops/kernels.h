@@ -21,7 +21,7 @@ requires(Operator<Kernel<Ops>>&&...) struct KernelsOf<OperatorList<Ops...>> {
   using List = OperatorList<Kernel<Ops>...>;
 };
 
-/// What the operators of the chain do to pixels, in its order.
+/// The kernels of the chain's operators, in its order.
 using Kernels = KernelsOf<Chain>::List;
 
 }  // namespace limpid

@@ -23,7 +23,7 @@ void for_each_table(L& look, Visit&& visit) {
   Chain::for_each([&]<class Op, int>() { visit(Op::kName, Op::fields(), look.template of<Op>()); });
 }
 
-/// What setting `field` brings with it.
+/// Sets the parameters that follow from `field`.
 template <class P>
 void follow(std::span<const Field<P>> fields, const Field<P>& field, P& params) {
   for (const Condition& condition : field.used_when) {

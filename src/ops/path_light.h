@@ -5,26 +5,26 @@
 
 namespace limpid {
 
-/// By how much the waves brighten, of 1, what the sun's light sends once scattered: of the near and
-/// of the far share of the way.
+/// Factor less 1 by which waves brighten sunlight that was scattered once: for the near and for the
+/// far share of the path.
 template <class F>
 struct PathLight {
   F near, far;
 };
 
-/// Places of the way that send as much each, and where they are, in its mean, where it fades
-/// exponentially: -log(1 - (i + 1/2) / 4).
+/// Samples on the path that send equal light, and their places relative to the mean, where light
+/// fades exponentially: -log(1 - (i + 1/2) / 4).
 constexpr int kPathSamples = 4;
 constexpr double kPathFalloff[kPathSamples] = {0.1335, 0.4700, 0.9808, 2.0794};
 
-/// Of what a view from the air sees, as WaterShadow has it; 0 of others. `shade` is how dark full
-/// shadow is. Light that is looked up as wide as the view passes it: a place alone would stand for
-/// light that it does not have, up to seven times as uneven.
+/// For views from the air, with WaterShadow's geometry; 0 for other views. `shade` is the darkness
+/// of full shadow. Light is looked up as wide as the path between two samples: a lookup at a point
+/// would have up to seven times the contrast.
 template <class F, class Tap>
 LIMPID_INLINE PathLight<F> path_light(const Pass& c, const Pixel<F>& p, const Tap& tap, F shade) {
-  // From -log(1 - i / 4) to the next; the last is as long as 97 % of the light come from.
+  // From -log(1 - i / 4) to the next; the last ends where 97 % of the light is collected.
   constexpr double kLong[kPathSamples] = {0.2877, 0.4055, 0.6931, 2.1};
-  // A level whose texels are so wide passes as much of a wave as the mean over 1 does.
+  // A level with texels of this width attenuates a wave like the mean over width 1.
   constexpr double kWide = 0.6;
   const CausticsTable& table = *c.caustics->in_water;
   const auto lit_at = [&](PlaneId plane, Vec2<F> shift) {

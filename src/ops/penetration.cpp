@@ -26,7 +26,8 @@ constexpr Field<P> kFields[] = {
 
 std::span<const Field<P>> Penetration::fields() { return kFields; }
 
-/// What is let through, most where one looks down most, replaces as much of the finished surface.
+/// The transmitted light, strongest where the view is steepest, replaces as large a share of the
+/// finished surface.
 double Kernel<Penetration>::bound(const P& params, const Pass&, const Ranges& ranges) {
   if (params.model == Model::kNone) return 0;
   const double through = params.amount * std::pow(ranges.cosine().max, params.power);

@@ -5,7 +5,6 @@
 
 namespace limpid {
 
-/// What Penetration does to pixels.
 template <>
 struct Kernel<Penetration> : Penetration {
   static constexpr StateSet kUses = kOutputTerms;

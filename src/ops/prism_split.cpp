@@ -23,7 +23,7 @@ constexpr Field<P> kFields[] = {
 
 std::span<const Field<P>> PrismSplit::fields() { return kFields; }
 
-/// Each channel of a lookup becomes another that is in reach; its path stays the common one.
+/// Each channel of a lookup becomes another value in reach; its path stays the common path.
 double Kernel<PrismSplit>::bound(const P&, const Pass&, const Ranges& ranges) {
   return bound_product(ranges.transmittance, ranges.contrast());
 }

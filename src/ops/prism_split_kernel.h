@@ -6,14 +6,13 @@
 
 namespace limpid {
 
-/// What PrismSplit does to pixels.
 template <>
 struct Kernel<PrismSplit> : PrismSplit {
   static constexpr StateSet kUses{StatePart::kNormal};
   static constexpr StateSet kMakes{StatePart::kPrism};
   static PlaneSet reads(const Params&) { return {}; }
   static Needs needs(const Params&) { return {}; }
-  static double reach(const Params& p) {  // added to refraction's
+  static double reach(const Params& p) {  // added to the reach of refraction
     return p.model == Model::kAxis ? abs(p.strength) : 0;
   }
   static bool neutral(const Params& p, StateSet made) {
@@ -21,7 +20,7 @@ struct Kernel<PrismSplit> : PrismSplit {
     return p.strength == 0 || !made.has(StatePart::kNormal);
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  /// How many times as far as the common one the channels' lookups go, where refraction offsets
+  /// How many times as far as the common lookup the channels' lookups go, where refraction offsets
   /// them by their index.
   static double stretch(const Params& params, const Pass& c);
 

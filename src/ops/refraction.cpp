@@ -35,8 +35,8 @@ constexpr Field<P> kFields[] = {
 
 std::span<const Field<P>> Refraction::fields() { return kFields; }
 
-/// Without it another color in reach is seen. And the way through the water is another: how much
-/// that matters is not known here.
+/// Without refraction another color in reach is seen. The path through the water changes as well;
+/// how much that changes the picture is not known here.
 double Kernel<Refraction>::bound(const P&, const Pass& c, const Ranges& ranges) {
   return c.made.has(StatePart::kTransmittance) ? HUGE_VAL : ranges.contrast();
 }
@@ -44,25 +44,25 @@ double Kernel<Refraction>::bound(const P&, const Pass& c, const Ranges& ranges) 
 void Kernel<Refraction>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   const Range surface = ranges.surface, seen = ranges.looked_up;
   const bool fades = params.off_frame == OffFrame::kFog;
-  // Where not even a pixel's own texel of the layer below holds anything, the depth there is none.
+  // If even a pixel's own texel of the layer below is empty, the depth there is infinite.
   const bool nothing =
       SeenPlanes::of(c).below && params.rejection == Rejection::kShorten && !(seen.max < 1e30);
   const bool known = surface.max < HUGE_VAL && !nothing;
   ranges.hit = {known ? std::max(seen.min - surface.max, 0.0) : 0,
                 std::max(seen.max - surface.min, 0.0)};
   if (params.model == Model::kSnell) {
-    // Heights are differences of numbers as large as these, in float.
+    // Heights are differences of numbers of this size, in float.
     const double slack = 2e-6 * (std::abs(c.eye_above) + surface.max);
     const double drop = params.steps == 0
                             ? bound_product(ranges.own.min, std::max(ranges.sink.min, 0.0))
                             : ranges.least_drop;
     ranges.path = {known ? std::max(drop - slack, 0.0) : 0, HUGE_VAL};
-    // The ray's own depth where it ends; a texel's where one is looked up.
+    // The ray's own depth at its end, or a texel's depth where a texel is looked up.
     const bool of_texel = params.steps == 0 || params.rejection == Rejection::kShorten;
     const bool continues = params.goes_on() && c.continuation;
     const bool behind = params.looks_behind() && c.bottom_layer;
     if (!of_texel || continues || behind) ranges.hit = {0, HUGE_VAL};
-    // A ray falls a unit in each unit of its way, at most.
+    // A ray falls at most one unit per unit of its length.
     if (continues) ranges.path.min = std::min(ranges.path.min, c.continuation->least_drop);
   } else {
     const auto bent = [&](double cosine) {
@@ -79,8 +79,8 @@ void Kernel<Refraction>::propagate_ranges(const P& params, const Pass& c, Ranges
   }
 }
 
-/// With `snap` nothing that is looked up may lie before the water of the cell; with `shorten` every
-/// texel that is tapped must count. Of snell's rays with `shorten` more is asked.
+/// With `snap` no texel that is looked up may lie in front of the cell's water; with `shorten`
+/// every texel that is tapped must count. Rays of snell with `shorten` have further conditions.
 bool Kernel<Refraction>::foreground_free(const P& params, const InReach& reach) {
   switch (params.rejection) {
     case Rejection::kNone:

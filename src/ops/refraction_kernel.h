@@ -12,10 +12,10 @@
 
 namespace limpid {
 
-/// What Refraction does to pixels.
 template <>
 struct Kernel<Refraction> : Refraction {
-  /// Of the way from the surface to the end of snell's ray: what lies before it hides that end.
+  /// Share of the distance from the surface to the end of snell's ray: a surface nearer than that
+  /// hides the end.
   static constexpr double kShareOfWay = 0.4;
 
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kTransmitted};
@@ -54,7 +54,7 @@ struct Kernel<Refraction> : Refraction {
         aim_by_snell(params, c, planes, strip);
         break;
     }
-    // A march knows the depth where it ends; but snap asks what is seen there.
+    // A march knows the depth where it ends; but snap needs the depth seen there.
     const bool knows = params.model == Model::kSnell && params.steps != 0;
     if (!knows || params.rejection == Rejection::kSnap) {
       strip.nearest(
@@ -88,7 +88,7 @@ struct Kernel<Refraction> : Refraction {
     });
     if (!params.goes_on() || !c.continuation) return;
     strip.probe([&](Pixel<F>& p, const auto& tap) {
-      // Nothing off the frame is sure.
+      // Beyond the frame no texel confirms the end of a ray.
       if_any(p.confidence <= F(0), [&] { go_on_off_frame(c, planes, p, tap); });
     });
   }
@@ -105,7 +105,7 @@ struct Kernel<Refraction> : Refraction {
 
   // --- where to look ----------------------------------------------------------------------------
 
-  /// In a thin prism the deviation grows with n - 1: so do the channels' offsets.
+  /// In a thin prism the deviation grows with n - 1, and so do the channels' offsets.
   template <class Strip>
   static void aim_by_offset(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
@@ -129,7 +129,7 @@ struct Kernel<Refraction> : Refraction {
   template <class F>
   struct Bent {
     Vec3<F> direction;
-    F fall;  ///< distance from the calm surface gained per unit of way
+    F fall;  ///< distance from the calm surface gained per unit of the ray
     F goes;  ///< 1, or 0 where nothing is refracted
   };
   template <class F>
@@ -139,7 +139,7 @@ struct Kernel<Refraction> : Refraction {
     const Refracted<F> ray = refract(p.to_viewer, normal, select(from_air, F(1) / ior, ior));
     const F rise = dot(vec3_of<F>(c.up), ray.direction);
     const auto goes = ray.total < F(0.5) && abs(p.side) > F(0.5);
-    // A ray that hardly falls would end nowhere; waves may even send one upwards.
+    // A nearly level ray would never end; waves may even send a ray upwards.
     return {ray.direction, max(select(from_air, F(0) - rise, rise), F(0.02)),
             select(goes, F(1), F(0))};
   }
@@ -204,8 +204,8 @@ struct Kernel<Refraction> : Refraction {
     p.path = select(kept > F(0), p.path / max(kept, F(1e-30)), F(HUGE_VAL));
   }
 
-  /// In place of what was made up: the way of these rays is still that to where they would end by
-  /// what the picture shows.
+  /// Replaces the guess beyond the frame: the path of these rays still ends where the picture's
+  /// depths would end it.
   template <class F, class Tap>
   [[gnu::noinline]] static void go_on_off_frame(const Pass& c, const SeenPlanes& planes,
                                                 Pixel<F>& p, const Tap& tap) {
@@ -229,7 +229,7 @@ struct Kernel<Refraction> : Refraction {
 
   // --- what is seen there -----------------------------------------------------------------------
 
-  /// Where `lanes`, to the pixel itself, at which the depth is `own`.
+  /// Resets `lanes` to the pixel itself, at depth `own`.
   template <class F, class Lanes>
   static LIMPID_INLINE void go_back(Lanes lanes, F own, Pixel<F>& p) {
     const Vec2<F> none{F(0), F(0)};
@@ -246,7 +246,7 @@ struct Kernel<Refraction> : Refraction {
     go_back(p.hit_depth < p.surface_depth, p.dry_depth, p);
   }
 
-  /// The layer below is empty where something rises out of the water, or stands before it.
+  /// The layer below is empty where an object rises out of the water, or stands in front of it.
   template <class F, class Tap>
   [[gnu::noinline]] static void snap_from_empty(const SeenPlanes& planes, Pixel<F>& p,
                                                 const Tap& tap) {
@@ -257,7 +257,7 @@ struct Kernel<Refraction> : Refraction {
     });
   }
 
-  /// Where `lanes`, the water has no end.
+  /// Makes the path of `lanes` endless.
   template <class F, class Lanes>
   static LIMPID_INLINE void see_no_end(Lanes lanes, Pixel<F>& p) {
     p.transmitted = select(lanes, Rgb<F>{F(0), F(0), F(0)}, p.transmitted);
@@ -271,13 +271,13 @@ struct Kernel<Refraction> : Refraction {
   struct Counted {
     Quad quad;
     Four<F> depths, weights;
-    F lost;  ///< weight of those at which nothing was hit: they do not count
+    F lost;  ///< weight of the texels without a hit: they do not count
 
     template <class Tap>
     F read(const Tap& tap, PlaneId plane) const {
       return mean(weights, tap.read(plane, quad));
     }
-    /// Of those behind a surface; +inf where none is.
+    /// The depth of the texels behind a surface; +inf where none is.
     F depth_behind(F surface) const {
       Four<F> behind = weights;
       F some = F(0);
@@ -310,7 +310,7 @@ struct Kernel<Refraction> : Refraction {
     return taps;
   }
 
-  /// What look_up() has mixed without a look at depths, again where some of it does not count.
+  /// Mixes look_up()'s result, which ignored depths, again where some texels do not count.
   template <class F, class Tap>
   [[gnu::noinline]] static void leave_out_nothing(const Pass& c, const SeenPlanes& planes,
                                                   Pixel<F>& p, const Tap& tap) {
@@ -359,8 +359,9 @@ struct Kernel<Refraction> : Refraction {
         [](Pixel<F>& p, F blue) { p.transmitted.b = blue; });
   }
 
-  /// A texel counts where it lies under the surface, and not so far before the end of a ray that it
-  /// must hide it. Where nothing was hit, or a layer below is empty, nothing does.
+  /// A texel counts where it lies under the surface, and not so far in front of the end of a ray
+  /// that it must hide that end. Where nothing was hit, or the layer below is empty, no texel
+  /// counts.
   template <bool kBottomless, class F, class Tap>
   static void look_up_valid(const Params& params, const Pass& c, const SeenPlanes& planes,
                             Pixel<F>& p, const Tap& tap) {
@@ -368,11 +369,11 @@ struct Kernel<Refraction> : Refraction {
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
     const BottomLayer* layer = params.looks_behind() ? c.bottom_layer : nullptr;
-    // Where the end of the ray was not seen, only the bottom counts.
+    // Where the end of the ray is a guess, only the bottom counts.
     const F snell(params.model == Model::kSnell ? kShareOfWay : 0);
     const F path_fraction =
         layer ? select(p.confidence < F(1), F(BottomLayer::kOfBottom), snell) : snell;
-    // In open water only what lies under it may hide where a ray ends.
+    // In open water only surfaces under it can hide the end of a ray.
     const bool all_seen = !layer || !any(tap.wet() && p.confidence < F(1));
     const bool all_count = all_seen && all_texels_count(c, planes, p, tap);
     const auto hidden = layer && !c.foreground ? p.confidence < F(1) : p.confidence < F(-1);
@@ -391,20 +392,21 @@ struct Kernel<Refraction> : Refraction {
         F surface =
             surface_plane ? surfaces[k] : calm_depth_at(c, p, tap.place(planes.depth, quad, k));
         if (surface_plane && planes.below) {
-          // The layer goes on under the shore, the water that is drawn does not.
+          // The layer below continues under the shore, the drawn water does not.
           if_any(surface > F(1e30), [&] {
             const F calm = calm_depth_at(c, p, tap.place(planes.depth, quad, k));
             surface = select(surface > F(1e30), calm, surface);
           });
         }
         if (surface_plane && c.surface_ends) {
-          // Its outermost texels tell nothing of the water beyond them.
+          // The outermost texels say nothing about the water beyond them.
           const Vec2<F> place = tap.place(planes.depth, quad, k);
           const auto known = reach_in(c.surface, p.uv, place) >= F(1);
           if_any(!known, [&] { surface = select(known, surface, calm_depth_at(c, p, place)); });
         }
         if (c.submersible) {
-          // Where the view begins in the water, what lies there has no surface before it.
+          // Where the view begins in the water, surfaces in the water have no water surface in
+          // front.
           const F height = height_at(c, p, tap.place(planes.depth, quad, k), depth);
           surface = select(depth <= surface && p.side * height <= F(0), F(0), surface);
         }
@@ -422,9 +424,9 @@ struct Kernel<Refraction> : Refraction {
     const auto valid = [&](const auto& quad) { return lies(quad, path_fraction); };
     const auto bearable = [&](const auto& quad) { return lies(quad, F(0)); };
     const auto taps_at = [&](Vec2<F> shift) {
-      // Not over what stands in the water, which may hide itself, unless what hides the end of the
-      // ray is above the water and apart from it, nor where what the layer shows is itself far
-      // before the end of the ray.
+      // Does not fill over an object in the water, which may hide its own parts, unless the end of
+      // the ray is hidden by an object that is above the water and apart from it; and not where the
+      // layer itself shows a surface far in front of the end of the ray.
       const auto fill = [&](const auto& lanes) {
         F fills(0);
         if (!layer) return fills;
@@ -446,7 +448,7 @@ struct Kernel<Refraction> : Refraction {
         });
         return fills;
       };
-      // Over a layer below that is empty, or holds only what stands higher than all water.
+      // True over a layer below that is empty, or has only surfaces higher than all water.
       const auto never = [&](const auto& lanes) {
         return planes.below &&
                tap.heights(planes.depth, lanes, Vec2<F>{F(0), F(0)}, shift).highest <= -HUGE_VAL;
@@ -495,7 +497,7 @@ struct Kernel<Refraction> : Refraction {
         channel(2, blue, filled.b, own.b, p.shift_b, p.transmitted.b);
         only<F>(i, 1, [&] { taps_common = taps; });
       });
-      // Mostly green is where the common path is, and nothing is to be looked up again.
+      // Green mostly lies on the common path: then no second lookup is needed.
       const auto apart = abs(p.shift.x - g.x) > F(0) || abs(p.shift.y - g.y) > F(0);
       if_any(apart, [&] { taps_common = taps_at(p.shift); });
       p.shift = taps_common.place;
@@ -518,9 +520,9 @@ struct Kernel<Refraction> : Refraction {
     see_no_end(lost >= F(0.5) || (weight <= F(0.5) && is_empty(p.dry_depth)), p);
   }
 
-  /// Whether all texels of the pixel's lookups are known to count, by Pass::heights. A texel's
-  /// view ray reaches the depth of the ray's end a little higher or lower than the one at the
-  /// lookup does, a texel away at most.
+  /// Whether Pass::heights shows that all texels of the pixel's lookups count. A texel's view ray
+  /// reaches the depth of the ray's end a little higher or lower than the view ray at the lookup
+  /// does; the two are at most one texel apart.
   template <class F, class Tap>
   static LIMPID_INLINE bool all_texels_count(const Pass& c, const SeenPlanes& planes,
                                              const Pixel<F>& p, const Tap& tap) {
@@ -543,8 +545,8 @@ struct Kernel<Refraction> : Refraction {
            tap.heights(planes.depth, tap.wet(), low, high).covers;
   }
 
-  /// Where there may be nothing. On its own, and so are its like, for the code that nearly all
-  /// cells run is to stay as small as it is.
+  /// Lookups of a cell that may have pixels without a hit. A function of its own, like its
+  /// siblings, to keep the code small that nearly all cells run.
   template <class F, class Tap>
   [[gnu::noinline]] static void look_up_valid_if_any(const Params& params, const Pass& c,
                                                      const SeenPlanes& planes, Pixel<F>& p,
@@ -552,7 +554,8 @@ struct Kernel<Refraction> : Refraction {
     look_up_valid<true>(params, c, planes, p, tap);
   }
 
-  /// Share of the four texels at the pixel's shift at which nothing was hit, of the dry scene, too.
+  /// Share of the four texels at the pixel's shift at which nothing was hit, in the dry scene as
+  /// well.
   template <class F, class Tap>
   static F share_of_nothing(const SeenPlanes& planes, const Pixel<F>& p, const Tap& tap) {
     const auto taps = counted(planes, p, tap, p.shift);
@@ -569,7 +572,7 @@ struct Kernel<Refraction> : Refraction {
     return share;
   }
 
-  /// A sum over taps whose weights are no whole, for there was nothing to make up the rest from.
+  /// A sum over taps with a weight below 1, where no valid texel could replace the others.
   template <bool kBottomless, class F, class Taps>
   static LIMPID_INLINE F of_whole(const Taps& taps, F sum) {
     if (!kBottomless) return sum;
@@ -577,7 +580,7 @@ struct Kernel<Refraction> : Refraction {
     return select(weight > F(0.5) && weight < F(0.999), sum / max(weight, F(0.5)), sum);
   }
 
-  /// Of a bottom as deep as the one found, taken for flat, below a calm surface.
+  /// The path to a flat bottom at the depth found, below a calm surface.
   template <class F>
   static LIMPID_INLINE void measure_path(const Pass& c, Pixel<F>& p) {
     const F cosine = abs(dot(vec3_of<F>(c.up), p.to_viewer));

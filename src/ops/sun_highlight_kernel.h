@@ -9,7 +9,6 @@
 
 namespace limpid {
 
-/// What SunHighlight does to pixels.
 template <>
 struct Kernel<SunHighlight> : SunHighlight {
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kSlopeVariance};
@@ -54,7 +53,7 @@ struct Kernel<SunHighlight> : SunHighlight {
   }
 
  private:
-  /// Whether something that the picture shows stands between the surface point and the sun.
+  /// Whether a surface in the picture stands between the surface point and the sun.
   template <class F, class Tap>
   static auto is_shadowed(const Pass& c, const Pixel<F>& p, const Tap& tap) {
     constexpr MirrorSteps kSteps{16, 0.06, 0.03};

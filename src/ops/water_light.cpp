@@ -16,12 +16,12 @@ bool transfers(const DepthFog::Params& params) {
   return params.model == DepthFog::Model::kRadiativeTransfer;
 }
 
-/// K: what light from above loses for each length of its way down.
+/// K: loss of light from above per unit of its way down.
 Rgb<double> falling_loss(const DepthFog::Params& params) {
   if (transfers(params)) return Kernel<DepthFog>::extinction(params);
   const WaterType type = params.water_type;
   const bool typed = type >= WaterType::kJerlovI && type <= WaterType::kJerlov9C;
-  // What is scattered goes on forwards, mostly.
+  // Most light is scattered forwards.
   const double turned = 1 - params.anisotropy;
   if (typed) {
     const ClearAndMurky besides = Kernel<DepthFog>::besides(params);
@@ -37,7 +37,7 @@ Rgb<double> falling_loss(const DepthFog::Params& params) {
 WaterLight water_light(const DepthFog::Params& params, const Pass& c, double ior) {
   using Sunlight = DepthFog::Sunlight;
   WaterLight light;
-  // A sun on the horizon gives the water no light, and would divide by 0.
+  // A sun on the horizon gives the water no light; it would divide by 0.
   const double cosine = glm::dot(c.sun.direction, c.up);
   light.day = c.has_sun && cosine > 1e-6;
   light.to_sun = c.sun.direction;
@@ -47,7 +47,7 @@ WaterLight water_light(const DepthFog::Params& params, const Pass& c, double ior
     light.water = radiance_crossing(ior, 0.0);
   }
   if (!light.day) {
-    // The sky's light comes down more or less steeply: on average as at these cosines.
+    // Mean cosine of the sky's light on its way down.
     const double steep = params.sunlight == Sunlight::kRefracted ? 0.83 : 0.6;
     if (transfers(params) && params.sunlight != Sunlight::kNone) {
       light.down = (1 / steep) * falling_loss(params);
@@ -60,7 +60,7 @@ WaterLight water_light(const DepthFog::Params& params, const Pass& c, double ior
   if (params.sunlight == Sunlight::kRefracted) {
     const double inside = refracted_cosine(cosine, 1 / ior);
     const bool enters = inside > 0;
-    // Along the surface the way down has no end.
+    // A level beam never gets deeper.
     light.down = (1 / std::max(inside, 1e-30)) * falling_loss(params);
     light.spread = enters ? cosine / inside : 0;
     light.beam = (enters ? (1 - lost) * cosine / inside : 0) * c.sun.color;

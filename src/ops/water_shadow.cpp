@@ -20,7 +20,7 @@ constexpr Field<P> kFields[] = {
 
 std::span<const Field<P>> WaterShadow::fields() { return kFields; }
 
-/// `darken` takes strength (1 - shadow) of all light from below, `scatter` of the sun's alone.
+/// `darken` removes strength (1 - shadow) of all light from below, `scatter` of the sunlight only.
 double Kernel<WaterShadow>::bound(const P& params, const Pass& c, const Ranges& ranges) {
   const auto off = [](const Range& shadow) { return std::max(1 - shadow.min, shadow.max - 1); };
   if (params.model == Model::kDarken) {
@@ -31,7 +31,7 @@ double Kernel<WaterShadow>::bound(const P& params, const Pass& c, const Ranges& 
          brightened(params, c, ranges);
 }
 
-/// What the table's brightest and darkest places make of all that the sun lights, unshaded.
+/// The largest and the smallest value of the table, applied to all light of an unshaded sun.
 double Kernel<WaterShadow>::brightened(const P& params, const Pass& c, const Ranges& ranges) {
   if (!wants_shafts(params) || (c.caustics && !c.caustics->in_water)) return 0;
   const CausticsTable* table = c.caustics ? c.caustics->in_water : nullptr;
@@ -52,7 +52,7 @@ double Kernel<WaterShadow>::displaced(const P& params, const Ranges& ranges) {
     return bound_product(params.strength * (there.max - there.min), ranges.light);
   }
   const double spread = std::max(there.max, own.max) - std::min(there.min, own.min);
-  // Another way may have the brightest light for the darkest.
+  // Another path may have the brightest light instead of the darkest.
   return bound_product(params.strength * spread, ranges.sun_far) + 2 * ranges.shafts;
 }
 

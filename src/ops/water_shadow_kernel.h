@@ -7,7 +7,6 @@
 
 namespace limpid {
 
-/// What WaterShadow does to pixels.
 template <>
 struct Kernel<WaterShadow> : WaterShadow {
   static constexpr StateSet kUses{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted,
@@ -21,9 +20,9 @@ struct Kernel<WaterShadow> : WaterShadow {
     return {.planes = wants_shafts(p) ? PlaneSet{} : PlaneSet{PlaneId::kShadow}};
   }
   static bool wants_shafts(const Params& p) { return p.model == Model::kScatter && p.shafts > 0; }
-  /// Beyond what refraction reaches: sunlight may enter anywhere.
+  /// Beyond the reach of refraction: sunlight may enter anywhere.
   static double reach(const Params& p) { return p.model == Model::kScatter ? HUGE_VAL : 0; }
-  /// Whether it looks the shadow on the surface up, of frames that have it.
+  /// Whether it looks up the shadow on the surface, in frames that have it.
   static bool probes(const Params& p, StateSet made) {
     return p.model == Model::kScatter && !neutral(p, made);
   }
@@ -33,8 +32,8 @@ struct Kernel<WaterShadow> : WaterShadow {
   }
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
   static void propagate_ranges(const Params& params, const Pass& c, Ranges& ranges);
-  /// When the shadow is looked up elsewhere in reach, or as if no sunlight were scattered at the
-  /// end of the way.
+  /// If the shadow is looked up at another place in reach, or as if no sunlight were scattered at
+  /// the end of the path.
   static double displaced(const Params& params, const Ranges& ranges);
 
   static constexpr CellKind kSkipped{"lit", "no shadow falls on the water"};
@@ -91,7 +90,7 @@ struct Kernel<WaterShadow> : WaterShadow {
 
   template <class F, class Tap, class Take>
   static LIMPID_INLINE void scatter(const Pass& c, Pixel<F>& p, const Tap& tap, Take&& take) {
-    // Lit all over, what is taken away is 0 to the last bit.
+    // In full light the light removed is exactly 0.
     const auto is_lit = [&](Vec2<F> from, Vec2<F> to) {
       return tap.range(PlaneId::kSurfaceShadow, tap.wet(), from, to).low >= 1;
     };
@@ -105,8 +104,8 @@ struct Kernel<WaterShadow> : WaterShadow {
     const F mean = p.mean_scatter_distance, whole = min(p.path, F(1e30));
     const ScreenRay<F> line(c, p, p.sun_entry);
     if (!is_lit(Vec2<F>{F(0), F(0)}, line.shift_at(whole))) {
-      // All parts send as much in clear water, where the mean way is half of the whole; they fade
-      // exponentially in murky water.
+      // All parts send equal light in clear water, where the mean path is half of the whole; they
+      // fade exponentially in murky water.
       const F even_share = min(F(2) * mean / max(whole, F(1e-30)), F(1));
       F near_shade(0), far_shade(0), near_sum(0), far_sum(0);
       for (int i = 0; i < kPathSamples; ++i) {
@@ -121,7 +120,7 @@ struct Kernel<WaterShadow> : WaterShadow {
     }
     const Rgb<F>& often = p.sun_multiple;
     if_any(often.r + often.g + often.b > F(0), [&] {
-      // Around where light of the mean way entered, as far away as that.
+      // Around the entry point for the mean path, at the distance of that path.
       const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
       Vec2<F> around[kAround], low, high;
       for (int i = 0; i < kAround; ++i) {

@@ -54,9 +54,9 @@ Sym2<double> Kernel<WaveNormals>::wave_variance(const P& params, const TextureLe
     case Model::kFourMaps:
     case Model::kSlopes:
       return slope_variance(map, four_shifts(params, time));
-    case Model::kTwoFlows:  // (h1 + h2 / 2) / (3 / 2), as if h1 and h2 had nothing in common
+    case Model::kTwoFlows:  // (h1 + h2 / 2) / (3 / 2), as if h1 and h2 were uncorrelated
       return 1.25 / 2.25 * slope_variance(map, {});
-    case Model::kDudv: {  // z / ((1 + z) / 2), for blue is not decoded; z of the mean slope
+    case Model::kDudv: {  // z / ((1 + z) / 2), because blue is not decoded; z of the mean slope
       const Sym2<double> whole = slope_variance(map, {});
       const double z = 1 / std::sqrt(1 + whole.xx + whole.yy), flatter = 2 * z / (1 + z);
       return flatter * flatter * whole;
@@ -68,7 +68,7 @@ Sym2<double> Kernel<WaveNormals>::wave_variance(const P& params, const TextureLe
   return {0, 0, 0};
 }
 
-/// All that comes after hangs on them.
+/// All later operators depend on the normal.
 double Kernel<WaveNormals>::bound(const P&, const Pass&, const Ranges&) { return HUGE_VAL; }
 
 std::string_view Kernel<WaveNormals>::prefer(P& params, const AtHand& has) {

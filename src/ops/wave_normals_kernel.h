@@ -11,7 +11,6 @@
 
 namespace limpid {
 
-/// What WaveNormals does to pixels.
 template <>
 struct Kernel<WaveNormals> : WaveNormals {
   static constexpr StateSet kUses{};
@@ -23,8 +22,8 @@ struct Kernel<WaveNormals> : WaveNormals {
     const bool from_map = p.model != Model::kPlate && p.model != Model::kSines;
     return {.planes = reads(p), .wave_map = from_map};
   }
-  /// Waves that are known raise the water. A plate knows its surface better; maps and the frame's
-  /// normals say how it leans, not how high it is.
+  /// Waves with known heights raise the water. A plate's own surface depth is better; maps and the
+  /// frame's normals give slopes, but no heights.
   static PlaneSet wants(const Params& p, const AtHand& has) {
     const bool known = p.model == Model::kSines && (!p.waves.empty() || has.waves);
     return known && p.strength != 0 ? PlaneSet{PlaneId::kSurfaceDepth} : PlaneSet{};
@@ -37,11 +36,11 @@ struct Kernel<WaveNormals> : WaveNormals {
   static bool needs_slope_map(const Params& p) {
     return p.model == Model::kSlopes && p.filter != Filter::kNone;
   }
-  /// How far maps have drifted at a time in s, in periods of tile_size.
+  /// The drift of maps at a time in s, in periods of tile_size.
   LIMPID_INLINE static double drift(const Params& params, double time) {
     return params.speed * time / params.tile_size;
   }
-  /// Where the lookups of four_maps and slopes are then.
+  /// The shifts of the lookups of four_maps and slopes at a time in s.
   LIMPID_INLINE static FourShifts four_shifts(const Params& params, double time) {
     if (params.wind > 0) {
       FourShifts shifts;
@@ -55,10 +54,10 @@ struct Kernel<WaveNormals> : WaveNormals {
   }
   /// Whether it reads Pass::wave_variance.
   static bool needs_wave_variance(const Params& p) { return p.wind > 0 && needs(p).wave_map; }
-  /// Of these waves at strength 1 without the wind's scale, at a time in s.
+  /// Variance of these waves at strength 1 without the wind's scale, at a time in s.
   static Sym2<double> wave_variance(const Params& params, const TextureLevels& map, double time);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
-  /// Normals that came with the plate are better than any that could be made up.
+  /// Normals of the plate are better than computed normals.
   static std::string_view prefer(Params& params, const AtHand& has);
   static Swell swell(const Params& params) { return {true, params.waves, params.strength}; }
   static double ns(const Params& params, const Running& running);
@@ -98,8 +97,9 @@ struct Kernel<WaveNormals> : WaveNormals {
   }
 
  private:
-  /// Waves of one length, in tiles, that run along `course`: ahead of the wind and aside. Their
-  /// lookup begins so many periods on, so that no two see the same.
+  /// Waves of one length, in tiles, that run along `course`: along the wind and across it. Each
+  /// train's lookup begins at its own offset, in periods, so that no two trains show the same
+  /// waves.
   struct Train {
     double length;
     Vec2<double> course, begin;
@@ -115,7 +115,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     const double angle = params.direction * (std::numbers::pi / 180);
     return {std::cos(angle), std::sin(angle)};
   }
-  /// How far waves have run at a time in s, in periods of tile_size.
+  /// The distance that waves have run at a time in s, in periods of tile_size.
   LIMPID_INLINE static Vec2<double> run(const Params& params, const Train& train, double time) {
     const Vec2<double> ahead = downwind(params), aside{-ahead.y, ahead.x};
     const double speed = phase_speed(train.length * params.tile_size);
@@ -123,7 +123,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     return time / params.tile_size *
            (of_skin + speed * (train.course.x * ahead + train.course.y * aside));
   }
-  /// What the wind multiplies slopes by, along it and across it.
+  /// Factors by which the wind multiplies slopes, along it and across it.
   LIMPID_INLINE static Vec2<double> wind_factors(const Params& params, const Pass& c) {
     const Vec2<double> ahead = downwind(params);
     const WindSlopes wanted = wind_slopes(params.wind);
@@ -135,13 +135,13 @@ struct Kernel<WaveNormals> : WaveNormals {
   }
   static constexpr double kFlattest = 4e-5;  ///< bytes one step apart vary by 3e-5
 
-  /// Vectors in the axes of the map, and what they vary, to what they are under the wind.
+  /// Scales vectors in the axes of the map, and their variance, by the wind factors.
   template <class Strip>
   static void stretch(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
     if (!(params.wind > 0)) return;
     const Vec2<double> ahead = downwind(params), factors = wind_factors(params, c);
-    const double more = factors.x - factors.y;  // factors.y everywhere, and more ahead
+    const double more = factors.x - factors.y;  // factors.y everywhere, and more along the wind
     const char* name = "wave_normals.stretch";
     const F xx = given<F>(factors.y + more * ahead.x * ahead.x, name, 0);
     const F xy = given<F>(more * ahead.x * ahead.y, name, 1);
@@ -160,9 +160,10 @@ struct Kernel<WaveNormals> : WaveNormals {
     });
   }
 
-  /// A normal of the plate is one sample of the waves in the pixel. Of a Gaussian field the mean in
-  /// a footprint S, given that sample, is expected to be `kept` times it, and what is seen of the
-  /// slopes there varies around that by the rest. Where neighbours lean alike there are no waves.
+  /// A normal of the plate is one sample of the waves in the pixel. For a Gaussian field with that
+  /// sample, the expected mean over a footprint S is `kept` times the sample, and the visible
+  /// slopes vary around that mean by the rest. Where neighbours have equal normals there are no
+  /// waves.
   template <class Strip>
   static void plate_sample(const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
@@ -187,7 +188,7 @@ struct Kernel<WaveNormals> : WaveNormals {
       if_any(coarse, [&] {
         Vec3<F> sum{F(0), F(0), F(0)};
         for (int k = 0; k < 9; ++k) sum = sum + normals[k];
-        // Unit normals that differ by little are shorter in the mean by half their variance.
+        // The mean of unit normals that differ little is shorter by half their variance.
         const F differ = max(F(1) - dot(sum, sum) * F(1.0 / 81), F(0));
         const F wavy = min(differ / enough, F(1));
         const F lost = select(coarse, wavy * (F(1) - kept), F(0));
@@ -197,7 +198,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     });
   }
   static constexpr double kResolved = 0.9999;  ///< of a wave's variance
-  /// Share of what slopes vary over the frame that nine neighbours do where there are waves.
+  /// Share of the frame's slope variance that nine neighbours show where there are waves.
   static constexpr double kWavy = 0.3;
 
   // While the models gather, p.normal holds their sums, in the axes of the map.
@@ -282,7 +283,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     int nth = -1;
     for (const SineWave& wave : params.waves.empty() ? c.waves : params.waves) {
       ++nth;
-      // Phases in turns, those below the eye reduced in double.
+      // Phases in turns; phases below the eye are reduced in double.
       const F begin = given<F>(c.phase_at_eye(wave) / kTurn, "waves.begin", nth);
       const Vec3<F> step = given<F>(wave.k_x / kTurn, "waves.turns_x", nth) * map_x +
                            given<F>(wave.k_y / kTurn, "waves.turns_y", nth) * map_y;
@@ -294,13 +295,13 @@ struct Kernel<WaveNormals> : WaveNormals {
       const Vec2<F> k{given<F>(wave.k_x), given<F>(wave.k_y)};
       strip.each([&](Pixel<F>& p) {
         const F turns = begin + dot(p.surface_point, step);
-        // Too far for a float to tell crest from trough: they average out.
+        // Beyond this a float cannot resolve the phase: the waves average out.
         const auto known = abs(turns) < F(1e6);
         const F within = select(known, turns - floor(turns), F(0));
         const F cosine = select(known, cos(F(kTurn) * within), F(0));
         F rise = cosine;
         if (variance) {
-          // Of a wave that is many radians wide in the pixel, e^-40 is left: nothing.
+          // Of a wave with many radians in the pixel, e^-40 is left: nothing.
           const F q = select(known, min(max(along(footprint(c, p), k), F(0)), F(40)), F(40));
           if_any(q > F(kLeastRadians), [&] {
             const F kept = exp(F(-0.5) * q), square = kept * kept;
@@ -322,10 +323,10 @@ struct Kernel<WaveNormals> : WaveNormals {
     }
     lean(params.strength, c, strip);
   }
-  /// Square of the radians of a wave in a pixel below which all of it is resolved.
+  /// Square of a wave's radians in a pixel below which the pixel resolves the wave.
   static constexpr double kLeastRadians = 1e-3;
 
-  /// Where a pixel is 1 to 2 texels wide, the four lookups pass into one of the slope map.
+  /// Where a pixel is 1 to 2 texels wide, the four lookups blend into one lookup of the slope map.
   template <class Strip>
   static void slopes(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
@@ -374,7 +375,7 @@ struct Kernel<WaveNormals> : WaveNormals {
         });
   }
 
-  /// While a model looks up a map, p.tilt.x says how many of its texels the pixel is wide: 0
+  /// While a model looks up a map, p.tilt.x is the width of the pixel in texels of the map: 0
   /// without a filter.
   template <class Strip>
   static void measure(bool filtered, const Params& params, const Pass& c, Strip& strip) {
@@ -385,11 +386,11 @@ struct Kernel<WaveNormals> : WaveNormals {
                               window.height() / params.tile_size};
     strip.each([&](Pixel<F>& p) { p.tilt.x = texels_wide(footprint(c, p), texels, kNarrowest); });
   }
-  /// Of a footprint's length that its width counts at least: four times as long as wide is what
-  /// engines' filters give a pixel with four lookups, and one lookup may not blur more.
+  /// Least ratio of a footprint's width to its length: the filters of engines give a pixel four
+  /// lookups for a footprint four times as long as wide, and one lookup may not blur more.
   static constexpr double kNarrowest = 0.25;
 
-  /// In texels of a map that is tiled so densely.
+  /// Width in texels of a map with this tiling.
   template <class F>
   struct Wide {
     double tiling = 1;
@@ -405,7 +406,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     for (int i = 0; i < 4; ++i) look_up(Place<F>(params, c, i, 1, shifts.of[i]));
   }
 
-  /// From a vector in the axes of the map to the normal: normalize(lerp(up, vector, strength)).
+  /// The normal from a vector in the axes of the map: normalize(lerp(up, vector, strength)).
   template <class Strip>
   static void blend_from_calm(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
@@ -418,7 +419,7 @@ struct Kernel<WaveNormals> : WaveNormals {
     });
   }
 
-  /// From downhill slopes along the axes of the map to the normal.
+  /// The normal from downhill slopes along the axes of the map.
   template <class Strip>
   static void lean(double scale, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
@@ -431,14 +432,14 @@ struct Kernel<WaveNormals> : WaveNormals {
 
   static constexpr double kSteepest = 1e9;  ///< slope of one wave; its square is finite in float
 
-  /// Where a pixel lies in the map, in periods since the world's origin; kept small in double
-  /// before it becomes a float.
+  /// The pixel's place in the map, in periods since the world's origin; reduced in double before it
+  /// becomes a float.
   template <class F>
   struct Place {
     F u0, v0;
     Vec3<F> u_step, v_step;
 
-    /// `nth` tells the places of one model apart.
+    /// `nth` distinguishes the places of one model.
     Place(const Params& params, const Pass& c, int nth, double tiling, Vec2<double> moved) {
       const double scale = tiling / params.tile_size;
       const auto begin = [&](const glm::dvec3& axis, double move, const char* name) {

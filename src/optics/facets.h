@@ -4,8 +4,8 @@
 #include "limpid/core/number.h"
 
 /// @file
-/// Three facets that stand for all of a pixel whose slopes along the view are Gaussian: a mean over
-/// them is that over the three.
+/// Three facets that represent a pixel whose slopes along the view are Gaussian: a mean over the
+/// slopes becomes a weighted mean over the three facets.
 
 namespace limpid {
 
@@ -16,7 +16,7 @@ struct ThreeFacets {
   F lean[3], share[3];
 };
 
-/// Of z > 0 by the density of a Gaussian of deviation 1 around `mean`, the integrals of z^n.
+/// Integrals of z^n over z > 0, weighted by a Gaussian of deviation 1 around `mean`.
 template <class F>
 struct AboveZero {
   F of[5];
@@ -33,11 +33,12 @@ struct AboveZero {
   }
 };
 
-/// Of a plane whose normals lean and which hides no facet. A facet that would mirror rays into the
-/// water mirrors along it: `level` is how far it is from the mean facet down to those. Where few do
-/// these are the nodes of Gauss and Hermite, else those of Gauss and Radau for the slopes, those
-/// that are level in one place: exact for polynomials up to the fourth degree in both. Above
-/// 2.3 few do, where both are much alike, and below -1.5 counts as -1.5.
+/// Facets of a plane with tilted normals, which hides no facet. A facet that would mirror rays into
+/// the water mirrors along it: `level` is the distance from the mean facet to these facets. If few
+/// facets are level, the nodes are those of Gauss and Hermite, else those of Gauss and Radau for
+/// the slopes, with all level facets at one node: exact for polynomials up to the fourth degree in
+/// both cases. Few means `level` above 2.3, where both rules nearly agree; values below -1.5 count
+/// as -1.5.
 template <class F>
 LIMPID_INLINE ThreeFacets<F> plane_facets(F level) {
   constexpr double kFew = 2.3, kNode = std::numbers::sqrt3;
@@ -58,12 +59,12 @@ LIMPID_INLINE ThreeFacets<F> plane_facets(F level) {
            select(few, F(1.0 / 6), F(1) - low_share - high_share)}};
 }
 
-/// Of a surface that waves raise: a facet counts by its area that the view sees. `facing`: how the
-/// mean facet faces the view, which is the view's height over it for a unit along it, over the
-/// deviation. Facets are seen by z > 0, how they face, times the Gaussian around `facing`, whose
-/// moments are those of g = 1 / (facing + phi / Phi): the mean is facing + g, the variance
-/// 2 - facing g - g^2. Smith 1967, "Geometrical Shadowing of a Random Rough Surface". Below 0 the
-/// mean facet counts as one that the view grazes.
+/// Facets of a surface that waves raise: a facet counts by its area visible to the view. `facing`:
+/// how the mean facet faces the view, which is the view's height over it for a unit along it, over
+/// the deviation. Facets are visible where z > 0, the measure of how they face, with a Gaussian
+/// around `facing`, whose moments are those of g = 1 / (facing + phi / Phi): the mean is facing +
+/// g, the variance 2 - facing g - g^2. Smith 1967, "Geometrical Shadowing of a Random Rough
+/// Surface". Below 0 the mean facet counts as one that the view grazes.
 template <class F>
 LIMPID_INLINE ThreeFacets<F> seen_facets(F facing) {
   const F a = max(facing, F(0)), near = min(a, F(8));

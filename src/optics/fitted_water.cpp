@@ -14,12 +14,12 @@ constexpr Spectrum kPure = {.00663, .00473, .00454, .00495, .00635, .00922, .009
                             .0619,  .0695,  .0896,  .1351,  .2224,  .2644,  .2755,  .2916,
                             .3108,  .340,   .410,   .439,   .465,   .516,   .624};
 
-// Prieur & Sathyendranath 1981: of chlorophyll, over that at 440 nm.
+// Prieur & Sathyendranath 1981: absorption of chlorophyll, over its value at 440 nm.
 constexpr Spectrum kChlorophyll = {.687, .828, .913, .973, 1,    .944, .917, .870, .798, .750, .668,
                                    .618, .528, .474, .416, .357, .294, .276, .291, .282, .236, .252,
                                    .276, .317, .334, .356, .441, .595, .502, .329, .215};
 
-// Jerlov 1976: K_d of his types, 400 ... 700 nm by 25 nm, 1/m.
+// Jerlov 1976: K_d of his water types, 400 ... 700 nm by 25 nm, 1/m.
 constexpr std::size_t kJerlovSize = 13;
 constexpr double kJerlov[][kJerlovSize] = {
     {.028, .022, .019, .018, .027, .043, .063, .089, .235, .305, .36, .42, .56},    // I
@@ -53,13 +53,13 @@ Spectrum spectrum(Of&& of) {
   return s;
 }
 
-/// A Gaussian lobe of that peak, with a width on each side of it, as Wyman et al. have it.
+/// A Gaussian lobe with a peak and a width on each side of it, as in Wyman et al.
 double lobe(double wavelength, double peak, double per_left, double per_right) {
   const double t = (wavelength - peak) * (wavelength < peak ? per_left : per_right);
   return std::exp(-0.5 * t * t);
 }
 
-/// Of the observer, X, Y and Z.
+/// The CIE observer: X, Y and Z.
 glm::dvec3 observer(double l) {
   return {1.056 * lobe(l, 599.8, .0264, .0323) + .362 * lobe(l, 442.0, .0624, .0374) -
               .065 * lobe(l, 501.1, .0490, .0382),
@@ -67,7 +67,7 @@ glm::dvec3 observer(double l) {
           1.217 * lobe(l, 437.0, .0845, .0278) + .681 * lobe(l, 459.0, .0385, .0725)};
 }
 
-/// Planck's law, of 6504 K, over what it is at 550 nm.
+/// Planck's law at 6504 K, over its value at 550 nm.
 double daylight(double l) {
   constexpr double kSecond = 1.4388e7;  // h c / k, in nm K
   const auto radiance = [](double at) {
@@ -92,8 +92,8 @@ double left_of(const Spectrum& weights, const Spectrum& rates, double way) {
   return left;
 }
 
-/// Where `of` is least between two numbers, of which it falls towards that place and rises beyond
-/// it: by the golden section, to a part in 1e9 of the interval.
+/// The minimum of `of` in an interval, in which it falls up to the minimum and rises beyond it: by
+/// the golden section, to a part in 1e9 of the interval.
 template <class Of>
 double least(double low, double high, Of&& of) {
   constexpr double kGolden = 0.6180339887498949;
@@ -153,7 +153,7 @@ Rgb<double> fitted_rates(const Rgb<Spectrum>& weights, const Spectrum& rates) {
   const auto ends = std::minmax_element(rates.begin(), rates.end());
   const double low = *ends.first, high = *ends.second;  // clang 14 captures no bindings
   if (low == high) return {low, low, low};
-  // Ways from where nothing is lost to where nothing is left.
+  // Path lengths from where nothing is lost to where nothing is left.
   constexpr int kWays = 192;
   const double first = std::log(1e-3 / high), last = std::log(30 / low);
   return each(weights, [&](const Spectrum& w) {
@@ -184,7 +184,7 @@ FittedWater fitted_water(const Primaries& primaries, const NamedWater& water) {
   const Spectrum swallowed = spectrum([&](std::size_t, double l) {
     return sediment_water_at(l, water.sediment).absorption + cdom_absorption_at(l, water.cdom);
   });
-  const double thrown = sediment_water_at(550, water.sediment).scattering;  // the same for all
+  const double thrown = sediment_water_at(550, water.sediment).scattering;  // for all channels
   return {{fitted_rates(weights, own.absorption), mean(own.scattering)},
           fitted_rates(weights, own.down_attenuation),
           {fitted_rates(weights, swallowed), {thrown, thrown, thrown}}};

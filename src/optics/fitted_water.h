@@ -7,8 +7,8 @@
 #include "limpid/optics/water_types.h"
 
 /// @file
-/// Natural waters by their spectra, 400 ... 700 nm by 10 nm, and what they are for the red, green
-/// and blue of a working space.
+/// Natural waters by their spectra, 400 ... 700 nm by 10 nm, and their coefficients for the red,
+/// green and blue of a working space.
 
 namespace limpid {
 
@@ -16,41 +16,41 @@ inline constexpr std::size_t kSpectrumSize = 31;
 using Spectrum = std::array<double, kSpectrumSize>;
 inline constexpr double wavelength_of(std::size_t i) { return 400 + 10 * static_cast<double>(i); }
 
-/// A water by its name and what is mixed into it, as DepthFog::Params has them.
+/// A water type and the substances mixed into it, as DepthFog::Params has them.
 struct NamedWater {
   WaterType type;
   double murkiness = 0, sediment = 0, cdom = 0;
 };
 
-/// What a length of it takes and throws elsewhere, 1/m, for each wavelength.
+/// Absorption and scattering per length, 1/m, for each wavelength.
 struct WaterSpectra {
   Spectrum absorption{}, scattering{}, down_attenuation{};
 };
-/// Of the type alone: of kCustom nothing; as water_optics() and case_1_water() at other wavelengths
-/// than theirs. Pope & Fry 1997; Jerlov 1976, table XXVII, which has every 25 nm; Prieur &
-/// Sathyendranath 1981, "An Optical Classification of Coastal and Oceanic Waters Based on the
-/// Specific Spectral Absorption Curves of Phytoplankton Pigments, Dissolved Organic Matter, and
+/// The spectra of the type alone: 0 for kCustom; those of water_optics() and case_1_water() for
+/// other wavelengths than theirs. Pope & Fry 1997; Jerlov 1976, table XXVII, which has every 25 nm;
+/// Prieur & Sathyendranath 1981, "An Optical Classification of Coastal and Oceanic Waters Based on
+/// the Specific Spectral Absorption Curves of Phytoplankton Pigments, Dissolved Organic Matter, and
 /// Other Particulate Materials".
 WaterSpectra spectra_of(const NamedWater& water);
 
-/// How much each wavelength counts for red, green and blue of white light: their sums are 1. The
-/// light is that of a black body of 6504 K, about daylight; the observer is that of CIE 1931 as
-/// Wyman, Sloan & Shirley 2013, "Simple Analytic Approximations to the CIE XYZ Color Matching
-/// Functions", has it. What the three show of other light is taken for the share of it that white
-/// light shows, so that light and space need not have the same white.
+/// The weight of each wavelength in red, green and blue of white light: the sums are 1. The light
+/// is that of a black body of 6504 K, about daylight; the observer is CIE 1931 as fitted by Wyman,
+/// Sloan & Shirley 2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions".
+/// Other light counts as its share of the white light in each channel, so that light and space need
+/// not have the same white.
 Rgb<Spectrum> channel_weights(const Primaries& primaries);
 
-/// What is left of white light after a way, of red, green and blue: what fitted_rates() fits.
+/// Red, green and blue left of white light after a path: the curve that fitted_rates() fits.
 Rgb<double> light_left(const Rgb<Spectrum>& weights, const Spectrum& rates, double way);
 
-/// The rates s of red, green and blue by which exp(-s way) is nearest to light_left(): the integral
-/// of the squared difference over the logarithm of the way, over all ways, is least. So no length
-/// counts more than others but by what it shows of the difference. A spectrum that is the same for
-/// all wavelengths is that rate for all channels, and an empty one 0.
+/// The rates s of red, green and blue by which exp(-s path) is nearest to light_left(): the
+/// integral of the squared difference over the logarithm of the path, over all paths, is least. So
+/// each length counts only by the difference that it shows. A spectrum equal at all wavelengths
+/// gives its rate for all channels, and an empty one 0.
 Rgb<double> fitted_rates(const Rgb<Spectrum>& weights, const Spectrum& rates);
 
-/// What is taken is fitted; what is thrown elsewhere is the mean of what white light meets, for it
-/// is light that is to be right already where the way begins.
+/// Absorption is fitted. Scattering is its mean over white light, because in-scatter must be right
+/// already where the path begins.
 FittedWater fitted_water(const Primaries& primaries, const NamedWater& water);
 
 }  // namespace limpid

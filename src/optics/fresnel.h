@@ -2,8 +2,8 @@
 #include "limpid/core/number.h"
 
 /// @file
-/// How much of the light that meets the surface is reflected. `cosine` is V.n, the cosine between
-/// the unit direction to the viewer and the unit normal.
+/// Share of light that the surface reflects. `cosine` is V.n, the cosine between the unit direction
+/// to the viewer and the unit normal.
 
 namespace limpid {
 
@@ -22,9 +22,9 @@ LIMPID_INLINE F fresnel_linear(F cosine) {
   return F(1) - saturate(cosine);
 }
 
-/// sat(1 - intensity sat(V.n)^power), for both >= 0: Rito15 2021, "Making a Water Shader", which
-/// goes negative for an intensity above 1; here that is 0. Not physical: at normal incidence 1 -
-/// intensity, so a smaller intensity reflects more; 1 at grazing angles as it should be.
+/// sat(1 - intensity sat(V.n)^power), for both >= 0: Rito15 2021, "Making a Water Shader", whose
+/// formula goes negative for an intensity above 1; here that is 0. Not physical: at normal
+/// incidence 1 - intensity, so a smaller intensity reflects more; correct (1) at grazing angles.
 template <class F>
 LIMPID_INLINE F fresnel_inverse_power(F cosine, F intensity, double power) {
   return saturate(F(1) - intensity * pow(saturate(cosine), power));

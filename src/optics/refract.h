@@ -2,9 +2,9 @@
 #include "limpid/core/vec.h"
 
 /// @file
-/// Where a ray goes at a smooth surface. Vectors are unit: `to_viewer` points against the ray,
-/// `normal` to the viewer's side. `eta` is the index on the viewer's side over the index on the far
-/// side (1 / 1.333 from air into water, 1.333 from below), the inverse of fresnel_exact's `ior`.
+/// The ray at a smooth surface. Vectors are unit: `to_viewer` points against the ray, `normal` to
+/// the viewer's side. `eta` is the index on the viewer's side over the index on the far side (1 /
+/// 1.333 from air into water, 1.333 from below), the inverse of fresnel_exact's `ior`.
 
 namespace limpid {
 
@@ -31,7 +31,7 @@ LIMPID_INLINE Refracted<F> refract(Vec3<F> to_viewer, Vec3<F> normal, F eta) {
   const F cosine = dot(to_viewer, normal);
   const F sine_square = max(F(1) - cosine * cosine, F(0));
   const auto total = eta * eta * sine_square > F(1);
-  // Where light is totally reflected the sine is above 1 / eta, so the root is never of 0.
+  // At total reflection the sine is above 1 / eta, so the root is never of 0.
   const F along = select(total, F(1) / sqrt(select(total, sine_square, F(1))), eta);
   return {along * (cosine * normal - to_viewer) - refracted_cosine(cosine, eta) * normal,
           select(total, F(1), F(0))};

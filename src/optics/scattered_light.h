@@ -8,17 +8,16 @@
 #include "optics/absorption.h"
 
 /// @file
-/// Light that water scatters more than once, and that its bottom and its surface throw back and
-/// forth: the numbers that are left of the equation of radiative transfer (Chandrasekhar 1960,
-/// "Radiative Transfer") in a level layer of water, once it is solved for a frame
-/// (complete/scattered_light.h).
+/// Multiple scattering in water, with reflection by its bottom and surface: the coefficients of the
+/// solution of the equation of radiative transfer (Chandrasekhar 1960, "Radiative Transfer") in a
+/// level layer of water, solved once per frame (complete/scattered_light.h).
 
 namespace limpid {
 
-/// Share of the light scattered by Henyey and Greenstein's phase function that goes on so nearly
-/// straight, by less than 10 degrees, that it counts as not scattered: what the peak of the
-/// function has there over its value at 10 degrees (Potter 1970, "The Delta Function Approximation
-/// in Radiative Transfer Theory"). `anisotropy` -0.99 ... 0.99; 0 up to 0.
+/// Share of light scattered by Henyey and Greenstein's phase function that turns by less than 10
+/// degrees, so little that it counts as not scattered: the peak of the function above its value at
+/// 10 degrees (Potter 1970, "The Delta Function Approximation in Radiative Transfer Theory").
+/// `anisotropy` -0.99 ... 0.99; 0 up to 0.
 inline double narrow_share(double anisotropy) {
   constexpr double kCosine = 0.984807753012208;  // of 10 degrees
   const double g = anisotropy;
@@ -29,59 +28,59 @@ inline double narrow_share(double anisotropy) {
   return inside > level ? inside - level : 0;
 }
 
-/// What light that is scattered more than once depends on, all else being the pixel's.
+/// The water of a frame, on which multiple scattering depends besides the pixel.
 struct ScatteringWater {
   Rgb<double> absorption{0, 0, 0}, scattering{0, 0, 0};  ///< 1/scene unit, >= 0
   double anisotropy = 0;                                 ///< -0.99 ... 0.99
   double beam = 1;  ///< cosine of the sun's beam with the vertical, in the water, 0 ... 1
   double ior = 1.333;
-  bool surface = true;  ///< whether the surface reflects what comes from below
+  bool surface = true;  ///< whether the surface reflects light from below
   bool inside = false;  ///< whether views may begin in the water
 
   bool operator==(const ScatteringWater&) const = default;
 };
 
-/// Of one channel. Radiances are those in the water, over what a white Lambert surface shows that
-/// faces the sun's beam in the water ("sun"), or over the radiance of an even sky ("sky").
-/// Polynomials in x = t / (t + 2), without a constant, t being the optical depth straight down to
-/// the bottom: all light that is no beam's fades in or out from 0 there. They are fitted to the
-/// layer's solution at optical depths 1/64 ... 8192.
+/// Multiple scattering in one channel. Radiances are those in the water, over the radiance of a
+/// white Lambert surface that faces the sun's beam in the water ("sun"), or over the radiance of an
+/// even sky ("sky"). Polynomials in x = t / (t + 2), without a constant, t being the optical depth
+/// straight down to the bottom: all diffuse light is 0 at t = 0. They are fitted to the layer's
+/// solution at optical depths 1/64 ... 8192.
 struct ScatteredLight {
   static constexpr int kDegree = 6;
   static constexpr double kMaxAlbedo = 0.9;  ///< of a bottom
-  /// What the radiance of the sun's light depends on besides: 1, the cosine of the view with the
-  /// vertical, that of the angle by which the beam is turned, and the phase function of light that
-  /// is scattered twice at that angle.
+  /// The shapes by which the radiance of the sun's light depends on directions: 1, the cosine of
+  /// the view with the vertical, that of the scattering angle of the beam, and the phase function
+  /// of double scattering at that angle.
   static constexpr int kShapes = 4;
   using Power = std::array<double, kDegree>;
 
-  std::array<Power, kShapes> sun{};  ///< scattered more than once, over 1 - exp(-both ways)
+  std::array<Power, kShapes> sun{};  ///< scattered more than once, over 1 - exp(-both paths)
   std::array<Power, 2> sky{};        ///< scattered once and more; by the first two shapes
-  /// Radiance that a bottom of radiance 1 shows through the layer, beyond exp(-the way).
+  /// Radiance that a bottom of radiance 1 shows through the layer, beyond exp(-path).
   std::array<Power, 2> passing{};
-  Power sun_below{};  ///< what lights a bottom that is black, beyond the beam itself
-  Power sky_below{};  ///< likewise, beyond what the surface lets in
+  Power sun_below{};  ///< light on a black bottom, beyond the beam itself
+  Power sky_below{};  ///< likewise, beyond the light that the surface transmits
   double sky_at_once = 1;
-  /// Share of what leaves the bottom that comes back to it, beyond what a surface right above it
-  /// throws back.
+  /// Share of the bottom's light that returns to it, beyond the share that a surface right above it
+  /// reflects.
   Power back{};
   double back_at_once = 0;
 
-  /// For views that begin in the water (0 where none may), deep enough for the bottom not to
-  /// matter: radiance that a unit of way adds at depth z under the surface, by light scattered more
-  /// than once of the sun, and once and more of the sky. The sum of what fades as exp(-fades[i] z),
-  /// each by inside_sun_shapes() or inside_sky_shapes().
+  /// For views that begin in the water (else 0), deep enough for the bottom not to matter: radiance
+  /// added per unit of path at depth z under the surface, by sunlight scattered more than once, and
+  /// by the sky's light scattered once or more. A sum of terms that fade as exp(-fades[i] z), each
+  /// by inside_sun_shapes() or inside_sky_shapes().
   static constexpr std::size_t kFades = 4, kInside = 6;
   std::array<double, kFades> fades{};
   std::array<std::array<double, kInside>, kFades> inside_sun{}, inside_sky{};
 
-  /// For bounds. Of light scattered more than once the largest radiance, over all views and depths,
-  /// and that of an optical depth, for what is shallow; of light from the bottom the largest, its
-  /// albedo kMaxAlbedo.
+  /// For bounds. Multiple scattering: the largest radiance over all views and depths, and the
+  /// largest per optical depth, for shallow water. Light from the bottom: the largest, for albedo
+  /// kMaxAlbedo.
   double most_sun = 0, most_sky = 0, slope_sun = 0, slope_sky = 0;
   double most_bottom_sun = 0, most_bottom_sky = 0;
-  /// How far all that is from endless water, in layers of optical depth kFirstLayer, and each twice
-  /// as deep as the last, to 8192, and in all deeper ones.
+  /// Largest difference from endless water, in layers of optical depth kFirstLayer, each twice as
+  /// deep as the last, to 8192, and in all deeper layers.
   static constexpr int kLayers = 20;
   static constexpr double kFirstLayer = 1.0 / 64;
   std::array<double, kLayers> beyond_sun{}, beyond_sky{};
@@ -90,7 +89,7 @@ struct ScatteredLight {
 /// Of red, green and blue.
 using ScatteredLights = std::array<ScatteredLight, 3>;
 
-/// x of the polynomials.
+/// The x of the polynomials.
 template <class F>
 LIMPID_INLINE F layer_variable(F depth) {
   return depth / (depth + F(2));
@@ -104,7 +103,7 @@ LIMPID_INLINE F layer_power(const ScatteredLight::Power& p, F x) {
   return x * sum;
 }
 
-/// The same of several, each times its shape.
+/// The sum of several polynomials, each times its shape.
 template <std::size_t N, class F>
 LIMPID_INLINE F layer_power(const std::array<ScatteredLight::Power, N>& p,
                             const std::array<F, N>& shapes, F x) {
@@ -117,9 +116,10 @@ LIMPID_INLINE F layer_power(const std::array<ScatteredLight::Power, N>& p,
   return x * sum;
 }
 
-/// What the light that is scattered into a view in the water depends on: the view's cosine with the
-/// downwards vertical and, of the sun's where light is scattered unevenly (`turns`), that of the
-/// angle by which the beam is turned, the wider the more often; `square` is that of the anisotropy.
+/// The shapes by which light scattered into a view in the water depends on directions: the view's
+/// cosine with the downwards vertical and, for sunlight in water that scatters unevenly (`turns`),
+/// the cosine of the beam's scattering angle, wider the more times it is scattered; `square` is
+/// that of the anisotropy.
 template <class F>
 LIMPID_INLINE std::array<F, ScatteredLight::kInside> inside_sky_shapes(F sink) {
   const F square = sink * sink;

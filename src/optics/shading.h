@@ -4,9 +4,9 @@
 #include "optics/highlight.h"
 
 /// @file
-/// How dry surfaces answer the sun: the materials of the raster pass (Shading in raster/model.h).
-/// `base` is the surface's color, `cosine` n.L, `shadow` the sun's visibility 0 ... 1, `sun` its
-/// color. Unlit materials are `base` itself.
+/// Shading of dry surfaces by the sun: the materials of the raster pass (Shading in
+/// raster/model.h). `base` is the surface's color, `cosine` n.L, `shadow` the sun's visibility 0
+/// ... 1, `sun` its color. Unlit materials are `base` itself.
 
 namespace limpid {
 
@@ -16,8 +16,8 @@ LIMPID_INLINE Rgb<F> lambert_shading(Rgb<F> base, Rgb<F> ambient, F cosine, F sh
   return base * (ambient + saturate(cosine) * shadow * sun);
 }
 
-/// The light that the Phong lobe adds: specular sat(R.V)^power shadow sun, only where n.L > 0, so
-/// that nothing glints on the side that faces away. n, v, l unit; `specular` may be a map's color.
+/// Light of the Phong lobe: specular sat(R.V)^power shadow sun, only where n.L > 0, so that the
+/// side that faces away has no highlight. n, v, l unit; `specular` may be a map's color.
 template <class F>
 LIMPID_INLINE Rgb<F> phong_glint(Rgb<F> specular, F power, Vec3<F> n, Vec3<F> v, Vec3<F> l,
                                  F shadow, Rgb<F> sun) {

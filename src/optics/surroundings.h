@@ -4,13 +4,13 @@
 #include "limpid/core/vec.h"
 
 /// @file
-/// What a mirror sees of the surroundings, and where that is in a map of all directions.
+/// The direction in which a mirror sees the surroundings, and its place in a map of all directions.
 
 namespace limpid {
 
-/// The place of a direction in a lat-long map, from its parts along two level axes and up: x in
-/// turns, 0.5 along the first axis and growing towards the second, y 0 straight up ... 1 straight
-/// down. Any length but 0; straight up and down x is 0.5.
+/// The place of a direction in a lat-long map, from its components along two level axes and up: x
+/// in turns, 0.5 along the first axis and growing towards the second, y 0 straight up ... 1
+/// straight down. The vector may have any length but 0; straight up and down x is 0.5.
 template <class F>
 LIMPID_INLINE Vec2<F> lat_long(F along_x, F along_y, F along_up) {
   const F level = sqrt(along_x * along_x + along_y * along_y);
@@ -18,7 +18,7 @@ LIMPID_INLINE Vec2<F> lat_long(F along_x, F along_y, F along_up) {
           F(1 / std::numbers::pi) * atan2(level, along_up)};
 }
 
-/// The unit direction, laid flat where it goes below the horizon; `up`, unit, where it goes
+/// The unit direction, made level where it goes below the horizon; `up`, unit, where it goes
 /// straight down.
 template <class F>
 LIMPID_INLINE Vec3<F> lifted(Vec3<F> direction, Vec3<F> up) {

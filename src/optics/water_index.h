@@ -5,8 +5,8 @@
 
 namespace limpid {
 
-/// The wavelengths, in micrometres, that stand for the three channels wherever water is not alike
-/// for all.
+/// The wavelengths, in micrometres, that represent the three channels where water differs by
+/// wavelength.
 constexpr double kRedWavelength = 0.650;
 constexpr double kGreenWavelength = 0.550;
 constexpr double kBlueWavelength = 0.450;

@@ -18,8 +18,8 @@ struct Slopes {
   F x, y;
 };
 
-/// What is the same everywhere in a wave's phase at the time t. Stays exact for any t: omega t is
-/// reduced in double before it is used.
+/// The part of a wave's phase that is equal everywhere at the time t. Exact for any t: omega t is
+/// reduced in double first.
 inline double wave_offset(const SineWave& wave, double t) {
   return wave.phase - std::fmod(wave.omega * t, 2 * M_PI);
 }
@@ -30,14 +30,14 @@ LIMPID_INLINE F wave_phase(const SineWave& wave, F x, F y, F offset) {
   return F(wave.k_x) * x + F(wave.k_y) * y + offset;
 }
 
-/// Slopes of one sine, amplitude k cos(phase).
+/// Slopes of one sine wave, amplitude k cos(phase).
 template <class F>
 LIMPID_INLINE Slopes<F> sine_slopes(const SineWave& wave, F phase) {
   const F cosine = cos(phase);
   return {F(wave.amplitude * wave.k_x) * cosine, F(wave.amplitude * wave.k_y) * cosine};
 }
 
-/// Sum of sines at the plane coordinates x, y and the time t.
+/// Sum of sine waves at the plane coordinates x, y and the time t.
 inline WaveHeight wave_height(std::span<const SineWave> waves, double x, double y, double t) {
   WaveHeight sum;
   for (const SineWave& w : waves) {

@@ -15,8 +15,8 @@ const OperatorEntry& entry_of(int index) {
   return operator_table()[static_cast<std::size_t>(index)];
 }
 
-/// What is another when an operator is left out: what it makes and what later ones make of that.
-/// Light makes nothing but light.
+/// The state that changes when an operator is left out: the state it makes, and state that later
+/// operators make from it. Light changes only light.
 StateSet changed_by(const Plan& plan, int index) {
   StateSet changed = entry_of(index).makes;
   for (int i = index + 1; i < Chain::kCount; ++i) {
@@ -102,7 +102,7 @@ void CellRules::skip_invisible(CellState& cell) const {
   }
 }
 
-/// Backwards from what is written, as the rule drop_unread does for a whole plan.
+/// Backwards from the outputs, like the rule drop_unread for a whole plan.
 void CellRules::skip_unread(CellState& cell) const {
   if (cell.needs.dry) return;
   StateSet live = kOutputTerms | plan_.outputs;
@@ -116,7 +116,7 @@ void CellRules::skip_unread(CellState& cell) const {
   }
 }
 
-/// What the operators that run make of what the planes tell.
+/// The ranges after the operators that run, from the ranges of the planes.
 Ranges CellRules::reckoned(const Ranges& planes, bool endless) const {
   Ranges ranges = planes;
   ranges.hit = ranges.own;
@@ -130,7 +130,7 @@ Ranges CellRules::reckoned(const Ranges& planes, bool endless) const {
   return ranges;
 }
 
-/// Compared with a little less than the budget, for sums round.
+/// Compared with a little less than the budget, because sums round.
 bool CellRules::affords(CellState& cell, int index, double bound) const {
   if (!(cell.spent + bound <= plan_.max_error * (1 - 1e-6))) return false;
   float& most = cell.weighed.bounds[static_cast<std::size_t>(index)];
@@ -140,7 +140,7 @@ bool CellRules::affords(CellState& cell, int index, double bound) const {
   return true;
 }
 
-/// What the others that run make of another position than that of the finder.
+/// How much the other operators that run change the picture when the finder's position changes.
 double CellRules::displaced(const CellState& cell) const {
   double sum = 0;
   for (int i = 0; i < Chain::kCount; ++i) {

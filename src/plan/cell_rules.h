@@ -10,24 +10,24 @@
 
 namespace limpid {
 
-/// What is seen of one cell, and what the rules have made of it so far.
+/// What is known of one cell, and what the rules have decided so far.
 struct CellState {
   bool wet;              ///< has a wet pixel
-  const Ranges& planes;  ///< all that the planes tell
+  const Ranges& planes;  ///< ranges of the planes
   const InReach& reach;
-  Weighed& weighed;  ///< what is skipped for its bound is entered
+  Weighed& weighed;  ///< receives the operators skipped for their bound
   CellNeeds needs = {};
-  Ranges ranges = {};  ///< what the operators that run make of `planes`
+  Ranges ranges = {};  ///< ranges after the operators that run
   double spent = 0;    ///< of Plan::max_error
 };
 
-/// The rules that look at one cell (plan/rules.h has their order): what is true of all cells of a
-/// frame, found once.
+/// The rules for one cell (plan/rules.h has their order), with all that is common to the cells of a
+/// frame computed once.
 class CellRules {
  public:
   CellRules(const Plan& plan, const Pass& pass);
 
-  /// What a cell needs when all rules have looked at it.
+  /// The needs of a cell after all rules.
   CellNeeds decide(CellState cell) const;
 
   void copy_dry(CellState& cell) const;
@@ -41,7 +41,7 @@ class CellRules {
   static_assert(Chain::kCount <= 16);
 
   Ranges reckoned(const Ranges& planes, bool endless) const;
-  /// Compared with what is left of the budget; if it can be borne it is spent.
+  /// Compared with the rest of the budget; an affordable bound is spent.
   bool affords(CellState& cell, int index, double bound) const;
   double bound_of(int index, const CellState& cell) const;
   double displaced(const CellState& cell) const;
@@ -49,13 +49,12 @@ class CellRules {
   const Plan& plan_;
   const Pass& pass_;
   Mask kept_ = 0;
-  // Of those that are kept, which may be skipped without changing what is written besides the
-  // picture:
+  // Operators of the plan that may be skipped without changing the outputs besides the picture:
   Mask exact_ = 0;   ///< where its bound is 0
   Mask loose_ = 0;   ///< where its bound is small enough
   int finder_ = -1;  ///< the operator that finds the position in the dry picture, if it is kept
-  int hider_ = -1;   ///< the one that hides the end of the way, likewise
-  std::array<int, Chain::kCount> order_;  ///< dearest first
+  int hider_ = -1;   ///< the operator that hides the far end of the path, likewise
+  std::array<int, Chain::kCount> order_;  ///< most expensive first
 };
 
 }  // namespace limpid

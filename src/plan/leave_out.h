@@ -6,9 +6,8 @@
 
 namespace limpid {
 
-/// The plan that make_plan() makes where nothing reads what these operators make: to see what they
-/// change. What only they need falls with them. Throws Error besides for an operator that there is
-/// not.
+/// The plan of make_plan() if nothing reads what these operators make: shows what they change.
+/// Operators that only they need are left out as well. Throws Error for an unknown operator, too.
 Plan make_plan_without(const std::vector<std::string>& left_out, const Look& look,
                        const Inputs& inputs, StateSet outputs = {}, double max_error = 0);
 

@@ -5,7 +5,7 @@
 namespace limpid {
 namespace {
 
-/// What comes of the position that an operator finds.
+/// State derived from the position that an operator finds.
 constexpr StateSet kFound{StatePart::kPosition, StatePart::kPath, StatePart::kConfidence,
                           StatePart::kTransmittance};
 

@@ -8,15 +8,15 @@
 
 namespace limpid {
 
-/// What an operator of the chain tells of itself (op/operator.h), whichever it is: of one that does
-/// not tell, the default.
+/// The declarations of any operator of the chain (op/operator.h), with the default for each member
+/// that it lacks.
 struct OperatorEntry {
   std::string_view name;
   StateSet uses, makes;
   bool looks_above;
   bool hides;        ///< it has `beyond`
   bool rejects;      ///< it has `foreground_free`
-  CellKind skipped;  ///< named "": it has none
+  CellKind skipped;  ///< named "" if it has none
   PlaneSet (*reads)(const Look&);
   Needs (*needs)(const Look&);
   double (*reach)(const Look&);

@@ -5,7 +5,7 @@
 
 namespace limpid {
 
-/// What raises the water: waves of the plan's look or of the scene, where the surface is one of
+/// The waves that raise the water, from the plan's look or the scene, if the surface is one of
 /// Plan::completed. Refers to the plan.
 Swell swell_of(const Plan& plan);
 

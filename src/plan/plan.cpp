@@ -78,7 +78,7 @@ Plan make_plan_without(const std::vector<std::string>& left_out, const Look& loo
     }
   }
   plan.planes = plan.planes & inputs.planes;
-  if (!plan.planes.covers(kBelowPlanes)) plan.planes = plan.planes - kBelowPlanes;  // half a layer
+  if (!plan.planes.covers(kBelowPlanes)) plan.planes = plan.planes - kBelowPlanes;  // incomplete
   return plan;
 }
 

@@ -5,9 +5,10 @@
 
 namespace limpid {
 
-/// What an operator of a plan is expected to cost, in ns for each pixel of a cell in which it runs:
-/// on one thread with AVX-512 at about 4 GHz, its share of the fused pass. The planner takes what
-/// is dear first, and `limpid plan` shows it; nothing else hangs on it. 0 for what is dropped.
+/// Expected cost of an operator of a plan, in ns per pixel of a cell in which it runs: on one
+/// thread with AVX-512 at about 4 GHz, its share of the fused pass. The planner tries expensive
+/// operators first, and `limpid plan` shows the cost; it has no other use. 0 for an operator that
+/// is left out.
 inline double predicted_ns(const Plan& plan, int chain_index) {
   if (!plan.keeps(chain_index)) return 0;
   const OperatorEntry& entry = operator_table()[static_cast<std::size_t>(chain_index)];

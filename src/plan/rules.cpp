@@ -21,7 +21,7 @@ void add_reason(PlannedOperator& op, std::string_view reason) {
 
 AtHand at_hand(const Inputs& inputs) { return {inputs.planes, inputs.environment, inputs.waves}; }
 
-/// Calls visit(operator, its entry) for those that are kept, in order.
+/// Calls visit(operator, its entry) for the operators that are kept, in order.
 template <class Visit>
 void for_each_kept(Plan& plan, Visit&& visit) {
   for (int i = 0; i < Chain::kCount; ++i) {
@@ -30,7 +30,7 @@ void for_each_kept(Plan& plan, Visit&& visit) {
   }
 }
 
-// The rules of a plan. Each looks at the whole of it, changes it, and leaves its reason with the
+// The rules of a plan. Each reads the whole plan, changes it, and leaves its reason with the
 // operator.
 
 void take_better_input(Plan& plan, const Inputs& inputs) {
@@ -55,9 +55,8 @@ void drop_absent_input(Plan& plan, const Inputs& inputs) {
   });
 }
 
-/// In chain order: what is dropped before can make what comes after neutral. Neutral means for the
-/// picture: the path is measured by the way, and the operator that makes it stays when it is to be
-/// written.
+/// In chain order, because leaving out an operator can make a later one neutral. Neutral refers to
+/// the picture: an operator that makes the path stays if the path is an output.
 void drop_neutral(Plan& plan, const Inputs&) {
   StateSet made;
   for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
@@ -70,7 +69,7 @@ void drop_neutral(Plan& plan, const Inputs&) {
   });
 }
 
-/// Backwards from what is written.
+/// Backwards from the outputs.
 void drop_unread(Plan& plan, const Inputs&) {
   StateSet live = kOutputTerms | plan.outputs;
   for (int i = Chain::kCount - 1; i >= 0; --i) {
@@ -101,7 +100,7 @@ void warn_of_input(Plan& plan, const Inputs& inputs) {
   });
 }
 
-/// What is lit by the sky knows its radiance best where there is a picture of the surroundings.
+/// An operator lit by the sky uses the radiance of the surroundings, if there is a picture of them.
 void take_sky(Plan& plan, const Inputs& inputs) {
   for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
     if (!entry.lit_by_sky(plan.look)) return;
@@ -112,7 +111,7 @@ void take_sky(Plan& plan, const Inputs& inputs) {
   });
 }
 
-/// Planes that an operator which runs can use are made, where the plate lacks them.
+/// Completes planes that the plate lacks and an operator that runs can use.
 void complete_planes(Plan& plan, const Inputs& inputs) {
   for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
     const PlaneSet wanted = entry.wants(plan.look, at_hand(inputs));
@@ -171,7 +170,7 @@ std::string_view name_of(CellRule wanted) {
   return "";
 }
 
-/// Says of each operator which rule spoke of it last.
+/// Reports for each operator the last rule that decided about it.
 void apply_rules(Plan& plan, const Inputs& inputs) {
   for (const Rule& rule : kRules) {
     if (!rule.plan) continue;

@@ -7,20 +7,20 @@ class CellRules;
 struct CellState;
 using CellRule = void (CellRules::*)(CellState&) const;
 
-/// A rule of the planner. One of a plan is applied once, before any pixel is read, one of cells to
-/// each cell of a frame.
+/// A rule of the planner. A rule for plans is applied once, before any pixel is read; a rule for
+/// cells, to each cell of a frame.
 struct Rule {
   std::string_view name, about;
   void (*plan)(Plan&, const Inputs&) = nullptr;
   CellRule cell = nullptr;
 };
 
-/// In the order in which they are applied.
+/// All rules, in the order in which they are applied.
 std::span<const Rule> all_rules();
 
 std::string_view name_of(CellRule rule);
 
-/// Those of a plan.
+/// Applies the rules for plans.
 void apply_rules(Plan& plan, const Inputs& inputs);
 
 }  // namespace limpid

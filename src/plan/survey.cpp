@@ -14,11 +14,11 @@ namespace limpid {
 
 namespace {
 
-/// What is kept of a cell for the cells that look into it; least values with their sign turned.
+/// Extremes of a cell, for the cells whose lookups reach it; least values with their sign turned.
 enum Extreme {
-  kNear,  ///< depth that is looked up
+  kNear,  ///< depth that lookups may read
   kFar,
-  kGap,   ///< 1 if a texel does not lie under water for sure
+  kGap,   ///< 1 if a texel may lie above water
   kDrop,  ///< depth of the bottom under the calm surface
   kShadowLow,
   kShadowHigh,
@@ -29,10 +29,10 @@ enum Extreme {
 
 constexpr int kBlocksInCell = 4, kBlockWidth = Survey::kCell.width / kBlocksInCell;
 
-/// Whole parts that it takes to cover so many pixels.
+/// Number of parts of a size that cover so many pixels.
 int count_of(int pixels, int part) { return (pixels + part - 1) / part; }
 
-/// How far lookups of the plan that follow the refracted ray go, in uv.
+/// How far the plan's refracted lookups reach, in uv.
 double reach_of(const Plan& plan, const Pass& pass) {
   double reach = 0, stretch = 1;
   for (int i = 0; i < Chain::kCount; ++i) {
@@ -73,7 +73,7 @@ struct __attribute__((visibility("hidden"))) Survey::Scan {
   SeenPlanes looked_up;
   CellRules rules;
   HeightError error;
-  PlaneSet wanted;                             // of those that are looked up
+  PlaneSet wanted;                             // the planes that lookups read
   PlaneId own_shadow;                          // on the surface
   int reach_x, reach_y;                        // in blocks
   bool everywhere;                             // all blocks are in reach of all cells
@@ -93,7 +93,7 @@ struct __attribute__((visibility("hidden"))) Survey::Scan {
 
   static void none(Extremes& extremes) { extremes.fill(-HUGE_VALF); }
 
-  /// Blocks first ... end - 1 of a row of them.
+  /// Blocks first ... end - 1 of a row of blocks.
   struct Chunk {
     int row, first, end;
   };
@@ -105,7 +105,7 @@ struct __attribute__((visibility("hidden"))) Survey::Scan {
   Extremes& extremes_of(int column, int row) const {
     return survey.extremes_[static_cast<std::size_t>(row) * survey.blocks_.width + column];
   }
-  /// Of the cell that has this block.
+  /// The cell of this block.
   Own& own_of(int column, int row) const {
     return survey.own_[static_cast<std::size_t>(row - survey.up_) * survey.cells_.width +
                        (column - survey.left_) / kBlocksInCell];
@@ -125,14 +125,14 @@ struct __attribute__((visibility("hidden"))) Survey::Scan {
   Range sink_of(const Rect& pixels) const;
   void decide_cell(int index, const Extremes& reached);
 
-  // Tasks, one a row of blocks or cells.
+  // Tasks, one per row of blocks or cells.
   static void scan_row(void* self, int row);
   static void reach_across(void* self, int row);
   static void decide_row(void* self, int row);
 };
 
-/// Only what a rule reads. Colors tell how much is lost by an error, and so only where one is
-/// borne.
+/// Only planes that a rule reads. Colors bound the error of a lookup, so they are read only if the
+/// plan allows an error.
 void Survey::Scan::choose_planes() {
   own_shadow =
       pass.planes.has(PlaneId::kSurfaceShadow) ? PlaneId::kSurfaceShadow : PlaneId::kShadow;
@@ -156,7 +156,7 @@ void Survey::Scan::lay_out() {
     const bool looked_at = wanted.has(static_cast<PlaneId>(i)) || i == index_of(PlaneId::kDepth);
     if (looked_at && frame.planes[i]) area = united(area, frame.planes[i].window);
   }
-  // Two texels more, for filtering and for rounding.
+  // Two texels more, for filtering and rounding.
   const double uv = refracts ? reach_of(plan, pass) : 0;
   const auto texels = [&](double size) {
     return refracts ? static_cast<int>(std::min(uv * size + 2, double{1 << 24})) : 0;
@@ -221,14 +221,14 @@ void Survey::Scan::scan_chunk(const Chunk& chunk) {
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     const PlaneId plane = plane_after(looked_up.color, c);
     keep(plane, window(plane), kColorLow + c, kColorHigh + c);
-    // Where the layer below holds nothing, the dry color stays.
+    // Where the layer below is empty, the dry color stays.
     const PlaneId dry = plane_after(PlaneId::kColorR, c);
     if (looked_up.below) keep(dry, survey.work_, kColorLow + c, kColorHigh + c);
   }
 }
 
 /// Calls into(column, range) for each block of the chunk that has texels of the plane within a
-/// rectangle. Taps end at the edge of the plane's window, which is in reach where they do.
+/// rectangle. Taps are clamped to the plane's window, so its edge counts as in reach beyond it.
 template <class Into>
 void Survey::Scan::scan_plane(PlaneId plane, const Rect& within, const Chunk& chunk, Into&& into) {
   const Rect there = intersection(pixels_of(chunk), within);
@@ -279,7 +279,7 @@ void Survey::Scan::scan_water(const Chunk& chunk) {
   });
 }
 
-/// Depth under the surface gained by a unit of eye depth. It changes evenly over the picture.
+/// Depth under the surface gained per unit of eye depth, which is linear over the picture.
 Range Survey::Scan::sink_of(const Rect& pixels) const {
   Range sink{HUGE_VAL, -HUGE_VAL};
   for (const int x : {pixels.x0, pixels.x1}) {
@@ -344,7 +344,7 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
     }
   }
   if (wanted.has(looked_up.depth)) ranges.looked_up = range(kNear, kFar);
-  // Depths under the calm surface are known of the dry scene, and where the surface is calm.
+  // Depths under the calm surface are known for the dry scene, and where the surface is calm.
   if (everywhere && !looked_up.below && !frame.plane(PlaneId::kSurfaceDepth)) {
     ranges.least_drop = -reached[kDrop];
   }
@@ -357,7 +357,7 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     ranges.color[static_cast<std::size_t>(c)] = range(kColorLow + c, kColorHigh + c);
   }
-  // Where nothing was hit no light is seen.
+  // Where nothing was hit, the light is 0.
   if (!(ranges.own.max < 1e30 && ranges.looked_up.max < 1e30)) {
     for (Range& c : ranges.color) c = {std::min(c.min, 0.0), std::max(c.max, 0.0)};
   }

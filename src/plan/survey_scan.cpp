@@ -8,7 +8,7 @@
 
 namespace limpid {
 
-// One for each instruction set that the build names, made by survey_target.cpp.
+// One for each instruction set that the build names, defined in survey_target.cpp.
 #define LIMPID_TARGET(name, highway) extern const ScanTarget kScan_##name;
 #include "core/targets.inc"
 #undef LIMPID_TARGET
@@ -25,7 +25,7 @@ constexpr const ScanTarget* kTargets[] = {
 
 const ScanTarget& scan_target(const std::string& simd) { return *kTargets[simd_index(simd)]; }
 
-/// A few roundings of each number that goes into it.
+/// A few roundings of each term.
 HeightError calm_error(const WaterView& c) {
   const auto most = [&](const glm::dvec3& at, const glm::dvec3& dx, const glm::dvec3& dy) {
     return std::abs(glm::dot(c.up, at)) + 4 * c.size.x * std::abs(glm::dot(c.up, dx)) +

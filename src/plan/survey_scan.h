@@ -9,52 +9,52 @@
 
 namespace limpid {
 
-/// Which pixels of a cell are wet, and how the water lies there. Where the frame has no plane of
-/// the surface, the calm one is computed in float, and not to the same bits as in a run: what
-/// cannot be told for sure counts for wet.
+/// Wet pixels of a cell, and the range of their water. Where the frame has no plane of the surface,
+/// the calm surface is computed in float, with other rounding than in a run: a doubtful pixel
+/// counts as wet.
 struct WetSeen {
   int wet;                          ///< pixels, at most
   int sure;                         ///< pixels, at least
   float surface_near, surface_far;  ///< eye depth of the surface where it is wet
-  float own_near, own_far;          ///< dry eye depth less the surface's, there
+  float own_near, own_far;          ///< dry eye depth less the surface's, at wet pixels
 };
 
-/// How far off `over` and `under` may be, where what lies at eye depth z has the height over + z
+/// Bounds on the errors of `over` and `under`, where a point at eye depth z has the height over + z
 /// under.
 struct HeightError {
   float over, under;
 };
-/// Of RowRays.
+/// The error of RowRays.
 HeightError calm_error(const WaterView& view);
 
-/// What SeenHeights are made for.
+/// The view and the query for which SeenHeights are made.
 struct SeenFrom {
-  HeightError error;     ///< of who asks
+  HeightError error;     ///< error of the lookups that the bounds serve
   float most;            ///< HeightBound::most
-  double path_fraction;  ///< that SeenHeights::covers speaks of, or 0 where nobody asks
-  bool calm_ashore;      ///< the calm surface stands for one that is infinitely far
+  double path_fraction;  ///< the fraction for SeenHeights::covers, or 0 if no lookup uses it
+  bool calm_ashore;      ///< the calm surface replaces an infinitely far surface
 };
 
-/// Blocks of a row of them, `width` pixels wide from x0 on. Memory is read fastest along a row of
-/// the picture: so they are looked at together.
+/// Blocks of a row, `width` pixels wide from x0 on. Scanned together, because memory is fastest
+/// along a row of the picture.
 struct Blocks {
   static constexpr int kMost = 32;
   int x0, width;
 };
 
-/// The look at the planes, as compiled for one instruction set. `pixels` lie within the windows;
-/// out[i] is of those in block i, and left alone where there are none. Unless `farthest`, all of
-/// WetSeen is found but surface_near and own_far, which are 0 and infinite then.
+/// The scan of the planes, compiled for one instruction set. `pixels` lie within the windows;
+/// out[i] is for those in block i, and unchanged if it has none. Without `farthest`, WetSeen lacks
+/// surface_near and own_far, which are then 0 and infinite.
 struct ScanTarget {
   void (*range)(const View<const float>& view, const Rect& pixels, Blocks blocks, SeenRange* out);
   /// Greatest height over the calm surface of the finite texels of a surface.
   void (*highest_water)(const WaterView& view, const View<const float>& surface, const Rect& pixels,
                         Blocks blocks, float* out);
-  /// `surface` has the window of `depth`, or is absent, for the calm one.
+  /// `surface` has the window of `depth`, or is absent for calm water.
   void (*seen_heights)(const WaterView& view, const SeenFrom& from, const View<const float>& depth,
                        const View<const float>& surface, const Rect& pixels, Blocks blocks,
                        SeenHeights* out);
-  /// Of all texels, or of those `above` the calm surface, by all that is known.
+  /// Depths of all texels, or of those that may lie `above` the calm surface.
   void (*seen_depths)(const WaterView& view, const HeightError& error,
                       const View<const float>& depth, bool above, const Rect& pixels, Blocks blocks,
                       SeenRange* out);

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set, as run/lanes_target.cpp is; the same holds here.
+// Compiled once for each instruction set, under the same rules as run/lanes_target.cpp.
 #include "core/lanes.h"
 #include "core/target_name.h"
 #include "plan/survey_scan.h"
@@ -6,7 +6,7 @@
 namespace limpid::HWY_NAMESPACE {
 namespace {
 
-/// `count` texels of a row; lanes beyond hold the last one again.
+/// `count` texels of a row; lanes beyond repeat the last texel.
 LIMPID_LANES_INLINE Lane load(const float* from, std::ptrdiff_t x_stride, int count) {
   if (x_stride == 1 && count >= kLanes) return Lane(hn::LoadU(kD, from));
   alignas(64) float buffer[kLanes];
@@ -26,7 +26,7 @@ LIMPID_LANES_INLINE float sum(Lane v) {
 struct Row {
   const float* data;
   std::ptrdiff_t x_stride, y_stride;
-  bool more;  ///< is there a row below to be read next
+  bool more;  ///< whether another row will be read after this row
 
   LIMPID_LANES_INLINE Row(const View<const float>& view, const Rect& pixels, int y)
       : data(view.data + std::ptrdiff_t{y - view.window.y0} * view.y_stride -
@@ -38,7 +38,7 @@ struct Row {
   LIMPID_LANES_INLINE Lane at(int x, int count) const {
     return load(data + x * x_stride, x_stride, count);
   }
-  /// Rows lie pages apart, where the machine does not look ahead by itself: each asks for the next.
+  /// Rows lie pages apart, where the hardware does not prefetch: each row prefetches the next one.
   LIMPID_LANES_INLINE void ask_for_next(int x) const {
     if (more) __builtin_prefetch(data + x * x_stride + y_stride);
   }
@@ -88,13 +88,13 @@ void range(const View<const float>& view, const Rect& pixels, Blocks blocks, See
   });
 }
 
-/// Where the surface lies, and whether it does so before what is seen there.
+/// The surface, and whether it lies in front of the dry scene.
 struct Surface {
   Lane near, far;
   Mask may, must;
 };
 
-/// Of the calm plane: |over| / under with `under` counted towards it, both off by their error.
+/// The calm plane: |over| / under with `under` counted towards it, each off by its error.
 LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const HeightError& error, Lane x,
                                  Lane dry, bool farthest) {
   const Lane infinite(HUGE_VAL), off(error.over);
@@ -103,7 +103,7 @@ LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const HeightError& e
   const Lane height = abs(over);
   const Lane under = select(over < Lane(0), Lane(0) - along, along);
   const Lane most = under + Lane(error.under), surely = under - Lane(error.under);
-  // An eye in the plane itself, by all that is known, may see water anywhere.
+  // An eye that may lie in the plane itself may see water anywhere.
   const Mask beside = height <= off;
   const Mask meets = most > Lane(0), sure = surely > Lane(0) && !beside;
   const Lane far = select(sure, (height + off) / select(sure, surely, Lane(1)), infinite);
@@ -115,7 +115,7 @@ LIMPID_LANES_INLINE Surface calm(const RowRays<Lane>& rays, const HeightError& e
 struct WetLanes {
   Lane wet{0}, sure{0}, surface_near{HUGE_VAL}, surface_far{0}, own_near{HUGE_VAL}, own_far{0};
 
-  // By members: compilers copy the whole in pieces that are no vectors.
+  // Member by member: compilers copy the whole struct in pieces smaller than a vector.
   LIMPID_LANES_INLINE WetLanes copy() const {
     return {wet, sure, surface_near, surface_far, own_near, own_far};
   }
@@ -138,7 +138,7 @@ struct WetLanes {
   }
 };
 
-/// With water_at(x, count, dry): the surface of `count` pixels from the column x on.
+/// water_at(x, count, dry): the surface of `count` pixels from the column x on.
 template <class WaterAt>
 LIMPID_LANES_INLINE void add_row(const Row& depths, const Rect& pixels, Blocks blocks,
                                  bool farthest, WetLanes* lanes, WaterAt&& water_at) {
@@ -183,8 +183,8 @@ LIMPID_LANES_INLINE void add_rows(const WaterView& view, const HeightError& erro
   }
 }
 
-/// Calls visit(block, y, x, count, z, over, under) for the vectors of texels at eye depth z, on
-/// rays on which z is seen at the height over + z under.
+/// Calls visit(block, y, x, count, z, over, under) for the vectors of texels at eye depth z, whose
+/// rays have the height over + z under there.
 template <class Visit>
 LIMPID_LANES_INLINE void for_each_height(const WaterView& view, const View<const float>& depth,
                                          const Rect& pixels, Blocks blocks, Visit&& visit) {
@@ -195,7 +195,7 @@ LIMPID_LANES_INLINE void for_each_height(const WaterView& view, const View<const
     for_each_block(pixels, blocks, [&](int block, int x0, int x1) {
       for_each_vector(x0, x1, [&](int x, int count) {
         row.ask_for_next(x);
-        // What is repeated beyond the end of a row is seen on the ray of its last texel.
+        // Lanes beyond the end of a row repeat the ray of its last texel.
         const Lane column = min(steps, Lane(count - 1)) + Lane(x - view.corner.x + 0.5);
         const Lane over = Lane(0) - (rays.calm_over + column * rays.calm_over_dx);
         const Lane under = rays.calm_under + column * rays.calm_under_dx;
@@ -217,8 +217,8 @@ void highest_water(const WaterView& view, const View<const float>& surface, cons
   for_each_block(pixels, blocks, [&](int block, int, int) { out[block] = greatest(lanes[block]); });
 }
 
-/// How far heights are off: a ray passes up to half a texel from the centre of the one that it
-/// sees, but for rounding.
+/// Error of heights: a lookup's ray passes up to half a texel from the centre of its texel, plus
+/// rounding.
 struct RayError {
   Lane over, under;
 
@@ -255,7 +255,7 @@ void seen_heights(const WaterView& view, const SeenFrom& from, const View<const 
                     all.highest = max(all.highest, select(some, under_water, none));
                     all.deepest = max(all.deepest, select(some, off - height, infinite));
                     if (!covers) return;
-                    // What lies under the calm surface is farther than that.
+                    // Points under the calm surface are farther away.
                     Lane water = select(over > off_by.over, Lane(0) - off, none);
                     if (surface.data) {
                       const Lane at = Row(surface, pixels, y).at(x, count);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kReason = "as asked for";
 
-/// One override: `text` is meant for `role`, in these sources.
+/// One override: `text` names a layer or channels for `role`, in these sources.
 class Choosing {
  public:
   Choosing(const Role& role, std::string_view text, std::span<const LayerSource> sources,
@@ -71,8 +71,8 @@ class Choosing {
     return std::nullopt;
   }
 
-  /// What the role takes of the layer of that name, or of the part: of its loose channels first.
-  /// All channels where nothing fits the role.
+  /// The role's channels in the layer or part of that name, loose channels first. All channels if
+  /// none fit the role.
   std::optional<Candidate> layer(std::string_view name, Agreement agreement) const {
     std::vector<Candidate> of_path, of_part, of_loose;
     for (const LayerGroup& group : groups_) {
@@ -99,7 +99,7 @@ class Choosing {
     return std::nullopt;
   }
 
-  /// What the role takes of a layer, whatever the layer is called.
+  /// The role's channels in a layer, for any layer name.
   std::vector<std::string> channels_of(LayerGroup group) const {
     group.topic.clear();
     const std::vector<Candidate> fitting = candidates_of(LayerRank::kGiven, role_, {group});

@@ -14,11 +14,11 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 double mix(double a, double b, double t) { return a + t * (b - a); }
 
-/// Columns run the other way round and are turned; rows stay.
+/// Columns are mirrored and rotated; rows stay.
 Plane turned(const View<const float>& file, double rotation) {
   const Rect& from = file.window;
   const int width = from.width();
-  // Column x shows the file's column width - 1 - x + shift: a whole number and the rest.
+  // Column x shows the file's column width - 1 - x + shift, split into an integer and a fraction.
   const double shift = std::remainder(rotation, kTurn) / kTurn * width;
   const double whole = std::floor(shift + 1e-6);
   const double rest = shift - whole < 1e-6 ? 0 : shift - whole;
@@ -34,7 +34,7 @@ Plane turned(const View<const float>& file, double rotation) {
   return plane;
 }
 
-/// A face of the cube and where right and down in its picture point, as in ImfEnvmap.h.
+/// A face of the cube and the directions of right and down in its picture, as in ImfEnvmap.h.
 struct Face {
   glm::dvec3 front, right, down;
 };
@@ -44,7 +44,7 @@ constexpr Face kFaces[] = {
     {{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}, {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},
 };
 
-/// Four texels of a face and the shares that bilinear filtering mixes them with.
+/// Four texels of a face and their weights in bilinear filtering.
 struct Tap {
   int x0, x1, y0, y1;
   double along, down;

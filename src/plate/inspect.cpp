@@ -14,7 +14,7 @@ namespace {
 using Row = std::vector<std::string>;
 constexpr std::string_view kSampleNames[] = {"half", "float", "uint"};
 
-/// Names come from files: they shall not steer a terminal.
+/// Names come from files: control characters must not reach the terminal.
 std::string visible(std::string text) {
   for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -23,7 +23,7 @@ std::string visible(std::string text) {
   return text;
 }
 
-/// Rows in columns that are as wide as their widest entry; no blanks at the ends of lines.
+/// Rows with columns padded to their widest entry; no blanks at the ends of lines.
 std::string aligned(const std::vector<Row>& rows, const std::string& indent) {
   std::vector<std::size_t> widths;
   for (const Row& row : rows) {
@@ -144,7 +144,7 @@ std::string place_text(const InspectedFile& file, const LayerChoice& choice) {
   return "(" + file.name + (parts.size() == 1 ? ", part " : ", parts ") + join(parts) + ")";
 }
 
-/// A line a text, or the name and then its lines.
+/// One line per text, or the name and then its lines.
 std::string made_text(const std::map<std::string, std::string>& texts) {
   std::string text;
   for (const auto& [name, value] : texts) {

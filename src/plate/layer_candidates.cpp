@@ -28,7 +28,7 @@ std::string file_prefix(const LayerSource& source, std::span<const LayerSource> 
   return several ? source.file_name + ":" : "";
 }
 
-/// The text after `--layer depth=` that means the candidate and nothing else.
+/// The text after `--layer depth=` that selects only this candidate.
 std::string selector(const Candidate& candidate, std::span<const LayerSource> sources) {
   const LayerGroup& group = *candidate.group;
   const LayerSource& source = *group.source;
@@ -40,7 +40,7 @@ std::string selector(const Candidate& candidate, std::span<const LayerSource> so
   return file + (say_part ? source.part_name : join(candidate.channels, ","));
 }
 
-/// The first texts and how many more there are: a header may have thousands.
+/// The first texts and the number of the rest: a header may have thousands.
 std::string listed(std::vector<std::string> texts, std::size_t count) {
   if (texts.size() < count) texts.push_back(std::to_string(count - texts.size()) + " more");
   return join(texts);

@@ -13,19 +13,19 @@ namespace limpid {
 struct Candidate {
   const LayerGroup* group = nullptr;
   std::vector<std::string> channels;
-  const LayerRule* rule = nullptr;  ///< null where the user named them
+  const LayerRule* rule = nullptr;  ///< null if the user named them
 };
 
-/// The ranks of what is found without being named, strongest first.
+/// The ranks of layers found without being named, strongest first.
 inline constexpr LayerRank kFoundRanks[] = {
     LayerRank::kOwn, LayerRank::kLayer, LayerRank::kFileName, LayerRank::kBare, LayerRank::kPart};
 
-/// What the rules of one rank find; at most one candidate a layer.
+/// The candidates by the rules of one rank; at most one per layer.
 std::vector<Candidate> candidates_of(LayerRank rank, const Role& role,
                                      const std::vector<LayerGroup>& groups);
 
-/// The one candidate, or the only one of flat pixels; null where there is none. Throws Error that
-/// begins with `subject` and lists them where there are several.
+/// The only candidate, or the only one with flat pixels; null if there is none. Throws Error that
+/// begins with `subject` and lists the candidates if there are several.
 const Candidate* only_one(const Role& role, const std::string& subject,
                           const std::vector<Candidate>& candidates,
                           std::span<const LayerSource> sources);
@@ -35,7 +35,7 @@ std::string layer_list(const std::vector<LayerGroup>& groups, std::span<const La
 
 bool is_picture(const Role& role);
 
-/// A picture of one channel is spread to three.
+/// A single channel fills all three planes of a color.
 LayerChoice choice_of(const Role& role, const Candidate& candidate, std::string reason);
 
 }  // namespace limpid

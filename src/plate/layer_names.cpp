@@ -37,7 +37,7 @@ std::string channel_of(const LayerGroup& group, std::string_view component) {
   return "";
 }
 
-/// Tells the Z of a depth from that of a vector.
+/// Distinguishes the Z of a depth from that of a vector.
 bool is_vector_part(std::string_view component, const LayerGroup& group) {
   return (component == "Z" || component == "Y") && !channel_of(group, "X").empty();
 }
@@ -61,7 +61,8 @@ bool one_of(std::string_view name, std::string_view alternatives) {
   return contains(split(alternatives, "|"), name);
 }
 
-/// Whether all words of one alternative are among the file's, and the water in both or in neither.
+/// Whether the file's words include all words of one alternative, and both or neither name the
+/// water.
 bool name_has(const std::vector<std::string>& file_words, std::string_view alternatives) {
   for (std::string_view alternative : split(alternatives, "|")) {
     const std::vector<std::string_view> wanted = split(alternative, " ");
@@ -74,13 +75,13 @@ bool name_has(const std::vector<std::string>& file_words, std::string_view alter
   return false;
 }
 
-/// `topic` with the water in front, as the rules spell it.
+/// `topic` with "water" in front, as the rules spell it.
 std::string with_water(const LayerGroup& group) {
   if (!group.water) return group.topic;
   return group.topic.empty() ? "water" : "water " + group.topic;
 }
 
-/// A name by which a file tells its views apart.
+/// A view name used in a file.
 struct ViewName {
   std::string name, lower;
   std::vector<std::string> words;
@@ -95,7 +96,7 @@ void add_view(ViewNames& views, const std::string& view) {
   if (!view.empty() && std::none_of(views.begin(), views.end(), same)) views.emplace_back(view);
 }
 
-/// Those of attributes, which are spelled as there, and those that need none.
+/// The view names of attributes, in their spelling, and names that need no attribute.
 std::map<int, ViewNames> views_by_file(std::span<const LayerSource> sources) {
   std::map<int, ViewNames> views;
   for (const LayerSource& source : sources) {
@@ -119,7 +120,7 @@ void read_words(std::vector<std::string> words, LayerGroup& group) {
   group.named = true;
 }
 
-/// "depth_left": the name of a known layer with a view's behind it or before it.
+/// "depth_left": the name of a known layer followed or preceded by a view's name.
 bool read_with_view(const std::vector<std::string>& words, const ViewNames& views,
                     LayerGroup& group) {
   const auto [topic, water, named] = std::tuple(group.topic, group.water, group.named);
@@ -141,8 +142,8 @@ bool read_with_view(const std::vector<std::string>& words, const ViewNames& view
   return false;
 }
 
-/// Reads the meaning of a dotted name: its last part is the topic, a part that is a view's name the
-/// view, and the water may be named anywhere.
+/// Parses a dotted name: its last part is the topic, a part with a view's name is the view, and any
+/// part may name the water.
 void read_name(std::string_view name, const ViewNames& views, LayerGroup& group) {
   for (std::string_view part : split(name, "./")) {
     if (part.empty()) continue;
@@ -157,8 +158,8 @@ void read_name(std::string_view name, const ViewNames& views, LayerGroup& group)
   }
 }
 
-/// What a file's name says counts only where the file holds one kind of channel. A picture may well
-/// be called after the water that it shall get, so its layer's name counts more.
+/// The file's name counts only if the file holds one kind of channel. A picture may be named after
+/// the water that it will get, so a layer's name counts more.
 void read_file_name(LayerGroup& group) {
   if (!channel_of(group, "R").empty() && !channel_of(group, "Z").empty()) return;
   std::string_view stem = group.source->file_name;
@@ -176,7 +177,7 @@ void read_file_name(LayerGroup& group) {
   }
 }
 
-/// Whether R G B of a part may be the picture, though no convention knows the part's name.
+/// Whether R G B of a part may be the picture, although no convention knows the part's name.
 bool may_be_picture(const LayerGroup& group) {
   if (!group.path.empty() || group.source->part_name.empty() || group.water || is_known(group) ||
       channel_of(group, "R").empty()) {
@@ -307,7 +308,7 @@ std::vector<LayerGroup> group_layers(std::span<const LayerSource> sources) {
     const ViewNames& views_of_file = views[file];
     read_name(source.part_name, views_of_file, group);
     if (parts_of_file[file] == 1 && group.path.empty() && !is_known(group)) {
-      group.named = false;  // the only part of a file may be called anything
+      group.named = false;  // the only part of a file may have any name
       group.topic.clear();
     }
     read_name(group.path, views_of_file, group);

@@ -15,11 +15,11 @@ constexpr std::string_view kPicture = "R G B A|R G B|Y";
 constexpr std::string_view kMirror = "R G B|Y";
 constexpr std::string_view kLength = "Z|V|Y|*";
 constexpr std::string_view kGrayLength = "Z|V|Y|R|*";  // also R = G = B
-constexpr std::string_view kMask = "Y|V|R|*";          // a gray picture feeds the one plane
+constexpr std::string_view kMask = "Y|V|R|*";          // a gray picture feeds the single plane
 constexpr std::string_view kVector = "X Y Z|NX NY NZ|R G B";
 constexpr std::string_view kAny = "R|X|Y|Z|V|*";
 
-// Of the file-name rules, the first that fits decides what the file is.
+// Of the file-name rules, the first that fits decides the kind of the file.
 // clang-format off
 constexpr LayerRule kRules[] = {
     {kLayer, "color",          "combined",                    kPicture,   "Blender"},
@@ -97,7 +97,7 @@ constexpr LayerRule kRules[] = {
 };
 // clang-format on
 
-/// The names of our own plates, strongest of all, and then those of others.
+/// The names of limpid's own plates, strongest of all, then other conventions.
 std::vector<LayerRule> all_rules() {
   std::vector<LayerRule> all;
   for (const Role& role : roles()) {

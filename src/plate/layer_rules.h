@@ -4,24 +4,24 @@
 
 namespace limpid {
 
-/// How strong a reason is, strongest first.
+/// Strength of a match, strongest first.
 enum class LayerRank {
   kOwn,       ///< the whole layer path is one of limpid's own names
   kLayer,     ///< the last word of a layer's path, or of a part's name, is a known one
   kFileName,  ///< a file of one kind of channel whose name has the words
   kBare,      ///< channels without any layer
   kPart,      ///< R G B without a layer, in a part of an unknown name
-  kGiven,     ///< only in a file that the user gave for the role
+  kGiven,     ///< only in a file that the user named for the role
 };
 
-/// One convention. `layer` and `channels` hold alternatives separated by '|', in order of
+/// One naming convention. `layer` and `channels` hold alternatives separated by '|', in order of
 /// preference.
 struct LayerRule {
   LayerRank rank;
-  std::string_view role;      ///< "" = a known thing that is no role's
-  std::string_view layer;     ///< in lower-case words; "water" also stands for "surface"
-  std::string_view channels;  ///< one for each plane; "*" = the only channel of the layer
-  std::string_view who;       ///< who writes it so
+  std::string_view role;      ///< "": a known layer without a role
+  std::string_view layer;     ///< in lower-case words; "water" also matches "surface"
+  std::string_view channels;  ///< one per plane; "*" = the only channel of the layer
+  std::string_view who;       ///< the programs that use it
 };
 
 std::span<const LayerRule> layer_rules();

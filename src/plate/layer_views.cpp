@@ -11,7 +11,7 @@ void add_view(std::vector<std::string>& views, const std::string& view) {
   if (!view.empty() && std::none_of(views.begin(), views.end(), same)) views.push_back(view);
 }
 
-/// A layer "left wall" is no view of anything.
+/// A layer "left wall" names no view.
 bool tells_view(const LayerGroup& group) { return !group.named || is_known(group); }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::string default_view(const std::vector<LayerGroup>& groups) {
   }
   if (colors.empty()) return views.front();
   if (!of_view(colors, "").empty()) return "";
-  // The groups lie in the order of the file.
+  // The groups are in the order of the file.
   return std::min_element(colors.begin(), colors.end(),
                           [](const Candidate& a, const Candidate& b) { return a.group < b.group; })
       ->group->view;

@@ -6,7 +6,7 @@
 namespace limpid {
 namespace {
 
-/// Views in the order in which a role is looked for in them; the empty name is what names none.
+/// Views in the order in which a role is searched in them; the empty name is layers without a view.
 std::vector<std::string> order_of_views(const std::vector<LayerGroup>& groups,
                                         const std::string& asked) {
   std::vector<std::string> order{asked.empty() ? default_view(groups) : asked};

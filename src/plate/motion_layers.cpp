@@ -10,8 +10,7 @@
 namespace limpid {
 namespace {
 
-/// A convention: the last words of a layer's name, and what the vectors are called that are made
-/// of it.
+/// A convention: the last words of a layer's name, and the names of the vectors made from it.
 struct MotionRule {
   std::string_view topic, made;
 };
@@ -25,7 +24,7 @@ constexpr MotionRule kRules[] = {
     {"backward", "motion_backward"},
 };
 
-/// Pairs of components that are one vector, in the order in which they are written.
+/// Pairs of components that form one vector, in the order of writing.
 constexpr std::string_view kPairs[][2] = {{"x", "y"}, {"z", "w"}, {"u", "v"}, {"r", "g"}};
 
 /// The layer's vectors, or no channels.

@@ -18,7 +18,7 @@ constexpr std::string_view kCryptomatte = "cryptomatte/";
 
 bool has_wildcard(const std::string& text) { return text.find_first_of("*?") != std::string::npos; }
 
-/// Whether the text is the pattern, in which * stands for any letters and ? for one.
+/// Whether the text matches the pattern, in which * matches any characters and ? one.
 bool fits_pattern(std::string_view pattern, std::string_view text) {
   if (pattern.empty()) return text.empty();
   if (pattern[0] != '*') {
@@ -48,7 +48,7 @@ std::string part_name_of(const LayerSource& source) {
   return source.part_name.empty() ? file_stem(source.file_name) : source.part_name;
 }
 
-/// A layer's whole name, which of loose channels is their part's.
+/// A layer's whole name; for loose channels, their part's.
 std::string layer_name(const LayerGroup& group) {
   return group.path.empty() ? group.source->part_name : group.path;
 }
@@ -65,7 +65,7 @@ bool is_rank_of(const std::string& cryptomatte, const LayerGroup& group) {
   return false;
 }
 
-/// The attributes "cryptomatte/ID/..." of a file, by ID, and what each ID is called.
+/// The attributes "cryptomatte/ID/..." of a file, by ID, and the name of each ID.
 struct Manifest {
   std::string name;
   std::map<std::string, ExrFile::Attribute> attributes;
@@ -86,7 +86,7 @@ std::map<std::string, Manifest> manifests_of(const ExrFile& file) {
   return manifests;
 }
 
-/// One choice of layers.
+/// The layers chosen for one output.
 class Passing {
  public:
   explicit Passing(const PassingPlate& plate)
@@ -161,7 +161,7 @@ class Passing {
     if (!is_among(channel, names)) names.push_back(channel);
   }
 
-  /// Every layer but the color, in whose place the picture is.
+  /// Chooses every layer except the color, which the picture replaces.
   void add_all() {
     for (const LayerGroup& group : groups_) {
       if (!is_of_view(group) || !exr_of(group)) continue;
@@ -190,7 +190,7 @@ class Passing {
                 Fault::kUsage);
   }
 
-  /// Whether any layer or channel has a name that fits; these are chosen.
+  /// Chooses the layers and channels whose names fit; returns whether there are any.
   template <class Fits>
   bool add_where(const std::string& typed, const Fits& fits) {
     bool any = false;
@@ -208,7 +208,7 @@ class Passing {
     return any;
   }
 
-  /// Whether it is a rank of the cryptomatte that the file calls so.
+  /// Whether it is a rank of the cryptomatte of that name in the file.
   bool is_cryptomatte(const std::string& typed, const LayerGroup& group) const {
     if (!exr_of(group)) return false;
     const auto manifests = manifests_of(*exr_of(group));
@@ -254,8 +254,8 @@ class Passing {
     }
   }
 
-  /// Parts of several files may be called the same: all but the first then have their file's name
-  /// in front.
+  /// Parts of several files may have the same name: all but the first then get their file's name in
+  /// front.
   static void tell_apart(std::vector<PassedPart>& parts) {
     std::vector<std::string> names;
     for (PassedPart& part : parts) {

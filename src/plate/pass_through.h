@@ -9,11 +9,11 @@
 
 namespace limpid {
 
-/// What is chosen among, and what for.
+/// The layers to choose from, and the roles.
 struct PassingPlate {
   std::span<const PlateFile> files;
   std::vector<LayerSource> sources;  ///< of the files that are searched
-  const LayerChoices& roles;         ///< with one of color
+  const LayerChoices& roles;         ///< `color` among them
 };
 
 /// As Plate::passed().

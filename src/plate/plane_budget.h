@@ -6,13 +6,13 @@
 
 namespace limpid {
 
-/// Keeps the planes of one frame within the limits, whatever files they come from.
+/// Keeps the planes of one frame within the limits, over all its files.
 class PlaneBudget {
  public:
   explicit PlaneBudget(const Limits& limits) : limits_(limits) {}
 
-  /// The window of a plane that holds both. Throws Error, which begins with `name`, when they lie
-  /// so far apart that it is over a limit, or when all planes so far are.
+  /// The window of a plane that holds both. Throws Error, which begins with `name`, if that window
+  /// or the sum of all planes so far is over a limit.
   Rect take(const std::string& name, const Rect& data, const Rect& picture);
 
  private:

@@ -22,7 +22,7 @@
 namespace limpid {
 namespace {
 
-/// What is wanted of a deep part.
+/// The requested planes of a deep part.
 struct DeepRequest {
   Rect window;
   PlaneSet planes;
@@ -30,8 +30,7 @@ struct DeepRequest {
 
 }  // namespace
 
-/// "FILE:CHANNELS", "FILE" or "CHANNELS" as on a command line: a file is what exists or ends like
-/// an EXR.
+/// "FILE:CHANNELS", "FILE" or "CHANNELS" as on a command line: a file exists or ends like an EXR.
 PlateName split_layer(const std::string& text) {
   const auto names_file = [](const std::string& s) {
     std::error_code ignored;
@@ -187,7 +186,7 @@ void Plate::read(PlaneSet wanted, const Scene& scene, const DepthMeaning& depth,
   wanted = state_->read_for(wanted);
 
   PlaneBudget budget(state_->limits);
-  std::map<int, std::vector<ExrRequest>> requests;  // by file; each file decodes in one go
+  std::map<int, std::vector<ExrRequest>> requests;  // by file; each file decodes at once
   std::map<std::pair<int, int>, DeepRequest> deep;  // by file and part, read after all the others
   for (const Role& role : roles()) {
     const LayerChoice* choice = state_->choice(role.name);

@@ -11,7 +11,7 @@
 namespace limpid {
 namespace {
 
-/// Where what lies below the water begins, in the depth kind of the samples.
+/// Where the layer below begins, in the depth kind of the samples.
 Plane beginning_of_below(const Scene& scene, const DepthMeaning& depth, const Frame& frame,
                          const Rect& window) {
   const WaterView view(scene, frame.display, swell_of(frame));

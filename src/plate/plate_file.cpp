@@ -11,7 +11,8 @@
 namespace limpid {
 namespace {
 
-/// Color of a picture with straight alpha, in place: the chain knows premultiplied color only.
+/// Premultiplies the color of a picture with straight alpha, in place: the chain needs
+/// premultiplied color.
 void premultiply(ImageFile& image) {
   const auto found = std::find(image.channels.begin(), image.channels.end(), "A");
   if (found == image.channels.end()) return;

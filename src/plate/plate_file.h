@@ -12,8 +12,8 @@
 
 namespace limpid {
 
-/// A picture file of either sort behind one face: parts, and channels that decode into views. A
-/// picture that is no EXR is read when it is opened, its color multiplied by straight alpha.
+/// A picture file of any format through one interface: parts, and channels that decode into views.
+/// A picture other than EXR is read when it is opened, its color multiplied by straight alpha.
 struct PlateFile {
   std::filesystem::path path;
   std::optional<ExrFile> exr;
@@ -22,10 +22,10 @@ struct PlateFile {
 
   static PlateFile open(const std::filesystem::path& path, const Limits& limits);
   void read(std::span<const ExrRequest> requests) const;
-  /// What limpid wrote into it of how it was made: texts whose names begin with "limpid/". Throws
+  /// limpid's record of how the file was made: texts whose names begin with "limpid/". Throws
   /// Error.
   std::map<std::string, std::string> made() const;
-  /// The working space that its first part tells of, "" for none; or what is wrong with it.
+  /// The working space that its first part names, "" for none; or a sentence about an invalid one.
   std::string color_space() const;
   /// As ExrFile::content_hash().
   std::string content_hash() const;

@@ -2,7 +2,7 @@
 #include "plate/motion_layers.h"
 #include "plate/plate_state.h"
 
-/// What of a plate's layers is handed on, and what records say of those that are read.
+/// Passed layers of a plate, and the record of the layers that are read.
 
 namespace limpid {
 
@@ -77,7 +77,7 @@ std::string Plate::inputs_text(PlaneSet wanted) const {
       }
     }
     if (refs.empty()) continue;
-    std::vector<std::string> inputs;  // one for each run of channels of one part
+    std::vector<std::string> inputs;  // one per run of channels of one part
     for (std::size_t i = 0; i < refs.size();) {
       const ChannelRef& first = refs[i];
       std::vector<std::string> channels;

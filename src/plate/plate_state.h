@@ -18,19 +18,18 @@
 
 namespace limpid {
 
-/// "FILE:CHANNELS", "FILE" or "CHANNELS" as on a command line: a file is what exists or ends like
-/// an EXR.
+/// "FILE:CHANNELS", "FILE" or "CHANNELS" as on a command line: a file exists or ends like an EXR.
 PlateName split_layer(const std::string& text);
 
-/// What a request came to: files that are open, and which channels feed what.
+/// A resolved request: open files, and the channels of each plane.
 struct __attribute__((visibility("hidden"))) Plate::State {
   Limits limits;
   std::vector<PlateFile> files;
-  int of_request = 0;  ///< so many of them are PlateRequest::files
+  int of_request = 0;  ///< the first of them are PlateRequest::files, this many
   std::string motion;  ///< PlateRequest::motion
   LayerChoices choices;
   PlaneSet named;                                    ///< of roles that the request names
-  std::map<std::string_view, std::string> problems;  ///< filled instead of throwing, for inspect
+  std::map<std::string_view, std::string> problems;  ///< collected instead of thrown, for inspect
 
   const ExrPart& part_of(const ChannelRef& ref) const {
     return files[static_cast<std::size_t>(ref.file)].parts[static_cast<std::size_t>(ref.part)];
@@ -63,7 +62,7 @@ struct __attribute__((visibility("hidden"))) Plate::State {
     return sources_of(0, static_cast<int>(files.size()));
   }
 
-  /// The role as the request decides it, or as it is found among the request's files.
+  /// The role as the request names it, or as it is found among the request's files.
   std::optional<LayerChoice> resolve(const Role& role, const PlateRequest& request) {
     const int searched = static_cast<int>(request.files.size());
     const LayerChoice* color = choice("color");
@@ -95,7 +94,7 @@ struct __attribute__((visibility("hidden"))) Plate::State {
                 did_you_mean(asked, views));
   }
 
-  /// Whether the plane is one that the deep samples of that part give.
+  /// Whether the deep samples of that part give the plane.
   bool is_deep(const ChannelRef& ref, PlaneId plane) const {
     return part_of(ref).deep && ref.name == deep_channel(plane);
   }
@@ -109,12 +108,12 @@ struct __attribute__((visibility("hidden"))) Plate::State {
     return false;
   }
 
-  /// What is read where these planes are wanted: what lies below begins at the surface.
+  /// The planes to read for the wanted planes: the layer below begins at the surface.
   PlaneSet read_for(PlaneSet wanted) const {
     return gives_deep_below(wanted) ? wanted | PlaneSet{PlaneId::kSurfaceDepth} : wanted;
   }
 
-  /// A deep part that gives the color shows what lies below the water, too.
+  /// A deep part that gives the color gives the layer below, too.
   void add_deep_below(const PlateRequest& request) {
     if (!choice("color") || !is_deep(color_ref(), PlaneId::kColorR)) return;
     const ChannelRef part = color_ref();
@@ -151,7 +150,7 @@ struct __attribute__((visibility("hidden"))) Plate::State {
     add_deep_below(request);
   }
 
-  /// The files that layers are handed on from.
+  /// The files from which layers are passed on.
   PassingPlate passing() const {
     std::vector<LayerSource> sources = sources_of(0, of_request);
     const int color = color_ref().file;

@@ -16,7 +16,7 @@ constexpr const char* kNames[] = {"colorInteropID", "oiio:ColorSpace"};
 /// x and y of red, green, blue and white.
 using Chromaticities = std::array<float, 8>;
 
-/// Little-endian, as everything in the file.
+/// Little-endian, like all numbers in the file.
 Chromaticities chromaticities_of(const std::vector<char>& bytes) {
   Chromaticities xy;
   for (std::size_t i = 0; i < xy.size(); ++i) {
@@ -41,7 +41,7 @@ std::vector<char> bytes_of(const Primaries& p) {
   return bytes;
 }
 
-/// The known space itself, where they agree with one: what files store is rounded.
+/// The known space itself, if they are equal up to the file's rounding.
 Primaries told_by(const std::vector<char>& bytes) {
   const Chromaticities c = chromaticities_of(bytes);
   const Primaries told{{c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}, {c[6], c[7]}};
@@ -71,7 +71,7 @@ void tell_primaries(Attributes& attributes, const Primaries& primaries) {
   try {
     told = told_primaries(attributes);
   } catch (const Error&) {
-    // Other ones stand in their place.
+    // Named ones replace them.
   }
   if (told ? agree(*told, primaries) : agree(kRec709, primaries)) return;
   for (const char* name : kNames) attributes.erase(name);

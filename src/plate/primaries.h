@@ -10,9 +10,9 @@ namespace limpid {
 
 using Attributes = std::map<std::string, ExrFile::Attribute>;
 
-/// The working space that a part's attributes tell of: by `chromaticities`, else by a name that is
-/// known (find_color_space()) in `colorInteropID` or `oiio:ColorSpace`. Nothing where neither does.
-/// Throws Error for chromaticities that are none (Primaries::validate()).
+/// The working space in a part's attributes: by `chromaticities`, else by a known name
+/// (find_color_space()) in `colorInteropID` or `oiio:ColorSpace`. Nothing if there is neither.
+/// Throws Error for invalid chromaticities (Primaries::validate()).
 std::optional<Primaries> told_primaries(const Attributes& attributes);
 
 /// Makes the attributes of a picture in that space tell so: those of a plate that tell the same

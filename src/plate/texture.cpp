@@ -12,7 +12,7 @@
 namespace limpid {
 namespace {
 
-/// `what` is said to need the channels, as in "a normal map".
+/// `what` needs the channels, as in "a normal map"; for the Error.
 LoadedTexture rgb_of(const PlateFile& file, const std::string& what) {
   const ExrPart& part = file.parts.front();
   const auto name_of = [&](std::string_view letter, std::size_t position) -> std::string {
@@ -39,7 +39,7 @@ LoadedTexture rgb_of(const PlateFile& file, const std::string& what) {
   return loaded;
 }
 
-/// The layout that the shape of the picture tells, and the attribute `envmap` where there is one.
+/// The layout by the shape of the picture, or by the attribute `envmap` if it has one.
 EnvironmentLayout layout_of(const PlateFile& file) {
   const Rect& data = file.parts.front().data;
   const bool lat_long = data.width() == 2 * data.height(), cube = data.height() == 6 * data.width();

@@ -1,12 +1,12 @@
 #pragma once
 #include "raster/tested.h"
 
-/// Blended surfaces over what lies behind them, layer by layer from the eye on. For inclusion by
+/// Blends surfaces over the surfaces behind them, layer by layer from the eye on. For inclusion by
 /// raster_target.cpp alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
 
-/// Color of the layers so far, and how much of what lies behind them shows.
+/// Color of the layers so far, and the share visible through them.
 struct alignas(64) Layers {
   float color[3][kTile * kTileStride];
   float left[kTile * kTileStride];
@@ -19,10 +19,10 @@ LIMPID_LANES_INLINE void clear(Layers& layers) {
   }
 }
 
-/// Where less than this shows through the layers so far, no more are looked for.
+/// Layers stop below this visible share.
 constexpr double kLeastLeft = 1.0 / 4096;
 
-/// False when the layer is empty. Nothing lies behind it where the pixel is done.
+/// False if the layer is empty. A finished pixel has no layer behind it.
 inline bool add_layer(const ShadeJob& job, const Screen& tile, Visibility& layer, Layers& layers) {
   const VI nothing = hn::Set(kDI, static_cast<std::int32_t>(kNothing));
   bool some = false;
@@ -65,13 +65,13 @@ LIMPID_LANES_INLINE void put_over(const ShadeJob& job, const Screen& tile, const
   }
 }
 
-/// Over the colors of the job, which are those of `solid`.
+/// Blends over the colors of the job, which are those of `solid`.
 inline void blend(const ShadeJob& job, const Tile& tile, const Visibility& solid) {
   Visibility found[2];
   Layers layers;
   fill(found[0]);
   for (int i = 0; i < kTile * kTileStride; i += kLanes) {
-    hn::Store(hn::Set(kD, 3e38f), kD, found[0].q + i);  // all lies behind that
+    hn::Store(hn::Set(kD, 3e38f), kD, found[0].q + i);  // all layers lie behind that
   }
   clear(layers);
   int count = 0;

@@ -4,8 +4,8 @@
 
 namespace limpid {
 
-/// Throws the Error for a scene that cannot be seen with its water: without camera or water, with
-/// the sun below the horizon, or in a picture that is too small or too large.
+/// Throws the Error for a scene that cannot be rendered with its water: without camera or water,
+/// with the sun below the horizon, or with a picture that is too small or too large.
 void check_rendered(const Scene& scene, Size size, int overscan = 0);
 
 }  // namespace limpid

@@ -12,14 +12,14 @@
 namespace limpid::raster {
 namespace {
 
-/// Normal and uv; then, for a mesh that has any of them, color and second uv.
+/// Normal and uv; for a mesh that has any of them, also color and second uv.
 constexpr std::size_t kFew = 5, kAll = 11;
 
 struct Vertex {
   std::array<double, VertexTransform::kRows> row;
   std::array<double, kAll> attribute;
-  std::size_t attributes;         ///< how many of them there are
-  const Corner* whole = nullptr;  ///< where the vertex stage put it, if that was inside
+  std::size_t attributes;         ///< number of attributes
+  const Corner* whole = nullptr;  ///< the corner of the vertex stage, if it was inside
 
   double w(const VertexTransform& t) const {
     return t.perspective ? row[VertexTransform::kDepth] : 1;
@@ -49,8 +49,8 @@ double signed_distance(const VertexTransform& t, const Vertex& v, int plane) {
   }
 }
 
-/// A vertex that the vertex stage found inside is inside here too, whatever the last bit says:
-/// neighbours that are not clipped share it.
+/// A vertex that the vertex stage found inside is inside here, too, in spite of rounding: unclipped
+/// neighbours share it.
 double distance(const VertexTransform& t, const Vertex& v, int plane) {
   const double d = signed_distance(t, v, plane);
   return v.whole ? std::max(d, 0.0) : d;
@@ -62,7 +62,7 @@ struct Polygon {
   void add(const Vertex& v) { corners[static_cast<std::size_t>(count++)] = v; }
 };
 
-/// Always from the inside out, so that both triangles of an edge find the same point.
+/// Always from the inside out, so that both triangles of an edge compute the same point.
 Vertex between(const Vertex& inside, const Vertex& outside, double t) {
   Vertex v;
   for (std::size_t i = 0; i < v.row.size(); ++i) {
@@ -121,7 +121,7 @@ Vertex transformed(const DrawnInstance& instance, const Corner* corners, std::ui
 
 double dot(const double* a, const glm::dvec3& b) { return a[0] * b.x + a[1] * b.y + a[2] * b.z; }
 
-/// The plane of the whole triangle; false when its corners are on a line or not finite.
+/// The plane of the whole triangle; false if its corners are collinear or not finite.
 bool set_plane(const DrawnInstance& instance, std::uint32_t triangle, Triangle& out) {
   const std::uint32_t* index = instance.mesh.indices + 3 * std::ptrdiff_t{triangle};
   const auto position = [&](int k) {
@@ -155,7 +155,7 @@ Corner corner_of(const VertexTransform& t, const Vertex& v) {
           static_cast<float>(q), static_cast<float>(v.attribute[0])};
 }
 
-/// Keeps q as near as the corners allow; the same rule as set_up() has for whole triangles.
+/// Limits q to the range of the corners; the same rule as in set_up() for whole triangles.
 void bound_depth(const std::array<float, 3>& q, bool perspective, Triangle& out) {
   const double least = std::min({q[0], q[1], q[2]}), most = std::max({q[0], q[1], q[2]});
   const bool sane = std::abs(out.a) + std::abs(out.b) + std::abs(out.c) < 1e30;
@@ -194,7 +194,7 @@ void clip(const DrawnInstance& instance, const Screen& screen, const Corner* cor
   for (int plane = 0; plane < kPlanes && polygon.count >= 3; ++plane) cut(t, plane, polygon);
   if (polygon.count < 3) return;
   for (int i = 0; i < polygon.count; ++i) {
-    if (!(polygon.corners[static_cast<std::size_t>(i)].w(t) > 0)) return;  // through the eye itself
+    if (!(polygon.corners[static_cast<std::size_t>(i)].w(t) > 0)) return;  // at the eye itself
   }
   const std::uint32_t base = static_cast<std::uint32_t>(out.corners.size());
   for (int i = 0; i < polygon.count; ++i) {

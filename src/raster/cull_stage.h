@@ -2,7 +2,7 @@
 #include "raster/raster_job.h"
 #include "raster/wide.h"
 
-/// Triangles that cannot be seen are left out; the others get their planes. For inclusion by
+/// Culls invisible triangles and sets up the planes of the others. For inclusion by
 /// raster_target.cpp alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
@@ -30,7 +30,7 @@ LIMPID_LANES_INLINE void cull_wide(const DrawnInstance& instance, const Screen& 
   const MWI c0 = hn::Lt(x[0], limit), c1 = hn::Lt(x[1], limit), c2 = hn::Lt(x[2], limit);
   const MWI clipped = hn::And(real, hn::Or(c0, hn::Or(c1, c2)));
   if (!hn::AllFalse(kWI, clipped)) {
-    // All three beyond one plane: gone. Corners inside have no bits.
+    // Culled if all three corners are beyond one plane. Corners inside have no bits.
     const auto bits = [&](MWI c, VWI value) {
       return hn::IfThenElseZero(c, hn::Sub(value, ints(kClipped)));
     };
@@ -101,7 +101,7 @@ LIMPID_LANES_INLINE VWD dot_point(const double* row, const WidePoint& p) {
   return dot_wide(row, p.x, p.y, p.z);
 }
 
-/// Planes of kWide triangles from survivor `k` on; `left` of them count.
+/// Sets up planes of kWide triangles from survivor `k` on; the first `left` count.
 LIMPID_LANES_INLINE void set_up_wide(const DrawnInstance& instance, const Corner* corners,
                                      const Survivors& s, int k, int left, Triangle* triangles) {
   alignas(64) float position[9][kWide];
@@ -126,7 +126,7 @@ LIMPID_LANES_INLINE void set_up_wide(const DrawnInstance& instance, const Corner
   const WidePoint p0{load(0), load(1), load(2)};
   const VWD ax = hn::Sub(load(3), p0.x), ay = hn::Sub(load(4), p0.y), az = hn::Sub(load(5), p0.z);
   const VWD bx = hn::Sub(load(6), p0.x), by = hn::Sub(load(7), p0.y), bz = hn::Sub(load(8), p0.z);
-  // Products rounded before they are subtracted: exactly 0 for corners on a line.
+  // Products are rounded before the subtraction: exactly 0 for collinear corners.
   const auto cross = [](VWD a, VWD b, VWD c, VWD d) {
     return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
   };
@@ -142,13 +142,13 @@ LIMPID_LANES_INLINE void set_up_wide(const DrawnInstance& instance, const Corner
   const VWD a = hn::Mul(dot_point(r.ray_dx, n), inverse);
   const VWD b = hn::Mul(dot_point(r.ray_dy, n), inverse);
   const VWD c = hn::Mul(along, inverse);
-  // A plane through the eye has no slope on the screen: such a triangle is as near as its nearest
-  // corner. Corners on a line make no triangle at all.
+  // A plane through the eye has no slope on the screen: such a triangle has the depth of its
+  // nearest corner. Collinear corners make no triangle.
   const VWD steepness = hn::Add(hn::Abs(a), hn::Add(hn::Abs(b), hn::Abs(c)));
   const MWD sane = hn::Lt(steepness, wide(1e30));
   const VWD least = wide(hn::Load(kWF, q_min)), most = wide(hn::Load(kWF, q_max));
   const VWD slope = hn::IfThenElseZero(sane, hn::Add(hn::Abs(a), hn::Abs(b)));
-  // Snapped corners let a triangle reach 1/512 pixel beyond itself, and its q with it.
+  // Snapped corners extend a triangle, and its q, by up to 1/512 pixel.
   const VWD slack = hn::Mul(wide(0.01), hn::Min(slope, hn::Sub(most, least)));
   const VWD lowest = hn::Sub(least, slack);
   const VWD floor = r.perspective ? hn::Max(lowest, hn::Mul(wide(0.5), least)) : lowest;
@@ -170,7 +170,7 @@ LIMPID_LANES_INLINE void set_up_wide(const DrawnInstance& instance, const Corner
     t.c = out_c[l];
     t.q_min = q_min[l];
     t.q_max = q_max[l];
-    if (!(out_size[l] > 0)) s.x1[k + l] = s.x0[k + l] - 1;  // covers nothing
+    if (!(out_size[l] > 0)) s.x1[k + l] = s.x0[k + l] - 1;  // covers no pixel
   }
 }
 

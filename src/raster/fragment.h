@@ -4,12 +4,12 @@
 #include "raster/raster_job.h"
 #include "raster/visibility.h"
 
-/// What the triangles say about the pixels they show: depth, normal, uv and its footprint, in
-/// lanes. For inclusion by raster_target.cpp alone.
+/// Attributes of visible triangles at pixels: depth, normal, uv and its footprint, in lanes. For
+/// inclusion by raster_target.cpp alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
 
-/// The triangles of one vector of pixels, brought into lanes.
+/// The triangles of one vector of pixels, in lanes.
 struct Corners {
   alignas(64) std::int32_t x[3][kLanes], y[3][kLanes];
   alignas(64) double a[kLanes], b[kLanes], c[kLanes];
@@ -20,7 +20,7 @@ struct Corners {
   Lane u[3], v[3];
 };
 
-/// A place in a texture, and how it changes from pixel to pixel.
+/// A place in a texture, and its derivatives from pixel to pixel.
 struct Footprint {
   Lane u, v, u_dx, v_dx, u_dy, v_dy;
 };
@@ -34,9 +34,9 @@ struct Fragment {
   Footprint uv;
 };
 
-/// What the corners of a triangle contribute to a pixel, and how that changes from pixel to pixel:
-/// a value's change is the sum over the corners of dx times the corner's difference from the
-/// pixel's own value, so that far uvs lose nothing.
+/// Weights of a triangle's corners at a pixel, and their derivatives: a value's derivative is the
+/// sum over the corners of dx times the corner's difference from the pixel's own value, which keeps
+/// the precision of uvs far from 0.
 struct Shares {
   Lane of[3], dx[3], dy[3];
 };
@@ -70,7 +70,7 @@ LIMPID_LANES_INLINE void set_all(const ShadeJob& job, const Triangle& t, Corners
   }
 }
 
-/// Copies whole 16-byte records to a row, to be dealt to lanes later: cheaper than gathers.
+/// Copies whole 16-byte records to a row, to be distributed to lanes later: cheaper than gathers.
 template <bool kLit>
 LIMPID_LANES_INLINE void set_each(const ShadeJob& job, const std::int32_t* ids, Corners& out) {
   alignas(64) float corner_rows[3][4 * kLanes], attribute_rows[3][4 * kLanes];
@@ -110,11 +110,11 @@ LIMPID_LANES_INLINE void set_each(const ShadeJob& job, const std::int32_t* ids, 
 }
 
 struct Edges {
-  Lane value[3], dx[3], dy[3];  ///< dx, dy a pixel
+  Lane value[3], dx[3], dy[3];  ///< dx, dy per pixel
 };
 
-/// The three edge functions at the pixels' centres, from whole numbers in double: exact, however
-/// thin the triangle. `x`, `y`: the first pixel.
+/// The three edge functions at the pixels' centres, from integers in double: exact, however thin
+/// the triangle. `x`, `y`: the first pixel.
 LIMPID_LANES_INLINE Edges edges_of(const Corners& in, int x, int y) {
   alignas(64) float value[3][kLanes], dx[3][kLanes], dy[3][kLanes];
   for (int l = 0; l < kLanes; l += kWide) {
@@ -201,14 +201,14 @@ LIMPID_LANES_INLINE Footprint footprint(const Shares& shares, const Lane (&u)[3]
   return at;
 }
 
-/// Normal and uv.
+/// Interpolates normal and uv.
 LIMPID_LANES_INLINE void interpolate(const Shares& shares, const Corners& in, Fragment& f) {
   f.normal = mixed(shares, in.normal);
   f.uv = footprint(shares, in.u, in.v);
 }
 
-/// `ids`: those of the pixels (x ... x + kLanes - 1, y); at least one shows something. Brings their
-/// triangles to `in`, and says which of the pixels are covered.
+/// `ids`: those of the pixels (x ... x + kLanes - 1, y), of which at least one is covered. Loads
+/// their triangles into `in`, and returns the covered lanes.
 template <bool kLit>
 LIMPID_LANES_INLINE Mask find_corners(const ShadeJob& job, const std::int32_t* ids, Corners& in) {
   const VI id = hn::Load(kDI, ids), nothing = hn::Set(kDI, static_cast<std::int32_t>(kNothing));
@@ -226,7 +226,7 @@ LIMPID_LANES_INLINE Mask find_corners(const ShadeJob& job, const std::int32_t* i
   return {hn::RebindMask(kD, covered)};
 }
 
-/// Without kLit only what is covered and how deep.
+/// Without kLit only coverage and depth.
 template <bool kLit>
 LIMPID_LANES_INLINE void find_fragment(const ShadeJob& job, const std::int32_t* ids, int x, int y,
                                        Fragment& f) {

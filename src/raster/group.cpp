@@ -6,7 +6,7 @@
 namespace limpid::raster {
 namespace {
 
-/// The arrays of Survivors, one set a thread at a time.
+/// The arrays of Survivors, one set per thread at a time.
 struct Scratch {
   static constexpr int kRoom = kGroup + kSlack;
   std::array<std::array<std::int32_t, kRoom>, 9> arrays;
@@ -94,7 +94,7 @@ void Group::sort_into_tiles() {
       }
     }
   };
-  // Counts two places on; after the sums and the filling they are where they belong.
+  // Counts are stored two places ahead; after the sums and the filling they are in place.
   for (int i = 0; i < total_; ++i) {
     for_tiles(i, [&](int tile) { ++offsets[tile + 2]; });
   }

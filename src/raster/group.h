@@ -12,7 +12,7 @@ namespace limpid::raster {
 template <class T>
 class Buffer {
  public:
-  /// At least `count` elements; what was there is lost when it grows.
+  /// At least `count` elements; growing discards the content.
   T* take(std::size_t count) {
     if (count > size_) {
       data_ = std::make_unique_for_overwrite<T[]>(count);
@@ -28,16 +28,16 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
-/// A run of an instance's triangles, set up and sorted into tiles by one task.
+/// A range of an instance's triangles, set up and sorted into tiles by one task.
 class Group {
  public:
   Group(const DrawnInstance& instance, int first, int count)
       : instance_(&instance), first_(first), count_(count) {}
-  /// The same for another draw, keeping memory.
+  /// Reuses the memory for another draw.
   void reset(const DrawnInstance& instance, int first, int count);
 
   void set_up(const RasterTarget& target, const Screen& screen, const Corner* corners);
-  /// Corners that clipping made are in `corners` from `first` on. `more` may be null.
+  /// Corners made by clipping are in `corners` from `first` on. `more` may be null.
   void place_new_corners(std::uint32_t first, Corner* corners, Attributes* attributes,
                          MoreAttributes* more);
 
@@ -47,7 +47,7 @@ class Group {
 
  private:
   struct TileBox {
-    std::int16_t x0, y0, x1, y1;  ///< inclusive; x1 < x0 for nothing
+    std::int16_t x0, y0, x1, y1;  ///< inclusive; x1 < x0 if empty
   };
   void sort_into_tiles();
 

@@ -26,7 +26,8 @@ void copy(const Rgb<double>& from, float* to) {
   to[2] = static_cast<float>(from.b);
 }
 
-/// What no fragment of the material on this mesh is below. Mip levels are means, which lie between.
+/// Lower bound of the opacity of all fragments of the material on this mesh. Mip levels are means,
+/// within the bounds.
 double least_opacity(const Material& m, const Model& model, const std::vector<glm::vec4>& colors) {
   double least = m.alpha;
   if (m.base_texture >= 0) {
@@ -45,7 +46,7 @@ void set_opacity(const Material& m, const Model& model, const std::vector<glm::v
   view.alpha = static_cast<float>(m.alpha);
   if (m.alpha_mode == AlphaMode::kOpaque) return;
   const bool mask = m.alpha_mode == AlphaMode::kMask;
-  // A little less, for the rounding of what is just there.
+  // A little less, for rounding at the threshold.
   const auto from = [](double opacity) { return static_cast<float>(opacity * (1 - 1e-6)); };
   view.solid_from = from(mask ? m.alpha_cutoff : kOpaqueFrom);
   view.blocks_from = from(mask ? m.alpha_cutoff : kBlocksFrom);

@@ -10,8 +10,8 @@
 
 namespace limpid::raster {
 
-/// A material as the stages read it, on a mesh with these vertex colors, if any. Throws Error for
-/// indices that are out of range.
+/// A material in the form of the stages, on a mesh with these vertex colors, if any. Throws Error
+/// for indices out of range.
 MaterialView material_view(const Material& material, const Model& model,
                            const std::vector<Pyramid>& pyramids,
                            const std::vector<glm::vec4>& colors);

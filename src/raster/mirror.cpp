@@ -12,7 +12,7 @@ namespace {
 
 glm::dvec4 row(const glm::dmat4& m, int r) { return {m[0][r], m[1][r], m[2][r], m[3][r]}; }
 
-/// Nearer than this the plane passes through the eye.
+/// At a smaller distance the plane counts as passing through the eye.
 constexpr double kNearest = 1e-9;
 
 double height_over(const WaterPlane& plane, const Camera& camera) {
@@ -42,7 +42,7 @@ Camera mirrored_camera(const Camera& camera, const WaterPlane& plane) {
   if (!sees_mirror(camera, plane)) throw Error("camera: its eye lies in the water plane");
   Camera mirrored = camera;
   mirrored.view = camera.view * mirror(plane);
-  // A plane transforms by the inverse transpose; the side away from the mirrored eye stays.
+  // A plane transforms by the inverse transpose; the side opposite to the mirrored eye is kept.
   const glm::dvec4 world(plane.up, -plane.height);
   const glm::dvec4 kept = above > 0 ? world : -world;
   const glm::dvec4 in_camera = glm::transpose(glm::inverse(mirrored.view)) * kept;

@@ -54,7 +54,7 @@ void check(const Mesh& mesh, const Model& model) {
   expect_index(name + ": material", mesh.material, model.materials.size());
 }
 
-/// Each triangle gets three vertices of its own, with the face's normal.
+/// Gives each triangle three vertices of its own, with the face's normal.
 void split_faces(const Mesh& mesh, PreparedMesh& out) {
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const glm::dvec3 normal = face_normal(mesh, i);

@@ -49,7 +49,7 @@ VertexTransform transform_of(const RasterView& view, const Screen& screen,
   }
   const glm::dmat3 linear(world_from_mesh);
   const double sign = glm::determinant(linear) < 0 ? -1 : 1;
-  const glm::dmat3 normal = sign * cofactors(linear);  // the inverse transpose, but for its length
+  const glm::dmat3 normal = sign * cofactors(linear);  // the inverse transpose, up to its length
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) t.normal[r][c] = normal[c][r];
   }

@@ -11,7 +11,7 @@ namespace limpid::raster {
 /// The window in pixels from an origin near its middle, so that fixed-point positions stay small.
 Screen screen_of(const RasterView& view);
 
-/// The instances that the view shows, with all that brings them to the screen.
+/// The instances in the view, with their transforms to the screen.
 std::vector<DrawnInstance> drawn_instances(const PreparedModel& prepared, const RasterView& view,
                                            const Screen& screen);
 

@@ -9,7 +9,7 @@
 namespace limpid::raster {
 namespace {
 
-/// The texels that one texel of the next level covers, with their shares: two, or three where the
+/// The texels that one texel of the next level covers, with their weights: two, or three if the
 /// size is odd.
 struct Cover {
   int first, count;

@@ -4,20 +4,20 @@
 #include "limpid/core/rect.h"
 #include "limpid/raster/model.h"
 
-/// What the stages of the rasteriser hand one another, as plain data: the stages compiled for an
-/// instruction set see nothing else. Screen positions are fixed-point, 1/256 pixel, measured from
+/// The data that the stages of the rasteriser pass on, as plain structs: stages compiled for an
+/// instruction set include nothing else. Screen positions are fixed-point, 1/256 pixel, relative to
 /// the pixel corner Screen::origin. `q` is the reversed depth: 1 / Z for perspective, -Z for
 /// orthographic cameras; linear on the screen, larger is nearer.
 
 namespace limpid::raster {
 
 constexpr int kSubpixels = 256;
-constexpr std::int32_t kGuard = 16384 * kSubpixels;  ///< no corner is further out than this
+constexpr std::int32_t kGuard = 16384 * kSubpixels;  ///< the farthest position of a corner
 constexpr std::int32_t kClipped = -(1 << 30);  ///< x of a corner to be clipped, plus its ClipBits
 constexpr int kTile = 64;
 constexpr std::uint32_t kNothing = 0xffffffffu;
 
-/// A transformed vertex, in two parts: what visibility needs, and the rest.
+/// A transformed vertex, in two parts: the data for visibility, and the rest.
 struct alignas(16) Corner {
   std::int32_t x, y;
   float q, normal_x;
@@ -26,14 +26,14 @@ struct alignas(16) Attributes {
   float normal_y, normal_z, u, v;
 };
 
-/// What few vertices have, and only who draws such materials reads.
+/// Attributes that few vertices have, read only for materials that need them.
 struct alignas(16) MoreAttributes {
   float color[4] = {1, 1, 1, 1};
   float u = 0, v = 0;  ///< of the second set
 };
 
-/// A triangle that may be seen, corners clockwise on the screen. q = a x + b y + c at the pixel
-/// coordinates x, y (from Screen::origin), kept within q_min ... q_max.
+/// A triangle that may be visible, corners clockwise on the screen. q = a x + b y + c at the pixel
+/// coordinates x, y (from Screen::origin), clamped to q_min ... q_max.
 struct alignas(16) Triangle {
   static constexpr std::uint32_t kBack = 1u << 31;  ///< seen from behind
   static constexpr std::uint32_t kMaterial = kBack - 1;
@@ -43,7 +43,7 @@ struct alignas(16) Triangle {
   float q_min, q_max;
 };
 
-/// Half-spaces that a vertex must be in, or its triangle is clipped.
+/// Half-spaces; a triangle with a corner outside is clipped.
 enum ClipBits { kNear = 1, kFar = 2, kUser = 4, kLeft = 8, kRight = 16, kTop = 32, kBottom = 64 };
 
 /// From a mesh vertex (x, y, z, 1) to the screen: x and y times w in fixed-point units, the eye
@@ -56,7 +56,7 @@ struct VertexTransform {
   bool perspective;
 };
 
-/// A mesh as the stages read it; three floats a vertex, uvs two or null, colors four or null.
+/// A mesh in the form of the stages; three floats per vertex, uvs two or null, colors four or null.
 struct MeshView {
   const float* positions;
   const float* normals;
@@ -117,7 +117,7 @@ struct GroupView {
   int tx0, ty0, tx1, ty1;
 };
 
-/// A texture's mip chain, level after level, four floats a texel. Level l is max(1, width >> l)
+/// A texture's mip chain, level after level, four floats per texel. Level l is max(1, width >> l)
 /// wide.
 struct PyramidView {
   const float* texels;
@@ -130,12 +130,12 @@ struct MaterialView {
   float base[3], ambient[3], specular[3], power;
   const PyramidView* base_texture;      ///< or null
   const PyramidView* specular_texture;  ///< or null
-  bool plain;                           ///< all below says nothing
+  bool plain;                           ///< all members below have their defaults
   bool vertex_colors;
   float emission[3];
   const PyramidView* emissive_texture;  ///< or null
   TextureLookup base_lookup, specular_lookup, emissive_lookup;
-  AlphaMode alpha_mode;  ///< opaque also where no fragment could be anything else
+  AlphaMode alpha_mode;  ///< opaque also if every fragment is
   float alpha;
   float solid_from;   ///< a fragment of at least this opacity hides all behind it
   float blocks_from;  ///< a fragment of at least this opacity has the pixel's depth
@@ -154,7 +154,7 @@ struct ShadeJob {
   Screen screen;
   bool perspective;
   int tiles_across;
-  const GroupView* groups;  ///< of opaque materials first, then masked, then blended ones
+  const GroupView* groups;  ///< groups of opaque materials first, then masked, then blended
   int opaque_groups, unblended_groups, group_count;
   const Corner* corners;
   const Attributes* attributes;
@@ -165,13 +165,13 @@ struct ShadeJob {
   float background[3];
   float sun_direction[3], sun_color[3];
   ShadowView shadow;
-  bool lit;    ///< anything but depth and coverage is wanted
-  bool plain;  ///< all materials that are drawn are
+  bool lit;    ///< any output besides depth and coverage
+  bool plain;  ///< all drawn materials are plain
   std::ptrdiff_t y_stride;
-  float *color[3], *depth, *coverage, *shadow_out, *normal[3];  ///< null when not wanted
+  float *color[3], *depth, *coverage, *shadow_out, *normal[3];  ///< null if not needed
 };
 
-/// The stages as compiled for one instruction set.
+/// The stages, compiled for one instruction set.
 struct RasterTarget {
   void (*transform)(const DrawnInstance& instance, int first, int count, Corner* corners,
                     Attributes* attributes);

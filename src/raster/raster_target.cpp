@@ -1,5 +1,5 @@
-// Compiled once for each instruction set, like run/lanes_target.cpp: all that is instantiated here
-// lives in the namespace of the set.
+// Compiled once for each instruction set, like run/lanes_target.cpp: all instantiations here live
+// in the namespace of the set.
 #include "core/target_name.h"
 #include "raster/blend.h"
 #include "raster/cull_stage.h"
@@ -37,7 +37,7 @@ void shade_any(const ShadeJob& job, const Tile& tile, const Visibility& seen) {
   }
 }
 
-/// Color alone, of all that the tile shows.
+/// Only the color, of all materials in the tile.
 void draw_blended_colors(const ShadeJob& job, const Tile& tile, const Visibility& unblended) {
   ShadeJob colors = job;
   colors.depth = colors.coverage = colors.shadow_out = nullptr;

@@ -19,7 +19,7 @@ namespace limpid {
 
 namespace raster {
 
-// One for each instruction set that the build names, made by raster_target.cpp.
+// One for each instruction set that the build names, defined in raster_target.cpp.
 #define LIMPID_TARGET(name, highway) extern const RasterTarget kRaster_##name;
 #include "core/targets.inc"
 #undef LIMPID_TARGET
@@ -52,7 +52,7 @@ void check(const RasterView& view) {
   }
 }
 
-/// `plane` over the window when wanted, else empty; its first pixel.
+/// Allocates `plane` over the window if wanted, else empties it; returns its first pixel.
 float* pixels(bool wanted, const Rect& window, Plane& plane) {
   if (!wanted) {
     plane = Plane();
@@ -91,7 +91,7 @@ ShadowView shadow_view(const ShadowMap& map, const glm::dvec3& eye) {
   return v;
 }
 
-/// Materials that answer the sun, and nothing else.
+/// Reduces materials to their response to the sun.
 std::vector<MaterialView> answers_to_sun(std::vector<MaterialView> materials) {
   for (MaterialView& m : materials) {
     const bool unlit = m.shading == Shading::kFlat || m.shading == Shading::kTextured;
@@ -102,7 +102,7 @@ std::vector<MaterialView> answers_to_sun(std::vector<MaterialView> materials) {
   return materials;
 }
 
-/// All but where the buffers of the scene are.
+/// The job without the pointers to the scene's buffers.
 ShadeJob shade_job(const RasterView& view, const Screen& screen, const RasterLighting& lighting,
                    const Model& model, RasterWanted wanted, RasterImage& image) {
   ShadeJob job{};
@@ -148,8 +148,8 @@ struct __attribute__((visibility("hidden"))) Rasteriser::State {
   std::vector<raster::GroupView> views;
   raster::Buffer<raster::Corner> corners;
   raster::Buffer<raster::Attributes> attributes;
-  std::vector<raster::MaterialView> sun_materials;      ///< of a picture of the sun's light alone
-  std::vector<raster::MoreAttributes> more_attributes;  ///< one a corner, or empty
+  std::vector<raster::MaterialView> sun_materials;      ///< for a picture of sunlight only
+  std::vector<raster::MoreAttributes> more_attributes;  ///< one per corner, or empty
 
   std::uint32_t transform_vertices(const raster::RasterTarget& target, Executor& executor);
   void make_groups();
@@ -244,7 +244,7 @@ bool Rasteriser::State::all_plain() const {
   });
 }
 
-/// Groups lie in the order of their instances.
+/// Groups are in the order of their instances.
 int Rasteriser::State::groups_up_to(AlphaMode alpha) const {
   int count = 0;
   while (count < static_cast<int>(group_count) &&

@@ -28,7 +28,7 @@ const PlaneSet kBelowColorPlanes = kBelowPlanes - PlaneSet{PlaneId::kBelowDepth}
 const PlaneSet kSurfacePlanes =
     kSurfaceNormalPlanes | PlaneSet{PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow};
 
-/// One plate in the making: what all its passes share.
+/// Renders one plate: the data that its passes share.
 class PlateRenderer {
  public:
   PlateRenderer(const Model& model, const Scene& scene, const RenderOptions& options,
@@ -61,7 +61,7 @@ class PlateRenderer {
     planes.shadow = wanted.has(PlaneId::kShadow);
     RasterImage image = draw(*scene_.camera, planes);
     keep_color(PlaneId::kColorR, image);
-    if (planes.coverage) {  // the background is part of the picture: opaque everywhere
+    if (planes.coverage) {  // the background belongs to the picture: opaque everywhere
       fill(image.coverage, 1);
       keep(PlaneId::kColorA, std::move(image.coverage));
     }
@@ -69,7 +69,7 @@ class PlateRenderer {
     if (planes.shadow) keep(PlaneId::kShadow, std::move(image.shadow));
   }
 
-  /// By the same shading as the dry picture, which is never darker then.
+  /// With the shading of the dry picture, which is therefore never darker.
   void draw_sunlight() {
     lighting_.sun_alone = true;
     RasterImage image = draw(*scene_.camera, {.color = true});
@@ -85,7 +85,8 @@ class PlateRenderer {
     RasterImage image = draw(mirrored, planes, std::nullopt, true);
     keep_color(PlaneId::kReflectionR, image);
     if (valid) {
-      // Where a back face comes first, the mirror looks into a solid that the water cut open.
+      // Where a back face comes first, the mirror shows the inside of an object clipped at the
+      // water.
       const RasterImage open = draw(mirrored, {.depth = true}, std::nullopt, true, false);
       Plane mask(window_);
       for_each_pixel([&](int x, int y) {
@@ -97,8 +98,8 @@ class PlateRenderer {
     if (depth) keep(PlaneId::kReflectionDepth, std::move(image.depth));
   }
 
-  /// Waves may raise the water over more than lies under the calm plane: cut at their crest, and it
-  /// is for who looks something up to see whether it lies under the surface there.
+  /// Waves may raise the water above the calm plane: so the layer is clipped at their crest, and
+  /// each lookup tests whether the surface lies in front.
   void draw_below(PlaneSet wanted) {
     const WaterPlane& water = *scene_.water;
     const RasterWanted planes{.color = wanted.meets(kBelowColorPlanes),
@@ -130,7 +131,7 @@ class PlateRenderer {
       keep(PlaneId::kSurfaceShadow,
            surface_shadow(surface, camera, water, display_, shadow_map_, executor_));
     }
-    if (!has_mesh) return;  // the chain derives the calm plane itself
+    if (!has_mesh) return;  // the chain computes the calm plane itself
     if (wanted.has(PlaneId::kSurfaceDepth)) keep(PlaneId::kSurfaceDepth, std::move(surface.depth));
     if (!wanted.meets(kSurfaceNormalPlanes)) return;
     for (int c = 0; c < 3; ++c) {
@@ -201,7 +202,7 @@ PlaneSet renderable(const Model& model, const Scene& scene) {
   if (!water && !scene.water->waves.empty()) {
     throw Error("water.waves move a mesh, and the geometry has none whose node says water = true");
   }
-  // A calm mesh has nothing to say that the plane does not; its normals would only keep others out.
+  // A calm mesh adds nothing to the plane; its normals would only replace other normals.
   if (water && !scene.water->waves.empty()) planes = planes | kSurfaceNormalPlanes;
   return planes;
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include "raster/shade.h"
 
-/// Materials that are more than plain: opacity, vertex colors, emission, a second set of uvs, other
+/// Materials beyond plain ones: opacity, vertex colors, emission, a second set of uvs, other
 /// wrapping. For inclusion by raster_target.cpp alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
@@ -11,13 +11,13 @@ struct MoreCorners {
   Lane color[4][3], u[3], v[3];
 };
 
-/// What the pixels have of them.
+/// Interpolated MoreAttributes of the pixels.
 struct More {
   Lane color[4];
   Footprint uv;
 };
 
-/// `ids`: at least one shows something; where nothing is, the lane has what the first one has.
+/// `ids`: at least one is covered; an empty lane gets the attributes of the first.
 LIMPID_LANES_INLINE void find_more(const ShadeJob& job, const std::int32_t* ids, MoreCorners& out) {
   alignas(64) float values[6][3][kLanes];
   int first = 0;
@@ -39,7 +39,7 @@ LIMPID_LANES_INLINE void find_more(const ShadeJob& job, const std::int32_t* ids,
   }
 }
 
-/// Without any in the job: white, and uvs that no material asks for.
+/// Without attributes in the job: white, and uvs that no material reads.
 LIMPID_LANES_INLINE More more_at(const ShadeJob& job, const Shares& shares,
                                  const MoreCorners& corners) {
   More more;
@@ -49,7 +49,7 @@ LIMPID_LANES_INLINE More more_at(const ShadeJob& job, const Shares& shares,
   return more;
 }
 
-/// White where there is no texture.
+/// White without a texture.
 LIMPID_LANES_INLINE Texel texel_of(const PyramidView* texture, const TextureLookup& lookup,
                                    const Fragment& f, const More& more) {
   if (!texture) return {{Lane(1), Lane(1), Lane(1)}, Lane(1)};
@@ -66,7 +66,7 @@ struct Seen {
   Lane opacity;
 };
 
-/// The color, and the opacity of a material that blends.
+/// The color, and the opacity of a blended material.
 LIMPID_LANES_INLINE Seen seen_of(const MaterialView& m, const Fragment& f, const More& more,
                                  const Light& light) {
   const Texel texel = texel_of(m.base_texture, m.base_lookup, f, more);
@@ -80,8 +80,8 @@ LIMPID_LANES_INLINE Seen seen_of(const MaterialView& m, const Fragment& f, const
   return {lit + emitted, opacity_of(m, texel, more)};
 }
 
-/// What the pixels (x ... x + kLanes - 1, y) show, of which at least one shows something; the
-/// background, opaque, where they show nothing.
+/// Color and opacity of the pixels (x ... x + kLanes - 1, y), of which at least one is covered; the
+/// opaque background where no triangle is.
 inline Seen find_seen(const ShadeJob& job, const std::int32_t* ids, int x, int y, Fragment& f,
                       Light& light) {
   Corners in;
@@ -104,7 +104,7 @@ inline Seen find_seen(const ShadeJob& job, const std::int32_t* ids, int x, int y
   return seen;
 }
 
-/// What is wanted, of all materials.
+/// Writes the outputs of the job, for all materials.
 inline void shade_rich_tile(const ShadeJob& job, const Screen& tile, const Visibility& seen) {
   const VI nothing = hn::Set(kDI, static_cast<std::int32_t>(kNothing));
   for (int y = tile.y0; y < tile.y1; ++y) {

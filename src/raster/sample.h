@@ -8,8 +8,8 @@
 
 namespace limpid::raster::HWY_NAMESPACE {
 
-/// The mip level whose texels are nearest in size to the pixel: log2 of the longer side of its
-/// footprint in texels, rounded.
+/// The mip level whose texel size is nearest to the pixel: log2 of the longer side of its footprint
+/// in texels, rounded.
 LIMPID_LANES_INLINE VI level_of(const PyramidView& texture, const Footprint& f) {
   const Lane w(texture.width), h(texture.height);
   const Lane ax = f.u_dx * w, ay = f.v_dx * h, bx = f.u_dy * w, by = f.v_dy * h;
@@ -25,7 +25,7 @@ struct Texel {
   Lane alpha;
 };
 
-/// A place along one axis, brought into 0 ... 1; NaN becomes 0.
+/// Wraps a coordinate into 0 ... 1; NaN becomes 0.
 LIMPID_LANES_INLINE Lane wrapped(Lane at, Wrap wrap) {
   Lane part = at;
   if (wrap == Wrap::kRepeat) part = at - floor(at);
@@ -36,7 +36,7 @@ LIMPID_LANES_INLINE Lane wrapped(Lane at, Wrap wrap) {
   return min(select(part > Lane(0), part, Lane(0)), Lane(1));
 }
 
-/// Bilinear.
+/// Bilinear lookup.
 LIMPID_LANES_INLINE Texel sample(const PyramidView& texture, const Footprint& f, Wrap wrap_u,
                                  Wrap wrap_v) {
   const VI level = level_of(texture, f), one = hn::Set(kDI, 1);
@@ -47,7 +47,7 @@ LIMPID_LANES_INLINE Texel sample(const PyramidView& texture, const Footprint& f,
     const Lane texel = wrapped(at, wrap) * Lane(hn::ConvertTo(kD, size)) - Lane(0.5);
     const Lane whole = floor(texel);
     const VI n = hn::ConvertTo(kDI, whole.v), last = hn::Sub(size, hn::Set(kDI, 1));
-    const bool repeats = wrap == Wrap::kRepeat;  // else what lies beyond is the outermost texel
+    const bool repeats = wrap == Wrap::kRepeat;  // else the outermost texel continues
     const VI zero = hn::Zero(kDI), before = repeats ? last : zero, beyond = repeats ? zero : last;
     low = hn::Min(hn::IfThenElse(hn::Lt(n, zero), before, n), last);
     const VI next = hn::Add(n, hn::Set(kDI, 1));
@@ -82,7 +82,7 @@ LIMPID_LANES_INLINE Texel sample(const PyramidView& texture, const Footprint& f,
   return {{Lane(r), Lane(g), Lane(b)}, Lane(alpha)};
 }
 
-/// Of a plain material: repeating in both directions.
+/// For a plain material: repeats in both directions.
 LIMPID_LANES_INLINE Rgb<Lane> sample(const PyramidView& texture, const Footprint& f) {
   return sample(texture, f, Wrap::kRepeat, Wrap::kRepeat).color;
 }

@@ -2,7 +2,8 @@
 #include "optics/shading.h"
 #include "raster/sample.h"
 
-/// From visible triangles to the planes of the picture. For inclusion by raster_target.cpp alone.
+/// Shades visible triangles into the planes of the picture. For inclusion by raster_target.cpp
+/// alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
 
@@ -11,7 +12,7 @@ LIMPID_LANES_INLINE Rgb<Lane> color_of(const T (&c)[3]) {
   return {Lane(c[0]), Lane(c[1]), Lane(c[2])};
 }
 
-/// Where a vector of pixels of one row looks.
+/// The view of a vector of pixels of one row.
 struct Sight {
   Vec3<Lane> ray, origin;
 
@@ -28,7 +29,7 @@ struct Sight {
   }
 };
 
-/// The light at a vector of pixels, whatever their materials.
+/// The light at a vector of pixels, for any material.
 struct Light {
   Vec3<Lane> normal, viewer, sun;
   Lane cosine, shadow;
@@ -54,7 +55,7 @@ LIMPID_LANES_INLINE Light light_at(const ShadeJob& job, const Fragment& f, const
   return light;
 }
 
-/// `specular_of()` is asked for the specular color where that matters.
+/// `specular_of()` returns the specular color; called only if it matters.
 template <class Specular>
 LIMPID_LANES_INLINE Rgb<Lane> lit_by(const MaterialView& m, const Rgb<Lane>& base,
                                      const Light& light, Specular&& specular_of) {
@@ -145,7 +146,7 @@ LIMPID_LANES_INLINE void store_color(const ShadeJob& job, std::ptrdiff_t at,
   store(job.color[2], at, color.b);
 }
 
-/// Of plain materials what is wanted, of all materials depth and coverage.
+/// For plain materials the outputs of the job, for all materials depth and coverage.
 template <bool kLit>
 void shade_tile(const ShadeJob& job, const Screen& tile, const Visibility& seen) {
   const VI nothing = hn::Set(kDI, static_cast<std::int32_t>(kNothing));

@@ -47,7 +47,7 @@ Extent casters_extent(const Model& model, const glm::dmat3& sun_from_world) {
   return extent;
 }
 
-/// Only across the sun's direction: what is nearer to the sun casts shadows into the box as well.
+/// Only across the sun's direction: objects nearer to the sun cast shadows into the box, too.
 void keep_within(const Box& bounds, const glm::dmat3& sun_from_world, Extent& extent) {
   Extent box;
   for (int corner = 0; corner < 8; ++corner) {
@@ -58,7 +58,7 @@ void keep_within(const Box& bounds, const glm::dmat3& sun_from_world, Extent& ex
   for (int c = 0; c < 2; ++c) {
     const double low = std::max(extent.min[c], box.min[c]);
     const double high = std::min(extent.max[c], box.max[c]);
-    if (!(low <= high)) continue;  // nothing of it casts; any part of the map will do
+    if (!(low <= high)) continue;  // no part of it casts; any part of the map will do
     extent.min[c] = low;
     extent.max[c] = high;
   }

@@ -16,10 +16,10 @@ struct Box {
   glm::dvec3 min, max;
 };
 
-/// How far away from the sun everything is that it sees, on a grid across its direction. A point is
-/// lit when its depth, less a bias, is not behind the map's: bias_texels texels along the surface's
-/// slope (which is cut at max_slope), plus `bias`. The answer is the mean of 3x3 comparisons,
-/// blended between texels.
+/// Distance from the sun of the surfaces that it sees, on a grid across its direction. A point is
+/// lit if its depth, less a bias, is not behind the map's: bias_texels texels along the surface's
+/// slope (clamped to max_slope), plus `bias`. The result is the mean of 3x3 comparisons, blended
+/// between texels.
 struct ShadowMap {
   static constexpr double kBiasTexels = 2.5, kMaxSlope = 8;
 
@@ -27,17 +27,17 @@ struct ShadowMap {
   glm::dmat3 sun_from_world{1.0};  ///< rotation alone; z points to the sun
   double texel = 1;                ///< scene units
   double bias = 0;                 ///< scene units
-  Plane depth;                     ///< +inf where the sun meets nothing
+  Plane depth;                     ///< +inf where the sun sees nothing
 };
 
-/// Draws the map, `size` x `size` texels fitted to everything that casts a shadow: all instances
-/// but the water; or, across the sun's direction, to what of that is within `bounds`. Throws Error
-/// for a size outside 1 ... 16384 or a sun direction that is not unit.
+/// Draws the map, `size` x `size` texels fitted to all objects that cast shadows: all instances but
+/// the water; or, across the sun's direction, to their part within `bounds`. Throws Error for a
+/// size outside 1 ... 16384 or a sun direction that is not unit.
 ShadowMap make_shadow_map(const Model& model, const Sun& sun, const std::optional<Box>& bounds,
                           int size, Executor& executor, const std::string& simd = "");
 
-/// The sun's visibility at a point with this unit normal: 1 lit ... 0; 0 on what faces away, 1
-/// outside the map. What the raster pass evaluates in lanes.
+/// The sun's visibility at a point with this unit normal: 1 lit ... 0; 0 where the surface faces
+/// away, 1 outside the map. The raster pass evaluates the same in lanes.
 double shadow_at(const ShadowMap& map, glm::dvec3 world, glm::dvec3 normal);
 
 }  // namespace limpid

@@ -1,12 +1,12 @@
 #pragma once
 #include "raster/rich.h"
 
-/// Visibility of triangles whose fragments are there or not by their opacity. For inclusion by
+/// Visibility of triangles whose opacity decides whether a fragment exists. For inclusion by
 /// raster_target.cpp alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
 
-/// One triangle, brought into lanes when its opacity is first asked for: most are hidden.
+/// One triangle, loaded into lanes when its opacity is first needed: most triangles are hidden.
 class TestedTriangle {
  public:
   LIMPID_LANES_INLINE TestedTriangle(const ShadeJob& job, std::int32_t id)
@@ -60,8 +60,8 @@ struct OpacityTest {
   }
 };
 
-/// Fragments that blend, and lie behind the layer `before`. Layers lie by depth, those of the same
-/// depth in the order in which they are drawn.
+/// Blended fragments behind the layer `before`. Layers are in the order of depth, layers of the
+/// same depth in the order of drawing.
 struct LayerTest {
   TestedTriangle& triangle;
   const Screen& tile;
@@ -84,7 +84,7 @@ struct LayerTest {
   }
 };
 
-/// `from`: what a fragment's opacity is at least to be there, of its material.
+/// `from`: the least opacity of a fragment, by material.
 inline void find_tested(const ShadeJob& job, const Tile& tile, int first_group, int end_group,
                         float MaterialView::*from, Visibility& out) {
   each_triangle(

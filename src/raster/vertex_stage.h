@@ -2,18 +2,18 @@
 #include "raster/raster_job.h"
 #include "raster/wide.h"
 
-/// Vertices to the screen, in double. For inclusion by raster_target.cpp alone.
+/// Transforms vertices to the screen, in double. For inclusion by raster_target.cpp alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
 
 using namespace limpid::HWY_NAMESPACE;
 
-/// What is outside of a half-space adds the half-space's bit.
+/// A vertex outside of a half-space adds the half-space's bit.
 LIMPID_LANES_INLINE VWD clip_bit(VWD distance, int bit) {
   return hn::IfThenElse(hn::Ge(distance, hn::Zero(kWD)), hn::Zero(kWD), wide(bit));  // NaN is out
 }
 
-/// kWide vertices; `floats` has three floats a vertex. `corners`, `attributes`: room for kWide.
+/// kWide vertices; `floats` has three floats per vertex. `corners`, `attributes`: room for kWide.
 LIMPID_LANES_INLINE void transform_wide(const VertexTransform& t, const float* positions,
                                         const float* normals, const float* uvs, Corner* corners,
                                         Attributes* attributes) {
@@ -32,7 +32,7 @@ LIMPID_LANES_INLINE void transform_wide(const VertexTransform& t, const float* p
   bits = hn::Add(bits, clip_bit(hn::Sub(reach, screen_x), kRight));
   bits = hn::Add(bits, clip_bit(hn::Add(reach, screen_y), kTop));
   bits = hn::Add(bits, clip_bit(hn::Sub(reach, screen_y), kBottom));
-  // w = 0 can pass only as the eye itself: clipping takes it out.
+  // Only the eye itself passes with w = 0: clipping removes it.
   const MWD inside = hn::And(hn::Eq(bits, hn::Zero(kWD)), hn::Gt(w, hn::Zero(kWD)));
   const VWD inverse = hn::Div(one, hn::IfThenElse(inside, w, one));
   const VWD fixed_x =

@@ -2,7 +2,7 @@
 #include "raster/raster_job.h"
 #include "raster/wide.h"
 
-/// Which triangle each pixel of a tile shows. For inclusion by raster_target.cpp alone.
+/// The visible triangle of each pixel of a tile. For inclusion by raster_target.cpp alone.
 
 namespace limpid::raster::HWY_NAMESPACE {
 
@@ -16,9 +16,9 @@ struct alignas(64) Visibility {
   std::int32_t id[kTile * kTileStride];  ///< group << 16 | triangle, or kNothing
 };
 
-/// Edge functions and depth of kWide triangles at the first pixel of each one's box in the tile.
-/// edge + i edge_dx + j edge_dy >= 0, for all three, is inside at pixel (i, j) of the box: the
-/// top-left rule and 1/256 pixel are in it already, exactly.
+/// Edge functions and depth of kWide triangles at the first pixel of each triangle's box in the
+/// tile. edge + i edge_dx + j edge_dy >= 0, for all three, is inside at pixel (i, j) of the box: it
+/// includes the top-left rule and the scale of 1/256 pixel, exactly.
 struct alignas(64) EdgeBatch {
   std::int32_t edge[3][kWide], edge_dx[3][kWide], edge_dy[3][kWide];
   std::int32_t x0[kWide], y0[kWide], x1[kWide], y1[kWide];
@@ -76,7 +76,7 @@ LIMPID_LANES_INLINE void make_batch(const GroupView& group, const std::uint32_t*
     const VWD wide_dx = wide(dx), wide_dy = wide(dy);
     const VWD value = hn::Sub(hn::Mul(wide_dx, hn::Sub(centre_y, wide(y[from]))),
                               hn::Mul(wide_dy, hn::Sub(centre_x, wide(x[from]))));
-    // Top and left edges own their pixels: 0 counts there.
+    // Top and left edges own their pixels: 0 is inside there.
     const VWD zero = hn::Zero(kWD);
     const MWD owns =
         hn::Or(hn::Lt(wide_dy, zero), hn::And(hn::Eq(wide_dy, zero), hn::Gt(wide_dx, zero)));
@@ -101,13 +101,14 @@ LIMPID_LANES_INLINE void make_batch(const GroupView& group, const std::uint32_t*
   hn::Store(hn::Sub(y1, hn::Set(kWI, tile.y0)), kWI, batch.y1);
 }
 
-/// Lets every fragment of a triangle through.
+/// Accepts every fragment of a triangle.
 struct EveryFragment {
   LIMPID_LANES_INLINE M operator()(V, int, int, M put) const { return put; }
 };
 
-/// One triangle of the batch into the tile. The nearest wins, among equals the first. `test(q, x,
-/// y, put)` says which of the fragments `put`, from pixel (x, y) of the tile on, are there.
+/// Draws one triangle of the batch into the tile. The nearest wins, among equals the first.
+/// `test(q, x, y, put)` returns which of the fragments `put`, from pixel (x, y) of the tile on,
+/// exist.
 template <class Test>
 LIMPID_LANES_INLINE void draw(const EdgeBatch& batch, int l, std::int32_t id, Visibility& out,
                               Test&& test) {
@@ -164,14 +165,14 @@ struct Tile {
   Screen pixels;
 };
 
-/// The place of the tile in the group's offsets, or -1.
+/// The index of the tile in the group's offsets, or -1.
 LIMPID_LANES_INLINE int place_of(const GroupView& group, const Tile& tile) {
   const int tx = tile.tx, ty = tile.ty;
   if (tx < group.tx0 || tx >= group.tx1 || ty < group.ty0 || ty >= group.ty1) return -1;
   return (ty - group.ty0) * (group.tx1 - group.tx0) + tx - group.tx0;
 }
 
-/// Calls draw_one(batch, lane, id) for every triangle of these groups that the tile has.
+/// Calls draw_one(batch, lane, id) for every triangle of these groups in the tile.
 template <class DrawOne>
 LIMPID_LANES_INLINE void each_triangle(const ShadeJob& job, const Tile& tile, int first_group,
                                        int end_group, DrawOne&& draw_one) {
@@ -194,7 +195,7 @@ LIMPID_LANES_INLINE void each_triangle(const ShadeJob& job, const Tile& tile, in
   }
 }
 
-/// Opaque materials alone.
+/// Opaque materials only.
 LIMPID_LANES_INLINE void find_visible(const ShadeJob& job, const Tile& tile, Visibility& out) {
   fill(out);
   each_triangle(job, tile, 0, job.opaque_groups,

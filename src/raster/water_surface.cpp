@@ -30,7 +30,7 @@ Model raised_water(const Model& model, const WaterPlane& water, double time) {
       mesh.normals[i] =
           glm::vec3(glm::normalize(water.up - wave.slope_x * axes.x - wave.slope_y * axes.y));
     }
-    // Whichever way the mesh was wound, its front is the side that a viewer above looks at.
+    // For either winding of the mesh, its front becomes the side facing a viewer above.
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
       const glm::dvec3 a(mesh.positions[mesh.indices[t]]), b(mesh.positions[mesh.indices[t + 1]]),
           c(mesh.positions[mesh.indices[t + 2]]);

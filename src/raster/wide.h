@@ -1,8 +1,8 @@
 #pragma once
 #include "core/lanes.h"
 
-/// Lanes of doubles, and the vectors of as many floats and ints that go with them. For inclusion by
-/// raster_target.cpp alone.
+/// Lanes of doubles, with vectors of as many floats and ints. For inclusion by raster_target.cpp
+/// alone.
 
 namespace limpid::HWY_NAMESPACE {
 

@@ -8,12 +8,13 @@
 namespace limpid {
 namespace {
 
-/// How a host calls things. Suffixes are words, one a plane; a further one is that of a plane of 1.
+/// Channel names of a compositing program. Suffixes are words, one per plane; an additional word
+/// names a plane of 1.
 struct Convention {
   std::string_view name;
-  std::string_view picture;  ///< before R G B A
-  std::string_view layer;    ///< before each AOV's name
-  bool dots;                 ///< whether an AOV's name keeps its dots, else they become '_'
+  std::string_view picture;  ///< prefix of R G B A
+  std::string_view layer;    ///< prefix of each AOV's name
+  bool dots;                 ///< whether an AOV's name keeps its dots; else they become '_'
   std::string_view color;    ///< of RGB
   std::string_view vector;   ///< of XYZ
   std::string_view share;    ///< of Y; "" for none
@@ -21,10 +22,10 @@ struct Convention {
   std::string_view place;    ///< of UV
 };
 
-// Nuke takes dots beyond the first for '_', and calls colors by whole words and places u and v, as
-// in its own forward.u. Blender splits at dots into view layer, pass and letter, and shows passes
-// of 1, 3 and 4 letters: R G B A, X Y Z W, or U V A, whose A its Map UV takes for a matte. Arnold
-// writes a FLOAT under its bare name, and vectors of two and three as X Y Z.
+// Nuke replaces dots beyond the first by '_', and names colors by whole words and places u and v,
+// as in its own forward.u. Blender splits at dots into view layer, pass and letter, and shows
+// passes of 1, 3 and 4 letters: R G B A, X Y Z W, or U V A, whose A its Map UV treats as a matte.
+// Arnold writes a FLOAT under its bare name, and vectors of two and three as X Y Z.
 // clang-format off
 constexpr Convention kConventions[] = {
     {"limpid",  "",                    "",           true,  "R G B",          "X Y Z", "Y",   "Z", "U V"},

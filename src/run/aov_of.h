@@ -7,11 +7,11 @@
 
 namespace limpid {
 
-/// The channels of an AOV of a pixel; one-channel ones are in the first.
+/// The channels of a pixel's AOV; an AOV of one channel is in the first.
 template <class F>
 LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
   const auto rgb = [](const Rgb<F>& c) { return Vec3<F>{c.r, c.g, c.b}; };
-  // As compositing programs have it: (0, 0) at the lower left of the picture.
+  // The convention of compositing programs: (0, 0) at the lower left of the picture.
   const auto map = [&](const Vec2<F>& shift) {
     return Vec3<F>{p.uv.x + shift.x, F(1) - (p.uv.y + shift.y), F(0)};
   };
@@ -47,12 +47,12 @@ LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
     case Aov::kReflectionDepth:
     case Aov::kReflectionValid:
     case Aov::kSky:
-      break;  // show_planes()
+      break;  // written by show_planes()
   }
   return {F(0), F(0), F(0)};
 }
 
-/// The same of a dry pixel, from its dry color and its own place; `dry` is AovInfo::dry.
+/// The same for a dry pixel, from its dry color and its own place; `dry` is AovInfo::dry.
 template <class F>
 LIMPID_INLINE Vec3<F> dry_aov_of(Aov aov, Rgb<F> color, Vec2<F> uv, F dry) {
   switch (aov) {

@@ -27,7 +27,7 @@ void check_texture(const Texture& texture, const std::string& name) {
   }
 }
 
-/// A target over its own input would be gathered from after it was written.
+/// A target over its own input would be read by lookups after it was written.
 void check_apart(const Frame& frame, const View<float>& out) {
   const auto check = [&](std::span<const View<const float>> inputs) {
     for (const View<const float>& in : inputs) {

@@ -5,11 +5,11 @@
 
 namespace limpid {
 
-/// What every runner checks before its first pixel, so that its loops need not: Frame::validate,
-/// the planes that the plan reads are there, the target covers the pixels. Throws Error.
+/// Checks of every runner before its first pixel, on which its loops rely: Frame::validate, the
+/// planes that the plan reads are present, the target covers the pixels. Throws Error.
 void check_run(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target);
 
-/// What an absent plane reads as: Role::missing of its role.
+/// The value of an absent plane: Role::missing of its role.
 float missing_value(PlaneId plane);
 
 }  // namespace limpid

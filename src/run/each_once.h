@@ -5,7 +5,7 @@
 
 namespace limpid {
 
-/// Throws the usage Error for a list that names an AOV twice: its channels would be.
+/// Throws the usage Error if a list names an AOV twice, because its channels would appear twice.
 void expect_each_once(std::span<const Aov> list);
 
 }  // namespace limpid

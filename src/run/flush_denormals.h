@@ -5,9 +5,9 @@
 
 namespace limpid::HWY_NAMESPACE {
 
-/// While it lives this thread makes no denormal floats and takes those it meets for 0: high powers
-/// of small numbers make them in floods, and each may take longer than a hundred other operations.
-/// Copies keep their bits. On machines that cannot it does nothing.
+/// While it lives, denormal floats in this thread, inputs and results, count as 0: high powers of
+/// small numbers produce many denormals, and each may take longer than a hundred other operations.
+/// Copies keep their bits. Does nothing on CPUs without this mode.
 class FlushDenormals {
  public:
 #if defined(__x86_64__)

@@ -18,7 +18,7 @@
 
 namespace limpid {
 
-// One for each instruction set that the build names, made by lanes_target.cpp.
+// One for each instruction set that the build names, defined in lanes_target.cpp.
 #define LIMPID_TARGET(name, highway) extern const FusedTarget kFused_##name;
 #include "core/targets.inc"
 #undef LIMPID_TARGET
@@ -31,7 +31,7 @@ constexpr const FusedTarget* kTargets[] = {
 #undef LIMPID_TARGET
 };
 
-/// State that somebody reads before it is made.
+/// State that is read before an operator makes it.
 StateSet begins_of(const Plan& plan, const Target& target) {
   StateSet begins, made, shown = kOutputTerms;
   for (int i = 0; i < Chain::kCount; ++i) {
@@ -74,8 +74,8 @@ class SteadyClock : public StopClock {
   std::array<std::atomic<std::int64_t>, Chain::kCount + 1> sums_{};
 };
 
-/// The cells of a survey as they are run. Long runs of pixels are faster than short ones: of two
-/// cells side by side both run what either needs, unless one is dry. Which two does not depend on
+/// The survey's cells, as they run. Long runs of pixels are faster than short ones: two adjacent
+/// cells both run the operators that either needs, unless one is dry. The pairs do not depend on
 /// tiles.
 void pair_cells(const Survey& survey, std::vector<CellNeeds>& cells) {
   cells.clear();
@@ -143,7 +143,7 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
       completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &options.simd);
   Pass pass = pass_of(plan, scene, frame);
   pass.plate_waves = completer.plate_waves();
-  if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
+  if (!plan.reads_environment) pass.environment = {};  // not checked
   survey.make(plan, frame, pass, executor, options.simd);
   if (options.leaps) {
     heights.make(plan, frame, pass, executor, options.simd);

@@ -6,7 +6,7 @@
 #include "run/spot.h"
 #include "run/wrapped.h"
 
-/// The strip that operators are applied to in the fused pass: see op/operator.h. For inclusion by
+/// The strip to which the fused pass applies operators: see op/operator.h. For inclusion by
 /// lanes_target.cpp alone.
 
 template <>
@@ -18,7 +18,7 @@ constexpr int kStripPixels = 256;
 constexpr int kStripVectors = kStripPixels / kLanes;
 
 /// Up to kStripPixels pixels of one row, in lanes, with their state in L1. Vectors without a wet
-/// pixel are left out: nothing is computed for them.
+/// pixel are skipped.
 class FusedStrip {
  public:
   using Number = Lane;
@@ -32,7 +32,7 @@ class FusedStrip {
         width_(static_cast<float>(job.pass.size.x)),
         height_(static_cast<float>(job.pass.size.y)) {}
 
-  /// Loads depths and starts each pixel with these parts of its state; false when none is wet.
+  /// Loads depths and starts each pixel with these parts of its state; false if no pixel is wet.
   bool begin(const RowRays<Lane>& rays, StateSet parts);
   void end() const;
 
@@ -162,7 +162,7 @@ class FusedStrip {
     }
   }
 
-  /// What a probe may look up for the pixels of one vector.
+  /// Lookups of a probe for the pixels of one vector.
   struct Tap {
     const FusedStrip& strip;
     int vector;
@@ -237,7 +237,7 @@ class FusedStrip {
   }
 
  private:
-  /// In the coordinates of the display window.
+  /// A texel in the coordinates of the display window.
   struct Texel {
     VI x, y;
   };
@@ -246,8 +246,9 @@ class FusedStrip {
   struct Span {
     int low, high;
   };
-  /// Of all that these lanes, of which there are some, look up on the way from a to b, seen from
-  /// the texel `own`. One more on each side, for which is nearest is a matter of rounding.
+  /// The texels that these lanes, of which at least one is set, look up on the way from a to b,
+  /// relative to the texel `own`. One more on each side, because rounding decides which texel is
+  /// nearest.
   static LIMPID_LANES_INLINE Span span(Mask lanes, int own, Lane a, Lane b, int begin, int end) {
     const Lane first(begin - own), last(end - 1 - own);
     const auto inside = [&](Lane at)
@@ -257,12 +258,12 @@ class FusedStrip {
             own + static_cast<int>(greatest(select(lanes, high, first)))};
   }
 
-  /// Four taps that a probe reads one by one, k = 0 ... 3: upper left, upper right, lower left,
+  /// Four taps that a probe reads separately, k = 0 ... 3: upper left, upper right, lower left,
   /// lower right.
   struct Quad {
     VI x, y;
     Lane u, v;
-    QuadPairs pairs;  ///< in planes like the depth, as most are
+    QuadPairs pairs;  ///< in planes with the layout of the depth, as most have
 
     LIMPID_LANES_INLINE Quad(const FusedStrip& strip, int vector, Vec2<Lane> shift) {
       const Vec2<Lane> at = tame(strip.in_texels(shift));
@@ -286,10 +287,10 @@ class FusedStrip {
     const int* begin() const { return first; }
     const int* end() const { return last; }
   };
-  /// Those with a wet pixel.
+  /// The vectors with a wet pixel.
   LIMPID_LANES_INLINE Vectors wet() const { return {order_, order_ + wet_vectors_}; }
 
-  /// Those of them with such a pixel, noted in `room`.
+  /// The wet vectors with a pixel that `such` accepts, stored in `room`.
   template <class Such>
   LIMPID_LANES_INLINE Vectors some(Such&& such, int* room) const {
     int count = 0;
@@ -313,7 +314,7 @@ class FusedStrip {
     for (const int v : vectors) into(pixels_[v], bytes_rgb(texture.bytes, width, spots[v]));
   }
 
-  /// Bilinear lookups in N channels that are alike. All places first, then all texels.
+  /// Bilinear lookups in N channels of the same layout. All places first, then all texels.
   template <int N, class Where, class Into>
   LIMPID_LANES_INLINE void mixed(const Source* sources, Where&& where, Into&& into) {
     if (has_pairs(sources[0])) {
@@ -340,7 +341,7 @@ class FusedStrip {
     return Spot(source, x0_ + vector * kLanes, y_, in_texels(shift));
   }
 
-  /// Kept to what an int can hold. NaN becomes the lower end.
+  /// Clamped to the range of int. NaN becomes the lower end.
   static LIMPID_LANES_INLINE Vec2<Lane> tame(Vec2<Lane> texels) {
     const Lane far(4e6), near(-4e6);
     return {min(max(texels.x, near), far), min(max(texels.y, near), far)};
@@ -367,7 +368,7 @@ class FusedStrip {
     const std::ptrdiff_t across = std::ptrdiff_t{x0_ + vector * kLanes - s.window.x0} * s.x_stride;
     return load_row(s.data + down + across, s.x_stride, remaining(vector));
   }
-  /// The same of pixels beside these, or the nearest ones in the window.
+  /// Values of pixels beside these, or of the nearest pixels in the window.
   LIMPID_LANES_INLINE Lane beside(const Source& s, int vector, int right, int down) const {
     if (!s.data) return Lane(s.missing);
     const int y = std::clamp(y_ + down, s.window.y0, s.window.y1 - 1) - s.window.y0;
@@ -445,7 +446,7 @@ inline void FusedStrip::end() const {
   const Source color[3] = {source_of(PlaneId::kColorR), source_of(PlaneId::kColorG),
                            source_of(PlaneId::kColorB)};
   const Source alpha = source_of(PlaneId::kColorA);
-  int next = 0;  // of the wet ones
+  int next = 0;  // index among the wet vectors
   for (int v = 0; v < vectors_; ++v) {
     const bool wet = next < wet_vectors_ && order_[next] == v;
     next += wet;

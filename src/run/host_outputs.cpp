@@ -47,7 +47,7 @@ void store_row(const float* from, const HostOutput& to, const Rect& work, int y,
     std::memcpy(row + x * to.x_stride, from + x, sizeof(float));
 }
 
-/// Tiles would write over one another, in any order.
+/// Overlapping views would be overwritten by tiles in any order.
 void validate_apart(const HostOutputs& host, const Rect& work) {
   for (std::size_t i = 0; i < host.size(); ++i) {
     for (std::size_t j = 0; host[i] && j < i; ++j) {

@@ -1,6 +1,6 @@
-// Compiled once for each instruction set, with that set's flags and LIMPID_LANES_TARGET naming it.
-// All that is instantiated here depends on the Lane type of the set, so that no function compiled
-// for one machine can be linked into the path of another.
+// Compiled once for each instruction set, with that set's flags, and LIMPID_LANES_TARGET as its
+// name. Every function instantiated here depends on the Lane type of the set, so that the linker
+// cannot put a function compiled for one CPU into the code for another.
 #include "core/target_name.h"
 #include "ops/kernels.h"
 #include "run/flush_denormals.h"
@@ -9,7 +9,7 @@
 namespace limpid::HWY_NAMESPACE {
 namespace {
 
-/// Charges the time since it was asked last to somebody, when the run is timed.
+/// Charges the time since the last call to an operator, if the run is timed.
 struct LapTimer {
   StopClock* clock;
   StopClock::Laps taken{};
@@ -26,7 +26,7 @@ struct LapTimer {
   }
 };
 
-/// One run of pixels of a row that all need the same.
+/// A run of pixels of a row with the same needs.
 struct Segment {
   int end;  ///< column after the last
   CellNeeds needs;
@@ -65,7 +65,7 @@ void run_segment(const FusedJob& job, const RowRays<Lane>& rays, int y, int x,
   }
   const bool wet = !needs.dry && strip.begin(rays, begins);
   laps.charge(StopClock::kRest);
-  // Refraction is skipped, so this is what it leaves to the others.
+  // Refraction is skipped: these are its results.
   if (needs.opaque) strip.each([](Pixel<Lane>& p) { p.hit_depth = p.path = Lane(HUGE_VAL); });
   if (wet) {
     const Pass& pass = pass_for(job, needs);

@@ -10,8 +10,8 @@
 
 namespace limpid {
 
-/// What one pixel may look up in the planes of a frame (op/operator.h), in double and as plain as
-/// can be: what the fast ways are judged by.
+/// Lookups of one pixel in the planes of a frame (op/operator.h), in double and as simple as
+/// possible: the standard for the fast lookups.
 class PlainTaps {
  public:
   PlainTaps(const Frame& frame, int x, int y) : frame_(frame), x_(x), y_(y) {}
@@ -24,7 +24,7 @@ class PlainTaps {
   };
 
   double own(PlaneId plane) const { return texel(plane, x_, y_); }
-  /// Of the neighbours 0 ... 8, row after row; 4 is the pixel itself.
+  /// A neighbour 0 ... 8, row after row; 4 is the pixel itself.
   double beside(PlaneId plane, int k) const { return texel(plane, x_ + k % 3 - 1, y_ + k / 3 - 1); }
   double nearest(PlaneId plane, Vec2<double> shift) const {
     const Vec2<double> at = position(shift);
@@ -51,7 +51,7 @@ class PlainTaps {
     return {double(column - x_) / frame_.display.width(),
             double(row - y_) / frame_.display.height()};
   }
-  /// The judge looks at each step.
+  /// The reference takes every step of a march.
   static SeenHeights heights(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
   static SeenRange range(PlaneId, bool, Vec2<double>, Vec2<double>) { return {}; }
   static bool wet() { return true; }

@@ -5,8 +5,8 @@
 
 namespace limpid {
 
-/// Puts what covers pixels in part (Frame::edges) before the water that a run has drawn, in the
-/// picture and the AOVs that sum to it, and fills Target::uncovered.
+/// Composites the parts of objects that partly cover pixels (Frame::edges) over the water of a run,
+/// in the picture and the AOVs that sum to it, and fills Target::uncovered.
 void put_edges(const Frame& frame, const Target& target, Executor& executor);
 
 }  // namespace limpid

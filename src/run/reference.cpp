@@ -17,8 +17,8 @@
 namespace limpid {
 namespace {
 
-/// One row of the picture in double. The samplers are as plain as can be: they are what the fast
-/// ones are judged by.
+/// One row of the picture in double. The samplers are as simple as possible: the standard for the
+/// fast samplers.
 class ReferenceStrip {
  public:
   using Number = double;
@@ -177,7 +177,7 @@ void run_reference(const Plan& plan, const Frame& plate, const Scene& scene, con
   const Frame frame = completer.complete(plan, plate, pass_of(plan, scene, plate), *serial);
   Pass pass = pass_of(plan, scene, frame);
   pass.plate_waves = completer.plate_waves();
-  if (!plan.reads_environment) pass.environment = {};  // nobody has checked it
+  if (!plan.reads_environment) pass.environment = {};  // not checked
   const Rect work = frame.work();
   ReferenceStrip strip(frame, work);
   std::vector<char> wet(work.width());

@@ -7,10 +7,11 @@
 namespace limpid {
 namespace {
 
-/// The pixels as lines of samples, by their first bytes: lines are farther apart than samples.
+/// The pixels as lines of samples, by their first bytes: the stride of lines is larger than that of
+/// samples.
 struct Lines {
-  std::int64_t first;         ///< byte of the whole
-  std::int64_t line, sample;  ///< from one to the next, 0 up
+  std::int64_t first;         ///< first byte of all
+  std::int64_t line, sample;  ///< strides, 0 or more
   std::int64_t lines, samples;
   std::int64_t bytes;  ///< of a sample
 
@@ -35,8 +36,7 @@ std::int64_t floor_of(std::int64_t a, std::int64_t b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
 
-/// Of the steps first ... last of a progression from 0, those whose `length` bytes meet `from` up
-/// to `end`.
+/// The steps first ... last of a progression from 0 whose `length` bytes overlap `from` ... `end`.
 struct Steps {
   std::int64_t first, last;
 };
@@ -47,11 +47,11 @@ Steps steps_between(std::int64_t step, std::int64_t count, std::int64_t length, 
           std::min(count - 1, floor_of(end - 1, step))};
 }
 
-/// Whether two lines that begin so many bytes apart share one.
+/// Whether two lines that begin this many bytes apart share a byte.
 bool lines_meet(const Lines& a, const Lines& b, std::int64_t apart) {
   if (a.sample == b.sample) {
-    // Only how far apart two samples are counts: from the last of `a` before the first of `b`, to
-    // the other way round.
+    // Only the distance of two samples counts: from the last of `a` before the first of `b`, to the
+    // reverse.
     const std::int64_t near = apart - (a.samples - 1) * a.sample;
     const Steps steps =
         steps_between(a.sample, a.samples + b.samples - 1, b.bytes, -near, a.bytes - near);

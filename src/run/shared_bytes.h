@@ -3,12 +3,12 @@
 
 namespace limpid {
 
-/// Whether two of these pixels, which the view has, share a byte.
+/// Whether two of these pixels share a byte. The view must cover them.
 bool shares_bytes(const HostOutput& view, const Rect& pixels);
 
-/// Whether a pixel of the one shares a byte with one of the other. Exact, for any strides; takes a
-/// time that grows with the lines of the pictures, not with their pixels, where the strides within
-/// lines are the same. Neither may share bytes within itself.
+/// Whether a pixel of `a` shares a byte with a pixel of `b`. Exact, for any strides; the time grows
+/// with the lines of the pictures, not with their pixels, if the strides within lines are equal.
+/// Neither view may share bytes within itself.
 bool share_bytes(const HostOutput& a, const HostOutput& b, const Rect& pixels);
 
 }  // namespace limpid

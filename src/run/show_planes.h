@@ -6,8 +6,8 @@
 
 namespace limpid {
 
-/// Writes the AOVs that are planes of the frame (AovInfo::planes), over its work(), of those that
-/// the plan reads or has made.
+/// Writes the AOVs that are planes of the frame (AovInfo::planes), over its work(), for planes that
+/// the plan reads or completes.
 void show_planes(const Plan& plan, const Frame& frame, const Target& target, Executor& executor);
 
 }  // namespace limpid

@@ -22,7 +22,7 @@ struct Source {
         window(view.window),
         missing(value) {}
 
-  /// Whether the same index finds the same pixel in both.
+  /// Whether both have the same index for each pixel.
   LIMPID_LANES_INLINE bool like(const Source& s) const {
     return data && s.data && x_stride == s.x_stride && y_stride == s.y_stride &&
            window.x0 == s.window.x0 && window.y0 == s.window.y0 && window.x1 == s.window.x1 &&
@@ -37,8 +37,7 @@ struct Source {
   LIMPID_LANES_INLINE Lane gather(VI at) const { return fetch(data, Places(at)); }
 };
 
-/// `count` floats from a row into one vector; lanes beyond are 0. The full case is one unaligned
-/// load.
+/// `count` floats of a row as one vector; lanes beyond are 0. A full vector is one unaligned load.
 LIMPID_LANES_INLINE Lane load_row(const float* from, std::ptrdiff_t x_stride, int count) {
   if (x_stride == 1 && count >= kLanes) return Lane(hn::LoadU(kD, from));
   alignas(64) float buffer[kLanes] = {};

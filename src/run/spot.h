@@ -5,15 +5,14 @@
 
 namespace limpid::HWY_NAMESPACE {
 
-/// Where bilinear filtering looks: the upper left one of four texels and how much the right and the
-/// lower ones count. Beyond the window's edge its outermost texels stand for all, so the four lie
-/// inside.
+/// The place of a bilinear lookup: the upper left of four texels, and the weights of the right and
+/// the lower texels. Clamped to the window, so that all four texels lie inside.
 struct Spot {
   Places upper_left;
   Lane u, v;
 
   Spot() = default;
-  /// Of a vector whose first pixel is (x, y), for shifts in texels; NaN becomes the lower end.
+  /// For a vector whose first pixel is (x, y), by shifts in texels; NaN becomes the lower end.
   LIMPID_LANES_INLINE Spot(const Source& s, int x, int y, Vec2<Lane> shift) {
     const Lane first(s.window.x0 - x), iota(hn::Iota(kD, 0.0f));
     const VI column = along(first - iota, s.width(), shift.x, u);
@@ -21,14 +20,14 @@ struct Spot {
     const VI own = count_from(x - s.window.x0);
     upper_left = Places(s.index(hn::Add(own, column), hn::Add(hn::Set(kDI, y - s.window.y0), row)));
   }
-  /// At texels from the centre of the first one.
+  /// By texels from the centre of the first texel.
   LIMPID_LANES_INLINE Spot(const Source& s, Vec2<Lane> at) {
     const VI column = along(Lane(0), s.width(), at.x, u), row = along(Lane(0), s.height(), at.y, v);
     upper_left = Places(s.index(column, row));
   }
 
  private:
-  /// From the pixel itself; `first` is where the window begins, seen from there.
+  /// Relative to the pixel itself; `first` is the begin of the window, relative to it.
   static LIMPID_LANES_INLINE VI along(Lane first, int count, Lane shift, Lane& weight) {
     const Lane last = first + Lane(count - 1);
     const Lane at = min(max(shift, first), last);
@@ -38,7 +37,7 @@ struct Spot {
   }
 };
 
-/// Index of the texel nearest to each pixel's shift.
+/// Index of the texel nearest to the shifted place of each pixel.
 LIMPID_LANES_INLINE VI nearest_place(const Source& s, int x, int y, Vec2<Lane> shift) {
   const Lane half(0.5), iota(hn::Iota(kD, 0.0f));
   const auto along = [&](Lane first, int count, Lane by) LIMPID_LANES_LAMBDA {
@@ -48,17 +47,17 @@ LIMPID_LANES_INLINE VI nearest_place(const Source& s, int x, int y, Vec2<Lane> s
                  along(Lane(s.window.y0 - y), s.height(), shift.y));
 }
 
-/// Whether the two taps of a row lie side by side in memory.
+/// Whether the two taps of a row are adjacent in memory.
 LIMPID_LANES_INLINE bool has_pairs(const Source& s) { return s.x_stride == 1 && s.width() > 1; }
 
-/// The four texels at (x, y) ... (x + 1, y + 1) of a window, for any channel that has it. Beyond
-/// its edge the texels there stand for all: then both taps of a pair are the same one.
+/// The four texels at (x, y) ... (x + 1, y + 1) of a window, for any channel of that window. Beyond
+/// its edge the outermost texels repeat: both taps of a pair are then the same texel.
 struct QuadPairs {
   Places upper, lower;
   Mask before, after;  ///< where a pair lies before the window, or after it
 
   QuadPairs() = default;
-  /// `s` has_pairs().
+  /// Requires has_pairs(s).
   LIMPID_LANES_INLINE QuadPairs(const Source& s, VI x, VI y) {
     const int first = s.window.x0, last = s.window.x1 - 2;
     before = {hn::RebindMask(kD, hn::Lt(x, hn::Set(kDI, first)))};
@@ -79,7 +78,8 @@ struct QuadPairs {
   }
 };
 
-/// Of N channels that are alike. A window of one column or one row has the same texel twice.
+/// Lookups in N channels of the same layout. A window of one column or one row uses the same texel
+/// twice.
 template <int N, bool kPairs>
 LIMPID_LANES_INLINE void sample(const Source* sources, const Spot& spot, Lane* out) {
   const Source& s = sources[0];

@@ -13,8 +13,8 @@ LIMPID_LANES_INLINE Lane fraction(Lane x) {
   return select(f >= Lane(0), f, Lane(0));
 }
 
-/// Four taps on a texture that repeats; positions in periods. Or that repeats in x alone: positions
-/// in y are 0 ... 1 then, and taps end at its edges.
+/// Four taps on a texture that repeats; positions in periods. Without kBoth it repeats in x only:
+/// positions in y are 0 ... 1, and taps are clamped to its edges.
 template <bool kBoth>
 struct WrappedSpot {
   VI x, y, x1, y1;
@@ -43,7 +43,7 @@ struct WrappedSpot {
   }
 };
 
-/// Where bilinear filtering looks in Texture::bytes.
+/// The place of a bilinear lookup in Texture::bytes.
 struct BytesSpot {
   Places upper_left;
   Lane u, v;
@@ -55,7 +55,7 @@ struct BytesSpot {
     upper_left = Places(hn::Add(hn::Mul(y, hn::Set(kDI, width + 1)), x));
   }
 
-  /// From the middle of the last texel, which comes before the first one, on.
+  /// Relative to the middle of the last texel, which precedes the first texel.
   static LIMPID_LANES_INLINE VI along(VI size, Lane periods, Lane& weight) {
     const Lane texels(hn::ConvertTo(kD, size));
     const Lane at = fraction(periods) * texels - Lane(0.5), whole = floor(at);
@@ -86,7 +86,7 @@ LIMPID_LANES_INLINE Rgb<Lane> bytes_rgb(const std::uint32_t* texels, int width,
           mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::ShiftRight<16>(c); })};
 }
 
-/// Levels of a texture, of each lane its own. Neighbours mostly share one.
+/// Levels of a texture, chosen per lane. Neighbours mostly have the same level.
 struct LevelChoice {
   VI width, height, first;
 
@@ -110,7 +110,7 @@ struct LevelChoice {
   }
 };
 
-/// Where bilinear filtering looks in such levels.
+/// The place of a bilinear lookup in such levels.
 struct LevelSpot {
   Places upper, lower;
   Lane u, v;
@@ -125,20 +125,20 @@ struct LevelSpot {
   }
 };
 
-/// Of levels where the pixel is `width` texels of the map wide; the rest is of the map itself.
+/// Share of the levels if the pixel is `width` texels of the map wide; the rest is the map itself.
 LIMPID_LANES_INLINE Lane share_of_levels(Lane width) {
   return saturate(Lane(4) * width - Lane(5.5));
 }
 
-/// The two levels that a pixel reads which is `width` texels of the first one wide, and the share
-/// of the second: 2^k texels of the first level are one of level k. The share goes from 0 to 1 over
-/// a quarter of the way from one level to the next, so that most pixels read one alone.
+/// The two levels for a pixel that is `width` texels of the first level wide, and the share of the
+/// second: 2^k texels of the first level are one of level k. The share goes from 0 to 1 over a
+/// quarter of the interval between two levels, so that most pixels read one level only.
 struct LevelPair {
   Lane level, next, rest;
 
   LIMPID_LANES_INLINE LevelPair(const LevelSizes& sizes, Lane width) {
     const VI bias = hn::Set(kDI, 127);
-    // The exponent of a float is what says which.
+    // The exponent of the float is the level.
     const VI exponent = hn::Sub(hn::ShiftRight<23>(hn::BitCast(kDI, width.v)), bias);
     const VI whole = clamp(exponent, 0, sizes.count - 1);
     const Lane part(hn::BitCast(kD, hn::ShiftLeft<23>(hn::Sub(bias, whole))));
@@ -174,7 +174,7 @@ LIMPID_LANES_INLINE Rgb<Lane> level_rgb(const std::uint32_t* texels, const Level
       mixed([&](VI c) LIMPID_LANES_LAMBDA { return hn::ShiftRight<22>(c); }, 511)};
 }
 
-/// Of a pixel that is `width` texels of the first level wide.
+/// For a pixel that is `width` texels of the first level wide.
 LIMPID_LANES_INLINE Rgb<Lane> levels_rgb(const TextureLevels& levels, Lane width,
                                          Vec2<Lane> periods) {
   const LevelPair pair(levels.sizes, width);
@@ -213,7 +213,7 @@ LIMPID_LANES_INLINE SlopeMoments<Lane> levels_slopes(const SlopeLevels& levels, 
   return {{value[0], value[1]}, {value[2], value[3], value[4]}};
 }
 
-/// Neighbours in a row are read as pairs, unless some lane goes round between them.
+/// Neighbours in a row are read as pairs, unless some lane wraps around between them.
 template <bool kBoth>
 LIMPID_LANES_INLINE Rgb<Lane> wrapped_rgb(const Texture& texture, Vec2<Lane> periods) {
   const Rect& window = texture.channels[0].window;

@@ -129,7 +129,7 @@ class Printer {
 
   std::string power(const Node& node) {
     const Node& exponent = at(node.args[1]);
-    // A device's exp2 and log2 are coarse; a chain of products is off by p / 2^24.
+    // A device's exp2 and log2 are inexact; a chain of products has the error p / 2^24.
     constexpr double kLongest = 65536;
     const int whole = exponent.op == NodeOp::kLiteral && exponent.number <= kLongest
                           ? static_cast<int>(exponent.number)
@@ -280,7 +280,7 @@ class Printer {
          std::string("const ") + type_word(node.type) + " " + names_[id] + " = " + words + ";");
   }
 
-  /// Whether the first parenthesis ends with the text.
+  /// Whether the first parenthesis closes at the end of the text.
   static bool is_one(const std::string& words) {
     int depth = 0;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -313,7 +313,7 @@ class Printer {
     const std::string i = fresh('i');
     names_[flow.index] = "float(" + i + ")";
     needs_.loops = true;
-    // Unrolled, the lookups of a march fill a device's memory for instructions and its registers.
+    // Unrolled, a march's lookups overflow a device's instruction cache and registers.
     line(indent, "[[dont_unroll]] for (int " + i + " = " + std::to_string(flow.begin) + "; " + i +
                      " < " + std::to_string(flow.end) + "; ++" + i + ") {");
     block(flow.block, indent + 1);
@@ -331,7 +331,7 @@ class Printer {
     return words.front() == '(' && is_one(words) ? words.substr(1, words.size() - 2) : words;
   }
 
-  /// All at once: what goes into one may be another.
+  /// All at once, because one value may be the source of another.
   void leave(const std::vector<Flow::Merge>& merges, int indent) {
     std::vector<std::string> sets;
     for (const Flow::Merge& m : merges) {

@@ -6,18 +6,19 @@
 
 namespace limpid {
 
-/// What the statements of a program call and declare, found while they are printed.
+/// The functions and declarations that a program's statements need, collected while they are
+/// printed.
 struct GlslNeeds {
   std::set<NodeOp> ops;
   std::set<std::pair<NodeOp, int>> lookups;  ///< of a plane or a texture
   std::set<int> powers;                      ///< whole exponents
-  bool power = false;                        ///< any other
+  bool power = false;                        ///< any other exponent
   bool infinity = false;
   bool loops = false;
 };
 
-/// A recording as the statements of a GLSL function body. Numbers of the frame are
-/// `limpid.NAME`, NAME as glsl_name() makes it; lookups are calls of limpid_NAME (glsl_lookups.h).
+/// A recording as the statements of a GLSL function body. Numbers of the frame are `limpid.NAME`,
+/// NAME as glsl_name() makes it; lookups are calls of limpid_NAME (glsl_lookups.h).
 class GlslBody {
  public:
   explicit GlslBody(const Recording& recording);
@@ -34,7 +35,7 @@ class GlslBody {
 
 /// "waves.phase[2]" -> "waves_phase_2".
 std::string glsl_name(const std::string& name);
-/// "depth", "color": of the role that has the plane; and the letter of its channel in a texel.
+/// "depth", "color": the role of the plane, and the letter of its channel in a texel.
 std::string role_word(PlaneId plane);
 char channel_letter(PlaneId plane);
 

@@ -10,7 +10,7 @@ std::string with(const std::string& text, const std::string& word, char mark = '
   return all;
 }
 
-/// And with the letter of a plane's channel for @, its number for &.
+/// The same, and @ replaced by the letter of a plane's channel, & by its number.
 std::string with_channel(const char* text, PlaneId plane) {
   const char letter = channel_letter(plane);
   const std::string number = std::to_string(std::string("rgba").find(letter));
@@ -57,7 +57,7 @@ constexpr const char* kBilinear = R"(vec4 limpid_bilinear_#(vec2 shift) {
   return upper + quad.w * (lower - upper);
 }
 )";
-/// Of one channel, # the role and @ the channel.
+/// For one channel: # the role and @ the channel.
 constexpr const char* kBilinearOne = R"(float limpid_bilinear_#_@(vec2 shift) {
   return limpid_bilinear_#(shift).@;
 }
@@ -124,8 +124,8 @@ vec2 limpid_meet_tiled(vec4 level, vec2 periods, out vec2 w) {
   return corner + vec2(1.0, 1.0 + level.z);
 }
 )";
-/// Colors in 32 bits, in units of the lowest bit of each mask. 2^23 in front of whole numbers makes
-/// floats of them, without a conversion, which is slow.
+/// Colors in 32 bits, in units of the lowest bit of each mask. The exponent of 2^23 in front of the
+/// integers makes floats of them, without a slow conversion.
 constexpr const char* kMixedBits = R"(
 float limpid_mixed_bits(uvec4 bits, vec2 w) {
   const float much = 8388608.0;
@@ -170,7 +170,7 @@ vec3 limpid_level_slope_squares(vec4 level, vec2 periods) {
 }
 )";
 
-/// Four texels of a picture that repeats in x and, where `both`, in y: of `size` texels, from row
+/// Four texels of a picture of `size` texels that repeats in x and, with `both`, in y, from row
 /// `top` of the texture on.
 constexpr const char* kWrapped = R"(
 vec3 limpid_wrapped(sampler2D map, ivec2 size, int top, vec2 place, bool both) {
@@ -191,8 +191,8 @@ vec3 limpid_wrapped(sampler2D map, ivec2 size, int top, vec2 place, bool both) {
 }
 )";
 
-/// Of two levels, which lie one below the other: see between_levels() in op/plain_texture.h. A
-/// level is width, height and top. # is what is looked up, & its levels, @ their number.
+/// Blends two levels, stored one below the other: see between_levels() in op/plain_texture.h. A
+/// level is width, height and top. # is the lookup, & its levels, @ their number.
 constexpr const char* kBetween = R"(vec3 limpid_between_#(float width, vec2 periods) {
   int last = limpid.counts.@ - 1;
   int level = min(int(floor(log2(width))), last);
@@ -212,7 +212,7 @@ constexpr const char* kTiled = R"(vec3 limpid_tiled(vec2 periods) {
   return limpid_wrapped(limpid_wave_map, textureSize(limpid_wave_map, 0), 0, periods, true);
 }
 )";
-/// Levels of the map are whole numbers of such units (TextureLevels): halves hold them.
+/// Levels of the map are integers in this unit (TextureLevels), which halves hold exactly.
 constexpr const char* kTiledWide = R"(const vec3 limpid_level_unit =
     vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 511.0);
 vec3 limpid_tiled_wide(vec2 periods, float width) {
@@ -233,7 +233,7 @@ constexpr const char* kSlopeSquare = R"(vec3 limpid_slope_square(vec2 periods, f
 }
 )";
 
-/// A table that ends at its edges; all levels lie in one texture, one under the other.
+/// A table that ends at its edges; all levels lie in one texture, one below the other.
 constexpr const char* kGrid = R"(
 float limpid_grid(ivec4 level, vec2 texels) {
   vec2 place = clamp(texels, vec2(0.0), vec2(level.xy - 1));
@@ -260,8 +260,8 @@ float limpid_grid(ivec4 level, vec2 texels) {
 )";
 
 /// Abramowitz & Stegun 1964, "Handbook of Mathematical Functions", 4.4.49: within 2e-8 of the
-/// arctangent of 0 ... 1, laid out around the turn as lanes have it. What GLSL has is coarse on
-/// some devices.
+/// arctangent of 0 ... 1, extended to the circle like the function for lanes. GLSL's own is inexact
+/// on some devices.
 constexpr const char* kAtan2 = R"(float limpid_atan2(float y, float x) {
   float across = abs(x), up = abs(y);
   float t = min(across, up) / max(max(across, up), 1e-37), s = t * t;

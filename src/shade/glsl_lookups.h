@@ -6,12 +6,12 @@
 
 namespace limpid {
 
-/// What the statements of a GlslBody call: lookups in planes and textures, and the functions that
-/// GLSL lacks or leaves to the driver. They look up as run/plain_taps.h and op/plain_texture.h do,
-/// in float, with places counted from the pixel. The declarations that they read come first in the
-/// shader: `limpid` (the uniform block), samplers limpid_ROLE and those of textures.
-/// Where textures are gathered, limpid.texel_NAME has the size of a texel, and for planes 1 less
-/// the corner of their window. `packed_map`: the wave map is of bytes.
+/// The functions called by a GlslBody: lookups in planes and textures, and functions that GLSL
+/// lacks or leaves to the driver. They match run/plain_taps.h and op/plain_texture.h, in float,
+/// with places relative to the pixel. The shader first declares what they read: `limpid` (the
+/// uniform block), samplers limpid_ROLE and those of textures. For gathered textures,
+/// limpid.texel_NAME has the size of a texel, and for planes 1 less the corner of their window.
+/// `packed_map`: the wave map has bytes.
 std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map);
 
 /// Names of samplers.

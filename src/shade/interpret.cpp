@@ -55,7 +55,7 @@ void Interpreter::run_block(int block, const At& at) {
 
 void Interpreter::run_flow(const Flow& flow, const At& at) {
   const auto set = [&](auto from) {
-    std::vector<Value> now;  // all at once: one may be another's
+    std::vector<Value> now;  // all at once: one may be the source of another
     for (const Flow::Merge& m : flow.merges) now.push_back(from(m) < 0 ? Value{} : value(from(m)));
     for (std::size_t k = 0; k < now.size(); ++k) {
       values_[static_cast<std::size_t>(flow.merges[k].merged)] = now[k];

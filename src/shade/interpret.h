@@ -6,13 +6,13 @@
 
 namespace limpid {
 
-/// Runs a recording in double, pixel by pixel, with the lookups of run_reference(): it shows that
-/// what was written down is what the operators do. Slow.
+/// Runs a recording in double, pixel by pixel, with the lookups of run_reference(), to check that
+/// the recording computes what the operators compute. Slow.
 class Interpreter {
  public:
-  /// `frame` is completed, `pass` that of it; they and the recording must live as long.
+  /// `frame` is completed, `pass` belongs to it; they and the recording must live as long.
   Interpreter(const Recording& recording, const Pass& pass, const Frame& frame);
-  /// The outputs of the pixel (x, y) of Frame::work(), in their order, until the next call.
+  /// The outputs of the pixel (x, y) of Frame::work(), in their order, valid until the next call.
   const std::vector<double>& run(int x, int y);
 
  private:

@@ -8,13 +8,13 @@
 
 namespace limpid {
 
-/// Where the numbers of a frame lie, and what they are called: parameters of the look by their
-/// operator ("refraction.strength"), what camera and water say ("camera.eye_above"), and what was
-/// made for the frame ("continuation.offset"). Refers to what it was made of.
+/// The names of a frame's numbers by their addresses: parameters of the look by operator
+/// ("refraction.strength"), numbers of camera and water ("camera.eye_above"), and numbers made for
+/// the frame ("continuation.offset"). Refers to its inputs.
 class NameTable {
  public:
   NameTable(const Plan& plan, const Pass& pass);
-  /// Of the number that begins at this address; null for none.
+  /// The name of the number at this address; null for none.
   const std::string* name_of(const void* address) const;
 
  private:

@@ -40,7 +40,7 @@ void check(const ShaderOptions& options) {
   }
 }
 
-/// Fowler, Noll & Vo 1991, "FNV hash", 1a of 64 bits.
+/// Fowler, Noll & Vo 1991, "FNV hash", 1a with 64 bits.
 std::string id_of(const std::string& text) {
   std::uint64_t hash = 14695981039346656037u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
@@ -51,10 +51,10 @@ std::string id_of(const std::string& text) {
 
 glm::ivec4 corners(const Rect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
-/// Puts the text and its values together.
+/// Assembles the text and its values.
 class Writer {
  public:
-  /// `frame` is what completers made of `plate`.
+  /// `frame` is the frame that completers made from `plate`.
   Writer(const Plan& plan, const Frame& plate, const Frame& frame, const Pass& pass,
          const ShaderOptions& options, Gathered gathered)
       : plan_(plan),
@@ -88,9 +88,9 @@ class Writer {
     return "set = " + std::to_string(options_.set) + ", binding = " + std::to_string(binding);
   }
 
-  /// A program as long as that of a march waits for its lookups more than it computes: the more
-  /// threads share a device's registers, the better, even if some have to be put away. (NVIDIA
-  /// H100: `physical` takes .8 of the time, `fast` 1.1, shorter looks 1.1 to 1.2.)
+  /// A program as long as a march waits for its lookups more than it computes: more threads per
+  /// register file are faster, even if some registers spill. (NVIDIA H100: `physical` takes .8 of
+  /// the time, `fast` 1.1, shorter looks 1.1 to 1.2.)
   Size group() const {
     constexpr Size kShort{16, 8}, kLong{32, 32};
     constexpr std::ptrdiff_t kLongNodes = 5000;
@@ -146,8 +146,8 @@ class Writer {
     return to_.textures.back();
   }
 
-  /// The same of one channel or of colors that lie as most do, which the compiler makes vectors of.
-  /// A frame's planes go through here.
+  /// The same for one channel, or for colors with the usual layout, for which the compiler makes
+  /// vectors. A frame's planes take this function.
   static bool copied_plain(const std::vector<View<const float>>& views, const Rect& window, int y,
                            float* row, int step) {
     const auto from = [&](std::size_t k) { return &views[k].at(window.x0, y); };
@@ -172,7 +172,7 @@ class Writer {
     return true;
   }
 
-  /// Rows of a window, a channel of each view; 0 where a view does not reach.
+  /// Rows of a window, one channel per view; 0 outside of a view.
   static Fill rows_of(std::vector<View<const float>> views) {
     const Rect window = views[0].window;
     const bool plain = std::all_of(views.begin(), views.end(), [&](const View<const float>& view) {
@@ -210,7 +210,7 @@ class Writer {
       const std::string name(role.name);
       const Rect window = views[0].window;
       for (std::size_t k = 0; k < views.size(); ++k) {
-        // Of alpha the pixel reads its own alone.
+        // The pixel reads alpha only at its own place.
         const bool own = plane_after(role.first, static_cast<int>(k)) == PlaneId::kColorA;
         if (own || views[k].window == window) continue;
         throw Error("the channels of " + name + " have their own windows: a shader reads them " +
@@ -232,7 +232,7 @@ class Writer {
     block_.add("texel_" + name, glm::vec4(1.0 / size.width, 1.0 / size.height, z, w));
   }
 
-  /// Whether the plate does not have them, or has them otherwise.
+  /// Whether the plate lacks them, or has other views.
   bool is_made(const Role& role, const std::vector<View<const float>>& views) const {
     for (std::size_t k = 0; k < views.size(); ++k) {
       const PlaneId plane = plane_after(role.first, static_cast<int>(k));
@@ -403,8 +403,8 @@ class Writer {
     if (looks_up(NodeOp::kGrid)) add_caustics();
   }
 
-  /// One level under the other, of all tables, each as wide as the widest; the light of calm water
-  /// beside them.
+  /// All levels of all tables, one below the other, each as wide as the widest; beyond a level, the
+  /// light of calm water.
   void add_caustics() {
     struct Level {
       const View<const float>* light;
@@ -451,7 +451,7 @@ class Writer {
                              range == ranges.end() ? std::nullopt : std::optional(range->second)});
     }
   }
-  /// Of the parameters that are numbers.
+  /// The ranges of the numeric parameters.
   static std::map<std::string, Range> ranges_of(const Look& look) {
     std::map<std::string, Range> ranges;
     for (const Parameter& parameter : parameters(look)) {

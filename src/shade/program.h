@@ -11,16 +11,16 @@
 
 namespace limpid {
 
-/// Of which textures a shader reads four texels at once (textureGather, which not all languages
-/// know): made ones, or all, whose images are as large as their windows then.
+/// The textures from which a shader reads four texels at once (textureGather, which some languages
+/// lack): completed ones, or all, whose images must then have the size of their windows.
 enum class Gathered { kNothing, kMade, kAll };
 
-/// A texture of a program, and where its values come from; ShaderTexture::texels is empty.
+/// A texture of a program, and the source of its values; ShaderTexture::texels is empty.
 struct ProgramTexture : ShaderTexture {
-  /// Writes row y, 0 ... height - 1: `width` texels of `step` floats each, of which the first
-  /// `channels` are written; the others stay as they are or become 0.
+  /// Writes row y, 0 ... height - 1: `width` texels of `step` floats each. The first `channels`
+  /// floats are written; the others are unchanged or 0.
   std::function<void(int y, float* row, int step)> fill;
-  /// Or, of a usampler2D, which gathered ones may be: `width` texels of 32 bits.
+  /// The alternative for a usampler2D, for gathered textures: `width` texels of 32 bits.
   std::function<void(int y, std::uint32_t* row)> pack;
 };
 
@@ -36,8 +36,8 @@ struct ShaderProgram {
   Size group;  ///< ShaderText::group()
 };
 
-/// Records the plan. `frame` is what completers made of `plate`, `pass` is of that. All of them are
-/// to live as long as textures are filled. Throws Error as ShaderText.
+/// Records the plan. `frame` is the frame that completers made from `plate`, `pass` belongs to
+/// `frame`. All must live until textures are filled. Throws Error as ShaderText.
 ShaderProgram program_of(const Plan& plan, const Frame& plate, const Frame& frame, const Pass& pass,
                          const ShaderOptions& options, Gathered gathered = Gathered::kNothing);
 

@@ -8,7 +8,7 @@
 namespace limpid {
 namespace {
 
-/// The rays of a row that nobody has chosen.
+/// The rays of a row, as symbols.
 RowRays<Symbol> row_of(const Pass& pass) {
   const auto value = [](RowValue which) {
     return Symbol::of(Recorder::current().add(NodeOp::kRow, NodeType::kNumber, {-1, -1, -1},
@@ -34,16 +34,16 @@ RowRays<Symbol> row_of(const Pass& pass) {
 }  // namespace
 
 Recording record(const Plan& plan, const Pass& frame_pass, std::span<const Aov> list) {
-  // How many levels a table of caustics has is the frame's affair: the program knows them all, and
-  // those that are not there are nowhere.
+  // The number of levels of a caustics table differs from frame to frame: the program has all
+  // levels, and absent levels cover no place.
   Pass pass = frame_pass;
-  CausticsTable tables[2];  // that of the bottom, and that in the water
+  CausticsTable tables[2];  // of the bottom, and of the water
   const CausticsTable** named = &pass.caustics;
   for (CausticsTable& table : tables) {
     if (!*named) break;
     table = **named;
     for (int k = table.count; k < CausticsTable::kMaxLevels; ++k) {
-      table.levels[static_cast<std::size_t>(k)] = {};  // which may be left from another frame
+      table.levels[static_cast<std::size_t>(k)] = {};  // may be left from another frame
     }
     table.count = CausticsTable::kMaxLevels;
     *named = &table;
@@ -66,7 +66,7 @@ Recording record(const Plan& plan, const Pass& frame_pass, std::span<const Aov> 
   const PixelStart<Symbol> start(pass, row, x, water, dry, SymbolMask(true));
 
   Rgb<Symbol> picture = color;
-  // Water is opaque; where there is none the plate's own alpha is.
+  // Water is opaque; a dry pixel keeps the plate's alpha.
   Symbol alpha = pass.planes.has(PlaneId::kColorA) ? strip.own_at(PlaneId::kColorA) : Symbol(1.0);
   const Vec2<Symbol> uv{x * given<Symbol>(1.0 / pass.size.x, "camera.column"), row.v};
   std::vector<Vec3<Symbol>> shown;

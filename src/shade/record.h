@@ -9,10 +9,10 @@
 
 namespace limpid {
 
-/// Writes down what the plan's operators make of one pixel: outputs color.r, color.g, color.b, and
-/// the channels of each AOV. `pass` is that of a completed frame. The program depends on the look,
-/// on which planes and textures there are and on how many waves, never on a size, a time or any
-/// other number of the frame. Throws Error for an operator that cannot be recorded.
+/// Records the plan's operators for one pixel: outputs color.r, color.g, color.b, and the channels
+/// of each AOV. `pass` is that of a completed frame. The program depends on the look, on the set of
+/// planes and textures and on the number of waves, not on a size, a time or any other number of the
+/// frame. Throws Error for an operator that cannot be recorded.
 Recording record(const Plan& plan, const Pass& pass, std::span<const Aov> aovs = {});
 
 }  // namespace limpid

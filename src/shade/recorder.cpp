@@ -10,7 +10,7 @@
 namespace limpid {
 namespace {
 
-/// One pointer has room in the static block of any program, and needs no call to be found.
+/// A single pointer fits into the static TLS block of any program, and is found without a call.
 [[gnu::tls_model("initial-exec")]] thread_local Recorder* recorder = nullptr;
 
 std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
@@ -171,8 +171,8 @@ int Recorder::add(NodeOp op, NodeType type, std::array<int, 3> args, int what, d
   return keep({op, type, args, number, what});
 }
 
-/// The node that stands for this one already, or -1. Nothing is left out that could be infinite or
-/// NaN: 0 x stays.
+/// An existing node equal to this operation, or -1. Operations on values that could be infinite or
+/// NaN stay: 0 x is not folded.
 int Recorder::fold(NodeOp op, const std::array<int, 3>& args) const {
   const auto [a, b, c] = args;
   const auto is = [&](int node, double value) {
@@ -277,7 +277,7 @@ bool Recorder::end_loop(Flow& flow, int condition, std::vector<Carried>& carried
       carried.push_back({handle, before});
     }
   }
-  if (carried.size() > were) {  // once more, with these as carried ones, too
+  if (carried.size() > were) {  // run the body again, with these as carried values, too
     for (const auto& [handle, before] : carried) handle->node_ = before;
     return false;
   }
@@ -292,7 +292,7 @@ bool Recorder::end_loop(Flow& flow, int condition, std::vector<Carried>& carried
 }
 
 Recording Recorder::take() {
-  // What outputs need, and what that needs.
+  // Nodes that outputs need, directly or through other nodes.
   std::vector<bool> live(made_.nodes.size());
   std::vector<int> to_do;
   const auto need = [&](int node) {
@@ -315,7 +315,7 @@ Recording Recorder::take() {
     need(merge->before), need(merge->after), need(flow->condition);
   }
   made_.live = std::move(live);
-  // Numbers that no live node asks for have no place in a shader.
+  // Numbers that no live node reads are left out of the shader.
   std::vector<int> place(made_.given.size(), -1);
   std::vector<GivenNumber> given;
   for (std::size_t i = 0; i < made_.nodes.size(); ++i) {

@@ -11,8 +11,8 @@ namespace limpid {
 class Symbol;
 class SymbolMask;
 
-/// What formulas hold while they are recorded: a node, and the block in which this C++ object came
-/// to be. An assignment to an object from an outer block is one that its block leaves behind.
+/// The value of a Symbol during recording: a node, and the block in which this C++ object was
+/// created. Assigning to an object of an outer block is recorded as a result of the block.
 class Handle {
  public:
   Handle();
@@ -27,32 +27,32 @@ class Handle {
   int born_;
 };
 
-/// Writes down what formulas do with Symbols on this thread, from the first node on. Equal nodes
-/// are one, numbers that are known are reckoned with, and what no output needs is left out.
+/// Records the operations on Symbols on this thread. Equal nodes are merged, constants are folded,
+/// and nodes that no output needs are left out.
 class Recorder {
  public:
   explicit Recorder(const NameTable& names);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
-  /// Of this thread; there must be one.
+  /// The recorder of this thread; there must be one.
   static Recorder& current();
 
   int literal(double value);
   int mask(bool value);
-  /// A number of the frame, by the address at which it lies. Throws Error where no name is known.
+  /// A number of the frame, by its address. Throws Error if the address has no name.
   int given(double value, const void* home);
-  /// One by its name, with a place for one of a list. Throws Error for a name that stands for
-  /// another value already.
+  /// A number by its name, and its index in a list. Throws Error if the name already has another
+  /// value.
   int given(double value, const char* name, int place);
   int add(NodeOp op, NodeType type, std::array<int, 3> args, int what = 0, double number = 0);
   int part(int vector, int k) { return add(NodeOp::kPart, NodeType::kNumber, {vector, -1, -1}, k); }
 
   bool is_known(int node) const { return node_of(node).op == NodeOp::kLiteral; }
-  /// Whether a mask may hold: false only where that is known.
+  /// Whether a mask may hold: false only if it is known not to hold.
   bool may_hold(int node) const { return !is_known(node) || node_of(node).number != 0; }
 
-  /// What follows belongs to this operator.
+  /// Names the operator of the following nodes.
   void title(std::string name);
 
   template <class Body>
@@ -67,8 +67,8 @@ class Recorder {
     close_if(condition, inner);
   }
 
-  /// body(node of the index) -> node of the mask of those that go on, or -1. The body runs until no
-  /// more numbers are found that it carries from one turn to the next.
+  /// body(index node) -> node of the mask of pixels that continue, or -1. The body runs again until
+  /// no more numbers are found that it carries from one iteration to the next.
   template <class Body>
   void loop(int begin, int end, Body&& body) {
     if (begin >= end) return;
@@ -81,7 +81,7 @@ class Recorder {
   }
 
   void output(std::string name, int node) { made_.outputs.push_back({std::move(name), node}); }
-  /// What was recorded. Ends the recording.
+  /// Returns the recording, and ends it.
   Recording take();
 
  private:
@@ -93,7 +93,7 @@ class Recorder {
   };
   struct OpenBlock {
     int block;
-    int condition;  ///< that holds in it, or -1
+    int condition;  ///< the mask that holds in it, or -1
     std::vector<Carried> assigned;
   };
   struct Key {

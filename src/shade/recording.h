@@ -7,10 +7,9 @@
 #include "limpid/core/frame.h"
 
 /// @file
-/// What formulas do to one pixel, written down: a program in static single assignment (Cytron et
-/// al. 1991, "Efficiently Computing Static Single Assignment Form and the Control Dependence
-/// Graph"), in nested blocks. Made by a Recorder; run in double by interpret.h, printed as a shader
-/// by glsl.h.
+/// The formulas for one pixel as a program in static single assignment (Cytron et al. 1991,
+/// "Efficiently Computing Static Single Assignment Form and the Control Dependence Graph"), in
+/// nested blocks. Made by a Recorder; run in double by interpret.h, printed as a shader by glsl.h.
 
 namespace limpid {
 
@@ -18,9 +17,9 @@ enum class NodeType : std::uint8_t { kNumber, kMask, kTwo, kThree, kFour };
 
 enum class NodeOp : std::uint8_t {
   kLiteral,  ///< Node::number
-  kGiven,    ///< of Recording::given, Node::what
+  kGiven,    ///< index in Recording::given: Node::what
   kMerged,   ///< one of Flow::merges
-  kIndex,    ///< of the loop Node::what, a whole number
+  kIndex,    ///< the integer index of the loop Node::what
   kAdd,
   kSubtract,
   kMultiply,
@@ -43,10 +42,10 @@ enum class NodeOp : std::uint8_t {
   kCos,
   kAtan2,
   kPow,
-  kPart,  ///< Node::what of a vector
-  // What only the pixel knows. `plane` is Node::what, shifts are in uv from the pixel's centre.
+  kPart,  ///< component Node::what of a vector
+  // Values of the pixel. `plane` is Node::what, shifts are in uv from the pixel's centre.
   kColumn,     ///< x of the centre, in pixels from the corner of the display window
-  kRow,        ///< Node::what of RowValue
+  kRow,        ///< RowValue Node::what
   kOwn,        ///< plane at the pixel itself
   kBeside,     ///< plane at the neighbour Node::number, 0 ... 8, row after row
   kNearest,    ///< plane at a shift
@@ -57,8 +56,8 @@ enum class NodeOp : std::uint8_t {
   kPlace,      ///< plane, texel Node::number of a quad: the shift of its centre
   // Textures, by TextureId in Node::what.
   kTiled,        ///< three channels at periods
-  kTiledWide,    ///< the same of a pixel so many texels wide
-  kSlopeMean,    ///< of levels of slopes, at periods, of a pixel so many texels wide
+  kTiledWide,    ///< the same for a pixel this many texels wide
+  kSlopeMean,    ///< of levels of slopes, at periods, for a pixel this many texels wide
   kSlopeSquare,  ///< xx, xy, yy of the same
   kLatLong,      ///< three channels at a place
   kGrid,         ///< one channel at texels
@@ -78,7 +77,7 @@ enum class RowValue : std::uint8_t {
 };
 constexpr int kRowValues = 9;
 
-/// The textures that lookups know.
+/// The textures of lookups.
 enum class TextureId : std::uint8_t {
   kWaveMap,
   kWaveSlopes,
@@ -95,18 +94,18 @@ struct Node {
   std::array<int, 3> args{-1, -1, -1};  ///< nodes
   double number = 0;
   int what = 0;
-  int block = 0;  ///< in which it is made
+  int block = 0;  ///< the block in which it is made
 };
 
-/// An if or a loop, and the nodes of what it leaves changed.
+/// An if or a loop, and the nodes that it changes.
 struct Flow {
   struct Merge {
-    int merged;         ///< the node that stands for the number behind it, and in a loop's block
-    int before, after;  ///< nodes: the number as it comes, and at the end of the block
+    int merged;         ///< the node of the number after it, and within a loop's block
+    int before, after;  ///< nodes: the number before it, and at the end of the block
   };
   bool loops = false;
   int block = -1;
-  int condition = -1;      ///< of an if; of a loop what must hold to go on, or -1
+  int condition = -1;      ///< of an if; of a loop the condition to continue, or -1
   int begin = 0, end = 0;  ///< of a loop's index
   int index = -1;          ///< node
   std::vector<Merge> merges;
@@ -114,7 +113,7 @@ struct Flow {
 
 struct Statement {
   enum class Kind : std::uint8_t { kNode, kFlow, kTitle } kind;
-  int what;  ///< node, flow, or place in Recording::titles
+  int what;  ///< node, flow, or index in Recording::titles
 };
 
 struct Block {
@@ -122,13 +121,13 @@ struct Block {
   std::vector<Statement> statements;
 };
 
-/// A number that scene, look, frame or time give.
+/// A number from scene, look, frame or time.
 struct GivenNumber {
   std::string name;  ///< "refraction.strength", "camera.eye_above", "waves.phase[2]"
-  double value;      ///< of the frame that was recorded
+  double value;      ///< of the recorded frame
 };
 
-/// A number that the program leaves.
+/// A number that the program outputs.
 struct Output {
   std::string name;  ///< "color.r", "path"
   int node;
@@ -137,7 +136,7 @@ struct Output {
 struct Recording {
   std::vector<Node> nodes;
   std::vector<Flow> flows;
-  std::vector<Block> blocks;  ///< [0] is all of it
+  std::vector<Block> blocks;  ///< [0] is the whole program
   std::vector<std::string> titles;
   std::vector<GivenNumber> given;
   std::vector<Output> outputs;

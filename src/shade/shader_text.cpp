@@ -7,7 +7,7 @@
 namespace limpid {
 namespace {
 
-/// With its values, unless a host has them.
+/// With its values, unless the host has them.
 ShaderTexture texture_of(ProgramTexture& texture) {
   ShaderTexture made = std::move(static_cast<ShaderTexture&>(texture));
   if (made.source == ShaderTexture::Source::kPlanes) return made;

@@ -6,8 +6,8 @@
 #include "shade/recorder.h"
 
 /// @file
-/// A number that computes nothing: operators that run on Symbols (core/number.h has what they may
-/// do) are written down by the Recorder of the thread.
+/// A number that records: the Recorder of the thread records the operations of operators that run
+/// on Symbols (core/number.h has these operations).
 
 namespace limpid {
 
@@ -84,13 +84,12 @@ inline Symbol sin(const Symbol& x) { return Symbol::made(NodeOp::kSin, x); }
 inline Symbol cos(const Symbol& x) { return Symbol::made(NodeOp::kCos, x); }
 inline Symbol atan2(const Symbol& y, const Symbol& x) { return Symbol::made(NodeOp::kAtan2, y, x); }
 inline Symbol pow(const Symbol& x, const Symbol& p) { return Symbol::made(NodeOp::kPow, x, p); }
-/// An exponent that all pixels have is part of the formula, as its form is for lanes.
+/// A constant exponent is part of the formula, as it is for lanes.
 inline Symbol pow(const Symbol& x, double p) { return pow(x, Symbol(p)); }
 
-/// Of pixels that nobody has seen: false only where that is sure. What operators leave out where it
-/// is false changes nothing then.
+/// For a recorded pixel: false only if it is certain. Work that operators skip then has no effect.
 inline bool any(const SymbolMask& mask) { return Recorder::current().may_hold(mask.node()); }
-/// Nothing is known of them: no comparison holds.
+/// Not known when recording: no comparison holds.
 inline double least(const Symbol&) { return std::numeric_limits<double>::quiet_NaN(); }
 inline double greatest(const Symbol&) { return std::numeric_limits<double>::quiet_NaN(); }
 
@@ -113,7 +112,7 @@ struct Loop<Symbol> {
       return -1;
     });
   }
-  /// No step is left out: what would need no look is not known.
+  /// No step is skipped: whether a lookup is needed is not known when recording.
   template <class Leap, class Body>
   static void steps(int begin, int end, Leap&&, Body&& body) {
     Recorder::current().loop(begin, end,

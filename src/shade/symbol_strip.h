@@ -10,8 +10,8 @@
 
 namespace limpid {
 
-/// The strip of one pixel that nobody has seen (op/operator.h has what a strip can do): its
-/// samplers write down what is looked up.
+/// The strip of one recorded pixel (op/operator.h has the functions of a strip): its samplers
+/// record lookups.
 class SymbolStrip {
  public:
   using Number = Symbol;
@@ -86,7 +86,7 @@ class SymbolStrip {
   }
 
   struct Quad {
-    Symbol corner;  ///< kQuad: a handle, for it may be chosen in a block
+    Symbol corner;  ///< kQuad; a handle, because a block may select it
     Symbol u, v;
     Symbol weight(int k) const { return (k & 1 ? u : Symbol(1) - u) * (k & 2 ? v : Symbol(1) - v); }
   };
@@ -114,7 +114,7 @@ class SymbolStrip {
                                               {quad.corner.node(), -1, -1}, index_of(plane), k);
       return {part(two, 0), part(two, 1)};
     }
-    /// Nothing is known of what nobody has seen.
+    /// Not known when recording.
     static SeenHeights heights(PlaneId, const SymbolMask&, Vec2<Symbol>, Vec2<Symbol>) {
       return {};
     }

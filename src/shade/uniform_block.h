@@ -8,8 +8,8 @@
 
 namespace limpid {
 
-/// The uniform block of a shader as it is declared, member by member, and its bytes in the layout
-/// of std140: scalars at their own size, vectors of four at 16 bytes. Vectors come before scalars.
+/// The uniform block of a shader: its declaration, member by member, and its bytes in the std140
+/// layout: scalars at their own size, vectors of four at 16 bytes. Vectors come before scalars.
 class UniformBlock {
  public:
   void add(const std::string& name, const glm::ivec4& value) {
@@ -26,7 +26,7 @@ class UniformBlock {
     declare("vec4 " + name + "[" + std::to_string(values.size()) + "]", values.data(),
             values.size() * sizeof(glm::vec4));
   }
-  /// After all of those; at which offset.
+  /// Appends a member; returns its offset.
   std::size_t add(const std::string& name, float value) {
     const std::size_t offset = bytes_.size();
     declare("float " + name, &value, sizeof value);

@@ -7,7 +7,7 @@
 #include "files/picture/byte_of.h"
 #include "show/shown.h"
 
-/// Loops over the pixels of a window, on all threads, that make a picture of them.
+/// Loops over the pixels of a window, on all threads, that fill a picture.
 
 namespace limpid {
 
@@ -15,7 +15,7 @@ using ShownColor = std::array<float, 3>;  ///< encoded for display, 0 ... 1
 
 inline constexpr int kRowsAtOnce = 16;
 
-/// Calls show(y0, y1, to) for bands of rows, `to` being where the bytes of row y0 begin.
+/// Calls show(y0, y1, to) for bands of rows; `to` is the address of row y0.
 template <class Show>
 Shown in_bands(const Rect& window, Executor& executor, const Show& show) {
   Shown shown{window.size(), std::vector<std::uint8_t>(4 * window.area()), {}};

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::uint8_t kGround = 28;
 constexpr std::array<std::uint8_t, 3> kInk = {216, 216, 216};
-constexpr int kGap = 8;          ///< pixels round each cell
-constexpr int kWideCell = 320;   ///< pixels; from there on letters are twice as large
-constexpr double kAspect = 1.5;  ///< of the whole
+constexpr int kGap = 8;          ///< pixels around each cell
+constexpr int kWideCell = 320;   ///< pixels; letters are twice as large from this width on
+constexpr double kAspect = 1.5;  ///< of the whole sheet
 
 void put_picture(Shown& sheet, int x0, int y0, const Shown& picture) {
   const std::size_t row = 4 * static_cast<std::size_t>(picture.size.width);

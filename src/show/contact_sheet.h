@@ -11,8 +11,8 @@ struct SheetCell {
   Shown shown;
 };
 
-/// Pictures of one size in rows, each with its label below, on a dark ground: about one and a half
-/// times as wide as high.
+/// Pictures of one size in rows, each with its label below, on a dark background: about one and a
+/// half times as wide as high.
 Shown contact_sheet(const std::vector<SheetCell>& cells);
 
 }  // namespace limpid

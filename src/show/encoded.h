@@ -10,13 +10,13 @@ namespace limpid {
 
 class AtomicFiles;
 
-/// Its red, green and blue, interleaved.
+/// Red, green and blue, interleaved.
 std::vector<std::uint8_t> rgb_of(const Shown& shown);
 
-/// A PNG of these.
+/// The picture as a PNG.
 std::string png_of(const Shown& shown);
 
-/// Writes them when the files are committed, in the format of the path's extension, as
+/// Writes the picture when the files are committed, in the format of the path's extension, as
 /// write_image8().
 void write_shown(AtomicFiles& files, const std::filesystem::path& path, const Shown& shown,
                  const std::map<std::string, std::string>& texts);

@@ -7,7 +7,7 @@
 namespace limpid {
 namespace {
 
-// sRGB, 8 bits, at places 0, 1/8 ... 1.
+// sRGB, 8 bits, at 0, 1/8 ... 1.
 constexpr std::array<std::array<float, 3>, 9> kViridis = {{{68, 1, 84},
                                                            {71, 45, 123},
                                                            {59, 82, 139},
@@ -21,7 +21,7 @@ constexpr std::array<std::array<float, 3>, 9> kViridis = {{{68, 1, 84},
 }  // namespace
 
 std::array<float, 3> heat_color(double place) {
-  // Written so that NaN counts as 0.
+  // NaN counts as 0.
   const double at = (place > 0 ? std::min(place, 1.0) : 0.0) * (kViridis.size() - 1);
   const auto lower = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
   const auto t = static_cast<float>(at - static_cast<double>(lower));

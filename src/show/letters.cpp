@@ -7,10 +7,10 @@ namespace limpid {
 namespace {
 
 constexpr int kPointsAcross = 5, kPointsDown = 9;
-constexpr int kInBand = 12;  ///< letters beside one another
+constexpr int kInBand = 12;  ///< letters side by side
 constexpr char kFirst = ' ', kLast = '~';
 
-/// From ' ' to '~', and the box last.
+/// From ' ' to '~', then the box.
 constexpr const char* kBands[] = {
     // clang-format off
     //   ! " # $ % & ' ( ) * +
@@ -96,7 +96,7 @@ constexpr const char* kBands[] = {
     // clang-format on
 };
 
-/// Whether the point of the letter is black.
+/// Whether this dot of the letter is set.
 bool is_set(int letter, int column, int row) {
   const int line = letter / kInBand * kPointsDown + row;
   return kBands[line][letter % kInBand * (kPointsAcross + 1) + column] == '#';

@@ -18,13 +18,13 @@ int bin_of(const std::uint8_t* rgb) {
 
 int part_of(int bin, int channel) { return bin >> (2 - channel) * kBits & ((1 << kBits) - 1); }
 
-/// The pixels of nearly one color.
+/// The pixels of nearly the same color.
 struct Bin {
   std::int64_t count = 0;
   std::array<std::int64_t, 3> sum{};
 };
 
-/// Bins that become one color: a part of the list of all.
+/// Bins that become one color: a range of the list of bins.
 struct Box {
   std::vector<int>::iterator begin, end;
   int side = 0;  ///< the longest: a channel
@@ -45,11 +45,11 @@ struct Box {
     for (auto bin = from; bin != to; ++bin) count += bins[static_cast<std::size_t>(*bin)].count;
   }
 
-  /// Which one is parted next: wide ones before those of many pixels.
+  /// The largest is split next: by length, weighted with pixels.
   std::int64_t weight() const { return length * count; }
 };
 
-/// The first bin of the second half, by pixels; each half has one at least.
+/// The first bin of the second half, by pixels; each half has at least one bin.
 std::vector<int>::iterator median_of(Box& box, const std::vector<Bin>& bins) {
   std::sort(box.begin, box.end, [&](int a, int b) {
     return std::pair(part_of(a, box.side), a) < std::pair(part_of(b, box.side), b);

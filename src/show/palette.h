@@ -6,16 +6,16 @@
 
 namespace limpid {
 
-/// A picture in few colors.
+/// A picture with a palette.
 struct Paletted {
   std::vector<std::array<std::uint8_t, 3>> colors;  ///< 256 at most
-  std::vector<std::uint8_t> pixels;                 ///< each the index of one
+  std::vector<std::uint8_t> pixels;                 ///< indices in `colors`
 };
 
-/// Of interleaved bytes, by Heckbert 1982 "Color Image Quantization for Frame Buffer Display": the
-/// colors, taken apart by their upper five bits, are parted at the median of their longest side
-/// until there are as many boxes as there may be, and each box has its mean. No pixel is off by
-/// more than its box is wide.
+/// Quantises interleaved bytes, by Heckbert 1982 "Color Image Quantization for Frame Buffer
+/// Display": the colors, binned by their upper five bits, are split at the median of their longest
+/// side until there are `most_colors` boxes, and each box gets its mean. The error of a pixel is at
+/// most the width of its box.
 Paletted paletted(std::span<const std::uint8_t> rgb, int most_colors);
 
 }  // namespace limpid

@@ -18,8 +18,7 @@ View<const float> rows_of(View<const float> view, int y0, int y1) {
   return view;
 }
 
-/// What the color ramp's ends stand for, from some of the finite values: all but the largest and
-/// the least hundredth lie between.
+/// The ends of the color ramp, from a sample of the finite values: the 1st and the 99th percentile.
 std::array<double, 2> length_scale(const View<float>& view) {
   constexpr std::int64_t kLooks = 65536;
   const Rect& w = view.window;
@@ -57,7 +56,7 @@ Shown shown_normal(const std::array<View<float>, 3>& n, Executor& executor) {
   return shown;
 }
 
-/// Of one, two or three channels, as they are.
+/// One, two or three channels, unchanged.
 Shown shown_share(const std::array<View<float>, 3>& views, Executor& executor) {
   Shown shown = by_pixel(views[0].window, executor, [&](int x, int y) {
     const float first = views[0].at(x, y);
@@ -68,7 +67,7 @@ Shown shown_share(const std::array<View<float>, 3>& views, Executor& executor) {
   return shown;
 }
 
-/// The color of a cell's kind, and none of a dry one.
+/// The color for a cell's operators, and none for a dry cell.
 std::optional<ShownColor> cell_color(const CellNeeds& cell) {
   if (cell.dry) return std::nullopt;
   if (cell.opaque) return ShownColor{0.9f, 0.2f, 0.15f};

@@ -10,7 +10,7 @@
 #include "limpid/plan/survey.h"
 #include "limpid/run/target.h"
 
-/// How numbers of a picture become colors of a screen.
+/// Numbers of a picture as colors of a screen.
 
 namespace limpid {
 
@@ -19,24 +19,24 @@ using ShownViews = std::array<View<const float>, 3>;
 struct Shown {
   Size size;
   std::vector<std::uint8_t> rgba;  ///< rows from the top, A 255
-  /// What the ends of the color ramp stand for, or darkest and brightest of a share; none for
+  /// The values at the ends of the color ramp, or of darkest and brightest for a share; none for
   /// light.
   std::optional<std::array<double, 2>> scale;
 };
 
-/// Light, as --preview shows it: its very bytes.
+/// Light, with the same bytes as --preview.
 Shown shown_light(const ShownViews& color, const DisplayTransform& display, Executor& executor);
 
-/// What is encoded for display already, 0 ... 1.
+/// Colors already encoded for display, 0 ... 1.
 Shown shown_encoded(const ShownViews& color, Executor& executor);
 
-/// By what it is: light as light; shares as they are; lengths on the color ramp, infinite ones
-/// black; normals and places as colors.
+/// By kind: light as light; shares unchanged; lengths on the color ramp, infinite ones black;
+/// normals and places as colors.
 Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, const DisplayTransform& display,
                 Executor& executor);
 
-/// The light with the survey's cells in it: dry ones as they are, opaque water red, open water
-/// green, what needs everything yellow, and other water blue.
+/// The light tinted by the survey's cells: dry cells unchanged, opaque water red, open water green,
+/// cells that need all operators yellow, and other water blue.
 Shown shown_cells(const Survey& survey, const ShownViews& color, const DisplayTransform& display,
                   Executor& executor);
 

@@ -23,7 +23,7 @@ std::string png(Size size, std::span<const std::uint8_t> rgb) {
   return encode_png(size.width, size.height, 3, rgb.data(), {}, "a picture of the terminal");
 }
 
-/// In parts of at most 4096 letters, as the protocol wants them; q=2 asks for no answer.
+/// In parts of at most 4096 letters, as the protocol requires; q=2 suppresses responses.
 std::string kitty_text(Size size, std::span<const std::uint8_t> rgb) {
   constexpr std::size_t kPart = 4096;
   const std::string letters = base64(png(size, rgb));
@@ -42,7 +42,7 @@ std::string iterm_text(Size size, std::span<const std::uint8_t> rgb) {
          ";width=auto;height=auto:" + base64(bytes) + "\a";
 }
 
-/// The letters of one color in a band of six rows, whose repetitions are counted.
+/// The letters of one color in a band of six rows, run-length encoded.
 std::string run_lengths(const std::string& letters) {
   std::string text;
   for (std::size_t i = 0; i < letters.size();) {
@@ -55,7 +55,7 @@ std::string run_lengths(const std::string& letters) {
 }
 
 /// DEC VT330/VT340 Programmer Reference Manual, volume 2, chapter 14: bands of six rows, in each a
-/// pass for every color that it has.
+/// pass for every color in it.
 std::string sixel_text(Size size, std::span<const std::uint8_t> rgb) {
   constexpr int kColors = 256, kBand = 6;
   constexpr char kNoPoint = '?';

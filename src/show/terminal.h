@@ -8,28 +8,27 @@
 
 #include "limpid/core/rect.h"
 
-/// Pictures between the lines of a terminal.
+/// Pictures in a terminal, between its lines.
 
 namespace limpid {
 
-/// How a terminal is told of a picture.
+/// Protocols for pictures in terminals.
 enum class TerminalPictures {
   kKitty,  ///< kitty's graphics protocol, a PNG: kitty, Ghostty
   kIterm,  ///< iTerm2's inline images, a PNG: iTerm2, WezTerm, mintty
   kSixel,  ///< DEC's sixels, 256 colors: foot, mlterm, Contour, Konsole, xterm -ti 340
 };
 
-/// "kitty", "iterm", "sixel". Throws the usage Error with the nearest name.
+/// Parses "kitty", "iterm", "sixel". Throws the usage Error with the nearest name.
 TerminalPictures terminal_pictures_named(std::string_view name);
 
-/// Of the terminal that the environment tells of; nothing is asked of the terminal itself. Nothing
-/// where it is not known to show pictures, and within tmux and screen, which keep them to
-/// themselves. `variable` gives a variable of the environment, null where it is not set.
+/// The protocol of the terminal named by the environment; the terminal itself is not queried.
+/// Nothing if it is not known to show pictures, and within tmux and screen, which do not pass them
+/// on. `variable` returns a variable of the environment, null if it is not set.
 std::optional<TerminalPictures> terminal_pictures(
     const std::function<const char*(const char*)>& variable);
 
-/// What is to be written to the terminal, with the line's end: rgb are the picture's bytes, rows
-/// from the top.
+/// The text for the terminal, with a line end: rgb are the picture's bytes, rows from the top.
 std::string terminal_text(Size size, std::span<const std::uint8_t> rgb, TerminalPictures way);
 
 }  // namespace limpid

@@ -32,7 +32,7 @@ std::vector<std::string> options_of(const CLI::App& app) {
   return names;
 }
 
-/// What is wrong with the first word that nobody expected.
+/// The error about the first unexpected word.
 std::string unexpected(const CLI::App& app) {
   const std::vector<std::string> rest = app.remaining(true);
   const std::string word = rest.empty() ? "" : rest.front().substr(0, rest.front().find('='));
@@ -63,7 +63,7 @@ std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
   return text;
 }
 
-/// The first option of the verb that was given an empty word, as a sentence; "" where none was.
+/// A sentence about the first option of the verb with an empty word; "" if there is none.
 std::string empty_word(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands()) {
     for (const CLI::Option* option : verb->get_options()) {
@@ -75,8 +75,7 @@ std::string empty_word(const CLI::App& app) {
   return "";
 }
 
-/// Where `--` of `limpid farm ... --` stands, else the end: what follows it is another command
-/// line.
+/// The index of `--` in `limpid farm ... --`, else the end: another command line follows.
 int end_of_own_words(int argc, char** argv) {
   int at = 1;
   while (at < argc && argv[at][0] == '-') ++at;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// What the command line said, verb by verb, as plain text and numbers; verbs.h makes sense of it.
+/// The command line, verb by verb, as plain text and numbers; verbs.h interprets it.
 
 namespace limpid::tool {
 
@@ -14,7 +14,7 @@ struct CommonArguments {
   bool quiet = false, verbose = false;
 };
 
-/// Look and output, for every verb that puts water into something.
+/// Look and output, for every verb that composites water.
 struct WaterOptions {
   std::string look = "physical";
   std::vector<std::string> settings, aovs;
@@ -24,13 +24,13 @@ struct WaterOptions {
   bool strict = false;
   std::string output, preview, contact_sheet, deep, runner = "fused", simd, gpu,
                                                     compression = "piz";
-  std::string show;  ///< "", "auto" or how a terminal shows pictures
+  std::string show;  ///< "", "auto" or a protocol for pictures in terminals
   std::optional<double> exposure;
   std::string display, ocio;
   bool store_float = false, dry_run = false;
 };
 
-/// Which frames of a sequence; none given is a single frame without a number.
+/// The frames of a sequence; without any, a single frame without a number.
 struct FrameOptions {
   std::string range;
   std::optional<double> fps;
@@ -41,7 +41,7 @@ struct FrameOptions {
 
 struct CompositeArguments {
   std::vector<std::string> plates, layers;
-  bool measure = false;  ///< `plan` runs it, too
+  bool measure = false;  ///< `plan` also runs it
   std::string scene, view, depth_kind, colorspace;
   std::optional<double> depth_nothing;
   int samples = 1, overscan = 0;
@@ -50,7 +50,7 @@ struct CompositeArguments {
   WaterOptions water;
 };
 
-/// A plate as `composite` takes it, and how its page is served.
+/// A plate as for `composite`, and the options of its page.
 struct ViewArguments {
   CompositeArguments composite;
   std::string reference, folder = ".";
@@ -92,12 +92,12 @@ struct InspectArguments {
 };
 
 struct OperatorsArguments {
-  std::string name;  ///< one operator, or "" for the table of all
+  std::string name;  ///< one operator, or "" for the table of all operators
   std::string look;
   bool scene = false;              ///< the keys of scene files instead
-  bool layers = false;             ///< the rules by which layers are found instead
+  bool layers = false;             ///< the rules for finding layers instead
   bool aovs = false;               ///< the table of AOVs instead
-  std::vector<std::string> verbs;  ///< where `help` asks, to which they are known, too
+  std::vector<std::string> verbs;  ///< for `help`, which knows them, too
 };
 
 struct CompareArguments {
@@ -108,7 +108,7 @@ struct CompareArguments {
 };
 
 struct ReportArguments {
-  CompositeArguments composite;  ///< of a shot; its look is "" where none is named
+  CompositeArguments composite;  ///< of a shot; its look is "" if none is named
   std::string truth;
   std::vector<std::string> against;
   std::string output;
@@ -128,8 +128,8 @@ struct ShaderArguments {
 };
 
 struct FarmArguments {
-  std::vector<std::string> words;    ///< status FARM, and the like; none to submit
-  std::vector<std::string> command;  ///< behind `--`
+  std::vector<std::string> words;    ///< status FARM, and the like; empty to submit
+  std::vector<std::string> command;  ///< after `--`
   std::optional<int> chunk, at_once, minutes;
   std::vector<std::string> sbatch;
   bool dry_run = false;
@@ -168,8 +168,8 @@ struct Arguments {
   FarmArguments farm;
 };
 
-/// Parses argv. When there is nothing left to do (help, version, wrong usage) it has printed what
-/// there was to print and returns the exit code instead.
+/// Parses argv. If no work is left (help, version, wrong usage), the text has been printed and this
+/// holds the exit code instead.
 struct Parsed {
   Arguments arguments;
   std::optional<int> exit_code;

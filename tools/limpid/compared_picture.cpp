@@ -26,7 +26,7 @@ std::string component_of(const std::string& channel) {
   return channel.substr(channel.rfind('.') + 1);
 }
 
-/// The channel of that name, else all of the layer of that name.
+/// The channel of that name, else all channels of the layer of that name.
 std::vector<std::string> named_in(const std::vector<std::string>& known, const std::string& name) {
   if (among(name, known)) return {name};
   std::vector<std::string> of_layer;
@@ -36,7 +36,7 @@ std::vector<std::string> named_in(const std::vector<std::string>& known, const s
   return of_layer;
 }
 
-/// Throws Error where the picture has neither.
+/// Throws Error if the picture has neither.
 std::vector<std::string> expect_named(const std::string& path,
                                       const std::vector<std::string>& known,
                                       const std::string& name) {
@@ -46,8 +46,7 @@ std::vector<std::string> expect_named(const std::string& path,
               did_you_mean(name, known));
 }
 
-/// Each channel of one with that of the other of the same component; whatever they are called where
-/// each is one.
+/// Pairs the channels of both by component; single channels are paired regardless of their names.
 std::vector<ChannelPair> paired(const std::string& text, const std::vector<std::string>& a,
                                 const std::vector<std::string>& b) {
   if (a.size() == 1 && b.size() == 1) return {{a[0], b[0]}};
@@ -83,7 +82,7 @@ std::vector<ChannelPair> pairs_of(const std::string& text, const std::string& a,
   return paired(text, of_a, expect_named(b, known_b, text.substr(split + 1)));
 }
 
-/// The channel of that name, or the only one of a layer; null where there is none.
+/// The channel of that name, or the only channel of a layer; null if there is none.
 const Plane* color_plane(const ComparedPicture& picture, const std::string& name) {
   if (const Plane* plane = picture.find(name)) return plane;
   const Plane* found = nullptr;
@@ -95,8 +94,7 @@ const Plane* color_plane(const ComparedPicture& picture, const std::string& name
   return found;
 }
 
-/// A channel of an EXR as it is named here: those of all parts but the first have the part's name
-/// in front.
+/// The name of an EXR channel here: in all parts but the first with the part's name in front.
 struct NamedChannel {
   std::string name;
   int part;
@@ -244,7 +242,7 @@ PictureColor read_color(const std::string& path, const Limits& limits) {
   const std::vector<std::string> known = channel_names(path, limits);
   const bool plain = std::all_of(wanted.begin(), wanted.end(),
                                  [&](const std::string& name) { return among(name, known); });
-  if (!plain) wanted.clear();  // those of a layer, whatever it is called
+  if (!plain) wanted.clear();  // channels of a layer, for any layer name
   const ComparedPicture picture = read_picture(path, wanted, limits);
   return {picture.display, LinearColor(picture, std::nullopt).take()};
 }

@@ -18,9 +18,9 @@ struct ComparedPicture {
   std::string path;
   Size display;  ///< of the display window
   std::vector<std::string> names;
-  std::vector<Plane> planes;  ///< one a name, all of the data window
+  std::vector<Plane> planes;  ///< one per name, with the data window
 
-  /// Null where there is none.
+  /// Null for an unknown name.
   const Plane* find(const std::string& name) const;
 };
 
@@ -30,35 +30,34 @@ struct PictureColor {
   std::array<Plane, 3> planes;
 };
 
-/// The channel of one picture that is compared with that of the other.
+/// A channel of one picture, and the channel of the other to compare with.
 struct ChannelPair {
   std::string a, b;
   friend bool operator==(const ChannelPair&, const ChannelPair&) = default;
 };
 
-/// The names of the channels that read_picture() knows: of an EXR of several flat parts those of
-/// all, from the second on with the part's name in front, as in "right.R". Throws Error as that
-/// does.
+/// The channel names of read_picture(): for an EXR of several flat parts those of all parts, from
+/// the second on with the part's name in front, as in "right.R". Throws Error as read_picture().
 std::vector<std::string> channel_names(const std::string& path, const Limits& limits);
 
-/// What --channels means: each text is a channel or layer of both pictures (all the layer's
-/// channels), or `A=B` with one of each. Each pair once, in order. Throws Error that lists what
-/// there is for a name that is not there, and for layers that hold different components.
+/// Parses --channels: each text is a channel or layer of both pictures (all the layer's channels),
+/// or `A=B` with one of each. Each pair once, in order. Throws Error that lists the existing names
+/// for an unknown name, and for layers with different components.
 std::vector<ChannelPair> pairs_of(const std::vector<std::string>& texts, const std::string& a,
                                   const std::vector<std::string>& known_a, const std::string& b,
                                   const std::vector<std::string>& known_b);
 
-/// All channels of an EXR, or of another format, that `wanted` names; all of the first part when it
-/// is empty. Throws Error for those that are not there.
+/// Reads the channels of an EXR, or of another format, that `wanted` names; all channels of the
+/// first part if it is empty. Throws Error for unknown channels.
 ComparedPicture read_picture(const std::string& path, const std::vector<std::string>& wanted,
                              const Limits& limits);
 
 /// Whether the file is an EXR with such a channel in its first part.
 bool has_channel(const std::string& path, const std::string& name);
 
-/// The channels of both, in the order of `a`. Throws Error where one has others.
+/// The channels of both, in the order of `a`. Throws Error if their names differ.
 std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b);
-/// The channels of the pairs, which were read. One of two names is called "A=B".
+/// The channels of the pairs, which must have been read. A pair of different names is called "A=B".
 std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b,
                                          const std::vector<ChannelPair>& pairs);
 

@@ -12,7 +12,7 @@
 namespace limpid::tool {
 namespace {
 
-/// The words among the alternatives of an option's value, as of "all|NAME,...": those in lower
+/// The words among the alternatives of an option's value, as in "all|NAME,...": those in lower
 /// case.
 std::vector<std::string> words_of(const CLI::Option& option) {
   std::vector<std::string> words;
@@ -43,7 +43,7 @@ std::vector<std::string> names_of(const CLI::App& app) {
   return names;
 }
 
-/// Function for each option with a name that takes a value, and the words for it.
+/// Calls the function for each named option with a value, with the words for it.
 template <class Body>
 void for_each_value(const CLI::App& app, const Body& body) {
   for (const CLI::Option* option : app.get_options()) {
@@ -58,7 +58,7 @@ std::string verb_names(const CLI::App& app) {
   return join(names, " ");
 }
 
-/// Without a word to offer the shell completes names of files.
+/// Without words the shell completes names of files.
 std::string bash_script(const CLI::App& app) {
   std::ostringstream out;
   out << "_limpid() {\n"

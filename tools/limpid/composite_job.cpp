@@ -15,13 +15,13 @@
 namespace limpid::tool {
 namespace {
 
-/// Stands for a view's name in names of files.
+/// Replaced by a view's name in names of files.
 constexpr std::string_view kViewMark = "%V";
 constexpr std::string_view kAllViews = "all";
 /// Vectors are no plane of the chain, and are named as its planes are.
 const std::string kMotion = "motion";
 
-/// What --pass-through names: nothing for none, which is alone then.
+/// The layers of --pass-through: empty for none, which must be the only word.
 std::vector<std::string> layers_to_pass(const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), "none") == names.end()) return names;
   if (names.size() == 1) return {};
@@ -60,7 +60,7 @@ namespace {
 
 bool has_view_mark(const std::string& name) { return name.find(kViewMark) != std::string::npos; }
 
-/// A name with the view's in the place of each %V.
+/// The name with each %V replaced by the view's name.
 std::string name_of_view(std::string name, const std::string& view) {
   for (std::size_t at = name.find(kViewMark); at != std::string::npos; at = name.find(kViewMark)) {
     if (view.empty()) {
@@ -71,7 +71,7 @@ std::string name_of_view(std::string name, const std::string& view) {
   return name;
 }
 
-/// What the command line names of a view's files, the numbers of frames not yet put in.
+/// The files of a view on the command line, still with patterns for frame numbers.
 CompositeJob::View inputs_of(const CompositeArguments& a, const std::string& view,
                              const std::optional<int>& frame, const Limits& limits) {
   CompositeJob::View inputs;
@@ -86,7 +86,7 @@ CompositeJob::View inputs_of(const CompositeArguments& a, const std::string& vie
   inputs.plate.layers = layer_overrides(a.layers);
   if (const auto motion = inputs.plate.layers.extract(kMotion))
     inputs.plate.motion = motion.mapped();
-  // Files that are a view's own need not say so inside.
+  // A view's own files need not contain its name.
   const bool own_files = std::any_of(a.plates.begin(), a.plates.end(), has_view_mark) ||
                          (a.plates.empty() && has_view_mark(a.scene));
   if (!own_files) inputs.plate.view = view;
@@ -95,7 +95,7 @@ CompositeJob::View inputs_of(const CompositeArguments& a, const std::string& vie
   return inputs;
 }
 
-/// The same of one frame.
+/// The same for one frame.
 void set_frame(const CompositeArguments& a, int frame, const std::string& view, PlateRequest& plate,
                SceneFile& scene) {
   const std::string file = name_of_view(a.scene, view);
@@ -109,7 +109,7 @@ void set_frame(const CompositeArguments& a, int frame, const std::string& view, 
   for (auto& [role, name] : plate.layers) name = name_of_frame(name, frame);
 }
 
-/// The views that --view names; "" for the plate's first.
+/// The views of --view; "" for the plate's first view.
 std::vector<std::string> views_named(const CompositeArguments& a, const std::optional<int>& frame,
                                      const Limits& limits) {
   if (a.view != kAllViews) {

@@ -7,21 +7,21 @@
 
 #include "arguments.h"
 
-/// The jobs that plates, scene, layers and look of a command line come to.
+/// The jobs of plates, scene, layers and look of a command line.
 
 namespace limpid::tool {
 
-/// What --layer names. Throws the usage Error for what is not ROLE=LAYER.
+/// Parses --layer. Throws the usage Error unless it is ROLE=LAYER.
 LayerOverrides layer_overrides(const std::vector<std::string>& texts);
 
-/// What the jobs of all frames have in common: the only job, where there are no frames.
+/// The common part of the jobs of all frames: the only job, if there are no frames.
 CompositeJob common_job(const CompositeArguments& arguments, const Sequence& sequence,
                         const CommonArguments& common);
 
-/// That job made one frame's: with its scene, its time, and its number in all names.
+/// That job for one frame: with its scene, its time, and its number in all names.
 CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& arguments, int frame);
 
-/// Throws the usage Error for a job of several views, which the verb does not do.
+/// Throws the usage Error for a job of several views, which the verb does not support.
 void expect_one_view(const CompositeJob& job, const std::string& verb);
 
 }  // namespace limpid::tool

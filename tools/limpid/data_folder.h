@@ -7,14 +7,14 @@
 
 namespace limpid::tool {
 
-/// The folder with looks, scenes, plates and maps: $LIMPID_DATA or ../share/limpid as seen from the
-/// tool's own folder, the first that has them all. Throws Error where none has.
+/// The folder with looks, scenes, plates and maps: $LIMPID_DATA or ../share/limpid relative to the
+/// tool's own folder, the first that has them all. Throws Error if neither has.
 std::filesystem::path data_folder();
 
-/// Folders that hold looks, best first: those of the same two.
+/// Folders of looks, best first: of the same two.
 std::vector<std::filesystem::path> look_folders();
 
-/// Where what can be made again is kept: $XDG_CACHE_HOME/limpid, else $HOME/.cache/limpid, else "".
+/// The folder for caches: $XDG_CACHE_HOME/limpid, else $HOME/.cache/limpid, else "".
 std::filesystem::path cache_folder();
 
 /// A look by name or file.

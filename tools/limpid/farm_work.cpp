@@ -28,7 +28,7 @@ void expect_cuttable(const FrameOptions& frames, const WaterOptions& water) {
   }
 }
 
-/// What all kinds have in common.
+/// The common part of all kinds.
 FarmWork begin(const std::string& verb, const FrameOptions& frames, const WaterOptions& water,
                const CommonArguments& common) {
   expect_cuttable(frames, water);
@@ -43,7 +43,7 @@ FarmWork begin(const std::string& verb, const FrameOptions& frames, const WaterO
   work.names_simd = !water.simd.empty();
   work.simd = work.names_simd ? water.simd : simd_targets().front();
   if (!water.preview.empty() && water.ocio.empty() && water.display != kPlainDisplay) {
-    // A task may run where $OCIO is another.
+    // $OCIO may differ where a task runs.
     const DisplayChoice display = display_of(water, true);
     if (display.config.empty()) {
       work.display = {"--display", kPlainDisplay};

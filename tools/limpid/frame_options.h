@@ -11,29 +11,29 @@
 
 #include "arguments.h"
 
-/// What the verbs make of --frames and the options that go with it.
+/// Interprets --frames and its companion options.
 
 namespace limpid::tool {
 
-/// Frames a second without --fps.
+/// Frames per second without --fps.
 constexpr double kUsualFps = 24;
 
-/// The frames that the options name; none where --frames is not given. Throws the usage Error for
-/// bad numbers, for options that mean nothing without --frames or on a dry run, for outputs that
-/// several frames would overwrite, and for a preview that a sequence cannot be resumed by.
+/// The frames of the options; empty without --frames. Throws the usage Error for bad numbers, for
+/// options without effect because there is no --frames or a dry run, for outputs that several
+/// frames would overwrite, and for a preview by which a sequence cannot be resumed.
 Sequence sequence_of(const FrameOptions& options, const WaterOptions& outputs);
 
-/// What `find` finds left of the sequence with --resume, which is told; without, all of it.
+/// The rest of the sequence by `find` with --resume, which is reported; without it, the whole
+/// sequence.
 Sequence rest_of(const Sequence& sequence, const FrameOptions& options,
                  const CommonArguments& common,
                  const std::function<Rest(const Sequence&, VerifyLevel)>& find);
 
-/// That --missing names.
+/// Parses --missing.
 Missing missing_named(const std::string& name);
 
-/// When the frame is: --time, or the scene's, or 0 where there is neither, and then frame / --fps
-/// later. A scene that is of this frame alone, and a plate, say their own time, unless --time or
-/// --fps is given.
+/// The frame's time: --time, or the scene's, or 0 if there is neither, plus frame / --fps. A scene
+/// of this frame alone, and a plate, have their own time, unless --time or --fps is given.
 JobTime time_of_frame(const FrameOptions& options, const WaterOptions& water,
                       const SceneFile& scene, bool scene_of_frame, int frame);
 

@@ -6,7 +6,7 @@
 
 namespace limpid::tool {
 
-/// The looks that come with the tool, then its presets, each by name, and the one that is named.
+/// The looks of the tool, then its presets, each by name, and the named look.
 std::vector<DeskLook> known_looks(const std::string& named);
 
 }  // namespace limpid::tool

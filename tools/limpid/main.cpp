@@ -34,7 +34,7 @@ void print_error(const std::string& sentence) {
   std::fprintf(stderr, "limpid ERROR: %s\n", limpid::tool::one_line(sentence).c_str());
 }
 
-/// At once: what libraries do at the end of a program may need memory.
+/// Immediately: exit handlers of libraries may need memory.
 [[noreturn]] void end_out_of_memory(const std::string& sentence) {
   std::fflush(stdout);
   print_error(limpid::tool::out_of_memory(sentence));
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     end_out_of_memory(limpid::no_memory().what());
   } catch (const std::system_error& error) {
-    // No thread can be made: its stack is memory, too.
+    // No thread can be made, because its stack needs memory, too.
     if (error.code() != std::errc::resource_unavailable_try_again) {
       print_error(error.what());
       return 1;

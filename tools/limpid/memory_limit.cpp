@@ -57,13 +57,13 @@ Limits limits_of(const CommonArguments& common) {
 }
 
 void make_threads_small() {
-  // glibc would give each 8 MiB, which count whether used or not.
+  // glibc's default is 8 MiB each, which count even if unused.
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
   ::pthread_attr_setstacksize(&attributes, kStackBytes);
   ::pthread_setattr_default_np(&attributes);
   ::pthread_attr_destroy(&attributes);
-  // And a heap of 64 MiB, which counts where addresses do.
+  // And a heap of 64 MiB, which counts if addresses are limited.
   rlimit addresses{};
   ::getrlimit(RLIMIT_AS, &addresses);
   if (addresses.rlim_cur != RLIM_INFINITY) ::mallopt(M_ARENA_MAX, 1);

@@ -7,23 +7,23 @@
 
 #include "arguments.h"
 
-/// What --max-memory means.
+/// Implements --max-memory.
 
 namespace limpid::tool {
 
-/// Bytes of "2000000000", "1.5G" or "512M", where K, M, G and T are powers of 1024. Throws the
-/// usage Error for anything else, and for less than 16M, with which nothing could be done.
+/// Parses "2000000000", "1.5G" or "512M", where K, M, G and T are powers of 1024. Throws the usage
+/// Error for other text, and for less than 16M, which is too little for any verb.
 std::int64_t memory_named(const std::string& text);
 
-/// The limits of each file that is read: those of the library, and --max-memory.
+/// The limits of each input file: those of the library, and --max-memory.
 Limits limits_of(const CommonArguments& common);
 
-/// Has threads take little of what memory there is. Under a limit only, and before there are any.
+/// Makes threads use little memory. Only under a limit, and before there are threads.
 void make_threads_small();
 
-/// Has the system refuse this process more memory than --max-memory, stacks of threads included,
-/// beyond what it has: whatever asks for more, allocating it fails, and the verb with it. To be
-/// called before there are threads.
+/// Makes the system limit this process to --max-memory, thread stacks included, beyond its present
+/// memory: allocations beyond that fail, and the verb with them. To be called before there are
+/// threads.
 void limit_process(const CommonArguments& common);
 
 }  // namespace limpid::tool

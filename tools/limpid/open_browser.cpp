@@ -15,7 +15,7 @@ bool open_browser(const std::string& address) {
   posix_spawn_file_actions_t files;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawn_file_actions_init(&files);
-  // The tool has signals blocked, which would last in a browser that this starts.
+  // The tool has signals blocked, and a browser started here would inherit that.
   sigset_t none;
   ::sigemptyset(&none);
   ::posix_spawnattr_setsigmask(&attributes, &none);

@@ -3,8 +3,8 @@
 
 namespace limpid::tool {
 
-/// Has the user's browser show the address, by xdg-open, and goes on at once. Whether that could be
-/// started: a system without a desktop has none.
+/// Opens the address in the user's browser, by xdg-open, without waiting. Returns whether xdg-open
+/// could be started: a system without a desktop has none.
 bool open_browser(const std::string& address);
 
 }  // namespace limpid::tool

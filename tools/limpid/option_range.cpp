@@ -8,7 +8,7 @@
 namespace limpid::tool {
 namespace {
 
-/// A nameless validator, so that the help stays as short as it is.
+/// A validator without a name, which adds nothing to the help.
 CLI::Validator validator(std::function<std::string(const std::string&)> fault_of) {
   return CLI::Validator([=](std::string& word) { return fault_of(word); }, "");
 }
@@ -25,7 +25,7 @@ std::string range_text(double least, double most) {
   return text_of(least) + " ... " + text_of(most);
 }
 
-/// "" for what is no number at all: the conversion says so.
+/// "" if the word is no number: the conversion reports that.
 template <class Holds>
 std::string fault_of_number(const std::string& word, const Holds& holds,
                             const std::string& expected) {

@@ -4,14 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
-/// Ranges of options. What is out of one is wrong usage, told when the command line is read: the
-/// sentence names option, value and range.
+/// Ranges of options. A value out of range is wrong usage, reported when the command line is
+/// parsed: the sentence names option, value and range.
 
 namespace limpid::tool {
 
-/// A number of the range, ends included, in the unit where there is one. An infinite end means
-/// "from
-/// ... up" and lets no infinity in.
+/// A number in the range, ends included, in the unit if there is one. An infinite end means "from
+/// ... up" and does not allow infinity.
 CLI::Validator number_in(double least, double most, const std::string& unit = "");
 /// Any finite number above 0.
 CLI::Validator number_above_zero();

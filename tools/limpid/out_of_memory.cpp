@@ -16,7 +16,7 @@
 namespace limpid::tool {
 namespace {
 
-/// "--max-memory 64M and ulimit -v 65536", kept where it needs no memory.
+/// "--max-memory 64M and ulimit -v 65536", in static memory.
 std::array<char, 256> limits_named;
 
 void add_limit(const char* name, const char* value) {
@@ -34,7 +34,7 @@ void add_system_limit(const char* name, __rlimit_resource_t resource) {
   add_limit(name, kibibytes.data());
 }
 
-/// Takes no memory.
+/// Allocates no memory.
 [[noreturn]] void end() {
   std::array<char, 512> text;
   const int length =
@@ -45,7 +45,7 @@ void add_system_limit(const char* name, __rlimit_resource_t resource) {
   try {
     const auto none_begins_any_more = remove_unfinished_files();
     ::_exit(memory_exit_code());
-  } catch (...) {  // there are none: it had no memory for the list
+  } catch (...) {  // no limits: there was no memory for the list
   }
   ::_exit(memory_exit_code());
 }

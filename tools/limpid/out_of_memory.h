@@ -5,26 +5,26 @@
 
 #include "arguments.h"
 
-/// What becomes of the tool when its memory ends.
+/// The end of the tool when memory runs out.
 
 namespace limpid::tool {
 
-/// Has the process end with the sentence of out_of_memory() and its exit code where nothing could
-/// catch an exception that tells of memory: in what a library does as it is loaded, or in a thread
-/// of one. To be called first of all.
+/// Makes the process end with the sentence and exit code of out_of_memory() where nobody can catch
+/// an exception for lack of memory: while a library is loaded, or in a library's thread. To be
+/// called first of all.
 void end_when_memory_ends();
 
-/// Notes what the sentence names as the limit: --max-memory, `ulimit -v` and `ulimit -d`. To be
-/// called before --max-memory itself becomes a limit of the system.
+/// Stores the limits for the sentence: --max-memory, `ulimit -v` and `ulimit -d`. To be called
+/// before --max-memory becomes a limit of the system.
 void note_memory_limits(const CommonArguments& common);
 
-/// Whether there is such a limit: more memory will not be there the next time.
+/// Whether there is such a limit: then another try would fail, too.
 bool is_memory_limited();
 
-/// The sentence of an Error of Fault::kMemory, with the limit where there is one.
+/// The sentence of an Error of Fault::kMemory, with the limit if there is one.
 std::string out_of_memory(std::string sentence);
 
-/// 1 under a limit, 75 where another try may find more memory.
+/// 1 under a limit, 75 if another try may find more memory.
 int memory_exit_code();
 
 }  // namespace limpid::tool

@@ -24,8 +24,7 @@ const std::vector<std::string> kOfChain = with({"surface_depth.Z", "confidence.Y
 const std::vector<std::string> kOfTruth = with({"visible.R", "visible.G", "visible.B"}, kMaps);
 const char* const kBelow = "visible_below";
 
-// Whether the chain looked things up in a picture of what lies below the water alone: that of a
-// model, or layers of a plate.
+// Whether the chain looked up a layer below the water: of a model, or in layers of a plate.
 bool looked_below(const std::string& path) {
   const auto inputs = ExrFile::open(path).text_attribute(0, "limpid/inputs");
   const auto says = [&](const std::string& key) {
@@ -41,8 +40,7 @@ bool tells_below(const std::string& path) {
   return told("R") && told("G") && told("B");
 }
 
-// The first channel that the offset cannot be measured without, as a sentence; "" where all is
-// there.
+// A sentence about the first channel that the offset lacks; "" if all exist.
 std::string lack(const std::string& path, const std::vector<std::string>& names,
                  const std::string& source) {
   for (const std::string& name : names) {
@@ -58,7 +56,7 @@ std::string lack(const std::string& a, const std::string& b) {
   return of_a != "" ? of_a : lack(b, kOfTruth, "a ray-traced truth with its lookups");
 }
 
-// `visible`: the channels of the truth that say what can be had.
+// `visible`: the truth's channels of visibility.
 OffsetComparison measure_offset(const std::string& a, const std::string& b,
                                 const std::string& visible, const Limits& limits) {
   const ComparedPicture chain = read_picture(a, kOfChain, limits);

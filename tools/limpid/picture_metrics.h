@@ -8,21 +8,21 @@
 #include "judge/compare/offset.h"
 #include "judge/compare/ssim.h"
 
-/// What `compare --metrics` computes besides the difference of numbers.
+/// The metrics of `compare --metrics`, besides differences of numbers.
 
 namespace limpid::tool {
 
 struct WantedMetrics {
   bool ssim = false, flip = false, hdr_flip = false, offset = false;
-  bool all = false;  ///< offset is then wanted only of files that have it
+  bool all = false;  ///< offset is then computed only for files that have it
   Observer observer;
   std::optional<double> clip;
 
   bool of_color() const { return ssim || flip || hdr_flip; }
 };
 
-/// Throws the usage Error for metrics that there are not, and for options that mean nothing without
-/// one. A FLIP map that is to be written wants FLIP.
+/// Throws the usage Error for unknown metrics, and for options that need a metric. A FLIP map
+/// requires FLIP.
 WantedMetrics wanted_metrics(const CompareArguments& arguments);
 
 struct PictureMetrics {
@@ -30,23 +30,23 @@ struct PictureMetrics {
   std::optional<ErrorMap> flip, hdr_flip;
   Exposures exposures;  ///< of hdr_flip
   std::optional<OffsetComparison> offset;
-  bool below = false;     ///< its lookups went into a picture of what lies below the water alone
-  std::string visible;    ///< the truth's channels that it was judged by
-  std::string no_offset;  ///< why it was not measured, where all metrics are wanted
+  bool below = false;     ///< lookups used the layer below the water
+  std::string visible;    ///< the truth's channels that judged it
+  std::string no_offset;  ///< why it was not measured, if all metrics are requested
 
-  /// False where what was looked up is not even a number.
+  /// False if a lookup is NaN or infinite.
   bool sane() const { return !offset || offset->overall.mismatches == 0; }
 };
 
-/// Throws Error for pictures that lack what a metric needs.
+/// Throws Error for pictures that lack channels of a metric.
 PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
                        const ComparedPicture& b, const Limits& limits);
 
-/// A line or more a metric, "" for none.
+/// One or more lines per metric, "" for none.
 std::string to_text(const PictureMetrics& metrics, const WantedMetrics& wanted);
 
-/// Of FLIP, or of HDR-FLIP where only that was measured: 0 is dark, 1 is bright, mismatches are
-/// magenta.
+/// The map of FLIP, or of HDR-FLIP if only that was measured: 0 is dark, 1 is bright, mismatches
+/// are magenta.
 void write_flip_map(const std::string& path, const PictureMetrics& metrics);
 
 }  // namespace limpid::tool

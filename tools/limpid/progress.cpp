@@ -24,7 +24,7 @@ std::string clock_text(double seconds) {
   return text;
 }
 
-/// The same of all frames, for which measured numbers differ.
+/// The sentence without numbers, which differ from frame to frame.
 std::string without_numbers(std::string sentence) {
   std::erase_if(sentence, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
   return sentence;

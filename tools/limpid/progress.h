@@ -11,8 +11,8 @@ namespace limpid::tool {
 /// "12/240 frames, 1.92 a second, 1:59 left".
 std::string progress_text(const SequenceProgress& progress);
 
-/// How a sequence shows that it moves: on a terminal (stderr) a line that is kept up to date; else
-/// a line a frame on stdout. Nothing where nothing is to be printed.
+/// Progress of a sequence: on a terminal (stderr) a line that is updated; else a line per frame on
+/// stdout. Nothing with quiet output.
 class Progress {
  public:
   explicit Progress(const CommonArguments& common);
@@ -20,17 +20,17 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Tells on stderr what has not been told of a frame before.
+  /// Prints warnings on stderr that no frame before has had.
   void warn(const std::vector<std::string>& sentences);
 
-  /// `line` tells of the frame alone; it is left out on a terminal unless it is `news`. `notes` are
-  /// shown when they are not those of the frame before.
+  /// `line` is about this frame; a terminal omits it unless it is `news`. `notes` are printed if
+  /// they differ from those of the frame before.
   void frame_done(const SequenceProgress& progress, const std::string& line,
                   const std::string& notes = {}, bool news = false);
 
  private:
   bool quiet_, live_, lines_;
-  bool drawn_ = false;  ///< the line on the terminal is not ended yet
+  bool drawn_ = false;  ///< the line on the terminal has no line end yet
   std::string notes_;
   std::vector<std::string> warned_;  ///< sentences without their numbers
 };

@@ -10,7 +10,7 @@
 namespace limpid::tool {
 namespace {
 
-/// Those of water, but the truth guesses nothing and has no buffers, and `visible`.
+/// The AOVs of water, except those of guesses and buffers, which the truth has not, and `visible`.
 void choose_aovs(const std::vector<std::string>& names, TruthOutput& output) {
   std::vector<std::string> known;
   for (const AovInfo& info : aovs()) {
@@ -50,7 +50,7 @@ WaterJob water_job(const RenderArguments& a, const CommonArguments& common) {
 }
 
 TruthJob truth_job(const TruthArguments& a, const CommonArguments& common) {
-  // Checked as those of water are.
+  // Checked like those of water.
   WaterOptions files = a.water;
   files.aovs.clear();
   const OutputChoice choice = output_of(files);

@@ -9,7 +9,7 @@ class App;
 }
 
 /// @file
-/// Options that several verbs take.
+/// Options of several verbs.
 
 namespace limpid::tool {
 

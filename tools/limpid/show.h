@@ -10,11 +10,11 @@
 
 namespace limpid::tool {
 
-/// How the picture is shown; nothing where that is not asked for. Throws the usage Error where the
-/// standard output is no terminal, or none that is known to show pictures, and no way is named.
+/// The protocol for the picture; nothing without --show. Throws the usage Error if the standard
+/// output is no terminal, or none that is known to show pictures, and no protocol is named.
 std::optional<TerminalPictures> way_to_show(const WaterOptions& options);
 
-/// Writes it to the standard output.
+/// Writes the picture to the standard output.
 void show(const PreviewPixels& picture, TerminalPictures way);
 
 }  // namespace limpid::tool

@@ -16,7 +16,7 @@ bool is_ignored(int signal) {
   return ::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
-/// Waits for one of the signals, which are blocked everywhere, and dies of it.
+/// Waits for one of the signals, which are blocked in all threads, and ends by it.
 void wait_for(const sigset_t& signals) {
   int signal = 0;
   if (::sigwait(&signals, &signal) != 0) return;

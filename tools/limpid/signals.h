@@ -2,12 +2,12 @@
 
 namespace limpid::tool {
 
-/// Makes Ctrl-C, kill and a closed terminal end the process as they do anyway, but without leaving
+/// Makes Ctrl-C, kill and a closed terminal end the process as usual, but without leftover
 /// temporary files; a signal that the caller ignores stays ignored. A write beyond a file-size
-/// limit becomes an Error. Call it before any other thread starts.
+/// limit becomes an Error. To be called before any other thread starts.
 void end_cleanly_on_signals();
 
-/// Has `work` done before the process ends by such a signal: one for the whole process.
+/// Runs `work` before the process ends by such a signal: one function per process.
 void also_on_signals(void (*work)());
 
 }  // namespace limpid::tool

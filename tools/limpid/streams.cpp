@@ -15,7 +15,7 @@ namespace limpid::tool {
 void keep_streams_apart() {
   std::signal(SIGPIPE, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest free number is the one that is looked at, as those below it are open.
+    // open() takes the lowest free number, which is this one, because those below are open.
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDWR);
   }
 }

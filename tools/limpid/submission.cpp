@@ -21,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a task, where the command names no --threads.
+/// Per task, if the command names no --threads.
 constexpr int kUsualCores = 4;
-/// So many frames are tried, where the first cannot be made.
+/// Number of frames tried, if the first cannot be made.
 constexpr std::size_t kMaxMeasured = 5;
 
-/// A frame that was made, and what that took.
+/// A measured frame.
 struct Measured {
   int frame;
   double seconds;
@@ -42,7 +42,7 @@ int cores_of(const FarmArguments& a, const FarmWork& work) {
   return std::max(here / *a.at_once, 1);
 }
 
-/// The first of the frames that can be made.
+/// Makes the first frame that can be made.
 Measured measure(const std::vector<std::string>& words, const std::vector<int>& frames) {
   std::string said;
   for (std::size_t i = 0; i < std::min(frames.size(), kMaxMeasured); ++i) {
@@ -63,7 +63,7 @@ Measured measure(const std::vector<std::string>& words, const std::vector<int>& 
               ": expected a frame that can be made, or --chunk N");
 }
 
-/// Of a task, with what its allocator keeps.
+/// Memory of a task, with its allocator's reserve.
 std::int64_t memory_of(const Measured& measured, int in_flight, int chunk) {
   constexpr std::int64_t kBeside = std::int64_t{128} << 20, kStep = std::int64_t{64} << 20;
   const std::int64_t frames = measured.memory * std::min(in_flight, chunk);
@@ -74,7 +74,7 @@ int minutes_of(const Measured& measured, int chunk) {
   return static_cast<int>(std::ceil(4 * measured.seconds * chunk / 60)) + 5;
 }
 
-/// Frames of it whose picture is there, but cannot be kept.
+/// Frames whose picture exists, but cannot be kept.
 std::map<int, FileState> states_before(const FarmWork& work, const std::vector<int>& frames) {
   std::map<int, FileState> before;
   for (const int frame : frames) {

@@ -10,37 +10,37 @@
 #include "farm/farm_status.h"
 #include "farm_work.h"
 
-/// What `limpid farm` does before and after its tasks.
+/// The work of `limpid farm` before and after its tasks.
 
 namespace limpid::tool {
 
-/// Throws the Error of the first frame that could not be made, and says how many others there are.
+/// Throws the Error of the first frame that cannot be made, with the number of others.
 void expect_sound(const FarmWork& work, Executor& executor);
 
-/// What is left to do, which is told.
+/// The rest of the frames, which is reported.
 Rest rest_of(const FarmWork& work, const CommonArguments& common, Executor& executor);
 
-/// A farm that is ready: all but its jobs.
+/// A farm ready for submission.
 struct Submission {
   FarmWork work;
   FarmFolder folder;
   FarmRecord record;
   std::string chunks, task, verify;   ///< texts of its files
-  std::size_t frames = 0, tasks = 0;  ///< to be made; none where the frame made first was all
+  std::size_t frames = 0, tasks = 0;  ///< to be made; 0 if the measured frame was the last
 
-  /// All files, each with its name before it.
+  /// All files, each after its name.
   std::string text() const;
-  /// Into the folder, in place of those of the submission before.
+  /// Writes the files into the folder, replacing those of an earlier submission.
   void write() const;
 };
 
-/// Cuts what is left into tasks, so many at most. Without --chunk, one frame of it is made first,
-/// here, and measured.
+/// Splits the remaining frames into tasks, at most as many as allowed. Without --chunk, makes and
+/// measures one frame here first.
 Submission prepare(const FarmArguments& arguments, const FarmWork& work, const FarmFolder& folder,
                    const Rest& rest, std::size_t most_tasks, const CommonArguments& common);
 
-/// Looks at every byte of all frames, and writes and returns the summary: one line where all is
-/// well.
+/// Verifies every byte of all frames; writes and returns the summary, a single line if all are
+/// valid.
 std::string summarise(const FarmFolder& folder, const FarmWork& work, const FarmStatus& status,
                       Executor& executor);
 

@@ -18,7 +18,7 @@
 namespace limpid::tool {
 namespace {
 
-/// Prints what was found, unless it is the exit code alone that is wanted.
+/// Prints results, unless only the exit code is requested.
 class Out {
  public:
   explicit Out(const CommonArguments& common) : quiet_(common.quiet) {}
@@ -41,7 +41,7 @@ CompareOptions options_of(const CompareArguments& a) {
   return options;
 }
 
-/// Two pictures and all that is known of their difference.
+/// Two pictures and their difference.
 struct Pair {
   ComparedPicture a, b;
   std::vector<ComparedChannel> channels;  ///< of these pictures
@@ -99,7 +99,7 @@ std::vector<int> frames_to_compare(const CompareArguments& a) {
   return frames_of(a.frames);
 }
 
-/// The numbers of one frame, a word each; "-" where there is none.
+/// The numbers of one frame, a word each; "-" for none.
 std::vector<std::string> row_of(const Pair& pair, const std::optional<Flicker>& change) {
   const Metrics& all = pair.result.overall;
   const PictureMetrics& m = pair.metrics;
@@ -151,7 +151,7 @@ int compare_frames(const CompareArguments& a, WantedMetrics wanted, const Limits
       flicker_max = std::max(flicker_max, change->max);
     } else {
       print(line_of("frame", heading_of(pair.metrics)) + "\n");
-      // What the first frame has all must have, so that each has its place in the table.
+      // All frames must have the metrics of the first, because the table has fixed columns.
       if (wanted.all) wanted.offset = pair.metrics.offset.has_value();
       wanted.all = false;
     }

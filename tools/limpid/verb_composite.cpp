@@ -26,7 +26,7 @@ CompositeJob first_job(const CompositeArguments& a, const Sequence& sequence,
   return job_of_frame(std::move(job), a, sequence.frames.front());
 }
 
-/// Throws Error that says what there is to do about a file that is not there.
+/// Throws Error with advice about a missing file.
 CompositeJob expect_plate(CompositeJob job) {
   if (const auto missing = missing_file(job)) {
     throw Error(missing->string() +

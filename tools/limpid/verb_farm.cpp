@@ -35,7 +35,7 @@ FarmStatus status_of(const FarmFolder& folder) {
   return limpid::status_of(folder, record, queue_of(folder, record));
 }
 
-/// 0 as long as nothing is wrong.
+/// 0 if complete or at work, 1 if over and incomplete, 75 if the scheduler does not answer.
 int exit_code_of(const FarmStatus& status) {
   if (status.complete() || status.at_work == true) return 0;
   return status.at_work ? 1 : 75;
@@ -47,7 +47,7 @@ int status_verb(const FarmFolder& folder) {
   return exit_code_of(status);
 }
 
-/// Until nothing of it waits or runs. On a terminal a text takes the place of the one before.
+/// Until no task waits or runs. On a terminal each text replaces the one before.
 int watch_verb(const FarmFolder& folder) {
   const bool live = ::isatty(STDOUT_FILENO) == 1;
   std::string shown;
@@ -80,7 +80,7 @@ int cancel_verb(const FarmFolder& folder) {
   return 0;
 }
 
-/// What the last job does.
+/// The work of the last job.
 int verify_verb(const FarmFolder& folder, const FarmArguments& a) {
   const Parsed command = command_of(a.command);
   if (command.exit_code) return *command.exit_code;
@@ -91,7 +91,7 @@ int verify_verb(const FarmFolder& folder, const FarmArguments& a) {
   return summary.find('\n') + 1 == summary.size() ? 0 : 1;
 }
 
-/// The tasks, here.
+/// Runs the tasks on this machine.
 int run_here(const FarmFolder& folder, const Submission& submission, int at_once,
              const CommonArguments& common) {
   const FarmRecord record = folder.record();
@@ -109,7 +109,7 @@ int run_here(const FarmFolder& folder, const Submission& submission, int at_once
   return complete ? 0 : 1;
 }
 
-/// Throws Error where a job of the farm is in Slurm's queue, or may be.
+/// Throws Error if a job of the farm is, or may be, in Slurm's queue.
 void expect_over(const FarmFolder& folder) {
   if (!folder.has_record()) return;
   const FarmRecord record = folder.record();

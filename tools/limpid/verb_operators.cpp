@@ -20,7 +20,7 @@ std::string state_text(StateSet set) {
   return names.empty() ? "-" : join(names);
 }
 
-/// `either`: what stands between the words of a choice.
+/// `either`: the text between the words of a choice.
 std::string allowed_text(const FieldInfo& p, const std::string& either) {
   const std::string words = join({p.choices.begin(), p.choices.end()}, either);
   const std::string range = detail::range_text(p.range, p.unit);
@@ -69,7 +69,7 @@ void print_table(const std::vector<Parameter>& all, std::string_view table) {
   }
 }
 
-/// The tables of docs/files.md, as the page has them.
+/// The tables of docs/files.md, in the page's format.
 int print_scene_tables() {
   const char* separator = "";
   for (const SceneTable& table : scene_tables()) {

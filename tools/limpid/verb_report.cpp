@@ -30,8 +30,7 @@ ReportOptions options_of(const ReportArguments& a, const CommonArguments& common
   return options;
 }
 
-/// Throws Error where a file of these names in the folder is, by a link, one of the data that a
-/// report reads.
+/// Throws Error if a file of these names in the folder is, by a link, one of the report's inputs.
 void expect_apart_from_data(const std::string& folder, std::initializer_list<const char*> names) {
   JobFiles files;
   const std::filesystem::path data = data_folder();
@@ -49,7 +48,7 @@ void print_files(const std::string& folder, std::initializer_list<const char*> n
     std::printf("%s\n", (std::filesystem::path(folder) / name).c_str());
 }
 
-/// Exit 1 where a case is beyond its bound.
+/// Exit code 1 if a case is beyond its bound.
 int hard_cases(const ReportArguments& a, const CommonArguments& common) {
   if (a.quick || a.size || a.rounds) {
     throw Error(

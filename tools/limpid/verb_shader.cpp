@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calm water two units below a camera that looks down on it a little, and a sun: what numbers
-/// stand for until a host sets its own.
+/// Calm water two units below a camera that looks slightly down, and a sun: the numbers until a
+/// host sets its own.
 Scene usual_scene() {
   Scene scene;
   Camera camera;
@@ -39,8 +39,8 @@ PlaneSet planes_of(const std::vector<std::string>& names) {
   });
 }
 
-/// What a shader is recorded for: the frame of a scene's plates, or one of nothing, which knows
-/// which planes there are and none of them.
+/// The frame for recording a shader: of a scene's plates, or one without pixels, which only knows
+/// which planes there are.
 struct Subject {
   Subject(Scene of, PlaneSet has) : scene(std::move(of)) {
     frame.display = rect_of({16, 9});

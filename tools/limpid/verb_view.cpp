@@ -77,7 +77,7 @@ DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) 
   return options;
 }
 
-/// Reads and computes what the page will ask for first, while the browser starts.
+/// Reads and computes the page's first requests in advance, while the browser starts.
 void warm(Desk& desk, const CommonArguments& common) {
   try {
     PictureRequest first;
@@ -86,7 +86,7 @@ void warm(Desk& desk, const CommonArguments& common) {
     first.half = true;
     desk.paint(first);
   } catch (const Error& error) {
-    tell_warnings({error.what()}, common.quiet);  // as the page will
+    tell_warnings({error.what()}, common.quiet);  // the page reports it, too
   }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "arguments.h"
 
-/// The verbs of the tool. Each returns the exit code and throws limpid::Error for what main()
-/// prints as one sentence.
+/// The verbs of the tool. Each returns the exit code and throws limpid::Error, which main() prints
+/// as a sentence.
 
 namespace limpid::tool {
 

@@ -23,7 +23,7 @@
 namespace limpid::tool {
 namespace {
 
-constexpr int kShownAcross = 1024;  ///< pixels of a picture in a terminal, at most
+constexpr int kShownAcross = 1024;  ///< largest width of a picture in a terminal, in pixels
 
 std::vector<Aov> aov_list(const std::vector<std::string>& names) {
   std::vector<std::string> known;
@@ -33,7 +33,7 @@ std::vector<Aov> aov_list(const std::vector<std::string>& names) {
   return list;
 }
 
-/// "" for the best that the machine has.
+/// "" for the machine's best.
 std::string simd_named(const std::string& name, Runner runner) {
   if (name.empty()) return name;
   if (runner == Runner::kReference) {
@@ -157,7 +157,7 @@ DisplayChoice display_of(const WaterOptions& a, bool shows) {
   if (display.config.empty() && !a.display.empty()) {
     refuse("--display " + a.display, "sRGB, or a config of OpenColorIO by --ocio or $OCIO");
   }
-  // Its full name, so that records and pages have one.
+  // Its full name, for records and pages.
   if (!display.config.empty()) display.view = display_view(display.config, a.display);
   return display;
 }

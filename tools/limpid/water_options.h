@@ -11,11 +11,11 @@
 #include "arguments.h"
 #include "progress.h"
 
-/// What composite and water have in common: look, output, report line.
+/// Common to composite and water: look, output, report line.
 
 namespace limpid::tool {
 
-/// What is wrong with a word of the command line is wrong usage, whatever it is elsewhere.
+/// An error about a word of the command line is wrong usage here, for any Fault.
 template <class Work>
 auto as_usage(Work&& work) {
   try {
@@ -25,12 +25,12 @@ auto as_usage(Work&& work) {
   }
 }
 
-/// What --aov names, each once; all that is known where `all` is among it. Throws the usage Error
-/// for what is not known.
+/// The AOVs of --aov, each once; all known AOVs if `all` is among them. Throws the usage Error for
+/// unknown ones.
 std::vector<std::string> aov_names(const std::vector<std::string>& names,
                                    const std::vector<std::string>& known);
 
-/// The threads that --threads asks for: for compositing, and as many for decoding and encoding.
+/// The threads of --threads: for compositing, and as many for decoding and encoding.
 std::unique_ptr<Executor> executor_of(const CommonArguments& common);
 
 /// WxH, each in least ... most. Throws the usage Error of an option --size.
@@ -40,27 +40,27 @@ Look look_of(const WaterOptions& options);
 
 /// Throws the Error for a scene file without geometry.
 SceneFile scene_to_render(const std::string& path);
-/// Its geometry. Says so where it had triangles of no area, and what is not drawn.
+/// Its geometry. Warns of triangles without area, and of parts that are not drawn.
 Model model_to_render(const SceneFile& scene, bool draw_what_you_can,
                       const CommonArguments& common);
 
-/// Throws the usage Error for no name, or one that is not an EXR's.
+/// Throws the usage Error for a missing name, or one without an EXR extension.
 void expect_output(const std::string& path);
 OutputChoice output_of(const WaterOptions& options);
 inline constexpr const char* kPlainDisplay = "sRGB";  ///< as --display: without a config
-/// How light is shown, by the options, else $OCIO. Throws the usage Error for a view that is not
-/// there, and for any of the options where nothing `shows` it.
+/// The display by the options, else by $OCIO. Throws the usage Error for an unknown view, and for
+/// any of the options without an output that `shows` light.
 DisplayChoice display_of(const WaterOptions& options, bool shows);
 
-/// What there is to say of a frame: with -v the plan, then the files written, sizes and times.
+/// The report on a frame: with -v the plan, then the files written, sizes and times.
 std::string report_text(const CompositeReport& report, const Look& look, const OutputChoice& output,
                         const CommonArguments& common);
-/// What of the chain does not run and would be missed, a line each.
+/// The operators that do not run and would be missed, a line each.
 std::string report_notes(const CompositeReport& report);
 /// Prints both.
 void print_report(const CompositeReport& report, const Look& look, const OutputChoice& output,
                   const CommonArguments& common);
-/// Tells both of frame after frame. The arguments must outlive it.
+/// Reports both for each frame. The arguments must outlive it.
 OnFrame report_frames(Progress& progress, const Look& look, const OutputChoice& output,
                       const CommonArguments& common);
 

@@ -10,7 +10,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Strides and all coordinates stay far from where an int ends.
+/// Keeps strides and all coordinates within the range of int.
 constexpr py::ssize_t kMaxSize = 1 << 24;
 
 std::string text_of(const py::handle& object) { return py::str(object).cast<std::string>(); }

@@ -14,8 +14,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// A number, a word, three numbers or rows of numbers. Which of them the parameter wants is told by
-/// its declaration, when it is set.
+/// A number, a word, three numbers or rows of numbers. The parameter's declaration checks the kind
+/// when it is set.
 std::optional<Value> value_of(const py::handle& object) {
   if (const auto number = number_of(object)) return *number;
   if (py::isinstance<py::str>(object)) return object.cast<std::string>();

@@ -7,8 +7,8 @@
 
 namespace limpid::python {
 
-/// Changes what a dict of dicts names: {"refraction": {"steps": 2}}. Throws Error, the look
-/// unchanged, for unknown names and for values that their declarations refuse.
+/// Applies a dict of dicts: {"refraction": {"steps": 2}}. Throws Error, with the look unchanged,
+/// for unknown names and for values that their declarations refuse.
 void change(Look& look, const pybind11::dict& changes);
 
 /// All parameters, as a dict of dicts.

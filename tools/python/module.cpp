@@ -11,7 +11,7 @@
 #include "looks.h"
 #include "values.h"
 
-/// What limpid/__init__.py makes the module of: that file has the names, keywords and docs.
+/// The functions for limpid/__init__.py, which has the public names, keywords and docs.
 
 namespace limpid::python {
 namespace {

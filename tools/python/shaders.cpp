@@ -37,7 +37,7 @@ py::tuple number_tuple(const ShaderNumber& number) {
   return py::make_tuple(number.name, number.offset, number.value, range);
 }
 
-/// (rows, columns[, channels]), which nobody writes to.
+/// (rows, columns[, channels]), read-only.
 py::object texels_array(const ShaderTexture& texture) {
   if (texture.texels.empty()) return py::none();
   std::vector<py::ssize_t> shape{texture.height, texture.width};

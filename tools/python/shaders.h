@@ -9,7 +9,7 @@ namespace limpid::python {
 /// limpid.Compositor.shader.
 ShaderOptions shader_options_of(const pybind11::dict& keywords);
 
-/// What limpid.Shader is made of; numbers, textures and outputs are tuples in the order of their
+/// The arguments of limpid.Shader; numbers, textures and outputs are tuples in the order of their
 /// fields there.
 pybind11::dict dict_of(const ShaderText& shader);
 

@@ -66,7 +66,7 @@ struct FresnelReflection {
   };
 
   static constexpr std::string_view kName = "fresnel_reflection";
-  static constexpr std::string_view kAbout = "Mixes in the mirrored surroundings by angle.";
+  static constexpr std::string_view kAbout = "Blends in the reflection by the viewing angle.";
   static std::span<const Field<Params>> fields();
 };
 

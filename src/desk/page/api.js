@@ -1,6 +1,6 @@
-// What the page asks of the tool that serves it. All addresses are below the page's own, which holds the secret.
+// The page's requests to the tool that serves it. All addresses are below the page's own, which contains the secret.
 
-// The tool says no, in a sentence: a value out of its range, a file that is there already (status 409).
+// A refusal by the tool, as a sentence: a value out of range, an existing file (status 409).
 export class Refused extends Error {
   constructor(sentence, status) {
     super(sentence);

@@ -1,4 +1,4 @@
-// The page's whole: what is wanted, what is shown, and how the one becomes the other.
+// The page: the wanted picture, the shown picture, and the requests from one to the other.
 
 import * as api from "./api.js";
 import {CommandDialog, SaveDialog} from "./dialogs.js";
@@ -12,8 +12,8 @@ import {PixelNumbers} from "./pixel.js";
 import {Timeline} from "./timeline.js";
 import {View} from "./view.js";
 
-const slow = 300;    // ms: where a full picture takes longer a half one comes first
-const stillness = 300;  // ms without a move: what is held is no longer being dragged
+const slow = 300;    // ms: if a full picture takes longer, one of half size comes first
+const stillness = 300;  // ms without a move: a drag counts as ended
 
 const desk = await api.describe().catch((error) => {
   byId("gone").hidden = !(error instanceof api.Gone);
@@ -23,11 +23,11 @@ const desk = await api.describe().catch((error) => {
 const looks = new Looks(desk);
 const notes = new Notes();
 
-// What a reload of the page must not lose.
+// Kept over a reload of the page.
 const kept = JSON.parse(sessionStorage.getItem(location.pathname) ?? "null");
 const keep = () => sessionStorage.setItem(location.pathname, JSON.stringify(history.now));
 
-// ---- what is wanted
+// ---- the wanted picture
 
 const history = new History(kept ?? {look: desk.start, set: desk.set});
 const options = {show: "picture", exposure: 0, display: desk.displays[0], against: ""};  // against: "", "dry", "reference" or "look NAME"
@@ -37,7 +37,7 @@ const madeOf = () => ({...history.now, ...timeline.at});
 const shownBy = () => ({exposure: options.exposure, display: options.display});
 const wanted = () => ({...madeOf(), show: options.show, ...shownBy()});
 
-// What a wipe shows on its left; null without one.
+// The picture left of the wipe; null without a wipe.
 function wantedOther() {
   const {against} = options;
   if (!against) return null;
@@ -45,7 +45,7 @@ function wantedOther() {
   return {look: desk.start, set: {}, ...timeline.at, show: against, ...shownBy()};
 }
 
-// While one drags half pictures do; once it is over, or what is dragged is held still, the full one is made.
+// During a drag pictures have half size; after it, or when the pointer rests, the full picture is made.
 function live(on) {
   clearTimeout(liveTimer);
   if (on) {
@@ -71,14 +71,14 @@ function change(key, value, isDragged) {
   changed(isDragged);
 }
 
-// ---- what is shown
+// ---- the shown picture
 
 const drawn = {key: null, half: false, other: null};
-let good = null;       // the state of the last picture that was made
-let stuck = null;      // what was refused, with nothing to go back to
+let good = null;       // the state of the last picture made
+let stuck = null;      // the refused request, if there is no earlier state
 let isGone = false;
-const watching = [];   // who waits for the next picture
-let fullTime = desk.size[0] * desk.size[1] * 3e-4;  // ms; of the last full picture, at first a guess
+const watching = [];   // callbacks for the next picture
+let fullTime = desk.size[0] * desk.size[1] * 3e-4;  // ms for the last full picture, initially a guess
 
 const pictures = new Pictures(() => {
   const job = isGone ? null : nextJob();
@@ -129,15 +129,15 @@ function otherJob(request, key) {
   };
 }
 
-// What is refused is told until the next change, and what was before it comes back. Where that was good it is no setting
-// that is refused: nothing more is asked for until something changes.
+// Shows a refusal until the next change, and restores the state before it. If the refused state had a picture before, no
+// setting is at fault: no further request until something changes.
 function failed(error, key, state) {
   if (error instanceof api.Gone) {
     isGone = true;
     byId("gone").hidden = false;
     return;
   }
-  // What is wanted by now will say itself what is wrong with it.
+  // The request is outdated: a newer one reports its own error.
   if (key !== JSON.stringify(wanted()) && key !== JSON.stringify(wantedOther())) return;
   notes.bad = error.message;
   if (state === history.now && state !== good) {
@@ -147,7 +147,7 @@ function failed(error, key, state) {
     drawControls();
     panel.again(history.now);
   }
-  // Nothing was before it.
+  // There is no earlier state.
   if (state === null || state === history.now) stuck = key;
 }
 
@@ -161,7 +161,7 @@ function tellCost({milliseconds, half, wet}) {
       `${(100 * wet).toFixed(1)} % of the pixels are wet`;
 }
 
-// What another thing than the picture is, and what its colors stand for.
+// The description of an AOV that replaces the picture, and the values of its colors.
 function tellShown(show, scale) {
   const {about} = desk.shows.find(({name}) => name === show);
   const ends = scale ? `; darkest ${short(scale[0])}, brightest ${short(scale[1])}` : "";
@@ -251,7 +251,7 @@ const keys = {
 };
 const keysWithCtrl = {"z": undo, "Z": redo, "y": redo, "s": () => saveDialog.open()};
 
-// Text that is being typed keeps its keys, as a button keeps its space bar.
+// Text inputs keep the keys typed into them, buttons their space bar.
 document.addEventListener("keydown", (event) => {
   const {target, key} = event, withCtrl = event.ctrlKey || event.metaKey;
   if (document.querySelector("dialog[open]") || event.altKey) return;
@@ -289,7 +289,7 @@ notes.notes = desk.warnings;
 drawControls();
 pictures.wake();
 
-// Until the full picture of what is wanted is shown, or nobody makes it.
+// Waits until the wanted picture is shown at full size, or cannot be made.
 async function idle() {
   for (;;) {
     await pictures.idle();
@@ -299,12 +299,12 @@ async function idle() {
   }
 }
 
-// For those who drive the page.
+// For scripts and tests that drive the page.
 window.desk = {
   idle,
   set: (key, value) => change(key, value, false),
   pixels: () => view.pixels(),
-  next: () => new Promise((tell) => watching.push(tell)),  // picture, half or full
+  next: () => new Promise((tell) => watching.push(tell)),  // picture, of half or full size
   get state() { return history.now; },
   get asked() { return pictures.asked; },
   get isGone() { return isGone; },

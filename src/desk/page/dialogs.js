@@ -3,7 +3,7 @@
 import * as api from "./api.js";
 import {byId} from "./dom.js";
 
-// `request` gives {look, set}, of what is to be saved.
+// `request` returns {look, set} of the look to be saved.
 export class SaveDialog {
   #dialog = byId("save_dialog");
   #name = byId("save_name");
@@ -44,7 +44,7 @@ export class SaveDialog {
   }
 }
 
-// `request` gives {look, set, frame, time}, of the picture that is to be made.
+// `request` returns {look, set, frame, time} of the picture.
 export class CommandDialog {
   #dialog = byId("command_dialog");
   #text = byId("command_text");
@@ -70,7 +70,7 @@ export class CommandDialog {
     }
   }
 
-  // A browser may deny it; then the text is selected, and the keyboard copies it.
+  // A browser may deny access to the clipboard; then the text is selected for copying by keyboard.
   async #copy() {
     this.#text.select();
     try {

@@ -1,13 +1,13 @@
-// A control for each kind of parameter. A control is {nodes, show(value, own)}: what stands in the page, and how it
-// comes to show a value, where `own` is that of the look. What one does with it goes to `change(value, isLive)`, live
-// while one drags, and what cannot be meant to `bad(sentence)`.
+// A control for each kind of parameter. A control is {nodes, show(value, own)}: its nodes in the page, and the function
+// that shows a value; `own` is the look's value. User input goes to `change(value, isLive)`, with isLive during a drag,
+// and invalid input to `bad(sentence)`.
 
 import {element, numberOf, plain, short} from "./dom.js";
 import {scaleOf, steps} from "./scale.js";
 
 const isNumber = (value) => typeof value === "number";
 
-// A number to type. A text that is none is told, and gives way to what was there; `others` are words that may be, too.
+// A text box for a number. Invalid text is reported and replaced by the last value; `others` are valid words.
 function numberBox({id, label, describe, others = []}, change, bad) {
   const box = element("input", {id, type: "text", inputmode: others.length ? null : "decimal", class: "number",
                                 autocomplete: "off", spellcheck: "false", "aria-label": label});
@@ -24,7 +24,7 @@ function numberBox({id, label, describe, others = []}, change, bad) {
   return {box, show: (value) => { box.value = box.defaultValue = shown = plain(value); }};
 }
 
-// A slider over the field's range; its ends go by the look's value.
+// A slider over the field's range, whose ends depend on the look's value.
 function slider(field, id, label, change) {
   const input = element("input", {id, type: "range", min: 0, max: steps, step: 1, "aria-label": label});
   let scale, ownValue;
@@ -89,11 +89,11 @@ const hex = (color) => "#" + color.map((x) =>
 const fromHex = (text) => [1, 3, 5].map((at) =>
     Number(linear(parseInt(text.slice(at, at + 2), 16) / 255).toPrecision(4)));
 
-// Three numbers, a slider that scales them together, and a swatch of what they look like, brought below white.
+// Three numbers, a slider that scales them together, and a swatch of their color, scaled to at most white.
 function color(field, names, change, bad) {
   let now = [0, 0, 0];
   const most = () => Math.max(...now);
-  let start;  // of a drag: scaled from there, so that going to 0 and back loses no color
+  let start;  // of a drag: scaled from there, so that a drag to 0 and back keeps the hue
   const bar = slider(field, names.id, null, (size, isLive) => {
     start ??= now;
     const high = Math.max(...start);
@@ -138,8 +138,7 @@ function direction(field, names, change, bad) {
 
 // ---- rows of numbers
 
-// A grid; rows of a table may be added and taken out, those of a matrix are four. The last columns of a table may be
-// left empty.
+// A grid; rows of a table can be added and removed, a matrix has four. The last columns of a table may be empty.
 function rows(field, names, change, bad) {
   const isTable = field.kind === "table";
   const columns = isTable ? field.columns : ["", "", "", ""];
@@ -165,7 +164,7 @@ function rows(field, names, change, bad) {
     return element("td", {}, box);
   };
   const takeOut = (r) => {
-    const button = element("button", {type: "button", "aria-label": `take out row ${r + 1}`, title: "Take out"}, "×");
+    const button = element("button", {type: "button", "aria-label": `remove row ${r + 1}`, title: "Remove"}, "×");
     button.addEventListener("click", () => change(now.filter((_, k) => k !== r), false));
     return element("td", {}, button);
   };
@@ -184,10 +183,10 @@ function rows(field, names, change, bad) {
 
 const kinds = {real, choice, color, text, file: text, count_or_word: countOrWord, direction, table: rows, matrix: rows};
 
-// `names`: {key: "depth_fog.murkiness", label, id}, where the id is that of what a label is for.
+// `names`: {key: "depth_fog.murkiness", label, id}; the id is that of the label's target.
 export function controlOf(field, names, change, bad) {
   const control = kinds[field.kind](field, names, change, bad);
-  // What shows already is left alone, and with it what is being typed.
+  // An unchanged value is not written again, which would overwrite text being typed.
   let before;
   return {
     nodes: control.nodes,

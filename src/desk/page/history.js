@@ -1,5 +1,5 @@
-// Undo and redo of a value that is never changed, only replaced. While one drags it is replaced many times a second:
-// that is one step, which ends with settle().
+// Undo and redo of an immutable value. A drag replaces it many times per second: that is one step, which ends with
+// settle().
 
 export class History {
   #past = [];
@@ -13,12 +13,12 @@ export class History {
   get canUndo() { return this.#past.length > 0 || this.now !== this.#settled; }
   get canRedo() { return this.#future.length > 0; }
 
-  // Without a step: as one drags.
+  // Without a step, for a drag.
   replace(value) {
     this.now = value;
   }
 
-  // Makes a step of what was replaced since the last.
+  // Makes one step of all replacements since the last step.
   settle() {
     if (this.now === this.#settled) return;
     this.#past.push(this.#settled);
@@ -36,7 +36,7 @@ export class History {
     this.#move(this.#future, this.#past);
   }
 
-  // The value is no good: back to the one before it, as if it had never been. Without one it stays.
+  // Removes an invalid value: returns to the value before it, without a redo. The first value stays.
   forget() {
     if (this.now === this.#settled) this.#settled = this.#past.pop() ?? this.#settled;
     this.now = this.#settled;

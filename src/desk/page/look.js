@@ -1,11 +1,11 @@
-// What a look and the settings on top of it come to, as the tool sees it. A setting's place counts: an absorption makes
-// the water custom, and a water_type that is set later wins. So settings are a list in the order of their making, held
-// by an object (whose keys keep that order); all functions return new ones and change nothing.
+// The values of a look with settings, as the tool computes them. The order of settings counts: an absorption makes the
+// water custom, and a water_type that is set later wins. So settings are an object, whose keys keep their order; all
+// functions return new objects and change none.
 
 export const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 export class Looks {
-  // As api/desk describes them.
+  // As in the answer of api/desk.
   constructor({looks, operators}) {
     this.looks = new Map(looks.map(({name, values}) => [name, values]));
     this.fields = new Map(operators.flatMap((operator) =>
@@ -23,7 +23,7 @@ export class Looks {
     const values = new Map([...this.fields.keys()].map((key) => [key, this.own(look, key)]));
     for (const [key, value] of Object.entries(set)) {
       const field = this.fields.get(key);
-      if (!field) continue;  // the tool will say so
+      if (!field) continue;  // the tool reports it
       values.set(key, value);
       for (const condition of field.used_when) {
         const other = `${field.operator}.${condition.key}`;
@@ -33,28 +33,28 @@ export class Looks {
     return values;
   }
 
-  // Why nothing reads that parameter, in words; "" where it is read. What setting it would bring by itself is no
-  // reason.
+  // Why no model reads that parameter, in words; "" if it is read. Conditions that setting it would fulfil do not
+  // count.
   unused(key, values) {
     const field = this.fields.get(key);
     return field.used_when.filter((condition) => !condition.follows && !holds(condition, values, field.operator))
         .map((condition) => condition.text).join(" and ");
   }
 
-  // What setting it brings besides: "water_type = case_1", or "".
+  // The other parameter that setting it changes: "water_type = case_1", or "".
   brings(key, values) {
     const field = this.fields.get(key);
     return field.used_when.filter((condition) => condition.follows && !holds(condition, values, field.operator))
         .map((condition) => `${condition.key} = ${condition.words[0]}`).join(", ");
   }
 
-  // The settings with one more, which is the last.
+  // The settings with one more at the end.
   with(set, key, value) {
     const {[key]: before, ...rest} = set;
     return {...rest, [key]: value};
   }
 
-  // The settings with that parameter as the look has it. Where another setting changes it, too, it is set to that.
+  // The settings with the look's own value of that parameter, which is set explicitly if another setting changes it.
   without({look, set}, key) {
     const {[key]: before, ...rest} = set;
     const own = this.own(look, key);

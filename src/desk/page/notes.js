@@ -1,4 +1,4 @@
-// The strip below the picture: what is wrong, what may be, and what looks beyond the frame.
+// The strip below the picture: errors, warnings, and lookups beyond the frame.
 
 import {byId, element} from "./dom.js";
 
@@ -14,7 +14,7 @@ export class Notes {
     this.#draw();
   }
 
-  // A sentence of what was refused, until the next picture; "" for none.
+  // The sentence of a refusal, until the next picture; "" for none.
   set bad(sentence) {
     this.#bad = sentence;
     this.#draw();

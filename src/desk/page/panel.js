@@ -1,10 +1,10 @@
-// All parameters: first those by which water is tuned, then each operator's.
+// All parameters: first the most useful ones for tuning water, then those of each operator.
 
 import {byId, element} from "./dom.js";
 import {controlOf} from "./fields.js";
 import {same} from "./look.js";
 
-// By the words of one who looks at the picture.
+// With names for the visible effect.
 const first = [
   ["depth_fog.murkiness", "Murkiness"],
   ["wave_normals.wind", "Wind"],
@@ -50,7 +50,7 @@ export class Panel {
       const isChanged = Object.hasOwn(set, key) || !same(value, own);
       const unused = this.#looks.unused(key, values), brings = this.#looks.brings(key, values);
       row.control.show(value, own);
-      // What is the same is left alone: while one drags all rows come by many times a second.
+      // Unchanged rows are skipped: a drag updates all rows many times per second.
       const told = JSON.stringify([look, isChanged, unused, brings]);
       if (told === row.told) continue;
       row.told = told;
@@ -63,7 +63,7 @@ export class Panel {
     if (this.#changedOnly.checked) this.#filter();
   }
 
-  // What was typed there is refused: it gives way to what is shown.
+  // After a refusal: replaces the typed values by the current ones.
   again({look, set}) {
     const values = this.#looks.values({look, set});
     for (const {control, key} of this.#rows) control.show(values.get(key), this.#looks.own(look, key), true);
@@ -74,7 +74,7 @@ export class Panel {
     const control = controlOf(field, {key, label, id}, (value, isLive) => this.#on.change(key, value, isLive),
         this.#on.bad);
     const why = element("span", {class: "why"});
-    const back = element("button", {type: "button", class: "back", "aria-label": `${key} back to the look's`}, "↺");
+    const back = element("button", {type: "button", class: "back", "aria-label": `Reset ${key} to the look's value`}, "↺");
     back.addEventListener("click", () => this.#on.back(key));
     const node = element("div", {class: "field", "data-key": key, "data-kind": field.kind},
         element("div", {class: "name"}, element("label", {for: id, title: key}, label),
@@ -106,14 +106,14 @@ export class Panel {
         row.node.hidden = !words.every((word) => row.words.includes(word)) ||
             (this.#changedOnly.checked && !row.node.classList.contains("changed"));
       }
-      // Each parameter is found once, where it belongs.
+      // Each parameter is found once, at its operator.
       node.hidden = this.#filters && (isFirst || rows.every((row) => row.node.hidden));
       node.open = this.#filters ? true : isOpen;
     }
     byId("none_found").hidden = !this.#filters || this.#groups.some(({node}) => !node.hidden);
   }
 
-  // The sentence of what one points at, in a place of its own, so that nothing moves.
+  // Shows the description of the parameter under the pointer, in a fixed place, so that the layout does not move.
   #tell(target) {
     const key = target.closest?.(".field")?.dataset.key;
     if (!key) return;

@@ -9,24 +9,24 @@ export class Pictures {
   #runs = false;
   asked = 0;  // so far
 
-  // `next` gives {request, done(picture), failed(error)}, or null where all that is wanted is there.
+  // `next` returns {request, done(picture), failed(error)}, or null if no picture is missing.
   constructor(next) {
     this.#next = next;
   }
 
-  // To be called whenever something else may be wanted.
+  // To be called after any change of state.
   wake() {
     if (!this.#runs) this.#run();
   }
 
-  // Until nothing is on its way, and nothing is wanted.
+  // Waits until no request is running or needed.
   idle() {
     return this.#runs ? new Promise((done) => this.#waiting.push(done)) : Promise.resolve();
   }
 
   async #run() {
     this.#runs = true;
-    // What is changed in one go is asked for in one.
+    // Changes of the same event cause one request.
     await null;
     for (let job; (job = this.#next()) !== null;) {
       ++this.asked;

@@ -1,4 +1,4 @@
-// The numbers of the pixel under the pointer, asked for once both picture and pointer are still.
+// The numbers of the pixel under the pointer, requested once picture and pointer rest.
 
 import * as api from "./api.js";
 import {byId, element, short} from "./dom.js";
@@ -14,22 +14,22 @@ export class PixelNumbers {
   #timer;
   #asks = 0;
 
-  // `request` gives what api/picture is asked for now, `idle` a promise of the picture's standing still.
+  // `request` returns the current request of api/picture, `idle` a promise that resolves when no picture is pending.
   constructor(request, idle) {
     this.#request = request;
     this.#idle = idle;
   }
 
-  // A pixel {x, y} with what is seen of it as bytes, or null.
+  // A pixel {x, y} with its bytes on screen, or null.
   point(at, seen) {
-    if (!at) return;  // the last one's numbers stay
+    if (!at) return;  // the last numbers stay
     if (this.#at?.x === at.x && this.#at?.y === at.y) return;
     this.#at = at;
     this.#line.textContent = `${at.x}, ${at.y}   seen ${seen.slice(0, 3).join(" ")}`;
     this.again();
   }
 
-  // The picture is another: so are the numbers.
+  // To be called for a new picture, whose numbers differ.
   again() {
     clearTimeout(this.#timer);
     if (this.#at) this.#timer = setTimeout(() => this.#ask(), pause);
@@ -43,7 +43,7 @@ export class PixelNumbers {
     try {
       numbers = await api.pixel({...request, ...this.#at});
     } catch {
-      return;  // the picture itself says what is wrong
+      return;  // the request of the picture reports the error
     }
     if (asked === this.#asks) this.#tell(numbers);
   }

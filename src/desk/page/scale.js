@@ -1,13 +1,13 @@
-// Where on a slider a value stands. Many ranges end where no water goes (a wind of 30, but a period of 1e9): a slider
-// then reaches from nothing to a hundred times the look's own value, and what is typed may lie beyond it.
+// The position of a value on a slider. Many ranges end far beyond any water (a wind of 30, but a period of 1e9): a slider
+// then reaches from 0 to a hundred times the look's own value, and typed numbers may lie beyond it.
 
 const wide = 20;     // a range of more times the look's value is not linear
-const reach = 100;   // times the look's value: as far as a slider goes
+const reach = 100;   // times the look's value: the end of a slider
 export const steps = 1000;
 
 const digits = (value, count) => Number(value.toPrecision(count));
 
-// Evenly, in steps of a power of ten.
+// Linear, in steps of a power of ten.
 function linear(least, most) {
   const step = 10 ** Math.floor(Math.log10((most - least) / steps * 2));
   return {
@@ -19,7 +19,7 @@ function linear(least, most) {
   };
 }
 
-// By the ratio: each step is so many percent.
+// Logarithmic: each step is a fixed ratio.
 function logarithmic(least, most) {
   const ratio = Math.log(most / least);
   return {
@@ -28,7 +28,7 @@ function logarithmic(least, most) {
   };
 }
 
-// Evenly around zero, by the ratio far from it. `near` is where the one becomes the other.
+// Linear around zero, logarithmic far from it. `near` is the transition.
 function aroundZero(least, most, near) {
   const low = Math.asinh(least / near), high = Math.asinh(most / near);
   return {
@@ -37,7 +37,7 @@ function aroundZero(least, most, near) {
   };
 }
 
-// Of a field with the ends `least` and `most` (null: none) whose value in the look is `own`.
+// The scale of a field with the ends `least` and `most` (null: none) and the look's value `own`.
 export function scaleOf(least, most, own) {
   const size = Math.abs(own) || Math.min(1, most ?? 1);
   const low = Math.max(least ?? -Infinity, -reach * size), high = Math.min(most ?? Infinity, reach * size);

@@ -1,8 +1,8 @@
-// Frames of a sequence, or the time of a single plate: scrubbed, typed and played.
+// The frame of a sequence, or the time of a single plate: scrubbed, typed and played.
 
 import {byId, numberOf, short} from "./dom.js";
 
-const longest = 10;  // seconds that a single plate's scrubber reaches
+const longest = 10;  // seconds, the range of a single plate's scrubber
 
 export class Timeline {
   #slider = byId("time");
@@ -15,7 +15,7 @@ export class Timeline {
   #timer = null;
   #begun = null;
 
-  // `changed({frame, time}, isScrubbed)`: a frame's time is its own (null), and so is a plate's until another is chosen.
+  // `changed({frame, time}, isScrubbed)`: time is null for frames, and for a plate until the user chooses a time.
   constructor({frames, frame, time, fps}, changed) {
     this.#frames = frames;
     this.#fps = fps;
@@ -47,7 +47,7 @@ export class Timeline {
     this.#changed(this.at, false);
   }
 
-  // By the clock: what cannot be shown in time is left out, the newest wins.
+  // In real time: late frames are skipped.
   #start() {
     const first = this.#position;
     const turn = (now) => {
@@ -73,7 +73,7 @@ export class Timeline {
     this.#changed(this.at, true);
   }
 
-  // A number that is no frame, or no number, gives way to what was there.
+  // Invalid text is replaced by the last value.
   #type() {
     const value = numberOf(this.#number.value);
     const isFrame = this.#frames.length > 0;

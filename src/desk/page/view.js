@@ -1,6 +1,6 @@
 // The picture on its stage: three canvases on one sheet. `picture` holds the picture at its full size, byte by byte;
-// `draft`, half as large and drawn at twice its size, lies over it until the full one is there; `other` is what a wipe
-// shows left of its line.
+// `draft`, of half the size and drawn at twice its size, covers it until the full picture arrives; `other` is the picture
+// left of a wipe's line.
 
 import {byId} from "./dom.js";
 import {Stage} from "./stage.js";
@@ -47,7 +47,7 @@ export class View extends Stage {
     return this.#contexts.picture.getImageData(0, 0, ...this.size);
   }
 
-  // Of what is seen at a pixel: on the left of a wipe's line that is the other picture.
+  // The visible bytes at a pixel: left of a wipe's line, those of the other picture.
   seen(x, y) {
     const context = this.#contexts[this.showsOther(x) ? "other" : "picture"];
     return [...context.getImageData(x, y, 1, 1).data];

@@ -13,15 +13,15 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-/// Where in a block's values each channel is; -1: the part has none.
+/// Index of each channel in a block's values; -1: the part has none.
 struct DeepChannels {
   std::vector<std::string> names;
   int z = -1, back = -1;
   std::array<int, 4> color{-1, -1, -1, -1}, alpha{-1, -1, -1, -1};
-  float nothing = 0, back_nothing = 0;  ///< depths from here on are "nothing hit"
+  float nothing = 0, back_nothing = 0;  ///< depths from these values on mean "nothing hit"
 };
 
-/// Throws Error (begins with the path) where a channel is missing that deep pixels need.
+/// Throws Error (begins with the path) if a channel is missing that deep pixels need.
 DeepChannels channels_of(const ExrFile& file, int part) {
   if (part < 0 || part >= static_cast<int>(file.parts().size())) {
     throw Error(file.path().string() + ": part " + std::to_string(part) + ": expected 0 ... " +
@@ -58,7 +58,7 @@ DeepChannels channels_of(const ExrFile& file, int part) {
   return channels;
 }
 
-/// Takes the samples of one pixel out of a block, made sane.
+/// Reads the samples of one pixel from a block, and sanitises them.
 class SampleReader {
  public:
   SampleReader(const DeepChannels& channels, SanitiseCounts& replaced)
@@ -141,8 +141,8 @@ DeepLayers empty_layers(const ExrFile& file, const Rect& window, bool water) {
   return layers;
 }
 
-/// Whether what lies at the depth, the nearest there is behind the water, shows what is behind it:
-/// a point, for a volume is no pane.
+/// Whether the nearest surface behind the water, at this depth, is transparent: a point sample,
+/// because a volume is no pane.
 bool is_transparent(std::span<const DeepSample> samples, double nearest) {
   bool clear = false, behind = false;
   for (const DeepSample& sample : samples) {
@@ -158,7 +158,7 @@ std::size_t place(const Rect& window, int x, int y) {
          static_cast<std::size_t>(x - window.x0);
 }
 
-/// How many pixels are set with all around them: an edge is transparent, too, but narrow.
+/// Number of set pixels whose neighbours are all set: an edge is transparent, too, but narrow.
 std::int64_t count_inner(const std::vector<bool>& set, const Rect& w) {
   std::int64_t count = 0;
   for (int y = w.y0 + 1; !set.empty() && y < w.y1 - 1; ++y) {

@@ -7,8 +7,7 @@
 namespace limpid {
 namespace {
 
-/// Optical depth of an alpha below 1, and the light that its color stands for were nothing
-/// absorbed.
+/// Optical depth of an alpha below 1, and the light of its color without absorption.
 struct Medium {
   double optical_depth, light;
 };
@@ -19,7 +18,7 @@ Medium medium_of(double alpha, double color) {
   return {optical_depth, color * (optical_depth / alpha)};
 }
 
-/// What has been composited of one channel so far.
+/// One channel as composited so far.
 struct Channel {
   double color = 0, through = 1;
 
@@ -42,7 +41,7 @@ struct Inside {
   void add(const DeepSample& sample, int sign) {
     volumes += sign;
     if (volumes == 0) {
-      density = {};  // nothing is left of rounding errors
+      density = {};  // removes rounding errors
       return;
     }
     for (int c = 0; c < 4; ++c) {
@@ -62,11 +61,11 @@ struct Inside {
   }
 };
 
-/// Samples at one and the same depth, of one channel: opaque ones hide the others and share. One
-/// alone is composited as it is.
+/// Samples at the same depth, of one channel: opaque samples hide the others and share the pixel. A
+/// single sample is composited unchanged.
 struct Coincident {
   int count = 0, opaque = 0;
-  double alpha = 0, color = 0;  ///< of the first
+  double alpha = 0, color = 0;  ///< of the first sample
   Medium sum{};
   double walls = 0;
 

@@ -42,7 +42,7 @@ std::string at(int x, int y) {
   return " at pixel (" + std::to_string(x) + ", " + std::to_string(y) + ")";
 }
 
-/// The water of one pixel; nothing where there is none. Throws Error for values that mean nothing.
+/// The water of one pixel; nothing without water. Throws Error for invalid values.
 std::optional<Sample> sample_at(const DeepWater& water, std::optional<double> reach, int x, int y) {
   const float front = water.front.at(x, y), back = water.back.at(x, y);
   if (front >= kInfiniteDepth) return std::nullopt;
@@ -115,8 +115,8 @@ Imf::Header deep_header_of(const DeepWater& water) {
   return header;
 }
 
-/// The samples of some lines, as OpenEXR wants them: a count a pixel and, for each channel, a
-/// pointer a pixel.
+/// The samples of some lines, as OpenEXR needs them: a count per pixel and, for each channel, a
+/// pointer per pixel.
 class Lines {
  public:
   Lines(int width, int lines) : width_(width), counts_(static_cast<std::size_t>(width) * lines) {
@@ -138,8 +138,8 @@ class Lines {
     }
   }
 
-  /// For lines that begin at (x0, y0). The address of (0, 0) that OpenEXR wants may lie outside the
-  /// memory, so it is computed in integers.
+  /// For lines that begin at (x0, y0). OpenEXR needs the address of (0, 0), which may lie outside
+  /// the memory, so it is computed in integers.
   Imf::DeepFrameBuffer frame(int x0, int y0, bool half) {
     const std::ptrdiff_t first = x0 + std::ptrdiff_t{y0} * width_;
     const auto origin = [&](void* memory, std::size_t bytes) {
@@ -180,7 +180,7 @@ void write_samples(Imf::DeepScanLineOutputFile& file, const DeepWater& water) {
     }
     file.setFrameBuffer(lines.frame(data.x0, y0, water.half));
     file.writePixels(y1 - y0);
-    // As for flat pixels: it comes back early when a thread of its own had no memory.
+    // As for flat pixels: it returns early if one of its threads had no memory.
     if (file.currentScanLine() != y1) throw std::bad_alloc();
   }
 }

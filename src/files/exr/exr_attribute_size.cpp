@@ -40,9 +40,10 @@ constexpr TypeSize kSizes[] = {
     {"v3i", 12},
 };
 
-constexpr std::size_t kChannelBytes = 16;  // behind a channel's name
+constexpr std::size_t kChannelBytes = 16;  // after a channel's name
 
-/// Bytes of a list of channels up to the empty name that ends it; more than there are without one.
+/// Bytes of a list of channels up to the empty name that ends it; more than there are if it is
+/// missing.
 std::size_t channel_list_bytes(std::span<const char> bytes) {
   std::size_t at = 0;
   while (at < bytes.size() && bytes[at] != 0) {

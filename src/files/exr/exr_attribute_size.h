@@ -5,10 +5,10 @@
 
 namespace limpid {
 
-/// Throws Error unless the attribute has as many bytes as its type has in OpenEXR, which for most
-/// types reads their own number of bytes whatever the file says: it would take the rest of a longer
-/// one for the next attribute, and then memory for sizes that nobody has checked. Types that are
-/// not OpenEXR's may have any size.
+/// Throws Error unless the attribute has the size of its type in OpenEXR. For most types OpenEXR
+/// reads a fixed number of bytes and ignores the stored size: it would read the rest of a longer
+/// attribute as the next attribute, and then allocate unchecked sizes. Types unknown to OpenEXR may
+/// have any size.
 void check_attribute_size(const std::string& name, const ExrFile::Attribute& attribute);
 
 }  // namespace limpid

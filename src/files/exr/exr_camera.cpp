@@ -34,15 +34,14 @@ std::optional<Camera> camera_of(const ExrFile& file, int part) {
   glm::dmat4 flip_z(1.0);
   flip_z[2][2] = -1;
   camera.view = flip_z * matrix_of(*to_camera);
-  glm::dmat4 ndc_from_unit(1.0);  // x: 0 ... 1 to -1 ... 1; y the same and turned up
+  glm::dmat4 ndc_from_unit(1.0);  // x: 0 ... 1 to -1 ... 1; y likewise, flipped
   ndc_from_unit[0][0] = 2;
   ndc_from_unit[3][0] = -1;
   ndc_from_unit[1][1] = -2;
   ndc_from_unit[3][1] = 1;
   glm::dmat4 p = ndc_from_unit * matrix_of(*to_ndc) * glm::inverse(camera.view);
 
-  // Scale of homogeneous matrices is free, their z row is not given: make w = -z (or 1) and z that
-  // of GL.
+  // Homogeneous matrices have any scale, and the z row is not given: make w = -z (or 1) and GL's z.
   const bool flat = std::abs(p[2][3]) < 1e-6 * std::abs(p[3][3]);
   const double scale = flat ? 1 / p[3][3] : -1 / p[2][3];
   if (!std::isfinite(scale)) {

@@ -15,16 +15,16 @@ namespace {
 constexpr std::int64_t kMaxLines = 32;
 constexpr std::int64_t kMaxSamples = std::int64_t{1} << 20;
 
-/// The address of pixel (0, 0) when that of the window's first pixel is `memory`. It may lie
-/// outside the memory, so it is computed in integers.
+/// The address of pixel (0, 0) if that of the window's first pixel is `memory`. It may lie outside
+/// the memory, so it is computed in integers.
 char* origin_of(void* memory, const Rect& window, std::ptrdiff_t bytes) {
   const std::ptrdiff_t before = window.x0 + std::ptrdiff_t{window.y0} * window.width();
   return reinterpret_cast<char*>(reinterpret_cast<std::uintptr_t>(memory) -
                                  static_cast<std::uintptr_t>(before * bytes));
 }
 
-/// One block of whole chunks being read: the counts first, then, when each chunk has as many as it
-/// claims, memory for the samples.
+/// Reads one block of whole chunks: the counts first, then, after checking them against each
+/// chunk's claim, the samples.
 class BlockReader {
  public:
   BlockReader(std::span<const std::string> channels, const Limits& limits)
@@ -32,7 +32,7 @@ class BlockReader {
     block_.values.resize(channels.size());
   }
 
-  /// `claimed`: samples of each chunk, which are of one size.
+  /// `claimed`: sample counts of the chunks, which all have the same size.
   Imf::DeepFrameBuffer begin(const Rect& window, std::span<const std::int64_t> claimed) {
     const std::int64_t samples = std::reduce(claimed.begin(), claimed.end());
     const auto pixels = static_cast<std::size_t>(window.area());

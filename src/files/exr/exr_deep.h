@@ -9,7 +9,7 @@
 
 namespace limpid {
 
-/// What reading one deep part takes. The channels are valid.
+/// A request for one deep part. The channels are valid.
 struct DeepRequest {
   const std::vector<ExrHeader>& headers;
   int part;
@@ -17,8 +17,8 @@ struct DeepRequest {
   const Limits& limits;
 };
 
-/// Decodes a deep part block by block. `stream` is one of our own on the file, at the tables of
-/// chunks. Throws Error (without the path) or what OpenEXR throws.
+/// Decodes a deep part block by block. `stream` is a separate stream on the file, at the tables of
+/// chunks. Throws Error (without the path) or OpenEXR's exceptions.
 void read_deep_stored(Imf::MultiPartInputFile& file, FileStream& stream, const DeepRequest& request,
                       const std::function<void(const DeepBlock&)>& sink);
 

@@ -18,7 +18,7 @@ std::string name_of(const ExrHeader& header, const Rect& window) {
 
 Error damaged(const std::string& cause) { return Error("truncated or damaged (" + cause + ")"); }
 
-/// Bytes of one sample of all channels, as it is stored.
+/// Stored bytes of one sample of all channels.
 std::int64_t sample_bytes(const ExrPart& part) {
   std::int64_t bytes = 0;
   for (const ExrChannel& channel : part.channels) {
@@ -27,7 +27,7 @@ std::int64_t sample_bytes(const ExrPart& part) {
   return bytes;
 }
 
-/// Throws Error unless the numbers at the stream's position are those of this chunk.
+/// Throws Error unless the numbers at the stream's position belong to this chunk.
 void check_place(FileStream& stream, const ExrHeader& header, bool multi_part, int part,
                  const Rect& window) {
   const bool right_part = !multi_part || read_i32(stream) == part;
@@ -46,7 +46,7 @@ void check_place(FileStream& stream, const ExrHeader& header, bool multi_part, i
   }
 }
 
-/// Samples that the chunk at the stream's position claims.
+/// Number of samples that the chunk at the stream's position claims.
 std::int64_t samples_at(FileStream& stream, const ExrHeader& header, const Rect& window) {
   const std::uint64_t counts = read_number(stream, 8);
   const std::uint64_t packed = read_number(stream, 8);
@@ -58,7 +58,7 @@ std::int64_t samples_at(FileStream& stream, const ExrHeader& header, const Rect&
   const std::int64_t most = std::min<std::int64_t>(
       most_unpacked(header, static_cast<std::int64_t>(packed)), std::numeric_limits<int>::max());
   const auto bytes = static_cast<std::uint64_t>(sample_bytes(header.part));
-  // OpenEXR stores the counts of a whole tile also where the picture ends within it.
+  // OpenEXR stores the counts of a whole tile even where the picture ends within it.
   const std::int64_t pixels =
       header.part.tiled ? header.tile_width * header.tile_height : window.area();
   if (counts > static_cast<std::uint64_t>(pixels) * 4 ||
@@ -73,8 +73,8 @@ std::int64_t samples_at(FileStream& stream, const ExrHeader& header, const Rect&
 Rect deep_chunk_window(const ExrHeader& header, std::int64_t chunk) {
   const Rect& data = header.part.data;
   if (!header.part.tiled) {
-    const int y = data.y0 + static_cast<int>(chunk);  // what deep lines may be compressed with
-    return {data.x0, y, data.x1, y + 1};              // keeps one line a chunk
+    const int y = data.y0 + static_cast<int>(chunk);  // all compressions of deep scan lines
+    return {data.x0, y, data.x1, y + 1};              // have one line per chunk
   }
   const std::int64_t columns = (data.width() + header.tile_width - 1) / header.tile_width;
   const int x0 = data.x0 + static_cast<int>(chunk % columns * header.tile_width);

@@ -5,9 +5,9 @@
 
 namespace limpid {
 
-/// How many samples each chunk of a deep part claims to hold, in the order of its table (tiled: of
-/// level 0). `stream` is at the tables of chunks, that of the first part. Only the chunks' own
-/// headers are read. Throws Error (without the path) where a chunk is missing, reaches behind the
+/// Number of samples that each chunk of a deep part claims to hold, in the order of its table
+/// (tiled: of level 0). `stream` is at the tables of chunks, that of the first part. Reads only the
+/// chunks' own headers. Throws Error (without the path) if a chunk is missing, extends beyond the
 /// file's end or claims more than its bytes can hold, and for more samples than the limit.
 std::vector<std::int64_t> deep_chunk_samples(FileStream& stream,
                                              const std::vector<ExrHeader>& headers, int part,

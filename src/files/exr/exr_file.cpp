@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t kMaxNamesInError = 40;
 
-/// OpenEXR's message without the file name it may begin with, as part of a sentence.
+/// OpenEXR's message without the leading file name, as part of a sentence.
 std::string cause(const std::string& message, const std::string& path) {
   const std::string quoted = "\"" + path + "\". ";
   const std::size_t at = message.rfind(quoted);
@@ -43,7 +43,7 @@ std::string cause(const std::string& message, const std::string& path) {
   return text;
 }
 
-/// Names in a damaged header may hold anything: control characters become '?'.
+/// Names in a damaged header may contain any bytes: control characters become '?'.
 std::string printable(std::string text) {
   for (char& c : text) {
     if (std::iscntrl(static_cast<unsigned char>(c))) c = '?';
@@ -51,7 +51,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-/// Runs `work`; whatever it throws leaves as an Error that begins with the path.
+/// Runs `work`; rethrows any exception as an Error that begins with the path.
 template <class Work>
 void with_path(const std::filesystem::path& path, Work work) {
   const std::string name = path.string();
@@ -71,7 +71,7 @@ void with_path(const std::filesystem::path& path, Work work) {
   }
 }
 
-/// Little-endian, as everything in the file.
+/// Little-endian, like all numbers in the file.
 template <class Bits>
 Bits bits_of(const char* bytes) {
   Bits bits = 0;
@@ -89,7 +89,7 @@ std::string label(const std::vector<ExrPart>& parts, int part) {
   return "part " + std::to_string(part) + (name.empty() ? "" : " ('" + name + "')");
 }
 
-/// Throws Error unless there is such a part.
+/// Throws Error if there is no such part.
 const ExrPart& checked_part(const std::vector<ExrPart>& parts, int part) {
   if (part < 0 || part >= static_cast<int>(parts.size())) {
     throw Error("part " + std::to_string(part) + ": expected 0 ... " +
@@ -98,7 +98,7 @@ const ExrPart& checked_part(const std::vector<ExrPart>& parts, int part) {
   return parts[part];
 }
 
-/// Throws Error unless the part has such a channel, with a sample for every pixel.
+/// Throws Error unless the part has such a channel, without subsampling.
 void check_channel(const ExrPart& part, const std::string& where, const std::string& name) {
   const auto channel = std::find_if(part.channels.begin(), part.channels.end(),
                                     [&](const ExrChannel& c) { return c.name == name; });
@@ -137,7 +137,7 @@ void check_requests(const std::vector<ExrPart>& parts, std::span<const ExrReques
   }
 }
 
-/// Our reading of the headers decides what is allocated: OpenEXR must have read the same.
+/// limpid's own parse of the headers decides allocations: OpenEXR's parse must be equal.
 void check_same(const Imf::MultiPartInputFile& image, const std::vector<ExrHeader>& headers) {
   bool same = static_cast<std::size_t>(image.parts()) == headers.size();
   for (int i = 0; same && i < image.parts(); ++i) {
@@ -224,7 +224,7 @@ struct __attribute__((visibility("hidden"))) ExrFile::State {
     read_deep_stored(*image, own, {headers, part, channels, limits}, sink);
   }
 
-  /// The attribute's bytes when it is there, of that type and long enough, else null.
+  /// The attribute's bytes if it exists with that type and enough bytes, else null.
   const std::vector<char>* find(int part, const std::string& name, std::string_view type,
                                 std::size_t bytes) const {
     const auto& attributes = headers[checked(part)].attributes;
@@ -247,7 +247,7 @@ struct __attribute__((visibility("hidden"))) ExrFile::State {
   std::vector<ExrPart> parts;
   int threads = 0;
   std::optional<Imf::MultiPartInputFile> image;
-  std::set<int> decoded_parts;  ///< whose buffers `image` keeps
+  std::set<int> decoded_parts;  ///< parts whose buffers `image` keeps
   std::mutex mutex;
 };
 
@@ -311,7 +311,7 @@ bool ExrFile::is_whole() const {
   try {
     return has_all_chunks(own, headers);
   } catch (const Iex::InputExc&) {
-    return false;  // it ends too early
+    return false;  // truncated
   }
 }
 

@@ -9,13 +9,13 @@
 namespace limpid {
 namespace {
 
-/// Lines stored together, and the most that a chunk can shrink; both by compression. DEFLATE
-/// shrinks to 1/1032 at best, PXR24 to 3/4 of that; DWA may do so with 1/64 of the values.
+/// Lines per chunk, and the strongest compression of a chunk, for each compression. DEFLATE shrinks
+/// to 1/1032 at best, PXR24 to 3/4 of that; DWA may do so with 1/64 of the values.
 constexpr std::int64_t kChunkLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 constexpr std::int64_t kMaxShrink[] = {1, 64, 1040, 1040, 1040, 1400, 3, 11, 70000, 70000};
-/// Keeps the products below within 64 bits, whatever the limits.
+/// Keeps the products below within 64 bits, for any limits.
 constexpr std::int64_t kMaxTileSide = 1 << 18;
-/// Place in the table of chunks plus the shortest chunk.
+/// Entry in the table of chunks plus the shortest chunk.
 constexpr std::int64_t kLeastChunkBytes = 8 + 8;
 
 std::string size_text(std::int64_t width, std::int64_t height) {
@@ -44,15 +44,15 @@ std::int64_t sample_bytes(const ExrPart& part, std::int64_t width, std::int64_t 
   return bytes;
 }
 
-/// Bytes that decoding a part takes besides the planes.
+/// Memory for decoding a part, besides the planes.
 struct DecodeBytes {
   std::int64_t chunk, a_thread, besides;
 
   std::int64_t of_one_thread() const { return a_thread + besides; }
 };
 
-/// OpenEXR holds two chunks a thread as they are stored and, for tiles, a row of them as floats.
-/// ExrUnpacker holds three more, and whole ones however few lines there are.
+/// OpenEXR holds two stored chunks per thread and, for tiles, a row of them as floats. ExrUnpacker
+/// holds three more, always whole ones.
 DecodeBytes decode_bytes(const ExrHeader& header) {
   const ExrPart& part = header.part;
   const std::int64_t width = part.data.width();
@@ -67,7 +67,7 @@ DecodeBytes decode_bytes(const ExrHeader& header) {
   return {chunk, (ours ? 5 : 2) * std::max<std::int64_t>(chunk, 1), tile_row};
 }
 
-/// Throws Error where the limit has no memory for even one thread.
+/// Throws Error if the limit is too small even for one thread.
 void check_chunk(const ExrHeader& header, const Limits& limits) {
   const DecodeBytes bytes = decode_bytes(header);
   if (bytes.chunk > std::numeric_limits<std::int32_t>::max() ||

@@ -61,7 +61,7 @@ std::map<std::string, ExrFile::Attribute> read_attributes(FileStream& stream) {
   return attributes;
 }
 
-/// Takes values from the bytes of one attribute, and throws where they end too early.
+/// Reads values from the bytes of one attribute, and throws if they end too early.
 class AttributeReader {
  public:
   AttributeReader(const ExrHeader& header, const std::string& name, std::string_view type)
@@ -137,7 +137,7 @@ std::string text_of(const ExrHeader& header, const std::string& name) {
   return header.attributes.contains(name) ? AttributeReader(header, name, "string").rest() : "";
 }
 
-/// The names in a list of texts, each behind its length.
+/// The names in a list of texts, each after its length.
 std::vector<std::string> texts_of(const ExrHeader& header, const std::string& name, int limit) {
   if (!header.attributes.contains(name)) return {};
   AttributeReader reader(header, name, "stringvector");

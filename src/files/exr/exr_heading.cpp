@@ -20,7 +20,7 @@ constexpr std::size_t kMaxName = 255;
 
 Imath::Box2i box_of(const Rect& r) { return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}}; }
 
-/// Attributes that every header has are typed; all others go through as bytes.
+/// Attributes that every header has are typed; all others are copied as bytes.
 void inherit(Imf::Header& header, const std::string& name, const ExrFile::Attribute& attribute) {
   BytesStream bytes(attribute.bytes);
   const int size = static_cast<int>(attribute.bytes.size());

@@ -14,18 +14,18 @@ struct Compression {
   std::optional<double> level;
 };
 
-/// Of "zip", "dwaa:45" and so on. Throws Error of Fault::kUsage, with the nearest name.
+/// Parses "zip", "dwaa:45" and so on. Throws Error of Fault::kUsage, with the nearest name.
 Compression compression_named(const std::string& text);
 
 /// Throws Error (without the path) for windows, aspect ratios and attribute names that cannot be
 /// written.
 void check_heading(const ExrHeading& heading);
 
-/// All of the header but the channels and the file's hash. Throws Error (without the path) for an
-/// inherited attribute of another type than the one that OpenEXR knows by this name.
+/// The header without channels and file hash. Throws Error (without the path) for an inherited
+/// attribute whose type differs from OpenEXR's type for its name.
 Imf::Header header_of(const ExrHeading& heading, const Compression& compression);
 
-/// A place for the hash of the file (files/file_hash.h): in one header of each file.
+/// Reserves the hash of the file (files/file_hash.h): in one header of each file.
 void add_file_hash(Imf::Header& header);
 
 }  // namespace limpid

@@ -9,8 +9,8 @@
 
 namespace limpid {
 
-/// A position in a file, buffered, for OpenEXR and for what reads EXR files without it. Several
-/// streams may share one file, which is closed with the last of them.
+/// A buffered position in a file, for OpenEXR and for limpid's own readers of EXR. Several streams
+/// may share one file, which is closed with the last of them.
 class FileStream : public Imf::IStream {
  public:
   explicit FileStream(std::shared_ptr<const FileHandle> file);
@@ -18,7 +18,7 @@ class FileStream : public Imf::IStream {
   const FileHandle& file() const { return *file_; }
   std::uint64_t remaining() const { return file_->size() - position_; }
 
-  /// Throws Iex::InputExc at the end of the file, Error when the system cannot read.
+  /// Throws Iex::InputExc at the end of the file, Error if the system cannot read.
   bool read(char into[], int bytes) override;
   std::uint64_t tellg() override { return position_; }
   void seekg(std::uint64_t position) override { position_ = position; }

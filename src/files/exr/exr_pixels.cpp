@@ -17,7 +17,7 @@ namespace {
 constexpr std::int64_t kBlockLines = 64;
 constexpr std::int64_t kBlockBytes = std::int64_t{4} << 20;
 
-/// The lines that any of the requests wants of the data window.
+/// The lines of the data window that the requests need.
 Rect wanted_lines(const Rect& data, std::span<const ExrRequest> requests) {
   Rect lines{data.x0, data.y1, data.x1, data.y0};
   for (const ExrRequest& request : requests) {
@@ -29,7 +29,7 @@ Rect wanted_lines(const Rect& data, std::span<const ExrRequest> requests) {
   return lines;
 }
 
-/// A slice of floats whose texel (x, y) lies at `texel`; the address of (0, 0) that OpenEXR wants
+/// A slice of floats whose texel (x, y) lies at `texel`. OpenEXR needs the address of (0, 0), which
 /// may lie outside the memory, so it is computed in integers.
 Imf::Slice slice_at(float* texel, int x, int y, std::ptrdiff_t x_stride, std::ptrdiff_t y_stride) {
   const std::ptrdiff_t dx = x_stride * std::ptrdiff_t{sizeof(float)};
@@ -40,10 +40,10 @@ Imf::Slice slice_at(float* texel, int x, int y, std::ptrdiff_t x_stride, std::pt
           static_cast<std::size_t>(dy)};
 }
 
-/// One stored channel and everything it is wanted for.
+/// One stored channel and all its requests.
 struct Source {
   std::vector<const ExrRequest*> targets;
-  std::vector<float> block;  ///< empty when decoded straight into the one target
+  std::vector<float> block;  ///< empty if decoded directly into the only target
 };
 
 /// Copies the rows `block` of one channel, whose texel (block.x0, block.y0) is `*from`.

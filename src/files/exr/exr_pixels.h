@@ -12,7 +12,7 @@ namespace limpid {
 /// and RY, BY at half resolution, and no R G B beside them.
 bool is_luminance_chroma(const ExrPart& stored, const std::string& layer);
 
-/// The part as users see it: R G B in place of Y RY BY.
+/// The part for users: R G B instead of Y RY BY.
 ExrPart shown_part(const ExrPart& stored);
 
 /// "left." of "left.R"; "" of "R".
@@ -30,8 +30,8 @@ struct LineRange {
   int y0, y1;
 };
 
-/// Decodes these lines of the part, the whole width of its data window, with the bits that are
-/// stored: rows of channel i one behind the other from `into[i]` on. Names and lines are valid.
+/// Decodes these lines of the part, over the whole width of its data window, with the stored bits:
+/// rows of channel i consecutively from `into[i]` on. Names and lines are valid.
 void read_lines(Imf::MultiPartInputFile& file, const ExrHeader& header, int part,
                 std::span<const std::string> channels, LineRange lines,
                 std::span<char* const> into);

@@ -16,7 +16,7 @@
 namespace limpid {
 namespace {
 
-constexpr int kLeastLines = 16;  ///< of a task's turn
+constexpr int kLeastLines = 16;  ///< least number of lines per task
 
 template <class T>
 T number_at(const char* bytes) {
@@ -58,7 +58,7 @@ struct Wanted {
   View<float> into;
 };
 
-/// The turns that workers take: a number of lines each, from the top.
+/// The tasks of the workers: some lines each, from the top.
 class Turns {
  public:
   Turns(const Imf::InputPart& part, const ExrHeader& header, std::vector<Wanted> wanted, Rect lines)
@@ -68,7 +68,7 @@ class Turns {
     channels_.erase(std::unique(channels_.begin(), channels_.end()), channels_.end());
   }
 
-  /// What one worker does: turns until there are none.
+  /// Work of one worker: tasks until there are none.
   void work() {
     int turn = 0;
     try {
@@ -87,7 +87,7 @@ class Turns {
     }
   }
 
-  /// When all work is done: throws what the topmost turn that failed has thrown.
+  /// After all work: throws the exception of the topmost failed task.
   void finish() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -163,7 +163,7 @@ void read_scanlines(Imf::MultiPartInputFile& file, const ExrHeader& header,
   if (workers < 2) {
     turns.work();
   } else {
-    IlmThread::TaskGroup group;  // ends when all tasks have
+    IlmThread::TaskGroup group;  // its destructor waits for all tasks
     for (int i = 0; i < workers; ++i) {
       IlmThread::ThreadPool::addGlobalTask(new Worker(&group, turns));
     }

@@ -12,10 +12,10 @@
 
 namespace limpid {
 
-/// The temporary file, which remembers the first failure: OpenEXR swallows those of its destructor.
+/// The temporary file. Keeps the first error, because OpenEXR swallows those of its destructor.
 class OutputStream : public Imf::OStream {
  public:
-  enum Mode { kNew, kChange };  ///< empty at first, or with what is in it
+  enum Mode { kNew, kChange };  ///< empty at first, or with its content
 
   explicit OutputStream(const std::filesystem::path& path, Mode mode = kNew)
       : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), mode == kNew ? "wb" : "r+b")) {
@@ -40,7 +40,7 @@ class OutputStream : public Imf::OStream {
     const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
     if (!closed && error_ == 0) error_ = errno;
   }
-  /// Number of the first system call's error, 0 while all is well.
+  /// Error number of the first failed system call, 0 if none failed.
   int error() const { return error_; }
 
  private:
@@ -54,7 +54,7 @@ class OutputStream : public Imf::OStream {
   int error_ = 0;
 };
 
-/// The bytes of one attribute, to be read by OpenEXR.
+/// The bytes of one attribute, for OpenEXR to read.
 class BytesStream : public Imf::IStream {
  public:
   explicit BytesStream(const std::vector<char>& bytes) : Imf::IStream("attribute"), bytes_(bytes) {}

@@ -20,7 +20,7 @@ enum Compression { kNone = 0, kZips = 2, kZip = 3, kPiz = 4 };  // index in kCom
   throw Error("truncated or damaged (" + cause + ")");
 }
 
-/// Takes little-endian numbers and bytes off the beginning of a chunk.
+/// Takes little-endian numbers and bytes from the beginning of a chunk.
 class Taker {
  public:
   explicit Taker(std::span<const char> bytes) : rest_(bytes) {}
@@ -41,7 +41,7 @@ class Taker {
   std::span<const char> rest_;
 };
 
-/// The values that occur in a PIZ chunk, as a table from their rank. 0 always does.
+/// The values that occur in a PIZ chunk, as a table by their rank. 0 always occurs.
 std::size_t read_values(Taker& taker, std::vector<std::uint16_t>& values) {
   constexpr std::size_t kBitmapBytes = 8192;
   const std::size_t first = taker.number(2), last = taker.number(2);
@@ -91,7 +91,7 @@ void ExrUnpacker::unpack(int packed_bytes, int lines) {
   const std::size_t bytes = line_bytes_ * static_cast<std::size_t>(lines);
   const auto packed = static_cast<std::size_t>(packed_bytes);
   if (packed_bytes < 0 || packed > bytes) refuse("a chunk is too long");
-  if (packed == bytes) {  // what would not shrink is stored as it is
+  if (packed == bytes) {  // incompressible data is stored unchanged
     pixels_ = packed_.data();
     place_line_by_line();
   } else if (header_.compression == kPiz) {
@@ -103,7 +103,7 @@ void ExrUnpacker::unpack(int packed_bytes, int lines) {
   }
 }
 
-/// DEFLATE over differences of neighbouring bytes, all even ones before all odd ones.
+/// DEFLATE over differences of neighbouring bytes, all even bytes before all odd bytes.
 void ExrUnpacker::unzip(std::size_t packed_bytes, std::size_t bytes) {
   halves_.resize(packed_.size());
   unzipped_.resize(packed_.size());
@@ -144,7 +144,7 @@ void ExrUnpacker::unpiz(std::size_t packed_bytes, std::size_t bytes, int lines) 
   const int width = header_.part.data.width();
   for (const std::size_t channel : wanted_) {
     std::uint16_t* const words = words_.data() + first_[channel] / 2;
-    const int size = bytes_of(header_.part.channels[channel].type) / 2;  // words of a sample
+    const int size = bytes_of(header_.part.channels[channel].type) / 2;  // words per sample
     for (int j = 0; j < size; ++j) {
       Imf::wav2Decode(words + j, width, size, lines, width * size,
                       static_cast<std::uint16_t>(count - 1));

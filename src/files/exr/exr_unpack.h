@@ -6,22 +6,22 @@
 
 namespace limpid {
 
-/// Decompresses the lines of a scan-line part that are stored together, into rows of each channel's
-/// samples as they lie in the file (half, float or uint, little-endian). For what files are full
-/// of: none, zip, zips and piz without subsampled channels. Lossless, so the pixels are OpenEXR's.
+/// Decompresses a chunk of a scan-line part into rows of each channel's samples as stored (half,
+/// float or uint, little-endian). For the most common files: none, zip, zips and piz without
+/// subsampled channels. Lossless, so the pixels equal OpenEXR's.
 class ExrUnpacker {
  public:
-  /// Whether the part is of that sort. Others are left to OpenEXR.
+  /// Whether the part is supported. Others are left to OpenEXR.
   static bool knows(const ExrHeader& header);
 
-  /// `wanted`: the places in part.channels that rows are asked of.
+  /// `wanted`: indices in part.channels of the channels to be read.
   ExrUnpacker(const ExrHeader& header, std::vector<std::size_t> wanted);
 
   int lines_of_chunk() const { return chunk_lines_; }
-  /// Where the packed bytes of a chunk are put, which are never more than the capacity.
+  /// Buffer for the packed bytes of a chunk, of the largest possible size.
   char* packed() { return packed_.data(); }
   int capacity() const { return static_cast<int>(packed_.size()); }
-  /// Throws Error (without the path) for bytes that are not so many lines.
+  /// Throws Error (without the path) if the bytes do not unpack to this many lines.
   void unpack(int packed_bytes, int lines);
 
   /// The samples of a wanted channel in a line of the chunk, not aligned.
@@ -42,7 +42,7 @@ class ExrUnpacker {
   std::size_t line_bytes_ = 0;
   std::vector<char> packed_, halves_, unzipped_;
   std::vector<std::uint16_t> words_, values_;
-  const char* pixels_ = nullptr;                    ///< of the chunk, unpacked
+  const char* pixels_ = nullptr;                    ///< unpacked, of the chunk
   std::vector<std::ptrdiff_t> first_, row_stride_;  ///< of each channel in them
 };
 

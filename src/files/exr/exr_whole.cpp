@@ -13,7 +13,7 @@
 namespace limpid {
 namespace {
 
-/// The text in the file's place for it.
+/// Writes the text into its reserved place in the file.
 void put_hash(const std::filesystem::path& path, const FileHash& hash) {
   OutputStream stream(path, OutputStream::kChange);
   stream.seekp(hash.place);
@@ -24,8 +24,7 @@ void put_hash(const std::filesystem::path& path, const FileHash& hash) {
   }
 }
 
-/// OpenEXR 3.1 leaves a chunk out without a word when its compressor fails. What is whole gets its
-/// hash.
+/// OpenEXR 3.1 silently leaves out a chunk if its compressor fails. A complete file gets its hash.
 void finish(const std::filesystem::path& path) {
   const auto file = std::make_shared<FileHandle>(path);
   FileStream stream(file);

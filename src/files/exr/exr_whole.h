@@ -11,14 +11,14 @@
 
 namespace limpid {
 
-/// An EXR file of scan lines, one more of the files: `check` runs first, then `write` gets the
-/// stream of a temporary file, which is looked at and given its hash. Whatever either throws leaves
-/// as an Error that begins with the path.
+/// Adds an EXR file of scan lines: `check` runs first, then `write` gets the stream of a temporary
+/// file, which is checked and given its hash. Any exception is rethrown as an Error that begins
+/// with the path.
 void write_whole_exr(AtomicFiles& files, const std::filesystem::path& path,
                      const std::function<void()>& check,
                      const std::function<void(OutputStream&)>& write);
 
-/// As without `files`, but that the file appears when those are committed.
+/// As without `files`, but the file appears when those are committed.
 void write_exr(AtomicFiles& files, const std::filesystem::path& path,
                std::span<const ExrOutput> parts);
 inline void write_exr(AtomicFiles& files, const std::filesystem::path& path,

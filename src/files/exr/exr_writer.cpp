@@ -64,7 +64,7 @@ void check(std::span<const ExrOutput> parts) {
   }
 }
 
-/// A row of a channel as it is to be stored; returns the place behind it.
+/// A row of a channel in its stored form; returns its end.
 template <class Stored, class Convert>
 char* convert(const float* from, std::ptrdiff_t stride, int count, char* into, Convert as_stored) {
   for (int i = 0; i < count; ++i) {
@@ -82,7 +82,7 @@ char* convert_row(const float* from, std::ptrdiff_t stride, int count, bool to_h
   return convert<std::uint16_t>(from, 1, count, into, half_bits_of);  // on vectors
 }
 
-/// Rows of one channel as they are to be stored.
+/// Rows of one channel in their stored form.
 void convert(const ExrOutputChannel& channel, const Rect& block, char* into) {
   for (int y = block.y0; y < block.y1; ++y) {
     into = convert_row(&channel.from.at(block.x0, y), channel.from.x_stride, block.width(),
@@ -90,8 +90,8 @@ void convert(const ExrOutputChannel& channel, const Rect& block, char* into) {
   }
 }
 
-/// A slice over `memory`, which holds the rows of `block` without gaps. The address of (0, 0) that
-/// OpenEXR wants may lie outside the memory, so it is computed in integers.
+/// A slice over `memory`, which holds the rows of `block` without gaps. OpenEXR needs the address
+/// of (0, 0), which may lie outside the memory, so it is computed in integers.
 Imf::Slice slice_of(char* memory, const Rect& block, Imf::PixelType type) {
   const std::ptrdiff_t bytes = type == Imf::HALF ? 2 : 4, row = bytes * block.width();
   const std::uintptr_t origin = reinterpret_cast<std::uintptr_t>(memory) -
@@ -100,15 +100,15 @@ Imf::Slice slice_of(char* memory, const Rect& block, Imf::PixelType type) {
           static_cast<std::size_t>(row)};
 }
 
-/// All that is written of one part, some lines at a time.
+/// All channels of one part, some lines at a time.
 class PartRows {
  public:
   explicit PartRows(const ExrOutput& output) : output_(output) {
     for (const ExrCopy& copy : output.copies) copies_.emplace_back(copy);
   }
 
-  /// So many that no second picture is held in memory. Throws Error where what is copied has no
-  /// memory for them.
+  /// Few enough lines that no second picture is held in memory. Throws Error if the copied channels
+  /// have no memory for them.
   int lines() {
     const Rect& data = output_.data;
     std::int64_t line_bytes = 0, besides = 0, most = std::numeric_limits<std::int64_t>::max();
@@ -133,7 +133,7 @@ class PartRows {
     return static_cast<int>(lines);
   }
 
-  /// The rows of the block as they are stored.
+  /// The rows of the block in their stored form.
   Imf::FrameBuffer rows(const Rect& block) {
     Imf::FrameBuffer frame;
     char* into = memory_.data();
@@ -182,8 +182,8 @@ void write_pixels(File& file, PartRows& part) {
     block.y1 = std::min(block.y0 + lines, data.y1);
     file.setFrameBuffer(part.rows(block));
     file.writePixels(block.height());
-    // It comes back early, without a word, when a thread of its own had no memory; the next lines
-    // would then be taken from where these were.
+    // It returns early, without an error, if one of its threads had no memory; the next lines would
+    // then be read from the place of these.
     if (file.currentScanLine() != block.y1) throw std::bad_alloc();
   }
 }
@@ -196,7 +196,7 @@ void write_stream(OutputStream& stream, std::span<const ExrOutput> parts) {
     Imf::Header& header =
         headers.emplace_back(header_of(output, compression_named(output.compression)));
     part.add_channels(header.channels());
-    if (headers.size() == 1) add_file_hash(header);  // one hash is that of the whole file
+    if (headers.size() == 1) add_file_hash(header);  // the only hash covers the whole file
     if (!output.view.empty()) header.setView(output.view);
     if (parts.size() == 1) continue;
     header.setName(output.name);

@@ -7,8 +7,8 @@
 
 namespace limpid {
 
-/// Exact. The factor makes up for the difference of the exponents' biases, and normalises what was
-/// denormal; infinities and NaN need as much again.
+/// Exact. The factor corrects the difference of the exponents' biases, and normalises denormals;
+/// infinities and NaN need the same factor again.
 inline float float_of_half(std::uint16_t half) {
   constexpr std::int32_t kBias = 112 << 23, kInfinity = 31 << 23;
   const std::int32_t magnitude = (half & 0x7fff) << 13, sign = half & 0x8000;
@@ -18,8 +18,8 @@ inline float float_of_half(std::uint16_t half) {
                               static_cast<std::uint32_t>(sign) << 16);
 }
 
-/// The nearest half, ties to even. Finite values beyond the largest half, 65504, become it; inf
-/// stays inf and NaN a NaN. The halves of hosts (enter/half.h) have the same rule.
+/// The nearest half, ties to even. Finite values beyond the largest half, 65504, become 65504; inf
+/// stays inf and NaN a NaN. Host halves (enter/half.h) follow the same rule.
 inline std::uint16_t half_bits_of(float value) {
   constexpr std::int32_t kBias = 112 << 23, kLeastNormal = 113 << 23, kInfinity = 255 << 23;
   constexpr auto kLargest = std::bit_cast<std::int32_t>(65504.0f);
@@ -27,7 +27,7 @@ inline std::uint16_t half_bits_of(float value) {
   const std::int32_t magnitude = bits & 0x7fffffff;
   const std::int32_t finite = magnitude < kLargest ? magnitude : kLargest;
   const std::int32_t normal = (finite - kBias + 0xfff + (finite >> 13 & 1)) >> 13;
-  // The last place of a denormal half is that of a float in 0.5 ... 1.
+  // The last place of a denormal half equals that of a float in 0.5 ... 1.
   const std::int32_t denormal = std::bit_cast<std::int32_t>(std::bit_cast<float>(finite) + 0.5f) -
                                 std::bit_cast<std::int32_t>(0.5f);
   const std::int32_t special =

@@ -52,7 +52,7 @@ ModelTexture read_texture(const JsonPlace& place, const GltfBuffers& buffers,
   return texture;
 }
 
-// What cannot be drawn without a texture has its fault.
+// A material that needs a faulty texture has the texture's fault.
 void blame_materials(const std::vector<std::string>& faults, std::vector<GltfMaterial>& materials) {
   for (GltfMaterial& material : materials) {
     for (const int texture : material.textures) {
@@ -61,7 +61,7 @@ void blame_materials(const std::vector<std::string>& faults, std::vector<GltfMat
   }
 }
 
-/// Adds the file that a buffer or an image names, if it names one.
+/// Adds the file that a buffer or an image names, if any.
 void add_file_of(const JsonPlace& place, const fs::path& folder, std::vector<fs::path>& files) {
   const auto uri = place.find("uri");
   if (uri && !is_data_uri(uri->text())) files.push_back(folder / relative_path_of(*uri));
@@ -108,7 +108,7 @@ class Reader {
         throw;
       } catch (const Error& error) {
         if (undrawable_ == Undrawable::kRefuse) throw;
-        texture = {1, 1, {1, 1, 1, 1}};  // nothing shows it
+        texture = {1, 1, {1, 1, 1, 1}};  // not visible
         faults[i] = error.what();
       }
     }

@@ -120,7 +120,7 @@ void GltfAccessors::put_sparse(const Accessor& accessor, int index, char* copy) 
 }
 
 GltfElements GltfAccessors::of(int index) const {
-  // What an accessor without a buffer view holds: one element of zeros, again and again.
+  // The content of an accessor without a buffer view: an element of zeros, repeated.
   static constexpr char kZeros[64] = {};
   const Accessor& accessor = accessors_.at(index);
   GltfElements elements;

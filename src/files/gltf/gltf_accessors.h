@@ -12,16 +12,15 @@
 
 namespace limpid {
 
-/// The elements of an accessor: where they lie in their buffer, or a copy with its sparse values
-/// put in.
+/// The elements of an accessor: a view into their buffer, or a copy with the sparse values.
 class GltfElements {
  public:
   std::size_t count() const { return count_; }
   int components() const { return components_; }  ///< of an element
-  /// Of an accessor of unsigned integers.
+  /// Requires an accessor of unsigned integers.
   std::uint32_t integer(std::size_t element, int component) const;
   /// Normalized integers are numbers of -1 ... 1 or 0 ... 1 (glTF 2.0, 3.11 "Animations": c / 127,
-  /// at least -1), other integers are themselves.
+  /// at least -1), other integers keep their value.
   float number(std::size_t element, int component) const;
   glm::vec3 vector(std::size_t element) const;
   glm::dmat4 matrix(std::size_t element) const;
@@ -59,7 +58,7 @@ class GltfAccessors {
     std::size_t stride, element, count;  // bytes, bytes
     int component;
     bool normalized;
-    std::size_t sparse = 0;  // how many values it has of its own
+    std::size_t sparse = 0;  // number of sparse values
     Part indices, values;
     int index_component = 0;
   };

@@ -10,16 +10,16 @@
 
 namespace limpid {
 
-/// The bytes of a document's buffers. It lives no longer than its file.
+/// The bytes of a document's buffers. Must not outlive its file.
 class GltfBuffers {
  public:
-  /// Reads the buffers of a checked document. Throws Error for one whose file is missing, too short
-  /// or outside of `folder`, and for what is not base64.
+  /// Reads the buffers of a checked document. Throws Error for a buffer whose file is missing, too
+  /// short or outside of `folder`, and for invalid base64.
   GltfBuffers(const GltfFile& file, const std::filesystem::path& folder, MemoryBudget& budget);
   GltfBuffers(const GltfBuffers&) = delete;
   GltfBuffers& operator=(const GltfBuffers&) = delete;
 
-  /// Those of a buffer view; throws Error for one of a packed buffer.
+  /// The bytes of a buffer view; throws Error for a packed buffer.
   std::string_view view(int index) const;
 
  private:
@@ -28,8 +28,8 @@ class GltfBuffers {
     std::size_t offset, length;
   };
 
-  std::deque<std::string> owned_;          // of files and data uris
-  std::vector<std::string_view> buffers_;  // a packed one is empty
+  std::deque<std::string> owned_;          // from files and data uris
+  std::vector<std::string_view> buffers_;  // a packed buffer is empty
   std::vector<View> views_;
 };
 

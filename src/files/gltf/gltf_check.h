@@ -10,30 +10,29 @@
 #include "files/gltf/model_warnings.h"
 #include "files/text/json_place.h"
 
-/// What a glTF document must be before anything is read by it: every index, size, type and uri
-/// holds. What only the bytes of the buffers can tell (index values, NaN) is checked where they are
-/// read, and so are materials.
+/// Checks a glTF document before it is read: every index, size, type and uri. Errors that only the
+/// buffers' bytes can show (index values, NaN) are checked by their readers, and so are materials.
 
 namespace limpid {
 
-/// Why things of a document cannot be read, "" for those that can; one a thing of each list.
+/// Why objects of a document cannot be read, "" for valid ones; one entry per object of each list.
 struct GltfFaults {
   std::vector<std::string> meshes, skins, nodes;
 };
 
 /// `binary_bytes` is the size of a .glb's binary chunk. Throws Error as load_gltf() says; with
-/// Undrawable::kLeaveOut what is wrong with a mesh, a skin or a node alone is told instead.
+/// Undrawable::kLeaveOut faults of a single mesh, skin or node are returned instead.
 GltfFaults check_gltf(const JsonPlace& root, std::optional<std::int64_t> binary_bytes,
                       const Limits& limits, Undrawable undrawable, ModelWarnings& warnings);
 
-// Its parts, a file each.
+// Its parts, a source file each.
 void check_gltf_buffers(const JsonPlace& root, std::optional<std::int64_t> binary_bytes,
                         const Limits& limits);
 void check_gltf_meshes(const JsonPlace& root, Undrawable undrawable, GltfFaults& faults);
 void check_gltf_skins(const JsonPlace& root, Undrawable undrawable, GltfFaults& faults);
 void check_gltf_nodes(const JsonPlace& root, Undrawable undrawable, GltfFaults& faults);
 
-/// What `check` says against each of the things: thrown, or with kLeaveOut returned.
+/// The faults that `check` finds in each object: thrown, or with kLeaveOut returned.
 template <class Check>
 std::vector<std::string> faults_of(const std::vector<JsonPlace>& things, Undrawable undrawable,
                                    Check check) {

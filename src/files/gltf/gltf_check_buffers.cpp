@@ -76,7 +76,7 @@ void check_views(const JsonPlace& root) {
   }
 }
 
-// Bytes from `offset` of a buffer view on.
+// Throws Error unless the bytes from `offset` lie in a buffer view.
 void check_room(const JsonPlace& user, const JsonPlace& view, std::int64_t offset,
                 std::int64_t bytes) {
   const std::int64_t length = view.at("byteLength").integer(1, kLargest);
@@ -86,8 +86,8 @@ void check_room(const JsonPlace& user, const JsonPlace& view, std::int64_t offse
   }
 }
 
-// The elements of an accessor that its base does not give: as many indices and values, both tightly
-// packed. What the indices are only the bytes can tell.
+// The sparse elements of an accessor: as many indices as values, both tightly packed. The values of
+// the indices are checked when they are read.
 void check_sparse(const JsonPlace& sparse, const std::vector<JsonPlace>& views,
                   std::int64_t element, std::int64_t elements) {
   const std::int64_t count = sparse.at("count").integer(1, elements);
@@ -134,7 +134,7 @@ void check_images(const JsonPlace& root) {
     if (uri.has_value() == view.has_value()) {
       throw Error(image.path() + ": expected either a uri or a bufferView");
     }
-    // Pictures of the other types may stand beside one of these and not be used.
+    // Images of other types are allowed if no texture uses them.
     if (uri) {
       check_uri(*uri, {"image/png", "image/jpeg", "image/webp", "image/ktx2", "image/avif",
                        "image/vnd-ms.dds"});

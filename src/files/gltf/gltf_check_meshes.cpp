@@ -10,8 +10,8 @@
 namespace limpid {
 namespace {
 
-// What an attribute may hold: floats, or integers of these types, as fractions of the largest or as
-// they are.
+// The component types of an attribute: floats, or integers of these types, as fractions of the
+// largest or as their values.
 struct Form {
   std::vector<std::string> types;
   std::vector<std::int64_t> normalized, plain;
@@ -101,7 +101,7 @@ class Checker {
     if (name == "COLOR_0") check_form(use, kColors);
   }
 
-  // Those of a primitive or of a morph target.
+  // The attributes of a primitive or of a morph target.
   void check_attributes(const JsonPlace& attributes, std::int64_t vertices) const {
     for (const std::string& name : attributes.keys()) {
       const JsonPlace count = accessor_of(attributes.at(name)).at("count");
@@ -122,7 +122,7 @@ class Checker {
     }
   }
 
-  // Without bytes beside the packed ones its accessors would read as zeros.
+  // Without uncompressed bytes its accessors would read as zeros.
   void check_packing(const JsonPlace& primitive) const {
     constexpr const char* kDraco = "KHR_draco_mesh_compression";
     if (!extension_of(primitive, kDraco)) return;

@@ -105,7 +105,7 @@ void check_node(const JsonPlace& root, const JsonPlace& node, std::size_t lights
   }
 }
 
-// Takes note of the parent of each child; each node may have one.
+// Finds the parent of each node; a node may have only one.
 std::vector<int> parents_of(const std::vector<JsonPlace>& nodes) {
   std::vector<int> parents(nodes.size(), -1);
   for (std::size_t parent = 0; parent < nodes.size(); ++parent) {
@@ -121,7 +121,7 @@ std::vector<int> parents_of(const std::vector<JsonPlace>& nodes) {
   return parents;
 }
 
-// With one parent each, what no root leads to runs in a cycle.
+// With one parent each, a node that no root reaches is in a cycle.
 void check_acyclic(const std::vector<JsonPlace>& nodes, const std::vector<int>& parents) {
   std::vector<int> reached;
   for (std::size_t i = 0; i < nodes.size(); ++i) {

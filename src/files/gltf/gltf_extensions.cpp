@@ -61,7 +61,7 @@ void check_extensions(const JsonPlace& root, Undrawable undrawable, ModelWarning
   }
   for (const JsonPlace& used : root.list("extensionsUsed")) {
     const std::string& name = used.text();
-    // Materials tell of theirs where they have them.
+    // A material warns of its own extensions.
     const bool told = is_read(name) || packing_named(name) || name.starts_with("KHR_materials_") ||
                       required.contains(name);
     if (!told) warnings.add("extensions are not read", name);

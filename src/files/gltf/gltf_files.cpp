@@ -39,7 +39,7 @@ std::uint32_t little_endian(std::string_view bytes) {
   return value;
 }
 
-// Cuts a chunk off the front of `rest`.
+// Removes a chunk from the front of `rest`.
 std::string_view next_chunk(std::string_view& rest, std::uint32_t kind, const char* name) {
   if (rest.size() < 8) throw Error(std::string("ends before its chunk ") + name);
   const std::size_t length = little_endian(rest);

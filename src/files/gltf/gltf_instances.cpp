@@ -19,7 +19,7 @@ glm::dmat4 rotation_of(const GltfElements& rotations, std::size_t instance,
   const auto q = [&](int i) -> double { return rotations.number(instance, i); };
   const glm::dquat quaternion(q(3), q(0), q(1), q(2));
   const double norm = glm::length(quaternion);
-  // Those in bytes are off by a hundredth.
+  // Quaternions in bytes have an error of a hundredth.
   if (!(std::abs(norm - 1) < 2e-2)) {
     char value[160];
     std::snprintf(value, sizeof value, " instance %zu: rotation (%g, %g, %g, %g) of norm %g",

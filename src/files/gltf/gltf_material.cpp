@@ -25,7 +25,7 @@ double number_from_0(const JsonPlace& place) {
   return place.number();
 }
 
-/// What a sampler says of the outside of 0 ... 1, in u and v.
+/// A sampler's wrap modes, in u and v.
 struct GltfSampler {
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
 };
@@ -181,7 +181,7 @@ class Reader {
     }
   }
 
-  // Which of the material's uvs a texture is looked up by.
+  // The uv set of a texture lookup among the material's.
   static int uv_set_of(const JsonPlace& info, GltfMaterial& read) {
     const UvSource source = read_uv_source(info);
     const auto found = std::find(read.uvs.begin(), read.uvs.end(), source);
@@ -194,7 +194,7 @@ class Reader {
     return place;
   }
 
-  // The image of a texture; a packed one counts where there is no other.
+  // The image of a texture; a packed image only if there is no other.
   int image_of(const JsonPlace& texture) const {
     const auto source = texture.find("source");
     if (source) return source->index(texture_of_image_.size());
@@ -204,7 +204,7 @@ class Reader {
                 " alone, which is not read, expected a source in PNG or JPEG");
   }
 
-  // The place of its image in result_.images.
+  // The index of its image in result_.images.
   int texture_of(const JsonPlace& info, GltfMaterial& read, TextureLookup& lookup) {
     const JsonPlace& texture = textures_[info.at("index").index(textures_.size())];
     lookup.uv_set = uv_set_of(info, read);

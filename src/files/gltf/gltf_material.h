@@ -11,21 +11,21 @@
 
 namespace limpid {
 
-/// A material and what drawing with it asks for.
+/// A material and the data needed to draw with it.
 struct GltfMaterial {
   Material material;
-  std::vector<UvSource> uvs;  ///< what Mesh::uvs and Mesh::second_uvs are read from
-  std::vector<int> textures;  ///< all that it uses, by their place in GltfMaterials::images
+  std::vector<UvSource> uvs;  ///< sources of Mesh::uvs and Mesh::second_uvs
+  std::vector<int> textures;  ///< indices in GltfMaterials::images
   std::string fault;          ///< why it cannot be drawn, "" if it can
 };
 
 struct GltfMaterials {
-  std::vector<GltfMaterial> materials;  ///< one a material of the file, and glTF's default one
-  std::vector<int> images;  ///< the image of each texture that the materials use, once each
+  std::vector<GltfMaterial> materials;  ///< one per material of the file, and glTF's default one
+  std::vector<int> images;              ///< image of each texture in use, without repetition
 };
 
 /// Reads and checks the materials, textures and samplers. Throws Error as load_gltf() says; with
-/// Undrawable::kLeaveOut what is wrong with a material alone becomes its fault.
+/// Undrawable::kLeaveOut an error of a single material becomes its fault.
 GltfMaterials read_gltf_materials(const JsonPlace& root, Undrawable undrawable,
                                   ModelWarnings& warnings);
 

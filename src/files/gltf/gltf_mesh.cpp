@@ -51,7 +51,7 @@ std::vector<glm::vec2> read_transformed(const GltfElements& elements, const UvTr
   return uvs;
 }
 
-// None where all are white and opaque. Numbers below 0 become 0.
+// Empty if all are white and opaque. Numbers below 0 become 0.
 std::vector<glm::vec4> read_colors(const GltfElements& elements, const std::string& label) {
   std::vector<glm::vec4> colors(elements.count(), glm::vec4(1));
   bool some = false;
@@ -76,13 +76,13 @@ glm::dvec3 area_vector(const Mesh& mesh, const std::uint32_t corners[3]) {
                     glm::dvec3(mesh.positions[corners[2]]) - a);
 }
 
-// A strip goes from row to row by triangles with two corners in one place.
+// Strips connect rows by degenerate triangles with two corners in one place.
 bool joins_strips(const Mesh& mesh, GltfMode mode, const std::uint32_t corners[3]) {
   const auto at = [&](int k) { return mesh.positions[corners[k]]; };
   return mode == GltfMode::kStrip && (at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
 }
 
-// Fills mesh.indices with the triangles that have an area; returns how many have none.
+// Fills mesh.indices with the triangles of nonzero area; returns the number of others.
 template <class IndexOf>
 std::int64_t add_triangles(Mesh& mesh, GltfMode mode, std::size_t corners, const std::string& label,
                            IndexOf index_of) {
@@ -108,7 +108,7 @@ std::int64_t add_triangles(Mesh& mesh, GltfMode mode, std::size_t corners, const
   return skipped;
 }
 
-// What joints mirror keeps its front.
+// Triangles that joints mirror keep their front.
 void turn_mirrored(const std::vector<bool>& mirrored, Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     if (mirrored[mesh.indices[i]]) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
@@ -174,7 +174,7 @@ bool GltfMeshes::is_drawn(const JsonPlace& primitive, const std::string& label) 
   return false;
 }
 
-// Those that the material asks for; if it asks for none, the first that there are.
+// The uvs that the material needs; if it needs none, the first that exist.
 void GltfMeshes::read_uvs(const JsonPlace& attributes, const std::string& label, Mesh& mesh) const {
   const GltfMaterial& looks = materials_.at(mesh.material);
   const bool textured = !looks.uvs.empty();
@@ -242,7 +242,7 @@ GltfMesh GltfMeshes::read(int index, const GltfPose& pose) const {
   const JsonPlace& place = mesh_of(index);
   const std::string label = gltf_label(place);
   const auto name = place.find("name");
-  // Nodes may ask for poses of their own of a mesh that has nothing to draw.
+  // Nodes may have weights for a mesh without triangles.
   budget_.take(pose.weights.size(), sizeof(double), label);
   budget_.take(place.count("primitives"), sizeof(Mesh), label);
   GltfMesh read;

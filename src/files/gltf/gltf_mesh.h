@@ -14,12 +14,12 @@
 
 namespace limpid {
 
-/// What a vertex takes at most.
+/// Upper bound on the memory of a vertex.
 constexpr std::size_t kBytesAVertex =
     2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
 
 struct GltfMesh {
-  std::vector<Mesh> parts;  ///< one a primitive with triangles in it
+  std::vector<Mesh> parts;  ///< one per primitive with triangles
   std::int64_t skipped_triangles = 0;
 };
 
@@ -37,14 +37,15 @@ class GltfMeshes {
         warnings_(warnings) {}
 
   std::size_t count() const { return meshes_.size(); }
-  /// How many triangles it has, with those of no area.
+  /// Number of triangles, including those without area.
   std::int64_t triangles(int mesh) const;
-  /// Those of the mesh itself; empty where it has none.
+  /// Weights of the mesh itself; empty if it has none.
   std::vector<double> weights(int mesh) const;
 
-  /// Reads a mesh as a node poses it. Throws Error for vertices that are not finite, indices beyond
-  /// the vertices, textures without uvs, and for what check_gltf() or read_gltf_materials() found.
-  /// Normals become unit; a zero one becomes that of the triangles around its vertex.
+  /// Reads a mesh in the pose of a node. Throws Error for vertices that are not finite, indices
+  /// beyond the vertices, textures without uvs, and for the faults that check_gltf() or
+  /// read_gltf_materials() found. Normals become unit; a zero normal becomes that of the triangles
+  /// around its vertex.
   GltfMesh read(int mesh, const GltfPose& pose) const;
 
  private:

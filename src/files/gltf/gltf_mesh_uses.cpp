@@ -8,7 +8,7 @@
 namespace limpid {
 namespace {
 
-// EXT_mesh_gpu_instancing; others than these are not read.
+// EXT_mesh_gpu_instancing; other attributes are not read.
 void check_attribute(const JsonPlace& use, const JsonPlace& accessor, const std::string& name) {
   const bool turns = name == "ROTATION";
   if (!turns && name != "TRANSLATION" && name != "SCALE") return;
@@ -21,7 +21,7 @@ void check_attribute(const JsonPlace& use, const JsonPlace& accessor, const std:
   }
 }
 
-// None of a mesh with a fault, which no node can use.
+// 0 for a mesh with a fault, which no node can use.
 std::size_t targets_of(const JsonPlace& mesh) {
   try {
     const std::vector<JsonPlace> primitives = mesh.list("primitives");

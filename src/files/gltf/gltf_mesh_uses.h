@@ -6,13 +6,13 @@
 
 namespace limpid {
 
-/// What the nodes of a document say of their meshes: skins, weights, instances.
+/// The uses of meshes by the nodes of a document: skins, weights, instances.
 class GltfMeshUses {
  public:
   explicit GltfMeshUses(const JsonPlace& root);
 
-  /// Throws Error for indices that do not hold, for weights that are not one a morph target, and
-  /// for instances whose attributes are not of their types or differ in count.
+  /// Throws Error for invalid indices, for weights whose number differs from the morph targets, and
+  /// for instances whose attributes have wrong types or different counts.
   void check(const JsonPlace& node) const;
 
  private:

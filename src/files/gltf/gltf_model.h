@@ -9,8 +9,8 @@
 
 namespace limpid {
 
-/// What load_gltf() makes of a file; `folder` is where it lies. Throws Error without the name of
-/// the file.
+/// The model that load_gltf() returns for a file; `folder` is the file's folder. Throws Error
+/// without the name of the file.
 Model gltf_model(const GltfFile& file, const std::filesystem::path& folder, const Limits& limits,
                  Undrawable undrawable = Undrawable::kRefuse);
 

@@ -11,7 +11,7 @@
 namespace limpid {
 namespace {
 
-// The joints and weights of each vertex: up to four a set.
+// The joints and weights of each vertex: up to four per set.
 class Influences {
  public:
   Influences(const JsonPlace& primitive, std::size_t vertices, std::size_t joints,
@@ -31,7 +31,7 @@ class Influences {
     }
   }
 
-  // Calls use(joint, weight) for those that are not 0, and returns the sum of the weights.
+  // Calls use(joint, weight) for nonzero weights, and returns the sum of the weights.
   template <class Use>
   double each(std::size_t vertex, Use use) const {
     double sum = 0;
@@ -74,7 +74,7 @@ class Influences {
   std::vector<Set> sets_;
 };
 
-// Normals go by the inverse transpose, or where there is none by what is left of it.
+// Normals transform by the inverse transpose, or by the cofactors if there is no inverse.
 glm::dvec3 turned(const glm::dmat3& linear, double determinant, glm::dvec3 normal) {
   const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                              glm::cross(linear[0], linear[1]));
@@ -104,7 +104,7 @@ void apply_morph_targets(const JsonPlace& primitive, const std::vector<double>& 
     const auto add = [&](const char* name, std::vector<glm::vec3>& vectors) {
       const auto use = targets[i].find(name);
       if (!use || vectors.empty()) return;
-      // Many targets may share an accessor: what they ask for counts as if each had its own.
+      // Targets may share an accessor: each use counts against the limit.
       budget.take(vectors.size(), sizeof(glm::vec3), label + " morph target");
       add_target(accessors.of(use->index(INT32_MAX)), weights[i], vectors);
     };

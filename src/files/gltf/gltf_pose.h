@@ -12,22 +12,22 @@
 
 namespace limpid {
 
-/// What a node does to the vertices of its mesh.
+/// The deformation of a mesh by a node.
 struct GltfPose {
-  std::vector<double> weights;                      ///< of the morph targets; those beyond are 0
+  std::vector<double> weights;                      ///< of the morph targets; missing ones are 0
   const std::vector<glm::dmat4>* joints = nullptr;  ///< of its skin: world from mesh
 };
 
 /// Adds the morph targets of a primitive to its positions and normals (glTF 2.0, 3.7.2.2). Normals
-/// become unit before. Tells of what else the targets would change.
+/// become unit before. Warns of other attributes in the targets.
 void apply_morph_targets(const JsonPlace& primitive, const std::vector<double>& weights,
                          const GltfAccessors& accessors, MemoryBudget& budget,
                          ModelWarnings& warnings, const std::string& label, Mesh& mesh);
 
-/// Takes positions and normals to where the joints put them (glTF 2.0, 3.7.3.3 "Skinned Mesh
-/// Attributes"); the weights of a vertex count by their share of the sum, one without any follows
-/// its first joint. Returns for each vertex whether its joints mirror it. Throws Error for joints
-/// that the skin has not, and for weights below 0 or not finite.
+/// Transforms positions and normals by the joints (glTF 2.0, 3.7.3.3 "Skinned Mesh Attributes");
+/// the weights of a vertex count by their share of the sum, a vertex without weights follows its
+/// first joint. Returns for each vertex whether its joints mirror it. Throws Error for joints that
+/// the skin lacks, and for weights below 0 or not finite.
 std::vector<bool> apply_skin(const JsonPlace& primitive, const std::vector<glm::dmat4>& joints,
                              const GltfAccessors& accessors, MemoryBudget& budget,
                              const std::string& label, Mesh& mesh);

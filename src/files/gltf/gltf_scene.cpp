@@ -20,7 +20,7 @@
 namespace limpid {
 namespace {
 
-// The mesh seen in a mirror that swaps x and -x: its front stays its front.
+// The mirrored mesh (x and -x swapped) with its front as before.
 Mesh mirrored(Mesh mesh) {
   for (glm::vec3& position : mesh.positions) position.x = -position.x;
   for (glm::vec3& normal : mesh.normals) normal.x = -normal.x;
@@ -35,7 +35,7 @@ std::vector<JsonPlace> lights_of(const JsonPlace& root) {
   return punctual ? punctual->at("lights").items() : std::vector<JsonPlace>{};
 }
 
-// A light shines down the -Z of its node: the sun stands on its +Z.
+// A light shines down the -Z of its node: the sun is in the direction +Z.
 Sun sun_of(const JsonPlace& light, const glm::dmat4& world) {
   const auto color = light.find("color"), intensity = light.find("intensity");
   const std::vector<double> c = color ? color->color() : std::vector<double>{1, 1, 1};
@@ -60,7 +60,7 @@ glm::dmat4 projection_of(const JsonPlace& camera) {
       number_or(lens, "zfar", std::numeric_limits<double>::infinity()), ClipSpace::kGl);
 }
 
-// The scale of its node counts for nothing; one that is sheared is refused.
+// Ignores the scale of its node; throws for a sheared matrix.
 Camera gltf_camera(const JsonPlace& place, glm::dmat4 world) {
   for (int c = 0; c < 3; ++c) world[c] = glm::normalize(world[c]);
   if (glm::determinant(glm::dmat3(world)) < 0) {
@@ -90,7 +90,7 @@ class SceneReader {
         shared_(meshes_.count()) {}
 
   void read() {
-    std::vector<int> left;  // the next one last
+    std::vector<int> left;  // the last one is next
     const auto push = [&](const std::vector<int>& nodes) {
       left.insert(left.end(), nodes.rbegin(), nodes.rend());
     };
@@ -110,8 +110,8 @@ class SceneReader {
  private:
   struct Parts {
     bool read = false;
-    std::vector<int> plain, mirrored;  // in the model
-    std::int64_t triangles = -1;       // once somebody has counted them
+    std::vector<int> plain, mirrored;  // indices in the model
+    std::int64_t triangles = -1;       // -1 until counted
   };
 
   std::vector<int> roots() const {
@@ -133,7 +133,7 @@ class SceneReader {
     return roots;
   }
 
-  // Says whether what is below the node has a place.
+  // Whether the nodes below have a world matrix.
   bool add_or_leave_out(int index) {
     const std::string& fault = document_.faults.nodes[index];
     const std::string& label = nodes_[index].label;
@@ -167,7 +167,7 @@ class SceneReader {
     if (node.light >= 0) add_light(node, world);
   }
 
-  // A scale of 0 has none and is no fault: it is a way to hide things.
+  // A node with a scale of 0 has no inverse and no fault: it is hidden.
   static bool has_inverse(const glm::dmat4& matrix) {
     const glm::dmat3 linear(matrix);
     const double determinant = glm::determinant(linear);
@@ -207,13 +207,13 @@ class SceneReader {
     }
   }
 
-  // A file may repeat large meshes beyond all numbers.
+  // The number of repeated meshes may overflow.
   void skip_triangles(std::int64_t count) {
     constexpr std::int64_t kMost = std::int64_t{1} << 60;
     model_.skipped_triangles = std::min(model_.skipped_triangles + std::min(count, kMost), kMost);
   }
 
-  // Joints say where it is, its own matrix counts for nothing (glTF 2.0, 3.7.3.2).
+  // Only the joints place it; its own matrix is ignored (glTF 2.0, 3.7.3.2).
   void add_skinned(const GltfNode& node) {
     Parts own;
     read_parts(node, own);
@@ -269,7 +269,7 @@ class SceneReader {
   GltfSkins skins_;
   GltfMeshes meshes_;
   std::vector<JsonPlace> cameras_, lights_;
-  std::vector<Parts> shared_;  // of meshes as they are, whoever shows them
+  std::vector<Parts> shared_;  // meshes without a pose, for all nodes that use them
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 
 namespace limpid {
 
-/// A checked document and what has been read of it.
+/// A checked document and the objects read from it.
 struct GltfDocument {
   const JsonPlace& root;
   const GltfFaults& faults;
@@ -22,10 +22,10 @@ struct GltfDocument {
   const std::vector<GltfMaterial>& materials;
 };
 
-/// Walks the nodes of the default scene and puts what hangs on them into `model`: meshes with their
-/// instances, the first camera, the first directional light. A node of scale 0 hides what is below
-/// it; its triangles count as skipped. Throws Error for other matrices without an inverse, and for
-/// what a node needs and cannot be read; with Undrawable::kLeaveOut tells of such nodes.
+/// Walks the nodes of the default scene and adds their objects to `model`: meshes with their
+/// instances, the first camera, the first directional light. A node of scale 0 hides its subtree,
+/// whose triangles count as skipped. Throws Error for other matrices without an inverse, and for an
+/// object of a node that cannot be read; with Undrawable::kLeaveOut warns of such nodes.
 void read_gltf_scene(const GltfDocument& document, Undrawable undrawable, MemoryBudget& budget,
                      ModelWarnings& warnings, Model& model);
 

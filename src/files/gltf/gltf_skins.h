@@ -9,7 +9,7 @@
 
 namespace limpid {
 
-/// The joints of the skins of a checked document, as the nodes of the file pose them.
+/// The joints of the skins of a checked document, in the pose of the file's nodes.
 class GltfSkins {
  public:
   using Worlds = std::vector<std::optional<glm::dmat4>>;
@@ -23,9 +23,9 @@ class GltfSkins {
         budget_(budget),
         read_(skins_.size()) {}
 
-  /// Of each joint, where it takes the vertices that are bound to it: world from mesh. Without
-  /// inverse bind matrices the mesh is in the space of its joints. Throws Error for a joint that
-  /// stands nowhere, and for matrices that are not finite.
+  /// For each joint the matrix of its vertices: world from mesh. Without inverse bind matrices the
+  /// mesh is in the space of its joints. Throws Error for a joint outside of the scene, and for
+  /// matrices that are not finite.
   const std::vector<glm::dmat4>& joints(int skin);
 
  private:

@@ -37,7 +37,7 @@ std::vector<float> linear_texels(const Samples& samples) {
   return texels;
 }
 
-// While it is decoded: four floats, as many integers of 16 bits, and what the decoder works with.
+// During decoding: four floats, as many integers of 16 bits, and the decoder's memory.
 constexpr std::int64_t kBytesATexel = 32;
 
 void check_size(int width, int height, const std::string& name, const Limits& limits) {
@@ -55,7 +55,7 @@ void check_size(int width, int height, const std::string& name, const Limits& li
   }
 }
 
-// "is WebP, " where it is a known one.
+// "is WebP, " for a known format.
 std::string other_format(std::string_view bytes) {
   if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "is WebP, ";
   if (bytes.starts_with("\xABKTX 20\xBB"sv)) return "is KTX2, ";

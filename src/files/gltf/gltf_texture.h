@@ -8,7 +8,7 @@
 namespace limpid {
 
 /// A PNG or JPEG file in memory, with 8 or 16 bits, as linear texels: color is decoded from sRGB,
-/// alpha taken as it is. Throws Error, which begins with `name`, for other formats, damaged or
+/// alpha is unchanged. Throws Error, which begins with `name`, for other formats, damaged or
 /// truncated files and sizes over the limits.
 ModelTexture decode_texture(std::string_view bytes, const std::string& name, const Limits& limits);
 

@@ -5,7 +5,7 @@
 
 #include "files/text/json_place.h"
 
-/// How the corners of a primitive make triangles (glTF 2.0, 3.7.2.1 "Overview" of meshes).
+/// How the corners of a primitive form triangles (glTF 2.0, 3.7.2.1 "Overview" of meshes).
 
 namespace limpid {
 
@@ -19,7 +19,7 @@ enum class GltfMode : std::uint8_t {
   kFan,
 };
 
-/// The mode of a primitive. Throws Error for one that there is not.
+/// The mode of a primitive. Throws Error for an unknown mode.
 inline GltfMode gltf_mode_of(const JsonPlace& primitive) {
   const std::optional<JsonPlace> mode = primitive.find("mode");
   return mode ? static_cast<GltfMode>(mode->integer(0, 6)) : GltfMode::kTriangles;
@@ -27,13 +27,13 @@ inline GltfMode gltf_mode_of(const JsonPlace& primitive) {
 
 constexpr bool is_triangles(GltfMode mode) { return mode >= GltfMode::kTriangles; }
 
-/// How many triangles so many corners make.
+/// Number of triangles with this many corners.
 constexpr std::size_t triangle_count(GltfMode mode, std::size_t corners) {
   if (corners < 3) return 0;
   return mode == GltfMode::kTriangles ? corners / 3 : corners - 2;
 }
 
-/// Which corners a triangle has, counter-clockwise seen from its front.
+/// The corners of a triangle, counter-clockwise seen from its front.
 constexpr std::array<std::size_t, 3> corners_of_triangle(GltfMode mode, std::size_t triangle) {
   const std::size_t i = triangle;
   if (mode == GltfMode::kStrip) return {i, i + 1 + i % 2, i + 2 - i % 2};

@@ -10,10 +10,10 @@ namespace limpid {
 constexpr std::int64_t kGltfByte = 5120, kGltfUbyte = 5121, kGltfShort = 5122, kGltfUshort = 5123,
                        kGltfUint = 5125, kGltfFloat = 5126;
 
-/// Bytes of one of these, 0 of another.
+/// Bytes of a component type, 0 for an unknown one.
 std::int64_t gltf_component_size(std::int64_t component);
 
-/// Bytes of an accessor's element. Throws Error for types that there are not.
+/// Bytes of an accessor's element. Throws Error for an unknown type.
 std::int64_t gltf_element_size(const JsonPlace& accessor);
 
 /// Whether an accessor's integers are fractions of the largest.

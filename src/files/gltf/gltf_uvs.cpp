@@ -9,7 +9,7 @@
 namespace limpid {
 namespace {
 
-// Counter-clockwise as one sees the picture, whose v runs down.
+// Counter-clockwise in the picture, whose v runs down.
 UvTransform read_transform(const JsonPlace& extension) {
   glm::dvec2 scale(1), offset(0);
   double angle = 0;

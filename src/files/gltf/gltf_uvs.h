@@ -7,7 +7,7 @@
 
 namespace limpid {
 
-/// What KHR_texture_transform does to uvs: scales, turns, then moves them.
+/// The transform of KHR_texture_transform on uvs: scales, rotates, then translates.
 struct UvTransform {
   glm::dvec2 u{1, 0}, v{0, 1};  ///< the factors of u and v in each result
   glm::dvec2 offset{0, 0};
@@ -16,17 +16,17 @@ struct UvTransform {
   friend bool operator==(const UvTransform&, const UvTransform&) = default;
 };
 
-/// Which uvs of a mesh a texture is looked up by.
+/// The uvs of a mesh for a texture lookup.
 struct UvSource {
   int set = 0;  ///< n of TEXCOORD_n
   UvTransform transform;
 
   std::string attribute() const { return "TEXCOORD_" + std::to_string(set); }
-  std::string text() const;  ///< the same, and whether it is transformed
+  std::string text() const;  ///< text with the set and the transform
   friend bool operator==(const UvSource&, const UvSource&) = default;
 };
 
-/// Reads them of a textureInfo.
+/// Reads the uv source of a textureInfo.
 UvSource read_uv_source(const JsonPlace& texture_info);
 
 }  // namespace limpid

@@ -6,13 +6,13 @@
 
 namespace limpid {
 
-/// That a file asks for more than the limits allow: not a fault of the part that does.
+/// A file exceeds the limits: not a fault of a single part.
 class OverLimit : public Error {
  public:
   using Error::Error;
 };
 
-/// The memory that a model may still take.
+/// The remaining memory for a model.
 struct MemoryBudget {
   std::int64_t left;
   /// Throws OverLimit when it is used up.
@@ -24,7 +24,7 @@ struct MemoryBudget {
     }
     left -= bytes;
   }
-  /// The same for `count` things of a size.
+  /// The same for `count` objects of a size.
   void take(std::size_t count, std::size_t size, const std::string& what) {
     constexpr std::size_t kMost = INT64_MAX;
     take(static_cast<std::int64_t>(size > 0 && count > kMost / size ? kMost : count * size), what);

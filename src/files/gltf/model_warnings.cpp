@@ -5,7 +5,7 @@
 namespace limpid {
 namespace {
 
-constexpr std::size_t kPlaces = 4;  // in a line
+constexpr std::size_t kPlaces = 4;  // per line
 
 }  // namespace
 

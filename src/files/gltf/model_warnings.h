@@ -4,16 +4,16 @@
 
 namespace limpid {
 
-/// What of a file is not drawn as the file says, for Model::warnings: one line a sentence, however
-/// often it is said.
+/// Parts of a file that are not drawn as the file says, for Model::warnings: one line per sentence,
+/// for any number of places.
 class ModelWarnings {
  public:
-  /// `place` is where in the file, as in "meshes[2] 'rock'". Of many places the first few are kept,
-  /// and one said again at once counts once.
+  /// `place` is the place in the file, as in "meshes[2] 'rock'". The first few of many places are
+  /// kept; consecutive repetitions count once.
   void add(const std::string& sentence, const std::string& place = "");
 
-  /// As in "points are not drawn: meshes[2] 'rock', meshes[7] and 3 more"; kMost lines at most,
-  /// the last of which says how many there were beyond.
+  /// As in "points are not drawn: meshes[2] 'rock', meshes[7] and 3 more"; at most kMost lines, the
+  /// last of which gives the number of the others.
   std::vector<std::string> lines() const;
 
   static constexpr std::size_t kMost = 100;

@@ -20,13 +20,13 @@ namespace {
 constexpr const char* kOcio = "OpenColorIO needs";
 constexpr const char* kWithout = "; --display sRGB does without OpenColorIO";
 
-/// What a function of the format module has put into `error`, as an Error.
+/// Throws the text in `error` of a format module's function as an Error.
 [[noreturn]] void refuse(const std::filesystem::path& config, int code, const char* error) {
   if (code == formats::kNoMemory) throw no_memory(config.string());
   throw Error(config.string() + ": " + error + kWithout);
 }
 
-/// Color spaces (with their other names) and views of a config.
+/// Color spaces (with their aliases) and views of a config.
 struct Config {
   std::vector<std::string> spaces, views;
 };
@@ -55,7 +55,7 @@ Config config_of(const std::filesystem::path& path) {
   return config;
 }
 
-/// One of the list: as it stands there, or a view of the display of the first.
+/// A view of the list: by its full name, or as a view of the first display.
 std::string view_named(const std::string& name, const std::vector<std::string>& views,
                        const std::filesystem::path& config) {
   if (views.empty()) {
@@ -71,15 +71,15 @@ std::string view_named(const std::string& name, const std::vector<std::string>& 
               Fault::kUsage);
 }
 
-/// Whether a config's space of that name is linear: it says so, or is one of ACES. A config's
-/// "Rec.709" is what a display encodes.
+/// Whether a config's space of that name is linear: by its name, or because it is an ACES space. A
+/// config's "Rec.709" is display-encoded.
 bool says_linear(std::string name) {
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return name.find("lin") != std::string::npos || name.find("ap0") != std::string::npos ||
          name.find("ap1") != std::string::npos || name.find("aces") != std::string::npos;
 }
 
-/// The space of the config that light of these primaries is in, or one that is known besides.
+/// The config's space for light of these primaries, or another known one.
 struct Entry {
   std::string space;
   Primaries primaries;
@@ -98,7 +98,7 @@ Entry entry_of(const Config& config, const Primaries& primaries,
               join(color_space_names()) + " is" + kWithout);
 }
 
-/// Finite, for a matrix would make NaN of infinities.
+/// Clamped to finite values, because a matrix would make NaN of infinities.
 float finite(float light, float gain) {
   return std::isnan(light) ? 0.0f : std::clamp(light * gain, -1e30f, 1e30f);
 }

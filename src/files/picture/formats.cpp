@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Libraries of OpenImageIO 2.4 crash as they are loaded where memory or threads end: log4cplus,
-/// which comes with them, begins four threads. With all that a first picture of 960x540 needs, they
-/// were seen to take 76 MiB beside the stacks, and 437 MiB of addresses in all.
+/// OpenImageIO 2.4's libraries crash on loading if memory or threads run out: log4cplus, one of
+/// them, starts four threads. With all that a first picture of 960x540 needs, 76 MiB besides the
+/// stacks were measured, and 437 MiB of addresses in all.
 void expect_room(const std::string& wanted_for, const std::string& needs) {
   constexpr int kThreads = 4;
   constexpr std::size_t kBytes = std::size_t{80} << 20, kAddresses = std::size_t{448} << 20;

@@ -1,4 +1,4 @@
-// The only source that knows OpenImageIO; built as limpid_formats.so and loaded by formats.cpp.
+// The only source that includes OpenImageIO; built as limpid_formats.so, which formats.cpp loads.
 #include <algorithm>
 #include <cstring>
 #include <exception>
@@ -23,8 +23,8 @@
 namespace limpid::formats {
 namespace {
 
-// Still pictures whose readers were seen to refuse truncated files. OpenImageIO also offers videos,
-// volumes, readers that turn missing pixels into black, and a `null` format that makes up pixels.
+// Still-picture formats whose readers refuse truncated files, as tested. OpenImageIO also offers
+// videos, volumes, readers that turn missing pixels black, and a `null` format that invents pixels.
 const std::set<std::string> kFormats = {"bmp", "dpx", "gif",   "hdr",  "jpeg2000", "pnm",
                                         "rla", "sgi", "targa", "tiff", "webp"};
 
@@ -34,14 +34,14 @@ void check(bool ok, const std::string& phrase) {
   if (!ok) throw std::runtime_error(phrase);
 }
 
-// OpenImageIO's message on one line, or `otherwise` where it has none.
+// OpenImageIO's message on one line, or `otherwise` if it has none.
 std::string message(std::string text, const char* otherwise) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.empty() ? otherwise : text;
 }
 
-// Runs the work of one call; whatever it throws becomes text.
+// Runs the work of one call; converts any exception to text.
 template <class Work>
 int guarded(char* error, Work work) {
   try {
@@ -58,7 +58,7 @@ int guarded(char* error, Work work) {
   return 1;
 }
 
-// A limpid program decides about its threads itself. Said once, before anything is asked of
+// A limpid program decides about its threads itself. Set once, before any other call of
 // OpenImageIO: its pool must not be resized while another thread uses it.
 void stay_on_this_thread() {
   static const bool said = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
@@ -88,7 +88,7 @@ void check_limits(const OIIO::ImageSpec& spec, const FormatsLimits& limits) {
   }
 }
 
-// Where the host wants the pixels.
+// The host's memory for the pixels.
 struct Target {
   std::vector<float*> planes;
   std::ptrdiff_t stride = 0;
@@ -111,7 +111,7 @@ void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, float lar
                                spec.z + 1, 0, spec.nchannels, kType, band.data())
             : input.read_scanlines(0, 0, spec.y + y, spec.y + end, spec.z, 0, spec.nchannels, kType,
                                    band.data());
-    // Some readers fill in what is missing, say so, and report success.
+    // Some readers fill in missing pixels, set an error message, and report success.
     const std::string said = input.geterror();
     check(ok && said.empty(), message(said, "its pixels are damaged or end too early"));
     for (std::ptrdiff_t c = 0; c < channels; ++c) {
@@ -163,7 +163,7 @@ void read(const char* path, const FormatsLimits& limits, FormatsAllocate* alloca
 void write8(const char* format, int width, int height, int channels, const std::uint8_t* pixels,
             FormatsTake* take, void* host) {
   stay_on_this_thread();
-  // In memory, because on a full disk the writers of OpenImageIO end the program or report success.
+  // In memory, because on a full disk OpenImageIO's writers end the program or report success.
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput file(bytes);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
@@ -174,9 +174,9 @@ void write8(const char* format, int width, int height, int channels, const std::
   OIIO::ImageSpec spec(width, height, channels, OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  // Given, so that the file does not tell when it was written.
+  // Fixed, so that the file does not contain the time of writing.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
-  // Its directory is linked by reading the file back, which goes wrong in memory.
+  // Its directory is linked by reading the file back, which fails in memory.
   spec.attribute("tiff:write_exif", 0);
   check(output->set_ioproxy(&file), message(output->geterror(), "cannot be encoded"));
   check(output->open(std::string("memory.") + format, spec),
@@ -188,7 +188,7 @@ void write8(const char* format, int width, int height, int channels, const std::
   check(take(host, bytes.data(), bytes.size()) == 0, "its bytes were not written");
 }
 
-/// Configs that have been read: each once, for the rest of the program.
+/// Parsed configs: each once, for the rest of the program.
 const OIIO::ColorConfig& config_at(const std::string& path) {
   static std::mutex mutex;
   static std::map<std::string, std::unique_ptr<OIIO::ColorConfig>> configs;
@@ -204,7 +204,7 @@ const OIIO::ColorConfig& config_at(const std::string& path) {
   return *config;
 }
 
-/// The default one first.
+/// The default name first.
 std::vector<std::string> default_first(std::vector<std::string> names, const char* chosen) {
   const auto at = std::find(names.begin(), names.end(), chosen ? chosen : "");
   if (at != names.end()) std::rotate(names.begin(), at, at + 1);

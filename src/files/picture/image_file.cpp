@@ -31,16 +31,16 @@ std::string extension_of(const fs::path& path) {
   return extension;
 }
 
-// Enough to know a format by.
+// Enough bytes to recognise a format.
 std::string start_of(const FileHandle& file) {
   std::string bytes(8, '\0');
   bytes.resize(file.read(bytes.data(), bytes.size(), 0));
   return bytes;
 }
 
-// Common readers of DPX make up the pixels that a file lacks. Its header says the size of the file,
+// Common readers of DPX invent the pixels that a file lacks. Its header has the size of the file,
 // in the byte order of its first four letters (SMPTE ST 268:2014, "File Format for Digital
-// Moving-Picture Exchange"); 0 and all bits set mean that the writer did not say.
+// Moving-Picture Exchange"); 0 and all bits set mean that the size is unknown.
 void check_dpx_size(const FileHandle& file) {
   std::array<char, 20> header{};
   const std::size_t got = file.read(header.data(), header.size(), 0);
@@ -54,7 +54,7 @@ void check_dpx_size(const FileHandle& file) {
               " bytes: expected " + std::to_string(size));
 }
 
-// The same as the format module holds of others.
+// The same checks as the format module makes for other formats.
 void check_header(const Samples& header, const std::string& name, const Limits& limits) {
   const std::int64_t pixels = std::int64_t{header.width} * header.height;
   const std::string size =
@@ -101,7 +101,7 @@ ImageFile image_of(const Samples& samples) {
   return image;
 }
 
-// What the callback of one read needs; what it throws waits here until C is left behind.
+// Data of the callback of one read; an exception waits here until the C code has returned.
 struct Reading {
   ImageFile image;
   std::exception_ptr thrown;
@@ -151,10 +151,10 @@ int take(void* host, const void* bytes, std::size_t size) {
   }
 }
 
-// What a function of the format module has not done leaves as an Error.
+// Throws the failure of a format module's function as an Error.
 void check_done(const fs::path& path, int result, const std::string& error) {
   if (result == 0) return;
-  // Its libraries give any reason when their memory ends.
+  // Out of memory, its libraries report arbitrary errors.
   if (result == formats::kNoMemory || !has_memory(kPlentyOfMemory)) throw no_memory(path.string());
   throw Error(path.string() + ": " + error);
 }
@@ -235,7 +235,7 @@ void write_image8(const fs::path& path, const std::vector<View<const float>>& pl
 void write_image8(AtomicFiles& files, const fs::path& path,
                   const std::vector<View<const float>>& planes,
                   const std::map<std::string, std::string>& texts) {
-  format_of(path);  // an extension that is not known is refused first
+  format_of(path);  // refuses an unknown extension first
   if (planes.size() != 3 && planes.size() != 4) {
     throw Error(path.string() + ": " + std::to_string(planes.size()) + " planes: expected 3 or 4");
   }
@@ -271,7 +271,7 @@ bool is_exr(const fs::path& path) { return extension_of(path) == ".exr"; }
 bool holds_exr(const fs::path& path) {
   std::error_code ignored;
   if (is_exr(path)) return true;
-  if (!fs::is_regular_file(path, ignored)) return false;  // to read from a pipe would take it away
+  if (!fs::is_regular_file(path, ignored)) return false;  // reading from a pipe would consume it
   constexpr std::array<char, 4> kMagic = {'\x76', '\x2f', '\x31', '\x01'};
   std::array<char, 4> bytes{};
   std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());

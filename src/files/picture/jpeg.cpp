@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <jpeglib.h>
-// After jpeglib.h, which declares what it needs.
+// After jpeglib.h, whose types it needs.
 #include <jerror.h>
 
 #include "limpid/core/error.h"
@@ -19,11 +19,11 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// Each scan of a progressive file goes over all of the picture: few bytes may ask for hours.
+/// Each scan of a progressive file covers the whole picture: few bytes may take hours.
 constexpr int kMaxScans = 500;
 
-/// What libjpeg has said last. libjpeg leaves a function of its own by longjmp() alone, so what it
-/// is called from, step() and the functions given to it, holds nothing that is destroyed.
+/// The last message of libjpeg. libjpeg leaves its functions by longjmp(), so its callers, step()
+/// and the functions passed to it, have no locals with destructors.
 class Session {
  public:
   Session(const Session&) = delete;
@@ -37,7 +37,7 @@ class Session {
     manager_.base.output_message = [](j_common_ptr) {};
   }
 
-  /// Runs `work`, a function without captures. False when libjpeg has left it.
+  /// Runs `work`, a function without captures. False if libjpeg has left it by longjmp().
   template <class Self>
   static bool step(Self& self, void (*work)(Self&)) {
     if (setjmp(self.manager_.jump) != 0) return false;
@@ -56,7 +56,7 @@ class Session {
   }
 
   struct Manager {
-    jpeg_error_mgr base;  // first: libjpeg hands on a pointer to it
+    jpeg_error_mgr base;  // first: libjpeg passes a pointer to it
     std::jmp_buf jump;
     std::array<char, JMSG_LENGTH_MAX> said;
   } manager_{};
@@ -68,7 +68,7 @@ class Session {
     leave(jpeg, said);
   }
 
-  /// A warning of what libjpeg makes up pixels for is an error.
+  /// A warning for which libjpeg invents pixels is an error.
   static void on_message(j_common_ptr jpeg, int level) {
     if (level >= 0) return;
     switch (jpeg->err->msg_code) {
@@ -137,7 +137,7 @@ class Reader : public Session {
     throw Error(name_ + ": cannot be decoded: " + said());
   }
 
-  /// Color is what three inks and the black one let through.
+  /// Color is the light that passes the three inks and the black ink.
   std::uint8_t* add_of_inks(std::uint8_t* to) const {
     for (std::size_t i = 0; i < row_.size(); i += 4) {
       for (std::size_t c = 0; c < 3; ++c) {

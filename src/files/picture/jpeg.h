@@ -12,9 +12,9 @@ namespace limpid {
 /// Whether the bytes begin as those of a JPEG.
 bool begins_as_jpeg(std::string_view bytes);
 
-/// Gray or RGB; four inks, taken as the inverted ones that Adobe writes, become RGB. Throws Error,
-/// which begins with `name`, for a file that is truncated, damaged, of a process that libjpeg-turbo
-/// does not know, or of more than 500 scans.
+/// Gray or RGB; four inks, inverted as Adobe writes them, become RGB. Throws Error, which begins
+/// with `name`, for a file that is truncated, damaged, of a process that libjpeg-turbo does not
+/// support, or of more than 500 scans.
 Samples decode_jpeg(std::string_view bytes, const std::string& name, const CheckHeader& check);
 
 /// RGB, interleaved without padding, sides up to 65500, at a quality of 1 ... 100; color has half

@@ -22,11 +22,11 @@ constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n"sv;
 constexpr std::size_t kMaxKey = 79, kMaxTexts = 1 << 20;
 constexpr std::string_view kPrefix = "limpid/";  ///< of keys that are read
 constexpr const char* kTooMuch = "texts of how it was made: expected at most 1 MiB of them";
-/// Behind the keyword: its end, not compressed, no method, no language, no translation.
+/// After the keyword: its end, not compressed, no method, no language, no translation.
 constexpr std::string_view kBetween = "\0\0\0\0\0"sv;
 
-/// What libpng has said last, and why. libpng leaves a function of its own by longjmp() alone, so
-/// what it is called from, step() and the functions given to it, holds nothing that is destroyed.
+/// The last message of libpng, and its cause. libpng leaves its functions by longjmp(), so its
+/// callers, step() and the functions passed to it, have no locals with destructors.
 class Session {
  public:
   Session() = default;
@@ -46,7 +46,7 @@ class Session {
     png_longjmp(png, 1);
   }
 
-  /// Runs `work`, a function without captures. False when libpng has left it.
+  /// Runs `work`, a function without captures. False if libpng has left it by longjmp().
   template <class Self>
   static bool step(Self& self, png_structp png, void (*work)(Self&)) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -70,7 +70,7 @@ class Reader : public Session {
       throw no_memory(name);
     }
     png_set_read_fn(png_, this, read_bytes);
-    // Limits are our own; those of libpng are about kinds of chunks that are not read.
+    // limpid has its own limits; those of libpng concern kinds of chunks that are not read.
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
@@ -107,7 +107,7 @@ class Reader : public Session {
   std::map<std::string, std::string> texts() {
     texts_only_ = true;
     run([](Reader& r) {
-      // Pixels, too, are a chunk as others are, and no chunk is larger than its file.
+      // The limit covers pixel chunks, too, and no chunk is larger than its file.
       png_set_keep_unknown_chunks(r.png_, PNG_HANDLE_CHUNK_NEVER,
                                   reinterpret_cast<png_const_bytep>("IDAT"), 1);
       png_set_read_user_chunk_fn(r.png_, &r, take_chunk);
@@ -167,7 +167,7 @@ class Reader : public Session {
     self.left_.remove_prefix(count);
   }
 
-  /// libpng only warns of pixels that are wrong behind the last one that it needs.
+  /// libpng only warns of invalid data after the last pixel that it needs.
   static void on_warning(png_structp png, const char* said) {
     const std::string_view text = said;
     const bool of_pixels = text.starts_with("IDAT: ") && text != "IDAT: Extra compressed data";
@@ -175,7 +175,7 @@ class Reader : public Session {
       on_error(png, said);
   }
 
-  /// 1 where it goes on, -1 where not.
+  /// 1 to continue, -1 to stop.
   static int take_chunk(png_structp png, png_unknown_chunkp chunk) {
     auto& self = *static_cast<Reader*>(png_get_user_chunk_ptr(png));
     const std::string_view data(reinterpret_cast<const char*>(chunk->data), chunk->size);
@@ -232,7 +232,7 @@ class Writer : public Session {
                    PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
       png_set_sRGB(w.png_, w.info_, PNG_sRGB_INTENT_PERCEPTUAL);
       png_set_text(w.png_, w.info_, w.texts_.data(), static_cast<int>(w.texts_.size()));
-      png_set_compression_level(w.png_, 2);  // of 9: a fourth of the time, files 10 % larger
+      png_set_compression_level(w.png_, 2);  // of 9: a quarter of the time, files 10 % larger
       png_write_info(w.png_, w.info_);
       const std::size_t row_bytes = std::size_t{static_cast<unsigned>(w.width_)} * w.channels_;
       for (int y = 0; y < w.height_; ++y) png_write_row(w.png_, w.pixels_ + y * row_bytes);

@@ -6,8 +6,8 @@
 
 #include "files/picture/samples.h"
 
-/// PNG in memory (ISO 15948:2003 "Portable Network Graphics"), by libpng. Every checksum of a file
-/// is held to, and a file that ends before its last chunk is refused.
+/// PNG in memory (ISO 15948:2003 "Portable Network Graphics"), by libpng. Checks every checksum of
+/// a file, and refuses a file that ends before its last chunk.
 
 namespace limpid {
 
@@ -15,9 +15,9 @@ namespace limpid {
 bool begins_as_png(std::string_view bytes);
 
 /// Grays of fewer than 8 bits are scaled to 8, palettes become RGB, and a transparent color becomes
-/// alpha. Of what else a file says its offset alone is taken (oFFs, in pixels); no gamma or profile
-/// is applied. Throws Error, which begins with `name`, for a file that is truncated or damaged, and
-/// for pixels that decompress to more than their size allows.
+/// alpha. Of the file's other properties only its offset is used (oFFs, in pixels); no gamma or
+/// profile is applied. Throws Error, which begins with `name`, for a file that is truncated or
+/// damaged, and for pixels that decompress to more than their size allows.
 Samples decode_png(std::string_view bytes, const std::string& name, const CheckHeader& check);
 
 /// 8-bit RGB or RGBA (3 or 4 channels, alpha straight), interleaved without padding, marked as
@@ -27,8 +27,8 @@ Samples decode_png(std::string_view bytes, const std::string& name, const CheckH
 std::string encode_png(int width, int height, int channels, const std::uint8_t* pixels,
                        const std::map<std::string, std::string>& texts, const std::string& name);
 
-/// The texts of that kind, before the end of the picture, whose key begins with "limpid/"; others
-/// are passed over, whatever their size, and pixels are not decompressed. Throws Error as
+/// The texts written by encode_png() before the end of the picture, whose key begins with
+/// "limpid/"; other texts of any size are skipped, and pixels are not decompressed. Throws Error as
 /// decode_png() does, and for more than 1 MiB of these texts in all.
 std::map<std::string, std::string> png_texts(std::string_view bytes, const std::string& name);
 

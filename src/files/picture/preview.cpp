@@ -25,7 +25,7 @@ Plane displayed(View<const float> linear, double exposure_stops) {
   for (int y = linear.window.y0; y < linear.window.y1; ++y) {
     for (int x = linear.window.x0; x < linear.window.x1; ++x) {
       const float value = linear.at(x, y) * gain;
-      // Written so that NaN, which is not above 0, becomes 0.
+      // NaN, which is not above 0, becomes 0.
       to.at(x, y) = value > 0 ? srgb_from_linear(std::fmin(value, 1.0f)) : 0.0f;
     }
   }

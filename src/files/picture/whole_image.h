@@ -10,11 +10,11 @@
 
 namespace limpid {
 
-/// As without `files`, but that the picture appears when those are committed.
+/// As without `files`, but the picture appears when those are committed.
 void write_image8(AtomicFiles& files, const std::filesystem::path& path,
                   const std::vector<View<const float>>& planes,
                   const std::map<std::string, std::string>& texts);
-/// The same of bytes, interleaved without padding, of 3 or 4 channels.
+/// The same for bytes, interleaved without padding, of 3 or 4 channels.
 void write_image8(AtomicFiles& files, const std::filesystem::path& path, Size size, int channels,
                   const std::uint8_t* pixels, const std::map<std::string, std::string>& texts);
 void write_preview(AtomicFiles& files, const std::filesystem::path& path,

@@ -21,7 +21,7 @@ constexpr int kDigitsOfOne = 4;
       Fault::kUsage);
 }
 
-/// A number at the beginning of `text`, taken off it.
+/// Removes a number from the beginning of `text`.
 int take_number(std::string_view& text, std::string_view range) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -36,7 +36,7 @@ int take_number(std::string_view& text, std::string_view range) {
   return number;
 }
 
-/// Frames from `first` towards `last`: each `step`-th, or all but these.
+/// Frames from `first` towards `last`: each `step`-th, or all others.
 struct Part {
   int first = 0, last = 0, step = 1;
   bool complement = false;
@@ -71,7 +71,7 @@ Part part_of(std::string_view part, std::string_view range) {
   return {first, last, step, complement};
 }
 
-/// A place for a number in a pattern: where it is, and how many digits it has at least.
+/// The place of a frame number in a pattern, and its least number of digits.
 struct Slot {
   std::size_t at, length;
   int digits;

@@ -10,11 +10,11 @@ namespace {
 
 using nlohmann::json;
 
-// What reads the values later goes down by recursion.
+// Later readers of the values are recursive.
 constexpr int kDeepest = 64;
 constexpr std::size_t kLongest = 40;  // characters of a value in a sentence
 
-// What a text takes at most, with the copies that are made of it, by measurement.
+// Upper bound on the memory of a text, including copies, as measured.
 constexpr std::int64_t kBytesAByte = 7, kBytesAValue = 512;
 
 std::string shown(const json& value) {
@@ -79,7 +79,8 @@ std::vector<std::string> JsonPlace::keys() const {
 
 std::optional<JsonPlace> JsonPlace::extras() const {
   const std::optional<JsonPlace> extras = find("extras");
-  if (!extras || !extras->value_->is_object()) return std::nullopt;  // anybody's, of any type
+  if (!extras || !extras->value_->is_object())
+    return std::nullopt;  // another program's, of any type
   return extras->find("limpid");
 }
 

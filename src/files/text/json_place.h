@@ -10,9 +10,8 @@
 
 namespace limpid {
 
-/// A value of a JSON document that knows its place, so that whoever reads it can say where it is
-/// wrong: "meshes[2].primitives[0].indices = 9: expected an index below 4". All that is not as
-/// asked for throws Error.
+/// A value of a JSON document with its place, for error sentences: "meshes[2].primitives[0].indices
+/// = 9: expected an index below 4". All accessors throw Error for an unexpected value.
 class JsonPlace {
  public:
   explicit JsonPlace(const nlohmann::json& value, std::string path = "")
@@ -21,25 +20,25 @@ class JsonPlace {
   const std::string& path() const { return path_; }
   [[noreturn]] void refuse(const std::string& expected) const;
 
-  /// The member of an object, if it is there.
+  /// The member of an object, if present.
   std::optional<JsonPlace> find(std::string_view key) const;
-  /// The member of an object, which must be there.
+  /// The member of an object; throws Error if it is missing.
   JsonPlace at(std::string_view key) const;
-  /// The elements of the list `key` of this object; none when it is not there.
+  /// The elements of the list `key` of this object; empty if it is missing.
   std::vector<JsonPlace> list(std::string_view key) const;
   std::vector<JsonPlace> items() const;
-  /// How many list(key) would give.
+  /// The size of list(key).
   std::size_t count(std::string_view key) const;
   void expect_object() const;
   /// The keys of an object.
   std::vector<std::string> keys() const;
-  /// The member "limpid" of the member "extras", where there is one.
+  /// The member "limpid" of the member "extras", if present.
   std::optional<JsonPlace> extras() const;
-  /// Throws unless every key of the object is known; gives the nearest known name.
+  /// Throws unless every key of the object is known; suggests the nearest known name.
   void expect_keys(const std::vector<std::string>& known) const;
 
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
-  /// An index into a list of `count` things.
+  /// An index into a list of `count` elements.
   int index(std::size_t count) const;
   double number() const;
   bool boolean() const;
@@ -47,7 +46,7 @@ class JsonPlace {
   std::vector<double> numbers(std::size_t count) const;
   /// Three numbers from 0 up.
   std::vector<double> color() const;
-  /// The index in `words` of the word that this is.
+  /// The index of this word in `words`.
   std::size_t choice(std::span<const std::string_view> words) const;
 
   friend bool operator==(const JsonPlace& a, const JsonPlace& b) { return a.value_ == b.value_; }
@@ -57,9 +56,9 @@ class JsonPlace {
   std::string path_;
 };
 
-/// Bytes of memory that reading a text takes at most, whatever is in it. Throws Error for one that
-/// is nested deeper than any glTF needs. To be called before parse_json(): who parses goes down by
-/// recursion, and one who asks meanwhile how deep it is takes the square of the time.
+/// Upper bound on the memory of parsing a text, for any content. Throws Error for a nesting deeper
+/// than any glTF needs. To be called before parse_json(), whose parser is recursive; checking the
+/// depth during parsing would take quadratic time.
 std::int64_t json_memory(std::string_view text);
 
 /// Throws Error for text that is not JSON.

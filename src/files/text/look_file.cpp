@@ -19,7 +19,7 @@ void resolve_files(Look& look, const fs::path& folder) {
 
 constexpr std::string_view kAbout = "about", kBase = "base";
 
-/// What the file says, upon the look.
+/// Applies the file to the look.
 void read(const TomlNode& root, Look& look) {
   const std::vector<Parameter> all = parameters(look);
   std::vector<std::string> known = {std::string(kAbout), std::string(kBase)};
@@ -53,7 +53,7 @@ void read(const TomlNode& root, Look& look) {
 
 using Folders = std::span<const fs::path>;
 
-/// The file of the look that is named so; a relative path begins in the folder `from`.
+/// The file of the look of that name; a relative path begins in the folder `from`.
 fs::path file_of(std::string_view name, Folders folders, const fs::path& from) {
   const fs::path path(name);
   if (path.extension() == ".toml" || path.has_parent_path()) return from / path;
@@ -68,7 +68,7 @@ fs::path file_of(std::string_view name, Folders folders, const fs::path& from) {
               did_you_mean(name, known));
 }
 
-/// `above` are the files of the looks that are based on this one, in the order of their reading.
+/// `above` are the files of the looks based on this look, in the order of their reading.
 Look load(const fs::path& path, Folders folders, std::vector<fs::path>& above) {
   const TomlNode root = parse_toml(path);
   above.push_back(path);

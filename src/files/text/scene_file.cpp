@@ -26,7 +26,7 @@ std::vector<std::string> names_of(const FieldTable<P>& keys) {
   return names;
 }
 
-/// What the table says, and the defaults of the rest.
+/// The values of the table, and defaults for other keys.
 template <class P>
 P read_table(const TomlNode& table, const FieldTable<P>& keys) {
   table.expect_keys(names_of(keys));
@@ -47,7 +47,7 @@ void expect_few_waves(const WaterPlane& water) {
 
 WaterPlane water_of(const TomlNode& table) {
   const TomlNode* waves = table.find("waves");
-  if (waves && waves->kind == TomlNode::Kind::kList) {  // of many rows the wrong one is named
+  if (waves && waves->kind == TomlNode::Kind::kList) {  // for an error, names the wrong row
     constexpr std::size_t kAll = std::size(SineWave::kColumns);
     for (const TomlNode& wave : waves->items) {
       wave.finite_numbers(wave.items.size() == kAll ? kAll : SineWave::kLeastColumns);
@@ -86,7 +86,7 @@ void read_plates(const TomlNode& table, const fs::path& folder, SceneFile& file)
   }
 }
 
-/// What the file says of near and far, whatever they are used for.
+/// The file's near and far, for any use.
 void read_range(const TomlNode& table, const CameraKeys& keys, SceneFile& file) {
   const TomlNode* far = table.find("far");
   if (table.find("near")) file.near = keys.near;
@@ -112,7 +112,7 @@ constexpr LensKey kLensKeys[] = {{"projection", CameraSpec::Lens::kProjection},
                                  {"orthographic", CameraSpec::Lens::kOrthographic}};
 constexpr const char* kLensNames = "projection, fov_x, fov_y and orthographic";
 
-/// The one key of the table that says how the camera projects, or nullptr.
+/// The only key of the table that sets the projection, or nullptr.
 const TomlNode* lens_node(const TomlNode& table, CameraSpec::Lens& lens) {
   const TomlNode* found = nullptr;
   for (const LensKey& key : kLensKeys) {
@@ -145,7 +145,7 @@ void read_lens(const TomlNode& lens, const TomlNode& table, const SceneFile& fil
   spec.far = file.far.value_or(flat ? spec.near + 1e4 : std::numeric_limits<double>::infinity());
 }
 
-/// A view and a lens, or neither; then there is no `clip` either.
+/// A view and a lens, or neither and no `clip`.
 void expect_pair(const TomlNode& table, const TomlNode* lens) {
   const TomlNode* view = table.find("view");
   const TomlNode* clip = table.find("clip");
@@ -229,7 +229,7 @@ SceneFile scene_from_toml(const std::string& text, const std::string& name) {
 }
 
 std::string to_toml(const Scene& scene) {
-  // Nothing of primaries where they are the usual ones.
+  // No primaries if they are the default.
   std::string text = agree(scene.primaries, kRec709) ? table_text(kSceneTable, scene, {"time"})
                                                      : table_text(kSceneTable, scene);
   if (const std::optional<Camera>& camera = scene.camera) {

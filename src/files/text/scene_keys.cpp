@@ -9,7 +9,7 @@
 namespace limpid {
 namespace {
 
-/// Matrices and files have no default, nor have numbers that are NaN.
+/// Matrices and files have no default, nor have numbers with NaN as default.
 std::string unset_text(const FieldInfo& field, const Value& value, bool required) {
   if (required) return "required";
   const double* number = std::get_if<double>(&value);

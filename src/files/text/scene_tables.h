@@ -11,25 +11,25 @@
 #include "limpid/optics/depth.h"
 
 /// @file
-/// The tables of scene files as data: what scene_file.cpp reads and writes, and scene_keys.cpp
-/// lists.
+/// The tables of scene files as data: scene_file.cpp reads and writes them, scene_keys.cpp lists
+/// them.
 
 namespace limpid {
 
-/// A table of the file, its keys the fields of P.
+/// A table of the file, whose keys are the fields of P.
 template <class P>
 struct FieldTable {
   std::string_view name, about;
   std::span<const Field<P>> fields;
-  std::string_view required = {};  ///< a key that the table must have, or ""
+  std::string_view required = {};  ///< a required key, or ""
   std::string_view expected = {};  ///< that key in words
 };
 
 inline constexpr std::string_view kClips[] = {"gl", "d3d", "reversed"};
 inline constexpr std::string_view kDepths[] = {"eye", "ray", "inverse", "normalised", "device"};
 
-/// Tables that are members of no other struct, as they stand in the file; NaN for numbers that have
-/// no default.
+/// Tables that are not members of another struct, with the file's values; NaN for numbers without a
+/// default.
 struct GeometryKeys {
   std::filesystem::path gltf;
 };

@@ -12,9 +12,9 @@
 namespace limpid {
 namespace {
 
-// A node of two bytes of text takes some 400 bytes of memory.
+// A node of two bytes of text takes about 400 bytes of memory.
 constexpr std::streamsize kMaxBytes = std::streamsize{256} << 10;
-constexpr std::size_t kLongestKey = 64, kLongestText = 80;  // of texts: in sentences
+constexpr std::size_t kLongestKey = 64, kLongestText = 80;  // in error sentences
 // Every node has its path.
 constexpr std::size_t kLongestPath = 512;
 
@@ -35,9 +35,9 @@ std::string text_of_file(const std::filesystem::path& path) {
 
 constexpr int kDeepest = 16;  // brackets, and dots of a key
 
-/// Goes over a text token by token and refuses one whose brackets are nested, or whose keys are
-/// dotted, deeper than any of our files: toml++ limits the one at 256 and the other not at all, and
-/// goes down by recursion. What is no TOML is left for the parser to refuse.
+/// Scans a text token by token and refuses nesting of brackets or dots deeper than limpid's files
+/// need: toml++ limits brackets at 256 and dots not at all, and is recursive. Invalid TOML is left
+/// for the parser to refuse.
 class Nesting {
  public:
   Nesting(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -57,7 +57,7 @@ class Nesting {
  private:
   void take(char letter) {
     switch (letter) {
-      case '.':  // of a key, or of a number, where another cannot follow
+      case '.':  // of a key, or of a number, which has at most one
         if (++dots_ > kDeepest) refuse("a key of more than " + std::to_string(kDeepest) + " dots");
         break;
       case '[':
@@ -80,7 +80,7 @@ class Nesting {
     }
   }
 
-  /// A string ends at its quote or, in error, with the line; one of three quotes at three.
+  /// A string ends at its quote or, if invalid, with the line; one of three quotes at three.
   void skip_string(char quote) {
     const std::string three(3, quote);
     const bool long_one = text_.substr(at_).starts_with(three);

@@ -60,7 +60,7 @@ std::string_view without_quotes(std::string_view text) {
   return quoted ? trimmed(text.substr(1, text.size() - 2)) : text;
 }
 
-/// The numbers of a text as TOML has them: `.5` becomes `0.5`, `1.` `1.0` and `007` `7`.
+/// The numbers of a text in TOML's syntax: `.5` becomes `0.5`, `1.` `1.0` and `007` `7`.
 std::string with_toml_numbers(std::string_view text) {
   const auto digit = [&](std::size_t i) {
     return i < text.size() && text[i] >= '0' && text[i] <= '9';
@@ -89,7 +89,7 @@ TomlNode node_of_setting(std::string_view text, const FieldInfo& field) {
     const bool fits = field.kind != FieldKind::kCountOrWord || is_number(root.items[0]);
     if (root.items.size() == 1 && fits) return root.items[0];
   } catch (const Error&) {
-    // What is no TOML is a word, and refused as one by all that holds numbers.
+    // Invalid TOML counts as a word, which fields of numbers refuse.
   }
   return word;
 }

@@ -5,15 +5,14 @@
 
 namespace limpid {
 
-/// Red, green and blue of one picture, scene-linear, of the primaries of sRGB (ITU-R BT.709).
+/// Red, green and blue of one picture, scene-linear, with the primaries of sRGB (ITU-R BT.709).
 using ColorViews = std::array<View<const float>, 3>;
 
-/// Two pictures for the metrics of color; `b` is the one to be trusted. All windows must be equal.
+/// Two pictures for the metrics of color; `b` is the reference. All windows must be equal.
 ///
-/// What the metrics do where a number is none: a pixel with NaN or inf in either picture counts as
-/// black in both. Where the two differ there as difference() has it (a *mismatch*: NaN or inf in
-/// one only), the metric says the worst there is, an infinite error, so that no mean and no maximum
-/// can look good.
+/// NaN and inf: a pixel with NaN or inf in either picture counts as black in both. If the two
+/// differ there in the sense of difference() (a *mismatch*: NaN or inf in only one), the metric
+/// returns the worst value, an infinite error, so that no mean and no maximum can look good.
 struct ColorPair {
   ColorViews a, b;
 };

@@ -40,7 +40,7 @@ struct Sums {
   double absolute = 0, squared = 0, relative = 0;
 };
 
-// Walks the pixels once; the percentiles come at the end, from all differences.
+// Visits the pixels once; the percentiles come at the end, from all differences.
 class Comparing {
  public:
   Comparing(std::span<const ComparedChannel> channels, const CompareOptions& options)
@@ -133,14 +133,14 @@ class Comparing {
     metrics.rel_mse = sums.relative / count;
     metrics.psnr = -20 * std::log10(metrics.rmse);
     metrics.over_percent = 100 * static_cast<double>(metrics.over) / static_cast<double>(pixels_);
-    // Each search leaves the smaller values in front, for the next.
+    // Each search leaves the smaller values in front, for the next search.
     const std::size_t r99_99 = rank(values.size(), 9999), r99 = rank(values.size(), 9900);
     metrics.p99_99 = smallest(values, r99_99);
     metrics.p99 = smallest(values.first(r99_99), r99);
     metrics.p50 = smallest(values.first(r99), rank(values.size(), 5000));
   }
 
-  // How many of `count` values are at least `share`/10000 of them.
+  // Number of values that are at least `share`/10000 of `count`.
   static std::size_t rank(std::size_t count, std::size_t share) {
     return (count * share + 9999) / 10000;
   }

@@ -10,18 +10,18 @@
 
 namespace limpid {
 
-/// One channel of two pictures: `b` is the one to be trusted. All windows must be equal.
+/// One channel of two pictures: `b` is the reference. All windows must be equal.
 struct ComparedChannel {
   std::string name;
   View<const float> a, b;
 };
 
-/// |a - b|: 0 for equal infinities and for two NaN, +inf where only one of the two is NaN or they
-/// are not the same infinity (a *mismatch*). Never NaN, so that no NaN can make a comparison pass.
+/// a - b|: 0 for equal infinities and for two NaN, +inf if only one of the two is NaN or they are
+/// different infinities (a *mismatch*). Never NaN, so that no NaN can make a comparison pass.
 double difference(float a, float b);
 
-/// Three numbers that say what still passes: a pixel is *over* when its largest difference exceeds
-/// `per_pixel`; at most `allowed_percent` of the pixels may be over, none may exceed `hard_limit`.
+/// Three numbers as the limit: a pixel is *over* if its largest difference exceeds `per_pixel`; at
+/// most `allowed_percent` of the pixels may be over, none may exceed `hard_limit`.
 struct Tolerance {
   double per_pixel = 1e-6;
   double allowed_percent = 0;
@@ -42,8 +42,8 @@ struct Offender {
   float a = 0, b = 0;
 };
 
-/// Of one channel, or of the values of all channels together. A mismatch is an infinite difference:
-/// one is enough to make the means infinite.
+/// Metrics of one channel, or of the values of all channels together. A mismatch is an infinite
+/// difference: a single one makes the means infinite.
 struct Metrics {
   double mean = 0;                      ///< of |a - b|
   double rmse = 0;                      ///< sqrt(mean((a - b)^2))
@@ -62,22 +62,22 @@ struct Comparison {
   Rect window;
   CompareOptions options;
   std::vector<std::string> names;
-  std::vector<Metrics> channels;  ///< one a name
+  std::vector<Metrics> channels;  ///< one per name
   Metrics overall;
   std::vector<Offender> offenders;  ///< the first five pixels that are over, in reading order
 };
 
-/// Compares pixel by pixel in one fixed order, with sums in double: the same bits for
-/// any number of threads. Needs 8 bytes a value for the exact percentiles. Throws Error for
-/// no channel, windows that differ, and options that mean nothing (NaN, negative).
+/// Compares pixel by pixel in a fixed order, with sums in double: the same bits for any number of
+/// threads. Needs 8 bytes per value for the exact percentiles. Throws Error for no channel,
+/// different windows, and invalid options (NaN, negative).
 Comparison compare(std::span<const ComparedChannel> channels, const CompareOptions& options = {});
 
 /// Whether the comparison is within its tolerance. A mismatch never is.
 bool within(const Comparison& comparison);
 
-/// What a person wants to read, in the words of `idiff`; the last line is PASS or FAILURE.
+/// The comparison as text, in the words of `idiff`; the last line is PASS or FAILURE.
 std::string to_text(const Comparison& comparison);
-/// The same without that line, which depends on more where there are other metrics.
+/// The same without that line, which other metrics decide, too.
 std::string numbers_text(const Comparison& comparison);
 
 }  // namespace limpid

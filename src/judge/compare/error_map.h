@@ -6,8 +6,8 @@
 
 namespace limpid {
 
-/// An error a pixel and what it comes to over the picture: 0 ... 1, or +inf at mismatches
-/// (color_pair.h). One mismatch is enough to make `mean` and `max` infinite.
+/// An error per pixel and its statistics over the picture: 0 ... 1, or +inf at mismatches
+/// (color_pair.h). One mismatch makes `mean` and `max` infinite.
 struct ErrorMap {
   Plane map;
   double mean = 0;

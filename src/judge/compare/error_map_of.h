@@ -4,7 +4,7 @@
 
 namespace limpid {
 
-/// The map as it is handed out, +inf where the pictures were not alike in having numbers at all.
+/// The map for the caller, +inf at mismatches.
 ErrorMap error_map_of(const Grid<float>& error, const CleanPair& pictures);
 
 }  // namespace limpid

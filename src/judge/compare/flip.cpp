@@ -59,7 +59,7 @@ ColorGrid mapped(const ColorGrid& color, const std::function<float(float)>& map)
 struct Tone {
   static constexpr double n2 = 0.36 * 2.51, n1 = 0.6 * 0.03, d2 = 0.36 * 2.43, d1 = 0.6 * 0.59,
                           d0 = 0.14;
-  // Clipped long before, and far from the end of float.
+  // Clipped long before, and far from the largest float.
   static constexpr float kClipped = 1e4f;
 
   static float of(float x) {
@@ -72,7 +72,7 @@ struct Tone {
   }
 };
 
-constexpr double kShownTone = 0.85;  // of the pixel that an exposure is made for
+constexpr double kShownTone = 0.85;  // of the pixel for which an exposure is made
 constexpr double kMaxStops = 24;
 
 }  // namespace
@@ -95,7 +95,7 @@ Exposures exposures_of(const ColorViews& reference) {
   }
   const double brightest = *std::max_element(values.begin(), values.end());
   if (brightest == 0) return {};
-  // Of an even number of pixels the two in the middle count alike.
+  // For an even number of pixels, the mean of the two in the middle.
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   const double upper = *middle;

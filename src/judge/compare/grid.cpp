@@ -17,7 +17,7 @@ Grid<T> filter(const Grid<T>& grid, const Kernel& across, const Kernel& down) {
   const int left = static_cast<int>(across.size() / 2), above = static_cast<int>(down.size() / 2);
   Grid<T> rows(grid.size()), result(grid.size());
   if (grid.count() == 0) return result;
-  std::vector<T> row(width + across.size());  // with its ends repeated beyond them
+  std::vector<T> row(width + across.size());  // padded by repeating its ends
   for (int y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < row.size(); ++x) {
       row[x] = grid.row(y)[std::clamp(static_cast<int>(x) - left, 0, width - 1)];

@@ -29,8 +29,8 @@ class Grid {
 /// Numbers at -radius ... radius.
 using Kernel = std::vector<double>;
 
-/// Correlates rows with `across` and columns with `down`; beyond its sides the grid goes on as its
-/// edge. On the caller's thread alone.
+/// Correlates rows with `across` and columns with `down`; beyond its sides the grid repeats its
+/// edge. Runs on the caller's thread.
 Grid<float> filtered(const Grid<float>& grid, const Kernel& across, const Kernel& down);
 Grid<double> filtered(const Grid<double>& grid, const Kernel& across, const Kernel& down);
 

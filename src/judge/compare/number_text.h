@@ -5,7 +5,7 @@
 
 namespace limpid {
 
-/// Six digits, whatever the locale.
+/// Six digits, in any locale.
 inline std::string number_text(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.begin(), text.end(), value, std::chars_format::general, 6);

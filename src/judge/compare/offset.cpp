@@ -16,7 +16,7 @@ namespace {
 constexpr float kEnough = 0.5f;
 constexpr const char* kNames[] = {"R", "G", "B"};
 
-// What is known of some lookups.
+// Counts over some lookups.
 struct Tally {
   std::int64_t wet = 0, rejected = 0, accepted = 0, mismatches = 0;
   std::vector<double> offsets;

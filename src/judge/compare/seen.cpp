@@ -7,19 +7,19 @@
 
 #include "limpid/core/error.h"
 
-/// Everything in this file is of Andersson et al. 2020 "FLIP: A Difference Evaluator for
+/// All formulas of this file come from Andersson et al. 2020 "FLIP: A Difference Evaluator for
 /// Alternating Images".
 
 namespace limpid {
 namespace {
 
-// In double, so that gray stays gray: its color is a difference of numbers alike.
+// In double, so that gray stays gray: its color is a difference of nearly equal numbers.
 using Color = std::array<double, 3>;
 using Matrix = std::array<Color, 3>;
 
 constexpr double kPi = std::numbers::pi;
 
-// X / Xn, Y / Yn and Z / Zn of linear sRGB: each row sums to 1, as white has no color.
+// X / Xn, Y / Yn and Z / Zn of linear sRGB: each row sums to 1, because white has no chroma.
 constexpr Matrix kXyzOfRgb = [] {
   const double rows[3][3] = {{10135552, 8788810, 4435075},
                              {5226144, 17577620, 1774030},
@@ -59,8 +59,8 @@ void put(ColorGrid& grid, std::size_t i, const Color& color) {
   for (std::size_t c = 0; c < 3; ++c) grid[c][i] = static_cast<float>(color[c]);
 }
 
-// YCxCz, a linear sort of L*a*b*: Y, then X - Y and Y - Z, each over white. The paper's scales
-// (116, 500, 200) and the offset of Y go out again at the way back, as filters are linear.
+// YCxCz, a linear form of L*a*b*: Y, then X - Y and Y - Z, each over white. The paper's scales
+// (116, 500, 200) and the offset of Y cancel in the inverse, because filters are linear.
 Color opponent(const Color& linear) {
   const auto [x, y, z] = times(kXyzOfRgb, linear);
   return {y, x - y, y - z};
@@ -77,8 +77,8 @@ double lab_curve(double t) {
   return t > kKnee * kKnee * kKnee ? std::cbrt(t) : t / (3 * kKnee * kKnee) + 4.0 / 29;
 }
 
-// Contrast sensitivity a exp(-b f^2) of f cycles a degree; as a filter, a sqrt(pi / b)
-// exp(-(pi x)^2 / b) at x degrees.
+// Contrast sensitivity a exp(-b f^2) for f cycles per degree; as a filter, a sqrt(pi / b) exp(-(pi
+// x)^2 / b) at x degrees.
 struct Sensitivity {
   double a, b;
 };
@@ -86,7 +86,7 @@ const std::array<std::vector<Sensitivity>, 3> kSensitivities = {
     {{{1, 0.0047}}, {{1, 0.0053}}, {{34.1, 0.04}, {13.5, 0.025}}}};
 constexpr double kWidest = 0.04;
 
-constexpr double kFeatureDegrees = 0.082;  // width of what counts as an edge or a point
+constexpr double kFeatureDegrees = 0.082;  // width of an edge or a point
 
 double sum(const Kernel& kernel) {
   double total = 0;
@@ -152,8 +152,8 @@ Grid<float> Eye::blurred(const Grid<float>& channel, const std::vector<Blur>& bl
 
 Seen Eye::look_at(const ColorGrid& linear) const {
   ColorGrid color = linear;
-  // In double, as the square root that is taken of differences of features would show the rest that
-  // float leaves of a uniform picture.
+  // In double, because the later square root of feature differences would amplify the rounding
+  // error that float leaves in a uniform picture.
   Grid<double> gray(linear[0].size());
   for (std::size_t i = 0; i < gray.count(); ++i) {
     const Color here = opponent(at(linear, i));

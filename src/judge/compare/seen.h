@@ -4,24 +4,24 @@
 
 namespace limpid {
 
-/// What an observer sees of a picture, for FLIP.
+/// A picture as an observer sees it, for FLIP.
 struct Seen {
-  ColorGrid lab;       ///< L*, and a* and b* that count by the lightness (Hunt)
+  ColorGrid lab;       ///< L*, and a* and b* weighted by the lightness (Hunt)
   Grid<float> edges;   ///< strength
   Grid<float> points;  ///< strength
 };
 
-/// The eye: its filters, for one observer.
+/// The visual filters for one observer.
 class Eye {
  public:
-  /// Throws Error for an observer that cannot be.
+  /// Throws Error for an invalid observer.
   explicit Eye(const Observer& observer);
 
-  /// Of a linear picture, 0 ... 1.
+  /// For a linear picture, 0 ... 1.
   Seen look_at(const ColorGrid& linear) const;
 
  private:
-  // A Gaussian of the contrast sensitivity, and its share of the channel.
+  // A Gaussian of the contrast sensitivity, and its weight in the channel.
   struct Blur {
     double share = 1;
     Kernel kernel;

@@ -11,7 +11,7 @@
 namespace limpid {
 namespace {
 
-// a - b, where difference() finds one; +inf for a mismatch.
+// a - b, or 0 where difference() is 0; +inf for a mismatch.
 double signed_difference(float a, float b) {
   const double d = difference(a, b);
   return d == 0 || std::isinf(d) ? d : double{a} - double{b};

@@ -8,22 +8,22 @@
 
 namespace limpid {
 
-/// How far the change from one frame to the next is from the truth's own: of
-/// |(a1 - a0) - (b1 - b0)|, over the values of all channels. A picture that is wrong alike in both
-/// frames has none. Mismatches (compare.h) in either frame count as +inf, and one is enough to make
-/// `mean`, `rms` and `max` infinite; NaN in both pictures, and equal infinities, are no error.
+/// Difference of the frame-to-frame change from that of the truth: |(a1 - a0) - (b1 - b0)|, over
+/// the values of all channels. 0 for an error that is equal in both frames. Mismatches (compare.h)
+/// in either frame count as +inf, and one makes `mean`, `rms` and `max` infinite; NaN in both
+/// pictures, and equal infinities, are no error.
 struct Flicker {
   double mean = 0;
   double rms = 0;  ///< dtSSD of Erofeev et al. 2015 "Perceptually Motivated Benchmark for Video
                    ///< Matting"
-  double p99 = 0;  ///< that this share of values does not exceed
+  double p99 = 0;  ///< the value that this share of values does not exceed
   double max = 0;
   std::int64_t mismatches = 0;  ///< values
 };
 
 /// `now` and `next` are the same channels of two frames; in each, `b` is the truth. Sums in double,
-/// in one fixed order. `clip` is that of CompareOptions. Throws Error as compare() does, and for
-/// channels that are not the same.
+/// in a fixed order. `clip` is that of CompareOptions. Throws Error as compare() does, and for
+/// different channels.
 Flicker flicker(std::span<const ComparedChannel> now, std::span<const ComparedChannel> next,
                 const std::optional<double>& clip = {});
 

@@ -10,7 +10,7 @@ using Real = long double;
 
 constexpr double kIncidence[] = {80, 89, 89.9, 89.99};
 
-/// A narrow view of water met at that angle of incidence.
+/// A narrow view of water at that angle of incidence.
 Sea sea_at(double incidence, bool turned) {
   const double down = 90 - incidence;
   return {.size = {16, 9}, .down = down, .fov = 0.2 * down, .turned = turned};
@@ -23,7 +23,7 @@ struct Model {
   Real (*exact)(Real cosine);
 };
 
-/// With the parameters of the operator's defaults: power 3, intensity 1, f0 0.020373.
+/// With the operator's default parameters: power 3, intensity 1, f0 0.020373.
 constexpr Model kModels[] = {
     {FresnelReflection::Reflectance::kRim, "rim", 3,
      [](Real c) { return std::pow(1 - c, Real(3)); }},
@@ -57,7 +57,7 @@ Worst reflectance(const HardWorld& world, const Model& model) {
   return worst;
 }
 
-/// How much of the picture's light is not accounted for: transmittance and reflectance in 0 ... 1.
+/// Violations of energy conservation: transmittance and reflectance must lie in 0 ... 1.
 Worst shares(const HardWorld& world) {
   Worst worst;
   for (const double incidence : kIncidence) {

@@ -6,9 +6,9 @@
 namespace limpid {
 namespace {
 
-constexpr Size kSize{40, 23};  // an odd number of rows: the middle one looks along the horizon
+constexpr Size kSize{40, 23};  // an odd number of rows: the middle row is the horizon
 
-/// A camera that looks level, `height` over the water; what stands there is a wall 3 away.
+/// A level camera, `height` over the water; a wall stands at a distance of 3.
 struct Waterline {
   Sea sea;
   HardFrame frame;
@@ -26,8 +26,8 @@ struct Waterline {
   }
 };
 
-/// A pixel is in the water where its ray begins there, at the near plane: exactly the lower half of
-/// the picture for an eye in the surface. The middle row lies in it, and is dry.
+/// A pixel begins in the water if its ray begins there, at the near plane: for an eye in the
+/// surface exactly the lower half of the picture. The middle row lies in the surface, and is dry.
 Worst eye_in_the_surface(const HardWorld& world) {
   Worst worst;
   const Waterline line(0);
@@ -46,7 +46,7 @@ Worst eye_in_the_surface(const HardWorld& world) {
   return worst;
 }
 
-/// Of the same picture, and of heights that are next to nothing.
+/// For the same picture, and for tiny heights.
 Worst at_the_surface(const HardWorld& world) {
   Worst worst;
   for (const double height : {0.0, 1e-30, -1e-30, 1e-7, -1e-7, 1e-3, -1e-3, 0.05, -0.05}) {
@@ -61,13 +61,13 @@ Worst below_the_surface(const HardWorld& world) {
   for (const double height : {-0.2, -10.0, -1e4}) {
     Waterline line(height);
     worst.add_counts(unsound_values(world, line.frame, line.scene));
-    line.frame.fill(PlaneId::kDepth, HUGE_VAL);  // and nothing anywhere
+    line.frame.fill(PlaneId::kDepth, HUGE_VAL);  // and no object
     worst.add_counts(unsound_values(world, line.frame, line.scene));
   }
   return worst;
 }
 
-/// From 1 below, looking up: beyond the critical angle the surface is a mirror, before it not.
+/// From 1 below, looking up: beyond the critical angle the surface is a mirror.
 Worst total_reflection(const HardWorld& world) {
   Worst worst;
   Sea sea{.size = {64, 37}, .height = -1, .down = -45, .fov = 70, .far = 100};
@@ -80,7 +80,7 @@ Worst total_reflection(const HardWorld& world) {
     for (int y = 0; y < sea.size.height; ++y) {
       for (int x = 0; x < sea.size.width; ++x) {
         const long double cosine = -sea.at(x, y).cosine;  // seen from below
-        // 6 roundings of the cosine and 4 of the index leave which side it is on open.
+        // Within 6 roundings of the cosine and 4 of the index, either side is right.
         if (cosine <= 0 || std::abs(cosine - critical) < 16 * kRounding) continue;
         const bool total = picture.aov(Aov::kFresnel, x, y) == 1;
         worst.expect(total == (cosine < critical),

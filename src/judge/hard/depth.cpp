@@ -10,7 +10,7 @@ namespace {
 
 using Real = long double;
 
-/// A depth buffer: what it stores, and between which planes.
+/// A depth buffer: its format and its planes.
 struct DepthBuffer {
   ClipSpace clip;
   int bits;  ///< of an integer; 32 is a float
@@ -20,10 +20,10 @@ struct DepthBuffer {
     return {
         .view = glm::dmat4(1.0), .projection = perspective(1, 1, near, far, clip), .clip = clip};
   }
-  /// 1 / z = 1 / near - slope w, with w = 0 at the near plane and 1 at the far one.
+  /// 1 / z = 1 / near - slope w, with w = 0 at the near plane and 1 at the far plane.
   Real slope() const { return 1 / Real(near) - 1 / Real(far); }
 
-  /// The buffer's own 0 ... 1 of an eye depth.
+  /// The buffer's 0 ... 1 for an eye depth.
   Real exact(Real z) const {
     const Real w = (1 / Real(near) - 1 / z) / slope();
     return clip == ClipSpace::kReversed ? (1 / z - 1 / Real(far)) / slope() : w;
@@ -34,30 +34,30 @@ struct DepthBuffer {
     return bits == 32 ? Real(static_cast<float>(w)) : std::round(w * steps()) / steps();
   }
   bool at_far(Real z) const { return stored(z) == (clip == ClipSpace::kReversed ? 0 : 1); }
-  /// What a plane holds.
+  /// The number stored in a plane.
   float device(Real z) const {
     const Real w = stored(z);
     return static_cast<float>(clip == ClipSpace::kGl ? 2 * w - 1 : w);
   }
-  /// How far 1 / z may be off: half a step of the buffer and the rounding of the plane, times the
-  /// slope; the rounding of the eye depth itself; the far plane, which reads as infinitely far.
+  /// Bound on the error of 1 / z: half a step of the buffer and the rounding of the plane, times
+  /// the slope; the rounding of the eye depth itself; the far plane, which means infinitely far.
   Real inverse_bound(Real z) const {
     const Real w = stored(z);
     const Real step = bits == 32 ? kRounding * w : Real(0.5) / steps();
     const Real plane = kRounding * (clip == ClipSpace::kGl ? std::abs(2 * w - 1) / 2
-                                    : bits == 32           ? 0  // stored as it is
+                                    : bits == 32           ? 0  // stored unchanged
                                                            : w);
     const Real arithmetic = 0x1p-50;
     return slope() * (step + plane + arithmetic) + kRounding / z + (at_far(z) ? 1 / Real(far) : 0);
   }
-  /// And z itself, where that is below 1 / z.
+  /// Bound on the error of z, if that of 1 / z is below 1 / z.
   Real depth_bound(Real z) const { return z * z * inverse_bound(z) / (1 - z * inverse_bound(z)); }
 };
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr struct { double near, far; } kPlanes[] = {{0.1, 1e3}, {0.1, 1e9}, {1e-3, kInf}};
 
-/// Through the way that planes are entered by.
+/// The eye depth after entry.
 Real entered(const DepthBuffer& buffer, Real z) {
   const Camera camera = buffer.camera();
   float value = buffer.device(z);
@@ -93,7 +93,7 @@ Worst eye_depth(ClipSpace clip, int bits) {
   return worst;
 }
 
-/// Of a bottom a third farther away than the surface, wherever the buffer resolves depth at all.
+/// For a bottom a third farther away than the surface, wherever the buffer resolves depth at all.
 Worst water_depth(ClipSpace clip, int bits) {
   Worst worst;
   for_each_depth(clip, bits, [&](const DepthBuffer& buffer, Real z) {
@@ -147,7 +147,7 @@ Worst other_kinds(const HardWorld&) {
   return worst;
 }
 
-/// The length of the way through the water, from planes that hold device depth.
+/// The length of the path through the water, from planes with device depth.
 Worst chain_path(const HardWorld& world) {
   Worst worst;
   Look look = calm_look(world);

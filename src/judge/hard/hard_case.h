@@ -11,13 +11,13 @@
 
 namespace limpid {
 
-/// Half an ulp of 1: the most that rounding to float is off, relatively.
+/// Half an ulp of 1: the largest relative error of rounding to float.
 inline constexpr double kRounding = 0x1p-24;
 
-/// The largest of what a case measures, and where it was. NaN counts as infinite.
+/// The largest measured value of a case, and its place. NaN counts as infinite.
 class Worst {
  public:
-  /// `where`, a callable, is asked only where the value is the largest yet.
+  /// `where`, a callable, is called only for a new maximum.
   template <class Where>
   void add(double value, Where&& where) {
     ++count_;
@@ -31,7 +31,7 @@ class Worst {
     if (value_ == 0) where_ = other.where_;
     value_ += other.value_;
   }
-  /// Things that must not be are counted. Not together with add().
+  /// Counts violations. Not together with add().
   template <class Where>
   void expect(bool holds, Where&& where) {
     ++count_;
@@ -58,11 +58,11 @@ struct HardCase {
 
 using HardCases = std::vector<HardCase>;
 
-/// Every value of every picture that a look and a runner make of a frame, counted where it is no
-/// number (in AOVs) or not finite (in the picture).
+/// Counts invalid values in all pictures of a frame by a look and a runner: NaN in AOVs, NaN or inf
+/// in the picture.
 Worst unsound_values(const HardWorld& world, const HardFrame& frame, const Scene& scene);
 
-/// One a file, in the order of the table.
+/// One function per file, in the order of the table.
 void add_depth_cases(HardCases& cases);
 void add_camera_cases(HardCases& cases);
 void add_angle_cases(HardCases& cases);
@@ -77,7 +77,7 @@ void add_time_cases(HardCases& cases);
 void add_lookup_cases(HardCases& cases);
 void add_size_cases(HardCases& cases);
 
-/// In all the order of the functions above.
+/// All cases, in the order of the functions above.
 HardCases hard_cases();
 
 }  // namespace limpid

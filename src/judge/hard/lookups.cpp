@@ -9,7 +9,7 @@
 namespace limpid {
 namespace {
 
-/// Offsets of a million pictures are refused where they are parameters: the ranges end at 10.
+/// Parameters refuse offsets of a million pictures: their ranges end at 10.
 Worst refused(const HardWorld& world) {
   Worst worst;
   const Sea sea{.size = {3, 3}};
@@ -39,7 +39,7 @@ Worst refused(const HardWorld& world) {
   return worst;
 }
 
-/// The largest offsets that there are lead off the picture from everywhere: to its edge.
+/// The largest allowed offsets leave the picture from everywhere: lookups are clamped to its edge.
 Worst clamped(const HardWorld& world) {
   Worst worst;
   const Sea sea{.size = {29, 17}};
@@ -70,8 +70,8 @@ Worst clamped(const HardWorld& world) {
   return worst;
 }
 
-/// A viewer who looks up sees water only beside him: rays into deep water come from behind him,
-/// through the plane of the eye, where a picture has no end.
+/// A viewer who looks up sees water only at the sides: rays into deep water come from behind the
+/// viewer, through the plane of the eye, where picture coordinates are infinite.
 struct Behind {
   Sea sea{.size = {41, 23}, .depth = 1000, .down = -50, .fov = 120};
   HardFrame frame{sea.frame()};
@@ -100,7 +100,7 @@ Worst behind_the_eye(const HardWorld& world) {
   return worst;
 }
 
-/// That case does what it says: the largest shift, in pictures, must be above a million.
+/// Checks the case itself: the largest shift, in pictures, must exceed a million.
 Worst reaches_far(const HardWorld& world) {
   Worst worst;
   const Behind behind;
@@ -121,7 +121,7 @@ Worst reaches_far(const HardWorld& world) {
   return worst;
 }
 
-/// Waves a million periods away, and in tiles a millionth as large as the picture's pixels.
+/// Waves a million periods away, and in tiles a millionth of a pixel wide.
 Worst tiles(const HardWorld& world) {
   Worst worst;
   for (const double height : {2.0, 2e6}) {

@@ -12,14 +12,14 @@ namespace {
 constexpr Size kSize{37, 21};
 using Float = std::numeric_limits<float>;
 
-/// Anywhere on the sphere; half of them face away from any viewer.
+/// Uniform on the sphere; half of the directions face away from any viewer.
 glm::dvec3 direction(int x, int y) {
   const double up = 2 * hard_noise(x, y, 110) - 1, turn = 6.28 * hard_noise(x, y, 111);
   const double level = std::sqrt(1 - up * up);
   return {level * std::cos(turn), up, level * std::sin(turn)};
 }
 
-/// A frame whose normals are of that length, entered as loaders do.
+/// A frame with normals of that length, entered like a loader's frame.
 HardFrame frame_of_length(float length) {
   HardFrame frame = noisy_frame(kSize);
   for (int c = 0; c < 3; ++c) {
@@ -67,7 +67,7 @@ Worst sound(const HardWorld& world) {
   return unsound_values(world, frame_of_length(1), noisy_scene(kSize));
 }
 
-/// Facets that face away from the viewer count as edge on, not as mirrors of more than all light.
+/// Facets that face away from the viewer count as edge on; their reflectance must not exceed 1.
 Worst shares(const HardWorld& world) {
   Worst worst;
   const HardFrame frame = frame_of_length(1);
@@ -86,7 +86,7 @@ Worst shares(const HardWorld& world) {
   return worst;
 }
 
-/// The view is level with the facet, exactly: all light is mirrored.
+/// The view is exactly level with the facet: all light is mirrored.
 Worst edge_on(const HardWorld& world) {
   Worst worst;
   using Reflectance = FresnelReflection::Reflectance;
@@ -108,7 +108,7 @@ Worst edge_on(const HardWorld& world) {
   return worst;
 }
 
-/// A sun under the horizon, before a viewer who looks its way.
+/// A sun below the horizon, in front of the viewer.
 Worst sun_below(const HardWorld& world) {
   Worst worst;
   const Sea sea{.down = 5};

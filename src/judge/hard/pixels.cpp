@@ -27,7 +27,8 @@ constexpr Kind kKinds[] = {
     {"-1e30", -1e30f},
 };
 
-/// A frame in all of whose planes every eighth texel or so is that value, entered as loaders do.
+/// A frame in all of whose planes about every eighth texel is that value, entered like a loader's
+/// frame.
 HardFrame littered(float value, const glm::dvec3& up) {
   HardFrame frame = noisy_frame(kSize);
   for (int i = 0; i < kPlaneCount; ++i) {
@@ -47,7 +48,7 @@ Worst sound(const HardWorld& world, float value) {
   return unsound_values(world, littered(value, scene.water->up), scene);
 }
 
-/// Every kind but those that entering replaces.
+/// Every value except those that entry replaces.
 Worst dry_bits(const HardWorld& world) {
   Worst worst;
   const Scene scene = noisy_scene(kSize);
@@ -73,13 +74,13 @@ Worst dry_bits(const HardWorld& world) {
   return worst;
 }
 
-/// Light is linear: a world 2^80 times as bright has the same bits but for the exponent.
+/// Light is linear: a world 2^80 times as bright has the same bits except the exponent.
 Worst brightness(const HardWorld& world) {
   Worst worst;
   const Scene scene = noisy_scene(kSize);
   HardFrame frame = noisy_frame(kSize), bright = noisy_frame(kSize);
   for (HardFrame* made : {&frame, &bright}) {
-    made->drop(PlaneId::kReflectionValid);  // the surroundings would stand in, as bright as ever
+    made->drop(PlaneId::kReflectionValid);  // the surroundings would replace it, as bright as ever
   }
   for (const PlaneId first :
        {PlaneId::kColorR, PlaneId::kReflectionR, PlaneId::kBelowR, PlaneId::kSunColorR}) {

@@ -8,7 +8,7 @@ namespace {
 
 using Real = long double;
 
-/// From grazing views to one straight down: cosines of 0 ... 1, so bases of 1 ... 0.
+/// From grazing views to straight down: cosines of 0 ... 1, so bases of 1 ... 0.
 const Sea kSea{.size = {7, 90}, .down = 89, .fov = 178, .far = 1e9};
 const Sea kStraightDown{.size = {9, 9}, .down = 90, .fov = 1};
 
@@ -24,7 +24,7 @@ Look look_of(const HardWorld& world, double power) {
 
 Sun sun_above() { return {{0, 1, 0}, {1, 1, 1}}; }
 
-/// 1 for every base, 0 (seen straight down) among them.
+/// 1 for every base, including 0 (seen straight down).
 Worst exponent_zero(const HardWorld& world) {
   Worst worst;
   const Look look = look_of(world, 0);
@@ -38,7 +38,7 @@ Worst exponent_zero(const HardWorld& world) {
         if (!picture.wet(4, y)) continue;
         const auto where = [&] { return place_text(runner, look.name, 4, y); };
         worst.add(std::abs(picture.aov(Aov::kFresnel, 4, y) - 1), where);
-        // Light from straight above, a lobe of 1; a fifth is let through by 1 - 0.2 1^0.
+        // Light from straight above, a lobe of 1; 1 - 0.2 1^0 of it remains: 0.8.
         worst.add(std::abs(picture.aov(Aov::kHighlight, 4, y) - 0.8), where);
       }
     }
@@ -64,7 +64,7 @@ Worst reflectance(const HardWorld& world) {
         const Real relative = 7 * kRounding * power / base + power * kRounding +
                               3e-7L * (2 + power * std::abs(std::log(base)));
         const Real bound = exact * relative + 0x1p-126L;
-        // Far down the first-order sum is no bound any more: there all is next to nothing.
+        // For large p the first-order sum is no bound any more: there all values are nearly 0.
         if (relative > Real(0.1)) {
           worst.add(picture.aov(Aov::kFresnel, 3, y) > 1e-30 ? HUGE_VAL : 0,
                     [&] { return place_text(runner, look.name, 3, y); });
@@ -78,8 +78,8 @@ Worst reflectance(const HardWorld& world) {
   return worst;
 }
 
-/// What the fused runner makes; the reference is in double and says what it is, and a GPU is as
-/// fast with them.
+/// Counts the fused runner's denormals; the reference is in double and judges, and a GPU is as fast
+/// with denormals.
 Worst denormals(const HardWorld& world) {
   Worst worst;
   const HardFrame frame = kSea.frame();

@@ -7,10 +7,10 @@
 namespace limpid {
 namespace {
 
-/// The same water in units that are 1 / scale as long: lengths grow, losses per length fall.
+/// The same water in units 1 / scale as long: lengths grow, losses per length fall.
 Look scaled(Look look, double scale) {
   DepthFog::Params& fog = look.of<DepthFog>();
-  fog.water_type = WaterType::kCustom;  // the types are per metre
+  fog.water_type = WaterType::kCustom;  // water types are per metre
   fog.density /= scale;
   fog.absorption = (1 / scale) * fog.absorption;
   fog.scattering = (1 / scale) * fog.scattering;
@@ -32,7 +32,7 @@ HardFrame scaled_noise(Size size, float scale) {
   HardFrame frame = noisy_frame(size);
   for (const PlaneId id :
        {PlaneId::kSurfaceNormalX, PlaneId::kSurfaceNormalY, PlaneId::kSurfaceNormalZ}) {
-    frame.drop(id);  // waves come from the map, whose tiles are long, too
+    frame.drop(id);  // waves come from the map, whose tile size is a length, too
   }
   for (const PlaneId id :
        {PlaneId::kDepth, PlaneId::kSurfaceDepth, PlaneId::kBelowDepth, PlaneId::kReflectionDepth}) {
@@ -44,7 +44,7 @@ HardFrame scaled_noise(Size size, float scale) {
   return frame;
 }
 
-/// Bit for bit: a power of two changes exponents alone.
+/// Bit for bit: a power of two changes only exponents.
 Worst powers_of_two(const HardWorld& world) {
   Worst worst;
   const Sea sea{.size = {37, 19}};
@@ -73,7 +73,7 @@ Worst powers_of_two(const HardWorld& world) {
   return worst;
 }
 
-/// On calm water, so that no lookup hangs on the last digit.
+/// On calm water, so that no lookup depends on the last digit.
 Worst powers_of_ten(const HardWorld& world) {
   Worst worst;
   const Sea sea;

@@ -9,13 +9,13 @@ namespace {
 
 constexpr long double kDegree = std::numbers::pi_v<long double> / 180;
 
-/// Where there is no plane of it, the surface is over / under: three roundings each and one of the
+/// Without a plane of the surface, its depth is over / under: three roundings each, and one of the
 /// quotient.
 constexpr double kSurfaceRoundings = 7;
 /// A height over the water is a sum of three numbers, each the product of a few rounded ones; the
-/// bottom's and the surface's take 24 and 6 roundings.
+/// heights of bottom and surface have 24 and 6 roundings.
 constexpr double kHeightRoundings = 30;
-/// And what becomes of it: the two cosines, the quotient.
+/// Later roundings: the two cosines, the quotient.
 constexpr double kPathRoundings = 10;
 /// The slope of the reflectance over the cosine is at most 6.3, at grazing angles; the cosine has 6
 /// roundings (to_viewer, its dot product), the formula 8.
@@ -31,7 +31,7 @@ long double sea_bound(const Sea& sea, const Sea::Pixel& p, SeaError what, long d
       break;
   }
   const long double refracted = refracted_cosine_of(p.cosine, ior);
-  // Of a turned world, heights are sums of coordinates as large as the way from the eye.
+  // In a turned world, heights are sums of coordinates as large as the distance from the eye.
   const long double summed =
       sea.height + sea.depth + sea.orthographic + (sea.turned ? p.bottom * p.length : 0);
   return kRounding * (kHeightRoundings * summed + kPathRoundings * sea.depth) / refracted;

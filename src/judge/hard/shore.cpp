@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-/// A beach that falls by 0.1 away from the viewer and dips under the water 4 units off.
+/// A beach that falls by 0.1 away from the viewer and enters the water at a distance of 4 units.
 struct Beach {
   Sea sea{.size = {61, 40}};
   HardFrame frame{sea.frame()};
@@ -29,7 +29,7 @@ struct Beach {
     const long double fall = p.fall - slope * p.forward;
     return fall > 0 ? (sea.height - slope * shore) / fall : kInf;
   }
-  /// Each depth up or down by 1 ulp, or as it was.
+  /// Each depth moved up or down by 1 ulp, or unchanged.
   HardFrame shaken() const {
     Beach other;
     const View<float> plane = other.frame.plane(PlaneId::kDepth);
@@ -93,7 +93,7 @@ Worst waterline(const HardWorld& world) {
   return worst;
 }
 
-/// In stripes, beside water that is 1 deep.
+/// In stripes, beside water of depth 1.
 Worst coincident(const HardWorld& world) {
   Worst worst;
   const Sea sea;
@@ -120,8 +120,8 @@ Worst coincident(const HardWorld& world) {
   return worst;
 }
 
-/// Without a plane of the surface, rounding says which pixels are wet; none has a way worth the
-/// name.
+/// Without a plane of the surface, rounding decides which pixels are wet; all their paths must be
+/// nearly 0.
 Worst nearly_coincident(const HardWorld& world) {
   Worst worst;
   const Sea sea{.depth = 0};
@@ -139,7 +139,7 @@ Worst nearly_coincident(const HardWorld& world) {
         for (int y = 0; y < sea.size.height; ++y) {
           for (int x = 0; x < sea.size.width; ++x) {
             const Sea::Pixel p = sea.at(x, y);
-            // In any of the measures of the way, straight or refracted.
+            // In any measure of the path, straight or refracted.
             const long double longest = p.length * p.surface * kRounding * (2 + 7 + 30);
             worst.add(double(picture.aov(Aov::kPath, x, y) / longest),
                       [&] { return place_text(runner, look.name, x, y); });

@@ -13,7 +13,7 @@ Worst sound(const HardWorld& world) {
   Worst worst;
   for (const Size size : kAwkward) {
     HardFrame frame = noisy_frame(size);
-    frame.plane(PlaneId::kDepth).at(0, 0) = 9;  // some water in the smallest, too
+    frame.plane(PlaneId::kDepth).at(0, 0) = 9;  // some water even in the smallest
     frame.plane(PlaneId::kSurfaceDepth).at(0, 0) = 4;
     worst.add_counts(unsound_values(world, frame, noisy_scene(size)));
   }
@@ -34,8 +34,8 @@ Worst closed_forms(const HardWorld& world) {
   return worst;
 }
 
-/// How many columns a lookup is off where it should be. Colors tell: red counts columns, from 0 to
-/// 255 and again; where it begins again nothing is told.
+/// Error of a lookup in columns. Colors identify columns: red counts them, from 0 to 255 and again;
+/// columns where it restarts are skipped.
 Worst lookups(const HardWorld& world) {
   Worst worst;
   constexpr int kPeriod = 256;
@@ -78,7 +78,7 @@ Worst lookups(const HardWorld& world) {
 
 Worst wide_sound(const HardWorld& world) {
   Worst worst;
-  // The looks all in one size would take seconds in double: the fused ones alone.
+  // All looks in one size would take seconds in double: fused runners only.
   const HardFrame frame = noisy_frame(kWide);
   const Scene scene = noisy_scene({32768, 18432});
   for (const Look& look : world.looks()) {

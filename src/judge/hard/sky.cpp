@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// Water with nothing under it, as far as the eye sees.
+/// Water without a bottom, up to the horizon.
 struct Abyss {
   Sea sea{.size = {16, 27}, .down = 15};
   HardFrame frame{sea.frame()};
@@ -27,13 +27,13 @@ Worst sound(const HardWorld& world) {
   return worst;
 }
 
-/// A look and the share of light that it lets through from infinitely far.
+/// A look and its transmittance for an endless path.
 struct Fog {
   DepthFog::Params params;
   double left;
 };
 
-/// Every distance of both models, in water that takes light and in water that takes none.
+/// Every distance of both models, in water that absorbs and in water that does not.
 std::vector<Fog> fogs() {
   std::vector<Fog> fogs;
   for (const auto distance :
@@ -47,7 +47,7 @@ std::vector<Fog> fogs() {
     add({.model = DepthFog::Model::kLinear, .density = 0, .alpha = 0.9}, 1);
     add({.model = DepthFog::Model::kLinear, .density = 1e-6, .alpha = 0.75}, 0.25);
     add({.model = DepthFog::Model::kLinear, .density = 0, .offset = 1e6, .alpha = 1}, 1);
-    // 0 x inf, were it a NaN, would be clamped to none of the fog that the offset makes.
+    // 0 x inf, if it were NaN, would be clamped to no fog, without the fog of the offset.
     add({.model = DepthFog::Model::kLinear, .density = 0, .offset = -1, .alpha = 0.75}, 0.25);
     add({.absorption = none, .scattering = none}, 1);
     add({.absorption = {1e-6, 1e-6, 1e-6}, .scattering = none}, 0);
@@ -78,7 +78,7 @@ Worst limits(const HardWorld& world) {
   return worst;
 }
 
-/// Surface and bottom both infinitely far: no water, whatever the difference is.
+/// Surface and bottom both infinitely far: no water, for any difference.
 Worst nothing_at_all(const HardWorld& world) {
   Worst worst;
   Abyss abyss;

@@ -11,10 +11,10 @@ namespace {
 
 using Real = long double;
 
-constexpr double kLate = 1e7;  // seconds: four months
+constexpr double kLate = 1e7;  // seconds: almost four months
 constexpr Real kTurn = 2 * std::numbers::pi_v<Real>;
 
-/// Across the view, along it, and slanting.
+/// Across the view, along it, and diagonal.
 const std::vector<SineWave> kWaves = {
     {0.05, 1.1, 0.3, 0.5, 3.19}, {0.02, -0.4, 2.3, 1.25, 4.78}, {0.01, 3.7, -1.9, 2.75, 6.38}};
 
@@ -27,7 +27,7 @@ Worst phases(const HardWorld&) {
       const Real turns = std::remainder(high / kTurn, Real(1)) + low / kTurn;
       const Real exact = wave.phase / kTurn - turns;
       const Real off = std::remainder(wave_offset(wave, time) / kTurn - exact, Real(1));
-      // Half an ulp of omega t; 2 pi in double is off by 2.5e-16, as often as there are turns.
+      // Half an ulp of omega t; 2 pi in double has an error of 2.5e-16, once per turn.
       const Real bound =
           std::abs(high) * (0x1p-53L / kTurn + 2.5e-16L / (kTurn * kTurn)) + 4 * 0x1p-53L;
       worst.add(double(std::abs(off) / bound), [&] { return std::to_string(time) + " s"; });
@@ -43,7 +43,7 @@ Worst waves(const HardWorld& world) {
   const HardFrame frame = sea.frame();
   Scene scene = sea.scene();
   scene.water->waves = kWaves;
-  scene.time = kLate + 1.0 / 3;  // of which no multiple is a float
+  scene.time = kLate + 1.0 / 3;  // a time whose multiples are never exact floats
   Look look = calm_look(world);
   look.of<WaveNormals>().model = WaveNormals::Model::kSines;
   look.of<WaveNormals>().strength = 1;
@@ -77,9 +77,10 @@ Worst waves(const HardWorld& world) {
   return worst;
 }
 
-/// Maps drift by whole periods in 16 s, and 1e7 s is 625000 times that: the picture is that of 0 s,
-/// bit for bit. So is that of two flows, though the second goes at 0.3 of the speed: 0.3 in double
-/// is 1.2e-17 too small, 625000 times that is 7e-12, and less than half an ulp of 187500 (1.5e-11).
+/// Maps drift by whole periods in 16 s, and 1e7 s is 625000 times that: the picture equals that of
+/// 0 s, bit for bit. So does that of two flows, although the second drifts at 0.3 of the speed: 0.3
+/// in double is 1.2e-17 too small, 625000 times that is 7e-12, and less than half an ulp of 187500
+/// (1.5e-11).
 Worst drift(const HardWorld& world) {
   Worst worst;
   const Size size{39, 21};

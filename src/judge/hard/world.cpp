@@ -164,7 +164,7 @@ Look calm_look(const HardWorld& world) {
   look.of<WaveNormals>().filter = WaveNormals::Filter::kNone;
   look.of<FresnelReflection>().source = FresnelReflection::Source::kConstant;
   look.of<FresnelReflection>().facets = FresnelReflection::Facets::kMean;
-  // A fitted plane is as exact as what it is fitted to, not as the formulas.
+  // A fitted plane is as exact as its input, not as the formulas.
   look.of<Refraction>().off_frame = Refraction::OffFrame::kShorten;
   return look;
 }

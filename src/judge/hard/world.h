@@ -14,7 +14,7 @@
 
 namespace limpid {
 
-/// A number in 0 ... 1 from a place, the same on every machine.
+/// A hash of a place in 0 ... 1, the same on every machine.
 float hard_noise(int x, int y, int channel);
 
 /// A frame that owns its planes.
@@ -23,7 +23,7 @@ class HardFrame {
   HardFrame() = default;
   explicit HardFrame(Rect display) { frame_.display = display; }
 
-  /// Makes a plane of the display window from a function of the pixel.
+  /// Makes a plane of the display window by a function of the pixel.
   template <class Fn>
   void set(PlaneId id, Fn&& value) {
     Plane& plane = add(id);
@@ -44,7 +44,7 @@ class HardFrame {
     planes_[index_of(id)] = {};
     frame_.planes[index_of(id)] = {};
   }
-  /// Enters all planes as loaders do.
+  /// Enters all planes like a loader.
   void sanitise(const glm::dvec3& up);
 
   View<float> plane(PlaneId id) { return planes_[index_of(id)].view(); }
@@ -69,9 +69,9 @@ class HardPicture {
     return target.of(which)[channel].at(x, y);
   }
   bool wet(int x, int y) const { return !std::isinf(aov(Aov::kSurfaceDepth, x, y)); }
-  /// Surface or not: the way through it is longer than 0 somewhere.
+  /// Whether any path through the water is longer than 0.
   bool has_water() const;
-  /// fn(value, x, y, whether it is of an AOV)
+  /// fn(value, x, y, whether it belongs to an AOV)
   template <class Fn>
   void for_each_value(Fn&& fn) const {
     constexpr std::size_t kPicture = 4;
@@ -93,17 +93,17 @@ class HardPicture {
   std::vector<Plane> planes_;
 };
 
-/// What the cases share: the looks of a data folder, made-up maps, and all ways to run a chain.
+/// Shared by the cases: the looks of a data folder, synthetic maps, and all runners.
 class HardWorld {
  public:
   HardWorld(const std::filesystem::path& data, int threads, const GpuOptions* gpu);
 
   const std::vector<Look>& looks() const { return looks_; }
-  /// Throws Error for a name that is not there.
+  /// Throws Error for an unknown name.
   const Look& look(const std::string& name) const;
   /// "reference", then the instruction sets of the fused runner, then "gpu", if there is one.
   const std::vector<std::string>& runners() const { return runners_; }
-  /// Maps of the frame that it lacks are the made-up ones.
+  /// Synthetic maps replace missing ones of the frame.
   HardPicture run(const std::string& runner, const Look& look, const HardFrame& frame,
                   const Scene& scene) const;
 
@@ -115,16 +115,16 @@ class HardWorld {
   std::unique_ptr<GpuRunner> gpu_;
 };
 
-/// Every plane of a frame, made of noise: wavy normals, a bottom that rises through the surface in
-/// places, things before it, some sky.
+/// A frame with every plane, made of noise: wavy normals, a bottom that rises through the surface
+/// in places, objects in front of it, some sky.
 HardFrame noisy_frame(Size size);
-/// A camera 2 above the water that looks down by 30 degrees, and a low sun.
+/// A camera 2 above the water, looking down by 30 degrees, and a low sun.
 Scene noisy_scene(Size size);
 
-/// "avx2, fast, pixel 3 4": where a value was.
+/// "avx2, fast, pixel 3 4": the place of a value.
 std::string place_text(const std::string& runner, const std::string& look, int x, int y);
 
-/// The look physical on calm water that mirrors nothing, in one color: what closed forms are of.
+/// The look physical on calm water without reflection, in one color: closed forms exist for it.
 Look calm_look(const HardWorld& world);
 
 }  // namespace limpid

@@ -27,7 +27,7 @@ struct Squares {
 
 double square(Vec2<double> v) { return v.x * v.x + v.y * v.y; }
 
-/// Downhill, of the texel after the last one as of the first.
+/// Downhill slope between texels; the map wraps around.
 Vec2<double> slope_at(const Texture& map, int x, int y) {
   const Rect& w = map.channels[0].window;
   const auto value = [&](int c) {

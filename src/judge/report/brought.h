@@ -9,24 +9,24 @@
 
 namespace limpid {
 
-/// What one brings after what one has.
+/// Buffers of a plate, as steps: each adds to those before.
 struct Brought {
   PlaneSet added, all;
 };
-/// Color and depth; the shadow; a reflection; its depth and validity; the surface and what lies
-/// below it. Of these the ones that a plate with such planes has.
+/// Color and depth; the shadow; a reflection; its depth and validity; the surface and the layer
+/// below it. Only steps that a plate with these planes has.
 std::vector<Brought> brought_one_by_one(PlaneSet planes);
 
-/// How long waves are, in scene units: 2 pi sqrt(mean square slope / mean square curvature), which
-/// of one sine is its wave length. NaN for calm water.
+/// Length of waves, in scene units: 2 pi sqrt(mean square slope / mean square curvature), for a
+/// single sine its wavelength. NaN for calm water.
 double wave_length(std::span<const SineWave> waves);
 /// Of a tiling normal map, one period every `tile_size` units.
 double wave_length(const Texture& map, double tile_size);
 
 enum class Place : std::uint8_t { kDry, kNear, kFar };
-/// Of each pixel of frame.work(), row by row: a wet one is near where the longer side of its
-/// footprint on the calm water is shorter than `near` (NaN: any is), and where a view in the water
-/// does not meet it.
+/// For each pixel of frame.work(), row by row: a wet pixel is near if the longer side of its
+/// footprint on the calm water is shorter than `near` (NaN: always), and if a view in the water
+/// does not meet the surface.
 std::vector<Place> places_of(const Scene& scene, const Frame& frame, double near,
                              const std::function<bool(int x, int y)>& wet);
 

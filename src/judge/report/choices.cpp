@@ -5,8 +5,8 @@
 namespace limpid {
 namespace {
 
-/// Choices that are no models of one thing: which water it is, where normals come from, and an
-/// article's blend that stands for nothing physical.
+/// Parameters that are no alternative models of one effect: the type of water, the source of
+/// normals, and an article's blend without a physical meaning.
 bool is_model(const Parameter& p) {
   if (p.kind != FieldKind::kChoice && p.kind != FieldKind::kCountOrWord) return false;
   return p.table != WaveNormals::kName && p.table != Penetration::kName && p.name != "water_type";
@@ -36,7 +36,7 @@ std::vector<Choice> choices_of(const Look& look) {
       if (value != p.value) add(p.table, p.name, value);
     }
   }
-  // What is left out by a number.
+  // Effects that a number turns off.
   add(PrismSplit::kName, "gain", 0.0);
   add(WaterShadow::kName, "strength", 0.0);
   add(SunHighlight::kName, "strength", 0.0);

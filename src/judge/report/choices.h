@@ -12,8 +12,8 @@ struct Choice {
   Look look;
 };
 
-/// Every other model that each operator of a look has, and what can be left out by a number: all
-/// that is a way to compute the same water.
+/// All alternatives for computing the same water: every other model of each operator of a look, and
+/// effects turned off by a number.
 std::vector<Choice> choices_of(const Look& look);
 
 }  // namespace limpid

@@ -5,7 +5,7 @@
 namespace limpid {
 namespace {
 
-/// The words that say which model an operator runs, beside those of another look.
+/// The words for an operator's model, compared with another look.
 std::string other_words(const Plan& plan, const Plan& judge, std::string_view table) {
   const std::vector<Parameter> ours = parameters(plan.look), theirs = parameters(judge.look);
   std::vector<std::string> words;

@@ -6,7 +6,7 @@
 
 namespace limpid {
 
-/// A phrase an operator that one plan has and the other not, or by another model.
+/// A phrase for each operator that only one of the plans has, or that has different models.
 std::vector<std::string> differences(const Plan& plan, const Plan& judge);
 
 }  // namespace limpid

@@ -9,7 +9,7 @@ namespace limpid {
 namespace {
 
 std::uint8_t byte_of(float value) {
-  // Written so that NaN, which is not above 0, becomes 0.
+  // NaN, which is not above 0, becomes 0.
   return value > 0 ? static_cast<std::uint8_t>(value < 1 ? 255 * value + 0.5f : 255) : 0;
 }
 

@@ -5,7 +5,7 @@
 
 #include "judge/report/report.h"
 
-/// What the JSON of all reports has in common.
+/// JSON shared by all reports.
 
 namespace limpid {
 
@@ -15,10 +15,10 @@ Json json_of(const PixelError& error);
 Json json_of(const ReportMachine& machine);
 Json json_of(const ReportBuild& build);
 
-/// What the colors of heat maps mean: from 10^-decades to 1, evenly spaced, of 255.
+/// The scale of heat maps: from 10^-decades to 1, logarithmic, over 255 colors.
 Json heat_scale();
 
-/// As a file has it; text that is no UTF-8, as names of files may be, is mended.
+/// The text of a file; invalid UTF-8, as in names of files, is replaced.
 std::string text_of(const Json& json);
 
 }  // namespace limpid

@@ -52,7 +52,7 @@ Look Lagoon::with_its_water(Look look) {
   fog.scattering = fog.ambient = {0, 0, 0};
   fog.sunlight = DepthFog::Sunlight::kStraight;
   fog.crossing = DepthFog::Crossing::kNone;
-  look.of<Caustics>().strength = 0;       // Cycles' water lets sunlight through straight
+  look.of<Caustics>().strength = 0;       // Cycles' water transmits sunlight straight
   look.of<SunHighlight>().roughness = 0;  // the sea mirrors the sun's disc
   return look;
 }
@@ -85,7 +85,7 @@ std::vector<SineWave> Lagoon::waves() {
 std::vector<Lagoon::Refracted> Lagoon::ways_to_refract() {
   using Rejection = Refraction::Rejection;
   Look none = truth_look();
-  // The normals are calm: normal_offset shifts nothing, whatever its strength.
+  // The normals are calm: normal_offset shifts by 0, at any strength.
   none.of<Refraction>().model = Refraction::Model::kNormalOffset;
   none.of<Refraction>().strength = 0;
   std::vector<Refracted> ways{{"no refraction", none}};

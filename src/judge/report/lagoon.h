@@ -14,16 +14,16 @@
 
 namespace limpid {
 
-/// How far a picture is from the truth: mean |picture - truth| over mean truth, of red, green and
+/// Error of a picture against the truth: mean |picture - truth| over mean truth, of red, green and
 /// blue together, larger values counted as Lagoon::kBrightest (glints reach 3700).
 struct TruthError {
   double wet = 0;       ///< over all wet pixels
-  double in_frame = 0;  ///< over those whose bottom the dry picture shows
+  double in_frame = 0;  ///< over wet pixels whose bottom the dry picture shows
 };
 
-/// The plate lagoon with calm water, and the path-traced picture of it to judge by. A wet pixel is
-/// `in frame` where the look of truth_look() finds the bottom: what the others see lies outside the
-/// dry picture, and any error there is one of guessing.
+/// The plate lagoon with calm water, and its path-traced picture as the truth. A wet pixel is `in
+/// frame` if the look of truth_look() finds the bottom: other pixels see a bottom outside of the
+/// dry picture, where any error is one of guessing.
 class Lagoon {
  public:
   static constexpr double kBrightest = 4;
@@ -31,20 +31,20 @@ class Lagoon {
   /// `folder` is data/plates/lagoon. Throws Error as Plate does.
   explicit Lagoon(const std::filesystem::path& folder);
 
-  /// The look with the water as the truth has it (see the README of the plate).
+  /// The look with the water of the truth (see the README of the plate).
   static Look with_its_water(Look look);
-  /// That water, marched, rejection shorten.
+  /// The look with that water, march and rejection shorten.
   static Look truth_look();
   /// The waves of the plate's normals and of `truth_waves` (see the README of the plate), which do
   /// not move.
   static std::vector<SineWave> waves();
 
-  /// A way to refract, everything else being as in truth_look().
+  /// A model of refraction, otherwise truth_look().
   struct Refracted {
     std::string name;
     Look look;
   };
-  /// None at all, then each number of steps with each rejection.
+  /// No refraction, then each number of steps with each rejection.
   static std::vector<Refracted> ways_to_refract();
 
   Rect window() const { return plate_.frame.work(); }

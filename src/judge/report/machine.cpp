@@ -14,8 +14,8 @@
 namespace limpid {
 namespace {
 
-/// What stands behind the first `key` of a text file, blanks and quotes around it taken away; ""
-/// where the file or the key is not there.
+/// The text after the first `key` of a text file, without blanks and quotes around it; "" if there
+/// is no file or key.
 std::string entry(const char* file, std::string_view key, char separator) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {

@@ -1,4 +1,4 @@
-// Looks by what one brings, beside pictures with the water and its waves.
+// Looks by the buffers of a plate, against pictures with the water and its waves.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@
 namespace limpid {
 namespace {
 
-/// For Subject::of_plate(): every pixel is taken.
+/// For Subject::of_plate(): takes every pixel.
 constexpr Size kWhole{kMaxReportSide, kMaxReportSide};
 
 /// Times that a triangle of the water is parted into four. Of the scenes' own grids those of the
@@ -33,7 +33,7 @@ double length_of_waves(const Scene& scene, const Look& look, const Frame& frame)
   return wave_length(frame.wave_map, look.of<WaveNormals>().tile_size);
 }
 
-/// A plate, the picture of it with water, and where that is to be judged.
+/// A plate, its picture with water, and the pixels to judge.
 struct Known {
   explicit Known(Subject plate) : subject(std::move(plate)) {}
 
@@ -60,7 +60,7 @@ struct Sum {
   double error() const { return truth > 0 ? off / truth : std::nan(""); }
 };
 
-/// The waves of a scene, where it has some, are those of the truth.
+/// The waves of a scene, if it has some, are those of the truth.
 Look with_waves_of(const Scene& scene, Look look) {
   if (!scene.has_waves()) return look;
   look.of<WaveNormals>().model = WaveNormals::Model::kSines;
@@ -70,7 +70,7 @@ Look with_waves_of(const Scene& scene, Look look) {
 
 class ByBrought {
  public:
-  /// Looks whose water is that of the truth.
+  /// Looks with the water of the truth.
   ByBrought(const Measuring& m, Known& known, std::vector<Look> looks)
       : m_(m), known_(known), looks_(std::move(looks)), picture_(known.subject.window()) {}
 
@@ -159,7 +159,7 @@ class ByBrought {
                                           wet / known_.subject.pixels(), near / wet});
     for (const Run& run : runs_) {
       const BroughtRow& row = run.row;
-      m_.say(row.subject + " by what is brought, " + row.look + ", " +
+      m_.say(row.subject + " by buffers, " + row.look + ", " +
              (run.step.added == run.step.all ? "" : "and ") + row.brought + ": " +
              short_number(row.ns_per_pixel) + " ns/pixel, error " + short_number(row.wet) +
              ", near " + short_number(row.near) + ", far " + short_number(row.far) + ", FLIP " +

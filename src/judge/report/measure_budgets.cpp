@@ -18,8 +18,8 @@ struct Variant {
   Look look;
 };
 
-/// The judge of all looks; and a look whose lookups reach so little and whose fog is so dense that
-/// cells can be told to hide their bottom.
+/// The standard look; and a look with lookups so short and fog so dense that the survey can find
+/// cells with a hidden bottom.
 std::vector<Variant> waters_of(const Measuring& m) {
   const auto at = std::find_if(m.looks.begin(), m.looks.end(),
                                [](const Look& look) { return look.name == "realistic"; });
@@ -32,14 +32,14 @@ std::vector<Variant> waters_of(const Measuring& m) {
   return waters;
 }
 
-/// One way to run it, and the row that tells of it.
+/// A run with a budget, and its row.
 struct Budget {
   Plan plan;
   Frame frame;
   BudgetRow row;
 };
 
-/// What the planner promises of this frame.
+/// The planner's promise for this frame.
 void survey(const Budget& budget, const Subject& subject, const Measuring& m, BudgetRow& row) {
   const Pass pass(subject.scene(), budget.frame, budget.plan.look.water.ior, budget.plan.made);
   Survey survey;

@@ -12,7 +12,7 @@
 namespace limpid {
 namespace {
 
-/// A look on a subject, in all ways to run it.
+/// A look on a subject, by all runners.
 struct LookRun {
   const Look& look;
   Plan plan;
@@ -58,7 +58,7 @@ class Looks {
     m_.report.runners.push_back(std::move(row));
   }
 
-  /// So slow that what else the machine does hardly shows: two rounds will do.
+  /// It is so slow that other load hardly matters: two rounds are enough.
   void time_reference() {
     std::vector<Timed> timed;
     for (LookRun& run : runs_) {
@@ -90,7 +90,7 @@ class Looks {
                     {.simd = simd});
         }};
         if (threads > 1) work.clock = Clock::kWall;
-        work.run();  // for its error, and to warm up
+        work.run();  // for its error, and as warm-up
         rows.push_back({subject_.facts().name, run.look.name, "fused", simd, threads,
                         m_.options.rounds, 0, error_of(scratch, run.exact, false)});
         timed.push_back(std::move(work));
@@ -107,11 +107,11 @@ class Looks {
     }
   }
 
-  /// From memory to memory; what is made before is made on all threads.
+  /// From memory to memory; completers run on all threads.
   void time_gpu() {
     if (!m_.gpu) return;
     Picture scratch(subject_.window());
-    std::list<GpuRunner> runners;  // each keeps what its look needs
+    std::list<GpuRunner> runners;  // each keeps the data of its look
     std::vector<RunnerRow> rows;
     std::vector<Timed> timed;
     for (LookRun& run : runs_) {
@@ -178,7 +178,8 @@ class Looks {
       const std::string& name = run.look.name;
       m_.report.look_figures.push_back(figure_of(name, name, run.fused.color()));
       if (&run == &physical()) continue;
-      m_.report.look_errors.push_back(heat_figure_of(name, name + " beside " + m_.physical.name,
+      m_.report.look_errors.push_back(heat_figure_of(name,
+                                                     name + ", difference from " + m_.physical.name,
                                                      run.fused.color(), physical().fused.color()));
     }
   }

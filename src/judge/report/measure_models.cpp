@@ -12,9 +12,9 @@
 namespace limpid {
 namespace {
 
-// ---- refraction beside the truth
+// ---- refraction against the truth
 
-/// The ways whose picture the page shows.
+/// The models whose picture the page shows.
 constexpr std::array<std::string_view, 4> kShown = {
     "no refraction", "snell steps 0, snap", "snell steps 2, shorten", "snell march, shorten"};
 
@@ -22,7 +22,7 @@ void draw_truth(const Measuring& m, const Lagoon& lagoon, const std::string& way
                 const Picture& picture) {
   if (std::find(kShown.begin(), kShown.end(), way) == kShown.end()) return;
   m.report.truth_errors.push_back(
-      heat_figure_of(way, way + " beside the truth", picture.color(), lagoon.truth()));
+      heat_figure_of(way, way + ", difference from the truth", picture.color(), lagoon.truth()));
   if (way == kShown.back()) {
     m.report.truth_figures.push_back(figure_of(way, way, picture.color()));
   }
@@ -62,7 +62,7 @@ void measure_truth(const Measuring& m) {
   }
 }
 
-// ---- choices of the look physical
+// ---- variants of the look physical
 
 void measure_choices(const Measuring& m, Subject& subject) {
   std::vector<Choice> list = choices_of(m.physical);
@@ -91,7 +91,7 @@ void measure_choices(const Measuring& m, Subject& subject) {
     ChoiceRow& row = rows[i];
     row.ns_per_pixel = 1e9 * timed[i].best_seconds / subject.pixels();
     m.say(subject.facts().name + ", " +
-          (i == 0 ? m.physical.name + " as it is" : row.parameter + " = " + row.value) + ": " +
+          (i == 0 ? m.physical.name + " unchanged" : row.parameter + " = " + row.value) + ": " +
           costs_text(row.ns_per_pixel, row.error));
     m.report.choices.push_back(row);
   }

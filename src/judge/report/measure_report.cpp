@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Has waves, a shore, and things that stand in the water.
+/// Has waves, a shore, and objects that stand in the water.
 constexpr const char* kChoicesScene = "lagoon_shore";
 
 std::vector<fs::path> files_in(const fs::path& folder, bool below) {
@@ -34,7 +34,7 @@ std::vector<fs::path> files_in(const fs::path& folder, bool below) {
   return files;
 }
 
-/// The judge first, then by name.
+/// The standard first, then by name.
 std::vector<Look> looks_of(const fs::path& data, const Look& judge) {
   std::vector<Look> looks{judge};
   for (const fs::path& file : files_in(data / "looks", false)) {
@@ -44,7 +44,7 @@ std::vector<Look> looks_of(const fs::path& data, const Look& judge) {
   return looks;
 }
 
-/// The one that is named; else a GPU, if there is one.
+/// The named GPU; else any GPU, if there is one.
 std::optional<GpuOptions> gpu_of(const ReportOptions& options) {
   const GpuOptions chosen{.device = options.gpu};
   if (!options.gpu.empty()) return chosen;
@@ -104,7 +104,7 @@ Report measure_report(const ReportOptions& options) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.threads == 0 ? cores : std::min(options.threads, cores);
   const std::optional<GpuOptions> gpu = gpu_of(options);
-  std::optional<GpuRunner> holder;  // of the device, from subject to subject
+  std::optional<GpuRunner> holder;  // keeps the device open between subjects
   if (gpu) holder.emplace(*gpu);
   Report report;
   const Look physical = load_look(options.data / "looks" / "physical.toml");

@@ -1,4 +1,4 @@
-// Looks, and choices of the look physical, beside ray-traced truth.
+// Looks, and variants of the look physical, against ray-traced truth.
 #include <algorithm>
 #include <span>
 
@@ -33,7 +33,7 @@ std::vector<ComparedChannel> channels_of(const ColorViews& a, const ColorViews& 
   return {{"R", a[0], b[0]}, {"G", a[1], b[1]}, {"B", a[2], b[2]}};
 }
 
-/// A picture with where its lookups went.
+/// A picture with the places of its lookups.
 struct Traced {
   Picture picture;
   std::vector<Plane> planes;
@@ -48,7 +48,7 @@ struct Traced {
   }
 };
 
-/// A scene at one time: what the chain gets, and what it should make of it.
+/// A scene at one time: the chain's input, and its truth.
 struct Moment {
   Subject subject;
   TruthPicture truth;
@@ -90,7 +90,7 @@ class Beside {
     for (std::size_t i = 0; i < rows_.size(); ++i) judge(looks_[i], rows_[i]);
     time();
     for (ModelRow& row : rows_) {
-      m_.say(row.subject + " beside its truth, " +
+      m_.say(row.subject + " against its truth, " +
              (row.parameter.empty() ? row.look : row.parameter + " = " + row.value) + ": " +
              costs_text(row.ns_per_pixel, row.error) + ", FLIP " + short_number(row.flip) +
              ", lookups off by " + short_number(row.offset_median) + " pixels");
@@ -132,7 +132,7 @@ class Beside {
     row.wrongly_accepted = offset.wrongly_accepted;
   }
 
-  /// What a lookup can find is in the picture of what lies below the water, where there is one.
+  /// Lookups read the layer below the water, if there is one.
   OffsetErrors offset_of(const Traced& traced) const {
     const Target& ours = traced.picture.target;
     OffsetPictures pictures;
@@ -172,7 +172,7 @@ class Beside {
     const std::string& name = now_.subject.facts().name;
     const ColorViews truth = color_of(now_.truth.target);
     m_.report.model_figures.push_back(figure_of(name, name + ", traced", truth));
-    m_.report.model_errors.push_back(heat_figure_of(name, m_.physical.name + " beside it",
+    m_.report.model_errors.push_back(heat_figure_of(name, m_.physical.name + ", difference",
                                                     run(now_, m_.physical).picture.color(), truth));
   }
 

@@ -26,7 +26,7 @@ std::string short_number(double value) {
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits);
     return std::string(text.data(), end.ptr);
   };
-  // Of the number as it will be rounded: 999.6 has four digits before the point.
+  // For the number after rounding: 999.6 has four digits before the point.
   const std::string scientific = written(std::chars_format::scientific, 2);
   const std::size_t e = scientific.find('e');
   const int power = std::stoi(scientific.substr(e + 1));

@@ -1,15 +1,15 @@
 #pragma once
 #include <string>
 
-/// Numbers as lines of progress have them, and as the script of the pages writes them, too.
+/// Numbers in progress lines, in the same format as the script of the pages.
 
 namespace limpid {
 
-/// A number to read: three digits, as a decimal from 0.001 to 99999, else as 5.9·10⁻⁷. "∞" and "-"
-/// for what is none.
+/// A short number: three digits, as a decimal from 0.001 to 99999, else as 5.9·10⁻⁷. "∞" and "-"
+/// for infinity and NaN.
 std::string short_number(double value);
 
-/// A number as it was written by hand: as many digits as it takes, no power of ten.
+/// The shortest decimal that reads back as the number, without a power of ten.
 std::string plain_number(double value);
 
 }  // namespace limpid

@@ -10,7 +10,7 @@ namespace {
 
 #include "judge/report/pages.inc"  // kReportPage, kHardPage and kShotPage, made by the build of the folder page
 
-/// JSON that cannot end its <script>, and is XML, too.
+/// JSON that cannot end its <script>, and is valid in XML, too.
 std::string without_markup(std::string_view json) {
   std::string text;
   for (char c : json) {

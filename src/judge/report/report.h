@@ -11,42 +11,40 @@ namespace limpid {
 
 inline constexpr int kLeastReportSide = 16, kMaxReportSide = 8192, kMaxRounds = 1000;
 
-/// What `limpid report` is to measure: the looks, scenes and plates of a data folder.
+/// Inputs of `limpid report`: the looks, scenes and plates of a data folder.
 struct ReportOptions {
-  std::filesystem::path data;  ///< has looks, scenes, plates and maps
-  /// Of rendered scenes. Of plates every n-th pixel is taken, n the largest that divides their size
-  /// and leaves twice as many across and down; the truth plate is taken whole.
+  std::filesystem::path data;  ///< with looks, scenes, plates and maps
+  /// Of rendered scenes. Of plates every n-th pixel is taken, with the largest n that divides their
+  /// size and leaves at least twice this size; the truth plate is taken whole.
   Size size{480, 270};
-  /// Timed runs go over all rows in turn; the best counts. The reference gets two at most.
+  /// Timed runs visit all rows in turn; the best counts. The reference gets at most two.
   int rounds = 5;
-  int threads = 0;  ///< of the rows that are not run on one; 0: one a core
-  /// A GPU that is measured, too: a part of its name; "" for the first that is not software, if
-  /// there is one.
+  int threads = 0;  ///< of the rows that run on several; 0: one per core
+  /// A GPU to be measured, too: a part of its name; "" for the first hardware GPU, if there is one.
   std::string gpu = {};
-  /// Told one line a measurement; may be empty.
+  /// Called with one line per measurement; may be empty.
   std::function<void(const std::string&)> progress = {};
 
-  /// Throws Error of Fault::kUsage for a size or a number of rounds that means nothing.
+  /// Throws Error of Fault::kUsage for an invalid size or number of rounds.
   void validate() const;
 };
 
-/// How far a picture is from the one that judges it: |picture - judge| over all values of red,
-/// green and blue, scene-linear, white = 1.
+/// Error of a picture: |picture - judge| over all values of red, green and blue, scene-linear,
+/// white = 1.
 struct PixelError {
   double mean = 0, p99 = 0, p99_99 = 0, max = 0;
 };
 
-/// A plate or a scene that water is put into.
+/// A plate or a scene to be composited with water.
 struct ReportSubject {
   std::string name, kind, file;  ///< kind: "plate" or "scene"
   Size size;
-  double wet_share = 0;  ///< of all pixels, that the look physical changes
+  double wet_share = 0;  ///< share of all pixels that the look physical changes
 };
 
 /// A look by a runner; judged by the same look in double.
 struct RunnerRow {
-  /// simd: "" for the reference, the device for the one on a GPU, whose time is from memory to
-  /// memory.
+  /// simd: "" for the reference; for a GPU the device, with the time from memory to memory.
   std::string subject, look, runner, simd;
   int threads = 1, rounds = 1;
   double ns_per_pixel = 0;
@@ -58,34 +56,34 @@ struct LookRow {
   std::string subject, look;
   double ns_per_pixel = 0;
   PixelError error;
-  std::vector<std::string> differs;  ///< what it leaves out or does by another model
+  std::vector<std::string> differs;  ///< operators that it leaves out or runs with another model
 };
 
-/// A way to refract; judged by a path-traced picture (lagoon.h).
+/// A model of refraction; judged by a path-traced picture (lagoon.h).
 struct TruthRow {
   std::string choice;
-  double ns_per_pixel = 0;  ///< 0 for the dry picture, which is not computed
+  double ns_per_pixel = 0;  ///< 0 for the dry picture
   double wet = 0, in_frame = 0;
 };
 
-/// A look on a scene, or the look `physical` there with one parameter changed; judged by the light
-/// that would really arrive, traced (judge/trace/truth.h) through the scene with the water of
-/// `physical`, one sample a pixel as in the chain. Values above 4 count as 4, but for HDR-FLIP.
+/// A look on a scene, or the look `physical` there with one parameter changed; judged by
+/// path-traced light (judge/trace/truth.h) through the scene with the water of `physical`, one
+/// sample per pixel as in the chain. Values above 4 count as 4, except for HDR-FLIP.
 struct ModelRow {
   std::string subject, look;
-  std::string parameter, value;  ///< both "" for a look as it is
+  std::string parameter, value;  ///< both "" for an unchanged look
   double ns_per_pixel = 0;
   PixelError error;
   double rmse = 0, rel_mse = 0, ssim = 0, flip = 0, hdr_flip = 0;
-  double flicker = 0;  ///< mean change to the next of 24 frames a second beyond the truth's own
-  /// Of lookups of wet pixels (judge/compare/offset.h).
+  double flicker = 0;  ///< mean error of the change to the next of 24 frames per second
+  /// For lookups of wet pixels (judge/compare/offset.h).
   double offset_median = 0, offset_p95 = 0;  ///< pixels
   double wrongly_rejected = 0, wrongly_accepted = 0;
 };
 
-/// A plate or a scene whose picture with water is known, waves and all: path-traced, or traced
-/// through the scene (judge/trace/truth.h) with kBroughtSamples squared samples a pixel. A wet
-/// pixel is near where its footprint on the calm water is shorter than the waves are long.
+/// A plate or a scene with a true picture, waves included: path-traced, or traced through the scene
+/// (judge/trace/truth.h) with kBroughtSamples squared samples per pixel. A wet pixel is near if its
+/// footprint on the calm water is shorter than the waves.
 struct BroughtSubject {
   std::string subject;
   double wave_length = 0;  ///< scene units: 2 pi sqrt(mean square slope / mean square curvature)
@@ -95,33 +93,34 @@ struct BroughtSubject {
 inline constexpr int kBroughtSamples = 4;
 
 /// A look with some of the buffers that a plate may have, and no surroundings; judged by that
-/// picture. Errors are mean |picture - truth| over mean truth, values above 4 counted as 4; NaN
-/// where there is no pixel to judge.
+/// picture. Errors are mean |picture - truth| over mean truth, values above 4 counted as 4; NaN if
+/// there is no pixel to judge.
 struct BroughtRow {
   std::string subject, look;
-  std::string brought;  ///< beside what the rows before it have: "color, depth", then "shadow" ...
+  std::string brought;  ///< added to the rows before: "color, depth", then "shadow" ...
   double ns_per_pixel = 0;
   double wet = 0, near = 0, far = 0;
-  double flip = 0;  ///< mean of the wet pixels
+  double flip = 0;  ///< mean over the wet pixels
 };
 
-/// The look `physical` with one parameter changed; judged by itself. Values above 4 count as 4.
+/// The look `physical` with one parameter changed; judged by the unchanged look. Values above 4
+/// count as 4.
 struct ChoiceRow {
-  std::string parameter, value;  ///< both "" for the look as it is
+  std::string parameter, value;  ///< both "" for the unchanged look
   double ns_per_pixel = 0;
   PixelError error;
 };
 
-/// A look with an error that is allowed (white = 1); judged by the same with none. Values above 4
-/// count as 4. What lies in cells (plan/survey.h) is told as a share of all pixels.
+/// A look with an error budget (white = 1); judged by the same look without one. Values above 4
+/// count as 4. Shares of cells (plan/survey.h) are in pixels.
 struct BudgetRow {
-  std::string subject, water;  ///< water: the look, and what was changed of it
-  double max_error = 0;        ///< that is allowed, of any channel of any pixel
+  std::string subject, water;  ///< water: the look, and its changes
+  double max_error = 0;        ///< the budget, for any channel of any pixel
   double ns_per_pixel = 0;
   PixelError error;
-  double bound = 0;         ///< of what is left out
+  double bound = 0;         ///< of the operators left out
   double dry_share = 0;     ///< in cells without water
-  double opaque_share = 0;  ///< in cells whose bottom cannot be seen
+  double opaque_share = 0;  ///< in cells whose bottom is not visible
   double full_share = 0;    ///< in cells that leave out nothing
 };
 
@@ -132,25 +131,25 @@ struct Figure {
   std::string jpeg;  ///< the file's bytes
 };
 
-/// Where the numbers come from; "unknown" for what the system does not tell.
+/// Origin of the numbers; "unknown" if the system does not tell.
 struct ReportMachine {
   std::string processor, system, kernel;
   int cores = 0;
-  std::vector<std::string> simd;  ///< instruction sets that there are, best first
+  std::vector<std::string> simd;  ///< the machine's instruction sets, best first
 };
 
 struct ReportBuild {
   std::string version, compiler, type, libraries;
 };
 
-/// All that was measured. A value: what is written of it needs no pixels.
+/// All results. A value: writing it needs no pixels.
 struct Report {
   std::string made;  ///< UTC, ISO 8601
   ReportMachine machine;
   ReportBuild build;
-  Size size;  ///< these three as in ReportOptions; no 0 threads
+  Size size;  ///< these three as in ReportOptions; threads is never 0
   int rounds = 0, threads = 0;
-  std::string simd;  ///< of the rows that do not say which
+  std::string simd;  ///< of the rows without their own
   std::vector<ReportSubject> subjects;
   std::vector<std::string> looks;
   std::vector<RunnerRow> runners;
@@ -161,18 +160,18 @@ struct Report {
   std::vector<ModelRow> models;
   std::vector<BroughtSubject> brought_subjects;
   std::vector<BroughtRow> brought;
-  std::string choices_subject;  ///< what ChoiceRows were measured on
+  std::string choices_subject;  ///< the subject of the ChoiceRows
   std::vector<ChoiceRow> choices;
   std::vector<BudgetRow> budgets;
   /// The subjects with the look physical; every look on the first subject, and its difference from
   /// physical; the truth plate dry, path-traced and by the best look, and differences from truth;
   /// the scenes traced, and the difference of physical from that; the truth plate with waves,
-  /// path-traced and by physical, a buffer more each.
+  /// path-traced and by physical, with one more buffer each.
   std::vector<Figure> subject_figures, look_figures, look_errors, truth_figures, truth_errors,
       model_figures, model_errors, brought_figures;
 };
 
-/// The lists of figures, and what report.json and the page call them.
+/// The lists of figures, and their names in report.json and the page.
 struct FigureGroup {
   const char* name;
   std::vector<Figure> Report::*figures;
@@ -183,19 +182,18 @@ inline constexpr FigureGroup kFigureGroups[] = {
     {"truth_errors", &Report::truth_errors},  {"traced", &Report::model_figures},
     {"traced_errors", &Report::model_errors}, {"brought", &Report::brought_figures},
 };
-/// Heat maps among them are logarithmic, from 10^-kHeatDecades to 1.
+/// Heat maps among the figures are logarithmic, from 10^-kHeatDecades to 1.
 inline constexpr int kHeatDecades = 3;
 
-/// Measures. Throws Error for a folder that lacks what is to be measured, and for options that mean
-/// nothing.
+/// Measures. Throws Error for a folder without the required data, and for invalid options.
 Report measure_report(const ReportOptions& options);
 
-/// Creates the folder if there is none, so that a report can be written before anything is measured
-/// in vain. Throws Error when it cannot be, cannot be written to, or is something else.
+/// Creates the folder if it does not exist, before anything is measured. Throws Error if it cannot
+/// be created or written to, or is no folder.
 void make_report_folder(const std::filesystem::path& folder);
 
-/// Writes report.json and index.html, one page that needs nothing else, into such a folder. Each
-/// appears whole or not at all.
+/// Writes report.json and index.html, a self-contained page, into such a folder. Each appears
+/// complete or not at all.
 void write_report(const std::filesystem::path& folder, const Report& report);
 
 }  // namespace limpid

@@ -9,10 +9,10 @@ namespace limpid {
 void make_folder_for(const std::filesystem::path& folder, const std::vector<std::string>& names) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error) && std::filesystem::exists(folder, error)) {
-    throw Error(folder.string() + ": is there and not a folder, so no report is written into it");
+    throw Error(folder.string() + ": is not a folder: expected a folder for the report, or none");
   }
   std::filesystem::create_directories(folder, error);
-  if (error) throw Error(folder.string() + ": cannot be made (" + error.message() + ")");
+  if (error) throw Error(folder.string() + ": cannot be created (" + error.message() + ")");
   for (const std::string& name : names) expect_replaceable(folder / name);
 }
 

@@ -5,10 +5,10 @@
 
 namespace limpid {
 
-/// Creates a folder for files of these names, and sees that they can be written. Throws Error.
+/// Creates a folder for files of these names, and checks that they can be written. Throws Error.
 void make_folder_for(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
-/// The file has the text, or is as it was before. Throws Error.
+/// Writes the text, or leaves the former file. Throws Error.
 void write_whole(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace limpid

@@ -100,7 +100,7 @@ Json rows(const std::vector<Row>& list) {
   return array;
 }
 
-/// Sets in each row under this key whether it is on the Pareto front; one without a time is not.
+/// Sets in each row under this key whether it is on the Pareto front; rows without a time are not.
 template <class Row>
 void mark_front(Json& array, const char* key, const std::vector<Row>& list,
                 double (*error)(const Row&)) {

@@ -5,19 +5,19 @@
 
 namespace limpid {
 
-/// Whose time is told: that of the calling thread on its processor, which other programs hardly
-/// touch, or the wall's, where the work has threads of its own.
+/// The clock: CPU time of the calling thread, which other programs hardly affect, or wall-clock
+/// time for work with threads of its own.
 enum class Clock { kThread, kWall };
 
-/// Work whose time is of interest.
+/// Work to be timed.
 struct Timed {
   std::function<void()> run;
   Clock clock = Clock::kThread;
   double best_seconds = std::numeric_limits<double>::infinity();
 };
 
-/// Runs all in turn, round after round, so that what else the machine does hits all alike; the best
-/// time of each is kept.
+/// Runs all in turn, round after round, so that other load of the machine affects all equally;
+/// keeps the best time of each.
 void time_rounds(std::span<Timed> work, int rounds);
 
 }  // namespace limpid

@@ -16,15 +16,15 @@
 
 namespace limpid {
 
-/// A plate or a scene with all its planes in memory, ready for any look.
+/// A plate or a scene with all its planes in memory, for any look.
 class Subject {
  public:
-  /// The plates that a scene file names, thinned as ReportOptions::size says.
+  /// The plates of a scene file, reduced as ReportOptions::size says.
   static Subject of_plate(const std::filesystem::path& scene_file, Size size);
-  /// The moment that all pictures of the project show, in seconds.
+  /// The time of all pictures of the project, in seconds.
   static constexpr double kMoment = 2;
-  /// The geometry that a scene file names, rendered. `sky` is its surroundings where it names
-  /// none; empty for none.
+  /// The geometry of a scene file, rendered. `sky` is its surroundings if it names none; empty for
+  /// none.
   static Subject of_scene(const std::filesystem::path& scene_file, Size size,
                           const std::filesystem::path& sky, Executor& executor,
                           double time = kMoment);
@@ -39,13 +39,13 @@ class Subject {
   const Scene& scene() const { return scene_; }
 
   PlaneSet planes() const { return frame_.present(); }
-  /// From now on it has these of its planes alone, and no surroundings.
+  /// Reduces the frame to these of its planes, without surroundings.
   void bring(PlaneSet planes);
-  /// From now on its scene has these waves.
+  /// Gives the scene these waves.
   void make_waves(std::vector<SineWave> waves) { scene_.water->waves = std::move(waves); }
 
   Plan plan(const Look& look, double max_error = 0, StateSet outputs = {}) const;
-  /// The frame with the maps that the plan looks up, which stay loaded.
+  /// The frame with the maps that the plan reads, which stay loaded.
   Frame frame_for(const Plan& plan);
 
  private:

@@ -11,7 +11,7 @@ void make_report_folder(const std::filesystem::path& folder) {
 
 void write_report(const std::filesystem::path& folder, const Report& report) {
   make_report_folder(folder);
-  // The page comes last: where it is, the rows are.
+  // The page is written last: if it exists, the rows do.
   write_whole(folder / "report.json", to_json(report));
   write_whole(folder / "index.html", to_html(report));
 }

@@ -38,7 +38,7 @@ View<const float> cropped(View<const float> view, const Rect& to) {
   return view;
 }
 
-/// A picture's own red, green and blue.
+/// Planes for red, green and blue of a picture.
 struct Color {
   explicit Color(const Target& target) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -58,7 +58,7 @@ std::array<ComparedChannel, 3> channels_of(const ColorViews& picture, const Colo
   return {{{"R", picture[0], judge[0]}, {"G", picture[1], judge[1]}, {"B", picture[2], judge[2]}}};
 }
 
-/// Of the truth what lies in the window. Throws Error where it is of another size.
+/// The truth within the window. Throws Error if its size differs.
 ColorViews fitting(const ShotTruth& truth, const Rect& window) {
   ColorViews views;
   const auto text = [](Size size) {
@@ -106,7 +106,7 @@ struct ShotMeasurement::Parts {
     put(picture, shown_light(color, display(), executor));
   }
   void put_difference(ShotPicture picture, const ColorViews& color, const ColorViews& judge);
-  /// Target of a variant with one AOV.
+  /// Paints a variant with one AOV.
   std::array<View<float>, 3> painted(Aov aov);
   std::optional<ShotError> beside_truth(const ColorViews& color) const {
     if (!options.truth) return {};
@@ -136,7 +136,7 @@ ShotMeasurement::Parts::Parts(ShotOptions chosen, Executor& on)
                     std::to_string(kMaxRounds),
                 Fault::kUsage);
   }
-  variants.planned("", options.job.look);  // throws where nothing can be made of plate and look
+  variants.planned("", options.job.look);  // throws for an invalid plate or look
   depth_of(options.job);
   if (options.truth) truth = fitting(*options.truth, variants.window());
 }
@@ -171,7 +171,7 @@ std::array<View<float>, 3> ShotMeasurement::Parts::painted(Aov aov) {
   return variants.run(one[0]).of(aov);
 }
 
-// --- what the shot is ---
+// --- properties of the shot ---
 
 void ShotMeasurement::Parts::describe(const ShotVariant& own) {
   shot.made = now_text();
@@ -193,7 +193,8 @@ void ShotMeasurement::Parts::describe(const ShotVariant& own) {
   shot.beyond = beyond_of(own.plan, own.frame, variants.scene());
 }
 
-/// One AOV at a time, for all of a large picture take much memory. Finds which pixels are wet, too.
+/// One AOV at a time, because all AOVs of a large picture would need much memory. Finds the wet
+/// pixels, too.
 void ShotMeasurement::Parts::measure_aovs() {
   const Rect w = variants.window();
   const View<float> surface = painted(Aov::kSurfaceDepth)[0];
@@ -233,7 +234,7 @@ void ShotMeasurement::Parts::show_plate(const ShotVariant& own) {
   put_light({kWetFile, "wet", "with the look " + own.name, "pictures"}, whole->views());
   if (options.truth) {
     put_light({kTruthFile, "truth", options.truth->name, "pictures"}, truth);
-    put_difference({difference_file(kTruthFile), "wet beside truth", "where they differ", ""},
+    put_difference({difference_file(kTruthFile), "wet and truth", "their difference", ""},
                    whole->views(), truth);
   }
   shot.dry = {
@@ -253,7 +254,7 @@ void ShotMeasurement::Parts::measure_looks(std::vector<ShotVariant>& looks) {
     if (i > 0) {
       file = look_file(i);
       put_light({file, variant.name, "with the look " + variant.name, "pictures"}, color);
-      put_difference({difference_file(file), variant.name + " beside wet", "where they differ", ""},
+      put_difference({difference_file(file), variant.name + " and wet", "their difference", ""},
                      color, whole->views());
     }
     ShotLook row{variant.name,
@@ -281,7 +282,7 @@ void ShotMeasurement::Parts::judge_fast(const std::vector<ShotVariant>& looks,
   shot.fast_time_share = looks[fast].seconds / looks[physical].seconds;
 }
 
-/// Of the run whose sum is the least.
+/// The times of the run with the least sum.
 RunTimes ShotMeasurement::Parts::operator_times(const ShotVariant& own) {
   const auto sum = [](const RunTimes& times) {
     return std::accumulate(times.operators.begin(), times.operators.end(), times.rest);
@@ -298,7 +299,7 @@ RunTimes ShotMeasurement::Parts::operator_times(const ShotVariant& own) {
 void ShotMeasurement::Parts::measure_operators(const ShotVariant& own) {
   const RunTimes times = operator_times(own);
   shot.rest_milliseconds = kMilliseconds * times.rest;
-  std::vector<ShotVariant> chains{own};  // whole, and without an operator each
+  std::vector<ShotVariant> chains{own};  // the whole chain, and the chain without each operator
   for (const std::string& name : kept_by(own.plan)) {
     chains.push_back(variants.planned(name, options.job.look, {}, {name}));
   }
@@ -325,9 +326,9 @@ void ShotMeasurement::Parts::measure_operators(const ShotVariant& own) {
       row.difference = difference_file(row.picture);
       put_light({row.picture, "without " + row.name, "the picture without it", "without"},
                 color.views());
-      put_difference({row.difference, "what " + row.name + " changes",
-                      "where the picture without it differs", ""},
-                     color.views(), whole->views());
+      put_difference(
+          {row.difference, "change by " + row.name, "the difference of the picture without it", ""},
+          color.views(), whole->views());
       row.error = shot_error(color.views(), whole->views(), wet);
       row.truth = beside_truth(color.views());
       say("without " + row.name, row.without_milliseconds, row.error);
@@ -346,7 +347,7 @@ Shot ShotMeasurement::Parts::measure(const PictureSink& put_out) {
     if (!same_parameters(look, options.job.look))
       looks.push_back(variants.planned(look.name, look));
   }
-  // Most planes at once, for to read more is to read all again.
+  // The variant with most planes first, because reading more planes reads all again.
   variants.read(looks);
   measure_aovs();
   variants.read(looks);

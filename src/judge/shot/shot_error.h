@@ -7,10 +7,10 @@
 
 namespace limpid {
 
-/// Of each pixel, row by row, whether it is wet.
+/// For each pixel, row by row, whether it is wet.
 using WetMask = std::vector<std::uint8_t>;
 
-/// How far a picture is from the one that judges it, in the words of `limpid compare --clip 4`.
+/// The error of a picture, with the metrics of `limpid compare --clip 4`.
 ShotError shot_error(const ColorViews& picture, const ColorViews& judge, const WetMask& wet);
 
 }  // namespace limpid

@@ -5,9 +5,9 @@
 
 namespace limpid {
 
-/// All that was measured of a shot, as JSON: names of units are part of the keys, infinite and
-/// absent numbers are null (of `error` null is infinite). `schema_version` rises when a key changes
-/// its meaning or goes.
+/// All results of a shot, as JSON: units are part of the keys, infinite and absent numbers are null
+/// (for `error` null is infinite). `schema_version` rises if a key changes its meaning or is
+/// removed.
 std::string to_json(const Shot& shot);
 
 }  // namespace limpid

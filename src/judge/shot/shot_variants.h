@@ -30,7 +30,7 @@ class ShotVariants {
 
   const CompositeJob& job() const { return held_.job(); }
   const Plate& plate() const { return held_.plate(); }
-  /// Of all planes that were read.
+  /// The frame with all planes read so far.
   const Frame& frame() const { return held_.frame(); }
   double transparent() const { return held_.transparent(); }
   const Scene& scene() const { return scene_; }
@@ -39,12 +39,12 @@ class ShotVariants {
   /// Throws Error as plan_of().
   ShotVariant planned(std::string name, const Look& look, std::vector<Aov> aovs = {},
                       const std::vector<std::string>& left_out = {}) const;
-  /// Reads what all of them need. Frames of variants before these may be stale then.
+  /// Reads the planes that these variants need. Frames of earlier variants may then be invalid.
   void read(std::vector<ShotVariant>& variants);
 
-  /// Valid until the next.
+  /// Valid until the next call.
   const Target& run(const ShotVariant& variant, RunTimes* times = nullptr);
-  /// Runs all in turn, round after round, after one that does not count.
+  /// Runs all in turn, round after round, after one round of warm-up.
   void time(std::vector<ShotVariant>& variants, int rounds);
 
  private:

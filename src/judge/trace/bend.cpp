@@ -3,10 +3,10 @@
 namespace limpid::trace {
 namespace {
 
-/// Least slope of a ray off the surface that it leaves.
+/// Least slope of a ray that leaves the surface.
 constexpr double kLeastFall = 1e-6;
 
-/// `out`, or what it is when laid on the side that `normal` points to; unit.
+/// `out`, or its projection to the side of `normal`; unit.
 glm::dvec3 on_side_of(const glm::dvec3& normal, const glm::dvec3& out) {
   const double rise = glm::dot(normal, out);
   return rise >= kLeastFall ? out : glm::normalize(out + (kLeastFall - rise) * normal);

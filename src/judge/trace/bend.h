@@ -4,8 +4,8 @@
 
 namespace limpid::trace {
 
-/// The beam goes on into the water, and out of it: at the plane of the surface there, by its
-/// normal. Rays that the normal would bend or mirror to the wrong side of the geometry are laid
+/// The beam after refraction into the water, and out of it: at the plane of the surface there, with
+/// its normal. Rays that the normal would send to the wrong side of the geometry are tilted to run
 /// along it.
 Beam refracted_in(const Beam& beam, const SurfacePoint& at, double ior);
 Beam refracted_out(const Beam& beam, const SurfacePoint& at, double ior);

@@ -14,7 +14,7 @@ namespace {
 constexpr int kViewsAcross = 64, kChunk = 4096;
 constexpr double kGrazing = 0.05;
 
-/// Depth over which light comes down that far from where the calm plane would send it.
+/// Depth over sideways distance from the calm entry point: how far waves spread light.
 constexpr double kSideways = 0.5;
 
 }  // namespace
@@ -43,8 +43,8 @@ Caustics::Caustics(const Scenery& scenery, const Eye& eye, Size size, int photon
                    [](const Photon& a, const Photon& b) { return a.cell < b.cell; });
 }
 
-/// Where on the calm plane, from the point under the eye, sunlight for a point of the bottom comes
-/// in.
+/// The entry point of sunlight for a point of the bottom on the calm plane, relative to the point
+/// under the eye.
 glm::dvec2 Caustics::entry_of(const glm::dvec3& point) const {
   const WaterView& c = scenery_.view;
   const glm::dvec3 entry = point + scenery_.sun_path.depth_of(point) / rise_ * band_.light.to_sun;
@@ -54,7 +54,7 @@ glm::dvec2 Caustics::entry_of(const glm::dvec3& point) const {
 std::optional<Triangles::Hit> Caustics::bottom_seen(const Ray& view) const {
   Ray before = view;
   if (const auto dry = scenery_.solid.nearest(view)) before.to = dry->distance;
-  if (scenery_.view.eye_above < 0) {  // it may see the bottom in the surface
+  if (scenery_.view.eye_above < 0) {  // it may see the bottom mirrored in the surface
     const auto mirror = scenery_.surface.nearest(before, false);
     return scenery_.solid.nearest(mirror ? mirrored_down({view, view, view}, *mirror).ray : view);
   }
@@ -63,7 +63,7 @@ std::optional<Triangles::Hit> Caustics::bottom_seen(const Ray& view) const {
   return scenery_.solid.nearest(refracted_in({view, view, view}, *wet, band_.ior).ray);
 }
 
-/// Of what is seen, what lies much farther away than most would take all photons.
+/// Bottom much farther away than most would take all photons.
 void Caustics::choose_region(const Eye& eye, Size size) {
   struct Seen {
     double distance, depth;
@@ -105,7 +105,7 @@ Caustics::Photon Caustics::sent(std::uint64_t number) const {
   const double u = samples.next(), v = samples.next();
   const glm::dvec2 at = low_sent_ + glm::dvec2(u, v) * (high_sent_ - low_sent_);
   const glm::dvec3 calm = at.x * c.map_x + at.y * c.map_y - c.eye_above * c.up;
-  // From over the crests.
+  // From above the crests.
   const double over = scenery_.surface.crest() + c.eye_above;
   const Ray down{calm + (over * 1.001 + 1e-3) / rise_in_air_ * scenery_.to_sun, -scenery_.to_sun};
   const auto wet = scenery_.surface.nearest(down, true);
@@ -141,7 +141,7 @@ std::optional<double> Caustics::at(const SolidPoint& point) const {
   double sum = 0;
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
-      // Cells along z follow one another.
+      // Cells along z are consecutive.
       const std::uint64_t first = cell_of(point.hit.point, dx, dy, -1),
                           last = cell_of(point.hit.point, dx, dy, 1);
       auto photon =

@@ -14,16 +14,15 @@
 
 namespace limpid::trace {
 
-/// Sunlight on the bottom that the waves focus: photons from the sun through the surface as it is.
-/// How many lie round a point, beside those that the calm plane would send there, is its light. The
-/// disc that they are counted in would hold kCounted of the calm ones: light is blurred over it,
-/// and within its radius of an edge there is less. Jensen 1996, "Global Illumination using Photon
-/// Maps".
+/// Caustics on the bottom: photons from the sun through the real surface. Their density around a
+/// point, over that of photons through the calm plane, is its light. The gathering disc would hold
+/// kCounted photons under calm water: light is blurred over it, and dimmed within its radius of an
+/// edge. Jensen 1996, "Global Illumination using Photon Maps".
 class Caustics {
  public:
   static constexpr double kCounted = 100;
 
-  /// What they are made from; all must outlive them.
+  /// The inputs; all must outlive the object.
   struct Scenery {
     const WaterView& view;
     const Solid& solid;
@@ -33,18 +32,18 @@ class Caustics {
     glm::dvec3 to_sun;  ///< in the air
   };
 
-  /// So many photons, on the water over that part of the bottom that the eye sees.
+  /// Sends photons to the water over the part of the bottom that the eye sees.
   Caustics(const Scenery& scenery, const Eye& eye, Size size, int photons, std::uint64_t seed,
            Executor& executor);
 
-  /// The sunlight that arrives at a point of the bottom over that of the calm plane without
-  /// shadows. Nothing where no photons were sent, and where the calm sun only grazes the surface.
+  /// Sunlight at a point of the bottom over that of the calm plane without shadows. Nothing without
+  /// photons, and where the calm sun only grazes the surface.
   std::optional<double> at(const SolidPoint& point) const;
 
  private:
   struct Photon {
     glm::vec3 place{0}, face{0};
-    float weight = 0;  ///< of the light of a calm one; 0: it went nowhere
+    float weight = 0;  ///< light, over that of a calm photon; 0: it was lost
     std::uint64_t cell = 0;
   };
 
@@ -57,10 +56,10 @@ class Caustics {
   const Scenery scenery_;
   const Band& band_;
   std::uint64_t seed_;
-  double rise_in_air_, rise_;    ///< of the sun, in the air and in the water
-  glm::dvec2 low_{0}, high_{0};  ///< on the plane, where light enters to points that count
-  glm::dvec2 low_sent_{0}, high_sent_{0};  ///< where photons are sent
-  double radius_ = 0, expected_ = 0;       ///< calm photons in a level disc
+  double rise_in_air_, rise_;              ///< of the sun, in the air and in the water
+  glm::dvec2 low_{0}, high_{0};            ///< on the plane, bounds of the entry points that count
+  glm::dvec2 low_sent_{0}, high_sent_{0};  ///< bounds of the photons' start
+  double radius_ = 0, expected_ = 0;       ///< expected_: calm photons in a level disc
   std::vector<Photon> photons_;            ///< by cell
 };
 

@@ -17,10 +17,10 @@ namespace {
 using trace::Chances;
 using trace::Samples;
 
-constexpr double kLeastCosine = 1e-6;  ///< of a sun that counts
+constexpr double kLeastCosine = 1e-6;  ///< below it a sun gives no light
 constexpr double kDeepest = 2000;
 
-/// Towards a height above the horizon and an azimuth; up is z.
+/// The direction at a height above the horizon and an azimuth; up is z.
 glm::dvec3 towards(double height, double azimuth) {
   const double h = height * std::numbers::pi / 180, a = azimuth * std::numbers::pi / 180;
   return {std::cos(h) * std::cos(a), std::cos(h) * std::sin(a), std::sin(h)};
@@ -107,7 +107,7 @@ class Walker {
     sky_ = square;
   }
 
-  /// On what faces the sun, at that depth.
+  /// On a surface that faces the sun, at that depth.
   Rgb<double> sunlight_at(double depth) const {
     if (sun_ == Rgb<double>{0, 0, 0}) return sun_;
     return transmittance(depth / to_sun_.z, rate_) * sun_;
@@ -116,9 +116,9 @@ class Walker {
   const Column& column_;
   Rgb<double> rate_, albedo_{0, 0, 0};
   double end_;            ///< depth
-  bool endless_ = false;  ///< nothing comes back from there
+  bool endless_ = false;  ///< no light returns from below end_
   glm::dvec3 to_sun_{0, 0, 1}, view_{0, 0, -1};
-  Rgb<double> sun_{0, 0, 0};  ///< on what faces it, under the surface
+  Rgb<double> sun_{0, 0, 0};  ///< on a surface that faces it, under the water surface
   double leaves_ = 1, sky_ = 1;
 };
 

@@ -10,8 +10,8 @@
 
 namespace limpid::trace {
 
-/// The direction that turns away from `axis` by an angle of that cosine, to a side of it that
-/// `turn` (in turns) says. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+/// The direction at an angle of that cosine from `axis`, rotated around it by `turn` (in turns).
+/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
 inline glm::dvec3 around(const glm::dvec3& axis, double cosine, double turn) {
   const double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
   const glm::dvec3 first(1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x);
@@ -22,12 +22,12 @@ inline glm::dvec3 around(const glm::dvec3& axis, double cosine, double turn) {
                         cosine * axis);
 }
 
-/// By the cosine to the normal: as a Lambert surface sends light.
+/// With a density of the cosine to the normal, as a Lambert surface reflects.
 inline glm::dvec3 diffuse_direction(const glm::dvec3& normal, double u, double turn) {
   return around(normal, std::sqrt(u), turn);
 }
 
-/// By henyey_greenstein() of the angle to `ahead`.
+/// With the density henyey_greenstein() of the angle to `ahead`.
 inline glm::dvec3 scattered_direction(const glm::dvec3& ahead, double g, double u, double turn) {
   if (std::abs(g) < 1e-4) return around(ahead, 2 * u - 1, turn);
   const double part = (1 - g * g) / (1 - g + 2 * g * u);

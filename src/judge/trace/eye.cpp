@@ -17,7 +17,7 @@ Ray Eye::ray_at(double x, double y) const {
   const glm::dvec3 along = rays_.ray_at(x, y);
   const double length = glm::length(along);
   const Ray ray{rays_.origin_at(x, y), along / length, near_ * length, far_ * length};
-  // Orthographic views may begin behind the eye, rays never do behind their origin.
+  // Orthographic views may begin behind the eye, but no ray may begin behind its origin.
   return ray.from >= 0 ? ray : Ray{ray.at(ray.from), ray.direction, 0, ray.to - ray.from};
 }
 

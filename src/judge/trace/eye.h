@@ -10,20 +10,20 @@
 
 namespace limpid::trace {
 
-/// The camera, from its own eye.
+/// The camera, with its eye as origin.
 class Eye {
  public:
   Eye(const Camera& camera, Size size);
 
-  /// Of the view through that place of the picture, in pixels; its neighbours are `step` away.
+  /// The view through that place of the picture, in pixels; its neighbours are `step` away.
   Beam beam_at(double x, double y, double step) const;
-  /// Eye depth of a point that far along a ray.
+  /// Eye depth of a point at that distance along a ray.
   double depth_of(const Ray& ray, double distance) const;
 
-  /// Where a point is seen in the picture, (0, 0) the upper left; nothing for what is not in front
-  /// of the camera.
+  /// The place of a point in the picture, (0, 0) the upper left; nothing if it is not in front of
+  /// the camera.
   std::optional<glm::dvec2> place_of(const glm::dvec3& point) const { return place(point, 1); }
-  /// Of what lies in that direction, infinitely far away.
+  /// The place of a direction, for points infinitely far away.
   std::optional<glm::dvec2> place_of_direction(const glm::dvec3& to) const { return place(to, 0); }
 
  private:

@@ -9,7 +9,7 @@
 namespace limpid::trace {
 namespace {
 
-/// The end of a way from the surface: on a dry triangle, on the surface once more, or nowhere.
+/// The end of a path from the surface: on a dry triangle, on the surface again, or nowhere.
 struct End {
   std::optional<Triangles::Hit> dry;
   std::optional<SurfacePoint> wet;
@@ -25,8 +25,8 @@ End end_of(const Tracer& tracer, const Ray& ray, bool in_air) {
   return end;
 }
 
-/// The view through a place of the picture, of what lies under the crests of the water alone: it
-/// begins where it goes under. Nothing where it does not.
+/// The view through a place of the picture, below the crests of the water: it begins where it
+/// crosses the level of the crests. Nothing if it does not.
 std::optional<Ray> view_below(const Ray& view, const glm::dvec3& up, double crest) {
   const double sinks = -glm::dot(view.direction, up);
   const double over = glm::dot(view.origin, up) - crest;
@@ -36,7 +36,7 @@ std::optional<Ray> view_below(const Ray& view, const glm::dvec3& up, double cres
   return below;
 }
 
-/// Whether what the ray sees first is just this point.
+/// Whether the first surface on the ray is this point.
 bool sees(const Solid& solid, const Ray& view, const Triangles::Hit& point) {
   const auto seen = solid.nearest(view);
   if (!seen) return false;
@@ -69,7 +69,7 @@ Geometry geometry_at(const Tracer& tracer, const Eye& eye, const WaterView& wate
   for (std::size_t i = 0; i < medium.bands.size(); ++i) {
     const Band& band = medium.bands[i];
     const double rise = glm::dot(beam.ray.direction, at.normal);
-    if (in_water && fresnel_exact(rise, 1 / band.ior) >= 1) continue;  // nothing is refracted
+    if (in_water && fresnel_exact(rise, 1 / band.ior) >= 1) continue;  // total reflection
     const Ray ray =
         (in_water ? refracted_out(beam, at, band.ior) : refracted_in(beam, at, band.ior)).ray;
     const End end = end_of(tracer, ray, in_water);

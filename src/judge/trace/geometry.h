@@ -6,12 +6,12 @@
 
 namespace limpid::trace {
 
-/// Where the light at a pixel's centre comes from: what is no mean of samples.
+/// The source of the light at a pixel's centre: the values that are not means of samples.
 struct Geometry {
-  bool wet = false;  ///< meets the surface, or goes through water from the eye on
-  double path = 0;   ///< +inf without end
+  bool wet = false;  ///< meets the surface, or runs through water from the eye on
+  double path = 0;   ///< +inf without an end
   double surface_depth = HUGE_VAL;
-  glm::dvec3 normal{0};            ///< calm for views in the water that meet no surface
+  glm::dvec3 normal{0};            ///< calm for views in the water that do not meet the surface
   std::array<glm::dvec2, 3> uv{};  ///< of each channel's end; (0, 0) at the upper left
   std::array<bool, 3> visible{}, visible_below{};
 };

@@ -6,7 +6,7 @@
 
 namespace limpid::trace {
 
-/// The mean of many random lights, and how far off it may be. Welford 1962, "Note on a Method for
+/// The mean of many random lights, and its standard error. Welford 1962, "Note on a Method for
 /// Calculating Corrected Sums of Squares and Products".
 class MeanLight {
  public:
@@ -19,7 +19,7 @@ class MeanLight {
 
   const Rgb<double>& mean() const { return mean_; }
 
-  /// Standard error; 0 of less than two.
+  /// Standard error; 0 for fewer than two.
   Rgb<double> error() const {
     if (count_ < 2) return {0, 0, 0};
     const auto root = [this](double squares) {

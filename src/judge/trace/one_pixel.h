@@ -10,8 +10,8 @@
 
 namespace limpid::trace {
 
-/// A strip of one pixel (op/operator.h) without pictures, for operators that look up nothing but
-/// tiling textures and, as their own, the sun's shadow on the surface.
+/// A strip of one pixel (op/operator.h) without planes, for operators whose only lookups are tiling
+/// textures and the sun's shadow on the surface at the pixel itself.
 struct OnePixel {
   using Number = double;
 
@@ -26,7 +26,7 @@ struct OnePixel {
   void own(PlaneId, Into&& into) {
     into(pixel, shadow);
   }
-  /// Surface normals: calm ones, for those of a mesh are not looked up.
+  /// Surface normals: calm, because a mesh's normals are not looked up.
   template <class Into>
   void own3(PlaneId, Into&& into) {
     into(pixel, pixel.normal);
@@ -37,7 +37,7 @@ struct OnePixel {
     for (Vec3<double>& value : same.at) value = pixel.normal;
     into(pixel, same);
   }
-  /// A picture in which nothing was hit.
+  /// A picture without any surface.
   struct Tap {
     static double nearest(PlaneId, Vec2<double>) { return HUGE_VAL; }
     static SeenRange range(PlaneId, bool, Vec2<double>, Vec2<double>) {

@@ -3,8 +3,8 @@
 
 namespace limpid::trace {
 
-/// Numbers in 0 ... 1 that depend on seed, pixel, sample and how many were asked for before alone;
-/// or, for the one sample in a pixel's middle, always 1/2.
+/// Random numbers in 0 ... 1 that depend only on seed, pixel, sample and their index; or, for a
+/// single sample in a pixel's middle, always 1/2.
 class Samples {
  public:
   Samples() = default;

@@ -13,7 +13,7 @@ inline Rgb<double> environment_at(const Texture& environment, const WaterView& v
                                   glm::dot(view.up, direction)));
 }
 
-/// The light of the sky on the water: the environment, or alike from everywhere.
+/// The light of the sky on the water: the environment, or an even sky.
 class Sky {
  public:
   Sky(const WaterView& view, const Texture& environment, const Rgb<double>& even)

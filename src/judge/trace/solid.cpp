@@ -26,15 +26,15 @@ glm::dvec2 uv_at(const float* uvs, const std::uint32_t* corner, const glm::dvec3
   return uv;
 }
 
-/// White where there is no texture.
+/// White without a texture.
 Texel texel_of(const raster::PyramidView* texture, const TextureLookup& lookup,
                const std::array<TexturePlace, 2>& places) {
   if (!texture) return {};
   return sample(*texture, lookup, places[static_cast<std::size_t>(lookup.uv_set)]);
 }
 
-/// Where a surface that has these normals at its corners would lie: on the planes across them,
-/// mixed as the corners are, but never under the triangle. Hanika 2021, "Hacking the Shadow
+/// The point on a smooth surface with these normals at its corners: on the planes normal to them,
+/// interpolated like the corners, but never under the triangle. Hanika 2021, "Hacking the Shadow
 /// Terminator".
 glm::dvec3 rounded(const glm::dvec3& point, const glm::dvec3& shares,
                    const std::array<glm::dvec3, 3>& corners,
@@ -49,7 +49,7 @@ glm::dvec3 rounded(const glm::dvec3& point, const glm::dvec3& shares,
 
 }  // namespace
 
-/// Holes of masked surfaces, and blended ones where they are too thin to count.
+/// Rejects holes of masked surfaces, and blended surfaces below a threshold of opacity.
 class Solid::Test final : public PointTest {
  public:
   Test(const Solid& solid, Opacity least, const Beam* beam = nullptr)
@@ -88,7 +88,7 @@ void Solid::add(const Instance& instance, const glm::dvec3& eye,
                 std::vector<Triangles::Part>& parts) {
   const std::size_t number = static_cast<std::size_t>(instance.mesh);
   const raster::PreparedMesh& mesh = model_.meshes[number];
-  // Cofactors: the inverse transpose, but for its length.
+  // Cofactors: the inverse transpose, up to its length.
   const glm::dmat3 m(instance.world_from_mesh);
   const glm::dmat3 turn(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
   Triangles::Part part;
@@ -234,7 +234,7 @@ Rgb<double> Solid::shaded(const SolidPoint& point, const glm::dvec3& to_viewer, 
   const Rgb<double> tint{point.color.r, point.color.g, point.color.b};
   const Rgb<double> base = tint * textured(m.base, m.base_texture, m.base_lookup),
                     ambient = rgb_of(m.ambient);
-  // Of the sun's own irradiance.
+  // Relative to the sun's own irradiance.
   const double cosine = sun.spread * glm::dot(point.normal, sun.to_sun);
   const Rgb<double> emitted = textured(m.emission, m.emissive_texture, m.emissive_lookup);
   switch (m.shading) {

@@ -13,45 +13,46 @@
 
 namespace limpid::trace {
 
-/// Sunlight as it arrives somewhere.
+/// Sunlight that arrives at a point.
 struct Sunlight {
   glm::dvec3 to_sun{0};  ///< unit
-  double spread = 1;     ///< share of the sun's own irradiance on what faces it
+  double spread = 1;     ///< share of the sun's own irradiance on a surface that faces it
   Rgb<double> color{0, 0, 0};
 };
 
-/// A point of a dry surface, from the side that it is seen from.
+/// A point of a dry surface, on the visible side.
 struct SolidPoint {
   Triangles::Hit hit;
   glm::dvec3 face{0};    ///< unit normal of the triangle
   glm::dvec3 normal{0};  ///< unit, for shading
-  glm::dvec3 smooth{0};  ///< the point on the round surface that the normals tell of
+  glm::dvec3 smooth{0};  ///< the point on the smooth surface of the normals
   int material = 0;
   std::array<TexturePlace, 2> places;  ///< of each set of uvs
   glm::dvec4 color{1};                 ///< of the vertices
-  double opacity = 1;                  ///< below 1 something behind it is seen as well
+  double opacity = 1;                  ///< below 1 a surface behind it is visible as well
 
-  /// Where a ray from here to that direction may begin without meeting its own triangle, nor the
-  /// corners of what shall look round.
+  /// The origin of a ray from here in that direction that meets neither its own triangle nor the
+  /// facets of a smooth surface.
   glm::dvec3 off_towards(const glm::dvec3& direction) const;
 };
 
-/// Which points of surfaces that blend are there: AlphaMode. Of masked ones always the same are.
+/// The points of blended surfaces that exist: AlphaMode. Masked surfaces are the same for all.
 enum class Opacity : std::uint8_t { kSeen, kBlocking, kSolid };
 
-/// All of a model but its water, relative to an eye.
+/// A model without its water, relative to an eye.
 class Solid {
  public:
   /// Throws Error for a model that the rasteriser refuses.
   Solid(const Model& model, const glm::dvec3& eye);
 
   std::optional<SolidPoint> nearest(const Beam& beam, Opacity least) const;
-  /// What a depth buffer has. Rays know no footprint: opacity is that of the finest mip level.
+  /// The surface in a depth buffer. Rays have no footprint: opacity is that of the finest mip
+  /// level.
   std::optional<Triangles::Hit> nearest(const Ray& ray) const;
   bool blocks(const Ray& ray) const;
 
-  /// The light that goes back along the beam, by the material. `visible` is asked for the sun's
-  /// visibility, 0 ... 1, where that matters.
+  /// The light reflected back along the beam, by the material. `visible` returns the sun's
+  /// visibility, 0 ... 1; called only if it matters.
   template <class Visible>
   Rgb<double> color(const SolidPoint& point, const Beam& beam, const Sunlight& sun,
                     Visible&& visible) const {
@@ -60,14 +61,14 @@ class Solid {
     return shaded(point, -beam.ray.direction, sun, lit ? visible() : 0.0);
   }
 
-  /// What of color() is the light from all around: the ambient of the material, and all of a
-  /// surface that takes no notice of light.
+  /// The part of color() from all around: the ambient light of the material, and all light of an
+  /// unlit surface.
   Rgb<double> ambient_light(const SolidPoint& point) const;
-  /// Share of the light of others that the surface sends everywhere, 0 ... 1.
+  /// Share of indirect light that the surface reflects diffusely, 0 ... 1.
   Rgb<double> albedo(const SolidPoint& point) const;
 
  private:
-  struct Source {  ///< a part of the triangles: the mesh that it came from
+  struct Source {  ///< the mesh of a part of the triangles
     const raster::PreparedMesh* mesh;
     std::vector<glm::dvec3> normals;
     int material;

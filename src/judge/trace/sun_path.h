@@ -8,21 +8,20 @@
 
 namespace limpid::trace {
 
-/// The way of the sun's light down to points of the water and of the bottom, through the calm
-/// plane.
+/// The path of sunlight down to points of the water and of the bottom, through the calm plane.
 class SunPath {
  public:
   /// `to_sun`: in the air, unit.
   SunPath(const WaterView& view, const Solid& solid, const Medium& medium, const glm::dvec3& to_sun)
       : view_(view), solid_(solid), medium_(medium), to_sun_(to_sun) {}
 
-  /// How far below the calm plane, and the same but never less than 0.
+  /// Depth below the calm plane; the second function clamps it to 0.
   double under_calm(const glm::dvec3& point) const {
     return -view_.eye_above - glm::dot(view_.up, point);
   }
   double depth_of(const glm::dvec3& point) const { return std::max(0.0, under_calm(point)); }
 
-  /// Whether the sun reaches a point in the water, or of the bottom, that this band sees.
+  /// Whether the sun reaches a point in the water, or of the bottom, for this band.
   bool reaches(const glm::dvec3& point, const Band& band) const {
     const double depth = depth_of(point);
     Ray up{point, band.light.to_sun};
@@ -34,8 +33,8 @@ class SunPath {
     return !solid_.blocks(up) && !solid_.blocks({up.at(up.to), to_sun_});
   }
 
-  /// What is left of it at a point that it reaches, by all that the water takes and throws
-  /// elsewhere. Only for a sun that stands over the horizon.
+  /// Share of sunlight left at a point that it reaches, after absorption and scattering. Only for a
+  /// sun above the horizon.
   Rgb<double> left_at(const glm::dvec3& point, const Band& band) const {
     const double rise = glm::dot(band.light.to_sun, view_.up);
     return transmittance(depth_of(point) / rise, medium_.rate);

@@ -13,7 +13,7 @@ bool makes_waves(const WaveNormals::Params& waves, const Texture& wave_map) {
   return waves.strength != 0 && (wave_map || !Kernel<WaveNormals>::needs(waves).wave_map);
 }
 
-/// A ray meets a point of the waves: there is no footprint to filter them by.
+/// A ray meets a point of the waves: it has no footprint to filter them.
 WaveNormals::Params unfiltered(WaveNormals::Params waves) {
   waves.filter = WaveNormals::Filter::kNone;
   return waves;

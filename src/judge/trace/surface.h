@@ -11,12 +11,12 @@
 
 namespace limpid::trace {
 
-/// Where a ray meets the water.
+/// The point where a ray meets the water.
 struct SurfacePoint {
   double distance = 0;
   glm::dvec3 point{0};
   glm::dvec3 face{0};    ///< unit normal of the geometry, out of the water
-  glm::dvec3 normal{0};  ///< unit normal that light obeys
+  glm::dvec3 normal{0};  ///< unit normal for shading
 };
 
 /// The water's surface: the raised mesh, or the calm plane of a model without one.
@@ -25,15 +25,14 @@ class Surface {
   Surface(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map,
           const Pass& pass);
 
-  /// Rays in the air meet it from above, rays in the water from below: none meets it from the side
-  /// that it does not come from.
+  /// Rays in the air meet it from above, rays in the water from below; the other side is ignored.
   std::optional<SurfacePoint> nearest(const Ray& ray, bool from_air) const;
 
-  /// From the water, for ways that must not end where a mesh does: beside it the water goes on,
-  /// under a level plane as high as its crests.
+  /// From the water, for paths that must not end beside a mesh: there the water continues under a
+  /// level plane at the height of the crests.
   std::optional<SurfacePoint> from_below(const Ray& ray) const;
 
-  /// The height over the eye that no water reaches beyond.
+  /// Height of the highest water relative to the eye.
   double crest() const { return height_ + crest_; }
 
  private:
@@ -43,11 +42,11 @@ class Surface {
 
   const Pass& pass_;
   const WaveNormals::Params waves_;
-  bool wavy_;  ///< by the operator
+  bool wavy_;  ///< from the operator wave_normals
   bool has_mesh_, raised_;
   double height_;                                 ///< of the calm plane over the eye
   double crest_;                                  ///< of the highest wave, over the calm plane
-  std::vector<std::vector<glm::dvec3>> normals_;  ///< of the mesh's parts, a vertex
+  std::vector<std::vector<glm::dvec3>> normals_;  ///< per part of the mesh and vertex
   Triangles mesh_;
 };
 

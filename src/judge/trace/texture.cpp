@@ -18,13 +18,13 @@ int level_of(const raster::PyramidView& texture, const TexturePlace& place) {
   return std::min(level, texture.levels - 1);
 }
 
-/// Two neighbouring texels along one axis, and the share of the second.
+/// Two neighbouring texels along one axis, and the weight of the second.
 struct Taps {
   int at[2];
   double second;
 };
 
-/// In 0 ... 1.
+/// Wraps into 0 ... 1.
 double wrapped(double position, Wrap wrap) {
   double within = position;
   if (wrap == Wrap::kRepeat) within = position - std::floor(position);

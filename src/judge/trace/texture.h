@@ -17,8 +17,8 @@ struct Texel {
   double alpha = 1;
 };
 
-/// A texture as the raster pass filters it: bilinear, in the mip level whose texels are nearest in
-/// size to the footprint. Footprints that are not finite see the coarsest level.
+/// A texture filtered as in the raster pass: bilinear, in the mip level whose texel size is nearest
+/// to the footprint. Footprints that are not finite get the coarsest level.
 Texel sample(const raster::PyramidView& texture, const TextureLookup& lookup,
              const TexturePlace& place);
 

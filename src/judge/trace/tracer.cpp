@@ -20,12 +20,12 @@ Sunlight in_the_air(const Scene& scene) {
   return {scene.sun->direction, 1, scene.sun->color};
 }
 
-/// That of the scene, or else what the look takes for it.
+/// The sky of the scene, or else of the look.
 Rgb<double> even_sky(const Scene& scene, const Look& look) {
   return scene.sky ? scene.sky->radiance : look.of<DepthFog>().ambient;
 }
 
-/// The beam goes on behind a point that it was seen through.
+/// The beam behind a point of a blended surface.
 Beam beyond(const Beam& beam, const SolidPoint& point) {
   Beam on = turned(beam, point.hit.point, point.face, [](const glm::dvec3& d) { return d; });
   on.ray.origin -= point.hit.slack * point.face;
@@ -70,7 +70,7 @@ std::optional<SolidPoint> Tracer::nearest_dry(const Beam& beam, const View& view
   return solid_.nearest(beam, view.layers < kBlendedLayers ? Opacity::kSeen : Opacity::kSolid);
 }
 
-/// What lies behind a surface that blends, and the surface over it.
+/// The light behind a blended surface, composited with the surface.
 Light Tracer::through_layer(const SolidPoint& layer, const Beam& beam, View view) const {
   ++view.layers;
   Light light = in_air(beyond(beam, layer), view);
@@ -133,7 +133,7 @@ Light Tracer::from_water(const Beam& beam, View view) const {
   return light;
 }
 
-/// The way to the surface that blends, the surface, and the way on behind it.
+/// The path to a blended surface, the surface, and the path behind it.
 Tracer::Leg Tracer::through_layer(const SolidPoint& layer, const Beam& beam, const Band& band,
                                   View view) const {
   ++view.layers;
@@ -148,7 +148,7 @@ Tracer::Leg Tracer::through_layer(const SolidPoint& layer, const Beam& beam, con
   return leg;
 }
 
-/// What comes to the view from the end of a way through the water: a dry surface, or none.
+/// Light from the end of a path through the water: of a dry surface, or none.
 Rgb<double> Tracer::end_light(const SolidPoint* dry, const Beam& beam, double length,
                               const Band& band, const View& view) const {
   const Rgb<double> end =
@@ -160,8 +160,8 @@ Rgb<double> Tracer::end_light(const SolidPoint* dry, const Beam& beam, double le
   return leaves * (transmittance(depth, band.light.down) * arrives);
 }
 
-/// Of random ways it is what is left of it in the air; else still without loss by the surface and
-/// by the water over it.
+/// With random paths: the light left in the air; else before the losses at the surface and in the
+/// water over it.
 Rgb<double> Tracer::bottom_light(const SolidPoint& point, const Beam& beam, const Band& band,
                                  const View& view) const {
   if (light_ == TruthOptions::Light::kOnce) return bottom_lit_once(point, beam, band);
@@ -212,7 +212,7 @@ Rgb<double> Tracer::scattered_once(const Ray& ray, double length, const Band& ba
       medium_.ambient * Rgb<double>{column_light(rate.r, length), column_light(rate.g, length),
                                     column_light(rate.b, length)};
   if (band.light.sun == kBlack) return everywhere;
-  // What other bands see of this way is not computed.
+  // Values of other bands are not computed.
   const auto sunlit = [&](double own_rate, double down, double own) {
     return own == 0 ? 0.0 : sunlit_column(ray, length, own_rate, down, band, view);
   };
@@ -225,8 +225,8 @@ Rgb<double> Tracer::scattered_once(const Ray& ray, double length, const Band& ba
   return everywhere + (leaves * turned) * (band.light.sun * column);
 }
 
-/// sun_column() of a way of which a part may lie under a crest, above the calm plane, where the sun
-/// has lost nothing, times the share of it that the sun reaches.
+/// sun_column() of a path whose part above the calm plane, under a crest, has lost no sunlight,
+/// times the share of it that the sun reaches.
 double Tracer::sunlit_column(const Ray& ray, double length, double rate, double down,
                              const Band& band, const View& view) const {
   const double sinks = -glm::dot(ray.direction, pass_.up);
@@ -257,8 +257,8 @@ double Tracer::sunlit_column(const Ray& ray, double length, double rate, double 
   return reached;
 }
 
-/// Mean of the sun's visibility along the way, each place weighed by the light that it would send:
-/// exp(-loss s). Places are drawn by that weight, one in each of `steps` parts of equal light.
+/// Mean of the sun's visibility along the path, weighted by the unshadowed light: exp(-loss s).
+/// Places are drawn by that weight, one in each of `steps` parts of equal light.
 double Tracer::sunlit_share(const Ray& ray, double length, double loss, int steps, const Band& band,
                             const View& view) const {
   const double size = std::abs(loss), whole = size * std::min(length, kInfinitePath);
@@ -276,7 +276,7 @@ double Tracer::sunlit_share(const Ray& ray, double length, double loss, int step
 Rgb<double> Tracer::bottom_lit_once(const SolidPoint& point, const Beam& beam,
                                     const Band& band) const {
   if (!medium_.bends_sun || sun_path_.depth_of(point.hit.point) <= 0) return walk_.dry(point, beam);
-  // Of a sun that is reflected whole there is nothing.
+  // A totally reflected sun gives no light.
   const Sunlight sun{band.light.to_sun, band.light.spread,
                      band.light.spread > 0 ? sun_.color : kBlack};
   return solid_.color(point, beam, sun, [&] {

@@ -10,7 +10,7 @@
 
 namespace limpid::trace {
 
-/// The light that comes along a view ray, by how it came: the terms of the chain.
+/// The light along a view ray, by the terms of the chain.
 struct Light {
   Rgb<double> transmitted{0, 0, 0}, in_scatter{0, 0, 0}, reflected{0, 0, 0}, highlight{0, 0, 0};
   double fresnel = 0;
@@ -19,15 +19,15 @@ struct Light {
   Rgb<double> sum() const { return transmitted + in_scatter + reflected + highlight; }
 };
 
-/// Everything that rays meet in one picture, and the light that they bring back.
+/// All surfaces of one picture, and the light of rays through them.
 class Tracer {
  public:
   Tracer(const Model& model, const Scene& scene, const Look& look, const TruthOptions& options,
          const Pass& pass, const Eye& eye, Executor& executor);
-  Tracer(const Tracer&) = delete;  // its parts know one another
+  Tracer(const Tracer&) = delete;  // its parts have references to each other
 
-  /// `steps`: samples along a way where the sun's shadow on scattering water is looked up, where
-  /// light is scattered once; else `paths` are the numbers of random ways.
+  /// `steps`: number of samples of the sun's shadow along a path with single scattering; else
+  /// `paths` are the numbers for random paths.
   Light seen(const Beam& beam, bool in_water, int steps, Samples& samples, Samples& paths) const;
 
   const Solid& solid() const { return solid_; }
@@ -35,21 +35,21 @@ class Tracer {
   const Medium& medium() const { return medium_; }
 
  private:
-  /// A view on its way: what it has behind it.
+  /// The state of a view ray.
   struct View {
-    int events = 0;         ///< meetings with the surface
-    int layers = 0;         ///< surfaces that it was seen through
-    bool mirrored = false;  ///< for what it sees where it leaves the scene
+    int events = 0;         ///< crossings and reflections at the surface
+    int layers = 0;         ///< blended surfaces passed
+    bool mirrored = false;  ///< for the light where it leaves the scene
     bool from_air = true;   ///< where the eye is
     int steps;
     Samples& samples;
     Samples& paths;
   };
-  /// What a way through the water, in one band, gives to the view.
+  /// The light of a path through the water, in one band, for the view.
   struct Leg {
     Rgb<double> through{0, 0,
-                        0};  ///< from its end: the bottom, or what is seen through the surface
-    Rgb<double> mirrored{0, 0, 0};  ///< by the surface, from below
+                        0};  ///< light from its end: the bottom, or the scene beyond the surface
+    Rgb<double> mirrored{0, 0, 0};  ///< reflected by the surface, from below
     Rgb<double> in_scatter{0, 0, 0};
     Rgb<double> transmittance{0, 0, 0};
     double fresnel = 0;  ///< of the surface at its end

@@ -9,7 +9,7 @@
 namespace limpid::trace {
 namespace {
 
-/// What a search knows beyond Embree's own context, which must come first.
+/// Context of a search after Embree's own, which must come first.
 struct Query {
   RTCIntersectContext context;
   const Triangles* triangles;
@@ -22,7 +22,7 @@ const Query& query_of(const RTCFilterFunctionNArguments* arguments) {
   return *reinterpret_cast<const Query*>(arguments->context);
 }
 
-/// Embree asks this of every triangle that a ray meets.
+/// Embree calls this for every triangle that a ray meets.
 void drop_hidden_side(const RTCFilterFunctionNArguments* arguments) {
   const Query& query = query_of(arguments);
   const std::uint32_t part = RTCHitN_geomID(arguments->hit, arguments->N, 0);
@@ -32,7 +32,7 @@ void drop_hidden_side(const RTCFilterFunctionNArguments* arguments) {
   if (back != (query.sides == Sides::kBack)) arguments->valid[0] = 0;
 }
 
-/// This one of every tested triangle.
+/// And this for every tested triangle.
 void drop_holes(const RTCFilterFunctionNArguments* arguments) {
   const Query& query = query_of(arguments);
   if (!query.test) return;
@@ -146,7 +146,7 @@ std::optional<Triangles::Hit> Triangles::nearest(const Ray& ray, Sides sides,
   }
   hit.slack = 4e-7 * largest;
   const double exact = distance_to_plane(ray, at.a, hit.front);
-  // A triangle seen edge-on has no plane to speak of.
+  // The plane of a triangle seen edge-on is badly conditioned.
   const double coarse = found.ray.tfar, off = 1e-3 * coarse + 16 * hit.slack;
   hit.distance = std::abs(exact - coarse) <= off ? std::max(exact, ray.from) : coarse;
   hit.point = ray.at(hit.distance);

@@ -11,31 +11,31 @@
 
 namespace limpid::trace {
 
-/// Which sides of triangles a ray can hit. Corners run counter-clockwise around the front.
+/// The sides of triangles that a ray can hit. Corners run counter-clockwise around the front.
 enum class Sides : std::uint8_t {
-  kShown,  ///< as each part says
+  kShown,  ///< by the setting of each part
   kFront,
   kBack,
 };
 
-/// Says of points of a triangle whether anything is there.
+/// Tests whether points of a triangle exist.
 class PointTest {
  public:
   virtual ~PointTest() = default;
-  /// `shares` of the corners.
+  /// `shares`: barycentric coordinates.
   virtual bool there(std::uint32_t part, std::uint32_t triangle,
                      const glm::dvec3& shares) const = 0;
 };
 
-/// Triangles that rays are traced through: Embree behind an interface. It searches in float; where
-/// exactly a ray meets the triangle that was found is worked out in double, by its plane.
+/// Triangles for ray tracing: Embree behind an interface. It searches in float; the exact point on
+/// the triangle found is computed in double, from its plane.
 class Triangles {
  public:
   struct Part {
     std::vector<glm::dvec3> positions;
-    std::vector<std::uint32_t> indices;  ///< three a triangle
+    std::vector<std::uint32_t> indices;  ///< three per triangle
     bool back_shown = true;              ///< for Sides::kShown
-    bool tested = false;                 ///< where it is, a PointTest says
+    bool tested = false;                 ///< whether a PointTest decides
   };
   struct Corners {
     glm::dvec3 a, b, c;
@@ -46,17 +46,17 @@ class Triangles {
     double distance = 0;
     glm::dvec3 point{0};
     glm::dvec3 front{0};  ///< unit normal of the front side
-    double slack = 0;     ///< as far off its triangle as the search may see the point
+    double slack = 0;     ///< how far off its triangle the search may report the point
     friend bool operator==(const Hit&, const Hit&) = default;
   };
 
-  /// Each part must have triangles. Throws Error where memory ends.
+  /// Each part must have triangles. Throws Error if memory runs out.
   explicit Triangles(std::vector<Part> parts);
   ~Triangles();
 
-  /// Without a test, parts that are tested are there everywhere.
+  /// Without a test, all points of tested parts exist.
   std::optional<Hit> nearest(const Ray& ray, Sides sides, const PointTest* test = nullptr) const;
-  /// Whether anything, from whichever side, is in the ray's way.
+  /// Whether any triangle, from either side, blocks the ray.
   bool block(const Ray& ray, const PointTest* test = nullptr) const;
 
   bool empty() const { return parts_.empty(); }
@@ -69,11 +69,11 @@ class Triangles {
   std::unique_ptr<State> state_;
 };
 
-/// Those triangles, of three indices each, that have an area.
+/// The triangles, of three indices each, with nonzero area.
 std::vector<std::uint32_t> with_area(const std::vector<glm::dvec3>& positions,
                                      std::span<const std::uint32_t> indices);
 
-/// Shares of the corners in a point of the triangle's plane; outside of it some are below 0.
+/// Barycentric coordinates of a point of the triangle's plane; outside of it some are below 0.
 glm::dvec3 corner_shares(const Triangles::Corners& corners, const glm::dvec3& point);
 
 }  // namespace limpid::trace

@@ -56,7 +56,7 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
   }
 }
 
-/// What the chain's formulas want to know of a frame that has no planes: its size, and the waves.
+/// The frame for the chain's formulas, without planes: its size, and the waves.
 Frame frame_of(const Scene& scene, const Look& look, const TruthOptions& options) {
   Frame frame;
   frame.display = rect_of(options.size);
@@ -72,8 +72,8 @@ Frame frame_of(const Scene& scene, const Look& look, const TruthOptions& options
   return frame;
 }
 
-/// The pass for formulas that are applied to one point of the surface. Instead of planes it has
-/// what the rays find there: the surface itself, and the sun's shadow on it.
+/// The pass for formulas at one point of the surface. Rays replace planes: they find the surface
+/// itself, and the sun's shadow on it.
 Pass pass_of(const Model& model, const Scene& scene, const Look& look,
              const TruthOptions& options) {
   const PlaneSet traced{PlaneId::kSurfaceDepth, PlaneId::kSurfaceShadow};
@@ -104,7 +104,7 @@ TruthPicture picture_for(const TruthOptions& options) {
   return picture;
 }
 
-/// The mean of many.
+/// The mean of many samples.
 class Mean {
  public:
   void add(const Light& light) {
@@ -132,7 +132,7 @@ class Mean {
 
 double sum_of(const Rgb<double>& c) { return c.r + c.g + c.b; }
 
-/// Apart from the seeds of places in pixels.
+/// Differs from the seeds of places in pixels.
 constexpr std::uint64_t kPathSeed = 0x5a11ed;
 
 class Painter {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Rgb<double> kBlack{0, 0, 0};
 
-/// Ways carry no footprint: textures are met at their finest level.
+/// Paths carry no footprint: textures are sampled at their finest level.
 Beam beam_of(const Ray& ray) { return {ray, ray, ray}; }
 
 }  // namespace
@@ -22,7 +22,7 @@ Rgb<double> Walk::scattered(const Ray& ray, double length, const Band& band,
                             Samples& samples) const {
   const Rgb<double>& rate = medium_.rate;
   Way way{.chances = Chances(band.mask, samples.next())};
-  // Every way is scattered before it ends, and stands for those alone that are.
+  // Every path is scattered before it ends, and represents only scattered paths.
   const auto share = [&](double of) { return -std::expm1(-of * std::min(length, kInfinitePath)); };
   const Rgb<double> shares{share(rate.r), share(rate.g), share(rate.b)};
   const double drawn = way.chances.drawn(shares);
@@ -59,7 +59,7 @@ std::optional<SolidPoint> Walk::nearest(const Ray& ray) const {
   return solid_.nearest(beam_of(ray), Opacity::kBlocking);
 }
 
-/// To where it is scattered, or to the bottom, or to the surface.
+/// Extends the path to a scattering, to the bottom, or to the surface.
 Walk::Going Walk::through_water(Way& way, const Band& band, Samples& samples) const {
   const std::optional<SolidPoint> dry = nearest(way.ray);
   Ray before = way.ray;
@@ -81,8 +81,8 @@ Walk::Going Walk::through_water(Way& way, const Band& band, Samples& samples) co
   return bounce(way, *dry, samples);
 }
 
-/// Out of the water: to the sky or to what is dry, whose light is that of the raster pass; or down
-/// on a wave.
+/// Out of the water: to the sky or to a dry surface, which is shaded as in the raster pass; or down
+/// into a wave.
 Walk::Going Walk::through_air(Way& way, const Band& band, Samples& samples) const {
   const std::optional<SolidPoint> dry = nearest(way.ray);
   if (medium_.crosses) {
@@ -105,7 +105,7 @@ Walk::Going Walk::through_air(Way& way, const Band& band, Samples& samples) cons
   return false;
 }
 
-/// The sun's light from there, and on in a random direction.
+/// Adds the sun's light from there, and continues in a random direction.
 Walk::Going Walk::scatter(Way& way, const glm::dvec3& at, const Band& band,
                           Samples& samples) const {
   way.from_dry = false;
@@ -123,7 +123,7 @@ Walk::Going Walk::scatter(Way& way, const glm::dvec3& at, const Band& band,
   return true;
 }
 
-/// On from a dry surface in the water, as often as its color says.
+/// Reflects the path at a dry surface in the water, with the probability of its color.
 Walk::Going Walk::bounce(Way& way, const SolidPoint& point, Samples& samples) const {
   const Rgb<double> albedo = solid_.albedo(point);
   if (samples.next() >= way.chances.drawn(albedo)) return false;
@@ -136,7 +136,7 @@ Walk::Going Walk::bounce(Way& way, const SolidPoint& point, Samples& samples) co
   return true;
 }
 
-/// Thrown back down, or out.
+/// Reflects or transmits the path at the surface.
 Walk::Going Walk::meet_surface(Way& way, const SurfacePoint& at, const Band& band,
                                Samples& samples) const {
   if (!medium_.crosses) {
@@ -155,7 +155,7 @@ Walk::Going Walk::meet_surface(Way& way, const SurfacePoint& at, const Band& ban
   return !way.from_dry;
 }
 
-/// A dry surface's own answer to sun and sky, through the water over it.
+/// A dry surface's own light from sun and sky, through the water over it.
 Rgb<double> Walk::own_light(const SolidPoint& point, const Beam& beam, const Band& band,
                             Samples& samples) const {
   Sunlight sun{band.light.to_sun, 1, band.sun_on_bottom};
@@ -166,7 +166,7 @@ Rgb<double> Walk::own_light(const SolidPoint& point, const Beam& beam, const Ban
   return lit - ambient + skylight_at(point.hit.point, band, samples) * ambient;
 }
 
-/// Share of the calm plane's sunlight, above 1 where waves focus it.
+/// Share of the calm plane's sunlight, above 1 at foci.
 double Walk::sunlit(const SolidPoint& point, const Band& band) const {
   if (caustics_) {
     if (const std::optional<double> focused = caustics_->at(point)) return *focused;
@@ -174,8 +174,8 @@ double Walk::sunlit(const SolidPoint& point, const Band& band) const {
   return sun_path_.reaches(point.off_towards(band.light.to_sun), band) ? 1 : 0;
 }
 
-/// What of an even sky's light comes straight down to what lies level there, by one of its
-/// directions.
+/// Share of an even sky's light that comes straight down to a level surface there, by one random
+/// direction.
 Rgb<double> Walk::skylight_at(const glm::dvec3& point, const Band& band, Samples& samples) const {
   const double cosine = std::sqrt(samples.next());
   const double enters = medium_.crosses ? 1 - fresnel_exact(cosine, 1 / band.ior) : 1;
@@ -184,7 +184,7 @@ Rgb<double> Walk::skylight_at(const glm::dvec3& point, const Band& band, Samples
   return enters * band.square * transmittance(way, medium_.rate);
 }
 
-/// Where nothing is absorbed ways would go down for ever.
+/// Without absorption paths would descend forever.
 bool Walk::lost_below(const glm::dvec3& point) const {
   const Rgb<double>& rate = medium_.rate;
   const double least = std::min({rate.r, rate.g, rate.b}) * (1 - medium_.anisotropy);

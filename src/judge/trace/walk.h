@@ -10,14 +10,14 @@
 
 namespace limpid::trace {
 
-/// Light by random ways through the water, of any number of scatterings, bounces off dry surfaces
-/// and mirrorings at the surface: from the viewer back to the sun, which each scattering and each
-/// bounce looks for, and to the sky, which ways that leave the water end in.
+/// Light by random paths through the water, with any number of scatterings, reflections by dry
+/// surfaces and by the surface: from the viewer back to the sun, to which each scattering and each
+/// reflection connects, and to the sky, where paths end that leave the water.
 ///
 /// The dry picture's own light is given: the sun on a dry surface, and the ambient light of its
-/// material. So the given light that one dry surface throws straight at another, and what the sky
-/// sends straight to the bottom, count as part of that ambient light; the ways add what the water
-/// sends, straight and by dry surfaces.
+/// material. So the given light that one dry surface reflects straight to another, and the sky's
+/// light straight to the bottom, count as part of that ambient light; the paths add the light that
+/// the water sends, directly and by dry surfaces.
 class Walk {
  public:
   /// All must outlive it. `sun`: of dry surfaces in the air. Without caustics sunlight comes
@@ -35,25 +35,24 @@ class Walk {
   /// Radiance, in the water, that is scattered into the ray within that length.
   Rgb<double> scattered(const Ray& ray, double length, const Band& band, Samples& samples) const;
 
-  /// Radiance, in the water, that a dry surface there sends back along the beam.
+  /// Radiance, in the water, that a dry surface there reflects back along the beam.
   Rgb<double> bottom(const SolidPoint& point, const Beam& beam, const Band& band,
                      Samples& samples) const;
 
-  /// The same in the air, as the raster pass has it.
+  /// The same in the air, as in the raster pass.
   Rgb<double> dry(const SolidPoint& point, const Beam& beam) const;
 
  private:
-  /// A way under way.
+  /// The state of a random path.
   struct Way {
     Chances chances;
     Ray ray{};
-    double scale = 1;  ///< of radiance, for where the way is
+    double scale = 1;  ///< factor of radiance in the path's medium
     bool in_air = false;
-    bool from_dry =
-        false;  ///< straight on from dry surfaces: what light is given there is their ambient
+    bool from_dry = false;  ///< directly from a dry surface: given light there is the ambient light
     Rgb<double> light{0, 0, 0};
   };
-  using Going = bool;  ///< whether the way goes on
+  using Going = bool;  ///< whether the path continues
 
   void go(Way& way, const Band& band, Samples& samples) const;
   Going through_water(Way& way, const Band& band, Samples& samples) const;

@@ -1,4 +1,4 @@
-"""From the scene's settings to a job, and the job's beginning: all that is refused before anything is rendered."""
+"""The job of the scene's settings, checked before anything is rendered, and its start."""
 import pathlib
 import shlex
 import shutil
@@ -18,7 +18,7 @@ from .words import Failure
 
 
 def folder_of(settings):
-    """Where everything is written."""
+    """The folder of all outputs."""
     if settings.folder.startswith("//") and not bpy.data.filepath:
         raise Failure("this file was never saved, so that '//' means no folder: save it, or give another folder")
     return pathlib.Path(bpy.path.abspath(settings.folder)).resolve()
@@ -57,7 +57,7 @@ def _sun(settings, scene, view_layer):
 
 
 def job_of(scene, view_layer, frames=""):
-    """Throws Failure with the first thing that is wrong."""
+    """Throws Failure for the first error in the settings."""
     settings = scene.limpid
     expect_camera(scene.camera)
     if scene.render.use_multiview:
@@ -77,7 +77,7 @@ def job_of(scene, view_layer, frames=""):
 
 
 def _copy_into(folder):
-    """Saves the file as it is now, unsaved changes included, beside what of its caches goes by its name."""
+    """Saves the file with its unsaved changes, beside the caches that are found by the file's name."""
     own = pathlib.Path(bpy.data.filepath)
     copy = folder / (own.name or "untitled.blend")
     bpy.ops.wm.save_as_mainfile(filepath=str(copy), copy=True, check_existing=False)
@@ -88,7 +88,7 @@ def _copy_into(folder):
 
 
 class Started:
-    """A job in a process of its own, which works on a copy of the file."""
+    """A job in a second process, which works on a copy of the file."""
 
     def __init__(self, job):
         if not bpy.app.binary_path:

@@ -1,8 +1,8 @@
-"""What is set for one pass and put back after it."""
+"""Settings of one pass, restored after it."""
 
 
 class Changes:
-    """Sets attributes and remembers what they were: `with Changes() as changes: changes.set(thing, "x", 1)`."""
+    """Sets attributes and keeps their old values: `with Changes() as changes: changes.set(thing, "x", 1)`."""
 
     def __init__(self):
         self._undo = []

@@ -1,8 +1,8 @@
-"""Where a picture lies in its overscan, written into the EXR that Blender left.
+"""Writes the place of a picture in its overscan into the EXR that Blender rendered.
 
 Blender renders a larger picture and cannot say that its middle is the picture. The windows of an EXR can:
-the data window begins left of and above the display window. Nothing is decoded for that, but for the number
-of the first row in each block of rows."""
+the data window begins left of and above the display window. No pixel is decoded for that; only the number of the
+first row changes in each block of rows."""
 import os
 import struct
 
@@ -31,7 +31,7 @@ def _numbers(file, kinds):
 
 
 def _attributes(file):
-    """Where each attribute's value lies: name, place."""
+    """The offset of each attribute's value: name, offset."""
     places = {}
     while name := _text(file):
         _text(file)  # its type
@@ -70,7 +70,7 @@ def _place(file, overscan):
 
 def place(path, overscan):
     """Makes the picture the display window of the file, from (0, 0) on, and all of its pixels the data
-    window. Throws Failure, and may have spoilt the file, where it is no EXR as Blender writes them."""
+    window. Throws Failure, possibly after changes to the file, for an EXR of another layout than Blender's."""
     try:
         with open(path, "r+b") as file:
             _place(file, overscan)

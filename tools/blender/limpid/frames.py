@@ -1,4 +1,4 @@
-"""Frames as limpid writes them: 12, 1-48, 1-48x2; several of them parted by commas."""
+"""Frame ranges in limpid's syntax: 12, 1-48, 1-48x2; several separated by commas."""
 import re
 
 from .words import Failure
@@ -7,7 +7,7 @@ MOST = 100000
 
 
 def frames_of(text):
-    """The numbers that a range means, in its order, each once."""
+    """The numbers of a range, in its order, each once."""
     frames = {}
     for part in text.split(","):
         found = re.fullmatch(r"\s*(-?\d+)(?:-(-?\d+)(?:x(\d+))?)?\s*", part)
@@ -25,13 +25,13 @@ def frames_of(text):
 
 
 def numbered(name, frame):
-    """`dry` at frame 7 is `dry.0007`, as `dry.####` means in limpid."""
+    """`dry` at frame 7 is `dry.0007`, the name that limpid's `dry.####` has."""
     return f"{name}.{frame:04d}"
 
 
 def camera_at(frame, bound):
-    """Of (frame, camera), as markers bind them to the timeline: the camera of the last marker up to
-    the frame, else of the first one. None where no marker binds a camera."""
+    """The camera of the last marker up to the frame, else of the first; markers are (frame, camera), as
+    bound to the timeline. None if no marker binds a camera."""
     bound = sorted(bound, key=lambda marker: marker[0])
     before = [camera for at, camera in bound if at <= frame]
     return before[-1] if before else bound[0][1] if bound else None

@@ -1,10 +1,10 @@
-"""What is to be done, as the panel hands it to the process that does it: a JSON file."""
+"""A job, passed from the panel to the process that runs it: a JSON file."""
 import dataclasses
 import json
 import pathlib
 from dataclasses import dataclass, field
 
-# Lines that begin so are for the process that started the job: MARK KIND: TEXT.
+# Prefix of lines for the process that started the job: MARK KIND: TEXT.
 MARK = "limpid job "
 
 

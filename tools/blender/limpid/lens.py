@@ -1,10 +1,10 @@
-"""What a camera's lens shows, in Blender's own numbers, and the same lens for a larger picture."""
+"""A camera's lens in Blender's own numbers, and the same lens for a larger picture."""
 from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
 class Overscan:
-    """Pixels that are rendered beyond each side of the picture."""
+    """Pixels rendered beyond each side of the picture."""
     left: int = 0
     right: int = 0
     top: int = 0
@@ -17,7 +17,7 @@ class Overscan:
 @dataclass(frozen=True)
 class Lens:
     """`sensor_fit` is HORIZONTAL, VERTICAL or AUTO; widths are in mm, but `ortho_scale` in scene units.
-    Shifts are shares of the side that the sensor is fitted to."""
+    Shifts are shares of the side to which the sensor is fitted."""
     sensor_fit: str
     sensor_width: float
     sensor_height: float
@@ -27,8 +27,8 @@ class Lens:
 
 
 def widened(lens, size, aspect, overscan):
-    """The lens that shows the same at each pixel of the picture, and so many pixels beyond. `size` is that
-    of the picture, `aspect` the sides of a pixel, x and y."""
+    """The lens that shows the same at each pixel of the picture, plus the overscan. `size` is that of the
+    picture, `aspect` the sides of a pixel, x and y."""
     width, height = size
     tall = aspect[1] / aspect[0]  # a pixel, in widths of a pixel
     across = lens.sensor_fit == "HORIZONTAL" or (lens.sensor_fit == "AUTO" and width >= tall * height)

@@ -1,12 +1,12 @@
-"""How high the water of a mesh stands."""
+"""The height of the water of a mesh."""
 from mathutils import Vector
 
 FLAT = 0.1  # the least part of its area that a level face turns up
 
 
 def level_of(water, depsgraph):
-    """Mean and largest height of the faces that look up, by their area; of a sheet that lies upside down, of
-    those that look down. None where the mesh has no such face."""
+    """Mean height, by area, and largest height of the faces that face up; for a sheet that lies upside down,
+    of those that face down. None if the mesh has no such face."""
     evaluated = water.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:
@@ -35,6 +35,6 @@ def _level(mesh, world):
 
 
 def crosses(thing, world, height):
-    """Whether the box around an object spans the height: the water cuts it, so that its inside shows."""
+    """Whether the box around an object spans the height: the clip at the water then exposes its inside."""
     heights = [(world @ Vector(corner)).z for corner in thing.bound_box]
     return min(heights) < height < max(heights)

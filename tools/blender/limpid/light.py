@@ -1,4 +1,4 @@
-"""The light that limpid is told of: the sun, and the sky where it is the same everywhere."""
+"""The light for the scene file: the sun, and an even sky."""
 import math
 
 from .words import Failure
@@ -7,7 +7,7 @@ RED, GREEN, BLUE = 0.2126, 0.7152, 0.0722  # luminance
 
 
 def _emission(lamp):
-    """What a lamp's nodes multiply its strength by: red, green, blue."""
+    """The factor of a lamp's nodes on its strength: red, green, blue."""
     if not (lamp.use_nodes and lamp.node_tree):
         return 1.0, 1.0, 1.0
     ends = [node for node in lamp.node_tree.nodes if node.type == "OUTPUT_LIGHT" and node.is_active_output]
@@ -43,7 +43,7 @@ def brightest_sun(view_layer):
 
 
 def even_sky(world, exposure):
-    """The world's radiance where it is one color, else None: then it is rendered."""
+    """The world's radiance if it is a single color, else None: then the world is rendered."""
     if world is None:
         return 0.0, 0.0, 0.0
     if not (world.use_nodes and world.node_tree):

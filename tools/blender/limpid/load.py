@@ -12,7 +12,7 @@ TERMS = ("transmitted", "in_scatter", "reflected", "highlight")  # they sum to t
 
 
 def load_image(folder, frames):
-    """One frame, or the sequence that begins with the first of them; the image of an earlier run is used again."""
+    """One frame, or the sequence that begins with the first frame; reuses the image of an earlier run."""
     path = str(pathlib.Path(folder) / f"{numbered('wet', frames[0])}.exr")
     image = bpy.data.images.get(NAME)
     if image is None:
@@ -38,8 +38,8 @@ def _mix(tree, blend, first, second):
 
 
 def make_group(image, frames):
-    """A group whose output Wet is the picture, made of its terms where it has them, each times a number. All else
-    that the file holds are outputs, too. The group of an earlier run is filled anew, so that nodes keep it."""
+    """A group whose output Wet is the picture, composed of its terms if it has them, each times a factor. The
+    other layers of the file are outputs, too. The group of an earlier run is refilled, so that nodes keep it."""
     tree = bpy.data.node_groups.get(NAME) or bpy.data.node_groups.new(NAME, "CompositorNodeTree")
     tree.nodes.clear()
     picture = tree.nodes.new("CompositorNodeImage")
@@ -86,7 +86,7 @@ def _renew_sockets(tree, wanted):
 
 
 def show(image, frames):
-    """In the image editors that are open."""
+    """Shows the image in the open image editors."""
     window = bpy.context.window
     for area in window.screen.areas if window and not bpy.app.background else ():
         if area.type == "IMAGE_EDITOR":

@@ -1,4 +1,4 @@
-"""What the buttons do."""
+"""The operators of the buttons."""
 import bpy
 
 from . import begin
@@ -18,7 +18,7 @@ def _redraw(context):
 
 
 class LIMPID_OT_wet(bpy.types.Operator):
-    """Renders the scene without its water, in a second Blender, and runs limpid, which puts the water in"""
+    """Renders the scene without its water in a second Blender, and composites the water with limpid"""
     bl_idname = "limpid.wet"
     bl_label = "Make it wet"
     bl_options = {"UNDO"}
@@ -83,7 +83,7 @@ class LIMPID_OT_wet(bpy.types.Operator):
         return self._finish()
 
     def cancel(self, _context):
-        """Blender ends it: another file is opened, or none."""
+        """Called by Blender when it opens another file, or ends."""
         if state.started:
             state.started.run.cancel()
             state.started.finish()

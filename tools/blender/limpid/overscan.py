@@ -1,4 +1,4 @@
-"""How much overscan the water needs, as `limpid plan` tells of a small test render."""
+"""The overscan that the water needs, from `limpid plan` on a small test render."""
 import math
 import re
 
@@ -28,13 +28,13 @@ def asked_for(plan, test_size, size):
 
 
 def largest(overscans):
-    """What is enough for each of several frames."""
+    """The overscan that is enough for several frames."""
     return Overscan(*(max((getattr(one, side) for one in overscans), default=0)
                       for side in ("left", "right", "top", "bottom")))
 
 
 def sampled(frames, most=5):
-    """Frames to test, spread over a sequence, its first and last among them."""
+    """Frames to test, spread over a sequence, including its first and last."""
     if len(frames) <= most:
         return list(frames)
     return [frames[round(i * (len(frames) - 1) / (most - 1))] for i in range(most)]

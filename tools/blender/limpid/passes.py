@@ -1,6 +1,6 @@
-"""The passes of a frame: what each shows, and how the scene is set up for it.
+"""The passes of a frame: the content of each, and the setup of the scene for it.
 
-A pass is a function of the studio that renders one EXR; what it sets is put back after it."""
+A pass is a function of the studio that renders one EXR; it restores its settings afterwards."""
 import math
 
 import bpy
@@ -20,7 +20,7 @@ def _few_samples(studio, changes, count=FEW):
 
 
 def _without_disc(studio, changes):
-    """What is mirrored has no sun in it: the highlight is limpid's."""
+    """Removes the sun from the reflection: limpid adds the highlight."""
     world = studio.scene.world
     for node in world.node_tree.nodes if world and world.node_tree else ():
         if node.type == "TEX_SKY" and node.sky_type not in ("PREETHAM", "HOSEK_WILKIE"):
@@ -48,7 +48,7 @@ def _only_the_sun(studio, changes):
 
 
 def dry(studio, path, overscan):
-    """The scene without its water: color, depth, and what of the color is the sun's."""
+    """The scene without its water: color, depth, and the sun's part of the color."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
         studio.aim(studio.size, overscan)
@@ -56,7 +56,7 @@ def dry(studio, path, overscan):
 
 
 def mirror(studio, path, overscan):
-    """What a flat mirror in the water shows at each pixel, and how far it is."""
+    """The picture of a flat mirror in the water plane at each pixel, and its depth."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
@@ -69,9 +69,9 @@ def mirror(studio, path, overscan):
 
 
 def below(studio, path, overscan):
-    """The dry scene without what stands above the water, lit and shaded as it was. Of that a strip of two pixels
-    is left: what is looked up next to the waterline is then a thing that stands in the water, and not what is
-    behind it."""
+    """The dry scene without the objects above the water, lit and shaded as before. A strip of two pixels of
+    these objects remains, so that lookups next to the waterline find the object that stands in the water, and not
+    the scene behind it."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
@@ -84,7 +84,7 @@ def below(studio, path, overscan):
 
 
 def shadow(studio, path, overscan):
-    """Where the sun reaches the dry scene."""
+    """Visibility of the sun on the dry scene."""
     with Changes() as changes:
         _few_samples(studio, changes)
         _only_the_sun(studio, changes)
@@ -100,7 +100,7 @@ def _water_alone(studio, changes):
 
 
 def surface(studio, path, overscan):
-    """The water alone: its depth, and where the sun reaches it, past all that casts a shadow."""
+    """The water alone: its depth, and the visibility of the sun on it, with all objects that cast shadows."""
     with Changes() as changes:
         _few_samples(studio, changes, FEW if studio.sun else 1)
         if studio.sun:
@@ -112,7 +112,7 @@ def surface(studio, path, overscan):
 
 
 def waves(studio, path, overscan):
-    """The normals of the water alone. They are those of what it scatters light by: of a plain gray."""
+    """The normals of the water alone, rendered with a plain gray material."""
     with Changes() as changes:
         _few_samples(studio, changes)
         changes.set(studio.scene, "world", None)
@@ -125,7 +125,7 @@ def waves(studio, path, overscan):
 
 
 def test_plate(studio, path, size, water):
-    """The dry scene, or the water alone, small and coarse: for its depth."""
+    """A small, coarse render of the dry scene, or of the water alone: for its depth."""
     with Changes() as changes:
         _few_samples(studio, changes, 1)
         changes.set(studio.scene, "world", None)
@@ -136,7 +136,7 @@ def test_plate(studio, path, size, water):
 
 
 def surroundings(studio, path):
-    """The world as far as it lights the scene, all around: its middle looks along x, as limpid wants it."""
+    """The world that lights the scene, as a panorama: its middle looks along x, as limpid requires."""
     width = min(MOST_AROUND, max(LEAST_AROUND, 2 * max(studio.size)))
     scene = bpy.data.scenes.new("limpid surroundings")
     camera = bpy.data.objects.new("limpid surroundings", bpy.data.cameras.new("limpid surroundings"))
@@ -151,7 +151,7 @@ def surroundings(studio, path):
             scene.collection.objects.link(camera)
             camera.rotation_euler = (math.pi / 2, 0, -math.pi / 2)
             camera.data.type = "PANO"
-            # The kind of panorama is the camera's own since 4.5, before it was Cycles'.
+            # Since 4.5 the camera has the kind of panorama, before Cycles' settings had it.
             kind = camera.data if hasattr(camera.data, "panorama_type") else camera.data.cycles
             kind.panorama_type = "EQUIRECTANGULAR"
             scene.camera = camera

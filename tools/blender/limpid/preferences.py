@@ -1,4 +1,4 @@
-"""Where the program limpid is, where it is not on PATH."""
+"""The path of the program limpid, if it is not on PATH."""
 import bpy
 
 

@@ -1,4 +1,4 @@
-"""What a scene remembers: which water, which look, what is rendered."""
+"""The settings of a scene: its water, its look, its passes."""
 import bpy
 
 from . import preferences

@@ -1,4 +1,4 @@
-"""A process beside this one, what it says, and its end. Nothing of Blender is in here."""
+"""A second process, its output and its end. Independent of Blender."""
 import os
 import re
 import signal
@@ -11,8 +11,8 @@ LINE = re.compile(MARK + r"(step|note|warning|wet|done|error): (.*)")
 
 
 class Run:
-    """Starts a program that says on its standard output what it does: the lines of work.say().
-    All that it prints goes into a log. Its standard input ends when this process does, however that comes."""
+    """Starts a program that reports its progress on standard output, by the lines of work.say().
+    All of its output goes into a log. Its standard input closes when this process ends for any reason."""
 
     def __init__(self, words, log):
         self.log = str(log)
@@ -56,13 +56,13 @@ class Run:
         self._reader.join()
 
     def cancel(self):
-        """Ends it and all that it has started."""
+        """Ends the process and its children."""
         self.cancelled = True
         if self._process.poll() is None:
             os.killpg(self._process.pid, signal.SIGTERM)
 
     def failure(self):
-        """After its end: one sentence, or None where all went well."""
+        """After its end: a sentence about its error, or None."""
         if self.cancelled:
             return f"cancelled: {len(self.wet)} frames were finished"
         status = self._process.returncode

@@ -1,4 +1,4 @@
-"""The text of a limpid scene file: where a frame was seen from, its water, its light and its buffers."""
+"""The text of a limpid scene file: the camera of a frame, its water, its light and its buffers."""
 from dataclasses import dataclass, field
 from typing import Optional
 
@@ -35,7 +35,7 @@ def _table(name, entries):
 
 
 def scene_text(facts, about):
-    """The file; `about` is one line for people."""
+    """The text of the file; `about` is a comment line."""
     lines = [f"# {about}", "# Metres or whatever unit the scene has, z up; written by limpid's add-on for Blender.", ""]
     lines += _table("plates", facts.plates)
     lines += _table("camera", {"view": facts.view, "projection": facts.projection, "clip": "gl",
@@ -50,7 +50,7 @@ def scene_text(facts, about):
     return "\n".join(lines)
 
 
-# What each pass feeds: key of [plates], and the layer or channel of the pass's file.
+# The inputs from each pass: key of [plates], and the layer or channel of the pass's file.
 CHANNELS = {
     "dry": {"color": "Combined", "depth": "Depth"},
     "sun": {"sun_color": "Combined_sun"},
@@ -65,12 +65,12 @@ SHARED = {"sun": "dry", "surface_shadow": "surface"}  # passes that lie in the f
 
 
 def files_of(passes):
-    """The files that hold these passes, each once, in order."""
+    """The files of these passes, each once, in order."""
     return list(dict.fromkeys(SHARED.get(name, name) for name in passes))
 
 
 def plates_of(passes, name_of, environment=None):
-    """The entries of [plates] for the passes that were rendered; `name_of` gives the path of a file."""
+    """The entries of [plates] for the rendered passes; `name_of` returns the path of a file."""
     plates = {role: f"{name_of(SHARED.get(name, name))}:{LAYER}.{channel}"
               for name in passes for role, channel in CHANNELS[name].items()}
     if environment:

@@ -1,8 +1,8 @@
-"""What a camera sees of materials: nothing beyond the water, or the sun alone.
+"""Materials as the camera sees them: clipped at the water, or lit by the sun alone.
 
-A material is not changed but for where the shader of its surface comes from: a group stands between, and is
-taken away after the pass. Rays that are not the camera's meet the material as it was, so that what is seen is lit,
-shaded and mirrored as in the dry picture."""
+Only the source of a material's surface shader changes: a node group is inserted, and removed after the pass. Rays
+other than the camera's meet the original material, so that visible surfaces are lit, shaded and mirrored as in the
+dry picture."""
 import bpy
 
 from .sockets import add_socket
@@ -11,7 +11,7 @@ CROSSING = "limpid_crossing"  # property of objects that the water cuts
 
 
 class _Group:
-    """A node group in the making, whose input and output is a shader."""
+    """A node group under construction, whose input and output are shaders."""
 
     def __init__(self, name):
         self.tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
@@ -34,7 +34,7 @@ class _Group:
         return self.node("ShaderNodeMath", *inputs, operation=operation)[0]
 
     def number(self, name, value=0.0):
-        """A value that is set before a pass."""
+        """A value node that is set before a pass."""
         output = self.node("ShaderNodeValue", name=name)[0]
         output.default_value = value
         return output
@@ -48,9 +48,9 @@ class _Group:
 
 
 def cut_group():
-    """The camera sees through all on one `side` of the `height` (1 above, -1 below), which rises by `spare` with
-    each unit of distance. Where the water cuts a thing, its inside shows: that is seen through, too, or is no picture
-    at all where it is to `hold` out."""
+    """Surfaces on one `side` of the `height` (1 above, -1 below), which rises by `spare` per unit of distance,
+    are transparent to the camera. The exposed inside of a clipped object is transparent, too, or a holdout with
+    `hold`."""
     group = _Group("limpid cut")
     here, path = group.node("ShaderNodeNewGeometry"), group.node("ShaderNodeLightPath")
     side, height, hold = (group.number(name) for name in ("side", "height", "hold"))
@@ -69,8 +69,9 @@ def cut_group():
 
 
 def sunlit_group():
-    """All is white and faces the sun, whose direction is `x`, `y`, `z`: lit by a sun of strength pi a pixel is as
-    bright as the sun is visible. What turns away from the sun is black. Shadow rays meet the material as it was."""
+    """All surfaces are white and face the sun, whose direction is `x`, `y`, `z`: with a sun of strength pi, the
+    brightness of a pixel is the sun's visibility. Surfaces that face away are black. Shadow rays meet the original
+    material."""
     group = _Group("limpid sunlit")
     sun = group.node("ShaderNodeCombineXYZ", *(group.number(axis) for axis in "xyz"))[0]
     face = group.node("ShaderNodeNewGeometry")["True Normal"]
@@ -84,7 +85,7 @@ def sunlit_group():
 
 
 def material_of(group):
-    """A material that is nothing but the group."""
+    """A material of the group alone."""
     made = bpy.data.materials.new(group.name)
     made.use_nodes = True
     nodes = made.node_tree.nodes
@@ -101,7 +102,7 @@ def set_numbers(group, **numbers):
 
 
 def seen_through(group, materials, changes):
-    """Puts the group between each material and its surface, until the changes are put back."""
+    """Inserts the group between each material and its surface, until the changes are restored."""
     for material in materials:
         tree = material.node_tree
         end = tree.get_output_node("CYCLES") if tree else None

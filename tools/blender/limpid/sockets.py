@@ -2,7 +2,7 @@
 
 
 def add_socket(tree, way, kind, name):
-    """`way` is INPUT or OUTPUT, `kind` as in NodeSocketFloat. The socket, whose default may be set."""
+    """`way` is INPUT or OUTPUT, `kind` as in NodeSocketFloat. Returns the socket, whose default may be set."""
     if hasattr(tree, "interface"):
         return tree.interface.new_socket(name, in_out=way, socket_type=kind)
     return (tree.inputs if way == "INPUT" else tree.outputs).new(kind, name)

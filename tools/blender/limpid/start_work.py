@@ -1,6 +1,6 @@
-"""Where the second Blender begins: blender -b COPY.blend --python start_work.py -- JOB.json
+"""The start of the second Blender: blender -b COPY.blend --python start_work.py -- JOB.json
 
-It ends with the Blender that started it: then its standard input, on which nothing comes, is closed."""
+It ends with the Blender that started it, which closes its standard input."""
 import importlib
 import os
 import pathlib

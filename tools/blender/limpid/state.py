@@ -1,4 +1,4 @@
-"""What the panel shows, and nothing of which is in the .blend: the job that runs, and what came of the last."""
+"""State of the panel outside of the .blend: the running job, and the result of the last one."""
 
 
 class State:

@@ -1,4 +1,4 @@
-"""The copy of the scene made ready for its passes. It is never saved: nothing is put back here."""
+"""The copy of the scene, prepared for its passes. It is never saved, so changes are not restored."""
 import math
 
 import bpy
@@ -17,7 +17,7 @@ SHOWN = {"MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VO
 
 
 def expect_camera(camera):
-    """Gives it back. Throws Failure for none, and for one that limpid has no model of."""
+    """Returns the camera. Throws Failure for none, and for a kind that limpid does not support."""
     if camera is None:
         raise Failure("no camera: expected one in the scene")
     if camera.data.type not in ("PERSP", "ORTHO"):
@@ -33,7 +33,7 @@ class Studio:
         bpy.context.window.scene = self.scene
         bpy.context.window.view_layer = self.layer
         self._make_local()
-        # By name, after that: names of what is local alone are sure.
+        # Names are unique only now, when all data is local.
         self.sun = self.scene.objects[job.sun] if job.sun else None
         self.sheet = self.scene.objects[job.water] if job.water else self._make_sheet()
         self._settle()
@@ -48,14 +48,14 @@ class Studio:
     # ---- once
 
     def _make_local(self):
-        """What comes from libraries is read only; here it is needed as it is, with other visibility and shaders."""
+        """Makes linked library data local: it is read-only, but needs other visibility and shaders here."""
         for things in (bpy.data.objects, bpy.data.materials, bpy.data.lights, bpy.data.worlds, bpy.data.collections):
             for thing in list(things):
                 if thing.library:
                     thing.make_local()
 
     def _make_sheet(self):
-        """A level plane as far as the camera sees, for the sun's shadow on it."""
+        """A level plane up to the camera's far clip, to receive the sun's shadow."""
         mesh = bpy.data.meshes.new("limpid water")
         mesh.from_pydata([(x, y, 0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))], [], [(0, 1, 2, 3)])
         sheet = bpy.data.objects.new("limpid water", mesh)
@@ -63,7 +63,7 @@ class Studio:
         return sheet
 
     def _settle(self):
-        """What holds for all passes, and is no pass's own."""
+        """Sets the options that all passes share."""
         scene, render = self.scene, self.scene.render
         for layer in scene.view_layers:
             layer.use = layer == self.layer
@@ -94,7 +94,7 @@ class Studio:
             self.sun.lightgroup = "sun"
 
     def _give_plain_materials(self):
-        """Blender's own gray for what has no material, as a material: only a material can be seen through."""
+        """Gives Blender's default gray to objects without a material: only a material can be made transparent."""
         self.plain = plain = bpy.data.materials.new("limpid plain")
         plain.use_nodes = True
         nodes = plain.node_tree.nodes
@@ -137,7 +137,7 @@ class Studio:
     # ---- each frame
 
     def at(self, frame):
-        """Goes to the frame, and gives back what limpid has to know of it, its plates left out."""
+        """Goes to the frame, and returns its facts for the scene file, without the plates."""
         scene = self.scene
         scene.camera = camera_at(frame, self.bound) or self.own_camera
         scene.frame_set(frame)
@@ -187,8 +187,7 @@ class Studio:
         return self.world.translation.z <= self.height
 
     def aim(self, size, overscan, mirrored=False):
-        """The camera of the passes: that of the scene, over the picture with its overscan; or what it would see
-        in a mirror of the water."""
+        """Sets up the camera of the passes: the scene's, with overscan; or its mirror image at the water."""
         scene, source = self.scene, self.source.data
         lens = Lens(source.sensor_fit, source.sensor_width, source.sensor_height, source.ortho_scale, source.shift_x,
                     source.shift_y)
@@ -207,7 +206,7 @@ class Studio:
         scene.render.resolution_x, scene.render.resolution_y = overscan.around(size)
 
     def render(self, path, overscan):
-        """Renders the scene as it is now into an EXR of all passes, the picture in its overscan."""
+        """Renders the current scene into an EXR of all passes, with overscan."""
         self.scene.render.filepath = path
         try:
             result = bpy.ops.render.render(write_still=True, scene=self.scene.name)

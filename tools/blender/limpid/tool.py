@@ -1,4 +1,4 @@
-"""The tool limpid: where it is, which looks it has, and what it says."""
+"""The tool limpid: its path, its looks, and its output."""
 import os
 import pathlib
 import re
@@ -9,7 +9,7 @@ from .words import Failure
 
 
 def find_tool(path=""):
-    """The program: the path that the preferences give, else the one found on PATH."""
+    """The program: the path in the preferences, else limpid on PATH."""
     if path:
         if not os.path.isfile(path) or not os.access(path, os.X_OK):
             raise Failure(f"limpid is not at '{path}': expected a program there (Preferences > Add-ons > limpid)")
@@ -21,7 +21,8 @@ def find_tool(path=""):
 
 
 def _listed(tool):
-    """The looks as the verb `looks` lists them: a name, two spaces or more, a sentence. None of a tool without it."""
+    """The looks as the verb `looks` lists them: a name, two spaces or more, a sentence. Empty for a tool without
+    that verb."""
     try:
         ran = subprocess.run([tool, "looks"], capture_output=True, text=True, timeout=20, stdin=subprocess.DEVNULL)
     except (OSError, subprocess.TimeoutExpired):
@@ -45,14 +46,14 @@ def look_names(tool):
 
 
 def last_sentence(said):
-    """The tool's own, without its name; "" where it said nothing."""
+    """The tool's last sentence, without its name; "" if there is none."""
     lines = [line for line in said.splitlines() if line.strip()]
     return re.sub(r"^limpid( ERROR)?: ", "", lines[-1]) if lines else ""
 
 
 def run_tool(words, log):
-    """Runs it and gives back what it printed. Throws Failure with its own sentence. All that it says goes
-    into the log, too."""
+    """Runs the tool and returns its standard output. Throws Failure with the tool's sentence. All of its
+    output goes into the log, too."""
     try:
         ran = subprocess.run(words, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     except OSError as fault:

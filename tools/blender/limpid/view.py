@@ -1,4 +1,4 @@
-"""`limpid view` on the plates that were rendered."""
+"""`limpid view` on the rendered plates."""
 import os
 import subprocess
 
@@ -29,7 +29,7 @@ class Page:
 
 
 def view(scene, frames="", before=None):
-    """Opens the page; one that was opened before is closed. Throws Failure where there are no plates yet."""
+    """Opens the page, and closes the one opened before. Throws Failure if there are no plates yet."""
     folder, wanted = folder_of(scene.limpid), frames_wanted(scene, frames)
     there = [frame for frame in wanted if os.path.isfile(folder / f"{numbered('scene', frame)}.toml")]
     if not there:

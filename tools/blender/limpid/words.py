@@ -1,5 +1,5 @@
-"""The one kind of failure that the add-on tells of: a sentence."""
+"""The exception for all errors that the add-on reports: a sentence."""
 
 
 class Failure(Exception):
-    """What was found, and what was expected instead: one sentence for the panel, and for a farm's log."""
+    """What was found, and what was expected: a sentence for the panel, and for a farm's log."""

@@ -1,4 +1,4 @@
-"""What the process beside Blender's window does: it renders the plates of a job and runs limpid on them."""
+"""The work of the second process: renders the plates of a job and runs limpid on them."""
 import pathlib
 import sys
 import tempfile
@@ -18,7 +18,7 @@ def say(kind, text):
 
 
 class Steps:
-    """Counts what is done of a job, for a line of progress."""
+    """Counts the finished steps of a job, for a line of progress."""
 
     def __init__(self, total):
         self.total, self.done = total, 0
@@ -29,7 +29,7 @@ class Steps:
 
 
 def passes_of(job, is_under_water):
-    """Names of the passes that a frame gets, in the order in which they are rendered."""
+    """Names of the passes of a frame, in the order of rendering."""
     names = ["dry"] + ["sun"] * bool(job.sun)
     if job.sun and job.shadow:
         names += ["shadow", "surface_shadow"]
@@ -57,7 +57,7 @@ class Work:
             say("warning", text)
 
     def limpid(self, *words):
-        """What the tool prints, and its warnings."""
+        """Runs the tool; returns its output, and reports its warnings."""
         return run_tool([self.job.tool, *map(str, words)], lambda text: print(text, flush=True))
 
     def look(self):
@@ -66,7 +66,7 @@ class Work:
     # ---- overscan
 
     def tested(self):
-        """Frames that a small test render comes before: it finds what limpid refuses, and the overscan."""
+        """Checks frames by a small test render, which finds errors and the overscan."""
         return over.sampled(self.job.frames) if self.job.overscan < 0 else self.job.frames[:1]
 
     def overscan(self, steps):

@@ -10,14 +10,14 @@
     )
 
 Arrays are float32 or float16, of any strides: flipped, sliced, interleaved and broadcast ones are
-read as they lie. Other types are refused, nothing is converted. Row 0 is the top of the picture.
+read in place. Other types are refused, nothing is converted. Row 0 is the top of the picture.
 Color is scene-linear and premultiplied. Lengths are scene units, times seconds, angles of looks
-degrees. For frame after frame make one Compositor; `composite` makes one for each call.
+degrees. For many frames make one Compositor; `composite` makes one for each call.
 
-Looks are dicts of dicts; what they leave out has its default. `operators()` lists all that there is
-to set, `roles()` the buffers that a frame may have, `aovs()` what may be written besides the
-picture. What the library refuses is limpid.Error, a ValueError, with a sentence that says what was
-expected; arguments of a wrong type are TypeErrors where they are no arrays.
+Looks are dicts of dicts; omitted parameters have their default. `operators()` lists all parameters,
+`roles()` the buffers that a frame may have, `aovs()` the AOVs that may be written besides the
+picture. The library refuses an input by limpid.Error, a ValueError, with a sentence that says what
+was expected; arguments of a wrong type other than arrays raise TypeError.
 """
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ __all__ = ["Camera", "Compositor", "Error", "Plan", "PlannedOperator", "Shader",
            "orthographic", "perspective", "roles"]
 
 Error.__module__ = "limpid"
-Error.__doc__ = "What the library refuses, in one sentence that says what was expected."
+Error.__doc__ = "A refusal by the library: one sentence that says what was expected."
 
 
 class Camera(NamedTuple):
@@ -48,17 +48,17 @@ class Camera(NamedTuple):
 
 
 class PlannedOperator(NamedTuple):
-    """What became of an operator of the chain."""
+    """The planner's verdict on an operator of the chain."""
     name: str
-    verdict: str  #: kept, neutral, absent (an input is), or unread
+    verdict: str  #: kept, neutral, absent (an input is missing), or unread
     reason: str  #: one phrase, "" for a plain "kept"
-    rule: str  #: of the planner that decided, or ""
+    rule: str  #: the planner's rule that decided, or ""
 
 
 class Plan(tuple):
-    """What of the chain runs, and why the rest does not: a tuple of PlannedOperator.
+    """Which operators of the chain run, and why the others do not: a tuple of PlannedOperator.
 
-    str() of it is a text with a line for each. `reads` lists the roles that are read.
+    str(plan) has a line for each. `reads` lists the roles that are read.
     """
     reads: tuple[str, ...]
     text: str
@@ -72,16 +72,16 @@ class ShaderNumber(NamedTuple):
     name: str  #: "refraction.strength"; in the text with _ for . and [
     offset: int  #: in bytes
     value: float  #: of the frame
-    range: tuple[float, float] | None  #: what a parameter that stands in the shader as it is may be
+    range: tuple[float, float] | None  #: of a parameter that is itself in the block
 
 
 class ShaderTexture(NamedTuple):
-    """A sampler2D of a shader, read by texelFetch alone, without a filter."""
+    """A sampler2D of a shader, read only by texelFetch, without a filter."""
     name: str  #: "limpid_depth"
     binding: int
     source: str  #: planes: the frame's, for the host to bind; rows: of each row; made: a map, or made for the frame
     role: str | None  #: of planes, made ones included: "depth", "color"
-    channels: int  #: that are read, 1 ... 4
+    channels: int  #: number of channels that are read, 1 ... 4
     width: int
     height: int
     texels: np.ndarray | None  #: (rows, columns[, channels]) float32, read-only; None for planes
@@ -96,10 +96,10 @@ class ShaderOutput(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Shader:
-    """A look as one shader, and the values that a frame gives it; see Compositor.shader.
+    """A look as one shader, and its values for a frame; see Compositor.shader.
 
-    Textures of source "planes" hold eye depth, unit normals and row 0 at the top, whatever the
-    compositor's arrays hold.
+    Textures of source "planes" must have eye depth, unit normals and row 0 at the top, for any
+    conventions of the compositor's arrays.
     """
     text: str  #: GLSL 4.50 for Vulkan
     id: str  #: 16 hexadecimal digits of the text: equal for equal texts
@@ -115,18 +115,18 @@ class Shader:
 
 
 class Compositor:
-    """Puts water into frame after frame, with one pool of threads; settings hold for all frames.
+    """Puts water into many frames, with one pool of threads; the settings apply to all frames.
 
-    look: dict of dicts, as {"refraction": {"steps": 2}}; the rest has its defaults
+    look: dict of dicts, as {"refraction": {"steps": 2}}; other parameters have their defaults
     wave_map: (rows, columns, 3) float32, tiling normal map, values 0 ... 1, blue is up
-    environment: (rows, columns, 3) float32, the surroundings as a lat-long map of radiance, as
-        picture files have it: the top row is straight up, the middle looks along the water plane's
+    environment: (rows, columns, 3) float32, the surroundings as a lat-long map of radiance, in
+        the layout of picture files: the top row is straight up, the middle looks along the water plane's
         x axis (world x projected on it), columns run clockwise as seen from above
-    depth_kind: what all depth arrays hold: "eye" (distance along the view axis), "ray" (distance
+    depth_kind: the kind of all depth arrays: "eye" (distance along the view axis), "ray" (distance
         from the eye), "inverse" (1 / eye depth), "normalised" (0 at near ... 1 at far), "device"
         (clip z after the division)
-    near, far: scene units, for "normalised" alone
-    clip: the range of clip z that projections are made for: "gl", "d3d" (Vulkan) or "reversed"
+    near, far: scene units, for "normalised" only
+    clip: the projections' range of clip z: "gl", "d3d" (Vulkan) or "reversed"
     looks_along_plus_z: view space looks down +Z
     clip_y_down: clip y = +1 is the lowest row, as in Vulkan
     trusted: you vouch for the arrays (no NaN, shadows within 0 ... 1, unit normals): nothing is checked
@@ -134,11 +134,12 @@ class Compositor:
     simd: "" is the best of this machine; "avx512", "avx2", "sse4", "neon", "scalar"
     max_error: leave out what together changes no channel by more than this (white = 1); not on a GPU
     runner: "fused" (the CPU) or "gpu" (by Vulkan 1.2)
-    gpu: a part of the device's name; "" is the first of the fastest kind
-    gpu_cache: a folder that keeps compiled shaders for the next start; "" is none
+    gpu: a part of the device's name; "": the first of the fastest kind
+    gpu_cache: a folder for compiled shaders, reused by the next start; "": none
 
-    Maps are not copied: do not change them while they are set. A compositor is for one thread at a
-    time, else limpid.Error; several may run at once, as the interpreter's lock is released.
+    Maps are not copied: do not change them while they are set. Only one thread at a time may use a
+    compositor, else limpid.Error; several compositors may run at once, as the interpreter's lock is
+    released.
     """
 
     def __init__(self, *, look: Mapping | None = None, wave_map: np.ndarray | None = None,
@@ -155,7 +156,7 @@ class Compositor:
 
     @property
     def look(self) -> Mapping[str, Mapping[str, Any]]:
-        """All parameters, to be read. Assign a dict of dicts to change those that it names."""
+        """All parameters, read-only. Assign a dict of dicts to change the parameters in it."""
         return MappingProxyType({name: MappingProxyType(table) for name, table in self._core.look().items()})
 
     @look.setter
@@ -163,11 +164,11 @@ class Compositor:
         self._core.change_look(_plain(changes))
 
     def set_wave_map(self, wave_map: np.ndarray | None) -> None:
-        """Another tiling normal map from the next frame on, or none."""
+        """Replaces the tiling normal map from the next frame on; None removes it."""
         self._core.set_wave_map(wave_map)
 
     def set_environment(self, environment: np.ndarray | None) -> None:
-        """Other surroundings from the next frame on, or none."""
+        """Replaces the surroundings from the next frame on; None removes them."""
         self._core.set_environment(environment)
 
     def run(self, *, color: np.ndarray, depth: np.ndarray, camera: Camera, water: Mapping,
@@ -181,7 +182,7 @@ class Compositor:
             sky_radiance: Sequence[float] | None = None,
             display: Sequence[int] | None = None, out: np.ndarray | None = None, dtype: str = "float32",
             aovs: Sequence[str] | Mapping[str, np.ndarray | None] | None = None) -> Any:
-        """The frame with water in it: an array with the channels of color. With aovs: (array, dict).
+        """The frame with water: an array with the channels of color. With aovs: (array, dict).
 
         color: (rows, columns, 3 or 4), the dry picture
         depth: (rows, columns), of the dry scene; inf where nothing was hit
@@ -191,25 +192,25 @@ class Compositor:
             (rad / scene unit), phase (rad), and omega (rad / s; that of deep water, if left out)
         sun: {"direction": towards it, "color": (r, g, b), "diameter": degrees}, color (1, 1, 1) and
             diameter 0.533 unless given
-        sky_radiance: (r, g, b), of an even sky, which lights the water where there is no environment
-        time: seconds, for what drifts
+        sky_radiance: (r, g, b), of an even sky, which lights the water if there is no environment
+        time: seconds, for drift and waves
         shadow: (rows, columns), visibility of the sun: 1 lit, 0 in shadow
-        reflection: (rows, columns, 3), what a flat mirror in the water plane shows at each pixel
+        reflection: (rows, columns, 3), the picture of a flat mirror in the water plane at each pixel
         surface_depth: (rows, columns), depth of the water, inf where a pixel has none
         surface_normal: (rows, columns, 3), world normal of the water
         reflection_valid: (rows, columns), 1 where the reflection is real
         reflection_depth: (rows, columns), of the mirrored scene along the mirrored ray
-        below_color, below_depth: the dry scene without all that is above the water
+        below_color, below_depth: the dry scene without the objects above the water
         surface_shadow: (rows, columns), shadow at the water surface
-        sky: (rows, columns, 3), the sky as it would be seen if nothing stood before it
-        albedo: (rows, columns, 3), share of the light that the bottom throws back, around each pixel
-        sun_color: (rows, columns, 3), what color shows of the sun's direct light alone: 0 in shadow
-        display: (x0, y0, x1, y1), the pixels of color that the camera's picture has; the rest is
+        sky: (rows, columns, 3), the sky without the objects in front of it
+        albedo: (rows, columns, 3), share of the light that the bottom reflects, around each pixel
+        sun_color: (rows, columns, 3), the part of color from the sun's direct light: 0 in shadow
+        display: (x0, y0, x1, y1), the pixels of color in the camera's picture; the others are
             overscan, which is looked up, but not computed
-        out: where to write, float32 or float16, 3 or 4 channels, any strides; may be color itself
-        dtype: "float32" or "float16", of the array that is made where there is no out
-        aovs: names of aovs() ("stmap" for its three), or a dict that has arrays for some of them
-            (rows, columns[, channels]), None for the others
+        out: the target array, float32 or float16, 3 or 4 channels, any strides; may be color itself
+        dtype: "float32" or "float16", of the array that is made without out
+        aovs: names of aovs() ("stmap" for its three), or a dict from names to target arrays
+            (rows, columns[, channels]) or None
         """
         planes = {"color": color, "depth": depth, "shadow": shadow, "reflection": reflection,
                   "surface_depth": surface_depth, "surface_normal": surface_normal,
@@ -226,20 +227,20 @@ class Compositor:
                display: Sequence[int] | None = None, stage: str = "function", function: str = "limpid_water",
                set: int = 0, first_binding: int = 0, aovs: Sequence[str] | None = None,
                **planes: np.ndarray | None) -> Shader:
-        """The look, with its maps, as one shader for frames like this one, and the values of this one.
+        """The look, with its maps, as one shader for frames like this one, and its values for this frame.
 
         The text is the same for any size, time and camera, as long as the frame has the same arrays, the
-        water as many waves, and the camera does not pass between air and water. max_error does not count,
-        and no edge is mixed. What run, plan and replaced give does not change. Other languages than GLSL:
-        `limpid shader --lang`.
+        water as many waves, and the camera does not pass between air and water. max_error is ignored,
+        and edges are not composited. The results of run, plan and replaced do not change. Other languages
+        than GLSL: `limpid shader --lang`.
 
-        color ... display: as in run, and all other arrays of it as `planes`
-        stage: "function" (declarations and the function alone), "compute" (and a main() for groups of
-            16 x 8 pixels, that writes images) or "fragment" (and a main() for a pixel of a full-screen
+        color ... display: as in run, with its other arrays as `planes`
+        stage: "function" (declarations and the function only), "compute" (also a main() for groups of
+            16 x 8 pixels, which writes images) or "fragment" (also a main() for a pixel of a full-screen
             triangle)
         function: its name, a word of letters, digits and _
-        set: descriptor set of all that is declared, 0 ... 31
-        first_binding: bindings count from here, 0 ... 1000
+        set: descriptor set of all declarations, 0 ... 31
+        first_binding: the lowest binding, 0 ... 1000
         aovs: names of aovs() that the function returns besides the picture
         """
         for name in planes.keys() - {role["name"] for role in roles()}:
@@ -254,7 +255,7 @@ class Compositor:
 
     @property
     def plan(self) -> Plan:
-        """Of the last frame; limpid.Error where none was run with this look and these maps."""
+        """The plan of the last frame; limpid.Error if no frame was run with this look and these maps."""
         operators, reads, text = self._core.plan()
         plan = Plan(PlannedOperator(*entry) for entry in operators)
         plan.reads, plan.text = tuple(reads), text
@@ -262,12 +263,12 @@ class Compositor:
 
     @property
     def replaced(self) -> dict[str, dict[str, int]]:
-        """Of the last frame: how many values meant nothing and were replaced, by role, "nan" and "inf" apart."""
+        """For the last frame: number of invalid values that were replaced, by role, "nan" and "inf" separately."""
         return self._core.replaced()
 
     @property
     def device(self) -> str:
-        """The GPU that computes, and its driver; "" where the CPU does."""
+        """The GPU in use, and its driver; "" for the CPU."""
         return self._core.device()
 
 
@@ -290,7 +291,7 @@ def composite(*, look: Mapping | None = None, wave_map: np.ndarray | None = None
 
 
 def operators() -> list[dict[str, Any]]:
-    """The operators in the order in which they run, and last what holds for the water as a whole.
+    """The operators in the order in which they run, and last the parameters of the water as a whole.
 
     Each is {"name", "about", "reads", "parameters"}; a parameter {"name", "kind", "unit", "range",
     "choices", "columns", "default", "about"}, range None for words.
@@ -304,15 +305,15 @@ def roles() -> list[dict[str, Any]]:
 
 
 def aovs() -> list[dict[str, Any]]:
-    """What may be written besides the picture: {"name", "channels", "dry", "about"}.
+    """The AOVs that may be written besides the picture: {"name", "channels", "dry", "about"}.
 
-    channels is a letter for each, "dry" the value on dry pixels.
+    "channels" has a letter for each channel, "dry" is the value on dry pixels.
     """
     return _limpid.aovs()
 
 
 def full_look(look: Mapping | None = None) -> dict[str, dict[str, Any]]:
-    """All parameters as a dict of dicts: the defaults, and what `look` says instead."""
+    """All parameters as a dict of dicts: the defaults, overridden by `look`."""
     return _limpid.full_look(_plain(look))
 
 
@@ -324,9 +325,9 @@ def look_to_toml(look: Mapping | None = None) -> str:
 def load_look(look: str | os.PathLike) -> dict[str, dict[str, Any]]:
     """full_look() of a look file (*.toml), or of one of limpid's own looks and presets, by name.
 
-    What the file leaves out is as in the look that its `base` names, or has its default. The file
-    of the normal map, ["wave_normals"]["map"], becomes an absolute path. It is not read: whoever
-    reads pictures does that and hands it over as wave_map.
+    Omitted parameters are as in the look that the file's `base` names, or have their default. The
+    file of the normal map, ["wave_normals"]["map"], becomes an absolute path. It is not read: the
+    caller reads it and passes it as wave_map.
     """
     return _read_look(_look_path(os.fspath(look), pathlib.Path()), [])
 
@@ -345,12 +346,12 @@ def orthographic(width: float, height: float, near: float = 0.0, far: float = 1e
 
 def look_at(eye: Sequence[float], target: Sequence[float],
             up: Sequence[float] = (0.0, 1.0, 0.0)) -> np.ndarray:
-    """The view of who stands at eye and looks towards target."""
+    """The view from eye towards target."""
     return _limpid.look_at(eye, target, up)
 
 
 def _plain(look: Any) -> dict:
-    """A look of dicts, whatever mappings it is made of."""
+    """The look as dicts, from any mappings."""
     if look is None:
         return {}
     if not isinstance(look, Mapping):
@@ -359,7 +360,7 @@ def _plain(look: Any) -> dict:
 
 
 def _present(planes: dict[str, Any]) -> dict[str, Any]:
-    """Without those that a frame need not have and has not."""
+    """Without optional planes that are None."""
     return {name: array for name, array in planes.items() if array is not None or name in ("color", "depth")}
 
 
@@ -416,7 +417,7 @@ def _base_of(path: pathlib.Path, base: Any, above: list[pathlib.Path]) -> dict[s
 
 
 def _upon(base: dict, changes: dict, order: dict) -> dict:
-    """The changes come last, as one parameter may bring another; each table's in the order of its parameters."""
+    """The changes come last, as one parameter may set another; each table's in the order of its parameters."""
     tables = {}
     for name, keys in base.items():
         changed = {key: changes[name][key] for key in order[name] if key in changes.get(name, {})}
@@ -425,7 +426,7 @@ def _upon(base: dict, changes: dict, order: dict) -> dict:
 
 
 def _look_path(name: str, origin: pathlib.Path) -> pathlib.Path:
-    """`origin` is where relative paths begin."""
+    """`origin` is the base of relative paths."""
     if name.endswith(".toml") or os.sep in name:
         return origin / name
     installed = pathlib.Path(__file__).absolute().parents[4] / "share/limpid"

@@ -1,6 +1,6 @@
 // Elements, and numbers as text.
 
-// Children are nodes, and words, which are never markup. Attributes that are null or false are left out.
+// Children are nodes, and texts, which are never parsed as markup. Attributes that are null or false are left out.
 export function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) {
@@ -13,10 +13,10 @@ export function element(name, attributes = {}, ...children) {
 
 export const byId = (id) => document.getElementById(id);
 
-// As many digits as it takes, as in a look file.
+// All digits, as in a look file.
 export const plain = (value) => String(value);
 
-// To read: at most four digits; "none" for what is not finite, which JSON has as null.
+// At most four digits; "none" for null, which stands for numbers that are not finite.
 export function short(value) {
   if (value === null || value === undefined) return "none";
   if (value === 0) return "0";
@@ -24,7 +24,7 @@ export function short(value) {
   return size >= 1e-3 && size < 1e5 ? String(Number(value.toPrecision(4))) : value.toExponential(2);
 }
 
-// Of a parameter, as one writes it: undefined where the text is no number.
+// The number in a text, undefined if it has none.
 export function numberOf(text) {
   const trimmed = text.trim().replace(/^\+/, "");
   return trimmed === "" || !Number.isFinite(Number(trimmed)) ? undefined : Number(trimmed);

@@ -4,7 +4,7 @@
 fill("made", "limpid " + [report.limpid, report.compiler, report.processor, ...report.simd].join(", "));
 fill("passed", `${report.rows.filter((row) => row.passed).length} of ${report.rows.length}`);
 put("hard_table", () => table(
-    "Margin: the share of the bound that is left. A case beyond its bound is set off.",
+    "Margin: the unused share of the bound. A case beyond its bound is highlighted.",
     [long("case"), long("measured is"), number("bound"), number("measured"), number("margin"), number("values"),
      long("bound from"), long("largest at")],
     report.rows.map((row, i) => ({

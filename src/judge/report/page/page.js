@@ -1,28 +1,28 @@
-// What the pages have in common: numbers as text, elements, and tables that a click sorts.
+// Shared by the pages: numbers as text, elements, and sortable tables.
 "use strict";
 
 function powerOfTen(power) {
   return (power < 0 ? "10⁻" : "10") + String(Math.abs(power)).replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]);
 }
 
-// To read: three digits, as a decimal from 0.001 to 99999, else as 5.9·10⁻⁷; "-" for null, which is none.
+// Three digits, as a decimal from 0.001 to 99999, else as 5.9·10⁻⁷; "-" for null.
 function shortNumber(value) {
   if (value === null || Number.isNaN(value)) return "-";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "-∞";
   if (value === 0) return "0";
-  // Of the number as it will be rounded: 999.6 has four digits before the point.
+  // After rounding: 999.6 has four digits before the point.
   const [digits, exponent] = value.toExponential(2).split("e");
   const power = Number(exponent);
   if (power >= -3 && power <= 4) return value.toFixed(Math.max(0, 2 - power));
   return digits + "·" + powerOfTen(power);
 }
 
-// As it was written by hand: as many digits as it takes, no power of ten.
+// The shortest decimal that reads back as the number, without a power of ten.
 function plainNumber(value) {
   return value.toLocaleString("en-US", {useGrouping: false, maximumFractionDigits: 20});
 }
 
-// Children are nodes, and words, which are never markup.
+// Children are nodes, and texts, which are never parsed as markup.
 function element(name, attributes, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -34,24 +34,24 @@ function code(word) {
   return element("code", {}, word);
 }
 
-// Every place of that name in the page gives way to what `make` makes.
+// Replaces every slot of that name in the page by the nodes of `make`.
 function put(name, make) {
   for (const slot of document.querySelectorAll(`[data-slot="${name}"]`)) slot.replaceWith(...[make()].flat());
 }
 
-// The same, into the place.
+// Appends to the slot.
 function fill(name, ...children) {
   document.querySelector(`[data-slot="${name}"]`).append(...children);
 }
 
 // ---- tables
 
-// Heads: of words, of texts that may be long, of numbers.
+// Columns: of words, of texts that may be long, of numbers.
 const word = (name) => ({name, type: ""});
 const long = (name) => ({name, type: "wrap"});
 const number = (name, unit) => ({name, unit, type: "n"});
 
-// Cells that hold a number, by which rows are sorted, and show it in another way than shortNumber().
+// Cells with a number, by which rows are sorted, and a text other than shortNumber().
 const shown = (value, text) => ({value, text});
 const whole = (value) => shown(value, String(value));
 const percent = (share, digits = 0) =>
@@ -73,8 +73,8 @@ function cellOf(content, column) {
   return cell;
 }
 
-// Rows are {cells, marked, first}: a marked one is set off, as those of a Pareto front; the first of a group stands
-// apart from those above it, until the table is sorted. Cells are words, numbers or what shown() makes.
+// Rows are {cells, marked, first}: a marked row is highlighted, as on a Pareto front; the first row of a group has a gap
+// above it, until the table is sorted. Cells are words, numbers or results of shown().
 function table(caption, columns, rows) {
   const body = element("tbody", {});
   for (const {cells, marked, first} of rows) {
@@ -106,7 +106,7 @@ function sortBy(head) {
 
 // ---- data
 
-// An infinite number is null in JSON; of an error null is nothing else.
+// Infinite and absent numbers are null in JSON; in an error, null is infinite.
 const report = JSON.parse(document.getElementById("report").textContent, (key, value) => {
   if (key === "error") for (const statistic of Object.keys(value)) value[statistic] ??= Infinity;
   return key === "rmse" || key === "rel_mse" ? value ?? Infinity : value;

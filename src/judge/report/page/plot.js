@@ -1,7 +1,7 @@
 // Pictures of time (across) against error (up), both axes logarithmic.
 "use strict";
 
-// Asked of the browser, so that the page holds no address.
+// Taken from the browser, so that the page contains no address.
 const svgNamespace = Object.assign(document.createElement("div"), {innerHTML: "<svg></svg>"}).firstChild.namespaceURI;
 
 // At most two digits after the point, never "-0".
@@ -32,11 +32,11 @@ function tickNumber(digit, power) {
   return (digit === 1 ? "" : digit + "·") + powerOfTen(power);
 }
 
-// From 1, 2 or 5 times a power of ten to another such number, with all values and some air between them. Ticks are
-// every 1 ... 9 times a power of ten; labels stand at powers of ten, and at 2 and 5 times one, too, where there are
-// less than three decades. Throws for what has no logarithm.
+// From 1, 2 or 5 times a power of ten to another such number, around all values with some padding. Ticks are at
+// 1 ... 9 times a power of ten; labels at powers of ten, and also at 2 and 5 times one for fewer than three decades.
+// Throws for values without a logarithm.
 function logAxis(values) {
-  const air = 1.15;  // between the outermost values and the ends, a factor
+  const air = 1.15;  // padding around the outermost values, a factor
   const least = Math.min(...values) / air, most = Math.max(...values) * air;
   if (!(least > 0 && Number.isFinite(most))) throw new RangeError(`an axis over ${values}: expected numbers above 0`);
   const step = (digit, power) => ({digit, power, value: Number(`${digit}e${power}`), round: [1, 2, 5].includes(digit)});
@@ -63,7 +63,7 @@ const grown = (b, by) => ({x0: b.x0 - by, y0: b.y0 - by, x1: b.x1 + by, y1: b.y1
 const around = ({x, y}, half) => grown({x0: x, y0: y, x1: x, y1: y}, half);
 const clamped = (value, least, most) => Math.min(Math.max(value, least), most);
 
-// Whether a straight line and a box meet: narrowed to the part of the line within the box (Liang & Barsky 1984).
+// Whether a line segment and a box intersect: clips the segment to the box (Liang & Barsky 1984).
 function crosses(way, box) {
   let from = 0, to = 1;
   const cut = (start, step, low, high) => {
@@ -76,7 +76,7 @@ function crosses(way, box) {
   return cut(way.x0, way.x1 - way.x0, box.x0, box.x1) && cut(way.y0, way.y1 - way.y0, box.y0, box.y1);
 }
 
-// How wide a text is at most, in the widest of the usual sans-serif faces: DejaVu Sans, rounded up.
+// Upper bound of the width of a text, in the widest of the usual sans-serif fonts: DejaVu Sans, rounded up.
 function textWidth(words, size) {
   let width = 0;
   for (const c of words) {
@@ -85,10 +85,10 @@ function textWidth(words, size) {
   return width * size;
 }
 
-// Where the text of each marker goes, a wish being {x, y, width, height}: as near to it as can be, and neither over
-// another text nor over a marker, a leading line or the frame's edge; over one of `avoided` only where there is no
-// place nearby without. The first wishes are served first. A place is {box, lead}: lead is the line to a text far
-// off, or null; null for a wish of no width and where no place is left.
+// The place for the label of each marker, a request {x, y, width, height}: as near as possible, without overlap with
+// another label, a marker, a lead line or the frame's edge, and with lines of `avoided` only if there is no free place
+// nearby. Earlier requests have priority. A place is {box, lead}: lead is the line to a distant label, or null. Null for
+// a request without width and if no place is free.
 function placeLabels(wishes, frame, avoided = []) {
   const markerHalf = 6, gap = 2, texts = [], leads = [];
 
@@ -103,7 +103,7 @@ function placeLabels(wishes, frame, avoided = []) {
     return !lead || !texts.some((b) => crosses(lead, b));
   }
 
-  // A text whose nearest point lies at that distance and angle from the marker.
+  // A label whose nearest point has this distance and angle from the marker.
   function placeAt({x, y, width, height}, distance, angle) {
     const dx = Math.cos(angle), dy = Math.sin(angle);
     const x0 = x + distance * dx + (dx - 1) / 2 * width, y0 = y + distance * dy + (dy - 1) / 2 * height;
@@ -137,7 +137,7 @@ function placeLabels(wishes, frame, avoided = []) {
 
 const markerStyles = 7;
 
-// The marker of a series: shapes tell series apart where colors do not.
+// The marker of a series: shapes distinguish series of the same color.
 function marker(series, filled, x, y) {
   const shape = series % markerStyles, r = filled ? 5.5 : 4.5, d = 1.25 * r;
   const type = `m s${shape}${filled ? " on" : ""}`;
@@ -155,12 +155,12 @@ function marker(series, filled, x, y) {
 
 const canDraw = ({time, error}) => time > 0 && Number.isFinite(time) && error >= 0 && Number.isFinite(error);
 
-// {title, errorAxis, points, hasFront, connected} as an <svg>; null where nothing can be drawn. Points are {time,
-// error, series, label, about, onFront}: the error 0 is drawn in a band of its own under the axis, what has none or
-// an infinite one not at all; the label stands beside the point, "" for none; `about` is shown where one points at
-// it. Each series has a color and a marker, the eighth as the first, and a legend tells them where there are
-// several. With `hasFront` there is a stepped line through the points on the Pareto front, which alone are filled;
-// with `connected` a line through the points of each series, in their order.
+// {title, errorAxis, points, hasFront, connected} as an <svg>; null if no point can be drawn. Points are {time, error,
+// series, label, about, onFront}: the error 0 is drawn in a separate band under the axis, a point without an error or
+// with an infinite one is not drawn; the label is beside the point, "" for none; `about` is its tooltip. Each series has
+// a color and a marker, repeated after seven, and several series have a legend. With `hasFront` a stepped line connects
+// the points on the Pareto front, which alone are filled; with `connected` a line connects the points of each series, in
+// their order.
 function scatter({title, errorAxis, points: all, hasFront = false, connected = false}) {
   const width = 760, plotHeight = 360, band = 30, left = 78, right = 20, bottom = 54, legendLine = 22, labelSize = 12;
   const names = [...new Set(all.map((p) => p.series))];
@@ -205,7 +205,7 @@ function scatter({title, errorAxis, points: all, hasFront = false, connected = f
              text("axis", (frame.x0 + frame.x1) / 2, ground + 42, 13, "middle", "time, ns/pixel, one thread"),
              text("axis", 16, middle, 13, "middle", errorAxis, {transform: `rotate(-90 ${at(16, middle)})`}));
 
-  const avoided = [];  // lines that labels shall not cover
+  const avoided = [];  // lines that labels should not cover
   const front = hasFront ? points.filter((p) => p.onFront).sort((a, b) => a.time - b.time || a.error - b.error) : [];
   if (front.length > 0) {
     let x = xOf(front[0].time), y = frame.y0, way = "M" + at(x, y);
@@ -228,7 +228,7 @@ function scatter({title, errorAxis, points: all, hasFront = false, connected = f
                    marker(names.indexOf(p.series), filled, xOf(p.time), yOf(p.error))));
   }
 
-  // The front's labels are the most wanted.
+  // Labels of the front have priority.
   const order = [...front, ...points.filter((p) => !front.includes(p))];
   const wishes = order.map((p) =>
       ({x: xOf(p.time), y: yOf(p.error), width: textWidth(p.label, labelSize), height: 15}));
@@ -237,7 +237,7 @@ function scatter({title, errorAxis, points: all, hasFront = false, connected = f
     if (!place) return;
     const {box, lead} = place, {x} = wishes[i];
     if (lead) drawn.push(line("lead", lead.x0, lead.y0, lead.x1, lead.y1));
-    // Towards the marker, for the true width is smaller than the one reserved.
+    // Aligned towards the marker, because the true width is smaller than the reserved width.
     const [from, anchor] = box.x1 <= x + 1 ? [box.x1, "end"] : box.x0 >= x - 1 ? [box.x0, "start"]
         : [(box.x0 + box.x1) / 2, "middle"];
     drawn.push(text("label", from, box.y0 + 11.5, labelSize, anchor, order[i].label));
@@ -248,14 +248,14 @@ function scatter({title, errorAxis, points: all, hasFront = false, connected = f
                      "aria-label": title}, svg("title", {}, title), ...drawn);
 }
 
-// The plot as a figure; nothing where nothing can be drawn.
+// The plot as a figure; empty if no point can be drawn.
 function plotFigure(plot, ...caption) {
   const drawn = scatter(plot);
   return drawn ? element("figure", {class: "chart"}, element("div", {class: "scroll"}, drawn),
                          element("figcaption", {}, ...caption)) : [];
 }
 
-// What the colors of heat maps mean: a ramp from 10^-decades to 1.
+// The legend of heat maps: a ramp from 10^-decades to 1.
 function heatLegend({decades, colors}) {
   const left = 24, width = 320, stops = colors.map((rgb, i) =>
       svg("stop", {offset: String(i / (colors.length - 1)), "stop-color": `rgb(${rgb})`}));

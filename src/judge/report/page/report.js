@@ -8,8 +8,8 @@ const startsGroup = (rows, i) => i === 0 || !sameLook(rows[i])(rows[i - 1]);
 const about = (what, time, error) => `${what}: ${shortNumber(time)} ns/pixel, error ${shortNumber(error)}`;
 
 const frontCaption =
-    "Filled, on the stepped line: the Pareto front. Hollow: beaten. Both axes are logarithmic.";
-const bandCaption = " What has no error at all stands in the band 0.";
+    "Filled, on the stepped line: the Pareto front. Hollow: other choices. Both axes are logarithmic.";
+const bandCaption = " Markers in the band 0 have no error.";
 
 // ---- the most important numbers
 
@@ -18,9 +18,9 @@ function physicalItem(physical) {
   const several = report.looks_by_runner.filter((row) =>
       sameLook(physical)(row) && row.runner === "fused" && row.threads !== 1).map((row) =>
       `, ${shortNumber(row.ns_per_pixel)} ns on ${row.threads} threads: ` +
-      `${shortNumber(row.ns_per_pixel * 1920 * 1080 / 1e6)} ms for as many pixels as 1920x1080 has`);
+      `${shortNumber(row.ns_per_pixel * 1920 * 1080 / 1e6)} ms for 1920x1080 pixels`);
   return element("li", {}, "The look ", code("physical"), " takes ",
-      element("b", {}, shortNumber(physical.ns_per_pixel) + " ns a pixel"), ` on the ${kind} `, code(name),
+      element("b", {}, shortNumber(physical.ns_per_pixel) + " ns per pixel"), ` on the ${kind} `, code(name),
       ` (${width}x${height}, ${percent(wet_share).text} wet, one thread, ${report.simd})`, ...several, ".");
 }
 
@@ -48,7 +48,7 @@ function truthItem() {
   const named = (choice) => report.refraction_beside_truth.rows.find((row) => row.choice === choice);
   const none = named("no refraction"), march = named("snell march, shorten");
   if (!none || !march) return [];
-  return element("li", {}, "Beside a path-traced picture of the same water, following the refracted rays takes the " +
+  return element("li", {}, "Against a path-traced picture of the same water, the march along refracted rays reduces the " +
       "error from ", element("b", {}, percent(none.relative_error_wet, 1).text), " to ",
       element("b", {}, percent(march.relative_error_wet, 1).text),
       `, at ${shortNumber(march.ns_per_pixel / none.ns_per_pixel)} times the time.`);
@@ -61,10 +61,10 @@ function summary() {
           truthItem()].flat();
 }
 
-// ---- what water is put into
+// ---- plates and scenes
 
 function subjectTable() {
-  return table("What water is put into. Wet: share of the pixels that the look physical changes.",
+  return table("Plates and scenes. Wet: share of the pixels that the look physical changes.",
       [word("name"), word("kind"), number("width", "pixels"), number("height", "pixels"),
        number("wet", "of all pixels")],
       report.subjects.map((s) =>
@@ -78,15 +78,15 @@ function runnerPlot() {
       row.subject === firstSubject.name && row.threads === 1 && row.runner === "fused");
   return plotFigure({
     title: "Looks by instruction set on " + firstSubject.name,
-    errorAxis: "mean error beside the reference",
+    errorAxis: "mean error against the reference",
     points: rows.map((row) => ({
       time: row.ns_per_pixel, error: row.error.mean, series: row.simd, label: row.look,
       about: about(row.look + ", " + row.simd, row.ns_per_pixel, row.error.mean),
     })),
-  }, "The fused runner on ", code(firstSubject.name), ": a marker a look and instruction set.");
+  }, "The fused runner on ", code(firstSubject.name), ": a marker per look and instruction set.");
 }
 
-// A row is a look on a subject, all its ways to run side by side.
+// A row is a look on a subject, with a column for each runner.
 function runnerTable() {
   const ways = [{runner: "reference", simd: null, threads: 1, head: "reference"},
                 ...report.machine.simd.map((simd) => ({runner: "fused", simd, threads: 1, head: simd}))];
@@ -101,26 +101,26 @@ function runnerTable() {
     const worst = (statistic) => Math.max(0, ...rows.map((row) => row.error[statistic]));
     return [subject, look, ...ways.map(time), worst("mean"), worst("p99_99"), worst("max")];
   };
-  return table("One thread but where it says otherwise. Errors: the worst of all runs, beside the reference.",
+  return table("One thread unless noted. Errors: the worst of all runs, against the reference.",
       [word("subject"), word("look"), ...ways.map((way) => number(way.head, "ns/pixel")),
        number("mean", "error"), number("99.99 %", "error"), number("max", "error")],
       report.subjects.flatMap((subject) =>
           report.looks.map((look, i) => ({cells: cells(subject.name, look), first: i === 0}))));
 }
 
-// ---- looks beside physical
+// ---- looks and physical
 
 function lookPlot() {
   return plotFigure({
-    title: "Looks beside physical",
+    title: "Looks and physical",
     errorAxis: "mean difference from physical",
     points: report.looks_beside_physical.map((row) => ({
       time: row.ns_per_pixel, error: row.error.mean, series: row.look, label: row.look === "fast" ? row.subject : "",
       about: about(row.look + " on " + row.subject, row.ns_per_pixel, row.error.mean),
     })),
-  }, "A marker a look and subject; the subjects are named beside ", code("fast"),
-      ", and where one points. Both axes are logarithmic; ", code("physical"),
-      " itself, which differs by nothing, stands in the band 0.");
+  }, "A marker per look and subject; the subjects are named beside ", code("fast"),
+      ", and under the pointer. Both axes are logarithmic; ", code("physical"),
+      " itself, without a difference, is in the band 0.");
 }
 
 function differences() {
@@ -143,13 +143,13 @@ function lookTable() {
       })));
 }
 
-// ---- ways to refract beside the truth
+// ---- models of refraction and the truth
 
 // "snell march, shorten" is the point "march" of the series "rejection shorten".
 function truthPlot(over, statistic, front) {
   const rows = report.refraction_beside_truth.rows.filter((row) => row.ns_per_pixel !== null);
   return plotFigure({
-    title: "Ways to refract beside a path-traced truth, " + over,
+    title: "Models of refraction and a path-traced truth, " + over,
     errorAxis: "mean error over mean truth, " + over,
     hasFront: true,
     points: rows.map((row) => {
@@ -162,7 +162,7 @@ function truthPlot(over, statistic, front) {
 }
 
 function truthTable() {
-  return table("Mean |picture - truth| over mean truth, values above 4 counted as 4. Set off: on the Pareto front of " +
+  return table("Mean |picture - truth| over mean truth, values above 4 counted as 4. Highlighted: on the Pareto front of " +
       "time and error over all wet pixels.",
       [word("refraction, rejection"), number("time", "ns/pixel"), number("all wet", "error"),
        number("in frame", "error"), word("Pareto front")],
@@ -174,17 +174,17 @@ function truthTable() {
       })));
 }
 
-// ---- models beside traced light
+// ---- models and traced light
 
 function tracedPlot() {
   return plotFigure({
-    title: "Looks beside traced light",
+    title: "Looks and traced light",
     errorAxis: "FLIP, mean",
     points: report.models_beside_traced_light.filter((row) => row.parameter === null).map((row) => ({
       time: row.ns_per_pixel, error: row.flip, series: row.look, label: row.look === "physical" ? row.subject : "",
       about: about(row.look + " on " + row.subject, row.ns_per_pixel, row.flip),
     })),
-  }, "A marker a look and scene; the scenes are named beside ", code("physical"), ". Both axes are logarithmic.");
+  }, "A marker per look and scene; the scenes are named beside ", code("physical"), ". Both axes are logarithmic.");
 }
 
 function modelTable(caption, first, second, rows) {
@@ -202,7 +202,7 @@ function modelTable(caption, first, second, rows) {
 
 function tracedTable() {
   const rows = report.models_beside_traced_light.filter((row) => row.parameter === null);
-  return modelTable("Every look beside the traced water of physical.", "scene", "look",
+  return modelTable("Every look against the traced water of physical.", "scene", "look",
       rows.map((row) => ({names: [row.subject, row.look], row, first: row.look === report.looks[0]})));
 }
 
@@ -210,18 +210,18 @@ function tracedChoices() {
   const subject = report.models_beside_traced_light.findLast((row) => row.parameter !== null)?.subject;
   if (subject === undefined) return [];
   const rows = report.models_beside_traced_light.filter(sameLook({subject, look: "physical"}));
-  return [element("h3", {}, "One choice of physical changed, on " + subject),
-          modelTable("The look physical with one choice changed, beside the same truth.", "choice", "value",
-              rows.map((row) => ({names: [row.parameter ?? "physical as it is", row.value ?? ""], row})))];
+  return [element("h3", {}, "One parameter of physical changed, on " + subject),
+          modelTable("The look physical with one parameter changed, against the same truth.", "choice", "value",
+              rows.map((row) => ({names: [row.parameter ?? "physical unchanged", row.value ?? ""], row})))];
 }
 
-// ---- looks by what one brings
+// ---- looks by the buffers of a plate
 
-// Of physical: how the error falls, and at what time, from buffer to buffer.
+// For physical: error and time, from buffer to buffer.
 function broughtPlot() {
   const {rows} = report.looks_by_what_is_brought;
   return plotFigure({
-    title: "physical by what is brought",
+    title: "physical by the buffers of a plate",
     errorAxis: "mean error over mean truth, all wet pixels",
     connected: true,
     points: rows.flatMap((row, i) => row.look !== "physical" ? [] : {
@@ -229,14 +229,14 @@ function broughtPlot() {
       label: startsGroup(rows, i) ? row.subject : "",
       about: about(row.subject + ", " + row.brought, row.ns_per_pixel, row.relative_error_wet),
     }),
-  }, "A line a subject, from color and depth alone, where its name stands, to all buffers. Both axes are logarithmic.");
+  }, "A line per subject, from color and depth alone, at its name, to all buffers. Both axes are logarithmic.");
 }
 
 function broughtTable() {
   const {rows} = report.looks_by_what_is_brought;
-  return table("Each row has the buffers of those above it, too. Error: mean |picture - truth| over mean truth, of " +
+  return table("Each row has the buffers of the rows above it, too. Error: mean |picture - truth| over mean truth, of " +
       "wet pixels, values above 4 counted as 4. FLIP: mean of the wet pixels.",
-      [word("subject"), word("look"), long("brought"), number("time", "ns/pixel"), number("all wet", "error"),
+      [word("subject"), word("look"), long("buffers"), number("time", "ns/pixel"), number("all wet", "error"),
        number("near", "error"), number("far", "error"), number("FLIP")],
       rows.map((row, i) => {
         const first = startsGroup(rows, i);
@@ -246,7 +246,7 @@ function broughtTable() {
 }
 
 function broughtSubjects() {
-  return table("Near are the wet pixels whose footprint is shorter than the waves are long.",
+  return table("Near: wet pixels whose footprint is shorter than the waves.",
       [word("subject"), number("waves", "units long"), number("wet", "of all pixels"), number("near", "of wet pixels")],
       report.looks_by_what_is_brought.subjects.map((s) =>
           ({cells: [s.subject, s.wave_length, percent(s.wet_share), percent(s.near_share_of_wet)]})));
@@ -254,18 +254,18 @@ function broughtSubjects() {
 
 // ---- choices of the look physical
 
-const choiceName = (row) => row.parameter === null ? "physical as it is" : `${row.parameter} = ${row.value}`;
+const choiceName = (row) => row.parameter === null ? "physical unchanged" : `${row.parameter} = ${row.value}`;
 
 function choicePlot() {
   const {rows} = report.choices_of_physical, own = rows[0].ns_per_pixel;
   return plotFigure({
-    title: "The look physical with one choice changed",
+    title: "The look physical with one parameter changed",
     errorAxis: "mean difference from physical",
     hasFront: true,
     points: rows.map((row, i) => {
-      const [operator, ...key] = (row.parameter ?? "physical as it is").split(".");
+      const [operator, ...key] = (row.parameter ?? "physical unchanged").split(".");
       const label = row.parameter === null ? operator : `${key.join(".")} ${row.value}`;
-      // What saves next to nothing is told by the table.
+      // The table has the choices that save hardly any time.
       const isNamed = row.on_front || i === 0 || row.ns_per_pixel < 0.9 * own;
       return {time: row.ns_per_pixel, error: row.error.mean, series: operator, label: isNamed ? label : "",
               about: about(choiceName(row), row.ns_per_pixel, row.error.mean), onFront: row.on_front};
@@ -275,7 +275,7 @@ function choicePlot() {
 
 function choiceTable() {
   const {rows} = report.choices_of_physical, own = rows[0].ns_per_pixel;
-  return table("Set off: on the Pareto front. Values above 4 count as 4.",
+  return table("Highlighted: on the Pareto front. Values above 4 count as 4.",
       [word("choice"), number("time", "ns/pixel"), number("of physical", "time"), number("mean", "difference"),
        number("99 %", "difference"), number("max", "difference")],
       rows.map((row) => ({
@@ -292,26 +292,25 @@ function budgetPlots() {
   return waters.flatMap((water) => {
     const rows = report.error_budgets.filter((row) => row.water === water);
     if (!rows.some((row) => row.error.max > 0)) {
-      return element("p", {}, water + ": no error that was allowed changed a pixel.");
+      return element("p", {}, water + ": no budget changed a pixel.");
     }
     return plotFigure({
-      title: "Allowed errors, " + water,
+      title: "Error budgets, " + water,
       errorAxis: "largest error measured",
       connected: true,
       points: rows.map((row) => ({
         time: row.ns_per_pixel, error: row.error.max, series: row.subject, label: plainNumber(row.max_error),
-        about: about(`${row.subject}, allowed ${plainNumber(row.max_error)}`, row.ns_per_pixel, row.error.max),
+        about: about(`${row.subject}, budget ${plainNumber(row.max_error)}`, row.ns_per_pixel, row.error.max),
       })),
-    }, water + ": each line is a subject, each marker an allowed error." + bandCaption);
+    }, water + ": each line is a subject, each marker a budget." + bandCaption);
   });
 }
 
 function budgetTable() {
   const exact = (row) => report.error_budgets.find((other) =>
       other.subject === row.subject && other.water === row.water && other.max_error === 0)?.ns_per_pixel;
-  return table("Pixels: in cells of the picture that have no water; whose bottom cannot be seen; that leave out " +
-      "nothing.",
-      [word("subject"), word("water"), number("allowed", "error"), number("time", "ns/pixel"),
+  return table("Pixels: in cells without water; in cells with a hidden bottom; in cells that leave out nothing.",
+      [word("subject"), word("water"), number("budget", "error"), number("time", "ns/pixel"),
        number("of exact", "time"), number("mean", "error"), number("max", "error"), number("bound", "error"),
        number("dry", "of pixels"), number("opaque", "of pixels"), number("full", "of pixels")],
       report.error_budgets.map((row) => ({
@@ -335,7 +334,7 @@ function machineFacts() {
     "compiler": `${build.compiler}, build type ${build.type}`,
     "libraries": build.libraries,
     "rounds": rounds,
-    "threads": threads === 1 ? "1" : `1, or ${threads} where it says so`,
+    "threads": threads === 1 ? "1" : `1, or ${threads} where noted`,
   }).flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
 }
 
@@ -347,7 +346,7 @@ function removeUnless(rows, id) {
   document.querySelector(`nav a[href="#${id}"]`).remove();
 }
 
-// Sections of nothing go first; put() finds no place of theirs, and makes nothing.
+// Empty sections are removed first; put() finds no slot of theirs, and makes nothing.
 removeUnless(report.looks_by_runner, "runners");
 removeUnless(report.looks_beside_physical, "looks");
 removeUnless(report.refraction_beside_truth.rows, "truth");

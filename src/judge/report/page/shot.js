@@ -61,13 +61,13 @@ function startStage() {
   });
 }
 
-// ---- pictures below
+// ---- pictures below the wipe
 
 function figureOf(file) {
   const picture = pictureOf(file), scale = scaleText(picture);
   const image = element("img", {
     alt: picture.name, width: report.width, height: report.height, loading: "lazy", decoding: "async", src: file});
-  const button = element("button", {type: "button", title: "To the right of the wipe"}, image);
+  const button = element("button", {type: "button", title: "Show it to the right of the wipe"}, image);
   button.addEventListener("click", () => see(file));
   return element("figure", {}, button, element("figcaption", {}, element("b", {}, picture.name),
       `: ${picture.about}${scale && ", " + scale}`));
@@ -101,7 +101,7 @@ function lookTable() {
   }));
   rows.push({cells: [shown(null, link("dry", report.dry.picture)), null, null, percent(NaN), ...errorCells(report.dry.beside_shot),
                      ...truthCells(report.dry.beside_truth)]});
-  return table("The shot's own look is set off. Differences from it" + (hasTruth ? ", and from the truth." : "."),
+  return table("The shot's own look is highlighted. Differences from it" + (hasTruth ? ", and from the truth." : "."),
       [word("look"), number("time", "ms"), number("time", "ns/pixel"), number("of the shot's", "time"),
        ...errorColumns("difference"), ...truthColumns], rows);
 }
@@ -112,15 +112,15 @@ function operatorTable() {
     if (!row.runs) {
       return {cells: [row.operator, row.planned, ...Array(7 + truthColumns.length).fill(null)]};
     }
-    const falls = row.falls_with_it.length > 0 ? "; without it falls " + row.falls_with_it.join(", ") : "";
+    const falls = row.falls_with_it.length > 0 ? "; without it these do not run: " + row.falls_with_it.join(", ") : "";
     return {cells: [shown(null, link(row.operator, row.picture)), row.planned + falls, row.milliseconds,
                     row.milliseconds_without, percent(1 - row.milliseconds_without / whole),
                     ...errorCells(row.without_beside_shot), ...truthCells(row.without_beside_truth)]};
   });
   return table(
-      `Of the look ${report.looks[0].look}, which takes ${shortNumber(whole)} ms. Saved: the share of that time which the ` +
-      "chain without the operator takes less." + (hasTruth ? " Truth: the picture without it beside the truth." : ""),
-      [word("operator"), long("planner"), number("in it", "ms of all threads"), number("without it", "ms"),
+      `The look ${report.looks[0].look} takes ${shortNumber(whole)} ms. Saved: the share of that time saved without the ` +
+      "operator." + (hasTruth ? " Truth: the picture without it against the truth." : ""),
+      [word("operator"), long("planner"), number("in it", "ms, sum of threads"), number("without it", "ms"),
        number("saved", "of the time"), ...errorColumns("change"), ...truthColumns], rows);
 }
 
@@ -142,11 +142,11 @@ function summary() {
         `${shortNumber(fast.beside_physical.flip)}.`);
   }
   if (hasTruth) {
-    item("Beside ", code(report.truth), " the water takes the error of the wet pixels from ",
+    item("Against ", code(report.truth), " the water reduces the error of the wet pixels from ",
         element("b", {}, percent(report.dry.beside_truth.relative_error_wet, 1).text), " (dry) to ",
         element("b", {}, percent(own.beside_truth.relative_error_wet, 1).text), ".");
   }
-  item(`What ${percent(confidence.guessed_share_of_wet ?? NaN, 1).text} of the wet pixels show through the water is guessed; ` +
+  item(`${percent(confidence.guessed_share_of_wet ?? NaN, 1).text} of the wet pixels show a guess through the water; ` +
       beyond_frame.advice + ".");
   for (const warning of report.warnings) item(element("b", {}, "Warning: "), warning + ".");
   return items;
@@ -155,8 +155,8 @@ function summary() {
 function beyondFacts() {
   const {beyond_frame: {share_of_wet, overscan: {left, right, top, bottom}}, confidence} = report;
   return facts([
-    ["look beyond the frame", `${percent(share_of_wet, 1).text} of the wet pixels`],
-    ["overscan that would show it", `${left} pixels on the left, ${right} on the right, ${top} at the top, ${bottom} at the bottom`],
+    ["lookups beyond the frame", `${percent(share_of_wet, 1).text} of the wet pixels`],
+    ["overscan that would show them", `${left} pixels on the left, ${right} on the right, ${top} at the top, ${bottom} at the bottom`],
     ["confidence, mean of the wet", shortNumber(confidence.mean_of_wet)],
     ["guessed (confidence below 0.5)", `${percent(confidence.guessed_share_of_wet ?? NaN, 1).text} of the wet pixels`],
   ]);
@@ -189,5 +189,5 @@ fill("machine", ...facts(Object.entries({
   processor: machine.processor, cores: machine.cores, "instruction set": settings.simd,
   system: `${machine.system}, kernel ${machine.kernel}`, limpid: build.limpid,
   compiler: `${build.compiler}, build type ${build.type}`, libraries: build.libraries, rounds: settings.rounds,
-  threads: settings.threads, "samples a pixel": settings.samples,
+  threads: settings.threads, "samples per pixel": settings.samples,
 }).map(([name, value]) => [name, String(value)])));

@@ -1,9 +1,9 @@
-// A sheet of pictures on a stage: moved and scaled as a whole, by mouse, wheel, fingers and keys. What lies over the picture is
-// shown left of a wipe's line, which stands still on the stage while the sheet is moved below it.
+// A sheet of pictures on a stage: moved and scaled as a whole, by mouse, wheel, fingers and keys. The upper picture is
+// visible left of a wipe's line, which stays in place on the stage while the sheet moves.
 
 import {byId, clamp} from "./dom.js";
 
-const largest = 64, smallest = 1 / 32;  // zoom: screen pixels of one of the picture
+const largest = 64, smallest = 1 / 32;  // zoom: screen pixels per pixel of the picture
 const nudge = 0.02;                     // of the stage, by an arrow key
 
 export class Stage {
@@ -13,15 +13,15 @@ export class Stage {
   #other = byId("other");
   #size = [1, 1];
   #fits = true;
-  #zoom = 1;   // CSS pixels of one of the picture
+  #zoom = 1;   // CSS pixels per pixel of the picture
   #left = 0;   // of the sheet on the stage
   #top = 0;
   #wipe = 0.5;  // of the stage
   #wipes = false;
-  #fingers = new Map();  // what holds the sheet, by its pointer's id: where
-  #drags = false;        // and has not only touched it
+  #fingers = new Map();  // places of the pointers that hold the sheet, by id
+  #drags = false;        // moved since it was touched
 
-  // `pointed` is called with the pixel under the pointer, or with null; a wheel zooms where `zooms` says so of it.
+  // `pointed` is called with the pixel under the pointer, or with null; a wheel event zooms if `zooms` accepts it.
   constructor(pointed, zooms = () => true) {
     new ResizeObserver(() => this.#fits ? this.fit() : this.#place()).observe(this.#stage);
     this.#stage.addEventListener("wheel", (event) => zooms(event) && this.#wheel(event), {passive: false});
@@ -63,7 +63,7 @@ export class Stage {
     this.#place();
   }
 
-  // Whether what is seen in this column of the picture is what lies over it.
+  // Whether this column of the picture shows the upper picture.
   showsOther(x) {
     return this.#wipes && this.#left + (x + 0.5) * this.#zoom < this.#wipe * this.#stage.clientWidth;
   }
@@ -89,7 +89,7 @@ export class Stage {
     this.#place();
   }
 
-  // So that `scale` screen pixels show one of the picture; the point (x, y) of the stage stays where it is.
+  // `scale`: screen pixels per pixel of the picture. The point (x, y) of the stage keeps its place.
   zoomTo(scale, x = this.#stage.clientWidth / 2, y = this.#stage.clientHeight / 2) {
     const zoom = clamp(scale, smallest, largest) / devicePixelRatio, ratio = zoom / this.#zoom;
     this.#fits = false;
@@ -118,7 +118,7 @@ export class Stage {
     this.#fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
   }
 
-  // The sheet goes along with what holds it, a mouse or a finger; between two fingers it is scaled, too.
+  // The sheet follows the mouse or the finger that holds it; two fingers scale it, too.
   #drag({pointerId, clientX, clientY}) {
     const finger = this.#fingers.get(pointerId);
     if (!finger) return;
@@ -139,7 +139,7 @@ export class Stage {
     }
   }
 
-  // Where the first two fingers hold the sheet, and how far apart they are.
+  // The places of the first two fingers on the sheet, and their distance.
   get #grip() {
     const [a, b = a] = this.#fingers.values();
     return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, spread: Math.hypot(a.x - b.x, a.y - b.y)};
@@ -163,15 +163,15 @@ export class Stage {
     return x >= 0 && y >= 0 && x < this.#size[0] && y < this.#size[1] ? {x, y} : null;
   }
 
-  // A part of the picture stays on the stage, wherever it is dragged.
+  // Keeps a part of the picture on the stage.
   #place() {
     const {clientWidth, clientHeight} = this.#stage, [width, height] = this.#size, rest = 40;
     this.#left = clamp(this.#left, rest - width * this.#zoom, clientWidth - rest);
     this.#top = clamp(this.#top, rest - height * this.#zoom, clientHeight - rest);
-    // At whole screen pixels, so that one of the picture is one of the screen at 1:1.
+    // At whole screen pixels, so that pixels of picture and screen coincide at 1:1.
     const snapped = (x) => Math.round(x * devicePixelRatio) / devicePixelRatio;
     this.#sheet.style.transform = `translate(${snapped(this.#left)}px, ${snapped(this.#top)}px) scale(${this.#zoom})`;
-    // Below two screen pixels for one, pixels of even size could not be shown.
+    // Below two screen pixels per pixel, nearest sampling would show pixels of uneven size.
     this.#sheet.classList.toggle("near", this.#zoom * devicePixelRatio >= 2);
     const at = this.#wipe * clientWidth;
     this.#line.style.left = at + "px";
