@@ -32,9 +32,8 @@ Lines lines_of(const HostOutput& view, const Rect& pixels) {
   return {first, down, across, height, width, bytes};
 }
 
-std::int64_t floor_of(std::int64_t a, std::int64_t b) {
-  return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
+/// The step of a progression from 0 in which `a` lies, -1 before the first.
+std::int64_t step_of(std::int64_t a, std::int64_t step) { return a >= 0 ? a / step : -1; }
 
 /// The steps first ... last of a progression from 0 whose `length` bytes overlap `from` ... `end`.
 struct Steps {
@@ -43,8 +42,8 @@ struct Steps {
 Steps steps_between(std::int64_t step, std::int64_t count, std::int64_t length, std::int64_t from,
                     std::int64_t end) {
   if (step == 0) return {0, from < length && end > 0 ? 0 : -1};
-  return {std::max<std::int64_t>(0, floor_of(from - length, step) + 1),
-          std::min(count - 1, floor_of(end - 1, step))};
+  return {std::max<std::int64_t>(0, step_of(from - length, step) + 1),
+          std::min(count - 1, step_of(end - 1, step))};
 }
 
 /// Whether two lines that begin this many bytes apart share a byte.

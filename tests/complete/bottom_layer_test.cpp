@@ -220,6 +220,25 @@ auto box(glm::dvec3 middle, glm::dvec3 half) {
   };
 }
 
+// Where the pixel itself shows the bottom, the end of its ray is looked up in the layer, and not
+// before the thing that hides it.
+TEST(BottomLayer, ARayFromBottomToBottomEndsBehindWhatStandsInTheWater) {
+  const Hidden hidden({36, 40, 56, 60}, 0.7);
+  const test::Picture wet = test::reference(rays(), hidden.pool.buffers.frame, hidden.pool.scene);
+  int behind = 0;
+  for (int y = 20; y < Pool::kSize.height; ++y) {
+    for (int x = 30; x < 62; ++x) {
+      const auto end = hidden.pool.end(x, y);
+      const bool inside = end.x > 37 && end.x < 54 && end.y > 41 && end.y < 58;
+      if (hidden.hides(x, y) || !inside || wet.aov(Aov::kConfidence, x, y) > 0) continue;
+      ++behind;
+      EXPECT_NEAR(wet.aov(Aov::kStmapG, x, y, 0) * Pool::kSize.width - 0.5, end.x, 1);
+      EXPECT_NEAR((1 - wet.aov(Aov::kStmapG, x, y, 1)) * Pool::kSize.height - 0.5, end.y, 1);
+    }
+  }
+  EXPECT_GT(behind, 10);
+}
+
 TEST(BottomLayer, NothingOfAPostIsDraggedAlong) {
   EXPECT_EQ(Checked(box({0.2, -2.2, -4}, {0.1, 1.5, 0.1})).streaks(rays()), 0);
 }

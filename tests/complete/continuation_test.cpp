@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "complete/pool.h"
+#include "op/pixel_start.h"
 
 // What is seen of a bottom that goes on beyond the picture.
 
@@ -26,6 +27,49 @@ Look going_on(bool goes_on) {
   look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
   if (!goes_on) refraction.off_frame = Refraction::OffFrame::kShorten;
   return look;
+}
+
+/// Nothing to be seen but the row of colors round the picture, which has its own places.
+struct RowAlone {
+  struct Quad {
+    static double weight(int) { return 0.25; }
+  };
+  static double nearest(PlaneId, Vec2<double>) { return 1; }
+  static Quad quad(Vec2<double>) { return {}; }
+  static Four<double> read(PlaneId, const Quad&) { return {1, 1, 1, 1}; }
+  static Vec2<double> place(PlaneId, const Quad&, int) { return {0, 0}; }
+  static Rgb<double> lat_long_rgb(const Texture&, Vec2<double> at) { return {at.x, at.y, 0}; }
+};
+
+// From the upper left corner to the right, down, to the left and up. What goes on in no direction
+// goes on from the nearest place of the edge.
+TEST(Continuation, TheRowOfColorsGoesRoundThePicture) {
+  const Pool pool;
+  const Pass base = pool.pass();
+  Continuation on{};
+  on.fade = 1e9;
+  Pass pass = base;
+  pass.continuation = &on;
+  const RowRays<double> rays(pass, 24.5);
+  Pixel<double> p{};
+  begin_pixel(pass, rays, 48.0, 1.0, rays.calm_depth(48.0), 1e3, p);  // of the middle column
+  const Bounds bounds{{p.uv.x - 0.04, p.uv.y - 0.03}, {p.uv.x + 0.12, p.uv.y + 0.05}};
+  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, bounds, false};
+  const auto seen = [&](Vec3<double> direction) {
+    const ScreenRay<double> ray(pass, p, direction);
+    return BeyondPicture<double, RowAlone>(pass, planes, p, RowAlone{}, ray, direction, 0.5)
+        .look(1e6);
+  };
+  const double right = seen({1, 0, 0}).shift.x, left = seen({-1, 0, 0}).shift.x;
+  EXPECT_NEAR(right, 0.12, 1e-12);
+  EXPECT_NEAR(left, -0.04, 1e-12);
+  EXPECT_NEAR(seen({0, -1, 0}).shift.y, 0.05, 1e-12);
+  EXPECT_NEAR(seen({0, 1, 0}).shift.y, -0.03, 1e-12);
+  // The pixel is a quarter of the window's width from its left, 3/8 of its height from its top.
+  EXPECT_NEAR(seen({0, 1, 0}).color.r, 0.25 * 0.25, 1e-6);
+  EXPECT_NEAR(seen({1, 0, 0}).color.r, 0.25 + 0.25 * 0.375, 1e-6);
+  EXPECT_NEAR(seen({0, -1, 0}).color.r, 0.5 + 0.25 * 0.75, 1e-6);
+  EXPECT_NEAR(seen({-1, 0, 0}).color.r, 0.75 + 0.25 * 0.625, 1e-6);
 }
 
 const Continuation* made(ContinuationMaker& maker, const Pool& pool) {
@@ -120,6 +164,27 @@ TEST(Continuation, PixelsThatLookIntoThePictureDoNotChange) {
     }
   }
   EXPECT_GT(changed, 300);
+}
+
+/// Neither do those whose end in the picture is a guess, for something hides it.
+TEST(Continuation, GuessesInThePictureDoNotChange) {
+  Pool pool;
+  pool.draw(lanes(0.3));
+  pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    const bool post = x > 38 && x < 50 && y > 22 && y < 36;
+    return post ? 1.0f : static_cast<float>(pool.dry_depth(x, y));
+  });
+  const test::Picture on = test::reference(going_on(true), pool.buffers.frame, pool.scene);
+  const test::Picture columns = test::reference(going_on(false), pool.buffers.frame, pool.scene);
+  int unsure = 0;
+  for (int y = 4; y < 36; ++y) {
+    for (int x = 20; x < 76; ++x) {
+      if (pool.leaves(x, y)) continue;
+      unsure += columns.aov(Aov::kConfidence, x, y) == 0;
+      EXPECT_EQ(on.color(x, y), columns.color(x, y)) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(unsure, 20);
 }
 
 TEST(Continuation, BothRunnersSeeTheSame) {

@@ -39,9 +39,9 @@ Scene scene_at(double height, double pitch, std::vector<SineWave> waves = kWaves
 }
 
 /// Straight down on the water, 8 units wide.
-Scene seen_in_parallel() {
-  Scene scene = scene_at(2, 0);
-  const glm::dvec3 eye(3, 3, 2);
+Scene seen_in_parallel(double height) {
+  Scene scene = scene_at(height, 0);
+  const glm::dvec3 eye(3, 1 + height, 2);
   scene.camera = Camera{glm::lookAt(eye, eye - glm::dvec3(0, 1, 0), {0, 0, -1}),
                         orthographic(8, 8.0 * kSize.height / kSize.width, 0.1, 100, ClipSpace::kGl),
                         ClipSpace::kGl};
@@ -173,10 +173,33 @@ TEST(DisplacedSurface, LiesOnTheWaterAtGrazingAngles) {
 
 TEST(DisplacedSurface, OfAParallelViewFromAboveIsTheHeightItself) {
   on_all([](const std::string* simd) {
-    const Made made(seen_in_parallel(), simd);
-    for_each_pixel([&](int x, int y) {
-      EXPECT_NEAR(made.at(x, y), 2 + made.over(x, y, 2), 1e-6) << x << ", " << y;
-    });
+    for (const double height : {2.0, 0.5}) {  // nearer than a unit of the scene, too
+      const Made made(seen_in_parallel(height), simd);
+      for_each_pixel([&](int x, int y) {
+        EXPECT_NEAR(made.at(x, y), height + made.over(x, y, height), 1e-6) << x << ", " << y;
+      });
+    }
+  });
+}
+
+TEST(DisplacedSurface, IsTheSameInAnyUnitOfLength) {
+  on_all([](const std::string* simd) {
+    const Scene metres = scene_at(1.2, 0.7);
+    const Made judge(metres, simd);
+    for (const double unit : {1e-3, 1e3}) {
+      Scene scene = metres;
+      scene.camera->view[3] *= glm::dvec4(unit, unit, unit, 1);
+      scene.camera->projection = perspective(0.7, double(kSize.width) / kSize.height, kNear * unit,
+                                             1e3 * unit, ClipSpace::kGl);
+      scene.water->height *= unit;
+      for (SineWave& wave : scene.water->waves) {
+        wave.amplitude *= unit, wave.k_x /= unit, wave.k_y /= unit;
+      }
+      const Made made(scene, simd);
+      for_each_pixel([&](int x, int y) {
+        EXPECT_NEAR(made.at(x, y) / unit, judge.at(x, y), 1e-5) << x << ", " << y;
+      });
+    }
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "ops/refraction_kernel.h"
 #include "plan/landscape.h"
+#include "plan/survey_scan.h"
 
 namespace limpid {
 namespace {
@@ -156,7 +157,26 @@ TEST(Heights, AreNotFarAbove) {
   EXPECT_NEAR(whole.deepest, 1.5, 0.1);
   EXPECT_NEAR(part.deepest, 1.5, 0.03);
   // A ray's end 0.4 of the way from the surface to which is there: but for the same errors.
-  EXPECT_NEAR(part.covers, -1.5 / Kernel<Refraction>::kShareOfWay, 0.1);
+  const double share = Kernel<Refraction>::kShareOfWay;
+  EXPECT_NEAR(part.covers, -1.5 / share, 0.1);
+  // Of water that stands 0.3 higher the way to the bottom is 1.8 deep.
+  b.set(PlaneId::kSurfaceDepth, [&](int x, int y) {
+    const RowRays<double> rays(pass, y + 0.5);
+    return static_cast<float>(rays.calm_depth(x + 0.5) * (2 - 0.3) / 2);
+  });
+  EXPECT_NEAR(Measured(b, scene).of({40, 184, 61, 191}).covers, 0.3 - 1.8 / share, 0.1);
+}
+
+/// A picture on its side tells as much as one that stands.
+TEST(Heights, AreAsSureHoweverTheCameraIsRolled) {
+  const Size size{200, 200};
+  Scene scene = test::simple_scene(size);
+  const HeightError level = calm_error(WaterView(scene, rect_of(size)));
+  scene.camera->view = glm::rotate(glm::dmat4(1), std::numbers::pi / 2, {0, 0, 1}) *
+                       scene.camera->view;  // what was above is on the left
+  const HeightError rolled = calm_error(WaterView(scene, rect_of(size)));
+  EXPECT_NEAR(rolled.over / level.over, 1, 1e-5);
+  EXPECT_NEAR(rolled.under / level.under, 1, 1e-5);
 }
 
 TEST(Heights, WhatStandsHigherThanTheWaterDoesNotCount) {

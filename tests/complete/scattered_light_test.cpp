@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "ops/depth_fog_kernel.h"
+#include "ops/probe_strip.h"
+#include "ops/tray.h"
+
 namespace limpid {
 namespace {
 
@@ -22,6 +26,82 @@ TEST(ScatteredLight, BoundsAreOfTheLightThatComes) {
   for (std::size_t k = 1; k < ScatteredLight::kLayers; ++k) {
     EXPECT_LE(dark.beyond_sky[k], dark.beyond_sky[k - 1]) << k;
     EXPECT_LE(dark.beyond_sun[k], dark.beyond_sun[k - 1]) << k;
+  }
+}
+
+/// Water that absorbs nothing and scatters a half of the light in a unit of the way, under an even
+/// sky of radiance 1, over a bottom that throws back 0.9.
+test::Tray furnace(double deep) {
+  test::Tray tray({3, 2});
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.fill(plane_after(PlaneId::kColorR, c), 0.9f);
+    tray.buffers.fill(plane_after(PlaneId::kAlbedoR, c), 0.9f);
+  }
+  tray.buffers.fill(PlaneId::kDepth, static_cast<float>(10 + deep));
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  fog = test::plain_fog(DepthFog::Model::kRadiativeTransfer);
+  fog.absorption = {0, 0, 0};
+  fog.scattering = {0.5, 0.5, 0.5};
+  fog.ambient = {1, 1, 1};
+  fog.anisotropy = 0;
+  return tray;
+}
+double light_from_below(const test::Tray& tray) {
+  const test::Picture got = tray.wet();
+  return got.aov(Aov::kTransmitted, 1, 1) + got.aov(Aov::kInScatter, 1, 1);
+}
+
+// All light of the sky comes back from water without an end. A bottom that is no more than half an
+// optical depth under the surface takes a tenth of what reaches it.
+TEST(ScatteredLight, OfAWhiteFurnaceComesBackWhatTheBottomLeaves) {
+  EXPECT_NEAR(light_from_below(furnace(1e4)), 1, 0.03);
+  for (const double deep : {0.1, 0.3, 1.0}) {
+    EXPECT_GT(light_from_below(furnace(deep)), 0.86) << deep;
+    EXPECT_LT(light_from_below(furnace(deep)), 1) << deep;
+  }
+}
+
+TEST(ScatteredLight, WhatADeepBottomChangesIsInTheBound) {
+  const double endless = light_from_below(furnace(1e4));
+  for (const double deep : {2.0, 6.0, 20.0}) {
+    const test::Tray tray = furnace(deep);
+    const DepthFog::Params& fog = tray.look.of<DepthFog>();
+    Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
+    ScatteredLightMaker maker;
+    pass.scattered_light = maker.make(Kernel<DepthFog>::scattering_water(fog, pass)).data();
+    Ranges ranges;
+    ranges.fog_path = {deep, deep};
+    ranges.color = {{{0.9, 0.9}, {0.9, 0.9}, {0.9, 0.9}}};
+    const double change = std::abs(light_from_below(tray) - endless);
+    EXPECT_GT(change, 1e-4) << deep;
+    EXPECT_LE(change, Kernel<DepthFog>::beyond(fog, pass, ranges)) << deep;
+  }
+}
+
+// That other pixels of the frame begin in the water is nothing to one that does not.
+TEST(ScatteredLight, OfAViewFromTheAirDoesNotKnowOfOthers) {
+  const test::Tray tray = furnace(3);
+  const DepthFog::Params& fog = tray.look.of<DepthFog>();
+  Pass pass(tray.scene, tray.buffers.frame, 1.333, kWholeState);
+  ScatteringWater water = Kernel<DepthFog>::scattering_water(fog, pass);
+  water.inside = true;
+  ScatteredLightMaker maker;
+  pass.scattered_light = maker.make(water).data();
+  const auto seen = [&](bool submersible) {
+    pass.submersible = submersible;
+    test::ProbeStrip strip;
+    for (int i = 0; i < 4; ++i) {
+      strip.pixels.push_back(
+          test::random_pixel(i, {StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted}));
+    }
+    Kernel<DepthFog>::apply(fog, pass, strip);
+    return strip.pixels;
+  };
+  const std::vector<Pixel<double>> alone = seen(false), among = seen(true);
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_GT(alone[i].in_scatter.g, 0);
+    EXPECT_EQ(among[i].in_scatter, alone[i].in_scatter);
+    EXPECT_EQ(among[i].sun_multiple, alone[i].sun_multiple);
   }
 }
 

@@ -288,6 +288,9 @@ TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
   test::fill(memory.channel(0), zeros.frame.plane(PlaneId::kColorA));
   frame.plane(PlaneId::kColorA) = memory.channel(0);
   EXPECT_TRUE(same_bits(wet(plain, frame), covered));
+  // Wherever the window of that alpha begins.
+  zeros.set(PlaneId::kColorA, alpha, {-7, -3, kSize.width + 7, kSize.height + 3});
+  EXPECT_TRUE(same_bits(wet(plain, test::host_frame(zeros.frame, scene)), covered));
 }
 
 TEST(Compositor, LooksChangeBetweenFrames) {

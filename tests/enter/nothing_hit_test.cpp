@@ -46,6 +46,12 @@ TEST(NothingHit, IsMarkedInThePlaneAlone) {
   }
 }
 
+TEST(NothingHit, IsMarkedWhateverLiesBetweenThePixels) {
+  std::array<float, 8> interleaved{1, -9, 2, -9, 3, -9, 7, -9};
+  mark_nothing_hit({interleaved.data(), 2, 8, kRow}, {.nothing = 7});
+  EXPECT_EQ(interleaved, (std::array<float, 8>{1, -9, 2, -9, 3, -9, test::kInf, -9}));
+}
+
 TEST(NothingHit, AZeroWithoutAlphaIs) {
   DepthSource source;
   source.uncovered = [](int x, int) { return x % 2 == 0; };

@@ -1,8 +1,10 @@
-#include "op/block_pyramid.h"
-
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "op/height_bound.h"
+#include "support.h"
 
 namespace limpid {
 namespace {
@@ -41,6 +43,16 @@ TEST(BlockPyramid, TellsOfTheBlocksThatABoxMeets) {
   // Twenty: cells of four blocks each, so that it tells of some beside it, too.
   EXPECT_EQ(highest(2, 2, 6, 5), 5 * 8 + 7);
   EXPECT_EQ(highest(0, 0, 7, 7), 63);
+}
+
+TEST(SeenRange, JoinedHoldsBoth) {
+  const SeenRange near{2, 3}, far{5, 8}, none{test::kInf, -test::kInf};
+  for (const auto& [a, b] : {std::pair{near, far}, {far, near}}) {
+    EXPECT_EQ(SeenRange::join(a, b).low, 2);
+    EXPECT_EQ(SeenRange::join(a, b).high, 8);
+  }
+  EXPECT_EQ(SeenRange::join(none, far).low, 5);
+  EXPECT_EQ(SeenRange::join(none, far).high, 8);
 }
 
 }  // namespace

@@ -135,6 +135,24 @@ TEST(BottomSearch, WhatStandsFarBeforeTheRayHidesItsEnd) {
   EXPECT_EQ(sure(0.32), 0);
 }
 
+// Behind such a shelf. Of the layer below, which goes on there, each end is found.
+TEST(BottomSearch, BehindWhatHidesItTheBottomIsThatOfTheLayer) {
+  View view(kAside);
+  BottomLayer layer{};
+  layer.most_drop = 50;
+  view.pass.bottom_layer = &layer;
+  int looks = 0;
+  constexpr double kShelf = (1 - 0.32) * 1.5;
+  for (const double drop : {1.8, 2.3, 2.8}) {
+    const FlatBottom tap{
+        view.pass, view.pixel, drop, looks, kShelf, kShelf, view.ray->shift_at(3).x};
+    const auto found = march(view, tap);
+    EXPECT_EQ(found.sure, 0);
+    EXPECT_LT(found.way, view.most);
+    EXPECT_NEAR(found.way, drop / 0.5, 1e-9);
+  }
+}
+
 // A cliff that rises between two looks is met, though the second is far behind its top, and by
 // less than a unit of the scene.
 TEST(BottomSearch, ACliffIsMetBetweenTwoLooks) {

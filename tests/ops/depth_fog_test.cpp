@@ -157,6 +157,52 @@ TEST(DepthFog, BoundsKnowWhichWayTheWaterScatters) {
 }
 
 // It lights what is scattered and, of a surface that reflects from below, the bottom.
+Ranges ranges_at(const Tray& tray, double way) {
+  Ranges ranges;
+  ranges.own = {way, way};
+  ranges.color = {{{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}};
+  ranges.light = 0.5;
+  const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
+  Kernel<DepthFog>::propagate_ranges(tray.look.of<DepthFog>(), pass, ranges);
+  return ranges;
+}
+
+TEST(DepthFog, NoLightFromBelowIsBrighterThanItsRangesSay) {
+  Tray tray({3, 2});
+  tray.scene.sun = Sun{.color = {40, 40, 40}};
+  DepthFog::Params red = test::plain_fog(DepthFog::Model::kLinear);
+  red.color = {4, 0.1, 0.1}, red.alpha = 1;
+  DepthFog::Params sunlit = test::plain_fog(DepthFog::Model::kBeerLambert);
+  sunlit.scattering = {0.1, 0.5, 2};
+  sunlit.sunlight = DepthFog::Sunlight::kNone;
+  for (const DepthFog::Params& fog : {red, sunlit}) {
+    tray.look.of<DepthFog>() = fog;
+    for (const float way : {0.1f, 1.0f, 20.0f}) {
+      tray.buffers.fill(PlaneId::kDepth, 10 + way);
+      const test::Picture got = tray.wet();
+      const double bound = ranges_at(tray, way).light;
+      for (int c = 0; c < 3; ++c) {
+        const double light =
+            got.aov(Aov::kTransmitted, 1, 1, c) + got.aov(Aov::kInScatter, 1, 1, c);
+        EXPECT_LE(light, bound * (1 + 1e-6)) << way;
+      }
+    }
+  }
+}
+
+// However deep it is, and however little of red and blue comes up.
+TEST(DepthFog, WaterThatTakesNothingFromAColorIsNeverOpaque) {
+  Tray tray({3, 2});
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  fog = test::plain_fog(DepthFog::Model::kBeerLambert);
+  const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
+  const auto beyond = [&] { return Kernel<DepthFog>::beyond(fog, pass, ranges_at(tray, 1e3)); };
+  fog.absorption = {1, 1, 1};
+  EXPECT_EQ(beyond(), 0);
+  fog.absorption = {1, 0, 1};
+  EXPECT_EQ(beyond(), HUGE_VAL);
+}
+
 TEST(DepthFog, WantsLightThatIsScatteredMoreThanOnceWhereThereIsSome) {
   DepthFog::Params params = test::plain_fog(DepthFog::Model::kRadiativeTransfer);
   const auto wants = [&](double scattering, DepthFog::Crossing crossing) {

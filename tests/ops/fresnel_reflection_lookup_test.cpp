@@ -227,6 +227,42 @@ TEST(ReflectedRay, WithoutDepthsTheSceneIsFarAway) {
   EXPECT_NEAR(test::reference(look, buffers.frame, scene).color(0, 20).g, row, 1e-4);
 }
 
+// At 45 degrees, and so as far aside as what it meets lies under the mirror: 4.
+TEST(ReflectedRay, MarchesToWhatIsAsDeep) {
+  const Size size{24, 4};
+  Tray tray(size);
+  mirror_tells_its_place(tray.buffers, rect_of(size));
+  tray.buffers.fill(PlaneId::kReflectionDepth, 14);
+  tray.buffers.normal(halfway({0, 1, 0}, {std::sqrt(0.5), std::sqrt(0.5), 0}));
+  all_mirror(tray.look).source = Source::kAuto;
+  EXPECT_NEAR(tray.wet().color(6, 2).r, 6 + 4, 0.1);
+}
+
+// As WithoutDepthsTheSceneIsFarAway, with something 25 away that the planes show at the end of the
+// endless ray, 30 rows below the pixel, though at that depth the ray is still 5 rows away: it hides
+// that end, and is not mirrored.
+TEST(ReflectedRay, WhatHidesItsFarEndIsNotMirrored) {
+  const Size size{1, 411};
+  const Scene scene = test::simple_scene(size);
+  test::Buffers buffers(rect_of(size));
+  const double a = 2 * std::numbers::pi / 180;
+  const double far = 205 + std::tan(2 * a) * 411 / (2 * std::tan(0.45));
+  buffers.normal({0, std::cos(a), std::sin(a)}).fill(PlaneId::kDepth, 1e3f);
+  for (int c = 0; c < 3; ++c) buffers.fill(plane_after(PlaneId::kColorR, c), 0);
+  mirror_tells_its_place(buffers, rect_of(size));
+  buffers.set(PlaneId::kReflectionDepth,
+              [&](int, int y) { return std::abs(y - far) < 2.5 ? 25.0f : kInf; });
+  Look look = test::still_look();
+  all_mirror(look).source = Source::kAuto;
+  const double row = test::reference(look, buffers.frame, scene).color(0, 205).g;
+  EXPECT_GT(row, 205 + 20);
+  EXPECT_LT(row, far - 3);
+  // So far away that the ray is within a pixel of its end there, it is what is seen.
+  buffers.set(PlaneId::kReflectionDepth,
+              [&](int, int y) { return std::abs(y - far) < 2.5 ? 2500.0f : kInf; });
+  EXPECT_NEAR(test::reference(look, buffers.frame, scene).color(0, 205).g, far, 0.1);
+}
+
 // A wave that mirrors the ray into the water: it is laid flat, and the flat ray's picture is
 // itself.
 TEST(ReflectedRay, LiesFlatWhereTheWaveSendsItDown) {

@@ -220,7 +220,17 @@ TEST(FresnelReflection, SameFromBothSidesAlongOnePath) {
 
 TEST(FresnelReflection, LosesNothingFromBelow) {
   for (double degrees : {0.0, 30.0, 45.0, 70.0}) {
-    test::expect_rgb(Glance(degrees, -2).wet().color(0, 0), {1, 1, 1});
+    const Glance glance(degrees, -2);
+    test::expect_rgb(glance.wet().color(0, 0), {1, 1, 1});
+    // Nor where nobody asks what the fog leaves, which does nothing and is not run.
+    const test::Picture bare(rect_of({1, 1}));
+    Target target = bare.target;
+    target.aovs = {};
+    const Frame& frame = glance.buffers.frame;
+    const Plan plan = make_plan(glance.look, test::inputs_of(frame, glance.scene));
+    EXPECT_FALSE(plan.keeps<DepthFog>());
+    run_reference(plan, frame, glance.scene, target);
+    test::expect_rgb(bare.color(0, 0), {1, 1, 1});
   }
 }
 
@@ -255,6 +265,30 @@ TEST(FresnelReflection, TheWaterInFrontOfTheUndersideStaysInFront) {
   test::expect_rgb(above.transmitted, {t, t, t});
   test::expect_rgb(above.in_scatter, {s, s, s});
   test::expect_rgb(above.reflected, {4 * f, 4 * f, 4 * f});
+}
+
+// The planes are of the mirror on the eye's side, here under the water. A pixel that begins on the
+// other one has its own picture in their place.
+TEST(FresnelReflection, PlanesAreOfTheSideOnWhichTheEyeIs) {
+  Glance glance(0, -2);
+  for (int c = 0; c < 3; ++c) glance.buffers.fill(plane_after(PlaneId::kReflectionR, c), 2);
+  FresnelReflection::Params& params = glance.look.of<FresnelReflection>();
+  params.source = FresnelReflection::Source::kPlanar;
+  const Pass pass(glance.scene, glance.buffers.frame, 1.333, {});
+  ASSERT_TRUE(pass.submersible);
+  for (const auto lookup : {FresnelReflection::Lookup::kOffset, FresnelReflection::Lookup::kRay}) {
+    params.lookup = lookup;
+    test::ProbeStrip strip;
+    Pixel<double> p = test::random_pixel(1, {});
+    p.to_viewer = {0, 1, 0};
+    p.transmitted = {0.1, 0.2, 0.3};
+    strip.pixels.push_back(p);
+    Kernel<FresnelReflection>::apply(params, pass, strip);
+    const Pixel<double>& above = strip.pixels[0];
+    EXPECT_GT(above.fresnel, 0.02);
+    test::expect_rgb(above.reflected,
+                     {0.1 * above.fresnel, 0.2 * above.fresnel, 0.3 * above.fresnel}, 1e-9);
+  }
 }
 
 }  // namespace

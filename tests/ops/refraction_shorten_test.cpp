@@ -190,6 +190,56 @@ TEST(Shorten, ALayerBelowNeedsNoRejection) {
   }
 }
 
+/// A ray from shallow water that ends deep, under what stands out of it. Nothing on its way is far
+/// enough for its end: the pixel's own texel of the layer below stands in, not the dry picture.
+TEST(Shorten, AShallowLayerBelowStandsInForADeepEnd) {
+  Tray tray(kSize);
+  tray.buffers.fill(PlaneId::kDepth, 30);
+  tray.buffers.set(PlaneId::kBelowDepth, [](int x, int) { return x < 20 ? 10.5f : 9.0f; });
+  for (int c = 0; c < 3; ++c) tray.buffers.fill(plane_after(PlaneId::kBelowR, c), 0.25f);
+  tray.look.of<Refraction>() = {.rejection = Refraction::Rejection::kShorten, .steps = 1};
+  // Leaning by 36.9 degrees: bent by 10.1, and 3.6 columns aside where it is 20 deep.
+  for (const double lean : {-0.6, 0.6}) {
+    tray.buffers.normal({lean, 0.8, 0});
+    const test::Picture got = tray.wet();
+    for (const int x : {17, 18, 19}) EXPECT_NEAR(got.aov(Aov::kTransmitted, x, 9), 0.25, 1e-6) << x;
+  }
+}
+
+/// Water is endless only where the dry picture has hit nothing, either.
+TEST(Shorten, WhereALayerBelowIsEmptyTheDryPictureStays) {
+  Tray tray(kSize);
+  tray.buffers.set(PlaneId::kDepth, [](int x, int y) { return x + y < 1 ? test::kInf : 14.0f; });
+  tray.buffers.set(PlaneId::kBelowDepth, [](int x, int) { return x < 20 ? test::kInf : 14.0f; });
+  for (int c = 0; c < 3; ++c) tray.buffers.fill(plane_after(PlaneId::kBelowR, c), 0.25f);
+  for (const auto model : {Refraction::Model::kNormalOffset, Refraction::Model::kSnell}) {
+    tray.look.of<Refraction>() = {.model = model, .rejection = Refraction::Rejection::kShorten};
+    const test::Picture got = tray.wet();
+    EXPECT_EQ(got.aov(Aov::kTransmitted, 0, 0), 0);
+    for (int x = 5; x < 40; ++x) {
+      EXPECT_NEAR(got.aov(Aov::kTransmitted, x, 20), x < 20 ? 0.5 : 0.25, 1e-6) << x;
+      EXPECT_TRUE(std::isfinite(got.aov(Aov::kPath, x, 20))) << x;
+    }
+  }
+}
+
+/// Rays along one axis that end 0.02 of the picture beyond its last texels: 20 times that is lost.
+TEST(Shorten, OffTheFrameFogIsByTheWayOfAllColors) {
+  for (const bool down : {false, true}) {
+    Tray tray({20, 20});
+    tray.buffers.normal(down ? Vec3<double>{0, 0.8, 0.6} : Vec3<double>{0.6, 0.8, 0});
+    tray.look.of<PrismSplit>() = {PrismSplit::Model::kDispersion, 0, 1};
+    Refraction::Params& p = tray.look.of<Refraction>();
+    p.rejection = Refraction::Rejection::kShorten;
+    p.off_frame = Refraction::OffFrame::kFog;
+    p.strength = 0.07 / 0.6;
+    // From 18.5 / 20 to 0.995; the last texels are at 0.975.
+    const test::Picture got = tray.wet();
+    EXPECT_NEAR(got.aov(Aov::kTransmitted, down ? 9 : 18, down ? 18 : 9, 1), 0.5 * 0.6, 1e-5);
+    EXPECT_NEAR(got.aov(Aov::kTransmitted, 9, 9, 1), 0.5, 1e-6);
+  }
+}
+
 /// A shore on which no water is drawn: the layer below goes on under it, and so do rays.
 TEST(Shorten, ALayerBelowIsSeenUnderTheShoreToo) {
   Tray tray(kSize);

@@ -52,6 +52,23 @@ TEST(SunHighlight, IsTheSunsColorInTheMirrorDirection) {
   }
 }
 
+// Phong's lobes meet their bound there; GGX is brighter than they by orders of magnitude.
+TEST(SunHighlight, NoGlintIsBrighterThanItsBound) {
+  Tray tray = sunny_tray();
+  tray.buffers.normal(half_way());
+  const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
+  SunHighlight::Params& params = tray.look.of<SunHighlight>();
+  const auto glint = [&] { return tray.wet().aov(Aov::kHighlight, 2, 2); };
+  const auto bound = [&] { return Kernel<SunHighlight>::bound(params, pass, {}); };
+  for (auto model : {SunHighlight::Model::kPhong, SunHighlight::Model::kBlinnPhong}) {
+    params = {.model = model};
+    EXPECT_NEAR(glint(), bound(), 1e-4);
+  }
+  params = {.model = SunHighlight::Model::kGgx, .roughness = 0.01};
+  EXPECT_GT(glint(), 100);
+  EXPECT_LE(glint(), bound());
+}
+
 TEST(SunHighlight, NoGlintInShadow) {
   Tray tray = sunny_tray();
   tray.buffers.normal(half_way());

@@ -1,3 +1,5 @@
+#include "op/caustics_table.h"
+#include "ops/probe_strip.h"
 #include "ops/tray.h"
 #include "ops/water_shadow_kernel.h"
 
@@ -150,6 +152,91 @@ TEST(WaterShadow, IsThatOfWhereTheSunlightEntered) {
   EXPECT_NEAR(in_scatter(tray, 2) / all, (0 + 0 + 0.5 + 1) / 4, 0.01);
   EXPECT_NEAR(in_scatter(tray, 3) / all, (0 + 0.5 + 1 + 1) / 4, 0.01);
   EXPECT_NEAR(in_scatter(tray, 0) / all, 0, 0.01);
+}
+
+// The same sun over water so deep and murky that sunlight is scattered after 2 in the mean: of what
+// comes back exp(-d / 2) entered farther than d to the right. Four places stand for all of them.
+TEST(WaterShadow, OfMurkyWaterIsThatOfLightThatFadesExponentially) {
+  Tray tray = half_shaded_murk();
+  tray.buffers.fill(PlaneId::kDepth, 50);
+  tray.buffers.set(PlaneId::kSurfaceShadow, [](int x, int) { return x < 5 ? 0.f : 1.f; });
+  tray.scene.sun->direction = {std::sqrt(0.5), std::sqrt(0.5), 0};
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  fog.sunlight = DepthFog::Sunlight::kStraight;
+  fog.ambient = {0, 0, 0};
+  const double scattering = 0.5 / (1 + std::sqrt(2.0));
+  fog.scattering = {scattering, scattering, scattering};
+  const double all = in_scatter(tray, 9);
+  for (const int column : {3, 4}) {
+    // The edge is as wide as a pixel.
+    const double from = 4 - column, lit = 2 * (std::exp(-from / 2) - std::exp(-(from + 1) / 2));
+    EXPECT_NEAR(in_scatter(tray, column) / all, lit, 0.05) << column;
+  }
+}
+
+// What is scattered next to the surface of water without an end is lit as the surface is there, in
+// float, too.
+TEST(WaterShadow, OfEndlessWaterIsOfTheSameLightInFloat) {
+  Tray tray = half_shaded_murk();
+  tray.buffers.fill(PlaneId::kDepth, test::kInf);
+  tray.buffers.set(PlaneId::kSurfaceShadow, [](int x, int) { return x < 5 ? 0.f : 1.f; });
+  tray.scene.sun->direction = {std::sqrt(0.5), std::sqrt(0.5), 0};
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  fog.sunlight = DepthFog::Sunlight::kStraight;
+  fog.ambient = {0, 0, 0};
+  for (const double scattering : {0.2, 3.0}) {
+    fog.scattering = {scattering, scattering, scattering};
+    const test::Picture got = test::fused(tray.look, tray.buffers.frame, tray.scene);
+    for (int x = 0; x < 10; ++x) {
+      EXPECT_NEAR(got.aov(Aov::kInScatter, x, 1), in_scatter(tray, x), 1e-6) << x;
+    }
+  }
+}
+
+// In clear water each of four places stands for a quarter of a way of 40. Over those 10 light comes
+// in from 10 aside, and 0.6 of that is how wide it is looked up: half way between texels of 4
+// and 8.
+TEST(WaterShadow, ShaftsAreAsWideAsAQuarterOfAClearWay) {
+  const Tray tray = half_shaded_murk();
+  const float bright = 3, even = 1;
+  const Rect texels = rect_of({400, 400});
+  CausticsTable water;
+  water.count = 2;
+  water.levels[0] = {{&bright, 0, 0, texels}, {-800, -800}, 4};
+  water.levels[1] = {{&even, 0, 0, texels}, {-1600, -1600}, 8};
+  water.depth = 1e-3;  // focused there and below
+  CausticsTable table;
+  table.in_water = &water;
+  Pass pass(tray.scene, tray.buffers.frame, 1.333, kWholeState);
+  pass.caustics = &table;
+  pass.planes = {};
+  Pixel<double> p{};
+  p.to_viewer = {0, 1, 0};
+  p.surface_depth = 10;
+  p.side = 1;
+  p.path = 40;
+  p.mean_scatter_distance = 20;
+  p.sun_entry = {1, 0, 0};
+  test::ProbeStrip strip;
+  const PathLight<double> more = path_light(pass, p, test::ProbeStrip::Tap{strip, 0}, 1.0);
+  EXPECT_NEAR(more.near, 0.5 * (bright - even), 1e-9);
+  EXPECT_NEAR(more.far, 0.5 * (bright - even), 1e-9);
+}
+
+// Caustics that are not made for the water itself have none. Full shadow is black: all of the sun's
+// light, 2, may be missing.
+TEST(WaterShadow, ShaftsThatCannotBeAreNotInItsBound) {
+  Tray tray = half_shaded_murk();
+  Pass pass(tray.scene, tray.buffers.frame, 1.333, kWholeState);
+  const CausticsTable bottom_alone;
+  pass.caustics = &bottom_alone;
+  Ranges ranges;
+  ranges.sun_light = 2;
+  WaterShadow::Params& params = tray.look.of<WaterShadow>();
+  for (const double shafts : {0.0, 1.0}) {
+    params.shafts = shafts;
+    EXPECT_EQ(Kernel<WaterShadow>::bound(params, pass, ranges), 2);
+  }
 }
 
 // As in IsLookedUpWhereTheRefractedRayEnds: from column 3 half way into the light. Where the view

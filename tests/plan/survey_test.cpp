@@ -125,6 +125,26 @@ TEST(Survey, OverscanIsInReach) {
   EXPECT_EQ(map_with(384, 81), "fff\nfff\nfff\nfff\nff#\n");
 }
 
+// Of every plane that is looked up, be its window larger than that of the depth.
+TEST(Survey, AShadowBesideThePictureIsInReach) {
+  Buffers b = tray(rect_of(kSize));
+  b.set(PlaneId::kShadow, [](int x, int) { return x < 0 ? 0.0f : 1.0f; }, {-100, -20, 484, 100});
+  const Survey survey = survey_of(short_look(), b.frame);
+  EXPECT_TRUE(survey.at(0, 40).needs(kShadow));
+  EXPECT_FALSE(survey.at(383, 40).needs(kShadow));
+}
+
+TEST(Survey, IsTheSameWhereverTheWindowOfThePictureLies) {
+  Look look = short_look();
+  DepthFog::Params& fog = look.of<DepthFog>();
+  fog.alpha = 1, fog.density = 0.001, fog.distance = DepthFog::Distance::kRay;
+  const Buffers b = tray(rect_of(kSize)), far = tray({3000, -2000, 3384, -1920});
+  const Survey judge = survey_of(look, b.frame, 0.01), survey = survey_of(look, far.frame, 0.01);
+  EXPECT_GT(judge.summary().bound, 0);
+  ASSERT_EQ(survey.count(), judge.count());
+  for (int i = 0; i < judge.count(); ++i) EXPECT_EQ(survey.cell(i), judge.cell(i)) << i;
+}
+
 TEST(Survey, EveryPixelIsInACell) {
   for (const Size size : {Size{1, 1}, {1, 37}, {37, 1}, {127, 16}, {128, 17}, {129, 15}}) {
     const Rect display{5, -3, 5 + size.width, -3 + size.height};
@@ -247,6 +267,29 @@ TEST(Survey, SnellsRaysMayReachTheWholePicture) {
   EXPECT_EQ(survey_of(snell, b.frame).summary().open.cells, 0);
   snell.of<Refraction>().rejection = Refraction::Rejection::kShorten;
   EXPECT_EQ(survey_of(snell, tray(rect_of(kSize)).frame).summary().open.cells, 0);
+}
+
+// Fog by the refracted way, of rays that go on for as long as the bottom under their own pixel lies
+// below the surface.
+TEST(Survey, AShallowPixelOpensItsCellAlone) {
+  Look look = murky();
+  look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
+  look.of<Refraction>() = {.rejection = Refraction::Rejection::kSnap, .steps = 0};
+  Buffers b = tray(rect_of(kSize));
+  b.fill(PlaneId::kDepth, 24);
+  put(b, PlaneId::kDepth, 40, 5, 4.5f);
+  EXPECT_EQ(map_of(survey_of(look, b.frame), 3), "foo\nooo\nooo\nooo\nooo\n");
+}
+
+// Where a plane has the surface no depth under the calm one is known: a march may end at once.
+TEST(Survey, AMarchThroughWavyWaterMayBeShort) {
+  Look look = murky();
+  look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
+  look.of<DepthFog>().density = 2;
+  look.of<Refraction>() = {.rejection = Refraction::Rejection::kSnap, .steps = Refraction::kMarch};
+  Buffers b = tray(rect_of(kSize));
+  b.fill(PlaneId::kDepth, 4.1f);
+  EXPECT_EQ(survey_of(look, b.frame).summary().opaque.cells, 0);
 }
 
 // Without a plane of the surface it is the scene's plane, which ends at the horizon.

@@ -125,6 +125,22 @@ TEST(EdgesInThePicture, MeasuresAreOfTheWater) {
   EXPECT_GE(parts, 8);
 }
 
+TEST(EdgesInThePicture, WithoutEdgesAllIsUncovered) {
+  Post post;
+  post.blur = 6;
+  post.make();
+  Look look = plain_look();
+  look.water.edges = Water::Edges::kHard;
+  test::Picture picture(rect_of(Post::kSize));
+  Plane uncovered(rect_of(Post::kSize));
+  picture.target.uncovered = uncovered.view();
+  const Plan plan = make_plan(look, test::inputs_of(post.buffers.frame, post.scene));
+  run_reference(plan, post.buffers.frame, post.scene, picture.target);
+  for (int y = 0; y < Post::kSize.height; ++y) {
+    for (int x = 0; x < Post::kSize.width; ++x) ASSERT_EQ(uncovered.view().at(x, y), 1);
+  }
+}
+
 TEST(EdgesInThePicture, TheUncoveredShareIsTold) {
   Post post;
   post.blur = 6;

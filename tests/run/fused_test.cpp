@@ -1,6 +1,7 @@
 #include "limpid/run/fused.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -32,24 +33,50 @@ constexpr Size kAwkwardSizes[] = {{1, 1},   {1, 9},   {9, 1},   {7, 5},
 
 void expect_same_from_any_strides(const Look& look, Size size, const std::string& simd) {
   const Buffers planar = test::noisy_frame(rect_of(size));
-  // The same color as interleaved RGBA, stored bottom row first, four pixels of slack a row.
+  // The same color as interleaved RGBA, stored bottom row first, four pixels of slack a row;
+  // normals likewise.
   const std::ptrdiff_t row = 4 * (size.width + 4);
-  std::vector<float> pixels(static_cast<std::size_t>(row) * size.height);
+  const std::vector<float> none(static_cast<std::size_t>(row) * size.height);
+  std::vector<float> pixels = none, normals = none;
   Frame interleaved = planar.frame;
-  for (int c = 0; c < 4; ++c) {
-    const View<float> view{pixels.data() + row * (size.height - 1) + c, 4, -row, rect_of(size)};
-    for (int y = 0; y < size.height; ++y) {
-      for (int x = 0; x < size.width; ++x) {
-        view.at(x, y) = planar.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+  const auto interleave = [&](PlaneId first, int count, std::vector<float>& to) {
+    for (int c = 0; c < count; ++c) {
+      const int plane = index_of(plane_after(first, c));
+      const View<float> view{to.data() + row * (size.height - 1) + c, 4, -row, rect_of(size)};
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) view.at(x, y) = planar.frame.planes[plane].at(x, y);
       }
+      interleaved.planes[plane] = view;
     }
-    interleaved.planes[c] = view;
-  }
+  };
+  interleave(PlaneId::kColorR, 4, pixels);
+  interleave(PlaneId::kSurfaceNormalX, 3, normals);
   const Scene scene = test::simple_scene(size);
   const FusedOptions options{.simd = simd};
   EXPECT_TRUE(same_bits(test::fused(look, planar.frame, scene, options).values(),
                         test::fused(look, interleaved, scene, options).values()))
       << size.width << "x" << size.height;
+  // Three channels that are looked up together where no prism parts them; rows of the first lie
+  // twice as far apart.
+  Look whole = look;
+  whole.of<PrismSplit>().strength = whole.of<PrismSplit>().gain = 0;
+  Frame uneven = planar.frame;
+  const int red = index_of(PlaneId::kBelowR);
+  std::vector<float> rows(2 * static_cast<std::size_t>(size.width) * size.height);
+  const View<float> apart{rows.data(), 1, 2 * size.width, rect_of(size)};
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) apart.at(x, y) = planar.frame.planes[red].at(x, y);
+  }
+  uneven.planes[red] = apart;
+  const auto shown = [&](const Frame& frame) {
+    const Picture picture(frame.work());
+    Target target = picture.target;
+    target.aovs = {};
+    run_fused(make_plan(whole, test::inputs_of(frame, scene)), frame, scene, target,
+              *make_executor(1), options);
+    return picture.values();
+  };
+  EXPECT_TRUE(same_bits(shown(planar.frame), shown(uneven))) << size.width << "x" << size.height;
 }
 
 class FusedOnTarget : public testing::TestWithParam<std::string> {};
@@ -216,11 +243,16 @@ TEST_P(FusedOnTarget, DryPixelsPassThroughBitForBit) {
 }
 
 /// Planes side by side are read in pairs, others texel by texel: the same bits, by samplers (the
-/// article's look) and by probes, at windows of one column or one row, too.
+/// article's look), by probes, and with what lies beside them, at windows of one column or one row,
+/// too.
 TEST_P(FusedOnTarget, ReadsAndWritesAnyStrides) {
+  Look plate = busy_look();
+  plate.of<WaveNormals>().model = WaveNormals::Model::kPlate;
+  plate.of<WaveNormals>().filter = WaveNormals::Filter::kVariance;
   for (const Size size : {Size{37, 11}, Size{1, 9}, Size{9, 1}, Size{2, 2}}) {
     expect_same_from_any_strides(busy_look(), size, GetParam());
     expect_same_from_any_strides(Look{}, size, GetParam());
+    expect_same_from_any_strides(plate, size, GetParam());
   }
 }
 
@@ -350,6 +382,16 @@ TEST(Fused, RefusesWhatItCannotDo) {
   EXPECT_THROW(run_fused(make_plan({}, test::inputs_of(b.frame, scene)), b.frame, scene, over,
                          *make_executor(1)),
                Error);
+  // Offsets of texels are 32 bits wide. What lies that far beyond the stack is no target's.
+  const std::array<float, 4> row{5, 5, 5, 5};
+  Frame huge = b.frame;
+  huge.planes[index_of(PlaneId::kDepth)] = {row.data(), 1, std::ptrdiff_t{1} << 29, rect_of(size)};
+  try {
+    test::fused({}, huge, scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "frame: a plane spans 2147483652 floats, expected at most 2^31");
+  }
   Picture small(Rect{0, 0, 2, 2});
   EXPECT_THROW(run_fused(make_plan({}, test::inputs_of(b.frame, scene)), b.frame, scene,
                          small.target, *make_executor(1)),

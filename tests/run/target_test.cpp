@@ -1,6 +1,9 @@
 #include "limpid/run/target.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "limpid/run/aov_names.h"
 
 #include "support.h"
 
@@ -24,6 +27,24 @@ TEST(Aovs, AnUnknownNameIsRefusedWithAllThatThereAre) {
     for (const AovInfo& aov : aovs()) EXPECT_NE(said.find(aov.name), std::string::npos) << said;
     EXPECT_NE(said.find("'transmitted'"), std::string::npos) << said;
   }
+}
+
+TEST(Aovs, HaveTheNamesOfTheHost) {
+  const auto names = [](Aov aov, AovNames host) {
+    std::vector<std::string> channels;
+    for (const AovChannel& channel : aov_channels(aov, host)) channels.push_back(channel.name);
+    return channels;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(names(Aov::kInScatter, AovNames::kLimpid),
+              ElementsAre("in_scatter.R", "in_scatter.G", "in_scatter.B"));
+  EXPECT_THAT(names(Aov::kInScatter, AovNames::kNuke),
+              ElementsAre("in_scatter.red", "in_scatter.green", "in_scatter.blue"));
+  EXPECT_THAT(names(Aov::kNormal, AovNames::kNuke),
+              ElementsAre("normal.X", "normal.Y", "normal.Z"));
+  EXPECT_THAT(names(Aov::kFresnel, AovNames::kNuke), ElementsAre("fresnel.red"));
+  EXPECT_THAT(names(Aov::kFresnel, AovNames::kArnold), ElementsAre("fresnel"));
+  EXPECT_THAT(names(Aov::kPath, AovNames::kBlender), ElementsAre("ViewLayer.path.Z"));
 }
 
 }  // namespace

@@ -147,6 +147,16 @@ def check_run(root):
     expect("as many as are asked for, always the same, others of another seed",
            len(picks[0]) == 5 and picks[0] == picks[1] != picks[2])
     expect("of several kinds", len({everything[number].kind for number in picks[0]}) > 2)
+    project.kept = "tests/places.txt"
+    gone = "src/optics/tiny.h|return x - y;|10|-"
+    (root / project.kept).write_text("".join(f"{place}\n" for place in [*(tree.identity(everything[n]) for n in picks[0]), gone]))
+    header = root / "src/optics/tiny.h"
+    header.write_text("// One more line.\n" + header.read_text())
+    said, moved = [], mutants.all_sites(project)
+    there = mutants.kept(project, moved, said.append)
+    expect("kept places are found wherever their lines have gone",
+           [(moved[n].line - 1, moved[n].old) for n in there] == [(everything[n].line, everything[n].old) for n in sorted(picks[0])])
+    expect("and what is gone is told", said == ["1 places of tests/places.txt are no longer in the code"])
     try:
         run(paths=[str(root / "tests")])
         expect("a path without mutants is refused", False)

@@ -33,6 +33,7 @@ class Project:
     checked: re.Pattern  # the sources that are compiled first, for syntax alone
     rewritten: dict  # file: (old, new)
     known: str  # the page with the survivors that are no fault, and why
+    kept: str = ""  # the file with the places that are judged unless others are asked for, a tree.identity() a line
 
 
 def limpid(programs=PROGRAMS):
@@ -46,7 +47,7 @@ def limpid(programs=PROGRAMS):
         rewritten={"src/CMakeLists.txt": ("set(LANES_OPTIMISED -O3)", "set(LANES_OPTIMISED -O1)"),
                    "tests/CMakeLists.txt": ("  # Tests are compiled often and run once.",
                                             "  target_precompile_headers(test_${name} PRIVATE <gtest/gtest.h> <gmock/gmock.h>)")},
-        known="docs/mutants.md")
+        known="docs/mutants.md", kept="tools/mutants/places.txt")
 
 
 # ---- which
@@ -74,6 +75,16 @@ def pick(everything, wanted, limit, seed):
                 by_path[site.path].append(site)
                 break
     return picked
+
+
+def kept(project, everything, say):
+    """Those of the project's file that are still there."""
+    lines = (project.root / project.kept).read_text().splitlines()
+    numbers = {tree.identity(site): number for number, site in enumerate(everything)}
+    there = sorted(numbers[line] for line in lines if line in numbers)
+    if len(there) < len(lines):
+        say(f"{len(lines) - len(there)} places of {project.kept} are no longer in the code")
+    return {number: everything[number] for number in there}
 
 
 # ---- what the page says
@@ -110,8 +121,11 @@ def run(project, arguments, say=print):
         if not any(site.path == path or site.path.startswith(path + "/") for site in everything):
             raise tree.Refused(f"mutants {path}: expected a file or folder of {', '.join(project.folders)}")
     its_own = tree.Tree(project, folder, arguments.jobs)
-    picked = pick(everything, lambda site: not beginnings or any(site.path == p or site.path.startswith(p + "/") for p in beginnings),
-                  arguments.limit, arguments.seed)
+    if arguments.seed is None and arguments.limit is None and not beginnings:
+        picked = kept(project, everything, say)
+    else:
+        picked = pick(everything, lambda site: not beginnings or any(site.path == p or site.path.startswith(p + "/") for p in beginnings),
+                      arguments.limit or 320, arguments.seed or 1)
     kinds = collections.Counter(site.kind for site in picked.values())
     say(f"{len(picked)} of {len(everything)} places in {len({site.path for site in picked.values()})} files: "
         + ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items())))
@@ -163,8 +177,8 @@ def tell(project, judged, say):
 def main(words):
     parser = argparse.ArgumentParser(prog="tools/dev mutants", description=__doc__.split("\n")[0])
     parser.add_argument("paths", nargs="*", metavar="PATH", help="a file or folder; all that mutants are made of, if none")
-    parser.add_argument("--limit", type=int, default=320, metavar="N", help="of at most N places (320)")
-    parser.add_argument("--seed", type=int, default=1, metavar="N", help="which places, the same for the same N (1)")
+    parser.add_argument("--limit", type=int, metavar="N", help="of at most N other places than those of tools/mutants/places.txt (320)")
+    parser.add_argument("--seed", type=int, metavar="N", help="which others, the same for the same N (1)")
     parser.add_argument("--again", action="store_true", help="only those that survived when last tried")
     parser.add_argument("--rest", action="store_true", help="only those that have not been tried, and tell of all")
     parser.add_argument("--minutes", type=float, metavar="N", help="judge for so long; --rest goes on")
@@ -174,7 +188,7 @@ def main(words):
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="so many at once (all cores)")
     parser.add_argument("--verbose", action="store_true", help="say which test noticed which")
     arguments = parser.parse_args(words)
-    if arguments.limit < 1 or arguments.jobs < 1:
+    if (arguments.limit is not None and arguments.limit < 1) or arguments.jobs < 1:
         parser.error("--limit and --jobs: expected 1 or more")
     unknown = set(arguments.tests or []) - set(PROGRAMS)
     if unknown:
