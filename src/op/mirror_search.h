@@ -16,6 +16,40 @@ struct MirrorSteps {
   double thin, thick;
 };
 
+/// Of a march of so many steps the share of its way at which one of them is.
+template <class F, class Step>
+LIMPID_INLINE F share_of_step(Step step, int count) {
+  const F even = Loop<F>::ratio(step, count);
+  return F(0.5) * (even + even * even);
+}
+
+/// Leads a march of so many steps over those that need no look.
+class Leaps {
+ public:
+  LIMPID_INLINE explicit Leaps(int steps) : steps_(steps), length_(steps), asks_(steps / 4) {}
+
+  /// The step after i - 1 that needs a look. passes(begin, last): whether those after `begin` up to
+  /// `last` need none.
+  template <class Passes>
+  LIMPID_INLINE int from(int i, Passes&& passes) {
+    while (i >= next_ask_ && i <= steps_ && asks_-- > 0) {
+      const int after = i - 1 + length_ < steps_ ? i - 1 + length_ : steps_;
+      if (after > i && passes(i - 1, after)) {
+        i = after + 1;
+      } else if (length_ >= 2 * kLeast) {
+        length_ /= 2;
+      } else {
+        next_ask_ = i + steps_ / 4;
+      }
+    }
+    return i;
+  }
+
+ private:
+  static constexpr int kLeast = 4;
+  int steps_, length_, next_ask_ = 1, asks_;
+};
+
 /// The search along the ray of one pixel, or of one vector of pixels.
 template <class F, class Tap>
 class MirrorSearch {
@@ -26,9 +60,9 @@ class MirrorSearch {
   };
 
   /// `height` is that of the eye over the calm water. `accept(shift, depth)` says which of the
-  /// things that are seen may be hit.
-  template <class Accept>
-  static Found march(const Tap& tap, PlaneId plane, const Bounds& bounds, F height,
+  /// things that are seen may be hit. Lanes other than `wet` hit nothing.
+  template <class Mask, class Accept>
+  static Found march(const Tap& tap, const Mask& wet, PlaneId plane, const Bounds& bounds, F height,
                      const Pixel<F>& p, const ScreenRay<F>& ray, const MirrorSteps& how,
                      Accept&& accept) {
     const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
@@ -64,10 +98,7 @@ class MirrorSearch {
       });
       return high;
     };
-    const auto share_of = [&](auto step) {
-      const F even = Loop<F>::ratio(step, how.steps);
-      return F(0.5) * (even + even * even);
-    };
+    const auto share_of = [&](auto step) { return share_of_step<F>(step, how.steps); };
     // Whether all steps after `begin` up to `last_one` need no look: what they pass is farther away
     // than the ray, or the ray has passed it before. Where the ray is far away 1 - t bend is a
     // small difference, and as far off as 1 is.
@@ -85,22 +116,14 @@ class MirrorSearch {
       const F back = back_of(F(seen.high));
       return !any(lanes && !(F(1 - 1e-5) * low > back));
     };
-    const auto wet = tap.wet();
     F before = F(0), met = F(0), found = F(0), last = F(0);
-    int length = how.steps, next_ask = 1, asks = how.steps / 4;
+    Leaps leaps(how.steps);
     const auto leap = [&](int i) {
-      while (i >= next_ask && i <= how.steps && asks-- > 0) {
-        const int after = i - 1 + length < how.steps ? i - 1 + length : how.steps;
-        if (after > i && passes(i - 1, after, wet && found < F(0.5))) {
-          last = share_of(after);
-          i = after + 1;
-        } else if (length >= 2 * kLeastLeap) {
-          length /= 2;
-        } else {
-          next_ask = i + how.steps / 4;
-        }
-      }
-      return i;
+      return leaps.from(i, [&](int begin, int last_one) {
+        const bool over = passes(begin, last_one, wet && found < F(0.5));
+        if (over) last = share_of(last_one);
+        return over;
+      });
     };
     const auto step = [&](auto i) {
       const auto open = wet && found < F(0.5);
@@ -108,14 +131,14 @@ class MirrorSearch {
       const F seen = seen_at(t);
       const auto hit = open && within(t, seen);
       // A long step may lead through all of a thing.
-      const auto leaps =
+      const auto through =
           open && !hit && is_behind(t, seen) && !is_behind(last, back_of(seen)) && seen < F(1e29);
       met = select(hit, t, met);
       before = select(hit, last, before);
       found = select(hit, F(1), found);
-      if_any(leaps, [&] {
+      if_any(through, [&] {
         const F front = edge(last, t, is_behind);
-        const auto enters = leaps && within(front, seen_at(front));
+        const auto enters = through && within(front, seen_at(front));
         met = select(enters, front, met);
         before = select(enters, front, before);
         found = select(enters, F(1), found);
@@ -130,7 +153,6 @@ class MirrorSearch {
 
  private:
   static constexpr int kHalvings = 5;
-  static constexpr int kLeastLeap = 4;  ///< steps
 };
 
 }  // namespace limpid

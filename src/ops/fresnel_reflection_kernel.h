@@ -6,6 +6,7 @@
 #include "op/mirror_search.h"
 #include "op/operator.h"
 #include "op/screen_ray.h"
+#include "op/skyline.h"
 #include "op/valid_lookup.h"
 #include "optics/facets.h"
 #include "optics/fresnel.h"
@@ -183,11 +184,20 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     const auto rough = variance > F(kLeastVariance);
     const F deviation = sqrt(max(variance, F(kLeastVariance))), rise = dot(up, p.normal);
     ThreeFacets<F> facets{{F(0), F(0), F(0)}, {F(1), F(0), F(0)}};
+    const bool looks = marched(params, c).has_value();
+    Outlook<F> outlook{{F(1), F(1), F(1)}, F(0)};
     if_any(rough, [&] {
       const ThreeFacets<F> some = facets_of(c, p, near, length(level), deviation);
       for (int i = 0; i < 3; ++i) {
         facets.lean[i] = select(rough, deviation * some.lean[i], facets.lean[i]);
         facets.share[i] = select(rough, some.share[i], facets.share[i]);
+      }
+      if (looks) {
+        const Outlook<F> to =
+            outlook_of(params, c, p, tap, some, rough, near, length(level), deviation);
+        const auto above = rough && p.side > F(0);
+        outlook.parts = select(above, to.parts, outlook.parts);
+        outlook.lean = to.lean;
       }
     });
     const Rgb<F> black{F(0), F(0), F(0)};
@@ -196,14 +206,24 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     steps<F>(0, 3, [&](auto i) {
       const F lean = pick<F>(i, facets.lean[0], facets.lean[1], facets.lean[2]);
       const F share = pick<F>(i, facets.share[0], facets.share[1], facets.share[2]);
-      Vec3<F> facet = p.normal;
-      if_any(rough, [&] {
-        facet = select(rough, normalize_or(facet + (lean * rise) * near, facet), facet);
-      });
-      const Vec3<F> n = bent(c, p, facet);
+      const auto leaned = [&](F by) {
+        Vec3<F> facet = p.normal;
+        if_any(rough, [&] {
+          facet = select(rough, normalize_or(facet + (by * rise) * near, facet), facet);
+        });
+        return facet;
+      };
+      const Vec3<F> facet = leaned(lean), n = bent(c, p, facet);
       const F fresnel = share * reflectance(params, c, p, n);
       const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
-      const Mirrored<F> one = mirrored(params, c, p, tap, n, tilt);
+      Mirrored<F> one;
+      if (looks) {
+        const F part = pick<F>(i, outlook.parts.x, outlook.parts.y, outlook.parts.z);
+        const F low = select(part < F(1), min(lean, outlook.lean), lean);
+        one = seen_on_march(params, c, p, tap, n, part, bent(c, p, leaned(low)));
+      } else {
+        one = mirrored(params, c, p, tap, n, tilt);
+      }
       reflected = reflected + fresnel;
       light = light + fresnel * one.light, sources = sources + share * one.sources;
       return rough;
@@ -242,6 +262,48 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   }
   static constexpr double kLeastVariance = 1e-4;
 
+  /// What the picture shows around a pixel that cannot resolve its waves. Three rays would meet a
+  /// bank or pass over it, all or none of a third of the facets, and draw dashes at its foot: so
+  /// the facets are parted where their rays pass the highest that stands in their way.
+  template <class F>
+  struct Outlook {
+    Vec3<F> parts;  ///< of those that each facet stands for the share whose rays do not pass it
+    F lean;         ///< slope from the mean facet to one whose ray meets what stands there
+  };
+  /// Of that height the rays of a facet of which a part meets it are followed to this one.
+  static constexpr double kWithin = 0.75;
+
+  template <class F, class Tap, class Mask>
+  static Outlook<F> outlook_of(const Params& params, const Pass& c, const Pixel<F>& p,
+                               const Tap& tap, const ThreeFacets<F>& facets, const Mask& rough,
+                               Vec3<F> near, F level, F deviation) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, bent(c, p, p.normal));
+    const Vec3<F> ahead = normalize_or(ray - dot(up, ray) * up, F(-1) * near);
+    const F sine =
+        skyline(c, tap, rough, PlaneId::kDepth, c.dry, p, ScreenRay<F>(c, p, ahead + up), ahead,
+                reads_planes(params, c) ? kImageSteps.steps : kPictureSteps.steps);
+    const F rise = max(dot(up, p.normal), F(1e-6)), eye = dot(up, p.to_viewer);
+    // From the mean facet to the one half way between the view and a ray that rises so far.
+    const auto lean_to = [&](F s) {
+      return (s - eye) / (level + sqrt(max(F(1) - s * s, F(1e-6)))) - dot(near, p.normal) / rise;
+    };
+    const F lean = lean_to(sine) / deviation;
+    F under = plane_share_under(lean);
+    const F raised = given<F>(c.plate_waves.raised, "plate_waves.raised");
+    const auto blends = raised > F(0);
+    if_any(blends, [&] {
+      const F facing = dot(p.to_viewer, p.normal) / (rise * deviation * max(level, F(1e-6)));
+      under = select(blends, under + raised * (seen_share_under(facing, lean) - under), under);
+    });
+    Vec3<F> parts = parts_under(facets, select(sine > F(0), under, F(0)));
+    if (reads_planes(params, c)) {
+      // A reflection may show what the picture does not, as above its upper edge.
+      const auto own = [](F part) { return select(part > F(0), part, F(1)); };
+      parts = {own(parts.x), own(parts.y), own(parts.z)};
+    }
+    return {parts, lean_to(F(kWithin) * sine)};
+  }
+
   /// A facet whose mirrored ray would go into the water, leaned until it goes along it: no such
   /// light comes from the waves of a flat plane. From below, as it is.
   template <class F>
@@ -275,10 +337,19 @@ struct Kernel<FresnelReflection> : FresnelReflection {
                               const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
     if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
     if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
-    if (!reads_planes(params, c)) return seen_in_picture(params, c, p, tap, n);
-    const Vec2<F> shift = params.lookup == Lookup::kRay ? follow(params, c, p, tap, n)
-                                                        : given<F>(params.strength) * tilt;
+    if (marched(params, c)) return seen_on_march(params, c, p, tap, n, F(1), n);
+    const Vec2<F> shift =
+        params.lookup == Lookup::kRay ? follow(c, p, tap, n) : given<F>(params.strength) * tilt;
     return seen_at(c, p, tap, n, shift);
+  }
+
+  /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
+  /// on the ray of the facet `low`.
+  template <class F, class Tap>
+  static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+    return reads_planes(params, c) ? seen_in_image(c, p, tap, n, part, low)
+                                   : seen_in_picture(params, c, p, tap, n, part, low);
   }
 
   /// The mirrored ray, unit, on the viewer's side of the surface.
@@ -314,15 +385,13 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return min(reach_in(c.reflection, p.uv, shift), F(1)) * shift;
   }
 
-  /// Where the mirrored ray ends.
+  /// Where the mirrored ray ends. With views that may begin in the water it is not marched: beside
+  /// the water's level a march over flat rays is decided by roundings.
   template <class F, class Tap>
-  static Vec2<F> follow(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
-                        Vec3<F> n) {
+  static Vec2<F> follow(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n) {
     const ScreenRay<F> ray = image_ray(c, p, n);
     F way(HUGE_VAL);
     if (!c.planes.has(PlaneId::kReflectionDepth)) return place_at(c, p, ray, way);
-    // Beside the water's level a march over flat rays is decided by roundings.
-    if (marched(params, c)) return march(c, p, tap, ray);
     constexpr int kSteps = 3;
     way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
     repeat<F>(kSteps, [&] { way = distance_to(c, p, tap, place_at(c, p, ray, way), way); });
@@ -348,16 +417,42 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return select(seen, length(way_to(c, p, shift, weight / max(inverse, F(1e-30)))), otherwise);
   }
 
-  /// The same by a march in the depth of the mirrored scene. A ray that meets nothing there ends
-  /// infinitely far, should the planes show something that far in its place. Else it is the last
-  /// such place on the way there that counts, or the pixel itself.
+  /// What the planes show by a march in the depth of the mirrored scene.
   template <class F, class Tap>
-  static Vec2<F> march(const Pass& c, const Pixel<F>& p, const Tap& tap, const ScreenRay<F>& ray) {
+  static Mirrored<F> seen_in_image(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                                   F part, Vec3<F> low) {
     const auto all = [](Vec2<F>, F depth) { return depth > F(0); };
-    const auto found = MirrorSearch<F, Tap>::march(tap, PlaneId::kReflectionDepth, c.reflection,
-                                                   given<F>(c.eye_above), p, ray, kImageSteps, all);
+    Vec2<F> met{F(0), F(0)};
+    F hit(0);
+    const auto meets = part > F(0);
+    if_any(meets, [&] {
+      const ScreenRay<F> ray = image_ray(c, p, low);
+      const auto found = MirrorSearch<F, Tap>::march(
+          tap, tap.wet() && meets, PlaneId::kReflectionDepth, c.reflection, given<F>(c.eye_above),
+          p, ray, kImageSteps, all);
+      hit = select(meets, part * found.hit, hit);
+      met = select(found.hit > F(0.5), place_at(c, p, ray, found.way), met);
+    });
+    const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
+    const Vec2<F> far = far_landing(c, p, tap, image_ray(c, p, n), hit < F(1));
+    Mirrored<F> seen = seen_at(c, p, tap, n, select(whole, met, far));
+    if_any(parted, [&] {
+      const Mirrored<F> there = seen_at(c, p, tap, n, met);
+      const F share = select(parted, hit, F(0));
+      seen.light = seen.light + share * (there.light - seen.light);
+      seen.sources = seen.sources + share * (there.sources - seen.sources);
+    });
+    return seen;
+  }
+
+  /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
+  /// in its place. Else it is the last such place on the way there that counts, or the pixel
+  /// itself.
+  template <class F, class Tap, class Mask>
+  static Vec2<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                             const ScreenRay<F>& ray, const Mask& lanes) {
     const Vec2<F> far = place_at(c, p, ray, F(HUGE_VAL));
-    Vec2<F> landing = select(found.hit > F(0.5), place_at(c, p, ray, found.way), far);
+    Vec2<F> landing = far;
     const auto wrong = [&](Vec2<F> shift) {
       const F seen = tap.nearest(PlaneId::kReflectionDepth, shift);
       const F way = (seen - ray.depth) / ray.depth_step;
@@ -365,7 +460,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
       const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
       return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
     };
-    const auto strays = found.hit < F(0.5) && wrong(far);
+    const auto strays = lanes && wrong(far);
     if_any(strays, [&] {
       F open = select(strays, F(1), F(0));
       steps<F>(0, 6, [&](auto i) {
@@ -382,18 +477,30 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03};
   static constexpr double kWrong = 4;  ///< pixels
 
-  /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest.
+  /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest: of
+  /// the facets n those beyond the share `part`, whose ray is that of the facet `low`.
   template <class F, class Tap>
   static Mirrored<F> seen_in_picture(const Params& params, const Pass& c, const Pixel<F>& p,
-                                     const Tap& tap, Vec3<F> n) {
-    const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
-    const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
-    const auto found = MirrorSearch<F, Tap>::march(
-        tap, PlaneId::kDepth, c.dry, given<F>(c.eye_above), p, ray, kPictureSteps, above);
-    const Vec2<F> shift = select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
-    const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
-    const Rgb<F> beyond = far_away(params, c, p, tap, n, ray);
-    return {beyond + found.hit * (seen - beyond), {F(0), found.hit, F(1) - found.hit}};
+                                     const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+    const Rgb<F> beyond = far_away(params, c, p, tap, n, ScreenRay<F>(c, p, mirrored_ray(c, p, n)));
+    Rgb<F> light = beyond;
+    F hit(0);
+    const auto meets = part > F(0);
+    if_any(meets, [&] {
+      const ScreenRay<F> ray(c, p, mirrored_ray(c, p, low));
+      const auto above = [&](Vec2<F> shift, F depth) {
+        return height_at(c, p, shift, depth) > F(0);
+      };
+      const auto found =
+          MirrorSearch<F, Tap>::march(tap, tap.wet() && meets, PlaneId::kDepth, c.dry,
+                                      given<F>(c.eye_above), p, ray, kPictureSteps, above);
+      const Vec2<F> shift =
+          select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
+      const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
+      hit = select(meets, part * found.hit, hit);
+      light = select(meets, beyond + hit * (seen - beyond), light);
+    });
+    return {light, {F(0), hit, F(1) - hit}};
   }
 
   /// The surroundings of the frame, or else of the look.

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "limpid/core/number.h"
+#include "limpid/core/vec.h"
 
 /// @file
 /// Three facets that represent a pixel whose slopes along the view are Gaussian: a mean over the
@@ -73,6 +74,34 @@ LIMPID_INLINE ThreeFacets<F> seen_facets(F facing) {
   const F middle = g - min(facing, F(0));
   const F side = F(std::numbers::sqrt3) * sqrt(max(F(2) - a * g - g * g, F(0)));
   return {{middle, middle + side, middle - side}, {F(2.0 / 3), F(1.0 / 6), F(1.0 / 6)}};
+}
+
+/// The share of all facets that lean less towards the view than `lean`, of a plane.
+template <class F>
+LIMPID_INLINE F plane_share_under(F lean) {
+  return AboveZero<F>(min(max(lean, F(-9)), F(9))).of[0];
+}
+
+/// Of a surface that waves raise, by the area that is seen: the integral of the density of
+/// seen_facets.
+template <class F>
+LIMPID_INLINE F seen_share_under(F facing, F lean) {
+  const F a = min(max(facing, F(0)), F(8)), x = min(max(lean + min(facing, F(0)), F(0) - a), F(9));
+  const AboveZero<F> least(F(0) - a), up_to(x), all(a);
+  const auto density = [](F u) { return F(0.39894228) * exp(F(-0.5) * u * u); };
+  const F area = a * (up_to.of[0] - least.of[0]) + density(a) - density(x);
+  return saturate(area / all.of[1]);
+}
+
+/// What of those that each of the three stands for lies under a limit, under which there is the
+/// share `under` of all: 0 ... 1.
+template <class F>
+LIMPID_INLINE Vec3<F> parts_under(const ThreeFacets<F>& facets, F under) {
+  const auto part = [&](int i, F above) {
+    return saturate((under - above) / max(facets.share[i], F(1e-6)));
+  };
+  const F last = facets.share[2];
+  return {part(0, last), part(1, last + facets.share[0]), part(2, F(0))};
 }
 
 }  // namespace limpid

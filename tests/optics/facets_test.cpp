@@ -60,6 +60,43 @@ TEST(Facets, ThatAreSeenHaveMeanAndDeviationOfMany) {
   }
 }
 
+TEST(Facets, AreSharedOutByALean) {
+  for (const double lean : {-9.0, -2.0, -0.3, 0.0, 0.8, 2.5, 9.0}) {
+    const auto under = [&](double l) { return l < lean ? 1.0 : 0.0; };
+    EXPECT_NEAR(plane_share_under(lean), counted(under, [](double) { return 1.0; }), 4e-4) << lean;
+    for (const double facing : {0.0, 0.1, 1.0, 3.0, 7.0}) {
+      const auto seen = [&](double l) { return std::max(l + facing, 0.0); };
+      EXPECT_NEAR(seen_share_under(facing, lean), counted(under, seen), 2e-3)
+          << facing << " " << lean;
+    }
+  }
+  EXPECT_EQ(seen_share_under(1.0, -1e30), 0);
+  EXPECT_NEAR(seen_share_under(1e30, 1e30), 1, 1e-12);
+  // The mean facet that is turned away counts as one that the view grazes.
+  EXPECT_NEAR(seen_share_under(-2.0, 3.0), seen_share_under(0.0, 1.0), 1e-12);
+}
+
+TEST(Facets, ThatLieUnderALimitAreFilledUpFromTheLowest) {
+  for (const ThreeFacets<double>& facets :
+       {plane_facets(0.4), plane_facets(5.0), seen_facets(0.5)}) {
+    double before[3] = {0, 0, 0};
+    for (double under = 0; under <= 1; under += 0.01) {
+      const Vec3<double> parts = parts_under(facets, under);
+      const double part[3] = {parts.x, parts.y, parts.z};
+      double sum = 0;
+      for (int i = 0; i < 3; ++i) {
+        sum += facets.share[i] * part[i];
+        EXPECT_GE(part[i], before[i]);
+        before[i] = part[i];
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_TRUE(part[i] == 0 || part[k] > 1 - 1e-9 || facets.lean[k] >= facets.lean[i]);
+        }
+      }
+      EXPECT_NEAR(sum, under, 1e-9);
+    }
+  }
+}
+
 // Along the surface facets are seen by how they lean towards the view alone: Rayleigh's law.
 TEST(Facets, AlongTheSurfaceLeanTowardsTheView) {
   const double right = std::sqrt(std::acos(-1) / 2);

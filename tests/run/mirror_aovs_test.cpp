@@ -76,6 +76,82 @@ TEST(MirrorAovs, SourcesSumToOne) {
   }
 }
 
+/// Of waves whose slopes are Gaussian and that raise the water the share of what is seen of them
+/// that mirrors what stands up to the angle `top` over the water, from the angle `eye`. A ray that
+/// would go into the water goes along it.
+double share_under(double top, double eye, double deviation) {
+  double under = 0, all = 0;
+  for (double slope = -6; slope < 6; slope += 1e-3) {
+    const double seen = std::max(std::tan(eye) + slope * deviation, 0.0);
+    const double weight = seen * std::exp(-0.5 * slope * slope);
+    all += weight;
+    if (eye + 2 * std::atan(slope * deviation) < top) under += weight;
+  }
+  return under / all;
+}
+
+// A wall behind water whose waves no pixel resolves: each pixel mirrors it with all of its facets
+// that see it, and not with all or none of each third of them.
+TEST(MirrorAovs, UnresolvedWavesMirrorAWallByTheFacetsThatSeeIt) {
+  constexpr double kDeviation = 0.1, kK = 200;
+  Look look = test::still_look();
+  look.of<FresnelReflection>().source = Source::kAuto;
+  look.of<FresnelReflection>().lookup = FresnelReflection::Lookup::kRay;
+  look.of<FresnelReflection>().facets = FresnelReflection::Facets::kSpread;
+  look.of<FresnelReflection>().reflectance = FresnelReflection::Reflectance::kSchlick;
+  look.of<FresnelReflection>().f0 = 1;
+  WaveNormals::Params& waves = look.of<WaveNormals>();
+  waves.model = WaveNormals::Model::kSines;
+  waves.filter = WaveNormals::Filter::kVariance;
+  waves.strength = 1;
+  const double amplitude = kDeviation * std::sqrt(2.0) / kK;
+  waves.waves = {{amplitude, kK, 0, 0}, {amplitude, 0, kK, 0}};
+  for (const bool reflection : {false, true}) {
+    double worst = 0, sum = 0;
+    int count = 0;
+    std::array<int, 4> quarters{};
+    for (const int rows : {2, 4, 6, 8}) {
+      const double top = 2 - 8 * rows * std::tan(0.5) / (kSize.height / 2);  // a row begins there
+      Shore shore;
+      shore.far = 8, shore.top = top;
+      shore.buffers.set(PlaneId::kDepth, [&](int x, int y) { return shore.dry_depth(x, y); });
+      // What the wall mirrors is 1, and the sky 0.
+      const auto shown = [&](PlaneId first, auto&& depth) {
+        for (int c = 0; c < 3; ++c) {
+          shore.buffers.set(plane_after(first, c),
+                            [&](int x, int y) { return depth(x, y) < 1e9 ? 1.0f : 0.0f; });
+        }
+      };
+      shown(PlaneId::kReflectionR, [&](int x, int y) { return shore.mirrored_depth(x, y); });
+      test::Buffers bare = without_reflection(shore);
+      for (int c = 0; c < 3; ++c) {
+        bare.set(plane_after(PlaneId::kColorR, c),
+                 [&](int x, int y) { return shore.dry_depth(x, y) < 1e9f ? 1.0f : 0.0f; });
+      }
+      const Frame& frame = reflection ? shore.buffers.frame : bare.frame;
+      const Picture judge = test::reference(look, frame, shore.scene);
+      const Picture got = test::fused(look, frame, shore.scene);
+      for (int y = kSize.height - 9; y < kSize.height; ++y) {
+        const int x = kSize.width / 2;
+        const glm::dvec3 ray = shore.ray(x, y);
+        const double way = -2 / ray.y, eye = std::atan(-ray.y / -ray.z);
+        const double right = share_under(std::atan(top / (8 + way * ray.z)), eye, kDeviation);
+        const double is = judge.aov(Aov::kReflected, x, y, 0);
+        worst = std::max(worst, std::abs(is - right));
+        sum += is - right;
+        ++count;
+        ++quarters[static_cast<std::size_t>(std::min(4 * right, 3.0))];
+        EXPECT_NEAR(got.aov(Aov::kReflected, x, y, 0), judge.aov(Aov::kReflected, x, y, 0), 2e-3);
+      }
+    }
+    for (const int of : quarters) EXPECT_GT(of, 0);
+    // Facets that pass the skyline are followed over the reflection, whose depth was made here and
+    // is two pixels wider than the wall.
+    EXPECT_LT(worst, reflection ? 0.08 : 0.03);
+    EXPECT_LT(std::abs(sum / count), 0.01) << reflection;
+  }
+}
+
 TEST(MirrorAovs, PlanesThatWereMadeAreShown) {
   Shore shore;
   const auto executor = make_executor(1);

@@ -1,6 +1,7 @@
 // Looks by the buffers of a plate, against pictures with the water and its waves.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "limpid/files/exr/exr_file.h"
 #include "limpid/files/gltf/gltf.h"
@@ -21,11 +22,6 @@ namespace {
 
 /// For Subject::of_plate(): takes every pixel.
 constexpr Size kWhole{kMaxReportSide, kMaxReportSide};
-
-/// Times that a triangle of the water is parted into four. Of the scenes' own grids those of the
-/// wide waters are too wide for their waves, so that a picture by these waves would be judged by
-/// others. Parted a third time no error changes by more than .005.
-constexpr int kPartedWater = 2;
 
 double length_of_waves(const Scene& scene, const Look& look, const Frame& frame) {
   if (scene.has_waves()) return wave_length(scene.water->waves);
@@ -179,6 +175,27 @@ class ByBrought {
   Picture picture_;
 };
 
+/// The model of a scene. Its own grids of wide waters are too wide for their waves, so that a
+/// picture by these waves would be judged by others.
+Model fine_model(const Measuring& m, const std::filesystem::path& scene_file,
+                 const SceneFile& file) {
+  Model model = load_gltf(file.geometry);
+  if (!file.scene.has_waves()) return model;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const SineWave& wave : file.scene.water->waves) {
+    shortest = std::min(shortest, wave_length({&wave, 1}));
+  }
+  const Scene scene = Subject::scene_of(file, model, m.options.size);
+  PartedWater parted =
+      with_finer_water(std::move(model), {.shortest_wave = shortest, .eye = scene.camera->eye()});
+  if (std::isfinite(parted.reach)) {
+    m.say(scene_file.stem().string() + ": beyond " + short_number(parted.reach) +
+          " scene units the traced water is calmer than its waves, for it has " +
+          std::to_string(parted.triangles) + " triangles, the most that it may have");
+  }
+  return std::move(parted.model);
+}
+
 /// The look physical and, at a lower price, fast: the others are other waters.
 std::vector<Look> looks_of(const Measuring& m) {
   std::vector<Look> looks;
@@ -214,8 +231,7 @@ void measure_brought_lagoon(const Measuring& m) {
 void measure_brought_scene(const Measuring& measuring, const std::filesystem::path& scene_file) {
   const Measuring m = scattered_once(measuring);
   const SceneFile file = load_scene(scene_file);
-  const Model model =
-      with_finer_water(load_gltf(file.geometry), file.scene.has_waves() ? kPartedWater : 0);
+  const Model model = fine_model(m, scene_file, file);
   Known known(Subject::of_model(scene_file, model, m.options.size, {}, m.many));
   Subject& subject = known.subject;
   std::vector<Look> looks = looks_of(m);

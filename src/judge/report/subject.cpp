@@ -75,14 +75,18 @@ Subject Subject::of_scene(const std::filesystem::path& scene_file, Size size,
                   time);
 }
 
+Scene Subject::scene_of(const SceneFile& file, const Model& model, Size size) {
+  Scene scene = file.scene;
+  if (file.camera) scene.camera = camera_for(*file.camera, size);
+  return scene_of_model(scene, model, size);
+}
+
 Subject Subject::of_model(const std::filesystem::path& scene_file, const Model& model, Size size,
                           const std::filesystem::path& sky, Executor& executor, double time) {
   const SceneFile file = load_scene(scene_file);
   Subject subject;
-  subject.scene_ = file.scene;
-  if (file.camera) subject.scene_.camera = camera_for(*file.camera, size);
+  subject.scene_ = scene_of(file, model, size);
   subject.scene_.time = time;
-  subject.scene_ = scene_of_model(subject.scene_, model, size);
   RenderedPlate plate = render_plate(model, subject.scene_, {.size = size},
                                      renderable(model, subject.scene_), executor);
   sanitise_planes(plate.planes, subject.scene_.water->up);

@@ -8,6 +8,7 @@
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
+#include "limpid/files/text/scene_file.h"
 #include "limpid/plan/plan.h"
 #include "limpid/plate/texture.h"
 #include "limpid/raster/model.h"
@@ -28,7 +29,9 @@ class Subject {
   static Subject of_scene(const std::filesystem::path& scene_file, Size size,
                           const std::filesystem::path& sky, Executor& executor,
                           double time = kMoment);
-  /// The same with this model for the geometry.
+  /// Camera, water and light of a scene with this model for the geometry, in such a picture.
+  static Scene scene_of(const SceneFile& file, const Model& model, Size size);
+  /// As of_scene(), with this model for the geometry.
   static Subject of_model(const std::filesystem::path& scene_file, const Model& model, Size size,
                           const std::filesystem::path& sky, Executor& executor,
                           double time = kMoment);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
@@ -113,27 +116,91 @@ TEST(Brought, TowardsTheHorizonPixelsAreFar) {
   EXPECT_EQ(places[63 * 4], Place::kNear);
 }
 
-TEST(FinerWater, PartsTheWaterAlone) {
+/// A square of water of that side from the eye on, in `across` x `across` squares, beside a dry
+/// triangle.
+Model lake(float side, int across) {
   Model model;
   model.materials.emplace_back();
   model.meshes.resize(2);
-  model.meshes[0].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  model.meshes[0].positions = {{0, 0, 0}, {side, 0, 0}, {0, side, 0}};
   model.meshes[0].indices = {0, 1, 2};
-  model.meshes[1].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-  model.meshes[1].indices = {0, 1, 2, 2, 1, 3};
-  model.instances = {{.mesh = 0}, {.mesh = 1, .water = true}};
-  const Model finer = with_finer_water(model, 2);
-  EXPECT_EQ(finer.meshes[0].positions.size(), 3);
-  EXPECT_EQ(finer.meshes[1].indices.size(), 3 * 2 * 16);
-  EXPECT_EQ(finer.meshes[1].positions.size(), 25);  // edges are shared
-  double area = 0;
-  for (std::size_t t = 0; t < finer.meshes[1].indices.size(); t += 3) {
-    const auto at = [&](std::size_t k) {
-      return finer.meshes[1].positions[finer.meshes[1].indices[t + k]];
-    };
-    area += glm::cross(at(1) - at(0), at(2) - at(0)).z / 2;
+  Mesh& water = model.meshes[1];
+  const auto n = static_cast<std::uint32_t>(across);
+  for (std::uint32_t y = 0; y <= n; ++y) {
+    for (std::uint32_t x = 0; x <= n; ++x) {
+      water.positions.push_back(side / float(across) * glm::vec3(x, y, 0));
+    }
   }
-  EXPECT_NEAR(area, 1, 1e-6);  // all wound as before
+  for (std::uint32_t y = 0; y < n; ++y) {
+    for (std::uint32_t x = 0; x < n; ++x) {
+      const std::uint32_t a = y * (n + 1) + x, c = a + n + 1;
+      water.indices.insert(water.indices.end(), {a, a + 1, c, c, a + 1, c + 1});
+    }
+  }
+  model.instances = {{.mesh = 0}, {.mesh = 1, .water = true}};
+  return model;
+}
+
+/// Of the water: its area, how long the edges are together that belong to one triangle alone, and
+/// its longest edge whose middle is at most so far from the world's origin.
+struct Measured {
+  double area = 0, longest = 0, border = 0;
+
+  Measured(const PartedWater& parted, double reach) {
+    const Mesh& mesh =
+        parted.model.meshes[static_cast<std::size_t>(parted.model.instances[1].mesh)];
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+      const std::uint32_t* i = &mesh.indices[t];
+      const auto at = [&](int k) { return glm::dvec3(mesh.positions[i[k % 3]]); };
+      const double twice = glm::cross(at(1) - at(0), at(2) - at(0)).z;
+      EXPECT_GT(twice, 0);  // all wound as before
+      area += twice / 2;
+      for (int k = 0; k < 3; ++k) {
+        ++edges[std::minmax(i[k], i[(k + 1) % 3])];
+        if (glm::length(0.5 * (at(k) + at(k + 1))) > reach) continue;
+        longest = std::max(longest, glm::distance(at(k), at(k + 1)));
+      }
+    }
+    for (const auto& [edge, triangles] : edges) {
+      if (triangles != 1) continue;
+      border += glm::distance(mesh.positions[edge.first], mesh.positions[edge.second]);
+    }
+  }
+};
+
+TEST(FinerWater, PartsTheEdgesThatAreTooLongForTheWaves) {
+  const PartedWater parted = with_finer_water(lake(64, 2), {.shortest_wave = 8});
+  EXPECT_EQ(parted.model.meshes[0].positions.size(), 3);
+  EXPECT_TRUE(std::isinf(parted.reach));
+  const Measured all(parted, 1e9), near(parted, 40);
+  EXPECT_NEAR(all.area, 64 * 64, 1e-6);
+  EXPECT_NEAR(all.border, 4 * 64, 1e-3);
+  EXPECT_LE(all.longest, 0.01 * 64 * std::sqrt(2.0));
+  EXPECT_LE(near.longest, 8 / 16.0 + 1e-6);
+  EXPECT_GT(all.longest, near.longest);
+}
+
+TEST(FinerWater, NoHoleOpensWhereThePartedWaterEnds) {
+  const PartedWater parted = with_finer_water(lake(512, 8), {.shortest_wave = 8, .most = 20'000});
+  EXPECT_LE(parted.triangles, 20'000);
+  EXPECT_GT(parted.triangles, 5'000);
+  EXPECT_GE(parted.reach, 8);
+  EXPECT_LT(parted.reach, 512);
+  const Measured all(parted, 1e9), near(parted, 0.999 * parted.reach);
+  EXPECT_NEAR(all.area, 512 * 512, 1e-3);
+  EXPECT_NEAR(all.border, 4 * 512, 1e-2);  // the square's own
+  EXPECT_LE(near.longest, 8 / 4.0);
+  EXPECT_GE(all.longest, 64);
+}
+
+TEST(FinerWater, ThatIsFineEnoughStaysAsItIs) {
+  const Model model = lake(1, 4);
+  const PartedWater fine = with_finer_water(model, {.shortest_wave = 6});
+  EXPECT_EQ(fine.triangles, 32);
+  const PartedWater full = with_finer_water(model, {.shortest_wave = 0.1, .most = 32});
+  EXPECT_EQ(full.triangles, 32);
+  EXPECT_EQ(full.reach, 0);
 }
 
 // ---- measured, small

@@ -1,0 +1,58 @@
+#pragma once
+#include "op/mirror_search.h"
+
+/// @file
+/// How high over the horizon of a water what a depth plane shows stands.
+
+namespace limpid {
+
+/// Sine of the angle over the water at which, seen from a pixel's surface point, the highest of
+/// what a depth plane shows over the calm water stands, along the way of `ray` on screen and on the
+/// side of `ahead`: 0 where nothing does. `ray` goes up, so that its way leads beyond the horizon.
+/// Lanes other than `lanes` get any number.
+template <class F, class Tap, class Mask>
+F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
+          const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray, Vec3<F> ahead,
+          int count) {
+  const Vec2<F> end = ray.shift_at(ray.s_at(reach_in(bounds, p.uv, ray.across)));
+  const auto sine_at = [&](F t) {
+    const Vec2<F> shift = t * end;
+    const F seen = min(tap.nearest(plane, shift), F(1e30));
+    const F height = height_at(c, p, shift, seen);
+    const Vec3<F> way = way_to(c, p, shift, seen);
+    const auto stands = seen < F(1e9) && height > F(0) && dot(way, ahead) > F(0);
+    return select(stands, min(height / max(length(way), F(1e-30)), F(1)), F(0));
+  };
+  // Whether all that is seen at the steps after `begin` up to `last_one` is the sky, or under
+  // water.
+  const auto passes = [&](int begin, int last_one) {
+    const Vec2<F> a = share_of_step<F>(begin, count) * end;
+    const Vec2<F> b = share_of_step<F>(last_one, count) * end;
+    const float low = tap.range(plane, lanes, a, b).low;
+    const F level = max(calm_depth_at(c, p, a), calm_depth_at(c, p, b));
+    return low >= 1e9f || low > greatest(select(lanes, F(1 + 1e-4) * level, F(-HUGE_VAL)));
+  };
+  // The step at which the highest is seen is parted, to find where that ends.
+  constexpr int kHalvings = 3;
+  F sine = F(0), at = F(0), after = F(0);
+  Leaps leaps(count);
+  const auto leap = [&](int i) { return leaps.from(i, passes); };
+  steps<F>(1, count + 1, leap, [&](auto i) {
+    const F t = share_of_step<F>(i, count), seen = sine_at(t);
+    const auto higher = seen > sine;
+    sine = select(higher, seen, sine);
+    at = select(higher, t, at);
+    after = select(higher, t + (F(0.5) + Loop<F>::ratio(i, count)) * F(1.0 / count), after);
+    return lanes;
+  });
+  repeat<F>(kHalvings, [&] {
+    const F t = min(F(0.5) * (at + after), F(1)), seen = sine_at(t);
+    const auto higher = seen > sine;
+    sine = select(higher, seen, sine);
+    after = select(higher, after, t);
+    at = select(higher, t, at);
+  });
+  return sine;
+}
+
+}  // namespace limpid
