@@ -181,10 +181,12 @@ View<float> Canvas::add(const std::string& name, bool half) {
 }
 
 void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
-                   const OutputChoice& choice, Executor& executor, RunTimes* times) {
+                   const OutputChoice& choice, Executor& executor, RunTimes* times,
+                   const std::stop_token& stop) {
   const int middle = (choice.wave_samples - 1) / 2;
   Scene seen = scene;
   for (int i = 1; i <= choice.wave_samples; ++i) {
+    expect_wanted(stop);
     seen.part = {(middle + i) % choice.wave_samples,
                  choice.wave_samples};  // the middle one comes last
     switch (choice.runner) {
@@ -196,7 +198,8 @@ void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
         gpu_->run(plan, frame, seen, target_, executor);
         break;
       case Runner::kFused:
-        runner_.run(plan, frame, seen, target_, executor, {.simd = choice.simd, .times = times});
+        runner_.run(plan, frame, seen, target_, executor,
+                    {.simd = choice.simd, .times = times, .stop = stop});
         break;
     }
     if (choice.wave_samples > 1) take_mean(i, executor);
