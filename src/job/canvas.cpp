@@ -96,6 +96,11 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice) {
     add(Aov::kStmapG);
     add(Aov::kSurfaceDepth);
   }
+  if (choice.motion_reflected) {
+    add(Aov::kSurfaceDepth);
+    add(Aov::kNormal);
+    add(Aov::kReflectionDepth);
+  }
   if (!choice.contact_sheet.empty()) {
     for (const AovInfo& info : aovs()) add(aov_named(info.name));
   }
