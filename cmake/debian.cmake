@@ -42,14 +42,15 @@ limpid_debian(dev liblimpid-dev libdevel
   DEPENDS "liblimpid${SERIES} ${EXACTLY}" "liblimpid-files${SERIES} ${EXACTLY}" libglm-dev
   SUGGESTS libtbb-dev libhwy-dev libopencv-core-dev libopenimageio-dev)
 limpid_debian(tool limpid graphics
-  DESCRIPTION "The command-line tool, its looks and scenes, and formats other than EXR.")
+  DESCRIPTION "The command-line tool, its looks and scenes, and formats other than EXR."
+  SUGGESTS libvulkan1)
 
 # The Python module installs itself as component python, where it is built.
 get_cmake_property(CPACK_COMPONENTS_ALL COMPONENTS)
 if("python" IN_LIST CPACK_COMPONENTS_ALL)
   limpid_debian(python python3-limpid python
     DESCRIPTION "The module for Python."
-    DEPENDS ${LIMPID_PYTHON_DEPENDS} SUGGESTS limpid)
+    DEPENDS ${LIMPID_PYTHON_DEPENDS} SUGGESTS limpid libvulkan1)
 endif()
 list(REMOVE_ITEM CPACK_COMPONENTS_ALL Unspecified)
 

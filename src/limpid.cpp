@@ -112,6 +112,15 @@ Conventions conventions_of(const limpid_conventions& c) {
           .trusted = c.trusted != 0};
 }
 
+Primaries primaries_of(const limpid_conventions& c) {
+  if (!c.colorspace) return kRec709;
+  try {
+    return color_space_named(c.colorspace);
+  } catch (const Error& e) {
+    throw Error("limpid_conventions.colorspace: " + std::string(e.what()));
+  }
+}
+
 glm::dmat4 matrix_of(const double* numbers, bool row_major) {
   const glm::dmat4 m = glm::make_mat4(numbers);
   return row_major ? glm::transpose(m) : m;
@@ -244,7 +253,7 @@ struct limpid_compositor {
   std::unique_ptr<limpid::Executor> executor;
   limpid::Compositor compositor;
   bool row_major;
-  limpid::HostFrame frame;  ///< of the last run: keeps the memory of waves
+  limpid::HostFrame frame;  ///< of the last run: keeps the memory of waves, and the primaries
   limpid::Message message = {};
 
   void set(const char* table, const char* key, const limpid::Value& value) {
@@ -341,8 +350,10 @@ limpid_status limpid_create(const limpid_conventions* conventions, const limpid_
                          .simd = o.simd ? o.simd : "",
                          .max_error = o.max_error,
                          .gpu = gpu_of(o)});
-        *compositor =
-            new limpid_compositor{std::move(executor), std::move(made), c.row_major != 0, {}};
+        HostFrame frame;
+        frame.scene.primaries = primaries_of(c);
+        *compositor = new limpid_compositor{std::move(executor), std::move(made), c.row_major != 0,
+                                            std::move(frame)};
       },
       [&](const char* why) {
         if (!message || message_size == 0) return;

@@ -172,8 +172,9 @@ inline StateSet all_state() {
 }
 
 inline Inputs inputs_of(const Frame& frame, const Scene& scene) {
-  return {frame.present(), static_cast<bool>(frame.wave_map), scene.sun.has_value(),
-          static_cast<bool>(frame.environment), scene.has_waves()};
+  return {frame.present(),       static_cast<bool>(frame.wave_map),
+          scene.sun.has_value(), static_cast<bool>(frame.environment),
+          scene.has_waves(),     scene.primaries};
 }
 
 /// Pure water, the light's way down and the surface left out: fog by one thing at a time.

@@ -90,8 +90,10 @@ struct CompositorOptions {
 ///
 /// From the second frame of a kind on (same sizes, same planes, same look, same AOVs) run()
 /// allocates nothing, but where edges are blurred in more pixels than in any frame before; it never
-/// locks (executors may), opens no file, prints nothing. On a GPU the bits depend on the device and
-/// its driver, and each frame records the shader anew, which allocates.
+/// locks (executors may) and opens no file. It prints nothing. On a GPU the bits depend on the
+/// device and its driver; each frame records the shader anew, which allocates, and locks the device
+/// that all compositors of it share; a frame that needs another shader reads it from the folder of
+/// GpuOptions::cache, or loads the module that compiles it and writes it there.
 class Compositor {
  public:
   /// Throws Error for depths that cannot be made linear with what the conventions say, and as
@@ -116,8 +118,8 @@ class Compositor {
 
   /// Throws Error, before anything is written: as Frame::validate, the camera, the water and the
   /// planner do, for device depth in the direction opposite to the conventions, windows beyond 2^29
-  /// pixels, and for a picture that does not cover the frame. Throws std::bad_alloc in a first
-  /// frame only.
+  /// pixels, and for a picture that does not cover the frame; on a GPU as GpuRunner::run().
+  /// Throws std::bad_alloc in a first frame only, on a GPU in any.
   void run(const HostFrame& frame, const HostPicture& picture);
 
   /// The current look as one shader for frames like this one, with the values of this frame: the

@@ -86,8 +86,8 @@ struct Desk::Painted {
 
 Desk::Desk(DeskOptions options, Executor& executor)
     : options_(std::move(options)), displays_(displays_of(options_.display)), executor_(executor) {
-  const std::optional<int> first = facts().frame;
-  if (options_.reference) reference(first);
+  const Facts first = facts();
+  if (options_.reference) reference(first.frame, first.primaries);
 }
 
 DisplayTransform Desk::display_of(const PictureRequest& r, const Primaries& primaries) const {
@@ -172,8 +172,20 @@ CompositeJob Desk::job_for(const DeskFrame& frame, const DeskChoice& choice) con
   return job;
 }
 
+void Desk::break_off() {
+  const std::lock_guard lock(stop_mutex_);
+  stop_.request_stop();
+  stop_ = std::stop_source();
+}
+
+std::stop_token Desk::wanted() {
+  const std::lock_guard lock(stop_mutex_);
+  return stop_.get_token();
+}
+
 Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool half,
-                        std::optional<Canvas>& canvas) {
+                        std::optional<Canvas>& canvas, const std::stop_token& stop) {
+  expect_wanted(stop);
   Painted painted;
   Stopwatch watch;
   DeskFrame& held = frame_at(choice.frame);
@@ -206,15 +218,15 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
 
   gpu_.name(job.output);
   canvas_for(canvas, painted.window, job.output)
-      .paint(plan, painted.frame, scene, job.output, executor_, &painted.times);
+      .paint(plan, painted.frame, scene, job.output, executor_, &painted.times, stop);
   painted.canvas = &*canvas;
   return painted;
 }
 
-const std::array<Plane, 3>& Desk::reference(std::optional<int> frame) {
+const std::array<Plane, 3>& Desk::reference(std::optional<int> frame, const Primaries& primaries) {
   if (!reference_ || reference_->frame != frame) {
     reference_.reset();
-    reference_ = Reference{frame, options_.reference(frame)};
+    reference_ = Reference{frame, options_.reference(frame, primaries)};
   }
   return reference_->color;
 }
@@ -225,7 +237,7 @@ ShownViews Desk::reference_beside(const Painted& painted, std::array<Plane, 3>& 
                          : painted.window;
   ShownViews views;
   for (std::size_t c = 0; c < 3; ++c) {
-    views[c] = reference(painted.number)[c].view();
+    views[c] = reference(painted.number, painted.primaries)[c].view();
     if (!views[c].window.contains(whole)) {
       throw Error("reference: expected a picture that covers the plate, " +
                   std::to_string(whole.width()) + "x" + std::to_string(whole.height()) + " pixels");
@@ -269,9 +281,10 @@ DeskPicture Desk::paint(const PictureRequest& request) {
     if (info.name == request.show) shown.push_back(aov_named(info.name));
   }
 
+  const std::stop_token stop = wanted();
   const std::lock_guard lock(mutex_);
   Stopwatch watch;
-  Painted painted = run(request, shown, request.half, request.half ? half_ : whole_);
+  Painted painted = run(request, shown, request.half, request.half ? half_ : whole_, stop);
   DeskPicture picture;
   picture.shown = show(request, painted);
   picture.half = request.half;
@@ -293,12 +306,13 @@ DeskPicture Desk::paint(const PictureRequest& request) {
 PixelNumbers Desk::pixel(const DeskChoice& choice, int x, int y) {
   std::vector<Aov> all;
   for (const AovInfo& info : aovs()) all.push_back(aov_named(info.name));
+  const std::stop_token stop = wanted();
   const std::lock_guard lock(mutex_);
   DeskFrame& held = frame_at(choice.frame);
   const std::string text = text_of(choice);
   if (numbers_of_ != text) {
     numbers_of_.clear();
-    run(choice, all, false, numbers_);
+    run(choice, all, false, numbers_, stop);
     numbers_of_ = text;
   }
   const Target& target = numbers_->target();
@@ -337,6 +351,7 @@ Desk::Facts Desk::facts() {
   Facts facts;
   facts.window = held.whole(plan.planes, scene).work();
   facts.frame = frames_.front().number;
+  facts.primaries = scene.primaries;
   facts.time = scene.time;
   facts.look = job.look;
   facts.warnings = warnings_of(job, held.plate(), plan);

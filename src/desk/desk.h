@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,8 +46,10 @@ struct DeskOptions {
   std::string start;                       ///< name of one of them
   std::vector<std::string> settings = {};  ///< applied to the start, in the syntax of `--set`
 
-  /// Red, green and blue of a picture to compare with, scene-linear; empty where there is none.
-  std::function<std::array<Plane, 3>(std::optional<int> frame)> reference = {};
+  /// Red, green and blue of a picture to compare with, scene-linear, of the plate's primaries;
+  /// empty where there is none.
+  std::function<std::array<Plane, 3>(std::optional<int> frame, const Primaries& primaries)>
+      reference = {};
 
   std::filesystem::path folder = ".";  ///< for saved looks
   /// The command line with plate, scene and runner: "composite", "dry.exr", ...
@@ -118,6 +121,7 @@ class Desk {
   const std::vector<std::string>& displays() const { return displays_; }
   struct Facts {
     Rect window;  ///< of the picture, in display coordinates
+    Primaries primaries = kRec709;
     std::optional<int> frame;
     double time = 0;
     Look look;  ///< the start with its settings
@@ -127,12 +131,17 @@ class Desk {
 
   /// The picture, or what is shown in its stead. Of the whole size, the bytes are those of `limpid
   /// composite --preview` with the same exposure and display. Throws Error for what is wrong with
-  /// the request.
+  /// the request, and Stopped after break_off().
   DeskPicture paint(const PictureRequest& request);
 
   /// Of a pixel, counted from the upper left of the picture at its whole size. Throws Error for one
-  /// outside.
+  /// outside, and Stopped as paint().
   PixelNumbers pixel(const DeskChoice& choice, int x, int y);
+
+  /// Nobody wants the pictures and numbers any more that have been asked for: they are broken off
+  /// between two tiles, before they begin, or, by other runners than the fused one, between two
+  /// parts of the pixels. Takes no time.
+  void break_off();
 
   /// Writes the look into the folder, as a look file that reads back as the same picture: `name`
   /// ends in .toml and names no other folder. Throws NameTaken for an existing file without
@@ -151,18 +160,21 @@ class Desk {
   const DeskLook& look_named(const std::string& word) const;
   DeskFrame& frame_at(std::optional<int> frame);
   CompositeJob job_for(const DeskFrame& frame, const DeskChoice& choice) const;
+  /// Until when what is asked for now is wanted.
+  std::stop_token wanted();
   Painted run(const DeskChoice& choice, std::vector<Aov> aovs, bool half,
-              std::optional<Canvas>& canvas);
+              std::optional<Canvas>& canvas, const std::stop_token& stop);
   Shown show(const PictureRequest& request, const Painted& painted);
   DisplayTransform display_of(const PictureRequest& request, const Primaries& primaries) const;
-  const std::array<Plane, 3>& reference(std::optional<int> frame);
+  const std::array<Plane, 3>& reference(std::optional<int> frame, const Primaries& primaries);
   /// The colors of the reference in the pixels that were painted, or what `halved` then holds.
   ShownViews reference_beside(const Painted& painted, std::array<Plane, 3>& halved);
 
   DeskOptions options_;
   std::vector<std::string> displays_;
   Executor& executor_;
-  std::mutex mutex_;
+  std::mutex mutex_, stop_mutex_;
+  std::stop_source stop_;  ///< of what has been asked for since the last break_off()
   struct Kept {
     std::optional<int> number;
     std::unique_ptr<DeskFrame> frame;

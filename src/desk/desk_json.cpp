@@ -276,11 +276,12 @@ std::string desk_json(Desk& desk) {
                  {"warnings", facts.warnings}});
 }
 
-PictureRequest picture_request(std::string_view json) {
-  const Asked asked(json, {"half", "show", "exposure", "display"});
-  PictureRequest request;
+NewPicture picture_request(std::string_view json) {
+  const Asked asked(json, {"half", "show", "exposure", "display", "instead"});
+  NewPicture request;
   put_choice(asked, request);
   request.half = asked.flag("half");
+  request.instead = asked.flag("instead");
   request.show = asked.text("show", "picture");
   request.exposure = asked.real("exposure", 0);
   request.display = asked.text("display", "");

@@ -14,7 +14,10 @@ std::string desk_json(Desk& desk);
 
 /// The requests. Throw Error, which names key and expectation, for what is no JSON, for keys that
 /// are unknown, missing, or hold something else.
-PictureRequest picture_request(std::string_view json);
+struct NewPicture : PictureRequest {
+  bool instead = false;  ///< of all that have been asked for
+};
+NewPicture picture_request(std::string_view json);
 DeskChoice choice_request(std::string_view json);
 struct PixelRequest : DeskChoice {
   int x = 0, y = 0;

@@ -79,6 +79,8 @@ WebReply DeskServer::answer(const WebRequest& request) {
     return {200, file->type, file->text};
   } catch (const NameTaken& error) {
     return refused(409, error.what());
+  } catch (const Stopped& error) {
+    return refused(410, error.what());
   } catch (const Error& error) {
     return refused(error.fault() == Fault::kMemory ? 503 : 400, error.what());
   } catch (const std::bad_alloc&) {
@@ -90,7 +92,11 @@ WebReply DeskServer::answer(const WebRequest& request) {
 
 WebReply DeskServer::answer_api(std::string_view name, std::string_view body) {
   if (name == "desk") return {200, kJson, desk_json(desk_)};
-  if (name == "picture") return {200, kBytes, picture_bytes(desk_.paint(picture_request(body)))};
+  if (name == "picture") {
+    const NewPicture asked = picture_request(body);
+    if (asked.instead) desk_.break_off();
+    return {200, kBytes, picture_bytes(desk_.paint(asked))};
+  }
   if (name == "pixel") {
     const PixelRequest asked = pixel_request(body);
     return {200, kJson, pixel_json(asked, desk_.pixel(asked, asked.x, asked.y))};

@@ -96,6 +96,11 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice) {
     add(Aov::kStmapG);
     add(Aov::kSurfaceDepth);
   }
+  if (choice.motion_reflected) {
+    add(Aov::kSurfaceDepth);
+    add(Aov::kNormal);
+    add(Aov::kReflectionDepth);
+  }
   if (!choice.contact_sheet.empty()) {
     for (const AovInfo& info : aovs()) add(aov_named(info.name));
   }
@@ -181,10 +186,12 @@ View<float> Canvas::add(const std::string& name, bool half) {
 }
 
 void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
-                   const OutputChoice& choice, Executor& executor, RunTimes* times) {
+                   const OutputChoice& choice, Executor& executor, RunTimes* times,
+                   const std::stop_token& stop) {
   const int middle = (choice.wave_samples - 1) / 2;
   Scene seen = scene;
   for (int i = 1; i <= choice.wave_samples; ++i) {
+    expect_wanted(stop);
     seen.part = {(middle + i) % choice.wave_samples,
                  choice.wave_samples};  // the middle sample comes last
     switch (choice.runner) {
@@ -196,7 +203,8 @@ void Canvas::paint(const Plan& plan, const Frame& frame, const Scene& scene,
         gpu_->run(plan, frame, seen, target_, executor);
         break;
       case Runner::kFused:
-        runner_.run(plan, frame, seen, target_, executor, {.simd = choice.simd, .times = times});
+        runner_.run(plan, frame, seen, target_, executor,
+                    {.simd = choice.simd, .times = times, .stop = stop});
         break;
     }
     if (choice.wave_samples > 1) take_mean(i, executor);

@@ -36,9 +36,10 @@ class Canvas {
 
   /// Runs the plan on the frame, by the chosen runner. The plan must make what computed_aovs()
   /// show.
-  /// `times` is filled by the fused runner, if it is there.
+  /// `times` is filled by the fused runner, if it is there. Throws Stopped once a stop is
+  /// requested: the fused runner asks between tiles, the others before each part of the pixels.
   void paint(const Plan& plan, const Frame& frame, const Scene& scene, const OutputChoice& choice,
-             Executor& executor, RunTimes* times = nullptr);
+             Executor& executor, RunTimes* times = nullptr, const std::stop_token& stop = {});
 
   /// Survey of the last frame that the fused runner has painted.
   const Survey& survey() const { return runner_.survey(); }

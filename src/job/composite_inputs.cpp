@@ -10,6 +10,7 @@
 #include "job/picture_warnings.h"
 #include "job/shared_textures.h"
 #include "plan/leave_out.h"
+#include "plate/primaries.h"
 
 namespace limpid {
 namespace {
@@ -116,6 +117,13 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
   if (job.scene.scene.sky && !plan.lit_by_sky) unread("[sky]");
   if (job.scene.scene.sky && plan.lit_by_sky && plan.reads_environment) {
     warnings.push_back("[sky] has no effect: the environment lights the water");
+  }
+  if (plan.reads_environment && !agree(plan.primaries, kRec709) &&
+      !told_primaries(job.scene.environment)) {
+    warnings.push_back(
+        "the environment " + job.scene.environment.filename().string() +
+        " does not say what its color space is, and is taken to be of the plate's, " +
+        to_string(plan.primaries));
   }
   // It may stand by for a reflection.
   const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);

@@ -15,6 +15,12 @@ namespace {
 /// The name of the picture's part beside other parts, if the plate has no name for it.
 constexpr const char* kPicturePart = "rgba";
 
+/// What a record has where vectors are not alone those of what is seen through the water.
+std::string reflected_text(const OutputChoice& choice) {
+  if (!choice.motion_reflected) return "";
+  return line("motion_of", choice.motion ? "[\"seen\", \"reflected\"]" : "[\"reflected\"]");
+}
+
 }  // namespace
 
 CompositeJob job_of_view(const CompositeJob& job, std::size_t view) {
@@ -36,7 +42,7 @@ PreparedView prepare_view(const CompositeJob& job) {
   TextureFiles textures = textures_read(plan, job.scene);
   std::vector<PassedPart> passed = plate.passed(job.output.pass_through);
   std::vector<MotionLayer> motion;
-  if (job.output.motion) motion = plate.motion_layers();
+  if (has_motion(job.output)) motion = plate.motion_layers();
   expect_passable(passed, motion, job.output);
   return {job.view_name,   std::move(plate),    std::move(scene),  depth,
           std::move(plan), std::move(textures), std::move(passed), std::move(motion)};
@@ -53,7 +59,7 @@ Record record_of(const CompositeJob& job, const PreparedView& view, SharedTextur
   inputs += view.plate.inputs_text(view.plan.planes) + texture_inputs(view.textures, textures);
   const std::string options = picture_options(job.output, gpu) +
                               view.plate.passed_text(view.passed) +
-                              view.plate.motion_text(view.motion);
+                              view.plate.motion_text(view.motion) + reflected_text(job.output);
   Record record = record_of(view.scene, inputs, options);
   add_look(record, job.look, view.plan);
   return record;
@@ -90,7 +96,7 @@ void CompositeView::read(const CompositeJob& job, PreparedView view, SharedTextu
   file_.compression = job.output.compression;
   file_.name = plate.part_name().empty() ? kPicturePart : plate.part_name();
   motion_ = {};
-  if (job.output.motion) motion_.read(plate, std::move(view.motion));
+  if (has_motion(job.output)) motion_.read(plate, std::move(view.motion));
   others_ = pass_through(view.passed, file_);
   plate_ = std::move(view.plate);
 }
@@ -99,11 +105,20 @@ void CompositeView::run(const CompositeJob& job, const Plan& plan, Executor& exe
                         RunTimes* times) {
   canvas_for(canvas_, loaded_.frame.work(), job.output)
       .paint(plan, loaded_.frame, scene_, job.output, executor, times);
-  if (!job.output.motion) return;
+  if (!has_motion(job.output)) return;
   const Target& target = canvas_->target();
-  const auto& map = target.of(Aov::kStmapG);
-  motion_.carry({map[0], map[1], target.of(Aov::kSurfaceDepth)[0], loaded_.frame.display},
-                loaded_.frame.work());
+  const View<float>& surface = target.of(Aov::kSurfaceDepth)[0];
+  if (job.output.motion) {
+    const auto& map = target.of(Aov::kStmapG);
+    motion_.carry({map[0], map[1], surface, loaded_.frame.display}, loaded_.frame.work());
+  }
+  if (job.output.motion_reflected) {
+    const auto& normal = target.of(Aov::kNormal);
+    const WaterView view(scene_, loaded_.frame.display);
+    motion_.reflect({surface, normal[0], normal[1], normal[2], target.of(Aov::kReflectionDepth)[0],
+                     loaded_.frame.plane(PlaneId::kDepth), view},
+                    loaded_.frame.work());
+  }
   file_.channels = motion_.channels(job.output);
 }
 

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <glm/geometric.hpp>
 
 namespace limpid {
 namespace {
@@ -10,9 +15,19 @@ namespace {
 /// a distortion too strong to be inverted.
 constexpr double kMaxBending = 1;
 
+/// How the name of each MotionLayer begins.
+constexpr std::string_view kMotion = "motion";
+
 struct Place {
   double x, y;
 };
+
+void fit(std::vector<Plane>& planes, std::size_t count, const Rect& window) {
+  planes.resize(count);
+  for (Plane& plane : planes) {
+    if (!plane || plane.view().window != window) plane = Plane(window);
+  }
+}
 
 float finite_or_0(float value) { return std::isfinite(value) ? value : 0; }
 
@@ -49,6 +64,74 @@ class Map {
   const LookedUp& of_;
 };
 
+/// Pixels, x right and y down.
+class Mirror {
+ public:
+  explicit Mirror(const Mirrored& mirrored) : of_(mirrored), view_(mirrored.view) {}
+
+  /// The motion on the picture of what a pixel mirrors, or none.
+  template <class MotionAt>
+  std::optional<Place> motion(int x, int y, const MotionAt& motion_at) const {
+    const Rect pixel{x, y, x + 1, y + 1};
+    if (!of_.surface_depth.window.contains(pixel)) return {};
+    const double surface = of_.surface_depth.at(x, y), image = of_.reflection_depth.at(x, y);
+    if (!(surface < image && image < HUGE_VAL)) return {};
+    const Place here{x + 0.5, y + 0.5};
+    const glm::dvec3 ray = ray_at(here), start = point_at(here, surface);
+    const glm::dvec3 normal(of_.normal_x.at(x, y), of_.normal_y.at(x, y), of_.normal_z.at(x, y));
+    if (!(glm::dot(ray, normal) < 0)) return {};
+    const auto across = [&](const glm::dvec3& point) {
+      return point - 2 * glm::dot(normal, point - start) * normal;
+    };
+    const glm::dvec3 thing = across(start + (image - surface) * ray);
+    const std::optional<Place> shown = place_of(thing);
+    if (!shown) return {};
+    const double depth = glm::dot(view_.forward, thing - origin_at(*shown));
+    const auto seen = texel_of(*shown, of_.depth.window);
+    if (!seen || !(std::abs(of_.depth.at(seen->first, seen->second) - depth) < kSame * depth)) {
+      return {};
+    }
+    const std::optional<Place> moved = motion_at(seen->first, seen->second);
+    if (!moved) return {};
+    const std::optional<Place> from = place_of(across(thing));
+    const std::optional<Place> to =
+        place_of(across(point_at({shown->x + moved->x, shown->y + moved->y}, depth)));
+    if (!from || !to) return {};
+    return Place{to->x - from->x, to->y - from->y};
+  }
+
+  static std::optional<std::pair<int, int>> texel_of(const Place& place, const Rect& window) {
+    const double x = std::floor(place.x), y = std::floor(place.y);
+    if (!(x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1)) return {};
+    return std::pair(static_cast<int>(x), static_cast<int>(y));
+  }
+
+ private:
+  static constexpr double kSame = 0.05;  ///< of a depth: what is mirrored is what is shown
+
+  // Points are relative to the eye.
+  glm::dvec3 ray_at(const Place& p) const {
+    return view_.rays.ray_at(p.x - view_.corner.x, p.y - view_.corner.y);
+  }
+  glm::dvec3 origin_at(const Place& p) const {
+    return view_.rays.origin_at(p.x - view_.corner.x, p.y - view_.corner.y);
+  }
+  glm::dvec3 point_at(const Place& p, double depth) const {
+    return origin_at(p) + depth * ray_at(p);
+  }
+  /// None of what lies behind the camera.
+  std::optional<Place> place_of(const glm::dvec3& point) const {
+    const glm::dvec3 of_origin = point - view_.rays.origin;
+    const double w = view_.w_origin + view_.w_depth * glm::dot(view_.forward, of_origin);
+    if (!(w > 0)) return {};
+    return Place{glm::dot(view_.to_u, of_origin) / w * view_.size.x + view_.corner.x,
+                 glm::dot(view_.to_v, of_origin) / w * view_.size.y + view_.corner.y};
+  }
+
+  const Mirrored& of_;
+  const WaterView& view_;
+};
+
 }  // namespace
 
 void carry_motion(const LookedUp& looked_up, View<const float> x, View<const float> y,
@@ -71,36 +154,66 @@ void carry_motion(const LookedUp& looked_up, View<const float> x, View<const flo
   }
 }
 
+void reflect_motion(const Mirrored& mirrored, View<const float> x, View<const float> y,
+                    View<float> to_x, View<float> to_y) {
+  const Mirror mirror(mirrored);
+  const Rect& from = x.window;
+  const auto motion_at = [&](int column, int row) -> std::optional<Place> {
+    if (!from.contains({column, row, column + 1, row + 1})) return {};
+    return Place{finite_or_0(x.at(column, row)), -finite_or_0(y.at(column, row))};
+  };
+  const Rect& window = to_x.window;
+  for (int row = window.y0; row < window.y1; ++row) {
+    for (int column = window.x0; column < window.x1; ++column) {
+      const Place seen = mirror.motion(column, row, motion_at).value_or(Place{0, 0});
+      to_x.at(column, row) = static_cast<float>(seen.x);
+      to_y.at(column, row) = static_cast<float>(-seen.y);
+    }
+  }
+}
+
 void MotionChannels::read(const Plate& plate, std::vector<MotionLayer> layers) {
   layers_ = std::move(layers);
   dry_ = plate.read_motion(layers_);
 }
 
 void MotionChannels::carry(const LookedUp& looked_up, const Rect& window) {
-  seen_.resize(dry_.size());
+  fit(seen_, dry_.size(), window);
   for (std::size_t i = 0; i + 1 < dry_.size(); i += 2) {
-    for (const std::size_t plane : {i, i + 1}) {
-      if (!seen_[plane] || seen_[plane].view().window != window) seen_[plane] = Plane(window);
-    }
     carry_motion(looked_up, dry_[i].view(), dry_[i + 1].view(), seen_[i].view(),
                  seen_[i + 1].view());
   }
 }
 
+void MotionChannels::reflect(const Mirrored& mirrored, const Rect& window) {
+  fit(reflected_, dry_.size(), window);
+  for (std::size_t i = 0; i + 1 < dry_.size(); i += 2) {
+    reflect_motion(mirrored, dry_[i].view(), dry_[i + 1].view(), reflected_[i].view(),
+                   reflected_[i + 1].view());
+  }
+}
+
 std::vector<ExrOutputChannel> MotionChannels::channels(const OutputChoice& choice) const {
   std::vector<ExrOutputChannel> channels;
-  for (const MotionLayer& layer : layers_) {
-    for (const std::string& name : motion_names(layer, choice.aov_names)) {
-      channels.push_back({name, seen_[channels.size()].view(), !choice.store_float});
+  const auto add = [&](const std::vector<Plane>& planes, bool reflected) {
+    auto plane = planes.begin();
+    for (const MotionLayer& layer : layers_) {
+      for (const std::string& name : motion_names(layer, choice.aov_names, reflected)) {
+        channels.push_back({name, (plane++)->view(), !choice.store_float});
+      }
     }
-  }
+  };
+  if (choice.motion) add(seen_, false);
+  if (choice.motion_reflected) add(reflected_, true);
   return channels;
 }
 
-std::vector<std::string> motion_names(const MotionLayer& layer, AovNames names) {
+std::vector<std::string> motion_names(const MotionLayer& layer, AovNames names, bool reflected) {
+  std::string name = layer.name;
+  if (reflected) name.insert(kMotion.size(), "_reflected");
   std::vector<std::string> channels;
   for (const std::string& suffix : layer.suffixes) {
-    channels.push_back(aov_layer(layer.name, names) + "." + suffix);
+    channels.push_back(aov_layer(name, names) + "." + suffix);
   }
   return channels;
 }

@@ -7,6 +7,8 @@
 #include "limpid/job/output.h"
 #include "limpid/plate/plate.h"
 
+#include "core/water_view.h"
+
 namespace limpid {
 
 /// The maps of a picture's lookups: Aov::kStmapG, and Aov::kSurfaceDepth, which is +inf on dry
@@ -24,6 +26,23 @@ struct LookedUp {
 void carry_motion(const LookedUp& looked_up, View<const float> x, View<const float> y,
                   View<float> to_x, View<float> to_y);
 
+/// What tells where a picture's mirrored rays end: Aov::kSurfaceDepth, Aov::kNormal and
+/// Aov::kReflectionDepth, the plate's depth, and the view that all are of.
+struct Mirrored {
+  View<const float> surface_depth, normal_x, normal_y, normal_z, reflection_depth, depth;
+  const WaterView& view;
+};
+
+/// The vectors of what the surface mirrors, as carry_motion() has them. The mirrored ray ends as
+/// far behind the surface as the mirror's picture says at the pixel; what the picture shows in that
+/// place moves as its vector says, at its own eye depth, and its image in the plane through the
+/// surface, across the normal, with it. Exact for movement at one eye depth over calm water, where
+/// camera and water stand still; of waves the pixel's own slope alone counts. 0 on dry pixels,
+/// where the ray ends nowhere, beyond the picture or behind what the picture shows (by 5 % of the
+/// depth).
+void reflect_motion(const Mirrored& mirrored, View<const float> x, View<const float> y,
+                    View<float> to_x, View<float> to_y);
+
 /// The vectors of a plate's layers, as channels of a picture.
 class MotionChannels {
  public:
@@ -31,15 +50,21 @@ class MotionChannels {
   void read(const Plate& plate, std::vector<MotionLayer> layers);
   /// Carries the vectors to the pixels that show their texels.
   void carry(const LookedUp& looked_up, const Rect& window);
-  /// Of a file; half unless all is stored as float.
+  /// And to where it mirrors them.
+  void reflect(const Mirrored& mirrored, const Rect& window);
+  /// Of a file, as far as it asks for them; half unless all is stored as float.
   std::vector<ExrOutputChannel> channels(const OutputChoice& choice) const;
 
  private:
   std::vector<MotionLayer> layers_;
-  std::vector<Plane> dry_, seen_;  ///< one a channel, of all layers
+  std::vector<Plane> dry_, seen_, reflected_;  ///< one a channel, of all layers
 };
 
-/// Their names in a file.
-std::vector<std::string> motion_names(const MotionLayer& layer, AovNames names);
+/// Whether an output has vectors of either kind.
+inline bool has_motion(const OutputChoice& choice) {
+  return choice.motion || choice.motion_reflected;
+}
+/// Their names in a file: "motion.X", or "motion_reflected.X".
+std::vector<std::string> motion_names(const MotionLayer& layer, AovNames names, bool reflected);
 
 }  // namespace limpid

@@ -28,8 +28,12 @@ std::map<std::string, std::string> written_names(const std::vector<MotionLayer>&
     }
   }
   for (const MotionLayer& layer : motion) {
-    for (const std::string& name : motion_names(layer, choice.aov_names)) {
-      names.emplace(name, "that of the AOV motion");
+    for (const bool reflected : {false, true}) {
+      if (!(reflected ? choice.motion_reflected : choice.motion)) continue;
+      for (const std::string& name : motion_names(layer, choice.aov_names, reflected)) {
+        names.emplace(name,
+                      reflected ? "that of the AOV motion_reflected" : "that of the AOV motion");
+      }
     }
   }
   return names;

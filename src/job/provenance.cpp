@@ -1,5 +1,7 @@
 #include "job/provenance.h"
 
+#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,7 @@
 
 #include "core/toml_text.h"
 #include "files/content_hash.h"
+#include "files/picture/byte_of.h"
 
 namespace limpid {
 namespace {
@@ -141,8 +144,39 @@ std::string texture_inputs(const TextureFiles& files, SharedTextures& textures) 
   return text;
 }
 
+/// A hash of the bytes that the view makes of light: black, and colors of -12 ... 6 stops in all
+/// three. Files that the config names, such as tables, count by what they do.
+std::string hash_of_view(const DisplayChoice& display) {
+  constexpr int kSteps = 33;
+  const auto light = [](int step) {
+    return step == 0 ? 0.0f : static_cast<float>(std::exp2(-12 + step * 18.0 / (kSteps - 1)));
+  };
+  std::array<Plane, 3> colors;
+  for (Plane& plane : colors) plane = Plane({0, 0, kSteps * kSteps, kSteps});
+  for (int y = 0; y < kSteps; ++y) {
+    for (int x = 0; x < kSteps * kSteps; ++x) {
+      colors[0].view().at(x, y) = light(x % kSteps);
+      colors[1].view().at(x, y) = light(x / kSteps);
+      colors[2].view().at(x, y) = light(y);
+    }
+  }
+  DisplayChoice plain = display;
+  plain.exposure = 0;
+  std::string bytes;
+  const std::array<Plane, 3> shown =
+      DisplayTransform(plain).displayed({colors[0].view(), colors[1].view(), colors[2].view()});
+  for (const Plane& plane : shown) {
+    for (int y = 0; y < kSteps; ++y) {
+      for (int x = 0; x < kSteps * kSteps; ++x) {
+        bytes += static_cast<char>(byte_of(plane.view().at(x, y)));
+      }
+    }
+  }
+  return hash_of(bytes);
+}
+
 /// Nothing of the usual one. A config is known by its contents, or where it is no file, as
-/// OpenColorIO's own are not, by its name.
+/// OpenColorIO's own are not, by its name; its view also by what it makes of light.
 std::string display_options(const DisplayChoice& display) {
   std::string text;
   if (display.exposure != 0) text += line("exposure", toml_text(display.exposure));
@@ -151,7 +185,8 @@ std::string display_options(const DisplayChoice& display) {
   const bool file = std::filesystem::is_regular_file(display.config, ignored);
   return text +
          line("ocio", toml_text(file ? hash_of_file(display.config) : display.config.string())) +
-         line("view", toml_text(display.view));
+         line("view", toml_text(display.view)) +
+         line("view_hash", toml_text(hash_of_view(display)));
 }
 
 std::string picture_options(const OutputChoice& choice, const std::string& gpu) {

@@ -2,7 +2,9 @@
 
 #include "limpid/core/error.h"
 
+#include "core/convert_color.h"
 #include "files/content_hash.h"
+#include "plate/primaries.h"
 
 namespace limpid {
 
@@ -21,8 +23,18 @@ TextureFiles textures_read(const Plan& plan, const SceneFile& scene) {
   if (plan.reads_environment) {
     files.environment = scene.environment;
     files.rotation = scene.environment_rotation;
+    files.primaries = plan.primaries;
   }
   return files;
+}
+
+LoadedTexture load_surroundings(const TextureFiles& files, const Limits& limits) {
+  LoadedTexture loaded = load_environment(files.environment, files.rotation, limits);
+  if (const auto told = told_primaries(files.environment)) {
+    convert_color({loaded.planes[0].view(), loaded.planes[1].view(), loaded.planes[2].view()},
+                  files.primaries, *told);
+  }
+  return loaded;
 }
 
 void HeldTextures::show_in(Frame& frame) const {
@@ -31,20 +43,22 @@ void HeldTextures::show_in(Frame& frame) const {
 }
 
 std::shared_ptr<const LoadedTexture> SharedTextures::kept(
-    Kept& kept, const std::filesystem::path& path, double rotation,
+    Kept& kept, const std::filesystem::path& path, double rotation, const Primaries& primaries,
     const std::function<LoadedTexture()>& load) {
   if (path.empty()) return {};
   const std::lock_guard lock(mutex_);
-  if (!kept.texture || kept.path != path || kept.rotation != rotation) {
-    kept = {path, rotation, std::make_shared<const LoadedTexture>(load())};
+  if (!kept.texture || kept.path != path || kept.rotation != rotation ||
+      kept.primaries != primaries) {
+    kept = {path, rotation, primaries, std::make_shared<const LoadedTexture>(load())};
   }
   return kept.texture;
 }
 
 HeldTextures SharedTextures::load(const TextureFiles& files, const Limits& limits) {
-  return {kept(wave_map_, files.wave_map, 0, [&] { return load_texture(files.wave_map, limits); }),
-          kept(environment_, files.environment, files.rotation,
-               [&] { return load_environment(files.environment, files.rotation, limits); })};
+  return {kept(wave_map_, files.wave_map, 0, kRec709,
+               [&] { return load_texture(files.wave_map, limits); }),
+          kept(environment_, files.environment, files.rotation, files.primaries,
+               [&] { return load_surroundings(files, limits); })};
 }
 
 std::string SharedTextures::hash_of(const std::filesystem::path& path) {

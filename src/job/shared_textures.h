@@ -20,8 +20,13 @@ struct TextureFiles {
   std::filesystem::path wave_map;     ///< the tiling normal map
   std::filesystem::path environment;  ///< the surroundings
   double rotation = 0;                ///< rad, of the environment
+  Primaries primaries = kRec709;      ///< that the environment's light is made of
 };
 TextureFiles textures_read(const Plan& plan, const SceneFile& scene);
+
+/// load_environment(), of the primaries of `files` where the file says what its red, green and blue
+/// are; one that does not say is taken to be of them.
+LoadedTexture load_surroundings(const TextureFiles& files, const Limits& limits = {});
 
 /// Textures as long as somebody holds them; none where no file is.
 struct HeldTextures {
@@ -42,10 +47,11 @@ class SharedTextures {
   struct Kept {
     std::filesystem::path path;
     double rotation = 0;
+    Primaries primaries = kRec709;
     std::shared_ptr<const LoadedTexture> texture;
   };
   std::shared_ptr<const LoadedTexture> kept(Kept& kept, const std::filesystem::path& path,
-                                            double rotation,
+                                            double rotation, const Primaries& primaries,
                                             const std::function<LoadedTexture()>& load);
 
   std::mutex mutex_;

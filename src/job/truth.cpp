@@ -32,6 +32,7 @@ TextureFiles textures_of(const Model& model, const Scene& scene, const TruthJob&
   if (surroundings && has_environment(job.scene)) {
     files.environment = job.scene.environment;
     files.rotation = job.scene.environment_rotation;
+    files.primaries = scene.primaries;
   }
   return files;
 }

@@ -23,7 +23,8 @@ Plan plan_of(const Model& model, const Scene& scene, const WaterJob& job) {
                     .wave_map = !job.look.of<WaveNormals>().map.empty(),
                     .sun = scene.sun.has_value(),
                     .environment = has_environment(job.scene),
-                    .waves = scene.has_waves()},
+                    .waves = scene.has_waves(),
+                    .primaries = scene.primaries},
                    state_shown_by(computed_aovs(job.output)), job.output.max_error);
 }
 

@@ -48,6 +48,7 @@ Plan make_plan_without(const std::vector<std::string>& left_out, const Look& loo
   }
   Plan plan;
   plan.look = look;
+  plan.primaries = inputs.primaries;
   for (const OperatorEntry& entry : operator_table()) entry.work_in(inputs.primaries, plan.look);
   plan.outputs = outputs;
   plan.max_error = max_error;

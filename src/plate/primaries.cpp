@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limpid/core/error.h"
+#include "limpid/files/picture/image_file.h"
 
 namespace limpid {
 namespace {
@@ -64,6 +65,16 @@ std::optional<Primaries> told_primaries(const Attributes& attributes) {
     if (const auto known = find_color_space({bytes.data(), bytes.size()})) return known;
   }
   return std::nullopt;
+}
+
+std::optional<Primaries> told_primaries(const std::filesystem::path& path) {
+  if (!holds_exr(path)) return std::nullopt;
+  const Attributes attributes = ExrFile::open(path).attributes(0);
+  try {
+    return told_primaries(attributes);
+  } catch (const Error& error) {
+    throw Error(path.string() + ": " + error.what());
+  }
 }
 
 void tell_primaries(Attributes& attributes, const Primaries& primaries) {

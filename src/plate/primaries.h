@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,6 +15,10 @@ using Attributes = std::map<std::string, ExrFile::Attribute>;
 /// (find_color_space()) in `colorInteropID` or `oiio:ColorSpace`. Nothing if there is neither.
 /// Throws Error for invalid chromaticities (Primaries::validate()).
 std::optional<Primaries> told_primaries(const Attributes& attributes);
+
+/// The same of the first part of a file; nothing of one that is no EXR. Throws Error that begins
+/// with the path.
+std::optional<Primaries> told_primaries(const std::filesystem::path& path);
 
 /// Makes the attributes of a picture in that space tell so: those of a plate that tell the same
 /// stay as they are.

@@ -47,6 +47,11 @@ void check_run(const Plan& plan, const Frame& frame, const Scene& scene, const T
   frame.validate();
   if (plan.reads_wave_map) check_texture(frame.wave_map, "a normal map");
   if (plan.reads_environment) check_texture(frame.environment, "an environment");
+  if (!agree(plan.primaries, scene.primaries)) {
+    throw Error("scene: its primaries are " + to_string(scene.primaries) +
+                ", and the plan was made for " + to_string(plan.primaries) +
+                ": expected a plan for the scene's");
+  }
   if (plan.needs_sun && !scene.sun) {
     throw Error("scene: the plan has a sun highlight, and the scene has no sun");
   }

@@ -99,9 +99,11 @@ struct Tiles {
   Rect work;
   Size tile;
   int across;
+  std::stop_token stop;
 
   static void run(void* context, int index) {
     const Tiles& t = *static_cast<const Tiles*>(context);
+    if (t.stop.stop_requested()) return;
     const int x0 = t.work.x0 + index % t.across * t.tile.width;
     const int y0 = t.work.y0 + index / t.across * t.tile.height;
     t.target.run_tile(t.job, intersection({x0, y0, x0 + t.tile.width, y0 + t.tile.height}, t.work));
@@ -128,6 +130,7 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
                       const Target& target, Executor& executor, const FusedOptions& options) {
   const FusedTarget& simd = *kTargets[simd_index(options.simd)];
   check_run(plan, plate, scene, target);
+  expect_wanted(options.stop);
   for (const View<const float>& view : plate.planes) check_extent(view);
   for (const View<const float>& view : plate.wave_map.channels) check_extent(view);
   for (const View<const float>& view : plate.environment.channels) check_extent(view);
@@ -141,6 +144,7 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   auto& [completer, survey, heights, cells] = *kept_;
   const Frame frame =
       completer.complete(plan, plate, pass_of(plan, scene, plate), executor, &options.simd);
+  expect_wanted(options.stop);
   Pass pass = pass_of(plan, scene, frame);
   pass.plate_waves = completer.plate_waves();
   if (!plan.reads_environment) pass.environment = {};  // not checked
@@ -151,6 +155,7 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
     pass.mirrored = heights.mirrored();
     pass.lit = heights.lit();
   }
+  expect_wanted(options.stop);
   const auto pass_for = [&](bool open, bool grounded) {
     Pass of_cell = pass;
     of_cell.foreground = !open;
@@ -181,8 +186,9 @@ void FusedRunner::run(const Plan& plan, const Frame& plate, const Scene& scene,
   if (options.times) job.clock = &clock;
   const int across = (work.width() + tile.width - 1) / tile.width;
   const int down = (work.height() + tile.height - 1) / tile.height;
-  Tiles tiles{job, simd, work, tile, across};
+  Tiles tiles{job, simd, work, tile, across, options.stop};
   executor.run(across * down, Tiles::run, &tiles);
+  expect_wanted(options.stop);
   put_edges(frame, target, executor);
   show_planes(plan, frame, target, executor);
   if (options.times) *options.times = clock.times();

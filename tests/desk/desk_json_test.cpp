@@ -16,10 +16,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(DeskRequestTest, HoldsSettingsInTheirOrder) {
-  const PictureRequest request = picture_request(
+  const NewPicture request = picture_request(
       R"({"look": "pond", "set": {"z.text": "some words", "a.number": 0.1, "m.color": [1, 0.5, 0],
           "b.rows": [[1, 2], [3, 4]], "b.none": []}, "frame": 7, "time": 1.5, "half": true,
-          "show": "dry", "exposure": -2, "display": "wall/half"})");
+          "show": "dry", "exposure": -2, "display": "wall/half", "instead": true})");
   EXPECT_EQ(request.look, "pond");
   EXPECT_THAT(request.settings,
               ElementsAre("z.text=some words", "a.number=0.1", "m.color=[1.0, 0.5, 0.0]",
@@ -30,11 +30,12 @@ TEST(DeskRequestTest, HoldsSettingsInTheirOrder) {
   EXPECT_EQ(request.show, "dry");
   EXPECT_EQ(request.exposure, -2);
   EXPECT_EQ(request.display, "wall/half");
+  EXPECT_TRUE(request.instead);
 }
 
 TEST(DeskRequestTest, LeavesOutWhatIsUsual) {
-  const PictureRequest request =
-      picture_request(R"({"look": "pond", "frame": null, "time": null})");
+  const NewPicture request = picture_request(R"({"look": "pond", "frame": null, "time": null})");
+  EXPECT_FALSE(request.instead);
   EXPECT_FALSE(request.frame);
   EXPECT_FALSE(request.time);
   EXPECT_FALSE(request.half);
@@ -66,7 +67,7 @@ TEST(DeskRequestTest, RefusesWhatIsWrongInASentence) {
       "request: set: a.b: expected a number, a text, or a list of numbers or of rows of them");
   EXPECT_EQ(refused(R"({"look": "a", "hlf": true})"),
             "request: unknown key 'hlf': expected some of look, set, frame, time, half, show, "
-            "exposure, display; did you mean 'half'?");
+            "exposure, display, instead; did you mean 'half'?");
   EXPECT_EQ(refusal([] { pixel_request(R"({"look": "a", "x": 1})"); }),
             "request: y: expected a whole number");
   EXPECT_EQ(refusal([] { save_request(R"({"look": "a"})"); }), "request: name: expected a text");

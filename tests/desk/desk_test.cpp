@@ -161,7 +161,7 @@ TEST_F(DeskTest, ShowsLightByAConfigAsTheToolDoes) {
 
 TEST_F(DeskTest, ShowsAllThatItOffers) {
   DeskOptions options = this->options();
-  options.reference = [](std::optional<int>) {
+  options.reference = [](std::optional<int>, const Primaries&) {
     return std::array<Plane, 3>{Plane(kPicture), Plane(kPicture), Plane(kPicture)};
   };
   Desk desk(options, *executor_);
@@ -184,7 +184,7 @@ TEST_F(DeskTest, ShowsAllThatItOffers) {
 
 TEST_F(DeskTest, ShowsHowFarThePictureIsFromItsReference) {
   DeskOptions options = this->options();
-  options.reference = [](std::optional<int>) {
+  options.reference = [](std::optional<int>, const Primaries&) {
     return std::array<Plane, 3>{Plane(kPicture), Plane(kPicture), Plane(kPicture)};
   };
   Desk desk(options, *executor_);
@@ -206,7 +206,7 @@ TEST_F(DeskTest, ShowsHowFarThePictureIsFromItsReference) {
 
 TEST_F(DeskTest, RefusesAReferenceOfAnotherSize) {
   DeskOptions options = this->options();
-  options.reference = [](std::optional<int>) {
+  options.reference = [](std::optional<int>, const Primaries&) {
     const Rect small{0, 0, 63, 36};
     return std::array<Plane, 3>{Plane(small), Plane(small), Plane(small)};
   };
@@ -240,6 +240,42 @@ TEST_F(DeskTest, TellsThePixelsNumbers) {
             "pixel 64, 0: expected 0 ... 63, 0 ... 35");
   EXPECT_EQ(refusal([&] { desk.pixel(picture(), 0, -1); }),
             "pixel 0, -1: expected 0 ... 63, 0 ... 35");
+}
+
+/// Two threads, and something that happens when work begins.
+class Interrupted : public Executor {
+ public:
+  void run(int count, Task task, void* context) override {
+    if (on_run) on_run();
+    inner_->run(count, task, context);
+  }
+  std::function<void()> on_run;
+
+ private:
+  std::unique_ptr<Executor> inner_ = make_executor(2);
+};
+
+TEST_F(DeskTest, BreaksOffWhatNobodyWantsAnyMore) {
+  Interrupted executor;
+  const DeskOptions options = this->options();
+  Desk desk(options, executor);
+  PictureRequest half = picture();
+  half.half = true;
+  const std::vector<std::uint8_t> before = colors(desk.paint(half).shown);
+  executor.on_run = [&] { desk.break_off(); };
+  const PictureRequest murky = picture({"depth_fog.density=3"});
+  EXPECT_THROW(desk.paint(murky), Stopped);
+  EXPECT_THROW(desk.pixel(murky, 40, 30), Stopped);
+  executor.on_run = {};
+  EXPECT_EQ(colors(desk.paint(half).shown), before);
+  Look look = options.looks[0].look;
+  apply_setting(look, "depth_fog.density=3");
+  EXPECT_EQ(colors(desk.paint(murky).shown), previewed(options, look));
+  const PixelNumbers numbers = desk.pixel(murky, 40, 30);
+  Desk fresh(options, *executor_);
+  const PixelNumbers expected = fresh.pixel(murky, 40, 30);
+  EXPECT_EQ(numbers.picture.r, expected.picture.r);
+  EXPECT_EQ(numbers.aovs, expected.aovs);
 }
 
 TEST_F(DeskTest, GoesOnAfterALookThatIsWrong) {

@@ -104,6 +104,8 @@ TEST_F(ServeTest, AnswersWhatAPageAsks) {
   EXPECT_THAT(picture, StartsWith("HTTP/1.1 200 "));
   EXPECT_THAT(picture, HasSubstr("Content-Type: application/octet-stream\r\n"));
   EXPECT_GT(body_of(picture).size(), 4u * 32 * 18);
+  EXPECT_THAT(post("api/picture", R"({"look": "pond", "half": true, "instead": true})"),
+              StartsWith("HTTP/1.1 200 "));
   EXPECT_THAT(post("api/pixel", R"({"look": "pond", "x": 3, "y": 4})"), HasSubstr("\"aovs\":{"));
   EXPECT_THAT(post("api/command", R"({"look": "pond"})"),
               HasSubstr(R"({"command":"limpid composite plate.exr --look pond -o wet.exr"})"));

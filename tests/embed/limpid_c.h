@@ -61,8 +61,9 @@ class LimpidC : public testing::Test {
   static void set_matrix(double* to, const glm::dmat4& m) {
     std::memcpy(to, glm::value_ptr(m), sizeof m);
   }
-  std::vector<float> expected(const Look& look) {
+  std::vector<float> expected(const Look& look, const Primaries& primaries = kRec709) {
     Scene scene = simple_scene(kSize);
+    scene.primaries = primaries;
     scene.sun->direction = glm::normalize(3.0 * scene.sun->direction);
     return judged(look, buffers.frame, scene);
   }

@@ -243,6 +243,37 @@ TEST_F(LimpidC, StructsHaveSizes) {
   expect_refused("limpid_frame.size");
 }
 
+TEST_F(LimpidC, HasAColorspace) {
+  limpid_destroy(water);
+  water = nullptr;
+  char why[256] = "";
+  Look look;
+  look.set("depth_fog", "water_type", "3C");
+  std::vector<std::vector<float>> pictures;
+  for (const char* space : {"Rec.709", "ACEScg", ".713 .293 .165 .83 .128 .044 .32168 .33767"}) {
+    conventions.colorspace = space;
+    ASSERT_EQ(limpid_create(&conventions, nullptr, &water, why, sizeof why), LIMPID_OK) << why;
+    ASSERT_EQ(limpid_set_word(water, "depth_fog", "water_type", "3C"), LIMPID_OK);
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
+    }
+    pictures.push_back(out.values());
+    limpid_destroy(water);
+    water = nullptr;
+  }
+  EXPECT_EQ(pictures[0], expected(look));
+  EXPECT_NE(pictures[1], pictures[0]) << "waters are fitted to the space";
+  EXPECT_EQ(pictures[2], pictures[1]);
+  EXPECT_EQ(pictures[1], expected(look, *find_color_space("ACEScg")));
+  conventions.colorspace = "ACEScq";
+  EXPECT_EQ(limpid_create(&conventions, nullptr, &water, why, sizeof why), LIMPID_REFUSED);
+  EXPECT_THAT(why, StartsWith("limpid_conventions.colorspace: color space 'ACEScq': expected one"));
+  conventions.colorspace = ".64 .33 .3 .6 .15 .06 .9 .05";
+  EXPECT_EQ(limpid_create(&conventions, nullptr, &water, why, sizeof why), LIMPID_REFUSED);
+  EXPECT_THAT(why, HasSubstr("expected x and y of red, green, blue and a white between them"));
+  EXPECT_EQ(water, nullptr);
+}
+
 std::string capitals(std::string name) {
   for (char& c : name) c = c == '.' ? '_' : static_cast<char>(std::toupper(c));
   return name;

@@ -15,7 +15,7 @@
 #include "limpid/files/text/look_file.h"
 #include "limpid/job/composite.h"
 
-/// Motion vectors of what is seen through the water.
+/// Motion vectors of what is seen through the water, and of what it mirrors.
 
 namespace limpid {
 namespace {
@@ -103,6 +103,94 @@ TEST(Motion, IsFinite) {
   EXPECT_EQ(seen[0].view().at(3, 5), 0);
   EXPECT_EQ(seen[1].view().at(4, 5), 0);
   EXPECT_NEAR(seen[0].view().at(6, 5), 1, 1e-5);
+}
+
+/// A wall 8 in front of a level camera that stands 1.5 above the water, which mirrors it.
+class WallTest : public ::testing::Test {
+ protected:
+  static constexpr Rect kDisplay{0, 0, 80, 60};
+  static constexpr double kWall = 8, kEye = 1.5;
+
+  WallTest() {
+    scene_.camera = Camera{glm::lookAt(glm::dvec3(0, kEye, 0), glm::dvec3(0, kEye, -1), {0, 1, 0}),
+                           perspective(glm::radians(60.0), 80.0 / 60, 0.1, 100, ClipSpace::kGl),
+                           ClipSpace::kGl};
+    scene_.water = WaterPlane{{0, 1, 0}, 0};
+  }
+
+  /// What becomes of the vectors (2, 1 + row / 10), by a normal that leans by so much to the right,
+  /// where the picture shows a depth and the mirror an image at these.
+  std::array<Plane, 2> reflected(double lean = 0, double shown = kWall,
+                                 double image = kWall) const {
+    const auto constant = [](double value) {
+      return plane_of(kDisplay, [=](int, int) { return value; });
+    };
+    const WaterView view(scene_, kDisplay);
+    const Plane surface = plane_of(kDisplay, [&](int x, int y) {
+      const double z = -kEye / view.rays.ray_at(x + 0.5, y + 0.5).y;
+      return z > 0 && z < kWall ? z : HUGE_VAL;
+    });
+    const Plane nx = constant(std::sin(lean)), ny = constant(std::cos(lean)), nz = constant(0);
+    const Plane depth = constant(shown), mirror = constant(image), x = constant(2);
+    const Plane y = plane_of(kDisplay, [](int, int row) { return 1 + row / 10.0; });
+    std::array<Plane, 2> seen{Plane(kDisplay), Plane(kDisplay)};
+    reflect_motion(
+        {surface.view(), nx.view(), ny.view(), nz.view(), mirror.view(), depth.view(), view},
+        x.view(), y.view(), seen[0].view(), seen[1].view());
+    return seen;
+  }
+
+  Scene scene_;
+};
+
+// The horizon lies between the rows 29 and 30, the wall's foot 1.5 / 8 * 30 / tan 30 = 9.7 rows
+// below it. The image of a point at the height h is at -h: twice those rows further below the
+// horizon than the point is above it.
+TEST_F(WallTest, IsTheThingsUpsideDown) {
+  const auto seen = reflected();
+  for (const int below : {11, 15, 25}) {
+    const double rows_to_foot = 1.5 / 8 * 30 / std::tan(glm::radians(30.0));
+    const double row = 30 - (below + 0.5 - 2 * rows_to_foot);
+    const int thing = static_cast<int>(std::floor(row));
+    for (const int column : {5, 40, 77}) {
+      EXPECT_NEAR(seen[0].view().at(column, 30 + below), 2, 1e-4) << below;
+      EXPECT_NEAR(seen[1].view().at(column, 30 + below), -(1 + thing / 10.0), 1e-4) << below;
+    }
+  }
+  EXPECT_EQ(seen[0].view().at(40, 20), 0) << "dry";
+  EXPECT_EQ(seen[0].view().at(40, 35), 0) << "the wall's foot";
+}
+
+// What is mirrored moves as the matrix 1 - 2 n n^T has it, which is its own inverse.
+TEST_F(WallTest, IsTurnedAsTheNormalSays) {
+  const double lean = glm::radians(-10.0);
+  const auto seen = reflected(lean);
+  const double c = std::cos(2 * lean), s = std::sin(2 * lean);
+  int found = 0;
+  for (int y = 42; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const double dx = seen[0].view().at(x, y), dy = seen[1].view().at(x, y);
+      if (dx == 0 && dy == 0) continue;
+      ++found;
+      EXPECT_NEAR(c * dx - s * dy, 2, 1e-4) << x << " " << y;
+      EXPECT_GE(-s * dx - c * dy, 1 - 1e-4) << x << " " << y;
+    }
+  }
+  EXPECT_GT(found, 50);
+}
+
+TEST_F(WallTest, IsNoneOfWhatThePictureDoesNotShow) {
+  const std::array<Plane, 2> hidden = reflected(0, 7), sky = reflected(0, kWall, HUGE_VAL);
+  for (const auto& seen : {std::cref(hidden), std::cref(sky)}) {
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        EXPECT_EQ(seen.get()[0].view().at(x, y), 0);
+        EXPECT_EQ(seen.get()[1].view().at(x, y), 0);
+      }
+    }
+  }
+  // A normal that leans by 40 degrees shows what lies far to the right.
+  EXPECT_EQ(reflected(glm::radians(40.0))[0].view().at(75, 50), 0);
 }
 
 /// A light spot on the bottom of a pool, which moves; the water is calm, the camera stands still.
@@ -243,6 +331,29 @@ TEST_F(SpotTest, IsWhereTheNextFrameShowsIt) {
                                  std::to_string(error) + ", of the dry vectors " +
                                  std::to_string(of_dry));
   }
+}
+
+TEST_F(SpotTest, MayBeOfWhatIsMirroredAlone) {
+  const glm::dvec3 spot(0.3, kBottom, -4);
+  write("now.exr", spot, {0.2, 0, 0});
+  const auto executor = make_executor(1);
+  CompositeJob job = this->job("now.exr", "wet.exr");
+  job.output.motion_reflected = true;
+  composite(job, *executor);
+  const std::vector<Plane> both =
+      read("wet.exr", {"motion_forward.u", "motion_reflected_forward.v"});
+  EXPECT_NE(both[0].view().at(80, 60), 0);
+  EXPECT_EQ(both[1].view().at(80, 60), 0) << "nothing but water is mirrored";
+  job.output.motion = false;
+  job.output.picture = folder_ / "reflected.exr";
+  composite(job, *executor);
+  read("reflected.exr", {"motion_reflected_forward.u"});
+  const ExrFile file = ExrFile::open(folder_ / "reflected.exr");
+  for (const ExrChannel& channel : file.parts().front().channels) {
+    EXPECT_NE(channel.name, "motion_forward.u");
+  }
+  EXPECT_THAT(file.text_attribute(0, "limpid/options").value_or(""),
+              ::testing::HasSubstr("motion_of = [\"reflected\"]"));
 }
 
 TEST_F(SpotTest, WantsVectorsOfThePlate) {

@@ -57,6 +57,11 @@ class Errors(unittest.TestCase):
         self.refused("AOV normal has the shape (35, 61), expected (35, 61, 3)", aovs={"normal": FLOATS})
         self.refused("stmap stands for three", aovs={"stmap": FLOATS})
 
+    def test_colorspace(self):
+        self.refused("colorspace: color space 'ACEScq': expected one of", colorspace="ACEScq")
+        self.refused("colorspace is [1, 2], expected the name of a space, or eight numbers", colorspace=[1, 2])
+        self.refused("colorspace: chromaticities ", colorspace=(.64, .33, .3, .6, .15, .06, .9, .05))
+
     def test_scene(self):
         self.refused("water: unknown 'hight', expected one of up, height, waves; did you mean 'height'?",
                      water={"hight": 1})

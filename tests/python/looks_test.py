@@ -21,6 +21,14 @@ def tool(*words):
 
 
 class Looks(unittest.TestCase):
+    def test_waters_are_fitted_to_the_colorspace(self):
+        def wet(**space):
+            return limpid.composite(**pond(), threads=1, look={"depth_fog": {"water_type": "3C"}}, **space)
+        acescg = (.713, .293, .165, .83, .128, .044, .32168, .33767)
+        np.testing.assert_array_equal(wet(colorspace="Rec.709"), wet())
+        np.testing.assert_array_equal(wet(colorspace=acescg), wet(colorspace="ACEScg"))
+        self.assertTrue(np.any(wet(colorspace="ACEScg") != wet()))
+
     def test_a_look_is_plain_data_and_reads_back(self):
         for name in ("physical", "realistic", "rito", "monogame", "fast", *PRESETS):
             look = limpid.load_look(name)

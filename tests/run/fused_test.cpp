@@ -441,6 +441,76 @@ TEST(Fused, APlanWithAGlintNeedsASun) {
   EXPECT_NO_THROW(run_reference(sunless, b.frame, scene, picture.target));
 }
 
+TEST(Fused, APlanIsForTheScenesPrimariesAlone) {
+  const Size size{4, 4};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  Scene scene = test::simple_scene(size);
+  const Plan plan = make_plan({}, test::inputs_of(b.frame, scene));
+  scene.primaries = *find_color_space("ACEScg");
+  const Picture picture(b.frame.work());
+  for (const bool reference : {true, false}) {
+    try {
+      if (reference) run_reference(plan, b.frame, scene, picture.target);
+      if (!reference) run_fused(plan, b.frame, scene, picture.target, *make_executor(1));
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_STREQ(error.what(),
+                   "scene: its primaries are ACEScg, and the plan was made for Rec.709: expected a "
+                   "plan for the scene's");
+    }
+  }
+  const Plan other = make_plan({}, test::inputs_of(b.frame, scene));
+  EXPECT_NO_THROW(run_reference(other, b.frame, scene, picture.target));
+}
+
+/// One thread, that a stop reaches after so many of the last tasks that it is given.
+class StoppedExecutor : public Executor {
+ public:
+  void run(int count, Task task, void* context) override {
+    for (int i = 0; i < count; ++i) {
+      if (count == of && i == after) source.request_stop();
+      task(context, i);
+    }
+  }
+  int of = 0, after = 0;
+  std::stop_source source;
+};
+
+/// Of 7 x 5 tiles, those from the third on are as they were.
+TEST(Fused, AStopIsToldAndBeginsNoMoreTiles) {
+  const Size size{70, 50};
+  const Buffers b = test::noisy_frame(rect_of(size));
+  const Scene scene = test::simple_scene(size);
+  const Plan plan = make_plan(busy_look(), test::inputs_of(b.frame, scene));
+  FusedOptions options{.tile = {10, 10}};
+  const Picture untouched(b.frame.work()), picture(b.frame.work()), whole(b.frame.work());
+  FusedRunner runner;
+  StoppedExecutor executor;
+  runner.run(plan, b.frame, scene, whole.target, executor, options);
+
+  executor.of = 35;
+  executor.after = 2;
+  options.stop = executor.source.get_token();
+  EXPECT_THROW(runner.run(plan, b.frame, scene, picture.target, executor, options), Stopped);
+  const auto is_as = [&](const Picture& other, int x, int y) {
+    return picture.target.color[0].at(x, y) == other.target.color[0].at(x, y);
+  };
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 20; ++x) EXPECT_TRUE(is_as(whole, x, y)) << x << " " << y;
+  }
+  EXPECT_FALSE(is_as(untouched, 5, 5));
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = y < 10 ? 20 : 0; x < size.width; ++x) EXPECT_TRUE(is_as(untouched, x, y));
+  }
+  // It had been requested before: nothing begins.
+  const Picture second(b.frame.work());
+  EXPECT_THROW(runner.run(plan, b.frame, scene, second.target, executor, options), Stopped);
+  EXPECT_TRUE(same_bits(second.values(), untouched.values()));
+  options.stop = {};
+  runner.run(plan, b.frame, scene, picture.target, executor, options);
+  EXPECT_TRUE(same_bits(picture.values(), whole.values()));
+}
+
 TEST(Fused, SumOfTheFirstFourAovsIsThePicture) {
   const Size size{50, 30};
   const Buffers b = test::noisy_frame(rect_of(size));

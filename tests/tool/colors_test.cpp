@@ -111,6 +111,38 @@ TEST_F(ColorsTest, RefusesUnknownNames) {
   EXPECT_EQ(wet("none.exr", "wet.exr", {"--colorspace", "ACEScg"}).code, 0);
 }
 
+/// A picture and its like in ACEScg are seen as one, whichever way it is told.
+TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
+  const Words convert = {"--ccmatrix",
+                         ".61309732,.07019422,.02061560,0,.33952285,.91635557,.10956983,0,"
+                         ".04737928,.01345259,.86981512,0,0,0,0,1"};
+  tell("ap1.exr", kAp1, {"--ch", "R,G,B,A", convert[0], convert[1]});
+  tell("ap1_untold.exr", kBt709, {"--ch", "R,G,B,A", convert[0], convert[1]});
+  const auto flip = [&](const std::string& a, const std::string& b, const Words& more = {}) {
+    Words words = {"compare", a, b, "--channels", "R,G,B", "--metrics", "flip"};
+    words.insert(words.end(), more.begin(), more.end());
+    return limpid(words).out;
+  };
+  const auto mean = [](const std::string& out) {
+    const std::size_t at = out.find("  FLIP = ");
+    EXPECT_NE(at, std::string::npos) << out;
+    return at == std::string::npos ? -1 : std::stod(out.substr(at + 9));
+  };
+  EXPECT_LT(mean(flip("ap1.exr", "told709.exr")), 1e-3);
+  EXPECT_GT(mean(flip("ap1_untold.exr", "told709.exr")), .02);
+  EXPECT_THAT(flip("ap1.exr", "told709.exr"),
+              HasSubstr("  Metrics of color in Rec.709, made of ACEScg and Rec.709\n"));
+  EXPECT_THAT(flip("told709.exr", "told709.exr"), Not(HasSubstr("Metrics of color in")));
+  // Both in a space that neither tells of: as if both told.
+  EXPECT_EQ(mean(flip("ap1_untold.exr", "plate.exr", {"--colorspace", "ACEScg"})),
+            mean(flip("ap1.exr", "toldap1.exr")));
+  expect_refused(limpid({"compare", "ap1.exr", "ap1.exr", "--colorspace", "ACEScg"}),
+                 {"--colorspace: expected --metrics ssim, flip or hdrflip beside it"}, 2);
+  expect_refused(
+      limpid({"compare", "ap1.exr", "ap1.exr", "--metrics", "flip", "--colorspace", "x"}),
+      {"color space 'x': expected one of"}, 2);
+}
+
 /// A plate in ACEScg and the same one in Rec.709, in the same water by its name: converted to
 /// ACEScg beforehand or afterwards, the picture is the same but for what three rates cannot be.
 TEST_F(ColorsTest, TheSameWaterShowsTheSamePicture) {

@@ -81,6 +81,32 @@ TEST_F(EnvironmentTest, IsLoadedAndTurnedForAPlanThatReadsIt) {
   EXPECT_EQ(sky.channels[2].at(4, 1), 0);
 }
 
+/// The matrix between Rec.709 and ACEScg is published with ACES: red of the one is (.6131, .0702,
+/// .0206) of the other.
+TEST_F(EnvironmentTest, IsMadeOfThePlansPrimariesWhereItsFileTellsItsOwn) {
+  const auto sky_of = [&](const char* chromaticities, const char* space) {
+    const Ran made =
+        oiiotool({"--pattern", "constant:color=1,0,0", "8x4", "3", "--attrib:type=float[8]",
+                  "chromaticities", chromaticities, "-d", "float", "-o", "sky.exr"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    SceneFile scene;
+    scene.environment = folder_ / "sky.exr";
+    Plan plan;
+    plan.reads_environment = true;
+    plan.primaries = *find_color_space(space);
+    SharedTextures textures;
+    const auto held = textures.load(textures_read(plan, scene)).environment;
+    const Texture sky = texture_of(held);
+    return std::array{sky.channels[0].at(3, 2), sky.channels[1].at(3, 2), sky.channels[2].at(3, 2)};
+  };
+  const char* const bt709 = "0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329";
+  const auto converted = sky_of(bt709, "ACEScg"), same = sky_of(bt709, "Rec.709");
+  EXPECT_NEAR(converted[0], .6131, 1e-3);
+  EXPECT_NEAR(converted[1], .0702, 1e-3);
+  EXPECT_NEAR(converted[2], .0206, 1e-3);
+  EXPECT_EQ(same, (std::array{1.f, 0.f, 0.f}));
+}
+
 TEST_F(EnvironmentTest, OfManyFramesIsLoadedOnce) {
   ASSERT_EQ(oiiotool({"--create", "8x4", "3", "-o", "sky.exr"}).code, 0);
   std::filesystem::copy(folder_ / "sky.exr", folder_ / "other.exr");

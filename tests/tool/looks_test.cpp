@@ -59,6 +59,15 @@ TEST_F(LooksTest, ShowsEachInAPictureOfThePlate) {
 
 TEST_F(LooksTest, RefusesInASentence) {
   expect_refused(limpid({"looks", "plate.exr"}), {"expected --pictures FILE beside it"}, 2);
+  const std::vector<std::vector<std::string>> for_pictures = {
+      {"--simd", "scalar"}, {"--runner", "gpu"}, {"--gpu", "H100"}, {"--time", "1"}};
+  for (const std::vector<std::string>& option : for_pictures) {
+    expect_refused(limpid({"looks", option[0], option[1]}),
+                   {"looks " + option[0] + ": is for pictures of the looks"}, 2);
+  }
+  expect_refused(limpid({"looks", "--pictures", "x.png", "plate.exr", "--scene", "scene.toml",
+                         "--view", "left,right"}),
+                 {"--view: expected one view, for looks shows one at a time"}, 2);
   expect_refused(limpid({"looks", "--pictures", "looks.exr"}), {"looks.exr"}, 2);
   expect_refused(limpid({"looks", "--pictures", "no/looks.png"}), {"no/looks.png"});
   expect_refused(limpid({"looks", "--pictures", "x.png", "absent.exr"}), {"absent.exr"});

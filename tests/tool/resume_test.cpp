@@ -105,6 +105,36 @@ TEST_F(ResumeTest, WhereFilesLieAndWhenTheyWereMadeDoesNotMatter) {
   EXPECT_EQ(said_by(moved), "limpid: 4 of 4 frames are there already\n");
 }
 
+/// A config of OpenColorIO stays as it is, and a table that it names does not.
+TEST_F(ResumeTest, SeesAnotherTableOfAConfig) {
+  const auto write_table = [&](const std::string& white) {
+    write_text("table.spi1d",
+               "Version 1\nFrom 0.0 1.0\nLength 2\nComponents 1\n{\n  0.0\n  " + white + "\n}\n");
+  };
+  write_text("table.ocio", R"(ocio_profile_version: 1
+search_path: ""
+roles: {default: lin_rec709, scene_linear: lin_rec709}
+displays:
+  screen:
+    - !<View> {name: table, colorspace: table}
+colorspaces:
+  - !<ColorSpace> {name: lin_rec709}
+  - !<ColorSpace>
+    name: table
+    from_reference: !<FileTransform> {src: table.spi1d, interpolation: linear}
+)");
+  write_plates({1, 2, 3, 4});
+  const Words shown{"--preview", "wet.%d.png", "--ocio", "table.ocio"};
+  write_table("1.0");
+  said_by(words(shown));
+  const std::string bright = text_of("wet.2.png");
+  EXPECT_EQ(resumed(shown), "limpid: 4 of 4 frames are there already\n");
+  write_table("0.5");
+  EXPECT_THAT(resumed(shown), HasSubstr("limpid: 0 of 4 frames are there already\n"));
+  EXPECT_NE(text_of("wet.2.png"), bright);
+  EXPECT_EQ(resumed(shown), "limpid: 4 of 4 frames are there already\n");
+}
+
 TEST_F(ResumeTest, WhatWasMadeOtherwiseIsMadeAgainAndSaid) {
   write_plates({1, 2, 3, 4});
   said_by(words({}));

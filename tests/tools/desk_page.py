@@ -350,6 +350,22 @@ def large_plate(desk):
     expect(desk.differing("tools"), 0, "the last of 50 changes is shown, to the byte")
 
 
+def broken_off(desk):
+    """A change while the whole picture is computed: a half one comes first, never the whole one of what was before."""
+    shown = desk.run("""(async () => {
+      const before = desk.broken;
+      desk.set('depth_fog.murkiness', 0.7);
+      const first = await desk.next();  // half; the whole one has been asked for
+      desk.set('depth_fog.murkiness', 0.2);
+      const second = await desk.next();
+      return [first.half, second.half, desk.broken - before];
+    })()""")
+    expect(shown, [True, True, 1], "a whole picture is broken off for a newer half one")
+    desk.run("desk.idle()")
+    desk.tools_picture(desk.copied_command())
+    expect(desk.differing("tools"), 0, "the picture after one that was broken off is the tool's, to the byte")
+
+
 def server_gone(desk):
     desk.server.kill()
     desk.server.wait()
@@ -382,6 +398,7 @@ def main():
                        capture_output=True)
         with contextlib.closing(Desk(limpid, browser, folder, plate)) as desk:
             large_plate(desk)
+            broken_off(desk)
         if browser.errors:
             sys.exit("the page's script threw: " + "\n".join(map(str, browser.errors)))
 

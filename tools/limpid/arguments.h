@@ -101,7 +101,7 @@ struct OperatorsArguments {
 };
 
 struct CompareArguments {
-  std::string a, b, diff, flip_map, frames;
+  std::string a, b, diff, flip_map, frames, colorspace;
   std::vector<std::string> channels, metrics;
   double tolerance = 1e-6, allowed_percent = 0, epsilon = 1e-2;
   std::optional<double> hard_limit, clip, ppd;

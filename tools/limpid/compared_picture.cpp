@@ -9,6 +9,9 @@
 #include "limpid/files/picture/image_file.h"
 #include "limpid/files/picture/preview.h"
 
+#include "core/convert_color.h"
+#include "plate/primaries.h"
+
 namespace limpid::tool {
 namespace {
 
@@ -213,7 +216,14 @@ std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const Compare
   return channels;
 }
 
-LinearColor::LinearColor(const ComparedPicture& picture, const std::optional<double>& clip) {
+Primaries light_of(const std::string& path, const std::optional<Primaries>& named,
+                   const Primaries& untold) {
+  if (!is_linear(path)) return kRec709;
+  return named ? *named : told_primaries(path).value_or(untold);
+}
+
+LinearColor::LinearColor(const ComparedPicture& picture, const std::optional<double>& clip,
+                         const Primaries& from, const Primaries& to) {
   const bool decode = !is_linear(picture.path);
   const float most = clip ? static_cast<float>(*clip) : HUGE_VALF;
   const std::array<const char*, 3> names = {"R", "G", "B"};
@@ -235,16 +245,17 @@ LinearColor::LinearColor(const ComparedPicture& picture, const std::optional<dou
       }
     }
   }
+  convert_color({planes_[0].view(), planes_[1].view(), planes_[2].view()}, to, from);
 }
 
-PictureColor read_color(const std::string& path, const Limits& limits) {
+PictureColor read_color(const std::string& path, const Primaries& to, const Limits& limits) {
   std::vector<std::string> wanted = {"R", "G", "B"};
   const std::vector<std::string> known = channel_names(path, limits);
   const bool plain = std::all_of(wanted.begin(), wanted.end(),
                                  [&](const std::string& name) { return among(name, known); });
   if (!plain) wanted.clear();  // channels of a layer, for any layer name
   const ComparedPicture picture = read_picture(path, wanted, limits);
-  return {picture.display, LinearColor(picture, std::nullopt).take()};
+  return {picture.display, LinearColor(picture, std::nullopt, light_of(path, {}, to), to).take()};
 }
 
 }  // namespace limpid::tool

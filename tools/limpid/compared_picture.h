@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "limpid/core/color_space.h"
 #include "limpid/files/limits.h"
 
 #include "judge/compare/color_pair.h"
@@ -61,13 +62,20 @@ std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const Compare
 std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b,
                                          const std::vector<ChannelPair>& pairs);
 
+/// What red, green and blue of a picture are: Rec.709 of one that is encoded as sRGB, else `named`,
+/// else what the file says, else `untold`. Throws Error for chromaticities that are none.
+Primaries light_of(const std::string& path, const std::optional<Primaries>& named,
+                   const Primaries& untold = kRec709);
+
 /// The colors of a picture as the metrics of color want them: scene-linear, larger values than
 /// `clip` counted as that. EXR, HDR and PFM are taken to be linear, other formats to be encoded as
 /// sRGB.
 class LinearColor {
  public:
-  /// Throws Error where there are no channels R, G and B, be it of one layer.
-  LinearColor(const ComparedPicture& picture, const std::optional<double>& clip);
+  /// Of primaries `to`, the picture's being `from`. Throws Error where there are no channels R, G
+  /// and B, be it of one layer.
+  LinearColor(const ComparedPicture& picture, const std::optional<double>& clip,
+              const Primaries& from, const Primaries& to = kRec709);
 
   ColorViews views() const { return {planes_[0].view(), planes_[1].view(), planes_[2].view()}; }
   std::array<Plane, 3> take() && { return std::move(planes_); }
@@ -76,7 +84,8 @@ class LinearColor {
   std::array<Plane, 3> planes_;
 };
 
-/// The colors of the picture alone are read. Throws Error as LinearColor.
-PictureColor read_color(const std::string& path, const Limits& limits);
+/// The colors of the picture alone are read, and made those of primaries `to`, of which a linear
+/// one is that does not say. Throws Error as LinearColor.
+PictureColor read_color(const std::string& path, const Primaries& to, const Limits& limits);
 
 }  // namespace limpid::tool

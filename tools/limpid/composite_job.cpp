@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kViewMark = "%V";
 constexpr std::string_view kAllViews = "all";
 /// Vectors are no plane of the chain, and are named as its planes are.
-const std::string kMotion = "motion";
+const std::string kMotion = "motion", kMotionReflected = "motion_reflected";
 
 /// The layers of --pass-through: empty for none, which must be the only word.
 std::vector<std::string> layers_to_pass(const std::vector<std::string>& names) {
@@ -168,8 +168,10 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   job.time.asked = a.water.time;
   WaterOptions water = a.water;
   const bool motion = std::erase(water.aovs, kMotion) > 0;
+  const bool motion_reflected = std::erase(water.aovs, kMotionReflected) > 0;
   job.output = output_of(water);
   job.output.motion = motion;
+  job.output.motion_reflected = motion_reflected;
   job.output.wave_samples = a.samples;
   job.output.overscan = a.overscan;
   job.output.pass_through = layers_to_pass(a.pass_through);

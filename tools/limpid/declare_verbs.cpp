@@ -226,6 +226,10 @@ void add_compare(CLI::App& app, CompareArguments& a) {
   verb.add_option("--ppd", a.ppd, "Pixels per degree, for flip and hdrflip (default: 67.02)")
       ->option_text("N")
       ->check(number_in(1, 1000));
+  verb.add_option("--colorspace", a.colorspace,
+                  "Color space of linear pictures, for ssim, flip and hdrflip, which need Rec.709: "
+                  "as for composite (default: as their chromaticities say, else Rec.709)")
+      ->option_text("NAME");
   verb.add_option("--diff", a.diff, "Write a heat map of the differences")->option_text("OUT.png");
   verb.add_option("--flip-map", a.flip_map,
                   "Write a heat map of flip, or of hdrflip if flip is not among the metrics")

@@ -7,6 +7,7 @@
 
 #include "judge/compare/heat_map.h"
 #include "judge/compare/number_text.h"
+#include "water_options.h"
 
 namespace limpid::tool {
 namespace {
@@ -107,6 +108,13 @@ WantedMetrics wanted_metrics(const CompareArguments& arguments) {
     wanted.observer.pixels_per_degree = ppd;
   }
   wanted.clip = arguments.clip;
+  if (!arguments.colorspace.empty()) {
+    if (!wanted.of_color()) {
+      throw Error("--colorspace: expected --metrics ssim, flip or hdrflip beside it",
+                  Fault::kUsage);
+    }
+    wanted.primaries = as_usage([&] { return color_space_named(arguments.colorspace); });
+  }
   return wanted;
 }
 
@@ -124,7 +132,12 @@ PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
     }
   }
   if (!wanted.of_color()) return metrics;
-  const LinearColor color_a(a, wanted.clip), color_b(b, wanted.clip);
+  const Primaries light_a = light_of(a.path, wanted.primaries);
+  const Primaries light_b = light_of(b.path, wanted.primaries);
+  if (!agree(light_a, kRec709) || !agree(light_b, kRec709)) {
+    metrics.spaces = to_string(light_a) + " and " + to_string(light_b);
+  }
+  const LinearColor color_a(a, wanted.clip, light_a), color_b(b, wanted.clip, light_b);
   const ColorPair pair{color_a.views(), color_b.views()};
   if (wanted.ssim) metrics.ssim = ssim(pair);
   if (wanted.flip) metrics.flip = flip(pair, wanted.observer);
@@ -138,6 +151,9 @@ PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
 std::string to_text(const PictureMetrics& metrics, const WantedMetrics& wanted) {
   std::string text;
   const std::string ppd = number_text(wanted.observer.pixels_per_degree) + " pixels a degree";
+  if (!metrics.spaces.empty()) {
+    text += "  Metrics of color in Rec.709, made of " + metrics.spaces + "\n";
+  }
   if (metrics.ssim) text += "  SSIM = " + to_text(*metrics.ssim) + "\n";
   if (metrics.flip) text += "  FLIP = " + to_text(*metrics.flip) + " (" + ppd + ")\n";
   if (metrics.hdr_flip) {

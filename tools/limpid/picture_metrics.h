@@ -17,6 +17,7 @@ struct WantedMetrics {
   bool all = false;  ///< offset is then computed only for files that have it
   Observer observer;
   std::optional<double> clip;
+  std::optional<Primaries> primaries;  ///< of linear pictures, instead of what they say
 
   bool of_color() const { return ssim || flip || hdr_flip; }
 };
@@ -28,6 +29,7 @@ WantedMetrics wanted_metrics(const CompareArguments& arguments);
 struct PictureMetrics {
   std::optional<Ssim> ssim;
   std::optional<ErrorMap> flip, hdr_flip;
+  std::string spaces;   ///< of the two pictures, where their light was made that of Rec.709
   Exposures exposures;  ///< of hdr_flip
   std::optional<OffsetComparison> offset;
   bool below = false;     ///< lookups used the layer below the water

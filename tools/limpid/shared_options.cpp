@@ -82,7 +82,8 @@ void add_look(CLI::App& verb, WaterOptions& a) {
   for (const AovInfo& info : aovs()) known.emplace_back(info.name);
   verb.add_option("--aov", a.aovs,
                   "Also write these AOVs: all, or a list of " + join(known) +
-                      ", and motion (composite only), for plates with motion vectors")
+                      ", and motion and motion_reflected (composite only), for plates with motion "
+                      "vectors")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -11,6 +11,8 @@
 #include "compared_picture.h"
 #include "composite_job.h"
 #include "data_folder.h"
+#include "given.h"
+#include "job/composite_inputs.h"
 #include "judge/shot/shot.h"
 #include "memory_limit.h"
 #include "notes.h"
@@ -21,20 +23,6 @@ namespace {
 
 /// What every shot is compared with, where it is not the shot's own look.
 constexpr const char* kCompared[] = {"physical", "fast"};
-
-struct Given {
-  const char* option;
-  bool is_given;
-};
-
-template <std::size_t N>
-void refuse_given(const Given (&options)[N], const std::string& expected) {
-  for (const Given& option : options) {
-    if (option.is_given) {
-      throw Error("report " + std::string(option.option) + ": " + expected, Fault::kUsage);
-    }
-  }
-}
 
 /// The looks that the shot's is compared with, with the settings of the command line.
 std::vector<Look> others_of(const ReportArguments& a) {
@@ -56,7 +44,9 @@ ShotOptions options_of(const ReportArguments& a, const CommonArguments& common) 
   options.job = common_job(plate, {}, common);
   options.others = others_of(a);
   if (!a.truth.empty()) {
-    PictureColor color = read_color(a.truth, limits_of(common));
+    PictureColor color =
+        read_color(a.truth, scene_of(options.job, Plate::open(options.job.plate)).primaries,
+                   limits_of(common));
     options.truth = {std::filesystem::path(a.truth).filename().string(), color.display,
                      std::move(color.planes)};
   }
@@ -100,7 +90,7 @@ void expect_no_shot_options(const ReportArguments& a) {
       {"--depth-kind", !c.depth_kind.empty()}, {"--depth-nothing", c.depth_nothing.has_value()},
       {"--colorspace", !c.colorspace.empty()}, {"--truth", !a.truth.empty()},
       {"--against", !a.against.empty()}};
-  refuse_given(given, "is for a shot: expected PLATE... or --scene beside it");
+  refuse_given("report", given, "is for a shot: expected PLATE... or --scene beside it");
 }
 
 int shot_report(const ReportArguments& a, const CommonArguments& common) {
@@ -108,7 +98,8 @@ int shot_report(const ReportArguments& a, const CommonArguments& common) {
                          {"--quick", a.quick},
                          {"--hard", a.hard},
                          {"--gpu", !a.gpu.empty()}};
-  refuse_given(given, "is not for a shot: expected no PLATE, --scene or --layer beside it");
+  refuse_given("report", given,
+               "is not for a shot: expected no PLATE, --scene or --layer beside it");
   const auto executor = executor_of(common);
   ShotOptions options = options_of(a, common);
   expect_apart_from_page(options, a);

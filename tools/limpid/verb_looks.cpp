@@ -12,6 +12,7 @@
 #include "composite_job.h"
 #include "data_folder.h"
 #include "desk/desk.h"
+#include "given.h"
 #include "job/canvas.h"
 #include "known_looks.h"
 #include "notes.h"
@@ -79,7 +80,9 @@ DeskOptions desk_options(LooksArguments a, const CommonArguments& common) {
     plate.layers = {"surface_normal=none"};  // all looks would have the plate's waves
   }
   DeskOptions options;
-  options.job_of = [job = common_job(plate, {}, common)](std::optional<int>) { return job; };
+  const CompositeJob job = common_job(plate, {}, common);
+  expect_one_view(job, "looks");
+  options.job_of = [job](std::optional<int>) { return job; };
   options.looks = known_looks(plate.water.look);
   options.start = plate.water.look;
   return options;
@@ -115,19 +118,25 @@ std::string write_pictures(const LooksArguments& a, const CommonArguments& commo
          " pictures, from left to right in the order of the list\n";
 }
 
-void expect_pictures(const CompositeArguments& a) {
-  if (a.plates.empty() && a.layers.empty() && a.scene.empty() && !a.water.time &&
-      a.colorspace.empty() && a.view.empty() && a.depth_kind.empty() && !a.depth_nothing) {
-    return;
-  }
-  throw Error("limpid looks: a plate is shown in pictures: expected --pictures FILE beside it",
-              Fault::kUsage);
+void expect_no_plate(const CompositeArguments& a) {
+  const Given given[] = {{"PLATE", !a.plates.empty()},
+                         {"--scene", !a.scene.empty()},
+                         {"--layer", !a.layers.empty()},
+                         {"--view", !a.view.empty()},
+                         {"--depth-kind", !a.depth_kind.empty()},
+                         {"--depth-nothing", a.depth_nothing.has_value()},
+                         {"--colorspace", !a.colorspace.empty()},
+                         {"--time", a.water.time.has_value()},
+                         {"--simd", !a.water.simd.empty()},
+                         {"--runner", a.water.runner != WaterOptions{}.runner},
+                         {"--gpu", !a.water.gpu.empty()}};
+  refuse_given("looks", given, "is for pictures of the looks: expected --pictures FILE beside it");
 }
 
 }  // namespace
 
 int looks_verb(const LooksArguments& a, const CommonArguments& common) {
-  if (a.pictures.empty()) expect_pictures(a.composite);
+  if (a.pictures.empty()) expect_no_plate(a.composite);
   const std::string written = a.pictures.empty() ? "" : write_pictures(a, common);
   if (common.quiet && !written.empty()) return 0;
   print_list(known_looks(a.composite.water.look));

@@ -10,6 +10,7 @@
 #include "limpid/plate/plate.h"
 #include "limpid/plate/texture.h"
 
+#include "job/shared_textures.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -85,7 +86,8 @@ Subject subject_of(const SceneFile& file, const ShaderArguments& a) {
     return Subject(scene, plate.read(plate.planes(), scene, depth));
   }();
   if (!file.environment.empty()) {
-    subject.surroundings = load_environment(file.environment, file.environment_rotation);
+    subject.surroundings =
+        load_surroundings({{}, file.environment, file.environment_rotation, scene.primaries});
     subject.frame.environment = subject.surroundings.texture;
   }
   return subject;

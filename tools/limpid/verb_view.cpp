@@ -62,8 +62,10 @@ DeskOptions desk_options(const ViewArguments& a, const CommonArguments& common) 
   options.start = plate.water.look;
   options.settings = plate.water.settings;
   if (!a.reference.empty()) {
-    options.reference = [name = a.reference, common](std::optional<int> frame) {
-      return read_color(frame ? name_of_frame(name, *frame) : name, limits_of(common)).planes;
+    options.reference = [name = a.reference, common](std::optional<int> frame,
+                                                     const Primaries& primaries) {
+      return read_color(frame ? name_of_frame(name, *frame) : name, primaries, limits_of(common))
+          .planes;
     };
   }
   options.display = display;

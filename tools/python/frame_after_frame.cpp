@@ -91,7 +91,8 @@ struct ArrayFrame {
   int channels;  ///< of color
 };
 
-ArrayFrame frame_of(const py::dict& planes, const py::dict& scene, const py::object& display) {
+ArrayFrame frame_of(const py::dict& planes, const py::dict& scene, const Primaries& primaries,
+                    const py::object& display) {
   const Picture color = picture_of(planes["color"], "color");
   const int channels = color.channels;
   if (channels != 3 && channels != 4) expect(color, "color", color.size, 4);
@@ -99,6 +100,7 @@ ArrayFrame frame_of(const py::dict& planes, const py::dict& scene, const py::obj
   HostFrame& frame = made.frame;
   frame.display = rect_of(made.window.size());
   frame.scene = scene_of(scene);
+  frame.scene.primaries = primaries;
   for (const auto& [name, array] : planes) {
     const Role& role = role_named(word_of(name, "a plane"));
     const std::string role_name(role.name);
@@ -151,7 +153,8 @@ const char* verdict_name(Verdict verdict) {
 
 FrameAfterFrame::FrameAfterFrame(const py::dict& conventions, const py::dict& look, int threads,
                                  const std::string& simd, double max_error, const py::dict& runner)
-    : executor_(make_executor(threads)),
+    : primaries_(primaries_of(conventions["colorspace"], "colorspace")),
+      executor_(make_executor(threads)),
       compositor_(std::make_unique<Compositor>(conventions_of(conventions), changed(look),
                                                CompositorOptions{.executor = executor_.get(),
                                                                  .simd = simd,
@@ -189,7 +192,7 @@ py::tuple FrameAfterFrame::run(const py::dict& planes, const py::dict& scene,
                                const py::object& display, const py::object& out,
                                const std::string& dtype, const py::dict& aov_arrays) {
   const Busy busy(busy_);
-  const auto [frame, window, channels] = frame_of(planes, scene, display);
+  const auto [frame, window, channels] = frame_of(planes, scene, primaries_, display);
 
   HostPicture picture;
   const py::object wet = array_or_new(out, window.size(), channels, sample_of(dtype));
@@ -220,7 +223,7 @@ py::tuple FrameAfterFrame::run(const py::dict& planes, const py::dict& scene,
 py::dict FrameAfterFrame::shader(const py::dict& planes, const py::dict& scene,
                                  const py::object& display, const py::dict& keywords) {
   const Busy busy(busy_);
-  const HostFrame frame = frame_of(planes, scene, display).frame;
+  const HostFrame frame = frame_of(planes, scene, primaries_, display).frame;
   const ShaderOptions options = shader_options_of(keywords);
   const ShaderText made = [&] {
     const py::gil_scoped_release unlocked;

@@ -42,6 +42,7 @@ class FrameAfterFrame {
   std::string device() const;  ///< "" where the CPU computes
 
  private:
+  Primaries primaries_;  ///< of all frames
   std::unique_ptr<Executor> executor_;
   std::unique_ptr<Compositor> compositor_;
   pybind11::object wave_map_, environment_;  ///< keep the memory

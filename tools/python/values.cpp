@@ -172,4 +172,22 @@ Sun sun_of(const py::handle& object) {
 
 SkyLight sky_of(const py::handle& object) { return {color_of(object, "sky_radiance")}; }
 
+Primaries primaries_of(const py::handle& object, const std::string& name) {
+  try {
+    if (py::isinstance<py::str>(object)) return color_space_named(object.cast<std::string>());
+    const auto n = numbers_of(object);
+    if (n && n->size() == 8) {
+      const Primaries primaries{
+          {(*n)[0], (*n)[1]}, {(*n)[2], (*n)[3]}, {(*n)[4], (*n)[5]}, {(*n)[6], (*n)[7]}};
+      primaries.validate();
+      return primaries;
+    }
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what());
+  }
+  throw Error(
+      name + " is " + py::repr(object).cast<std::string>() +
+      ", expected the name of a space, or eight numbers: x and y of red, green, blue and white");
+}
+
 }  // namespace limpid::python

@@ -42,5 +42,7 @@ Sun sun_of(const pybind11::handle& object);
 /// Three numbers, likewise.
 Rgb<double> color_of(const pybind11::handle& object, const std::string& name);
 SkyLight sky_of(const pybind11::handle& object);
+/// The name of a space, or eight numbers, as text or as a sequence.
+Primaries primaries_of(const pybind11::handle& object, const std::string& name);
 
 }  // namespace limpid::python

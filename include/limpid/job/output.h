@@ -60,6 +60,10 @@ struct OutputChoice {
   /// the motion where camera and water stand still; what the camera or the waves do to the lookup
   /// from frame to frame is not in them. For composite() alone.
   bool motion = false;
+  /// The same of what the surface mirrors: `motion_reflected`, by the vectors that the plate has
+  /// where the mirrored ray meets what the picture shows (job/motion.h), else 0. For composite()
+  /// alone.
+  bool motion_reflected = false;
   /// Other layers of the plates that are written as they are (Plate::passed() has what the names
   /// mean, "all" among them): names, sample types and bits, beside the picture if they lie in the
   /// part that the color comes from, else in a part of their name. The compression is then one that

@@ -60,6 +60,8 @@ std::span<const RuleInfo> rules();
 struct Plan {
   /// As it will run: models replaced where a rule says so, named waters fitted to the primaries.
   Look look;
+  /// Inputs::primaries: a run in a scene of others is refused, for its colors would be wrong.
+  Primaries primaries = kRec709;
   std::vector<PlannedOperator> operators;  ///< one an operator, in chain order
   StateSet made;                           ///< by the operators that are kept
   PlaneSet planes;                         ///< that must be read from the plate

@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <stop_token>
 #include <string>
 
+#include "limpid/core/error.h"
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/scene.h"
@@ -12,6 +14,17 @@
 #include "limpid/run/target.h"
 
 namespace limpid {
+
+/// A run was broken off because it was asked to. The target then holds no picture: some tiles of
+/// it may be written, others not.
+struct Stopped : Error {
+  Stopped() : Error("stopped: the picture is no longer wanted") {}
+};
+
+/// Throws Stopped if a stop is requested.
+inline void expect_wanted(const std::stop_token& stop) {
+  if (stop.stop_requested()) throw Stopped();
+}
 
 /// The time of a run, in seconds, of all threads together. Reading the clock takes time, too: a
 /// timed run is some percent slower.
@@ -29,6 +42,8 @@ struct FusedOptions {
   /// Whether refraction's march skips lookups that Heights proves to be misses. The bits are the
   /// same without; a test compares them.
   bool leaps = true;
+  /// Once a stop is requested no tile begins any more, and the run throws Stopped.
+  std::stop_token stop = {};
 };
 
 /// The fast runner: one pass over tiles in float SIMD lanes, no intermediate pictures. Before it, a
@@ -45,8 +60,8 @@ class FusedRunner {
   FusedRunner& operator=(FusedRunner&&) noexcept;
   ~FusedRunner();
 
-  /// Throws Error as run_reference does, and for an instruction set that is not there. A plane may
-  /// span at most 2^31 floats.
+  /// Throws Error as run_reference does, and for an instruction set that is not there; Stopped
+  /// where that was requested. A plane may span at most 2^31 floats.
   void run(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
            Executor& executor, const FusedOptions& options = {});
 

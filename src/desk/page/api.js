@@ -8,19 +8,24 @@ export class Refused extends Error {
   }
 }
 
+// The picture is no longer wanted: by this page, or by another one of this desk (status 410).
+export class Stopped extends Error {}
+
 // Nobody answers: the tool has ended.
 export class Gone extends Error {}
 
-async function reply(name, body) {
+async function reply(name, body, signal) {
   let response;
   try {
     response = await fetch("api/" + name, body && {
-      method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body),
+      method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body), signal,
     });
   } catch (cause) {
+    if (signal?.aborted) throw new Stopped();
     throw new Gone("limpid does not answer", {cause});
   }
   if (response.ok) return response;
+  if (response.status === 410) throw new Stopped();
   const text = await response.text();
   let sentence = text;
   try {
@@ -37,12 +42,13 @@ export const save = (request) => json("save", request);
 export const command = (request) => json("command", request);
 
 // What there is to say of the picture, with "image", its ImageData: four bytes of length, that much JSON, the pixels.
-export async function picture(request) {
-  const response = await reply("picture", request);
+export async function picture(request, signal) {
+  const response = await reply("picture", request, signal);
   let bytes;
   try {
     bytes = await response.arrayBuffer();
   } catch (cause) {
+    if (signal.aborted) throw new Stopped();
     throw new Gone("limpid ended while it answered", {cause});
   }
   const length = new DataView(bytes).getUint32(0, true);

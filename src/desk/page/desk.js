@@ -307,5 +307,6 @@ window.desk = {
   next: () => new Promise((tell) => watching.push(tell)),  // picture, of half or full size
   get state() { return history.now; },
   get asked() { return pictures.asked; },
+  get broken() { return pictures.broken; },
   get isGone() { return isGone; },
 };

@@ -129,6 +129,8 @@ class Compositor:
     clip: the projections' range of clip z: "gl", "d3d" (Vulkan) or "reversed"
     looks_along_plus_z: view space looks down +Z
     clip_y_down: clip y = +1 is the lowest row, as in Vulkan
+    colorspace: what red, green and blue are, of frames and looks alike: the name of a linear space
+        ("ACEScg"), or eight numbers, x and y of red, green, blue and white
     trusted: you vouch for the arrays (no NaN, shadows within 0 ... 1, unit normals): nothing is checked
     threads: 0 is one for each core
     simd: "" is the best of this machine; "avx512", "avx2", "sse4", "neon", "scalar"
@@ -145,10 +147,12 @@ class Compositor:
     def __init__(self, *, look: Mapping | None = None, wave_map: np.ndarray | None = None,
                  environment: np.ndarray | None = None, depth_kind: str = "eye", near: float = 0.0,
                  far: float = 0.0, clip: str = "gl", looks_along_plus_z: bool = False,
-                 clip_y_down: bool = False, trusted: bool = False, threads: int = 0, simd: str = "",
-                 max_error: float = 0.0, runner: str = "fused", gpu: str = "", gpu_cache: str = ""):
+                 clip_y_down: bool = False, colorspace: str | Sequence[float] = "Rec.709",
+                 trusted: bool = False, threads: int = 0, simd: str = "", max_error: float = 0.0,
+                 runner: str = "fused", gpu: str = "", gpu_cache: str = ""):
         conventions = {"depth_kind": depth_kind, "near": near, "far": far, "clip": clip,
-                       "looks_along_plus_z": looks_along_plus_z, "clip_y_down": clip_y_down, "trusted": trusted}
+                       "looks_along_plus_z": looks_along_plus_z, "clip_y_down": clip_y_down,
+                       "colorspace": colorspace, "trusted": trusted}
         self._core = _limpid.Compositor(conventions, _plain(look), threads, simd, max_error,
                                         {"runner": runner, "gpu": gpu, "gpu_cache": gpu_cache})
         self._core.set_wave_map(wave_map)
@@ -275,9 +279,9 @@ class Compositor:
 def composite(*, look: Mapping | None = None, wave_map: np.ndarray | None = None,
               environment: np.ndarray | None = None, depth_kind: str = "eye", near: float = 0.0,
               far: float = 0.0, clip: str = "gl", looks_along_plus_z: bool = False,
-              clip_y_down: bool = False, trusted: bool = False, threads: int = 0, simd: str = "",
-              max_error: float = 0.0, runner: str = "fused", gpu: str = "", gpu_cache: str = "",
-              **frame: Any) -> Any:
+              clip_y_down: bool = False, colorspace: str | Sequence[float] = "Rec.709",
+              trusted: bool = False, threads: int = 0, simd: str = "", max_error: float = 0.0,
+              runner: str = "fused", gpu: str = "", gpu_cache: str = "", **frame: Any) -> Any:
     """One frame with water in it: these keywords as in Compositor, all others as in Compositor.run.
 
     wet = composite(color=rgba, depth=z, camera=camera, water={}, look=load_look("realistic"))
@@ -285,8 +289,9 @@ def composite(*, look: Mapping | None = None, wave_map: np.ndarray | None = None
     """
     compositor = Compositor(look=look, wave_map=wave_map, environment=environment, depth_kind=depth_kind,
                             near=near, far=far, clip=clip, looks_along_plus_z=looks_along_plus_z,
-                            clip_y_down=clip_y_down, trusted=trusted, threads=threads, simd=simd,
-                            max_error=max_error, runner=runner, gpu=gpu, gpu_cache=gpu_cache)
+                            clip_y_down=clip_y_down, colorspace=colorspace, trusted=trusted,
+                            threads=threads, simd=simd, max_error=max_error, runner=runner, gpu=gpu,
+                            gpu_cache=gpu_cache)
     return compositor.run(**frame)
 
 
