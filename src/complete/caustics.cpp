@@ -31,6 +31,7 @@ constexpr const CausticsTarget* kTargets[] = {
 };
 
 constexpr int kLooks = 320;      ///< along the longer side of the picture
+constexpr int kWeighed = 160;    ///< likewise, of sunlit bottoms
 constexpr double kMaxSun = 100;  ///< over the rest of the light, where that is almost nothing
 /// At which light is followed, of all levels: for each pixel, and at least as many as these; but no
 /// more than 64 for each pixel.
@@ -38,8 +39,51 @@ constexpr double kPointsOfPixel = 0.5, kPoints = 1e6, kMaxPointsOfPixel = 64;
 constexpr std::size_t kEvery = 7;  ///< of these is asked how wide texels shall be
 constexpr double kFine = 0.05;     ///< share of the pixels that may want finer texels
 constexpr double kSpread = 4;      ///< times the depth at which light begins to fold
+/// Likewise: above it, rays two texels apart err less than those one apart, which overlap by
+/// roundings; if the shortest wave is so many texels long.
+constexpr double kSmooth = 0.2, kFinePerWave = 20;
 constexpr double kLowSun =
     0.42;  ///< its height as a sine, 25 degrees: below, waves let in more or less
+
+/// Of one row of the picture: what the dry scene shows below the calm surface.
+class BottomRow {
+ public:
+  /// Places go evenly along the row, at the eye and for each unit of depth.
+  BottomRow(const Pass& c, const Sunlight& sun, int y, double deepest, bool mirrored)
+      : heights_(c, y),
+        aside_(sun.aside),
+        deepest_(deepest),
+        sign_(mirrored ? 1 : -1),
+        from_air_(c.eye_above > 0) {
+    const double column = 0.5 - c.corner.x, row = y - c.corner.y + 0.5;
+    const auto on_map = [&](const glm::dvec3& v) {
+      return glm::dvec2(glm::dot(c.map_x, v), glm::dot(c.map_y, v));
+    };
+    origin_ = on_map(c.rays.origin_at(column, row)), origin_step_ = on_map(c.rays.origin_dx);
+    ray_ = on_map(c.rays.ray_at(column, row)), ray_step_ = on_map(c.rays.ray_dx);
+  }
+
+  /// Where a view from the air meets no bottom the water is as deep as it may be, if that is known.
+  CausticsBottom at(int x, double depth) const {
+    const bool hit = depth < 1e30;
+    const bool endless = !hit && deepest_ < HUGE_VAL && from_air_;
+    const double at = endless ? heights_.depth_at(x, 0) : depth;
+    if (!(depth > 0 && at > 0 && at < 1e30)) return {};
+    const double bottom = hit ? sign_ * heights_.at(x, at) : deepest_;
+    if (!(bottom > 0)) return {};
+    const glm::dvec2 point =
+        origin_ + double(x) * origin_step_ + at * (ray_ + double(x) * ray_step_);
+    const glm::dvec2 let_in = point - (hit ? bottom : 0) * aside_;
+    return {static_cast<float>(let_in.x), static_cast<float>(let_in.y),
+            static_cast<float>(std::min(bottom, deepest_))};
+  }
+
+ private:
+  RowHeights heights_;
+  glm::dvec2 origin_, origin_step_, ray_, ray_step_, aside_;
+  double deepest_, sign_;
+  bool from_air_;
+};
 
 double deviation_of(const WaveRows& waves, double depth, double focus) {
   return depth * focus * waves.slope();
@@ -88,7 +132,7 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
   const auto level_of = [&](int i) -> CausticsLevel& {
     return levels_[static_cast<std::size_t>(i)];
   };
-  run_each(executor, count, [&](int i) { level_of(i).find_bottom(samples_, *alone_); });
+  run_each(executor, count, [&](int i) { level_of(i).find_bottom(bottoms_, *alone_); });
   run_each(executor, count * kBands,
            [&](int i) { level_of(i / kBands).send(waves_, sun, target, i % kBands); });
   run_each(executor, count * kBands,
@@ -109,7 +153,7 @@ void CausticsMaker::weigh_sun(const Frame& frame, const Pass& c, Executor& execu
   if (!c.planes.covers(kSunColorPlanes | PlaneSet{PlaneId::kShadow})) return;
   constexpr float kLit = 0.95f;
   const Rect work = frame.work();
-  const int step = std::max(4, std::max(work.width(), work.height()) / kLooks);
+  const int step = std::max(4, std::max(work.width(), work.height()) / kWeighed);
   const int rows = (work.height() + step - 1) / step;
   weights_.resize(static_cast<std::size_t>(rows));
   each_row(executor, {0, 0, 1, rows}, [&](int row) {
@@ -148,26 +192,32 @@ void CausticsMaker::look(const Frame& frame, const Pass& c, const Sunlight& sun,
   const auto looks_at = [&](const View<const float>& depth) {
     return static_cast<std::size_t>(looks(depth.window.width())) * looks(depth.window.height());
   };
-  samples_.resize(looks_at(dry) + (mirrors ? looks_at(image) : 0));
-  const auto take_in = [&](const View<const float>& depth, bool mirrored, CausticsSample* first) {
+  bottoms_.resize(looks_at(dry) + (mirrors ? looks_at(image) : 0));
+  sights_.resize((bottoms_.size() + kEvery - 1) / kEvery);
+  const auto take_in = [&](const View<const float>& depth, bool mirrored, std::size_t begin) {
     const int columns = looks(depth.window.width());
     each_row(executor, {0, 0, columns, looks(depth.window.height())}, [&](int row) {
       const int y = depth.window.y0 + row * step_;
+      const BottomRow bottoms(c, sun, y, table_.depth, mirrored);
+      const std::size_t first = begin + static_cast<std::size_t>(row) * columns;
       for (int column = 0; column < columns; ++column) {
         const int x = depth.window.x0 + column * step_;
-        first[std::ptrdiff_t{row} * columns + column] =
-            look_at(c, sun, x, y, depth.at(x, y), mirrored);
+        const std::size_t nth = first + static_cast<std::size_t>(column);
+        const double far = depth.at(x, y);
+        bottoms_[nth] = bottoms.at(x, far);
+        if (nth % kEvery == 0) sights_[nth / kEvery] = look_at(c, sun, x, y, far, mirrored);
       }
     });
   };
-  take_in(dry, false, samples_.data());
-  if (mirrors) take_in(image, true, samples_.data() + looks_at(dry));
+  take_in(dry, false, 0);
+  if (mirrors) take_in(image, true, looks_at(dry));
+  std::erase_if(sights_, [](const CausticsSight& s) { return !(s.depth > 0); });
 }
 
-CausticsSample CausticsMaker::look_at(const Pass& c, const Sunlight& sun, int x, int y, double far,
-                                      bool mirrored) const {
+CausticsSight CausticsMaker::look_at(const Pass& c, const Sunlight& sun, int x, int y, double far,
+                                     bool mirrored) const {
   const double at_x = x - c.corner.x + 0.5, at_y = y - c.corner.y + 0.5;
-  CausticsSample to{};
+  CausticsSight to{};
   const bool hit = far < 1e30;
   if (!(far > 0 && (hit || within_water()))) return to;
   const glm::dvec3 ray = c.rays.ray_at(at_x, at_y), origin = c.rays.origin_at(at_x, at_y);
@@ -183,8 +233,6 @@ CausticsSample CausticsMaker::look_at(const Pass& c, const Sunlight& sun, int x,
   const auto entry = [&](const glm::dvec3& p, double sunk) {
     return glm::dvec2(glm::dot(c.map_x, p), glm::dot(c.map_y, p)) - sunk * sun.aside;
   };
-  const glm::dvec2 let_in = entry(point, hit ? bottom : 0);
-  to.x = static_cast<float>(let_in.x), to.y = static_cast<float>(let_in.y);
   to.depth = static_cast<float>(under);
   const double cosine = std::abs(fall) / length;
   glm::dvec3 seen = point, enters = point;
@@ -208,9 +256,7 @@ CausticsSample CausticsMaker::look_at(const Pass& c, const Sunlight& sun, int x,
 void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun) {
   wanted_.clear();
   double deepest = 0, sum = 0;
-  for (std::size_t k = 0; k < samples_.size(); k += kEvery) {
-    const CausticsSample& s = samples_[k];
-    if (!(s.depth > 0)) continue;
+  for (const CausticsSight& s : sights_) {
     wanted_.push_back(s.texel);
     deepest = std::max<double>(deepest, s.depth);
     sum += s.depth;
@@ -252,15 +298,15 @@ bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
     const double texel = layout.texel = std::ldexp(1, exponent + i);
     if (texel > widest) break;
     Octagon seen;
-    double depth = 0, count = 0;
-    for (std::size_t k = 0; k < samples_.size(); k += kEvery) {
-      const CausticsSample& s = samples_[k];
+    double depth = 0, deep = 0, count = 0;
+    for (const CausticsSight& s : sights_) {
       const double wanted = scale * s.texel;
       const bool finer = i > 0 && wanted < 0.5 * texel && !within_water();
-      if (!(s.depth > 0) || wanted > 2 * texel || finer) continue;
+      if (wanted > 2 * texel || finer) continue;
       seen.take_in({s.seen_x, s.seen_y});
       if (within_water()) seen.take_in({s.enters_x, s.enters_y});
       depth += s.depth, count += 1;
+      deep = std::max<double>(deep, s.depth);
     }
     if (!(count > 0)) continue;
     if (levels_.size() <= static_cast<std::size_t>(i))
@@ -280,13 +326,20 @@ bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
     const double aside = 3 * deviation_of(waves, std::min(2 * layout.depth, deepest), sun.focus);
     layout.margin = static_cast<int>(std::min(aside / texel + 2, 64.0));
     // Waves shorter than a texel send light in directions of their own all over it; far below
-    // where they focus it, neighbouring rays are farther apart than a ray may be wide.
-    const bool spread = layout.depth * sun.focus * waves.curvature() > kSpread;
-    layout.density = texel > waves.shortest() / 3 ? 4 : spread ? 2 : 1;
+    // where they focus it, neighbouring rays are farther apart than a ray may be wide. Where they
+    // hardly focus it, it is as smooth as they are.
+    const double focused = sun.focus * waves.curvature();
+    if (texel > waves.shortest() / 3) {
+      layout.spacing = 0.25;
+    } else if (layout.depth * focused > kSpread) {
+      layout.spacing = 0.5;
+    } else if (deep * focused < kSmooth && texel < waves.shortest() / kFinePerWave) {
+      layout.spacing = 2;
+    }
     layout.coarse = step_ < 4 ? 2 : 4;
     CausticsLevel& level = levels_[static_cast<std::size_t>(i)];
     level.lay_out(layout);
-    points += level.rays();
+    points += level.points();
   }
   const double pixels = double(pass.size.x) * pass.size.y;
   return points <= std::min(std::max(kPoints, kPointsOfPixel * pixels), kMaxPointsOfPixel * pixels);

@@ -20,8 +20,8 @@ namespace limpid {
 /// The bottom's depth is that of the frame's planes, over the place where calm water lets light in,
 /// drawn on where nobody sees it; where two bottoms lie below one place, their mean. Light goes to
 /// the table bilinearly; a filter of three texels along each axis undoes what that blurs, and blurs
-/// by the sun's disc. The same for any number of threads. Keeps its memory from frame to frame. 20
-/// to 35 ms for 1920x1080 pixels on one thread, that of the bottom as that in the water.
+/// by the sun's disc. The same for any number of threads. Keeps its memory from frame to frame. 5
+/// ms for 1920x1080 pixels on one thread with AVX-512, twice as long where light is focused.
 class CausticsMaker {
  public:
   /// Valid until the next call. A table without levels if the sun is down, or the waves focus less
@@ -39,8 +39,8 @@ class CausticsMaker {
   void weigh_sun(const Frame& frame, const Pass& pass, Executor& executor);
   bool within_water() const { return table_.depth < HUGE_VAL; }
   void look(const Frame& frame, const Pass& pass, const Sunlight& sun, Executor& executor);
-  CausticsSample look_at(const Pass& pass, const Sunlight& sun, int x, int y, double depth,
-                         bool mirrored) const;
+  CausticsSight look_at(const Pass& pass, const Sunlight& sun, int x, int y, double depth,
+                        bool mirrored) const;
   void lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun);
   bool lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun, double scale,
                int exponent, double widest, double deepest);
@@ -51,8 +51,9 @@ class CausticsMaker {
 
   WaveRows waves_;
   std::vector<Weights> weights_;  ///< of rows of the picture
-  std::vector<CausticsSample> samples_;
-  int step_ = 1;  ///< pixels from one to the next
+  std::vector<CausticsBottom> bottoms_;
+  std::vector<CausticsSight> sights_;  ///< of each kEvery bottoms
+  int step_ = 1;                       ///< pixels from one bottom to the next
   std::vector<CausticsLevel> levels_;
   std::vector<float> wanted_;
   std::unique_ptr<Executor> alone_;  ///< for work within a task

@@ -34,15 +34,14 @@ void CausticsLevel::lay_out(const Layout& layout) {
     spans_[static_cast<std::size_t>(k)] = {std::max(column(begin), 0),
                                            std::min(column(end) + 2, layout.size.width)};
   }
-  const int down = (layout.size.height + 2 * layout.margin) * layout.density;
+  const int down = rays_over(layout.size.height);
   rays_.resize(static_cast<std::size_t>(down));
   for (int row = 0; row < down; ++row) {
-    const int at = row / layout.density - layout.margin;
+    const int at = static_cast<int>(row * layout.spacing) - layout.margin;
     const Span span = seen_in(at - layout.margin, at + layout.margin + 1);
     rays_[static_cast<std::size_t>(row)] =
-        span.empty()
-            ? Span{0, 0}
-            : Span{span.begin * layout.density, (span.end + 2 * layout.margin) * layout.density};
+        span.empty() ? Span{0, 0}
+                     : Span{static_cast<int>(span.begin / layout.spacing), rays_over(span.end)};
   }
 }
 
@@ -57,15 +56,20 @@ CausticsLevel::Span CausticsLevel::seen_in(int begin, int end) const {
   return sum;
 }
 
-double CausticsLevel::rays() const {
+/// To be followed, from the margin's begin to its end beyond so many texels.
+int CausticsLevel::rays_over(int texels) const {
+  return static_cast<int>(std::ceil((texels + 2 * layout_.margin) / layout_.spacing));
+}
+
+double CausticsLevel::points() const {
   double sum = 0;
   for (const Span& span : rays_) sum += span.end - span.begin;
-  return sum;
+  return sum * std::max(layout_.spacing * layout_.spacing, 1.0);
 }
 
 /// Means of what is seen in each cell, drawn on over those in which nothing is. Where the upper
 /// edge of a cliff shades its foot light meets the edge.
-void CausticsLevel::find_bottom(std::span<const CausticsSample> samples, Executor& executor) {
+void CausticsLevel::find_bottom(std::span<const CausticsBottom> samples, Executor& executor) {
   if (!light_ || light_.view().window != rect_of(layout_.size)) {
     light_ = Plane(rect_of(layout_.size));
   }
@@ -84,7 +88,7 @@ void CausticsLevel::find_bottom(std::span<const CausticsSample> samples, Executo
   places_.resize(samples.size());
   const float across = static_cast<float>(cells_.width), down = static_cast<float>(cells_.height);
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const CausticsSample& s = samples[k];
+    const CausticsBottom& s = samples[k];
     const float x = (s.x - first_x) * per_cell, y = (s.y - first_y) * per_cell;
     const bool counts = s.depth > 0 && x >= 0 && y >= 0 && x < across && y < down;
     places_[k] = counts ? static_cast<int>(y) * cells_.width + static_cast<int>(x) : -1;
@@ -136,9 +140,9 @@ void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const Caust
   const Size size = layout_.size;
   kept.light.resize(static_cast<std::size_t>(stride()) * (size.height + 2 * kBorder));
   kept.first = 0, kept.last = -1;
-  const int density = layout_.density;
-  const int across = (size.width + 2 * layout_.margin) * density;
-  const int down = (size.height + 2 * layout_.margin) * density;
+  const double own = layout_.spacing;
+  const int across = rays_over(size.width), down = rays_over(size.height);
+  const int widest = own > 1 ? 3 : 2;
   const int begin = static_cast<int>(std::int64_t{down} * band / kBands);
   const int end = static_cast<int>(std::int64_t{down} * (band + 1) / kBands);
   const std::ptrdiff_t whole = across + 4 * kRoom;
@@ -152,7 +156,7 @@ void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const Caust
     return LitRow{row_at(nth), row_at(nth + 1), row_at(nth + 2)};
   };
 
-  const double own = 1.0 / density, step = layout_.texel * own;
+  const double step = layout_.texel * own;
   const double first = (0.5 * own - 0.5) - layout_.margin;
   LightRow job{
       .sun_x = static_cast<float>(sun.to_sun.x),
@@ -205,12 +209,12 @@ void CausticsLevel::send(const WaveRows& waves, const Sunlight& sun, const Caust
       return LitRow{lit.x + span.begin, lit.y + span.begin, lit.power + span.begin};
     };
     const int count = span.end - span.begin;
-    const RowsHit hit = target.spread(
-        {part_of(row - 1), part_of(row), part_of(row + 1), size.width, size.height, stride()},
-        count, to);
+    const RowsHit hit = target.spread({part_of(row - 1), part_of(row), part_of(row + 1), size.width,
+                                       size.height, stride(), widest},
+                                      count, to);
     if (hit.last < hit.first) continue;
     reach(kept, hit);
-    target.splat(to, count, stride(), kept.light.data());
+    target.splat(to, count, stride(), widest, kept.light.data());
   }
 }
 

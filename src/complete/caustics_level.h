@@ -17,11 +17,16 @@
 
 namespace limpid {
 
-/// What is seen of the bottom by one pixel of a few.
-struct CausticsSample {
-  float x, y, depth;         ///< where calm water lets light in that goes there; 0: not under water
-  float seen_x, seen_y;      ///< the same of what a pixel of the water sees
-  float texel;               ///< how wide it wants them; 0: the pixel is dry
+/// The bottom at one pixel of a few: where calm water lets light in that goes there.
+struct CausticsBottom {
+  float x, y, depth;  ///< 0: not under water
+};
+
+/// What one pixel of the water of those sees of the bottom.
+struct CausticsSight {
+  float depth;               ///< 0: the pixel is dry
+  float seen_x, seen_y;      ///< where calm water lets light in that goes there
+  float texel;               ///< how wide it wants them
   float enters_x, enters_y;  ///< where it begins to see them: there, or where it enters the water
 };
 
@@ -64,7 +69,7 @@ class CausticsLevel {
     glm::dvec2 corner{0, 0};
     double texel = 1, depth = 0;  ///< mean
     Size size{0, 0};
-    int density = 1;  ///< rays along a texel
+    double spacing = 1;  ///< of rays, in texels: 2, 1, 1/2 or 1/4
     int margin = 0;
     int coarse = 2;  ///< texels along a cell of the bottom
     Octagon seen;    ///< rays that end outside are not traced
@@ -73,10 +78,10 @@ class CausticsLevel {
   bool empty() const { return layout_.size.width == 0; }
   const Layout& layout() const { return layout_; }
   void leave_out() { layout_.size = {0, 0}; }
-  /// That will be followed.
-  double rays() const;
+  /// Texels that light is followed to, or rays where those are more.
+  double points() const;
 
-  void find_bottom(std::span<const CausticsSample> samples, Executor& executor);
+  void find_bottom(std::span<const CausticsBottom> samples, Executor& executor);
   void send(const WaveRows& waves, const Sunlight& sun, const CausticsTarget& target, int band);
   void finish(const Sunlight& sun, const CausticsTarget& target, int band);
 
@@ -102,6 +107,7 @@ class CausticsLevel {
   };
 
   int stride() const { return layout_.size.width + 2 * kBorder + 4; }
+  int rays_over(int texels) const;
   Span seen_in(int begin, int end) const;
   void reach(Band& band, RowsHit rows) const;
 

@@ -140,20 +140,21 @@ void follow(const LightRow& light, int count, const SurfaceRow& surface, const L
 /// Parts of a row whose rays alternate; spread() ends rows with as many rays without light.
 constexpr int kTurns = 8;
 
-/// Of a box as wide as the ray, around it, what lies on each of three texels from the first one on:
+/// Of a box as wide as the ray, around it, what lies on each of four texels from the first one on:
 /// `wide` in all. A ray is at least a texel wide, or the table would be grainy where light is
 /// focused.
 struct Parts {
-  Lane first, wide, parts[3];
+  Lane first, wide, parts[4];
 
-  LIMPID_LANES_INLINE Parts(Lane at, Lane along, Lane across) {
+  LIMPID_LANES_INLINE Parts(Lane at, Lane along, Lane across, Lane widest) {
     const Lane one(1), square = along * along + across * across;
-    wide = sqrt(min(max(square, Lane(1)), Lane(4)));
+    wide = sqrt(min(max(square, Lane(1)), widest * widest));
     const Lane begin = at - Lane(0.5) * wide + Lane(0.5);
     first = floor(begin);
     const Lane rest = first + one - begin;
     const Lane until = min(rest, wide), next = min(rest + one, wide);
-    parts[0] = until, parts[1] = next - until, parts[2] = wide - next;
+    const Lane third = min(rest + one + one, wide);
+    parts[0] = until, parts[1] = next - until, parts[2] = third - next, parts[3] = wide - third;
   }
   LIMPID_LANES_INLINE Mask within(int count) const {
     return first > Lane(-3) && first < Lane(count);
@@ -161,14 +162,14 @@ struct Parts {
 };
 
 RowsHit spread(const BeamRow& beams, int count, const SplatRow& to) {
-  const Lane half(0.5), none(0);
+  const Lane half(0.5), none(0), widest(beams.widest);
   const auto load = [](const float* at) LIMPID_LANES_LAMBDA { return Lane(hn::LoadU(kD, at)); };
   Lane least_row(1e9), most_row(-1e9);
   for (int i = 0; i < count + kTurns; i += kLanes) {
     const auto parts = [&](const float* above, const float* here,
                            const float* below) LIMPID_LANES_LAMBDA {
       return Parts(load(here + i), half * (load(here + i + 1) - load(here + i - 1)),
-                   half * (load(below + i) - load(above + i)));
+                   half * (load(below + i) - load(above + i)), widest);
     };
     const Parts x = parts(beams.above.x, beams.here.x, beams.below.x);
     const Parts y = parts(beams.above.y, beams.here.y, beams.below.y);
@@ -180,32 +181,39 @@ RowsHit spread(const BeamRow& beams, int count, const SplatRow& to) {
     const VI texel = hn::Add(line, whole_of(select(inside, x.first, Lane(-3)) + Lane(3)));
     hn::StoreU(texel, kDI, to.texel + i);
     hn::StoreInterleaved4((power * x.parts[0]).v, (power * x.parts[1]).v, (power * x.parts[2]).v,
-                          none.v, kD, to.along + 4 * i);
-    hn::StoreInterleaved4(y.parts[0].v, y.parts[1].v, y.parts[2].v, none.v, kD, to.down + 4 * i);
+                          (power * x.parts[3]).v, kD, to.along + 4 * i);
+    hn::StoreInterleaved4(y.parts[0].v, y.parts[1].v, y.parts[2].v, y.parts[3].v, kD,
+                          to.down + 4 * i);
     least_row = min(least_row, select(inside, y.first, Lane(1e9)));
     most_row = max(most_row, select(inside, y.first, Lane(-1e9)));
   }
   const float first = least(least_row), last = greatest(most_row);
   if (first > last) return {0, -1};
-  return {static_cast<int>(first), static_cast<int>(last) + 2};
+  return {static_cast<int>(first), static_cast<int>(last) + beams.widest};
 }
 
 /// Rays side by side hit the same texels, and a load waits for a store that it overlaps in part:
 /// rays of several parts of the row take turns.
-void splat(const SplatRow& from, int count, int stride, float* light) {
+template <int kRows>
+void splat_rows(const SplatRow& from, int count, int stride, float* light) {
   const int each = (count + kTurns - 1) / kTurns;
   for (int i = 0; i < each; ++i) {
     for (int turn = 0; turn < kTurns; ++turn) {
       const int ray = turn * each + i;
       float* texel = light + from.texel[ray];
       const float *along = from.along + 4 * ray, *down = from.down + 4 * ray;
-      for (int row = 0; row < 3; ++row) {
+      for (int row = 0; row < kRows; ++row) {
         float sum[4];  // all are read before one is written: that may be a vector
         for (int k = 0; k < 4; ++k) sum[k] = texel[row * stride + k] + down[row] * along[k];
         for (int k = 0; k < 4; ++k) texel[row * stride + k] = sum[k];
       }
     }
   }
+}
+
+void splat(const SplatRow& from, int count, int stride, int widest, float* light) {
+  if (widest == 2) return splat_rows<3>(from, count, stride, light);
+  splat_rows<4>(from, count, stride, light);
 }
 
 Extremes filter(const FilterRow& row, int count, float* to) {

@@ -43,14 +43,15 @@ struct LitRow {
   float *x, *y, *power;
 };
 
-/// Light as it is laid into the table. A ray is as wide as neighbouring rays are apart.
+/// Light as it is laid into the table. A ray is as wide as neighbouring rays are apart, and never
+/// wider than `widest` texels, 2 or 3.
 struct BeamRow {
   LitRow above, here, below;  ///< three rows of rays; they have a ray more at both ends
   int width, height, stride;  ///< of the table, and from one of its rows to the next in memory
+  int widest;
 };
 
-/// What a ray adds to three rows of the table, from the first texel on: of each three texels and
-/// one that gets nothing, so that a row is a vector of four.
+/// What a ray adds to `widest` + 1 rows of the table, from the first texel on: of each four texels.
 struct SplatRow {
   int* texel;
   float *along, *down;  ///< four per ray: light of each column, share of each row
@@ -79,7 +80,7 @@ struct CausticsTarget {
   void (*read_tile)(const TileRow& tile, int count, const SurfaceRow& to);
   void (*follow)(const LightRow& light, int count, const SurfaceRow& surface, const LitRow& to);
   RowsHit (*spread)(const BeamRow& beams, int count, const SplatRow& to);
-  void (*splat)(const SplatRow& from, int count, int stride, float* light);
+  void (*splat)(const SplatRow& from, int count, int stride, int widest, float* light);
   /// to[i] = (1 - v) here[i] + v / 2 (before[i] + after[i]), v = min(spread depth[i]^2 - blur,
   /// 2/3).
   Extremes (*filter)(const FilterRow& row, int count, float* to);

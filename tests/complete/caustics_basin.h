@@ -22,12 +22,13 @@ namespace limpid::test {
 constexpr double kIor = 1.333, kCell = 0.01;
 constexpr int kSide = 192, kBorder = 24;  // pixels of a cell; those not judged
 
-/// Short waves in all directions, the root mean square of whose slopes is this.
-inline std::vector<SineWave> waves_of(double slope) {
+/// Waves in all directions, the root mean square of whose slopes is this: short ones, or so many
+/// times as long.
+inline std::vector<SineWave> waves_of(double slope, double longer = 1) {
   std::vector<SineWave> waves;
   const double lengths[] = {1.3, 0.9, 0.62, 0.43, 0.35, 0.27, 0.22, 0.18};
   for (int i = 0; i < 8; ++i) {
-    const double k = 2 * std::numbers::pi / lengths[i], angle = 2.4 * i;
+    const double k = 2 * std::numbers::pi / (longer * lengths[i]), angle = 2.4 * i;
     waves.push_back({.amplitude = slope * std::sqrt(2.0 / 8) / k,
                      .k_x = k * std::cos(angle),
                      .k_y = k * std::sin(angle),
@@ -63,7 +64,7 @@ enum class Told { kBySines, kByMap, kBySlopesOfMap, kByNormals };
 struct Basin {
   std::function<double(double x, double y)> deep;
   double sun_height = 40, sun_turn = 30;  ///< degrees, from x towards y
-  double slope = 0.12, time = 0;
+  double slope = 0.12, longer = 1, time = 0;
   bool cliff = false;  ///< along x = 0, between two levels
   Told told = Told::kBySines;
   Scene scene;
@@ -78,7 +79,7 @@ struct Basin {
   }
   bool of_map() const { return told == Told::kByMap || told == Told::kBySlopesOfMap; }
   std::vector<SineWave> waves() const {
-    return of_map() ? periodic_waves_of(slope) : waves_of(slope);
+    return of_map() ? periodic_waves_of(slope) : waves_of(slope, longer);
   }
   /// Only sines tell the water's height, and normals nothing beyond the picture.
   WaveHeight surface(const std::vector<SineWave>& of, double x, double y) const {

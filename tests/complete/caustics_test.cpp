@@ -25,6 +25,22 @@ TEST(Caustics, OnAFlatBottomAreLightThatIsFollowed) {
   }
 }
 
+// Long waves hardly focus it: a ray for four texels leaves less of an error than one for each does.
+TEST(Caustics, OfLongWavesAreLightThatIsFollowed) {
+  for (const double deep : {0.3, 1.0}) {
+    for (const double sun : {20.0, 40.0, 60.0}) {
+      if (kSanitized && (deep != 1 || sun != 40)) continue;
+      Basin basin;
+      basin.deep = [=](double x, double y) { return deep + 0.1 * x - 0.05 * y; };
+      basin.sun_height = sun, basin.slope = 0.035, basin.longer = 5;
+      const Beside b = judge(basin, kAll);
+      EXPECT_LE(b.error, 0.004) << deep << " " << sun;
+      EXPECT_LE(b.error, 0.12 * b.contrast) << deep << " " << sun;
+      EXPECT_NEAR(b.table_energy / b.energy, 1, 0.005) << deep << " " << sun;
+    }
+  }
+}
+
 // The sun so low that waves let in more or less of its light, and that it grazes their backs.
 TEST(Caustics, OfALowSunAreLightThatIsFollowed) {
   for (const double deep : {0.5, 2.0}) {
