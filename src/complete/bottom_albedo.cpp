@@ -25,6 +25,20 @@ Rect window_of(const Frame& frame) {
   return intersection(window, frame.plane(PlaneId::kDepth).window);
 }
 
+/// How much of the window through which the views of a picture begin lies over the calm water.
+double share_in_air(const Pass& c) {
+  if (!c.submersible) return 1;
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (const double x : {0, c.size.x}) {
+    for (const double y : {0, c.size.y}) {
+      const glm::dvec3 corner = c.rays.origin_at(x, y) + c.near * c.rays.ray_at(x, y);
+      const double height = c.eye_above + glm::dot(c.up, corner);
+      lowest = std::min(lowest, height), highest = std::max(highest, height);
+    }
+  }
+  return lowest < 0 ? std::max(highest, 0.0) / (highest - lowest) : 1;
+}
+
 }  // namespace
 
 /// Sums the cells of one row.
@@ -68,6 +82,7 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
                                   int row) {
   const Rect window = window_of(frame);
   const Basin basin(frame, c);
+  const double share = share_in_air(c);
   constexpr int kPixels = kBlock * kCell;
   const int y = std::min(window.y0 + row * kPixels + kPixels / 2, window.y1 - 1);
   const RowHeights heights(c, y);
@@ -78,7 +93,8 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
     const Basin::Walls walls = basin.around(x, y);
     const std::array<double, 3> rates{water.rate.r, water.rate.g, water.rate.b};
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto thrown = static_cast<float>(Basin::thrown_on(walls, rates[i] * drop, c.ior));
+      const auto thrown =
+          static_cast<float>(share * Basin::thrown_on(walls, rates[i] * drop, c.ior));
       for (int r = row * kBlock; r < std::min((row + 1) * kBlock, rows_); ++r) {
         for (int k = column; k < std::min(column + kBlock, columns_); ++k) {
           Cell& cell = cells_[static_cast<std::size_t>(r) * columns_ + k];
@@ -194,7 +210,7 @@ void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>&
   cells_.resize(static_cast<std::size_t>(columns_) * rows_);
   each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, pass, sky, row); });
   // Without a shadow what lies in the shade counts as dark, which takes more away than walls do.
-  if (pass.eye_above > 0 && frame.plane(PlaneId::kShadow)) {
+  if (share_in_air(pass) > 0 && frame.plane(PlaneId::kShadow)) {
     each_row(executor, {0, 0, columns_, (rows_ + kBlock - 1) / kBlock},
              [&](int row) { look_for_walls(frame, pass, water, row); });
   }

@@ -25,7 +25,8 @@ struct WaterOver {
 ///
 /// In a narrow basin it is less: that of an endless floor which the water makes as bright. What the
 /// surface throws back there comes from walls in part (Basin), which have less light than the
-/// floor: the sun's on half of them alone, by the cosine of its way down.
+/// floor: the sun's on half of them alone, by the cosine of its way down. Views from within the
+/// water have none of that, and those that begin in both as much as begin in the air.
 class BottomAlbedo {
  public:
   /// Reads color, depth and, if present, shadow. `sky`: radiance of an even sky. 0 where there is

@@ -35,6 +35,9 @@ constexpr float kThinnest = 0.05f;
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
+/// In the place of a depth below the calm surface, where nothing is: in the water, or above it.
+constexpr float kBottomless = -1, kSky = -2;
+
 /// The best of three numbers `step` apart in a line of `count`, which goes on as it ends.
 template <class Better>
 void best_of_three(const float* in, float* out, int count, int step, Better better) {
@@ -95,7 +98,7 @@ struct BottomLayerMaker::Scan {
   }
 
   /// look(column, x, y, z, drop) of every texel that is looked at in a row of cells: how deep it
-  /// lies below the calm surface, 0 above it, -1 where nothing is.
+  /// lies below the calm surface, 0 above it, kBottomless or kSky where nothing is.
   template <class Look>
   void each(int row, Look&& look) const {
     const int begin = window.y0 + row * cell;
@@ -104,7 +107,8 @@ struct BottomLayerMaker::Scan {
       for (int x = window.x0 + step / 2; x < window.x1; x += step) {
         const float z = depth.at(x, y);
         const auto drop = static_cast<float>(-heights.at(x, z));
-        look((x - window.x0) / cell, x, y, z, z < 1e30f ? std::max(drop, 0.0f) : -1.0f);
+        const float none = drop > 0 ? kBottomless : kSky;
+        look((x - window.x0) / cell, x, y, z, z < 1e30f ? std::max(drop, 0.0f) : none);
       }
     }
   }
@@ -127,7 +131,7 @@ void BottomLayerMaker::survey(const Scan& scan, Executor& executor) {
   cells_.resize(scan.index(0, scan.cells.height));
   each_row(executor, {0, 0, scan.cells.width, scan.cells.height}, [&](int row) {
     Cell* cells = cells_.data() + scan.index(0, row);
-    std::fill_n(cells, scan.cells.width, Cell{kNone, 0, 0, 0, 0, 0, 0, 0});
+    std::fill_n(cells, scan.cells.width, Cell{kNone, 0, 0, 0, 0, 0, 0, 0, 0});
     scan.each(row, [&](int column, int, int, float z, float drop) {
       Cell& cell = cells[column];
       if (!(drop < cell.highest)) return;
@@ -213,6 +217,7 @@ bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
     scan.each(row, [&](int column, int x, int y, float, float drop) {
       const bool land = drop <= 0;
       cells[column].looks += 1;
+      if (drop == kBottomless) cells[column].bottomless += 1;
       if (!(drop >= cells[column].bottom) || (land && !is_shore(size, column, row))) return;
       PullPush<4>::Texel& texel = texels[column];
       for (std::size_t i = 0; i < 3; ++i) texel[i] += scan.color[i].at(x, y);
@@ -228,6 +233,19 @@ bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
     }
   });
   return bottom_.draw_on(executor);
+}
+
+/// Where the bottom ends. False where it does not.
+bool BottomLayerMaker::find_end(Size size, Executor& executor) {
+  auto& level = end_.finest(size);
+  bool ends = false;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell& cell = cells_[i];
+    const float known = cell.bottomless + (1 - cell.standing) * cell.looks;
+    level.texels[i] = {known > 0 ? cell.bottomless / known : 0, known > 0 ? 1.0f : 0.0f};
+    ends = ends || cell.bottomless > 0;
+  }
+  return ends && end_.draw_on(executor);
 }
 
 /// What stands in a cell is as wide as the window that fills it, in which a thing that is narrower
@@ -252,6 +270,7 @@ const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
   survey(scan, executor);
   if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;
   const Rect window{0, 0, scan.cells.width, scan.cells.height};
+  const bool ends = find_end(scan.cells, executor);
   for (Plane& plane : planes_) {
     if (!plane || plane.view().window != window) plane = Plane(window);
   }
@@ -270,11 +289,12 @@ const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
       thinness = 0;
       each_near(window.size(), x, y,
                 [&](const Cell& cell) { thinness = std::max(thinness, cell.thinness); });
+      planes_[5].view().at(x, y) = ends ? end_.finest().at(x, y)[0] : 0;
       layer_.most_drop = std::max(layer_.most_drop, static_cast<double>(texel[3]));
     }
   }
   layer_.colors.channels = {planes_[0].view(), planes_[1].view(), planes_[2].view()};
-  layer_.shape.channels = {planes_[3].view(), planes_[3].view(), planes_[4].view()};
+  layer_.shape.channels = {planes_[3].view(), planes_[5].view(), planes_[4].view()};
   // The cells go on beyond the window where its size is no multiple of theirs.
   const glm::dvec2 picture(pass.size),
       covered(scan.cell * window.width(), scan.cell * window.height());

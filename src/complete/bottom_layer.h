@@ -18,7 +18,8 @@ namespace limpid {
 /// is what a grey closing of the depth below the water fills (Serra 1982, "Image Analysis and
 /// Mathematical Morphology"), by windows of three cells to a quarter of the picture: the smallest
 /// that fills it tells its width, of which a quarter is taken for its thickness. The bottom is then
-/// drawn on over these cells and those of what stands above the water, by a pyramid of means.
+/// drawn on over these cells and those of what stands above the water, by a pyramid of means. So is
+/// that there is no bottom, from where the picture shows water without one.
 class BottomLayerMaker {
  public:
   /// Null where no object stands in front of the bottom, no bottom is visible, the eye is in the
@@ -34,6 +35,7 @@ class BottomLayerMaker {
     float bottom;    ///< what reaches down to this is of the bottom
     int window;      ///< the smallest, in cells, that fills what stands there; 0 where nothing does
     float looks, standing;  ///< texels looked at, and the share that is not of the bottom
+    float bottomless;       ///< of them, those of water under which nothing is
     float thinness;         ///< 1 / thickness of what stands there, 0 where nothing does
   };
   struct Scan;
@@ -42,15 +44,17 @@ class BottomLayerMaker {
   bool find_standing(Size cells);
   bool is_shore(Size cells, int column, int row) const;
   bool fill(const Scan& scan, Executor& executor);
+  bool find_end(Size cells, Executor& executor);
   template <class Fn>
   void each_near(Size size, int column, int row, Fn&& fn) const;
   float thinness_at(Size size, int column, int row) const;
 
   BottomLayer layer_;
   PullPush<4> bottom_;  ///< color and depth below the calm surface
+  PullPush<1> end_;     ///< share of the bottom that is not there
   std::vector<Cell> cells_;
   std::vector<float> dilated_, closed_, room_;
-  std::array<Plane, 5> planes_;  ///< color, depth below the calm surface, thinness
+  std::array<Plane, 6> planes_;  ///< color, depth below the calm surface, thinness, end_
 };
 
 }  // namespace limpid

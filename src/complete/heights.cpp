@@ -136,8 +136,9 @@ void Heights::look_at_mirrored(const Plan& plan, const Frame& frame, const Pass&
   if (!plan.made.has(StatePart::kReflected) || !plane) return;
   const View<const float>& depth = frame.plane(*plane);
   const HeightError error = march_error(pass);
+  const bool above = *plane == PlaneId::kDepth && !pass.submersible;
   look_at(depth.window, executor, depths_, [&](const Rect& pixels, Blocks blocks, auto* to) {
-    target.seen_depths(pass, error, depth, *plane == PlaneId::kDepth, pixels, blocks, to);
+    target.seen_depths(pass, error, depth, above, pixels, blocks, to);
   });
   stack_levels(depth.window, depths_, mirrored_);
   mirrored_.plane = *plane;

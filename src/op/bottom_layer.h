@@ -17,8 +17,9 @@ struct BottomLayer {
   static constexpr double kOfBottom = 0.75;
 
   Texture colors;
-  /// Red and green: depth of the bottom below the calm surface, in scene units. Blue: 1 / thickness
-  /// of what stands before the bottom, 0 where nothing does.
+  /// Red: depth of the bottom below the calm surface, in scene units. Green: more than half where
+  /// there is no bottom, for around there the picture shows none. Blue: 1 / thickness of what
+  /// stands before the bottom, 0 where nothing does.
   Texture shape;
   glm::dvec2 scale, offset;  ///< from the picture's uv to the textures' uv
   double most_drop;          ///< the largest depth in `shape`
@@ -41,6 +42,10 @@ class BottomLayerTaps {
   }
   /// Shape::drop alone, for a third of the lookups.
   F bottom(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.shape, place(shift)).r; }
+  /// Whether the bottom has ended before `shift`.
+  auto is_bottomless(Vec2<F> shift) const {
+    return tap_.lat_long_rgb(layer_.shape, place(shift)).g > F(0.5);
+  }
   /// Whether what is seen at `shift`, `drop` below the calm surface, is of the bottom.
   auto is_bottom(Vec2<F> shift, F drop) const {
     return drop >= F(BottomLayer::kOfBottom) * bottom(shift);

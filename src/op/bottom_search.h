@@ -235,8 +235,8 @@ class BottomSearch {
   LIMPID_INLINE static auto is_free(const Sight& at) { return at.behind < F(0) && at.drop > F(0); }
 
   /// Where the rays of `lanes` meet the bottom of Pass::bottom_layer, which goes on behind what
-  /// hides it, up to `most`, and beyond that its level there. Equal steps on screen, then by
-  /// secants.
+  /// hides it, up to `most`, and beyond that its level there; +inf where it has ended. Equal steps
+  /// on screen, then by secants.
   template <class Lanes>
   [[gnu::noinline]] F end_behind(Lanes lanes, F most) const {
     const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
@@ -277,12 +277,12 @@ class BottomSearch {
     // beyond, apart from it and above the water, occludes the bottom.
     const Vec2<F> here{F(0), F(0)};
     const auto stands = !layer.is_bottom(here, F(0) - height_at(c_, p_, here, p_.dry_depth));
-    F ends = behind;
+    F ends = select(layer.is_bottomless(ray_.shift_at(behind)), F(HUGE_VAL), behind);
     if_any(lanes && stands, [&] {
       const F beyond = F(1.05) * behind;
       const auto itself =
           look(beyond).drop > F(0) || !layer.is_apart(c_, planes_.depth, ray_.shift_at(beyond));
-      ends = select(stands && itself, drop_to(here, p_.dry_depth) / fall_, behind);
+      ends = select(stands && itself, drop_to(here, p_.dry_depth) / fall_, ends);
     });
     return ends;
   }

@@ -173,6 +173,8 @@ struct Kernel;
 ///     bool lit_by_sky(const Params&);
 ///     // The waves that raise the water, if it has any; they live as long as the parameters.
 ///     Swell swell(const Params&);
+///     // The water that what is mirrored in it is seen through, if it is one.
+///     std::optional<WaterMedium> medium(const Params&, const Pass&);
 ///     // How it measures StatePart::kPath, for what is made of the path (job/deep_output.h).
 ///     PathLength path_length(const Params&);
 ///     // Its expected cost, in ns per pixel (plan/predict.h). Default: 1.

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include <glm/vec2.hpp>
 
 #include "limpid/core/frame.h"
@@ -9,6 +11,7 @@
 #include "core/water_view.h"
 #include "op/height_bound.h"
 #include "op/plate_waves.h"
+#include "op/water_medium.h"
 
 namespace limpid {
 
@@ -58,6 +61,12 @@ struct Pass : WaterView {
   const Continuation* continuation;  ///< of the bottom beyond the picture, or null
   const BottomLayer* bottom_layer;   ///< of the bottom behind what stands before it, or null
   const CausticsTable* caustics;     ///< null where nobody has made it: it is not known
+  /// What views from within the water see what is mirrored through; nothing where there are none,
+  /// or where the plan has no such water.
+  std::optional<WaterMedium> medium = {};
+  /// Whether an infinite depth of the reflection says that nothing is there: one that was made of
+  /// the dry picture does not.
+  bool reflection_ends = false;
 };
 
 }  // namespace limpid

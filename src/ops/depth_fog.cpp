@@ -175,14 +175,14 @@ double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ran
   if (params.model == Model::kLinear) {
     return bound_product(veil(params, way), apart(params.color, ranges));
   }
-  const Medium m = medium_of(params, c);
+  const WaterMedium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   return largest_of([&](auto part) {
            const double taken = 1 - m.bottom * survives(part(m.rate) + part(m.down), way);
            return bound_product(taken, bright) +
                   bound_product(part(m.ambient) + sun * part(m.sun), column(part(m.rate), way));
          }) +
-         m.most_often(way);
+         most_often(m, way);
 }
 
 void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
@@ -208,14 +208,14 @@ void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& 
     ranges.light = std::max({ranges.light, bright, largest(params.color)});
     return;
   }
-  const Medium m = medium_of(params, c);
+  const WaterMedium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   const auto sun_of = [&](auto part) {
     return bound_product(sun * part(m.sun), column(part(m.rate), ranges.fog_path.max));
   };
   ranges.transmittance =
       largest_of([&](auto part) { return m.bottom * survives(part(m.rate), ranges.fog_path.min); });
-  const double often = m.most_often(ranges.fog_path.max);
+  const double often = most_often(m, ranges.fog_path.max);
   ranges.sun_light = largest_of(sun_of) + often;
   ranges.sun_far = largest_of([&](auto part) {
     const double tau = bound_product(part(m.rate), ranges.fog_path.min);
@@ -237,7 +237,7 @@ double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ra
     return bound_product(1 - full, ranges.contrast()) +
            bound_product(full - veil(params, way), apart(params.color, ranges));
   }
-  const Medium m = medium_of(params, c);
+  const WaterMedium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   return largest_of([&](auto part) {
            const double rate = part(m.rate);
@@ -246,42 +246,42 @@ double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ra
            return bound_product(left, m.bottom * bright) +
                   left / rate * (part(m.ambient) + sun * part(m.sun));
          }) +
-         m.beyond_often(way * refracted_cosine(0.0, 1 / c.ior));
+         beyond_often(m, way * refracted_cosine(0.0, 1 / c.ior));
 }
 
 /// Each layer stands for all that are deeper.
-double Kernel<DepthFog>::Medium::beyond_often(double depth) const {
-  if (!often) return 0;
+double Kernel<DepthFog>::beyond_often(const WaterMedium& m, double depth) {
+  if (!m.often) return 0;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double layers = std::log2(rates()[i] * depth / ScatteredLight::kFirstLayer);
+    const double layers = std::log2(m.rates()[i] * depth / ScatteredLight::kFirstLayer);
     if (!(layers >= 0)) return HUGE_VAL;
     const auto layer = static_cast<std::size_t>(std::min(layers, ScatteredLight::kLayers - 1.0));
-    most = std::max(most, water * (beams()[i] * often[i].beyond_sun[layer] +
-                                   skies()[i] * often[i].beyond_sky[layer]));
+    most = std::max(most, m.water * (m.beams()[i] * m.often[i].beyond_sun[layer] +
+                                     m.skies()[i] * m.often[i].beyond_sky[layer]));
   }
   return most;
 }
 
-double Kernel<DepthFog>::Medium::most_often(double way) const {
-  if (!often) return 0;
+double Kernel<DepthFog>::most_often(const WaterMedium& m, double way) {
+  if (!m.often) return 0;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const ScatteredLight& light = often[i];
-    const double depth = bound_product(rates()[i], way);
+    const ScatteredLight& light = m.often[i];
+    const double depth = bound_product(m.rates()[i], way);
     const auto up_to = [&](double slope, double all) {
       return std::min(bound_product(slope, depth), all);
     };
     const double of_sun = up_to(light.slope_sun, light.most_sun) + light.most_bottom_sun;
     const double of_sky = up_to(light.slope_sky, light.most_sky) + light.most_bottom_sky;
-    most = std::max(most, water * (beams()[i] * of_sun + skies()[i] * of_sky));
+    most = std::max(most, m.water * (m.beams()[i] * of_sun + m.skies()[i] * of_sky));
   }
   return 1.05 * most;  // for the error of the fits
 }
 
 /// The largest value of the phase function: views go down into the water at least as steeply as
 /// refraction leads them, and the sun stands above it.
-double Kernel<DepthFog>::brightest_phase(const P& params, const Pass& c, const Medium& m) {
+double Kernel<DepthFog>::brightest_phase(const P& params, const Pass& c, const WaterMedium& m) {
   if (!m.sunlit) return 0;
   const double sink = refracted_cosine(0.0, 1 / c.ior);
   const double rise = glm::dot(m.to_sun, c.up);
@@ -290,9 +290,15 @@ double Kernel<DepthFog>::brightest_phase(const P& params, const Pass& c, const M
   return henyey_greenstein(least, params.anisotropy) * 1.0001;
 }
 
-Kernel<DepthFog>::Medium Kernel<DepthFog>::medium_of(const Params& params, const Pass& c) {
+std::optional<WaterMedium> Kernel<DepthFog>::medium(const Params& params, const Pass& c) {
+  if (params.model == Model::kLinear) return {};
+  return medium_of(params, c);
+}
+
+WaterMedium Kernel<DepthFog>::medium_of(const Params& params, const Pass& c) {
   const WaterLight light = water_light(params, c, c.ior);
-  Medium m{};
+  WaterMedium m{};
+  m.anisotropy = params.anisotropy;
   m.rate = extinction(params);
   m.down = light.down;
   m.ambient = scattering(params) * params.ambient;

@@ -2,9 +2,9 @@
 #include "limpid/ops/depth_fog.h"
 
 #include "op/operator.h"
+#include "op/water_medium.h"
 #include "optics/fog.h"
 #include "optics/refract.h"
-#include "optics/scattered_light.h"
 #include "optics/scattering.h"
 
 namespace limpid {
@@ -49,6 +49,8 @@ struct Kernel<DepthFog> : DepthFog {
   /// straight up, for green.
   static double lit_depth(const Params& params, const Pass& c);
   static ScatteringWater scattering_water(const Params& params, const Pass& c);
+  /// None of `linear`, whose fog knows no light.
+  static std::optional<WaterMedium> medium(const Params& params, const Pass& c);
 
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
@@ -62,44 +64,12 @@ struct Kernel<DepthFog> : DepthFog {
   }
 
  private:
-  /// What the pixels of a frame have in common.
-  struct Medium {
-    Rgb<double> rate;      ///< a + b
-    Rgb<double> down;      ///< K / cos_sun: what sunlight loses for each depth
-    Rgb<double> ambient;   ///< b ambient
-    Rgb<double> sun;       ///< b E'
-    glm::dvec3 to_sun;     ///< unit, in the water
-    double bottom, water;  ///< crossing, of the bottom's light and of the sun's in-scatter
-    bool glows, sunlit;    ///< whether there is in-scatter of each kind
-    /// Of light that is scattered more than once, of red, green, blue; null without.
-    const ScatteredLight* often;
-    Rgb<double> beam, sky;         ///< E' / pi, and the sky's radiance in the water
-    double cosine;                 ///< of the beam with the vertical
-    Rgb<double> dry_sun, dry_sky;  ///< what `transmitted` has of a white level floor
-    double per_bottom;             ///< 1 / bottom; 0 where no light enters
-    double square;                 ///< of the anisotropy
-    bool scatters, turns;          ///< whether light is scattered, and unevenly
-    bool inside;                   ///< whether views may begin in the water
-
-    static std::array<double, 3> channels(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
-    std::array<double, 3> rates() const { return channels(rate); }
-    std::array<double, 3> downs() const { return channels(down); }
-    std::array<double, 3> beams() const { return channels(beam); }
-    std::array<double, 3> skies() const { return channels(sky); }
-    std::array<double, 3> dry_suns() const { return channels(dry_sun); }
-    std::array<double, 3> dry_skies() const { return channels(dry_sky); }
-    /// The largest radiance that ways up to a length show of it; and how far it is at most from
-    /// that of endless water, from a depth on.
-    double most_often(double way) const;
-    double beyond_often(double depth) const;
-  };
-  static Medium medium_of(const Params& params, const Pass& c);
-  static double brightest_phase(const Params& params, const Pass& c, const Medium& medium);
-
-  template <class F>
-  static LIMPID_INLINE Rgb<F> rgb_of(const Rgb<double>& c, const char* name) {
-    return {given<F>(c.r, name, 0), given<F>(c.g, name, 1), given<F>(c.b, name, 2)};
-  }
+  static WaterMedium medium_of(const Params& params, const Pass& c);
+  static double brightest_phase(const Params& params, const Pass& c, const WaterMedium& medium);
+  /// The largest radiance that ways up to a length show of light that is scattered more than once;
+  /// and how far it is at most from that of endless water, from a depth on.
+  static double most_often(const WaterMedium& m, double way);
+  static double beyond_often(const WaterMedium& m, double depth);
 
   template <class F>
   static LIMPID_INLINE F way_length(Distance distance, const Pass& c, const Pixel<F>& p) {
@@ -138,12 +108,11 @@ struct Kernel<DepthFog> : DepthFog {
   template <class Strip>
   static void beer_lambert(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    const Medium medium = medium_of(params, c);
-    const Rgb<F> rate = rgb_of<F>(medium.rate, "depth_fog.rate"),
-                 down = rgb_of<F>(medium.down, "depth_fog.down");
-    const Rgb<F> ambient = rgb_of<F>(medium.ambient, "depth_fog.ambient_light"),
-                 sun = rgb_of<F>(medium.sun, "depth_fog.sun_light");
-    const Vec3<F> up = vec3_of<F>(c.up), to_sun = vec3_of<F>(medium.to_sun, "depth_fog.to_sun");
+    const WaterMedium medium = medium_of(params, c);
+    const MediumNumbers<F> numbers(medium);
+    const Rgb<F> rate = numbers.rate, down = numbers.down;
+    const Rgb<F> ambient = numbers.ambient, sun = numbers.sun;
+    const Vec3<F> up = vec3_of<F>(c.up), to_sun = numbers.to_sun;
     const F eta = given<F>(1 / c.ior, "water.per_ior"), anisotropy = given<F>(params.anisotropy);
     const F bottom = given<F>(medium.bottom, "depth_fog.bottom");
     const F water = given<F>(medium.water, "depth_fog.water");
@@ -209,15 +178,9 @@ struct Kernel<DepthFog> : DepthFog {
     }
   }
 
-  /// Sun and sky, of one channel.
-  template <class F>
-  struct Often {
-    F sun, sky;
-  };
-
   /// Light that is scattered more than once, and of the bottom what `transmitted` lacks.
   template <class F>
-  static LIMPID_INLINE void add_often(const Medium& m, const Way<F>& way, F turned,
+  static LIMPID_INLINE void add_often(const WaterMedium& m, const Way<F>& way, F turned,
                                       const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
     const auto from_air = p.side > F(0);
     const F doubly =
@@ -249,34 +212,12 @@ struct Kernel<DepthFog> : DepthFog {
     }
   }
 
-  /// The bottom at the end of a way, as that of a level layer.
-  template <class F>
-  struct LitBottom {
-    F reflects, back;  ///< its albedo, and what of its light comes back to it
-    F sunlit, skylit;  ///< what lights it were it black, of a beam and of a sky of radiance 1
-  };
-  template <class F>
-  static LIMPID_INLINE F layer_at(const Medium& m, std::size_t channel, const Way<F>& way) {
-    const F rate = given<F>(m.rates()[channel], "depth_fog.rate", static_cast<int>(channel));
-    return layer_variable(min(rate * way.end, F(1e6)));
-  }
-  template <class F>
-  static LIMPID_INLINE LitBottom<F> lit_bottom(const Medium& m, std::size_t channel,
-                                               const Way<F>& way, F fallen, F albedo) {
-    const ScatteredLight& light = m.often[channel];
-    const F x = layer_at(m, channel, way);
-    return {min(max(albedo, F(0)), F(ScatteredLight::kMaxAlbedo)),
-            given<F>(light.back_at_once) + layer_power(light.back, x),
-            given<F>(m.cosine, "depth_fog.cosine") * fallen + layer_power(light.sun_below, x),
-            given<F>(light.sky_at_once) + layer_power(light.sky_below, x)};
-  }
-
   /// Of a view from the air. `fallen` and `left`: what is left of the beam at the end of the way,
   /// and of its light at the viewer.
   template <class F>
-  static LIMPID_INLINE Often<F> often_down(const Medium& m, std::size_t channel, const Way<F>& way,
-                                           const std::array<F, 4>& shapes, F fallen, F left,
-                                           F albedo) {
+  static LIMPID_INLINE Often<F> often_down(const WaterMedium& m, std::size_t channel,
+                                           const Way<F>& way, const std::array<F, 4>& shapes,
+                                           F fallen, F left, F albedo) {
     const ScatteredLight& light = m.often[channel];
     const int place = static_cast<int>(channel);
     const std::array<F, 2> even{shapes[0], shapes[1]};
@@ -301,43 +242,6 @@ struct Kernel<DepthFog> : DepthFog {
                              F(0)),
         water * (up.sky + seen * sky * bottom.skylit) -
             had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
-  }
-
-  /// Of a view that begins in the water. The bottom is lit as that of a level layer, and seen
-  /// straight; the water between is as bright as if it had no bottom.
-  template <class F>
-  static LIMPID_INLINE Often<F> often_inside(const Medium& m, std::size_t channel,
-                                             const Way<F>& way, F turned, F fallen, F left,
-                                             F albedo) {
-    const ScatteredLight& light = m.often[channel];
-    const int place = static_cast<int>(channel);
-    const F rate = given<F>(m.rates()[channel], "depth_fog.rate", place);
-    const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
-    const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
-    Often<F> water{F(0), F(0)};
-    if (m.scatters) {
-      const auto by_sun =
-          inside_sun_shapes(way.sink, turned, given<F>(m.square, "depth_fog.square"), m.turns);
-      const auto by_sky = inside_sky_shapes(way.sink);
-      for (std::size_t i = 0; i < ScatteredLight::kFades; ++i) {
-        F of_sun(0), of_sky(0);
-        for (std::size_t k = 0; k < ScatteredLight::kInside; ++k) {
-          of_sun = of_sun + given<F>(light.inside_sun[i][k]) * by_sun[k];
-          of_sky = of_sky + given<F>(light.inside_sky[i][k]) * by_sky[k];
-        }
-        const F column = sun_column(way, rate, given<F>(light.fades[i])).light;
-        water = {water.sun + column * of_sun, water.sky + column * of_sky};
-      }
-    }
-    const LitBottom<F> bottom = lit_bottom(m, channel, way, fallen, albedo);
-    const F seen = bottom.reflects * left / (F(1) - bottom.reflects * bottom.back);
-    const F had = bottom.reflects * fallen * left * given<F>(m.per_bottom, "depth_fog.per_bottom");
-    return {max(beam * water.sun, F(0)) +
-                max(seen * beam * bottom.sunlit -
-                        had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
-                    F(0)),
-            max(sky * water.sky, F(0)) + seen * sky * bottom.skylit -
-                had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
   }
 };
 

@@ -26,6 +26,8 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   static PlaneSet reads(const Params& p) {
     PlaneSet planes;
     if (p.source == Source::kAuto) planes = kColorPlanes | PlaneSet{PlaneId::kDepth} | kSkyPlanes;
+    const bool finds_ends = p.source == Source::kPlanar && p.lookup == Lookup::kRay;
+    if (p.source == Source::kAuto || finds_ends) planes = planes | kAlbedoPlanes;
     if (p.source == Source::kAuto || p.source == Source::kPlanar) {
       planes = planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid};
       if (p.lookup == Lookup::kRay) planes = planes | PlaneSet{PlaneId::kReflectionDepth};
@@ -338,9 +340,20 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
     if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
     if (marched(params, c)) return seen_on_march(params, c, p, tap, n, F(1), n);
-    const Vec2<F> shift =
-        params.lookup == Lookup::kRay ? follow(c, p, tap, n) : given<F>(params.strength) * tilt;
-    return seen_at(c, p, tap, n, shift);
+    Mirrored<F> seen = params.lookup == Lookup::kRay
+                           ? seen_at(c, p, tap, n, follow(c, p, tap, n))
+                           : seen_at(c, p, tap, n, {given<F>(params.strength) * tilt, F(HUGE_VAL)});
+    if (c.submersible) {
+      const auto other_side = p.side * given<F>(c.eye_above) < F(0);
+      if_any(other_side, [&] {
+        const Mirrored<F> other = params.source == Source::kAuto
+                                      ? seen_in_picture(params, c, p, tap, n, F(1), n)
+                                      : Mirrored<F>{p.transmitted, {F(0), F(1), F(0)}};
+        seen = {select(other_side, other.light, seen.light),
+                select(other_side, other.sources, seen.sources)};
+      });
+    }
+    return seen;
   }
 
   /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
@@ -363,9 +376,73 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   static LIMPID_INLINE Rgb<F> surroundings(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                            Vec3<F> n) {
     const Vec3<F> ray = mirrored_ray(c, p, n);
-    return tap.lat_long_rgb(c.environment,
-                            lat_long(dot(vec3_of<F>(c.map_x), ray), dot(vec3_of<F>(c.map_y), ray),
-                                     dot(vec3_of<F>(c.up), ray)));
+    const Rgb<F> far = tap.lat_long_rgb(
+        c.environment, lat_long(dot(vec3_of<F>(c.map_x), ray), dot(vec3_of<F>(c.map_y), ray),
+                                dot(vec3_of<F>(c.up), ray)));
+    return through_water<false>(c, p, tap, ray, F(HUGE_VAL), far);
+  }
+
+  // --- seen from within the water ---------------------------------------------------------------
+
+  /// Light that is mirrored down in the water comes to the mirror through it, from `way` away: of
+  /// pixels that are seen from within the water, where it is known. A way may have no end.
+  template <bool kEnds = true, class F, class Tap>
+  static LIMPID_INLINE Rgb<F> through_water(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                            const Vec3<F>& ray, F way, Rgb<F> light) {
+    if (!c.medium) return light;
+    const auto below = p.side < F(0);
+    if_any(below, [&] {
+      light = select(below, dimmed<kEnds>(c, p, tap, ray, select(below, way, F(0)), light), light);
+    });
+    return light;
+  }
+  template <bool kEnds, class F, class Tap>
+  [[gnu::noinline]] static Rgb<F> dimmed(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                         const Vec3<F>& ray, F way, Rgb<F> light) {
+    const Vec3<F> up = vec3_of<F>(c.up);
+    const F height = given<F>(c.eye_above) + dot(up, p.surface_point);
+    const F begin = max(F(0) - height, F(0)), sink = max(F(0) - dot(up, ray), F(0));
+    const F length = min(way, F(3e38));
+    Vec3<F> albedo{F(0), F(0), F(0)};
+    if (kEnds && c.planes.covers(kAlbedoPlanes)) {
+      const Rgb<F> there =
+          bilinear_rgb<F>(tap, PlaneId::kAlbedoR, kept_in(c.dry, p, ScreenRay<F>(c, p, ray), way));
+      albedo = {there.r, there.g, there.b};
+    }
+    return seen_in_water(*c.medium, Way<F>{length, sink, begin, begin + sink * length}, ray, light,
+                         albedo);
+  }
+
+  /// What the dry picture shows of a ray that is mirrored down in the water. Where that meets
+  /// nothing that is seen, the level of what is seen next to its end goes on.
+  template <class F, class Tap>
+  [[gnu::noinline]] static Mirrored<F> seen_below(const Params& params, const Pass& c,
+                                                  const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                                                  const ScreenRay<F>& ray, F met) {
+    constexpr int kGuesses = 3;
+    const Vec3<F> up = vec3_of<F>(c.up), direction = mirrored_ray(c, p, n);
+    const F top = given<F>(c.eye_above) + dot(up, p.surface_point);
+    const F fall = max(F(0) - dot(up, direction), F(0.02));
+    const auto unseen = !(met < F(1e20));
+    // The place of the picture that lies next to where the ray is.
+    const auto next_to = [&](F s) {
+      const Vec2<F> at = ray.shift_at(s);
+      return Vec2<F>{
+          min(max(at.x, given<F>(c.dry.low.x) - p.uv.x), given<F>(c.dry.high.x) - p.uv.x),
+          min(max(at.y, given<F>(c.dry.low.y) - p.uv.y), given<F>(c.dry.high.y) - p.uv.y)};
+    };
+    F way = met;
+    repeat<F>(kGuesses, [&] {
+      const Vec2<F> at = next_to(way);
+      const F depth = tap.nearest(PlaneId::kDepth, at);
+      const F drop = top - height_at(c, p, at, depth);
+      way = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, way);
+    });
+    const Rgb<F> shown = through_water(c, p, tap, direction, way,
+                                       bilinear_rgb<F>(tap, PlaneId::kColorR, next_to(way)));
+    const auto ends = way < F(1e20);
+    const Rgb<F> none = far_away(params, c, p, tap, n, ray);
+    return {select(ends, shown, none), {F(0), select(ends, F(1), F(0)), select(ends, F(0), F(1))}};
   }
 
   // --- the reflection planes --------------------------------------------------------------------
@@ -381,21 +458,33 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   template <class F>
   static LIMPID_INLINE Vec2<F> place_at(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
                                         F s) {
-    const Vec2<F> shift = ray.shift_at(s);
-    return min(reach_in(c.reflection, p.uv, shift), F(1)) * shift;
+    return kept_in(c.reflection, p, ray, s);
   }
+  template <class F>
+  static LIMPID_INLINE Vec2<F> kept_in(const Bounds& bounds, const Pixel<F>& p,
+                                       const ScreenRay<F>& ray, F s) {
+    const Vec2<F> shift = ray.shift_at(s);
+    return min(reach_in(bounds, p.uv, shift), F(1)) * shift;
+  }
+
+  /// A place of the planes, and how far away it is; +inf where nothing is there, or nobody knows.
+  template <class F>
+  struct End {
+    Vec2<F> shift;
+    F way;
+  };
 
   /// Where the mirrored ray ends. With views that may begin in the water it is not marched: beside
   /// the water's level a march over flat rays is decided by roundings.
   template <class F, class Tap>
-  static Vec2<F> follow(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n) {
+  static End<F> follow(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n) {
     const ScreenRay<F> ray = image_ray(c, p, n);
     F way(HUGE_VAL);
-    if (!c.planes.has(PlaneId::kReflectionDepth)) return place_at(c, p, ray, way);
+    if (!c.planes.has(PlaneId::kReflectionDepth)) return {place_at(c, p, ray, way), way};
     constexpr int kSteps = 3;
     way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
     repeat<F>(kSteps, [&] { way = distance_to(c, p, tap, place_at(c, p, ray, way), way); });
-    return place_at(c, p, ray, way);
+    return {place_at(c, p, ray, way), way};
   }
 
   /// Distance from the surface point to the surface that the planes show at `shift`; `otherwise`
@@ -435,9 +524,9 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
     const Vec2<F> far = far_landing(c, p, tap, image_ray(c, p, n), hit < F(1));
-    Mirrored<F> seen = seen_at(c, p, tap, n, select(whole, met, far));
+    Mirrored<F> seen = seen_at(c, p, tap, n, {select(whole, met, far), F(HUGE_VAL)});
     if_any(parted, [&] {
-      const Mirrored<F> there = seen_at(c, p, tap, n, met);
+      const Mirrored<F> there = seen_at(c, p, tap, n, {met, F(HUGE_VAL)});
       const F share = select(parted, hit, F(0));
       seen.light = seen.light + share * (there.light - seen.light);
       seen.sources = seen.sources + share * (there.sources - seen.sources);
@@ -482,25 +571,36 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   template <class F, class Tap>
   static Mirrored<F> seen_in_picture(const Params& params, const Pass& c, const Pixel<F>& p,
                                      const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
-    const Rgb<F> beyond = far_away(params, c, p, tap, n, ScreenRay<F>(c, p, mirrored_ray(c, p, n)));
+    const ScreenRay<F> own(c, p, mirrored_ray(c, p, n));
+    const Rgb<F> beyond = far_away(params, c, p, tap, n, own);
+    const auto below = p.side < F(0);
     Rgb<F> light = beyond;
-    F hit(0);
+    F hit(0), way(HUGE_VAL);
     const auto meets = part > F(0);
     if_any(meets, [&] {
       const ScreenRay<F> ray(c, p, mirrored_ray(c, p, low));
-      const auto above = [&](Vec2<F> shift, F depth) {
-        return height_at(c, p, shift, depth) > F(0);
+      const auto on_side = [&](Vec2<F> shift, F depth) {
+        const F height = height_at(c, p, shift, depth);
+        return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
       };
       const auto found =
           MirrorSearch<F, Tap>::march(tap, tap.wet() && meets, PlaneId::kDepth, c.dry,
-                                      given<F>(c.eye_above), p, ray, kPictureSteps, above);
+                                      given<F>(c.eye_above), p, ray, kPictureSteps, on_side);
       const Vec2<F> shift =
           select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
       const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
       hit = select(meets, part * found.hit, hit);
+      way = select(meets, found.way, way);
       light = select(meets, beyond + hit * (seen - beyond), light);
     });
-    return {light, {F(0), hit, F(1) - hit}};
+    Mirrored<F> all{light, {F(0), hit, F(1) - hit}};
+    if (c.submersible) {
+      if_any(below, [&] {
+        const Mirrored<F> under = seen_below(params, c, p, tap, n, own, way);
+        all = {select(below, under.light, all.light), select(below, under.sources, all.sources)};
+      });
+    }
+    return all;
   }
 
   /// The surroundings of the frame, or else of the look.
@@ -508,8 +608,10 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   static Rgb<F> far_away(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
                          Vec3<F> n, const ScreenRay<F>& ray) {
     if (c.environment) return surroundings(c, p, tap, n);
-    if (!c.planes.covers(kSkyPlanes)) return constant<F>(params);
-    return bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)));
+    const Rgb<F> far = c.planes.covers(kSkyPlanes)
+                           ? bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)))
+                           : constant<F>(params);
+    return through_water<false>(c, p, tap, mirrored_ray(c, p, n), F(HUGE_VAL), far);
   }
 
   template <class F, class Tap>
@@ -534,19 +636,22 @@ struct Kernel<FresnelReflection> : FresnelReflection {
 
   template <class F, class Tap>
   static Mirrored<F> seen_at(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
-                             Vec2<F> shift) {
+                             const End<F>& end) {
     const auto taps =
-        valid_taps(tap, shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
+        valid_taps(tap, end.shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
     Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
                 taps.read(tap, PlaneId::kReflectionB)};
     F lacks(0);
     if_any(taps.made_up, [&] { lacks = F(1) - taps.weight(); });
     Rgb<F> sources = from_reflection<F>();
-    if (c.submersible) {
-      const auto other_side = p.side * given<F>(c.eye_above) < F(0);
-      seen = select(other_side, p.transmitted, seen);
-      sources = select(other_side, {F(0), F(1), F(0)}, sources);
-      lacks = select(other_side, F(0), lacks);
+    if (c.medium) {
+      const auto below = p.side < F(0);
+      const auto known = end.way < F(1e20) || (c.reflection_ends ? below : end.way < F(0));
+      if_any(below && known, [&] {
+        const Rgb<F> through = through_water(c, p, tap, mirrored_ray(c, p, n), end.way, seen);
+        seen = select(known, through, seen);
+        lacks = select(below && known, F(0), lacks);  // the water before it is there
+      });
     }
     if (!c.environment) return {seen, sources};
     const auto lacking = lacks > F(1e-5);

@@ -91,6 +91,12 @@ constexpr OperatorEntry entry_of() {
     }
     return false;
   };
+  e.medium = [](const Look& look, const Pass& pass) -> std::optional<WaterMedium> {
+    if constexpr (requires(const P& p) { Op::medium(p, pass); }) {
+      return Op::medium(look.of<Op>(), pass);
+    }
+    return {};
+  };
   e.swell = [](const Look& look) -> Swell {
     if constexpr (requires(const P& p) { Op::swell(p); }) return Op::swell(look.of<Op>());
     return {};

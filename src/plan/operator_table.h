@@ -34,6 +34,7 @@ struct OperatorEntry {
   PlaneSet (*wants)(const Look&, const AtHand&);
   bool (*lit_by_sky)(const Look&);
   Swell (*swell)(const Look&);
+  std::optional<WaterMedium> (*medium)(const Look&, const Pass&);
   std::optional<PathLength> (*path_length)(const Look&);
   double (*ns)(const Look&, const Running&);
 };

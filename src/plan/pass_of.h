@@ -11,8 +11,6 @@ Swell swell_of(const Plan& plan);
 
 /// The pass with which a plan runs over a frame. Throws Error as Pass does. Plan, scene and frame
 /// must live as long.
-inline Pass pass_of(const Plan& plan, const Scene& scene, const Frame& frame) {
-  return {scene, frame, plan.look.water.ior, plan.made, swell_of(plan)};
-}
+Pass pass_of(const Plan& plan, const Scene& scene, const Frame& frame);
 
 }  // namespace limpid

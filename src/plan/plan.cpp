@@ -91,6 +91,16 @@ Swell swell_of(const Plan& plan) {
   return {};
 }
 
+Pass pass_of(const Plan& plan, const Scene& scene, const Frame& frame) {
+  Pass pass(scene, frame, plan.look.water.ior, plan.made, swell_of(plan));
+  pass.reflection_ends = plan.planes.has(PlaneId::kReflectionDepth);
+  for (int i = 0; i < Chain::kCount && pass.submersible; ++i) {
+    if (!plan.keeps(i) || pass.medium) continue;
+    pass.medium = operator_table()[static_cast<std::size_t>(i)].medium(plan.look, pass);
+  }
+  return pass;
+}
+
 std::string to_text(const PlannedOperator& op) {
   constexpr std::array<const char*, 5> kWords = {
       "kept", "dropped: neutral", "dropped: input absent", "dropped: unread", "dropped: invisible"};

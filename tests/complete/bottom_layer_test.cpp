@@ -253,6 +253,38 @@ TEST(BottomLayer, NothingOfWhatHoversUnderWaterIsDraggedAlong) {
   EXPECT_EQ(Checked(box({0.1, -2.6, -4}, {0.35, 0.01, 0.3})).streaks(rays(0.02)), 0);
 }
 
+TEST(BottomLayer, EndsBehindAPostWhereThePictureShowsNoBottom) {
+  constexpr double kEnd = 12, kUnsure = 1.5;  // the bottom ends there, but for that
+  PoolOf<288, 216> pool;
+  pool.rise = 0;
+  pool.draw([](double, double) { return double{kPlain}; });
+  const auto post = box({0.2, -2.5, -6}, {0.3, 2, 0.3});
+  const auto lies = [](double z) { return -z < kEnd; };
+  const auto dry = [&](int x, int y) {
+    const glm::dvec3 r = pool.ray(x, y);
+    const double floor = pool.dry_depth(x, y);
+    return std::min(lies(floor * r.z) ? floor : HUGE_VAL, post({0, 0, 0}, r));
+  };
+  pool.buffers.set(PlaneId::kDepth, [&](int x, int y) { return static_cast<float>(dry(x, y)); });
+  const test::Picture wet = test::reference(rays(), pool.buffers.frame, pool.scene);
+  int ended = 0, bottom = 0;
+  for (int y = 0; y < pool.kSize.height; ++y) {
+    for (int x = 0; x < pool.kSize.width; ++x) {
+      const glm::dvec3 r = pool.ray(x, y), in = glm::normalize(r);
+      if (!(in.y < -0.02) || dry(x, y) < -2 / r.y) continue;  // no water, or the post before it
+      const glm::dvec3 entry = (-2 / r.y) * r, under = glm::refract(in, {0, 1, 0}, 1 / 1.333);
+      if (post(entry, under) < HUGE_VAL) continue;
+      const double ends = -(entry + -2 / under.y * under).z;
+      if (std::abs(ends - kEnd) < kUnsure) continue;
+      const bool found = wet.aov(Aov::kPath, x, y) < 1e20;
+      EXPECT_EQ(found, ends < kEnd) << x << ", " << y;
+      (ends < kEnd ? bottom : ended) += 1;
+    }
+  }
+  EXPECT_GT(ended, 500);
+  EXPECT_GT(bottom, 500);
+}
+
 TEST(BottomLayer, ARayPassesBehindWhatIsThin) {
   const Checked rope(box({0, -3, -5}, {5, 0.05, 0.05}));
   EXPECT_EQ(rope.streaks(rays()), 0);

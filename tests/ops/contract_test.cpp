@@ -175,6 +175,21 @@ StateSet everything() {
   return all;
 }
 
+/// Of pixels that are seen from within the water.
+template <class Op>
+ProbeStrip probed_within(const typename Op::Params& params) {
+  ProbeStrip strip;
+  for (int i = 0; i < 32; ++i) {
+    strip.pixels.push_back(test::random_pixel(i, everything()));
+    strip.pixels.back().side = -1;
+  }
+  Pass pass = probe_context(everything());
+  pass.submersible = true;
+  pass.medium = Kernel<DepthFog>::medium(test::plain_fog(DepthFog::Model::kBeerLambert), pass);
+  Op::apply(params, pass, strip);
+  return strip;
+}
+
 TEST(Contract, OnlyDeclaredStateIsMade) {
   Kernels::for_each([&]<class Op, int>() {
     const StateSet may_change = Op::kMakes;
@@ -243,6 +258,9 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
       if (!Op::needs(params).environment && !Op::needs(params).planes.meets(kReflectionPlanes)) {
         tapped = tapped | bare.tapped;
       }
+      const ProbeStrip within = probed_within<Op>(params);
+      EXPECT_TRUE(Op::reads(params).covers(within.tapped)) << what;
+      tapped = tapped | within.tapped;
       EXPECT_TRUE(tapped.covers(Op::reads(params))) << what << " declares more than it taps";
       EXPECT_EQ(Op::needs(params).wave_map, strip.map_tapped) << what;
       // It may stand in for what a plane lacks, too.

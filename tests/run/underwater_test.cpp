@@ -255,6 +255,52 @@ TEST_P(Underwater, BeyondTheCriticalAngleTheSurfaceIsAMirror) {
   EXPECT_GT(through, 500);
 }
 
+// In even water that glows evenly a way that the surface bends is as bright as a straight one.
+TEST_P(Underwater, WhatTheSurfaceMirrorsIsSeenThroughTheWaterToo) {
+  constexpr double kDeep = 3, kAmbient = 0.2, kRate = 0.3;  // half of it scattered
+  constexpr float kLight = 0.8f;
+  Look look = calm_look();
+  look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kBeerLambert);
+  look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
+  look.of<DepthFog>().absorption = look.of<DepthFog>().scattering = {0.15, 0.15, 0.15};
+  look.of<DepthFog>().ambient = {kAmbient, kAmbient, kAmbient};
+  using Source = FresnelReflection::Source;
+  for (const Source source : {Source::kPlanar, Source::kAuto}) {
+    // By the second most of what is mirrored lies beyond the picture.
+    for (const double pitch : {0.1, 0.4}) {
+      Scene scene = scene_at(-1, pitch);
+      scene.sun.reset();
+      Buffers b = wall_at(test::kInf);
+      b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
+      const auto to_level = [&](double up, int x, int y) {
+        const double way = up / ray_of(scene, x, y).y;
+        return way > 0 ? static_cast<float>(way) : test::kInf;
+      };
+      b.set(PlaneId::kDepth, [&](int x, int y) { return to_level(1 - kDeep, x, y); });
+      for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kColorR, c), kLight);
+      look.of<FresnelReflection>().source = source;
+      if (source == Source::kPlanar) {
+        for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kReflectionR, c), kLight);
+        b.set(PlaneId::kReflectionDepth, [&](int x, int y) { return to_level(1 + kDeep, x, y); });
+      }
+      const Picture p = run(look, b, scene);
+      int total = 0;
+      for_each_pixel([&](int x, int y) {
+        const double sine = glm::normalize(ray_of(scene, x, y)).y;
+        const double degrees = std::asin(sine) * 180 / std::numbers::pi;
+        if (!(degrees > 2 && degrees < 41)) return;  // 41.4: beyond, light passes
+        const double left = std::exp(-kRate * (1 + kDeep) / sine);
+        const double expected = kLight * left + kAmbient / 2 * (1 - left);
+        const double off = source == Source::kPlanar ? 1e-4 : 0.02;  // depths are those of pixels
+        const double seen = p.aov(Aov::kReflected, x, y, 1) + p.aov(Aov::kInScatter, x, y, 1);
+        EXPECT_NEAR(seen, expected, off) << x << ", " << y << ", " << pitch;
+        ++total;
+      });
+      EXPECT_GT(total, 300);
+    }
+  }
+}
+
 TEST_P(Underwater, SnellBendsOutwardsToWhatStandsInTheAir) {
   constexpr double kCeiling = 2;  // above the water
   const Scene scene = scene_at(-1, 1.2);

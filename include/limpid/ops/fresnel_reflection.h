@@ -15,7 +15,10 @@ namespace limpid {
 /// (Rito15 2021; `intensity`, `power`), `schlick` (with `f0`), `exact` (with water.ior). The
 /// underside of the surface always has the exact reflectance, total beyond the critical angle: the
 /// other models are for views from above. From below, the water is in front of the surface: its
-/// in-scatter is not dimmed, and the mirrored light is multiplied by `transmittance`.
+/// in-scatter is not dimmed, and the mirrored light is multiplied by `transmittance`. Before that
+/// it comes through the water from what is mirrored: depth_fog (unless `linear`) attenuates it and
+/// adds in-scatter by the length of that path, as for a view that begins at the surface
+/// (op/water_medium.h). `constant` light, and reflections without a depth, stay as they are.
 ///
 /// Source `planar`: the frame's reflection planes, the view of a flat mirror at the calm surface.
 /// `environment`: the frame's map of the infinitely far surroundings, along the mirrored ray.
@@ -28,7 +31,8 @@ namespace limpid {
 /// marches over the depth of the reflection, which is computed if the plate has none
 /// (complete/mirror_depth.h). A ray without a hit there ends infinitely far; if a near object is at
 /// that position, 4 pixels or more from where the ray passes it, the lookup goes back to the last
-/// empty position.
+/// empty position. From below rays go down, to what is under water; one without a hit ends at the
+/// level of the bottom that is visible next to its end.
 ///
 /// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel does
 /// not resolve (slope_variance), by three facets along the view (optics/facets.h); on a raised
@@ -46,8 +50,8 @@ namespace limpid {
 /// depths: geometry behind the clip at the surface is never shown. It is replaced by the last valid
 /// texel along the ray from the pixel (op/valid_lookup.h); if there is none, not even at the pixel,
 /// by the environment; without one, by black. The planes show the eye's side of the surface. A
-/// camera half in the water sees a little of the other side, at grazing angles: there the
-/// transmitted light replaces the mirrored light.
+/// camera half in the water sees a little of the other side, at grazing angles: there the dry
+/// picture (`auto`) or the transmitted light (`planar`) replaces the mirrored light.
 struct FresnelReflection {
   enum class Reflectance { kRim, kLinear, kInversePower, kSchlick, kExact };
   enum class Source { kPlanar, kEnvironment, kConstant, kAuto };

@@ -1,0 +1,162 @@
+#pragma once
+#include <array>
+
+#include <glm/vec3.hpp>
+
+#include "core/water_view.h"
+#include "optics/absorption.h"
+#include "optics/scattered_light.h"
+#include "optics/scattering.h"
+
+/// @file
+/// Light on its way through the water, as it reaches who is in it.
+
+namespace limpid {
+
+/// Water, and the light in it: what the pixels of a frame have in common (ops/depth_fog.h has the
+/// formulas).
+struct WaterMedium {
+  Rgb<double> rate;      ///< a + b
+  Rgb<double> down;      ///< K / cos_sun: what sunlight loses for each depth
+  Rgb<double> ambient;   ///< b ambient
+  Rgb<double> sun;       ///< b E'
+  glm::dvec3 to_sun;     ///< unit, in the water
+  double bottom, water;  ///< crossing, of the bottom's light and of the sun's in-scatter
+  bool glows, sunlit;    ///< whether there is in-scatter of each kind
+  /// Of light that is scattered more than once, of red, green, blue; null without.
+  const ScatteredLight* often;
+  Rgb<double> beam, sky;         ///< E' / pi, and the sky's radiance in the water
+  double cosine;                 ///< of the beam with the vertical
+  Rgb<double> dry_sun, dry_sky;  ///< what `transmitted` has of a white level floor
+  double per_bottom;             ///< 1 / bottom; 0 where no light enters
+  double anisotropy, square;     ///< and its square
+  bool scatters, turns;          ///< whether light is scattered, and unevenly
+  bool inside;                   ///< whether views may begin in the water
+
+  static std::array<double, 3> channels(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
+  std::array<double, 3> rates() const { return channels(rate); }
+  std::array<double, 3> downs() const { return channels(down); }
+  std::array<double, 3> beams() const { return channels(beam); }
+  std::array<double, 3> skies() const { return channels(sky); }
+  std::array<double, 3> dry_suns() const { return channels(dry_sun); }
+  std::array<double, 3> dry_skies() const { return channels(dry_sky); }
+};
+
+/// The numbers of a medium that all ways through it need.
+template <class F>
+struct MediumNumbers {
+  Rgb<F> rate, down, ambient, sun;
+  Vec3<F> to_sun;
+
+  LIMPID_INLINE explicit MediumNumbers(const WaterMedium& m)
+      : rate(of(m.rate, "depth_fog.rate")),
+        down(of(m.down, "depth_fog.down")),
+        ambient(of(m.ambient, "depth_fog.ambient_light")),
+        sun(of(m.sun, "depth_fog.sun_light")),
+        to_sun(vec3_of<F>(m.to_sun, "depth_fog.to_sun")) {}
+
+ private:
+  static LIMPID_INLINE Rgb<F> of(const Rgb<double>& c, const char* name) {
+    return {given<F>(c.r, name, 0), given<F>(c.g, name, 1), given<F>(c.b, name, 2)};
+  }
+};
+
+/// Sun and sky, of one channel.
+template <class F>
+struct Often {
+  F sun, sky;
+};
+
+/// The bottom at the end of a way, as that of a level layer.
+template <class F>
+struct LitBottom {
+  F reflects, back;  ///< its albedo, and what of its light comes back to it
+  F sunlit, skylit;  ///< what lights it were it black, of a beam and of a sky of radiance 1
+};
+template <class F>
+LIMPID_INLINE F layer_at(const WaterMedium& m, std::size_t channel, const Way<F>& way) {
+  const F rate = given<F>(m.rates()[channel], "depth_fog.rate", static_cast<int>(channel));
+  return layer_variable(min(rate * way.end, F(1e6)));
+}
+template <class F>
+LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel, const Way<F>& way,
+                                      F fallen, F albedo) {
+  const ScatteredLight& light = m.often[channel];
+  const F x = layer_at(m, channel, way);
+  return {min(max(albedo, F(0)), F(ScatteredLight::kMaxAlbedo)),
+          given<F>(light.back_at_once) + layer_power(light.back, x),
+          given<F>(m.cosine, "depth_fog.cosine") * fallen + layer_power(light.sun_below, x),
+          given<F>(light.sky_at_once) + layer_power(light.sky_below, x)};
+}
+
+/// Of a view that begins in the water. The bottom is lit as that of a level layer, and seen
+/// straight; the water between is as bright as if it had no bottom.
+template <class F>
+LIMPID_INLINE Often<F> often_inside(const WaterMedium& m, std::size_t channel, const Way<F>& way,
+                                    F turned, F fallen, F left, F albedo) {
+  const ScatteredLight& light = m.often[channel];
+  const int place = static_cast<int>(channel);
+  const F rate = given<F>(m.rates()[channel], "depth_fog.rate", place);
+  const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
+  const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
+  Often<F> water{F(0), F(0)};
+  if (m.scatters) {
+    const auto by_sun =
+        inside_sun_shapes(way.sink, turned, given<F>(m.square, "depth_fog.square"), m.turns);
+    const auto by_sky = inside_sky_shapes(way.sink);
+    for (std::size_t i = 0; i < ScatteredLight::kFades; ++i) {
+      F of_sun(0), of_sky(0);
+      for (std::size_t k = 0; k < ScatteredLight::kInside; ++k) {
+        of_sun = of_sun + given<F>(light.inside_sun[i][k]) * by_sun[k];
+        of_sky = of_sky + given<F>(light.inside_sky[i][k]) * by_sky[k];
+      }
+      const F column = sun_column(way, rate, given<F>(light.fades[i])).light;
+      water = {water.sun + column * of_sun, water.sky + column * of_sky};
+    }
+  }
+  const LitBottom<F> bottom = lit_bottom(m, channel, way, fallen, albedo);
+  const F seen = bottom.reflects * left / (F(1) - bottom.reflects * bottom.back);
+  const F had = bottom.reflects * fallen * left * given<F>(m.per_bottom, "depth_fog.per_bottom");
+  return {max(beam * water.sun, F(0)) +
+              max(seen * beam * bottom.sunlit -
+                      had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
+                  F(0)),
+          max(sky * water.sky, F(0)) + seen * sky * bottom.skylit -
+              had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
+}
+
+/// `light` of a thing under the water, lit as in the air, at the far end of a way that begins in
+/// the water, as it is seen from there: dimmed, with what the water scatters into the view, and the
+/// light that stays between the bottom and the surface. `view`: unit, along the way; `albedo`: of
+/// the bottom there.
+template <class F>
+Rgb<F> seen_in_water(const WaterMedium& m, const Way<F>& way, const Vec3<F>& view, Rgb<F> light,
+                     const Vec3<F>& albedo) {
+  const MediumNumbers<F> numbers(m);
+  const Rgb<F> rate = numbers.rate, down = numbers.down;
+  const Rgb<F> left = transmittance(way.length, rate), fallen = transmittance(way.end, down);
+  Rgb<F> seen = fallen * left * light;
+  if (m.glows) {
+    seen = seen + numbers.ambient * Rgb<F>{column_light(rate.r, way.length, left.r),
+                                           column_light(rate.g, way.length, left.g),
+                                           column_light(rate.b, way.length, left.b)};
+  }
+  const F turned = dot(numbers.to_sun, view);
+  if (m.sunlit) {
+    const Rgb<F> columns{sun_column(way, rate.r, down.r).light,
+                         sun_column(way, rate.g, down.g).light,
+                         sun_column(way, rate.b, down.b).light};
+    const F phase = henyey_greenstein(turned, given<F>(m.anisotropy, "depth_fog.phase"));
+    seen = seen + phase * (numbers.sun * columns);
+  }
+  if (!m.often) return seen;
+  const auto more = [&](std::size_t channel, F fell, F stays, F reflects) {
+    const Often<F> often = often_inside(m, channel, way, turned, fell, stays, reflects);
+    return often.sun + often.sky;
+  };
+  seen = seen + Rgb<F>{more(0, fallen.r, left.r, albedo.x), more(1, fallen.g, left.g, albedo.y),
+                       more(2, fallen.b, left.b, albedo.z)};
+  return {max(seen.r, F(0)), max(seen.g, F(0)), max(seen.b, F(0))};
+}
+
+}  // namespace limpid
