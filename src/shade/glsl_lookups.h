@@ -11,7 +11,8 @@ namespace limpid {
 /// in float, with places counted from the pixel. The declarations that they read come first in the
 /// shader: `limpid` (the uniform block), samplers limpid_ROLE and those of textures.
 /// Where textures are gathered, limpid.texel_NAME has the size of a texel, and for planes 1 less
-/// the corner of their window. `packed_map`: the wave map is of bytes.
+/// the corner of their window; rows have four values to a texel. `packed_map`: the wave map is of
+/// bytes.
 std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map);
 
 /// Names of samplers.
