@@ -21,15 +21,19 @@ struct GlslNeeds {
 /// NAME as glsl_name() makes it; lookups are calls of limpid_NAME (glsl_lookups.h).
 class GlslBody {
  public:
-  explicit GlslBody(const Recording& recording);
+  /// With `computes_frame`, what follows from numbers of the frame alone is computed here, once, in
+  /// double: pixels read `limpid.frame_K`, K counted from 0, and frame_numbers() has the values.
+  explicit GlslBody(const Recording& recording, bool computes_frame = false);
   const std::string& text() const { return text_; }
   const GlslNeeds& needs() const { return needs_; }
+  const std::vector<double>& frame_numbers() const { return frame_numbers_; }
   /// The expression of an output, after the statements.
   const std::string& output(std::size_t i) const { return outputs_[i]; }
 
  private:
   std::string text_;
   GlslNeeds needs_;
+  std::vector<double> frame_numbers_;
   std::vector<std::string> outputs_;
 };
 

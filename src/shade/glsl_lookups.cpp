@@ -22,6 +22,7 @@ ivec2 limpid_pixel;
 
 float limpid_column() { return float(limpid_pixel.x - limpid.display.x) + 0.5; }
 vec2 limpid_size() { return vec2(limpid.display.zw); }
+vec2 limpid_pixel_size() { return 1.0 / limpid_size(); }
 ivec2 limpid_at(vec2 texels) {
   return limpid_pixel + ivec2(clamp(texels, vec2(-4e6), vec2(4e6)));
 }
@@ -35,6 +36,13 @@ vec4 limpid_quad(vec2 shift) {
 constexpr const char* kRow = R"(
 float limpid_row(int k) {
   return texelFetch(limpid_rows, ivec2(k, limpid_pixel.y - limpid.work.y), 0).r;
+}
+)";
+
+/// Four to a texel.
+constexpr const char* kPackedRow = R"(
+float limpid_row(int k) {
+  return texelFetch(limpid_rows, ivec2(k >> 2, limpid_pixel.y - limpid.work.y), 0)[k & 3];
 }
 )";
 
@@ -62,10 +70,11 @@ constexpr const char* kBilinearOne = R"(float limpid_bilinear_#_@(vec2 shift) {
   return limpid_bilinear_#(shift).@;
 }
 )";
-constexpr const char* kPlace = R"(vec2 limpid_place_#(vec4 quad, ivec2 k) {
-  ivec4 window = limpid.window_#;
-  ivec2 place = clamp(limpid_at(quad.xy) + k, window.xy, window.zw - 1);
-  return vec2(place - limpid_pixel) / limpid_size();
+/// In float, which holds all of these whole numbers: integers would be made of them and back.
+constexpr const char* kPlace = R"(vec2 limpid_place_#(vec4 quad, vec2 k) {
+  vec2 begin = vec2(limpid.window_#.xy - limpid_pixel);
+  vec2 last = vec2(limpid.window_#.zw - 1 - limpid_pixel);
+  return clamp(quad.xy + k, begin, last) * limpid_pixel_size();
 }
 )";
 
@@ -84,13 +93,21 @@ float limpid_mixed(vec4 four, vec2 w) {
 }
 )";
 /// Where four texels of a plane meet, so many texels from the pixel; & is the number of a channel.
+/// At the edge the sampler takes the last ones, and devices clamp to 0 ... 1 for nothing.
 constexpr const char* kMeet = R"(
 vec2 limpid_meet_#(vec2 texels) {
-  vec2 corner = vec2(limpid_pixel) + clamp(texels, vec2(-4e6), vec2(4e6));
-  return (corner + limpid.texel_#.zw) * limpid.texel_#.xy;
+  vec4 texel = limpid.texel_#;
+  vec2 own = (vec2(limpid_pixel) + texel.zw) * texel.xy;
+  return clamp(texels * texel.xy + own, 0.0, 1.0);
 }
 )";
 /// Half a texel before that is the middle of one: the sampler takes the nearest.
+constexpr const char* kSampledPlane = R"(
+vec4 limpid_texel_#(ivec2 place) {
+  vec4 texel = limpid.texel_#;
+  return textureLod(limpid_#, (vec2(place) + (texel.zw - 0.5)) * texel.xy, 0.0);
+}
+)";
 constexpr const char* kSampledNearest = R"(vec4 limpid_nearest_#(vec2 shift) {
   return textureLod(limpid_#, limpid_meet_#(floor(shift * limpid_size() + 0.5) - 0.5), 0.0);
 }
@@ -113,15 +130,14 @@ constexpr const char* kGatheredRead = R"(vec4 limpid_read_#_@(vec4 quad) {
 }
 )";
 
-/// Where four texels of a picture that repeats meet: of a level of x by y texels, which begins at
-/// row z and has its first column and row once more at its end.
+/// Where four texels of a picture that repeats meet, of a level of x by y texels, whose first texel
+/// ends at z and w of the texture; around the level lie the texels of its other side.
 constexpr const char* kMeetTiled = R"(
-vec2 limpid_meet_tiled(vec4 level, vec2 periods, out vec2 w) {
+vec2 limpid_meet_tiled(vec4 level, vec2 texel, vec2 periods, out vec2 w) {
   vec2 texels = max(periods - floor(periods), 0.0) * level.xy - 0.5;
   vec2 corner = floor(texels);
   w = texels - corner;
-  corner += mix(vec2(0.0), level.xy, lessThan(corner, vec2(0.0)));
-  return corner + vec2(1.0, 1.0 + level.z);
+  return corner * texel + level.zw;
 }
 )";
 /// Colors in 32 bits, in units of the lowest bit of each mask. The exponent of 2^23 in front of the
@@ -137,8 +153,8 @@ float limpid_mixed_bits(uvec4 bits, vec2 w) {
 )";
 constexpr const char* kPackedTiled = R"(
 vec3 limpid_tiled(vec2 periods) {
-  vec2 w, meet = limpid_meet_tiled(limpid.level_wave_map, periods, w);
-  uvec4 four = textureGather(limpid_wave_map, meet * limpid.texel_wave_map.xy);
+  vec2 w, meet = limpid_meet_tiled(limpid.level_wave_map, limpid.texel_wave_map.xy, periods, w);
+  uvec4 four = textureGather(limpid_wave_map, meet);
   return vec3(limpid_mixed_bits(four & 0xffu, w), limpid_mixed_bits(four & 0xff00u, w),
               limpid_mixed_bits(four >> 16, w)) *
          vec3(1.0 / 255.0, 1.0 / 65280.0, 1.0 / 255.0);
@@ -147,8 +163,8 @@ vec3 limpid_tiled(vec2 periods) {
 /// See TextureLevels.
 constexpr const char* kPackedLevel = R"(
 vec3 limpid_level_wave_levels(vec4 level, vec2 periods) {
-  vec2 w, meet = limpid_meet_tiled(level, periods, w);
-  uvec4 four = textureGather(limpid_wave_levels, meet * limpid.texel_wave_levels.xy);
+  vec2 w, meet = limpid_meet_tiled(level, limpid.texel_wave_levels.xy, periods, w);
+  uvec4 four = textureGather(limpid_wave_levels, meet);
   return vec3(limpid_mixed_bits(four & 0x7ffu, w), limpid_mixed_bits(four & 0x3ff800u, w),
               limpid_mixed_bits(four >> 22, w)) *
          vec3(1.0, 1.0 / 2048.0, 1.0);
@@ -158,14 +174,14 @@ vec3 limpid_level_wave_levels(vec4 level, vec2 periods) {
 constexpr const char* kSlopeLevels = R"(
 float limpid_slope(vec2 meet, float plane, vec2 w) {
   meet.y += plane * limpid.texel_slopes.z;
-  return limpid_mixed(textureGather(limpid_slopes, meet * limpid.texel_slopes.xy), w);
+  return limpid_mixed(textureGather(limpid_slopes, meet), w);
 }
 vec3 limpid_level_slope_means(vec4 level, vec2 periods) {
-  vec2 w, meet = limpid_meet_tiled(level, periods, w);
+  vec2 w, meet = limpid_meet_tiled(level, limpid.texel_slopes.xy, periods, w);
   return vec3(limpid_slope(meet, 0.0, w), limpid_slope(meet, 1.0, w), 0.0);
 }
 vec3 limpid_level_slope_squares(vec4 level, vec2 periods) {
-  vec2 w, meet = limpid_meet_tiled(level, periods, w);
+  vec2 w, meet = limpid_meet_tiled(level, limpid.texel_slopes.xy, periods, w);
   return vec3(limpid_slope(meet, 2.0, w), limpid_slope(meet, 3.0, w), limpid_slope(meet, 4.0, w));
 }
 )";
@@ -215,6 +231,8 @@ constexpr const char* kTiled = R"(vec3 limpid_tiled(vec2 periods) {
 /// Levels of the map are integers in this unit (TextureLevels), which halves hold exactly.
 constexpr const char* kTiledWide = R"(const vec3 limpid_level_unit =
     vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 511.0);
+// Up to here `share` is 0. Said once, a driver would join the two and need more registers.
+bool limpid_is_fine(float width) { return width <= 1.375; }
 vec3 limpid_tiled_wide(vec2 periods, float width) {
   float share = clamp(4.0 * width - 5.5, 0.0, 1.0);
   if (share <= 0.0) return limpid_tiled(periods);
@@ -320,7 +338,7 @@ std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_
   const auto op = [&](NodeOp which) { return needs.ops.count(which) > 0; };
   if (needs.infinity) text += "#define limpid_infinity uintBitsToFloat(0x7f800000u)\n";
   text += kPlaces;
-  if (op(NodeOp::kRow)) text += kRow;
+  if (op(NodeOp::kRow)) text += made ? kPackedRow : kRow;
   std::set<std::string> done;
   const auto once = [&](const std::string& words) {
     if (done.insert(words).second) text += words;
@@ -329,7 +347,7 @@ std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_
   for (const auto& [verb, what] : needs.lookups) {
     if (verb < NodeOp::kOwn || verb > NodeOp::kPlace) continue;
     const std::string role = role_word(static_cast<PlaneId>(what));
-    once(with(kPlane, role));
+    once(with(planes ? kSampledPlane : kPlane, role));
     const bool sampled = verb == NodeOp::kNearest || verb == NodeOp::kBilinear ||
                          verb == NodeOp::kBilinear3 || verb == NodeOp::kRead;
     if (planes && sampled) once(with(kMeet, role));

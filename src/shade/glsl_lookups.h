@@ -10,8 +10,8 @@ namespace limpid {
 /// lacks or leaves to the driver. They match run/plain_taps.h and op/plain_texture.h, in float,
 /// with places relative to the pixel. The shader first declares what they read: `limpid` (the
 /// uniform block), samplers limpid_ROLE and those of textures. For gathered textures,
-/// limpid.texel_NAME has the size of a texel, and for planes 1 less the corner of their window.
-/// `packed_map`: the wave map has bytes.
+/// limpid.texel_NAME has the size of a texel, and for planes 1 less the corner of their window;
+/// the table of rows has four values per texel. `packed_map`: the wave map has bytes.
 std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map);
 
 /// Names of samplers.

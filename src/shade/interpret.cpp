@@ -1,7 +1,5 @@
 #include "shade/interpret.h"
 
-#include <cmath>
-
 #include "limpid/core/error.h"
 
 #include "op/bottom_layer.h"
@@ -107,56 +105,11 @@ void Interpreter::run_node(int id, const At& at) {
         throw Error("a recording looks up a texture that is none");
     }
   };
+  if (is_arithmetic(node.op)) {
+    const auto known = [&](std::size_t k) { return node.args[k] < 0 ? 0.0 : arg(k); };
+    return number(computed(node.op, known(0), known(1), known(2)));
+  }
   switch (node.op) {
-    case NodeOp::kLiteral:
-    case NodeOp::kGiven:
-    case NodeOp::kMerged:
-    case NodeOp::kIndex:
-      return;
-    case NodeOp::kAdd:
-      return number(arg(0) + arg(1));
-    case NodeOp::kSubtract:
-      return number(arg(0) - arg(1));
-    case NodeOp::kMultiply:
-      return number(arg(0) * arg(1));
-    case NodeOp::kDivide:
-      return number(arg(0) / arg(1));
-    case NodeOp::kLess:
-      return number(arg(0) < arg(1));
-    case NodeOp::kGreater:
-      return number(arg(0) > arg(1));
-    case NodeOp::kLessOrEqual:
-      return number(arg(0) <= arg(1));
-    case NodeOp::kGreaterOrEqual:
-      return number(arg(0) >= arg(1));
-    case NodeOp::kAnd:
-      return number(arg(0) != 0 && arg(1) != 0);
-    case NodeOp::kOr:
-      return number(arg(0) != 0 || arg(1) != 0);
-    case NodeOp::kNot:
-      return number(arg(0) == 0);
-    case NodeOp::kSelect:
-      return number(arg(0) != 0 ? arg(1) : arg(2));
-    case NodeOp::kMin:
-      return number(min(arg(0), arg(1)));
-    case NodeOp::kMax:
-      return number(max(arg(0), arg(1)));
-    case NodeOp::kAbs:
-      return number(std::fabs(arg(0)));
-    case NodeOp::kSqrt:
-      return number(std::sqrt(arg(0)));
-    case NodeOp::kFloor:
-      return number(std::floor(arg(0)));
-    case NodeOp::kExp:
-      return number(std::exp(arg(0)));
-    case NodeOp::kSin:
-      return number(std::sin(arg(0)));
-    case NodeOp::kCos:
-      return number(std::cos(arg(0)));
-    case NodeOp::kAtan2:
-      return number(std::atan2(arg(0), arg(1)));
-    case NodeOp::kPow:
-      return number(std::pow(arg(0), arg(1)));
     case NodeOp::kPart:
       return number(value(node.args[0]).of[node.what]);
     case NodeOp::kColumn:
@@ -210,6 +163,8 @@ void Interpreter::run_node(int id, const At& at) {
       const auto level = static_cast<std::size_t>(place - table->first);
       return number(grid_at(table->levels[level].light, shift()));
     }
+    default:
+      return;
   }
 }
 

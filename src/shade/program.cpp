@@ -64,7 +64,7 @@ class Writer {
         options_(options),
         gathered_(gathered),
         recording_(record(plan, pass, options.aovs)),
-        body_(recording_) {}
+        body_(recording_, gathers_made()) {}
 
   ShaderProgram write() {
     to_.work = frame_.work();
@@ -228,7 +228,7 @@ class Writer {
     }
   }
 
-  void add_texel_size(const std::string& name, Size size, int z = 0, int w = 0) {
+  void add_texel_size(const std::string& name, Size size, double z = 0, double w = 0) {
     block_.add("texel_" + name, glm::vec4(1.0 / size.width, 1.0 / size.height, z, w));
   }
 
@@ -243,15 +243,19 @@ class Writer {
 
   void add_rows() {
     if (body_.needs().ops.count(NodeOp::kRow) == 0) return;
-    const auto fill = [&pass = pass_, y0 = to_.work.y0](int y, float* row, int step) {
+    // One value to a texel, or four: as few lookups as there can be.
+    const int channels = gathers_made() ? 4 : 1;
+    const auto fill = [&pass = pass_, y0 = to_.work.y0, channels](int y, float* row, int step) {
       const RowRays<double> r(pass, y0 + y - pass.corner.y + 0.5);
+      const std::ptrdiff_t next = channels == 1 ? step : 1;
       for (const double x : {r.origin.x, r.origin.y, r.origin.z, r.ray.x, r.ray.y, r.ray.z, r.v,
                              r.calm_over, r.calm_under}) {
         *row = static_cast<float>(x);
-        row += step;
+        row += next;
       }
     };
-    declare("limpid_rows", ShaderTexture::Source::kRows, 1, {kRowValues, to_.work.height()}, fill);
+    declare("limpid_rows", ShaderTexture::Source::kRows, channels,
+            {(kRowValues + channels - 1) / channels, to_.work.height()}, fill);
   }
 
   bool looks_up(NodeOp op) const {
@@ -269,14 +273,28 @@ class Writer {
             rows_of({texture.channels.begin(), texture.channels.end()}));
   }
 
+  /// Row y, from 0 on, of a level with a texel of its other side at each edge. The texels have
+  /// their first column and row once more at their end.
+  template <class Texel>
+  static void copy_around(const Texel* texels, Size level, int y, Texel* row) {
+    const int from = y == 0 ? level.height - 1 : y - 1;
+    texels += std::ptrdiff_t{from} * (level.width + 1);
+    row[0] = texels[level.width - 1];
+    std::copy_n(texels, level.width + 1, row + 1);
+  }
+  /// Such a level whose edge begins at row `top` of a texture.
+  static glm::vec4 place_of(Size level, int top, Size texture) {
+    return {level.width, level.height, 2.0 / texture.width, (2.0 + top) / texture.height};
+  }
+
   void add_packed_map() {
     const Size map = pass_.wave_map.channels[0].window.size();
-    const Size size{map.width + 1, map.height + 1};
+    const Size size{map.width + 2, map.height + 2};
     declare_packed(texture_sampler(static_cast<int>(TextureId::kWaveMap)), size,
-                   [bytes = pass_.wave_map.bytes, size](int y, std::uint32_t* row) {
-                     std::copy_n(bytes + std::ptrdiff_t{y} * size.width, size.width, row);
+                   [bytes = pass_.wave_map.bytes, map](int y, std::uint32_t* row) {
+                     copy_around(bytes, map, y, row);
                    });
-    block_.add("level_wave_map", glm::vec4(map.width, map.height, 0, 0));
+    block_.add("level_wave_map", place_of(map, 0, size));
     add_texel_size("wave_map", size);
   }
 
@@ -325,27 +343,28 @@ class Writer {
                                std::move(levels));
   }
 
-  /// The same with that column and row.
-  std::vector<glm::vec4> places_of(const LevelSizes& sizes) const {
+  /// The same with a texel of its other side at each edge of a level.
+  static std::vector<glm::vec4> places_of(const LevelSizes& sizes, Size texture) {
     std::vector<glm::vec4> levels(kLevels, glm::vec4(0));
     int top = 0;
     for (int k = 0; k < sizes.count; ++k) {
-      levels[static_cast<std::size_t>(k)] = {sizes.width[k], sizes.height[k], top, 0};
-      top += sizes.height[k] + 1;
+      levels[static_cast<std::size_t>(k)] =
+          place_of({sizes.width[k], sizes.height[k]}, top, texture);
+      top += sizes.height[k] + 2;
     }
     return levels;
   }
   static Size size_with_all(const LevelSizes& sizes) {
     int height = 0;
-    for (int k = 0; k < sizes.count; ++k) height += sizes.height[k] + 1;
-    return {sizes.width[0] + 1, height};
+    for (int k = 0; k < sizes.count; ++k) height += sizes.height[k] + 2;
+    return {sizes.width[0] + 2, height};
   }
-  /// The texels of a row of those, from one place on; what is right of a level is left alone.
+  /// The texels of a row of those; what is right of a level is left alone.
   template <class Texel>
   static void copy_level_row(const LevelSizes& sizes, const Texel* texels, int y, Texel* row) {
-    int level = 0;
-    while (y > sizes.height[level]) y -= sizes.height[level++] + 1;
-    std::copy_n(texels + sizes.place(level, 0, y), sizes.width[level] + 1, row);
+    int k = 0;
+    while (y > sizes.height[k] + 1) y -= sizes.height[k++] + 2;
+    copy_around(texels + sizes.place(k, 0, 0), {sizes.width[k], sizes.height[k]}, y, row);
   }
 
   void add_packed_levels() {
@@ -355,7 +374,7 @@ class Writer {
       copy_level_row(levels.sizes, levels.texels, y, row);
     });
     add_texel_size("wave_levels", size);
-    block_.add("levels_wave_levels", places_of(levels.sizes));
+    block_.add("levels_wave_levels", places_of(levels.sizes, size));
   }
   /// All planes, one below the other.
   void add_slopes() {
@@ -367,8 +386,8 @@ class Writer {
               if (step != 1) throw Error("a texture of one channel has others");
               copy_level_row(levels.sizes, levels.planes[y / one.height], y % one.height, row);
             });
-    add_texel_size("slopes", size, one.height);
-    block_.add("levels_slopes", places_of(levels.sizes));
+    add_texel_size("slopes", size, static_cast<double>(one.height) / size.height);
+    block_.add("levels_slopes", places_of(levels.sizes, size));
   }
 
   void add_levels() {
@@ -449,6 +468,9 @@ class Writer {
       const auto range = ranges.find(given.name);
       to_.numbers.push_back({given.name, offset, value,
                              range == ranges.end() ? std::nullopt : std::optional(range->second)});
+    }
+    for (std::size_t k = 0; k < body_.frame_numbers().size(); ++k) {
+      block_.add("frame_" + std::to_string(k), static_cast<float>(body_.frame_numbers()[k]));
     }
   }
   /// The ranges of the numeric parameters.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "limpid/core/error.h"
 #include "limpid/core/number.h"
@@ -116,56 +115,13 @@ int Recorder::keep(Node node) {
 int Recorder::add(NodeOp op, NodeType type, std::array<int, 3> args, int what, double number) {
   const int folded = fold(op, args);
   if (folded >= 0) return folded;
-  const auto known = [&](int k) {
-    return args[static_cast<std::size_t>(k)] < 0 || is_known(args[static_cast<std::size_t>(k)]);
-  };
-  if (op <= NodeOp::kPow && known(0) && known(1) && args[0] >= 0) {
-    const auto value = [&](int k) {
-      const int arg = args[static_cast<std::size_t>(k)];
-      return arg < 0 ? 0.0 : node_of(arg).number;
-    };
-    const double a = value(0), b = value(1);
-    switch (op) {
-      case NodeOp::kAdd:
-        return literal(a + b);
-      case NodeOp::kSubtract:
-        return literal(a - b);
-      case NodeOp::kMultiply:
-        return literal(a * b);
-      case NodeOp::kDivide:
-        return literal(a / b);
-      case NodeOp::kLess:
-        return mask(a < b);
-      case NodeOp::kGreater:
-        return mask(a > b);
-      case NodeOp::kLessOrEqual:
-        return mask(a <= b);
-      case NodeOp::kGreaterOrEqual:
-        return mask(a >= b);
-      case NodeOp::kNot:
-        return mask(a == 0);
-      case NodeOp::kMin:
-        return literal(min(a, b));
-      case NodeOp::kMax:
-        return literal(max(a, b));
-      case NodeOp::kAbs:
-        return literal(std::fabs(a));
-      case NodeOp::kSqrt:
-        return literal(std::sqrt(a));
-      case NodeOp::kFloor:
-        return literal(std::floor(a));
-      case NodeOp::kExp:
-        return literal(std::exp(a));
-      case NodeOp::kSin:
-        return literal(std::sin(a));
-      case NodeOp::kCos:
-        return literal(std::cos(a));
-      case NodeOp::kAtan2:
-        return literal(std::atan2(a, b));
-      case NodeOp::kPow:
-        return literal(std::pow(a, b));
-      default:
-        break;
+  // A select of a known mask is folded above.
+  if (is_arithmetic(op) && op != NodeOp::kSelect) {
+    const auto known = [&](int arg) { return arg < 0 || is_known(arg); };
+    const auto value = [&](int arg) { return arg < 0 ? 0.0 : node_of(arg).number; };
+    if (known(args[0]) && known(args[1])) {
+      const double made = computed(op, value(args[0]), value(args[1]), 0);
+      return type == NodeType::kMask ? mask(made != 0) : literal(made);
     }
   }
   return keep({op, type, args, number, what});

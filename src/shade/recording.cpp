@@ -1,6 +1,62 @@
 #include "shade/recording.h"
 
+#include <cmath>
+
+#include "limpid/core/error.h"
+#include "limpid/core/number.h"
+
 namespace limpid {
+
+double computed(NodeOp op, double a, double b, double c) {
+  switch (op) {
+    case NodeOp::kAdd:
+      return a + b;
+    case NodeOp::kSubtract:
+      return a - b;
+    case NodeOp::kMultiply:
+      return a * b;
+    case NodeOp::kDivide:
+      return a / b;
+    case NodeOp::kLess:
+      return a < b;
+    case NodeOp::kGreater:
+      return a > b;
+    case NodeOp::kLessOrEqual:
+      return a <= b;
+    case NodeOp::kGreaterOrEqual:
+      return a >= b;
+    case NodeOp::kAnd:
+      return a != 0 && b != 0;
+    case NodeOp::kOr:
+      return a != 0 || b != 0;
+    case NodeOp::kNot:
+      return a == 0;
+    case NodeOp::kSelect:
+      return a != 0 ? b : c;
+    case NodeOp::kMin:
+      return min(a, b);
+    case NodeOp::kMax:
+      return max(a, b);
+    case NodeOp::kAbs:
+      return std::fabs(a);
+    case NodeOp::kSqrt:
+      return std::sqrt(a);
+    case NodeOp::kFloor:
+      return std::floor(a);
+    case NodeOp::kExp:
+      return std::exp(a);
+    case NodeOp::kSin:
+      return std::sin(a);
+    case NodeOp::kCos:
+      return std::cos(a);
+    case NodeOp::kAtan2:
+      return std::atan2(a, b);
+    case NodeOp::kPow:
+      return std::pow(a, b);
+    default:
+      throw Error("no arithmetic makes this node");
+  }
+}
 
 PlaneSet Recording::planes() const {
   PlaneSet set;

@@ -63,6 +63,11 @@ enum class NodeOp : std::uint8_t {
   kGrid,         ///< one channel at texels
 };
 
+/// Whether a node of it follows from its arguments alone: computed() has how.
+constexpr bool is_arithmetic(NodeOp op) { return op >= NodeOp::kAdd && op <= NodeOp::kPow; }
+/// In double; masks are 1 or 0.
+double computed(NodeOp op, double a, double b, double c);
+
 /// Numbers of a picture row, made in double for each (core/water_view.h): RowRays.
 enum class RowValue : std::uint8_t {
   kOriginX,

@@ -71,7 +71,7 @@ double OnDevice::seconds_of_run(const std::function<void(VkCommandBuffer)>& writ
   return seconds_of([&] { commands_.run(write); });
 }
 
-double OnDevice::shader_seconds(int times) {
+void OnDevice::time_shader() {
   const auto run = [&](int count) {
     return seconds_of_run([&](VkCommandBuffer c) {
       for (int i = 0; i < count; ++i) {
@@ -80,8 +80,8 @@ double OnDevice::shader_seconds(int times) {
       }
     });
   };
-  const double one = run(1);
-  return (run(1 + times) - one) / times;
+  many_ = std::min(many_, run(1 + kTimes));
+  one_ = std::min(one_, run(1));
 }
 
 double OnDevice::bus_seconds() {

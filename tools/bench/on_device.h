@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,8 +23,11 @@ class OnDevice {
            bool filter = false, const std::string& tiled = "");
   ~OnDevice();
 
-  /// Of one run of the shader, data on the device: those of `times` in a row over their number.
-  double shader_seconds(int times);
+  /// Runs the shader once and many times in a row, data on the device.
+  void time_shader();
+  /// Of one run: the shortest time of many in a row less the shortest of one, over their number. A
+  /// device that has rested is slow at first, so the first times do not count unless they are all.
+  double shader_seconds() const { return (many_ - one_) / kTimes; }
   /// Of carrying all textures to the device and the pictures back, and nothing else.
   double bus_seconds();
   /// What textures, picture and AOVs hold.
@@ -36,6 +40,7 @@ class OnDevice {
   void download(VkCommandBuffer c) const;
   double seconds_of_run(const std::function<void(VkCommandBuffer)>& write);
 
+  static constexpr int kTimes = 100;
   std::shared_ptr<GpuDevice> device_;
   ShaderProgram program_;
   GpuCommands commands_;
@@ -43,6 +48,7 @@ class OnDevice {
   GpuBuffer block_;
   VkSampler clamped_ = VK_NULL_HANDLE, tiled_ = VK_NULL_HANDLE;
   std::vector<Passage> inputs_, outputs_;
+  double one_ = HUGE_VAL, many_ = HUGE_VAL;
 };
 
 }  // namespace limpid::bench

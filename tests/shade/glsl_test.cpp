@@ -1,0 +1,100 @@
+#include "shade/glsl.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ops/contract.h"
+#include "plan/pass_of.h"
+#include "shade/bundled.h"
+#include "shade/program.h"
+#include "shade/symbol.h"
+
+/// How recordings are printed. That the text computes the right thing is shown where it runs.
+
+namespace limpid {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class GlslTest : public testing::Test {
+ protected:
+  GlslTest()
+      : plan_(make_plan(Look{}, test::inputs_of(world_.buffers.frame, world_.scene))),
+        pass_(pass_of(plan_, world_.scene, world_.buffers.frame)),
+        names_(plan_, pass_),
+        recorder_(names_) {}
+
+  static Symbol own(PlaneId plane) {
+    return Symbol::of(
+        Recorder::current().add(NodeOp::kOwn, NodeType::kNumber, {-1, -1, -1}, index_of(plane)));
+  }
+  Recording recording_of(const Symbol& output) {
+    recorder_.output("color.r", output.node());
+    return recorder_.take();
+  }
+
+  test::World world_;
+  Plan plan_;
+  Pass pass_;
+  NameTable names_;
+  Recorder recorder_;
+};
+
+TEST_F(GlslTest, WhatFollowsFromTheFrameIsComputedOnce) {
+  const Symbol a = given<Symbol>(3, "a"), b = given<Symbol>(0.5, "b"), x = own(PlaneId::kDepth);
+  const Symbol outer = select(a < b, a, sqrt(a + Symbol(1)) / b);
+  const Recording recording = recording_of(outer * x + b * x);
+  const GlslBody each(recording), once(recording, true);
+  EXPECT_TRUE(each.frame_numbers().empty());
+  EXPECT_THAT(each.text(), HasSubstr("limpid.a"));
+  EXPECT_THAT(once.frame_numbers(), ElementsAre(4.0));
+  EXPECT_THAT(once.text(), HasSubstr("limpid.frame_0"));
+  EXPECT_THAT(once.text(), HasSubstr("limpid.b")) << "a number of the frame itself has its name";
+  EXPECT_THAT(once.text(), Not(HasSubstr("limpid.a")));
+}
+
+TEST_F(GlslTest, ATexelThatAnIfReplacesIsReadWhereItDoesNot) {
+  const Symbol depth = own(PlaneId::kDepth);
+  Symbol color = own(PlaneId::kColorR);
+  if_any(depth > Symbol(2), [&] { color = depth; });
+  const std::string text = GlslBody(recording_of(color)).text();
+  EXPECT_LT(text.find("} else {"), text.find("limpid_texel_color")) << text;
+}
+
+/// Lookups of one width: four ifs, one after the other, would wait for one another.
+TEST_F(GlslTest, LookupsOfOneWidthShareAnIf) {
+  const Symbol width = own(PlaneId::kDepth), other = own(PlaneId::kSurfaceDepth);
+  const auto lookup = [&](double at, const Symbol& wide) {
+    const int node = recorder_.add(NodeOp::kTiledWide, NodeType::kThree,
+                                   {Symbol(at).node(), Symbol(0).node(), wide.node()});
+    return Symbol::of(recorder_.part(node, 0));
+  };
+  const Symbol sum = lookup(0.25, width) + lookup(0.5, width) + lookup(0.75, other);
+  const std::string text = GlslBody(recording_of(sum)).text();
+  const std::size_t first = text.find("if (limpid_is_fine(");
+  EXPECT_NE(first, std::string::npos) << text;
+  EXPECT_EQ(text.find("if (limpid_is_fine(", first + 1), std::string::npos) << text;
+}
+
+/// As of texts for hosts: a pipeline lasts for a sequence.
+TEST(ProgramOfARunner, IsTheSameForAnyTimeAndStrength) {
+  const test::World world(false);
+  const Frame& frame = world.buffers.frame;
+  const auto program = [&](double time, double strength) {
+    Look look = test::shipped_look("realistic");
+    look.of<Refraction>().strength = strength;
+    Scene scene = world.scene;
+    scene.time = time;
+    const Plan plan = make_plan(look, test::inputs_of(frame, scene));
+    const Pass pass = pass_of(plan, scene, frame);
+    return program_of(plan, frame, frame, pass, {}, Gathered::kAll);
+  };
+  const ShaderProgram a = program(0, 0.03), b = program(7, 0.01);
+  EXPECT_EQ(a.text, b.text);
+  EXPECT_NE(a.block, b.block);
+}
+
+}  // namespace
+}  // namespace limpid
