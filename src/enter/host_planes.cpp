@@ -56,7 +56,7 @@ struct EnteredPlanes::Entry {
   const EntryRules& rules;
   PlaneSet wanted;  ///< wanted and present
 
-  Way& way(const Role& role) const { return self.ways_[index_of(role.first)]; }
+  PlaneRoute& route(const Role& role) const { return self.routes_[index_of(role.first)]; }
   HostInput plane(const Role& role, int i) const {
     const PlaneId id = plane_after(role.first, i);
     return wanted.has(id) ? host[index_of(id)] : HostInput{};
@@ -65,34 +65,36 @@ struct EnteredPlanes::Entry {
   bool covered(const Role& role) const {
     return role.first == PlaneId::kDepth && !rules.trusted && host[index_of(PlaneId::kColorA)];
   }
-  static int bands(const Way& way) { return (way.window.height() + kBandRows - 1) / kBandRows; }
+  static int bands(const PlaneRoute& route) {
+    return (route.window.height() + kBandRows - 1) / kBandRows;
+  }
 
   void decide(const Role& role) const {
-    Way& way = this->way(role);
-    way.watched = way.copied = false;
-    way.window = {};
-    way.wrong = false;
-    way.nan = way.inf = 0;
+    PlaneRoute& route = this->route(role);
+    route.watched = route.copied = false;
+    route.window = {};
+    route.wrong = false;
+    route.nan = route.inf = 0;
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = plane(role, i);
       if (!view) continue;
       const Rect& w = view.window;
       if (w.empty()) throw Error("frame: " + std::string(role.name) + " has no pixels");
-      if (role.sanitise == Sanitise::kNormal && !way.window.empty() && w != way.window) {
+      if (role.sanitise == Sanitise::kNormal && !route.window.empty() && w != route.window) {
         throw Error("frame: " + std::string(role.name) + " has components of several sizes");
       }
-      way.window = way.window.empty()
-                       ? w
-                       : Rect{std::min(way.window.x0, w.x0), std::min(way.window.y0, w.y0),
-                              std::max(way.window.x1, w.x1), std::max(way.window.y1, w.y1)};
-      way.copied |= !is_floats(view) || rules.written.has(plane_after(role.first, i));
+      route.window = route.window.empty()
+                         ? w
+                         : Rect{std::min(route.window.x0, w.x0), std::min(route.window.y0, w.y0),
+                                std::max(route.window.x1, w.x1), std::max(route.window.y1, w.y1)};
+      route.copied |= !is_floats(view) || rules.written.has(plane_after(role.first, i));
     }
-    if (way.window.empty()) return;
+    if (route.window.empty()) return;
     const bool read_anew = rules.depth.kind != DepthKind::kEye || rules.depth.nothing;
-    way.copied |= role.sanitise == Sanitise::kDepth && read_anew;
-    way.copied |= role.sanitise == Sanitise::kNormal && !rules.trusted;
-    way.watched = !way.copied && !rules.trusted;
-    if (!way.copied && !way.watched) return;
+    route.copied |= role.sanitise == Sanitise::kDepth && read_anew;
+    route.copied |= role.sanitise == Sanitise::kNormal && !rules.trusted;
+    route.watched = !route.copied && !rules.trusted;
+    if (!route.copied && !route.watched) return;
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = plane(role, i);
       Plane& own = self.planes_[index_of(plane_after(role.first, i))];
@@ -101,19 +103,19 @@ struct EnteredPlanes::Entry {
   }
 
   void watch(const Role& role, int y0, int y1) const {
-    Way& way = this->way(role);
+    PlaneRoute& route = this->route(role);
     const SaneRange range = sane_range(role.sanitise);
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = plane(role, i);
       if (!view) continue;
       const View<const float> floats = floats_of(view);
       for (int y = std::max(y0, view.window.y0); y < std::min(y1, view.window.y1); ++y) {
-        if (way.wrong.load(std::memory_order_relaxed)) return;
+        if (route.wrong.load(std::memory_order_relaxed)) return;
         const auto* row = floats.row(y);
         const int count = view.window.width();
         const bool zero = covered(role) && row_has(0, row, floats.x_stride, count);
         if (zero || !row_is_sane(range, row, floats.x_stride, count)) {
-          way.wrong.store(true, std::memory_order_relaxed);
+          route.wrong.store(true, std::memory_order_relaxed);
         }
       }
     }
@@ -148,18 +150,18 @@ struct EnteredPlanes::Entry {
     if (role.sanitise == Sanitise::kNormal && !rules.trusted && band[0] && band[1] && band[2]) {
       replaced += sanitise_normal(band[0], band[1], band[2], rules.up);
     }
-    way(role).nan.fetch_add(replaced.nan, std::memory_order_relaxed);
-    way(role).inf.fetch_add(replaced.inf, std::memory_order_relaxed);
+    route(role).nan.fetch_add(replaced.nan, std::memory_order_relaxed);
+    route(role).inf.fetch_add(replaced.inf, std::memory_order_relaxed);
   }
 
-  template <bool Way::*kGoes, void (Entry::*kStep)(const Role&, int, int) const>
+  template <bool PlaneRoute::*kGoes, void (Entry::*kStep)(const Role&, int, int) const>
   void run(Executor& executor) const {
     int count = 0;
-    for (const Role& role : roles()) count += way(role).*kGoes ? bands(way(role)) : 0;
+    for (const Role& role : roles()) count += route(role).*kGoes ? bands(route(role)) : 0;
     if (count == 0) return;
     run_each(executor, count, [&](int index) {
       for (const Role& role : roles()) {
-        const Way& of_role = way(role);
+        const PlaneRoute& of_role = route(role);
         if (!(of_role.*kGoes)) continue;
         if (index < bands(of_role)) {
           const int y0 = of_role.window.y0 + index * kBandRows;
@@ -175,17 +177,17 @@ SanitiseCounts EnteredPlanes::enter(const HostPlanes& host, PlaneSet wanted,
                                     const EntryRules& rules, Executor& executor, Frame& frame) {
   const Entry entry{*this, host, rules, wanted};
   for (const Role& role : roles()) entry.decide(role);
-  entry.run<&Way::watched, &Entry::watch>(executor);
-  for (Way& way : ways_) way.copied |= way.wrong;
-  entry.run<&Way::copied, &Entry::copy>(executor);
+  entry.run<&PlaneRoute::watched, &Entry::watch>(executor);
+  for (PlaneRoute& route : routes_) route.copied |= route.wrong;
+  entry.run<&PlaneRoute::copied, &Entry::copy>(executor);
 
   SanitiseCounts counts;
   for (const Role& role : roles()) {
-    counts.of(role) = {entry.way(role).nan, entry.way(role).inf};
+    counts.of(role) = {entry.route(role).nan, entry.route(role).inf};
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = entry.plane(role, i);
       const int index = index_of(plane_after(role.first, i));
-      const bool copied = view && entry.way(role).copied;
+      const bool copied = view && entry.route(role).copied;
       frame.planes[index] = copied ? View<const float>(planes_[index].view())
                             : view ? floats_of(view)
                                    : View<const float>{};

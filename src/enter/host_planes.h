@@ -39,7 +39,7 @@ class EnteredPlanes {
   struct Entry;  // of one frame
 
   /// How the planes of a role enter.
-  struct Way {
+  struct PlaneRoute {
     bool watched = false, copied = false;
     Rect window;  ///< the window that all its planes share
     std::atomic<bool> wrong = false;
@@ -47,7 +47,7 @@ class EnteredPlanes {
   };
 
   std::array<Plane, kPlaneCount> planes_;
-  std::array<Way, kPlaneCount> ways_;  ///< of a role, at its first plane
+  std::array<PlaneRoute, kPlaneCount> routes_;  ///< of a role, at its first plane
 };
 
 }  // namespace limpid

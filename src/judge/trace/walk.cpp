@@ -21,27 +21,28 @@ Beam beam_of(const Ray& ray) { return {ray, ray, ray}; }
 Rgb<double> Walk::scattered(const Ray& ray, double length, const Band& band,
                             Samples& samples) const {
   const Rgb<double>& rate = medium_.rate;
-  Way way{.chances = Chances(band.mask, samples.next())};
+  RandomPath path{.chances = Chances(band.mask, samples.next())};
   // Every path is scattered before it ends, and represents only scattered paths.
   const auto share = [&](double of) { return -std::expm1(-of * std::min(length, kInfinitePath)); };
   const Rgb<double> shares{share(rate.r), share(rate.g), share(rate.b)};
-  const double drawn = way.chances.drawn(shares);
+  const double drawn = path.chances.drawn(shares);
   if (!(drawn > 0)) return kBlack;
-  const double s = -std::log1p(-samples.next() * drawn) / way.chances.drawn(rate);
+  const double s = -std::log1p(-samples.next() * drawn) / path.chances.drawn(rate);
   const auto over = [](double chance, double of) { return of > 0 ? chance / of : 0; };
   const Rgb<double> chance = rate * transmittance(s, rate);
-  way.chances.go_on({over(chance.r, shares.r), over(chance.g, shares.g), over(chance.b, shares.b)});
-  way.ray = ray;
-  if (scatter(way, ray.at(s), band, samples)) go(way, band, samples);
-  return shares * way.light;
+  path.chances.go_on(
+      {over(chance.r, shares.r), over(chance.g, shares.g), over(chance.b, shares.b)});
+  path.ray = ray;
+  if (scatter(path, ray.at(s), band, samples)) go(path, band, samples);
+  return shares * path.light;
 }
 
 Rgb<double> Walk::bottom(const SolidPoint& point, const Beam& beam, const Band& band,
                          Samples& samples) const {
-  Way way{.chances = Chances(band.mask, samples.next())};
-  way.light = band.mask * own_light(point, beam, band, samples);
-  if (bounce(way, point, samples)) go(way, band, samples);
-  return way.light;
+  RandomPath path{.chances = Chances(band.mask, samples.next())};
+  path.light = band.mask * own_light(point, beam, band, samples);
+  if (bounce(path, point, samples)) go(path, band, samples);
+  return path.light;
 }
 
 Rgb<double> Walk::dry(const SolidPoint& point, const Beam& beam) const {
@@ -50,8 +51,8 @@ Rgb<double> Walk::dry(const SolidPoint& point, const Beam& beam) const {
   });
 }
 
-void Walk::go(Way& way, const Band& band, Samples& samples) const {
-  while (way.in_air ? through_air(way, band, samples) : through_water(way, band, samples)) {
+void Walk::go(RandomPath& path, const Band& band, Samples& samples) const {
+  while (path.in_air ? through_air(path, band, samples) : through_water(path, band, samples)) {
   }
 }
 
@@ -60,99 +61,99 @@ std::optional<SolidPoint> Walk::nearest(const Ray& ray) const {
 }
 
 /// Extends the path to a scattering, to the bottom, or to the surface.
-Walk::Going Walk::through_water(Way& way, const Band& band, Samples& samples) const {
-  const std::optional<SolidPoint> dry = nearest(way.ray);
-  Ray before = way.ray;
+Walk::Going Walk::through_water(RandomPath& path, const Band& band, Samples& samples) const {
+  const std::optional<SolidPoint> dry = nearest(path.ray);
+  Ray before = path.ray;
   if (dry) before.to = std::min(before.to, dry->hit.distance);
   const std::optional<SurfacePoint> wet = surface_.from_below(before);
   const double length = wet ? wet->distance : dry ? dry->hit.distance : HUGE_VAL;
-  const double s = -std::log1p(-samples.next()) / way.chances.drawn(medium_.rate);
+  const double s = -std::log1p(-samples.next()) / path.chances.drawn(medium_.rate);
   if (s < length) {
-    way.chances.go_on(medium_.rate * transmittance(s, medium_.rate));
-    return scatter(way, way.ray.at(s), band, samples);
+    path.chances.go_on(medium_.rate * transmittance(s, medium_.rate));
+    return scatter(path, path.ray.at(s), band, samples);
   }
   if (!wet && !dry) return false;
-  way.chances.go_on(transmittance(length, medium_.rate));
-  if (wet) return meet_surface(way, *wet, band, samples);
-  if (!way.from_dry) {
-    way.light = way.light + way.scale * (way.chances.worth() *
-                                         own_light(*dry, beam_of(way.ray), band, samples));
+  path.chances.go_on(transmittance(length, medium_.rate));
+  if (wet) return meet_surface(path, *wet, band, samples);
+  if (!path.from_dry) {
+    path.light = path.light + path.scale * (path.chances.worth() *
+                                            own_light(*dry, beam_of(path.ray), band, samples));
   }
-  return bounce(way, *dry, samples);
+  return bounce(path, *dry, samples);
 }
 
 /// Out of the water: to the sky or to a dry surface, which is shaded as in the raster pass; or down
 /// into a wave.
-Walk::Going Walk::through_air(Way& way, const Band& band, Samples& samples) const {
-  const std::optional<SolidPoint> dry = nearest(way.ray);
+Walk::Going Walk::through_air(RandomPath& path, const Band& band, Samples& samples) const {
+  const std::optional<SolidPoint> dry = nearest(path.ray);
   if (medium_.crosses) {
-    Ray before = way.ray;
+    Ray before = path.ray;
     if (dry) before.to = std::min(before.to, dry->hit.distance);
     if (const auto wet = surface_.nearest(before, true)) {
-      const double cosine = glm::dot(-way.ray.direction, wet->normal);
+      const double cosine = glm::dot(-path.ray.direction, wet->normal);
       if (samples.next() < fresnel_exact(cosine, band.ior)) {
-        way.ray = mirrored_up(beam_of(way.ray), *wet).ray;
+        path.ray = mirrored_up(beam_of(path.ray), *wet).ray;
       } else {
-        way.ray = refracted_in(beam_of(way.ray), *wet, band.ior).ray;
-        way.scale /= band.square;
-        way.in_air = false;
+        path.ray = refracted_in(beam_of(path.ray), *wet, band.ior).ray;
+        path.scale /= band.square;
+        path.in_air = false;
       }
       return true;
     }
   }
-  const Rgb<double> end = dry ? this->dry(*dry, beam_of(way.ray)) : sky_.from(way.ray.direction);
-  way.light = way.light + way.scale * (way.chances.worth() * end);
+  const Rgb<double> end = dry ? this->dry(*dry, beam_of(path.ray)) : sky_.from(path.ray.direction);
+  path.light = path.light + path.scale * (path.chances.worth() * end);
   return false;
 }
 
 /// Adds the sun's light from there, and continues in a random direction.
-Walk::Going Walk::scatter(Way& way, const glm::dvec3& at, const Band& band,
+Walk::Going Walk::scatter(RandomPath& path, const glm::dvec3& at, const Band& band,
                           Samples& samples) const {
-  way.from_dry = false;
+  path.from_dry = false;
   if (band.sun_on_water != kBlack && sun_path_.reaches(at, band)) {
     const double turned =
-        henyey_greenstein(glm::dot(band.light.to_sun, way.ray.direction), medium_.anisotropy);
-    way.light =
-        way.light + (way.scale * turned) * (way.chances.worth() * medium_.albedo *
-                                            band.sun_on_water * sun_path_.left_at(at, band));
+        henyey_greenstein(glm::dot(band.light.to_sun, path.ray.direction), medium_.anisotropy);
+    path.light =
+        path.light + (path.scale * turned) * (path.chances.worth() * medium_.albedo *
+                                              band.sun_on_water * sun_path_.left_at(at, band));
   }
-  if (samples.next() >= way.chances.drawn(medium_.albedo) || lost_below(at)) return false;
-  way.chances.go_on(medium_.albedo);
+  if (samples.next() >= path.chances.drawn(medium_.albedo) || lost_below(at)) return false;
+  path.chances.go_on(medium_.albedo);
   const double u = samples.next();
-  way.ray = {at, scattered_direction(way.ray.direction, medium_.anisotropy, u, samples.next())};
+  path.ray = {at, scattered_direction(path.ray.direction, medium_.anisotropy, u, samples.next())};
   return true;
 }
 
 /// Reflects the path at a dry surface in the water, with the probability of its color.
-Walk::Going Walk::bounce(Way& way, const SolidPoint& point, Samples& samples) const {
+Walk::Going Walk::bounce(RandomPath& path, const SolidPoint& point, Samples& samples) const {
   const Rgb<double> albedo = solid_.albedo(point);
-  if (samples.next() >= way.chances.drawn(albedo)) return false;
-  way.chances.go_on(albedo);
+  if (samples.next() >= path.chances.drawn(albedo)) return false;
+  path.chances.go_on(albedo);
   const double u = samples.next();
   const glm::dvec3 direction = diffuse_direction(point.normal, u, samples.next());
   if (!(glm::dot(direction, point.face) > 0)) return false;
-  way.ray = {point.off_towards(direction), direction};
-  way.from_dry = true;
+  path.ray = {point.off_towards(direction), direction};
+  path.from_dry = true;
   return true;
 }
 
 /// Reflects or transmits the path at the surface.
-Walk::Going Walk::meet_surface(Way& way, const SurfacePoint& at, const Band& band,
+Walk::Going Walk::meet_surface(RandomPath& path, const SurfacePoint& at, const Band& band,
                                Samples& samples) const {
   if (!medium_.crosses) {
-    way.ray = {at.point, way.ray.direction};
+    path.ray = {at.point, path.ray.direction};
   } else {
-    const double cosine = glm::dot(way.ray.direction, at.normal);
+    const double cosine = glm::dot(path.ray.direction, at.normal);
     if (samples.next() < fresnel_exact(cosine, 1 / band.ior)) {
-      way.ray = mirrored_down(beam_of(way.ray), at).ray;
-      way.from_dry = false;
+      path.ray = mirrored_down(beam_of(path.ray), at).ray;
+      path.from_dry = false;
       return true;
     }
-    way.ray = refracted_out(beam_of(way.ray), at, band.ior).ray;
-    way.scale *= band.square;
+    path.ray = refracted_out(beam_of(path.ray), at, band.ior).ray;
+    path.scale *= band.square;
   }
-  way.in_air = true;
-  return !way.from_dry;
+  path.in_air = true;
+  return !path.from_dry;
 }
 
 /// A dry surface's own light from sun and sky, through the water over it.
@@ -180,8 +181,8 @@ Rgb<double> Walk::skylight_at(const glm::dvec3& point, const Band& band, Samples
   const double cosine = std::sqrt(samples.next());
   const double enters = medium_.crosses ? 1 - fresnel_exact(cosine, 1 / band.ior) : 1;
   if (enters == 0) return kBlack;
-  const double way = sun_path_.depth_of(point) / std::max(cosine, 1e-30);
-  return enters * band.square * transmittance(way, medium_.rate);
+  const double path = sun_path_.depth_of(point) / std::max(cosine, 1e-30);
+  return enters * band.square * transmittance(path, medium_.rate);
 }
 
 /// Without absorption paths would descend forever.

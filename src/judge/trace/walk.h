@@ -44,7 +44,7 @@ class Walk {
 
  private:
   /// The state of a random path.
-  struct Way {
+  struct RandomPath {
     Chances chances;
     Ray ray{};
     double scale = 1;  ///< factor of radiance in the path's medium
@@ -54,12 +54,13 @@ class Walk {
   };
   using Going = bool;  ///< whether the path continues
 
-  void go(Way& way, const Band& band, Samples& samples) const;
-  Going through_water(Way& way, const Band& band, Samples& samples) const;
-  Going through_air(Way& way, const Band& band, Samples& samples) const;
-  Going scatter(Way& way, const glm::dvec3& at, const Band& band, Samples& samples) const;
-  Going bounce(Way& way, const SolidPoint& point, Samples& samples) const;
-  Going meet_surface(Way& way, const SurfacePoint& at, const Band& band, Samples& samples) const;
+  void go(RandomPath& path, const Band& band, Samples& samples) const;
+  Going through_water(RandomPath& path, const Band& band, Samples& samples) const;
+  Going through_air(RandomPath& path, const Band& band, Samples& samples) const;
+  Going scatter(RandomPath& path, const glm::dvec3& at, const Band& band, Samples& samples) const;
+  Going bounce(RandomPath& path, const SolidPoint& point, Samples& samples) const;
+  Going meet_surface(RandomPath& path, const SurfacePoint& at, const Band& band,
+                     Samples& samples) const;
   std::optional<SolidPoint> nearest(const Ray& ray) const;
   Rgb<double> own_light(const SolidPoint& point, const Beam& beam, const Band& band,
                         Samples& samples) const;
