@@ -36,7 +36,8 @@ double share_in_air(const Pass& c) {
       lowest = std::min(lowest, height), highest = std::max(highest, height);
     }
   }
-  return lowest < 0 ? std::max(highest, 0.0) / (highest - lowest) : 1;
+  if (!(lowest < 0)) return 1;
+  return highest > 0 ? highest / (highest - lowest) : 0;
 }
 
 }  // namespace

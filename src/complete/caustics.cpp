@@ -39,8 +39,8 @@ constexpr double kPointsOfPixel = 0.5, kPoints = 1e6, kMaxPointsOfPixel = 64;
 constexpr std::size_t kEvery = 7;  ///< of these is asked how wide texels shall be
 constexpr double kFine = 0.05;     ///< share of the pixels that may want finer texels
 constexpr double kSpread = 4;      ///< times the depth at which light begins to fold
-/// Likewise: above it, rays two texels apart err less than those one apart, which overlap by
-/// roundings; if the shortest wave is so many texels long.
+/// Likewise: below it, rays two texels apart err less than rays one texel apart, which overlap by
+/// roundings, if the shortest wave is at least so many texels long.
 constexpr double kSmooth = 0.2, kFinePerWave = 20;
 constexpr double kLowSun =
     0.42;  ///< its height as a sine, 25 degrees: below, waves let in more or less
@@ -287,7 +287,7 @@ void CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunli
   }
 }
 
-/// False if it would take more points than kPoints.
+/// False if it would take more points than the picture may have (kMaxPointsOfPixel).
 bool CausticsMaker::lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun,
                             double scale, int exponent, double widest, double deepest) {
   const glm::dvec2 eye(glm::dot(pass.eye, pass.map_x), glm::dot(pass.eye, pass.map_y));

@@ -18,10 +18,11 @@ namespace limpid {
 /// Tracing", with a regular grid of rays at the surface).
 ///
 /// The bottom's depth is that of the frame's planes, over the place where calm water lets light in,
-/// drawn on where nobody sees it; where two bottoms lie below one place, their mean. Light goes to
-/// the table bilinearly; a filter of three texels along each axis undoes what that blurs, and blurs
-/// by the sun's disc. The same for any number of threads. Keeps its memory from frame to frame. 5
-/// ms for 1920x1080 pixels on one thread with AVX-512, twice as long where light is focused.
+/// drawn on where no view ray meets it; where two bottoms lie below one place, their mean. The
+/// light of a ray goes to the table as a box as wide as neighbouring rays are apart, one to three
+/// texels; a filter of three texels along each axis undoes that blur, and blurs by the sun's disc.
+/// The same for any number of threads. Keeps its memory from frame to frame. 5 ms for 1920x1080
+/// pixels on one thread with AVX-512, twice as long where light is focused.
 class CausticsMaker {
  public:
   /// Valid until the next call. A table without levels if the sun is down, or the waves focus less

@@ -30,6 +30,8 @@ F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
     const Vec2<F> b = share_of_step<F>(last_one, count) * end;
     const float low = tap.range(plane, lanes, a, b).low;
     const F level = max(calm_depth_at(c, p, a), calm_depth_at(c, p, b));
+    // From below the calm level, what lies farther away than that level stands over it.
+    if (!(c.eye_above > 0)) return low >= 1e9f;
     return low >= 1e9f || low > greatest(select(lanes, F(1 + 1e-4) * level, F(-HUGE_VAL)));
   };
   // The step at which the highest is seen is parted, to find where that ends.

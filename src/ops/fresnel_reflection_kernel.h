@@ -195,11 +195,13 @@ struct Kernel<FresnelReflection> : FresnelReflection {
         facets.share[i] = select(rough, some.share[i], facets.share[i]);
       }
       if (looks) {
-        const Outlook<F> to =
-            outlook_of(params, c, p, tap, some, rough, near, length(level), deviation);
-        const auto above = rough && p.side > F(0);
-        outlook.parts = select(above, to.parts, outlook.parts);
-        outlook.lean = to.lean;
+        const auto above = rough && tap.wet() && p.side > F(0);
+        if_any(above, [&] {
+          const Outlook<F> to =
+              outlook_of(params, c, p, tap, some, above, near, length(level), deviation);
+          outlook.parts = select(above, to.parts, outlook.parts);
+          outlook.lean = select(above, to.lean, outlook.lean);
+        });
       }
     });
     const Rgb<F> black{F(0), F(0), F(0)};
@@ -379,7 +381,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     const Rgb<F> far = tap.lat_long_rgb(
         c.environment, lat_long(dot(vec3_of<F>(c.map_x), ray), dot(vec3_of<F>(c.map_y), ray),
                                 dot(vec3_of<F>(c.up), ray)));
-    return through_water<false>(c, p, tap, ray, F(HUGE_VAL), far);
+    return through_water<false>(c, p, tap, ray, F(HUGE_VAL), far, {F(0), F(0)});
   }
 
   // --- seen from within the water ---------------------------------------------------------------
@@ -388,25 +390,25 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   /// pixels that are seen from within the water, where it is known. A way may have no end.
   template <bool kEnds = true, class F, class Tap>
   static LIMPID_INLINE Rgb<F> through_water(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                            const Vec3<F>& ray, F way, Rgb<F> light) {
+                                            const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
     if (!c.medium) return light;
     const auto below = p.side < F(0);
     if_any(below, [&] {
-      light = select(below, dimmed<kEnds>(c, p, tap, ray, select(below, way, F(0)), light), light);
+      light =
+          select(below, dimmed<kEnds>(c, p, tap, ray, select(below, way, F(0)), light, at), light);
     });
     return light;
   }
   template <bool kEnds, class F, class Tap>
   [[gnu::noinline]] static Rgb<F> dimmed(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                         const Vec3<F>& ray, F way, Rgb<F> light) {
+                                         const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
     const Vec3<F> up = vec3_of<F>(c.up);
     const F height = given<F>(c.eye_above) + dot(up, p.surface_point);
     const F begin = max(F(0) - height, F(0)), sink = max(F(0) - dot(up, ray), F(0));
     const F length = min(way, F(3e38));
     Vec3<F> albedo{F(0), F(0), F(0)};
     if (kEnds && c.planes.covers(kAlbedoPlanes)) {
-      const Rgb<F> there =
-          bilinear_rgb<F>(tap, PlaneId::kAlbedoR, kept_in(c.dry, p, ScreenRay<F>(c, p, ray), way));
+      const Rgb<F> there = bilinear_rgb<F>(tap, PlaneId::kAlbedoR, at);
       albedo = {there.r, there.g, there.b};
     }
     return seen_in_water(*c.medium, Way<F>{length, sink, begin, begin + sink * length}, ray, light,
@@ -416,9 +418,9 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   /// What the dry picture shows of a ray that is mirrored down in the water. Where that meets
   /// nothing that is seen, the level of what is seen next to its end goes on.
   template <class F, class Tap>
-  [[gnu::noinline]] static Mirrored<F> seen_below(const Params& params, const Pass& c,
-                                                  const Pixel<F>& p, const Tap& tap, Vec3<F> n,
-                                                  const ScreenRay<F>& ray, F met) {
+  [[gnu::noinline]] static Mirrored<F> seen_below(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                                  Vec3<F> n, const ScreenRay<F>& ray, F met,
+                                                  Rgb<F> beyond) {
     constexpr int kGuesses = 3;
     const Vec3<F> up = vec3_of<F>(c.up), direction = mirrored_ray(c, p, n);
     const F top = given<F>(c.eye_above) + dot(up, p.surface_point);
@@ -432,17 +434,20 @@ struct Kernel<FresnelReflection> : FresnelReflection {
           min(max(at.y, given<F>(c.dry.low.y) - p.uv.y), given<F>(c.dry.high.y) - p.uv.y)};
     };
     F way = met;
-    repeat<F>(kGuesses, [&] {
-      const Vec2<F> at = next_to(way);
-      const F depth = tap.nearest(PlaneId::kDepth, at);
-      const F drop = top - height_at(c, p, at, depth);
-      way = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, way);
+    if_any(unseen, [&] {
+      repeat<F>(kGuesses, [&] {
+        const Vec2<F> at = next_to(way);
+        const F depth = tap.nearest(PlaneId::kDepth, at);
+        const F drop = top - height_at(c, p, at, depth);
+        way = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, way);
+      });
     });
-    const Rgb<F> shown = through_water(c, p, tap, direction, way,
-                                       bilinear_rgb<F>(tap, PlaneId::kColorR, next_to(way)));
+    const Vec2<F> at = next_to(way);
+    const Rgb<F> shown =
+        through_water(c, p, tap, direction, way, bilinear_rgb<F>(tap, PlaneId::kColorR, at), at);
     const auto ends = way < F(1e20);
-    const Rgb<F> none = far_away(params, c, p, tap, n, ray);
-    return {select(ends, shown, none), {F(0), select(ends, F(1), F(0)), select(ends, F(0), F(1))}};
+    return {select(ends, shown, beyond),
+            {F(0), select(ends, F(1), F(0)), select(ends, F(0), F(1))}};
   }
 
   // --- the reflection planes --------------------------------------------------------------------
@@ -596,7 +601,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     Mirrored<F> all{light, {F(0), hit, F(1) - hit}};
     if (c.submersible) {
       if_any(below, [&] {
-        const Mirrored<F> under = seen_below(params, c, p, tap, n, own, way);
+        const Mirrored<F> under = seen_below(c, p, tap, n, own, way, beyond);
         all = {select(below, under.light, all.light), select(below, under.sources, all.sources)};
       });
     }
@@ -611,7 +616,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     const Rgb<F> far = c.planes.covers(kSkyPlanes)
                            ? bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)))
                            : constant<F>(params);
-    return through_water<false>(c, p, tap, mirrored_ray(c, p, n), F(HUGE_VAL), far);
+    return through_water<false>(c, p, tap, mirrored_ray(c, p, n), F(HUGE_VAL), far, {F(0), F(0)});
   }
 
   template <class F, class Tap>
@@ -648,7 +653,9 @@ struct Kernel<FresnelReflection> : FresnelReflection {
       const auto below = p.side < F(0);
       const auto known = end.way < F(1e20) || (c.reflection_ends ? below : end.way < F(0));
       if_any(below && known, [&] {
-        const Rgb<F> through = through_water(c, p, tap, mirrored_ray(c, p, n), end.way, seen);
+        const Vec3<F> ray = mirrored_ray(c, p, n);
+        const Vec2<F> at = kept_in(c.dry, p, ScreenRay<F>(c, p, ray), end.way);
+        const Rgb<F> through = through_water(c, p, tap, ray, end.way, seen, at);
         seen = select(known, through, seen);
         lacks = select(below && known, F(0), lacks);  // the water before it is there
       });

@@ -20,6 +20,7 @@ struct FlatBottom {
   int& looks;
   double mixed = drop;  ///< what a mix of four texels says instead
   double shelf = drop, shelf_from = HUGE_VAL, rise = 1e-9;
+  double ended = 0;  ///< 1: the layer of the bottom says that it has ended
 
   double nearest(PlaneId, Vec2<double> shift) const {
     ++looks;
@@ -46,7 +47,7 @@ struct FlatBottom {
     return {.highest = static_cast<float>(-drop)};
   }
   static bool wet() { return true; }
-  Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {drop, drop, 0}; }
+  Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {drop, ended, 0}; }
 };
 
 // Not so steep as a refracted ray: there is a way to go on screen.
@@ -150,6 +151,9 @@ TEST(BottomSearch, BehindWhatHidesItTheBottomIsThatOfTheLayer) {
     EXPECT_EQ(found.sure, 0);
     EXPECT_LT(found.way, view.most);
     EXPECT_NEAR(found.way, drop / 0.5, 1e-9);
+    FlatBottom without = tap;
+    without.ended = 1;
+    EXPECT_EQ(march(view, without).way, HUGE_VAL);
   }
 }
 

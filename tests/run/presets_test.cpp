@@ -48,10 +48,11 @@ TEST(Presets, AreTheFilesOfTheFolderAndNamesOfNoLook) {
 /// Water, size and wind are their own; how it is computed is the base's.
 TEST(Presets, AreThePhysicsOfOneWater) {
   const Look physical = load_look(kData / "looks/physical.toml");
-  const std::string own[] = {
-      "wave_normals.strength", "wave_normals.tile_size", "wave_normals.direction",
-      "wave_normals.wind",     "depth_fog.murkiness",    "depth_fog.water_type",
-      "depth_fog.sediment",    "depth_fog.cdom",         "depth_fog.anisotropy"};
+  const std::string own[] = {"wave_normals.strength",  "wave_normals.tile_size",
+                             "wave_normals.direction", "wave_normals.wind",
+                             "depth_fog.murkiness",    "depth_fog.water_type",
+                             "depth_fog.sediment",     "depth_fog.cdom",
+                             "depth_fog.anisotropy",   "sun_highlight.roughness"};
   for (const char* name : kPresets) {
     const Look look = preset(name);
     EXPECT_EQ(look.name, name);

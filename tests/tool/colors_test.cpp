@@ -141,6 +141,11 @@ TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
   expect_refused(
       limpid({"compare", "ap1.exr", "ap1.exr", "--metrics", "flip", "--colorspace", "x"}),
       {"color space 'x': expected one of"}, 2);
+  oiiotool({"plate.exr", "--ch", "R,G,B", "-o", "encoded.png"});
+  expect_refused(
+      limpid(
+          {"compare", "encoded.png", "encoded.png", "--metrics", "flip", "--colorspace", "ACEScg"}),
+      {"--colorspace: is for linear pictures; encoded.png and encoded.png are encoded as sRGB"}, 2);
 }
 
 /// A plate in ACEScg and the same one in Rec.709, in the same water by its name: converted to

@@ -19,12 +19,6 @@ bool among(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_linear(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return holds_exr(path) || among(extension, {".hdr", ".rgbe", ".pfm"});
-}
-
 std::string component_of(const std::string& channel) {
   return channel.substr(channel.rfind('.') + 1);
 }
@@ -214,6 +208,12 @@ std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const Compare
     channels.push_back({name, a.find(pair.a)->view(), b.find(pair.b)->view()});
   }
   return channels;
+}
+
+bool is_linear(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return holds_exr(path) || among(extension, {".hdr", ".rgbe", ".pfm"});
 }
 
 Primaries light_of(const std::string& path, const std::optional<Primaries>& named,

@@ -62,6 +62,9 @@ std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const Compare
 std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const ComparedPicture& b,
                                          const std::vector<ChannelPair>& pairs);
 
+/// Whether the colors of a picture are linear (EXR, HDR, PFM), not encoded as sRGB.
+bool is_linear(const std::string& path);
+
 /// What red, green and blue of a picture are: Rec.709 of one that is encoded as sRGB, else `named`,
 /// else what the file says, else `untold`. Throws Error for chromaticities that are none.
 Primaries light_of(const std::string& path, const std::optional<Primaries>& named,

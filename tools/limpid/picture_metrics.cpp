@@ -132,6 +132,11 @@ PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
     }
   }
   if (!wanted.of_color()) return metrics;
+  if (wanted.primaries && !is_linear(a.path) && !is_linear(b.path)) {
+    throw Error("--colorspace: is for linear pictures; " + a.path + " and " + b.path +
+                    " are encoded as sRGB",
+                Fault::kUsage);
+  }
   const Primaries light_a = light_of(a.path, wanted.primaries);
   const Primaries light_b = light_of(b.path, wanted.primaries);
   if (!agree(light_a, kRec709) || !agree(light_b, kRec709)) {

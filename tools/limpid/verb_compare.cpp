@@ -160,6 +160,9 @@ int compare_frames(const CompareArguments& a, WantedMetrics wanted, const Limits
     if (!pair.metrics.no_offset.empty() && !before) {
       print("  Offset not measured: " + pair.metrics.no_offset + "\n");
     }
+    if (!pair.metrics.spaces.empty() && !before) {
+      print("  Metrics of color in Rec.709, made of " + pair.metrics.spaces + "\n");
+    }
     before = std::move(pair);
   }
   if (frames.size() > 1) {

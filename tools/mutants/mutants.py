@@ -125,7 +125,7 @@ def run(project, arguments, say=print):
         picked = kept(project, everything, say)
     else:
         picked = pick(everything, lambda site: not beginnings or any(site.path == p or site.path.startswith(p + "/") for p in beginnings),
-                      arguments.limit or 320, arguments.seed or 1)
+                      arguments.limit or 320, 1 if arguments.seed is None else arguments.seed)
     kinds = collections.Counter(site.kind for site in picked.values())
     say(f"{len(picked)} of {len(everything)} places in {len({site.path for site in picked.values()})} files: "
         + ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items())))
@@ -177,8 +177,8 @@ def tell(project, judged, say):
 def main(words):
     parser = argparse.ArgumentParser(prog="tools/dev mutants", description=__doc__.split("\n")[0])
     parser.add_argument("paths", nargs="*", metavar="PATH", help="a file or folder; all that mutants are made of, if none")
-    parser.add_argument("--limit", type=int, metavar="N", help="of at most N other places than those of tools/mutants/places.txt (320)")
-    parser.add_argument("--seed", type=int, metavar="N", help="which others, the same for the same N (1)")
+    parser.add_argument("--limit", type=int, metavar="N", help="of at most N places out of all, instead of those of tools/mutants/places.txt (320)")
+    parser.add_argument("--seed", type=int, metavar="N", help="which of all, the same for the same N (1)")
     parser.add_argument("--again", action="store_true", help="only those that survived when last tried")
     parser.add_argument("--rest", action="store_true", help="only those that have not been tried, and tell of all")
     parser.add_argument("--minutes", type=float, metavar="N", help="judge for so long; --rest goes on")

@@ -18,7 +18,8 @@ namespace limpid {
 /// in-scatter is not dimmed, and the mirrored light is multiplied by `transmittance`. Before that
 /// it comes through the water from what is mirrored: depth_fog (unless `linear`) attenuates it and
 /// adds in-scatter by the length of that path, as for a view that begins at the surface
-/// (op/water_medium.h). `constant` light, and reflections without a depth, stay as they are.
+/// (op/water_medium.h). Light of the source `constant`, of a reflection without a depth, and of the
+/// lookup `offset` stays as it is; the `color` of `auto` counts as infinitely far.
 ///
 /// Source `planar`: the frame's reflection planes, the view of a flat mirror at the calm surface.
 /// `environment`: the frame's map of the infinitely far surroundings, along the mirrored ray.

@@ -39,8 +39,8 @@ struct FusedOptions {
   std::string simd = {};
   Size tile = {1024, 32};
   RunTimes* times = nullptr;  ///< filled when it is there
-  /// Whether refraction's march skips lookups that Heights proves to be misses. The bits are the
-  /// same without; a test compares them.
+  /// Whether marches (of refraction, mirrored rays, the skyline, shadows) skip lookups that Heights
+  /// proves to change nothing. The bits are the same without; a test compares them.
   bool leaps = true;
   /// Once a stop is requested no tile begins any more, and the run throws Stopped.
   std::stop_token stop = {};

@@ -84,13 +84,13 @@ const pictures = new Pictures(() => {
   const job = isGone ? null : nextJob();
   document.body.toggleAttribute("data-busy", job !== null);
   return job;
-});
+}, () => numbers.isRunning);
 
 function nextJob() {
   const request = wanted(), key = JSON.stringify(request), isNew = key !== drawn.key;
   if (key === stuck) return null;
   const hurries = isLive || timeline.plays;
-  if (isNew && (hurries || fullTime > slow)) return pictureJob(request, key, true);
+  if (isNew && (hurries || Math.max(fullTime, pictures.running) > slow)) return pictureJob(request, key, true);
   if (hurries) return null;
   if (isNew || drawn.half) return pictureJob(request, key, false);
   const other = wantedOther(), otherKey = JSON.stringify(other);

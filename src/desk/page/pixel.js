@@ -13,11 +13,16 @@ export class PixelNumbers {
   #at = null;
   #timer;
   #asks = 0;
+  #running = 0;
 
   // `request` returns the current request of api/picture, `idle` a promise that resolves when no picture is pending.
   constructor(request, idle) {
     this.#request = request;
     this.#idle = idle;
+  }
+
+  get isRunning() {
+    return this.#running > 0;
   }
 
   // A pixel {x, y} with its bytes on screen, or null.
@@ -40,10 +45,15 @@ export class PixelNumbers {
     await this.#idle();
     const {half, show, exposure, display, ...request} = this.#request();
     let numbers;
+    ++this.#running;
     try {
       numbers = await api.pixel({...request, ...this.#at});
-    } catch {
-      return;  // the request of the picture reports the error
+    } catch (error) {
+      // A picture has broken them off; the request of the picture reports any other error.
+      if (error instanceof api.Stopped && asked === this.#asks) this.again();
+      return;
+    } finally {
+      --this.#running;
     }
     if (asked === this.#asks) this.#tell(numbers);
   }

@@ -120,7 +120,8 @@ Plan Subject::plan(const Look& look, double max_error, StateSet outputs) const {
                       .wave_map = !look.of<WaveNormals>().map.empty(),
                       .sun = scene_.sun.has_value(),
                       .environment = static_cast<bool>(frame_.environment),
-                      .waves = scene_.has_waves()};
+                      .waves = scene_.has_waves(),
+                      .primaries = scene_.primaries};
   return make_plan(look, inputs, outputs, max_error);
 }
 
