@@ -16,14 +16,14 @@ struct MirrorSteps {
   double thin, thick;
 };
 
-/// Of a march of so many steps the share of its way at which one of them is.
+/// The share of a march's length at which a step lies, of `count` steps.
 template <class F, class Step>
 LIMPID_INLINE F share_of_step(Step step, int count) {
   const F even = Loop<F>::ratio(step, count);
   return F(0.5) * (even + even * even);
 }
 
-/// Leads a march of so many steps over those that need no look.
+/// Leads a march over those of its steps that need no lookup.
 class Leaps {
  public:
   LIMPID_INLINE explicit Leaps(int steps) : steps_(steps), length_(steps), asks_(steps / 4) {}

@@ -2,14 +2,14 @@
 #include "op/mirror_search.h"
 
 /// @file
-/// How high over the horizon of a water what a depth plane shows stands.
+/// The height over the water's horizon of the objects that a depth plane shows.
 
 namespace limpid {
 
-/// Sine of the angle over the water at which, seen from a pixel's surface point, the highest of
-/// what a depth plane shows over the calm water stands, along the way of `ray` on screen and on the
-/// side of `ahead`: 0 where nothing does. `ray` goes up, so that its way leads beyond the horizon.
-/// Lanes other than `lanes` get any number.
+/// Sine of the elevation of the skyline: of the objects that a depth plane shows above the calm
+/// water, along `ray` on screen and on the side of `ahead`, the highest one as seen from a pixel's
+/// surface point; 0 where there is none. `ray` goes up, so that on screen it leads beyond the
+/// horizon. Lanes other than `lanes` get any number.
 template <class F, class Tap, class Mask>
 F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
           const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray, Vec3<F> ahead,

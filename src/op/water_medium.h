@@ -9,7 +9,7 @@
 #include "optics/scattering.h"
 
 /// @file
-/// Light on its way through the water, as it reaches who is in it.
+/// Light on its path through the water, as it reaches a viewer in the water.
 
 namespace limpid {
 
@@ -24,7 +24,7 @@ struct WaterMedium {
   double bottom, water;  ///< crossing, of the bottom's light and of the sun's in-scatter
   bool glows, sunlit;    ///< whether there is in-scatter of each kind
   /// Of light that is scattered more than once, of red, green, blue; null without.
-  const ScatteredLight* often;
+  const ScatteredLight* multiple;
   Rgb<double> beam, sky;         ///< E' / pi, and the sky's radiance in the water
   double cosine;                 ///< of the beam with the vertical
   Rgb<double> dry_sun, dry_sky;  ///< what `transmitted` has of a white level floor
@@ -42,7 +42,7 @@ struct WaterMedium {
   std::array<double, 3> dry_skies() const { return channels(dry_sky); }
 };
 
-/// The numbers of a medium that all ways through it need.
+/// The numbers of a medium that all paths through it need.
 template <class F>
 struct MediumNumbers {
   Rgb<F> rate, down, ambient, sun;
@@ -61,27 +61,27 @@ struct MediumNumbers {
   }
 };
 
-/// Sun and sky, of one channel.
+/// The multiple-scattered light of sun and sky, of one channel.
 template <class F>
-struct Often {
+struct MultipleLight {
   F sun, sky;
 };
 
-/// The bottom at the end of a way, as that of a level layer.
+/// The bottom at the end of a path, as the bottom of a level layer.
 template <class F>
 struct LitBottom {
-  F reflects, back;  ///< its albedo, and what of its light comes back to it
-  F sunlit, skylit;  ///< what lights it were it black, of a beam and of a sky of radiance 1
+  F reflects, back;  ///< its albedo, and the share of its light that returns to it
+  F sunlit, skylit;  ///< its irradiance, were it black, by a beam and by a sky of radiance 1
 };
 template <class F>
-LIMPID_INLINE F layer_at(const WaterMedium& m, std::size_t channel, const Way<F>& way) {
+LIMPID_INLINE F layer_at(const WaterMedium& m, std::size_t channel, const WaterPath<F>& way) {
   const F rate = given<F>(m.rates()[channel], "depth_fog.rate", static_cast<int>(channel));
   return layer_variable(min(rate * way.end, F(1e6)));
 }
 template <class F>
-LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel, const Way<F>& way,
-                                      F fallen, F albedo) {
-  const ScatteredLight& light = m.often[channel];
+LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel,
+                                      const WaterPath<F>& way, F fallen, F albedo) {
+  const ScatteredLight& light = m.multiple[channel];
   const F x = layer_at(m, channel, way);
   return {min(max(albedo, F(0)), F(ScatteredLight::kMaxAlbedo)),
           given<F>(light.back_at_once) + layer_power(light.back, x),
@@ -92,14 +92,15 @@ LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel,
 /// Of a view that begins in the water. The bottom is lit as that of a level layer, and seen
 /// straight; the water between is as bright as if it had no bottom.
 template <class F>
-LIMPID_INLINE Often<F> often_inside(const WaterMedium& m, std::size_t channel, const Way<F>& way,
-                                    F turned, F fallen, F left, F albedo) {
-  const ScatteredLight& light = m.often[channel];
+LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t channel,
+                                               const WaterPath<F>& way, F turned, F fallen, F left,
+                                               F albedo) {
+  const ScatteredLight& light = m.multiple[channel];
   const int place = static_cast<int>(channel);
   const F rate = given<F>(m.rates()[channel], "depth_fog.rate", place);
   const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
   const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
-  Often<F> water{F(0), F(0)};
+  MultipleLight<F> water{F(0), F(0)};
   if (m.scatters) {
     const auto by_sun =
         inside_sun_shapes(way.sink, turned, given<F>(m.square, "depth_fog.square"), m.turns);
@@ -125,13 +126,13 @@ LIMPID_INLINE Often<F> often_inside(const WaterMedium& m, std::size_t channel, c
               had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
 }
 
-/// `light` of a thing under the water, lit as in the air, at the far end of a way that begins in
-/// the water, as it is seen from there: dimmed, with what the water scatters into the view, and the
-/// light that stays between the bottom and the surface. `view`: unit, along the way; `albedo`: of
-/// the bottom there.
+/// Radiance at the near end of a path in the water, of an object at its far end whose radiance is
+/// `light` when lit as in air: attenuated, plus the in-scatter of the path and the light that stays
+/// between the bottom and the surface. `view`: unit, along the path; `albedo`: of the bottom at the
+/// far end.
 template <class F>
-Rgb<F> seen_in_water(const WaterMedium& m, const Way<F>& way, const Vec3<F>& view, Rgb<F> light,
-                     const Vec3<F>& albedo) {
+Rgb<F> seen_in_water(const WaterMedium& m, const WaterPath<F>& way, const Vec3<F>& view,
+                     Rgb<F> light, const Vec3<F>& albedo) {
   const MediumNumbers<F> numbers(m);
   const Rgb<F> rate = numbers.rate, down = numbers.down;
   const Rgb<F> left = transmittance(way.length, rate), fallen = transmittance(way.end, down);
@@ -149,10 +150,11 @@ Rgb<F> seen_in_water(const WaterMedium& m, const Way<F>& way, const Vec3<F>& vie
     const F phase = henyey_greenstein(turned, given<F>(m.anisotropy, "depth_fog.phase"));
     seen = seen + phase * (numbers.sun * columns);
   }
-  if (!m.often) return seen;
+  if (!m.multiple) return seen;
   const auto more = [&](std::size_t channel, F fell, F stays, F reflects) {
-    const Often<F> often = often_inside(m, channel, way, turned, fell, stays, reflects);
-    return often.sun + often.sky;
+    const MultipleLight<F> multiple =
+        multiple_inside(m, channel, way, turned, fell, stays, reflects);
+    return multiple.sun + multiple.sky;
   };
   seen = seen + Rgb<F>{more(0, fallen.r, left.r, albedo.x), more(1, fallen.g, left.g, albedo.y),
                        more(2, fallen.b, left.b, albedo.z)};

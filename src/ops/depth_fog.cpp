@@ -182,7 +182,7 @@ double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ran
            return bound_product(taken, bright) +
                   bound_product(part(m.ambient) + sun * part(m.sun), column(part(m.rate), way));
          }) +
-         most_often(m, way);
+         most_multiple(m, way);
 }
 
 void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
@@ -215,19 +215,19 @@ void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& 
   };
   ranges.transmittance =
       largest_of([&](auto part) { return m.bottom * survives(part(m.rate), ranges.fog_path.min); });
-  const double often = most_often(m, ranges.fog_path.max);
-  ranges.sun_light = largest_of(sun_of) + often;
+  const double multiple = most_multiple(m, ranges.fog_path.max);
+  ranges.sun_light = largest_of(sun_of) + multiple;
   ranges.sun_far = largest_of([&](auto part) {
     const double tau = bound_product(part(m.rate), ranges.fog_path.min);
     return bound_product(sun_of(part), tau > 2 ? 1 / tau : 0.5);
   });
-  ranges.sun_far += often;
+  ranges.sun_far += multiple;
   ranges.light = std::max(
       ranges.light,
       largest_of([&](auto part) {
         return bright + bound_product(part(m.ambient), column(part(m.rate), ranges.fog_path.max)) +
                sun_of(part);
-      }) + often);
+      }) + multiple);
 }
 
 double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ranges) {
@@ -246,28 +246,28 @@ double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ra
            return bound_product(left, m.bottom * bright) +
                   left / rate * (part(m.ambient) + sun * part(m.sun));
          }) +
-         beyond_often(m, way * refracted_cosine(0.0, 1 / c.ior));
+         beyond_multiple(m, way * refracted_cosine(0.0, 1 / c.ior));
 }
 
 /// Each layer stands for all that are deeper.
-double Kernel<DepthFog>::beyond_often(const WaterMedium& m, double depth) {
-  if (!m.often) return 0;
+double Kernel<DepthFog>::beyond_multiple(const WaterMedium& m, double depth) {
+  if (!m.multiple) return 0;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double layers = std::log2(m.rates()[i] * depth / ScatteredLight::kFirstLayer);
     if (!(layers >= 0)) return HUGE_VAL;
     const auto layer = static_cast<std::size_t>(std::min(layers, ScatteredLight::kLayers - 1.0));
-    most = std::max(most, m.water * (m.beams()[i] * m.often[i].beyond_sun[layer] +
-                                     m.skies()[i] * m.often[i].beyond_sky[layer]));
+    most = std::max(most, m.water * (m.beams()[i] * m.multiple[i].beyond_sun[layer] +
+                                     m.skies()[i] * m.multiple[i].beyond_sky[layer]));
   }
   return most;
 }
 
-double Kernel<DepthFog>::most_often(const WaterMedium& m, double way) {
-  if (!m.often) return 0;
+double Kernel<DepthFog>::most_multiple(const WaterMedium& m, double way) {
+  if (!m.multiple) return 0;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const ScatteredLight& light = m.often[i];
+    const ScatteredLight& light = m.multiple[i];
     const double depth = bound_product(m.rates()[i], way);
     const auto up_to = [&](double slope, double all) {
       return std::min(bound_product(slope, depth), all);
@@ -305,7 +305,7 @@ WaterMedium Kernel<DepthFog>::medium_of(const Params& params, const Pass& c) {
   m.cosine = light.day ? std::clamp(glm::dot(light.to_sun, c.up), 0.0, 1.0) : 1;
   if (wants_scattered_light(params) && c.scattered_light) {
     const double above = glm::dot(c.sun.direction, c.up);
-    m.often = c.scattered_light;
+    m.multiple = c.scattered_light;
     m.ambient = kBlack;
     m.beam = light.beam;
     // Light that the surface transmits keeps its radiance over the square of the index.

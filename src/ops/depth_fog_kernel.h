@@ -66,10 +66,10 @@ struct Kernel<DepthFog> : DepthFog {
  private:
   static WaterMedium medium_of(const Params& params, const Pass& c);
   static double brightest_phase(const Params& params, const Pass& c, const WaterMedium& medium);
-  /// The largest radiance that ways up to a length show of light that is scattered more than once;
-  /// and how far it is at most from that of endless water, from a depth on.
-  static double most_often(const WaterMedium& m, double way);
-  static double beyond_often(const WaterMedium& m, double depth);
+  /// The largest multiple-scattered radiance of paths up to a length; and from a depth on, the
+  /// largest difference of that radiance from endless water's.
+  static double most_multiple(const WaterMedium& m, double way);
+  static double beyond_multiple(const WaterMedium& m, double depth);
 
   template <class F>
   static LIMPID_INLINE F way_length(Distance distance, const Pass& c, const Pixel<F>& p) {
@@ -127,7 +127,7 @@ struct Kernel<DepthFog> : DepthFog {
       const F length = min(p.path, F(3e38)), fall = F(0) - dot(view, up);
       const F sink = select(from_air, max(fall, F(0)), fall);  // against rounding
       const F begin = select(from_air, F(0), eye_depth);
-      const Way<F> way{length, sink, begin, max(begin + sink * length, F(0))};
+      const WaterPath<F> way{length, sink, begin, max(begin + sink * length, F(0))};
 
       p.transmittance = transmittance(length, rate);
       // Seen from below, surfaces above the water are not lit through the water.
@@ -169,9 +169,9 @@ struct Kernel<DepthFog> : DepthFog {
             select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
         p.in_scatter = p.in_scatter + light;
       }
-      if (medium.often) add_often(medium, way, turned, fallen, albedo, p);
+      if (medium.multiple) add_multiple(medium, way, turned, fallen, albedo, p);
     };
-    if (medium.often && c.planes.covers(kAlbedoPlanes)) {
+    if (medium.multiple && c.planes.covers(kAlbedoPlanes)) {
       strip.own3(PlaneId::kAlbedoR, make);
     } else {
       strip.each([&](Pixel<F>& p) { make(p, {F(0), F(0), F(0)}); });
@@ -180,26 +180,26 @@ struct Kernel<DepthFog> : DepthFog {
 
   /// Light that is scattered more than once, and of the bottom what `transmitted` lacks.
   template <class F>
-  static LIMPID_INLINE void add_often(const WaterMedium& m, const Way<F>& way, F turned,
-                                      const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
+  static LIMPID_INLINE void add_multiple(const WaterMedium& m, const WaterPath<F>& way, F turned,
+                                         const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
     const auto from_air = p.side > F(0);
     const F doubly =
         m.turns ? henyey_greenstein(turned, given<F>(m.square, "depth_fog.square")) : F(0);
     const std::array<F, 4> shapes{F(1), way.sink, turned, doubly};
     const Rgb<F>& left = p.transmittance;
-    Often<F> red = often_down(m, 0, way, shapes, fallen.r, left.r, albedo.x);
-    Often<F> green = often_down(m, 1, way, shapes, fallen.g, left.g, albedo.y);
-    Often<F> blue = often_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
+    MultipleLight<F> red = multiple_down(m, 0, way, shapes, fallen.r, left.r, albedo.x);
+    MultipleLight<F> green = multiple_down(m, 1, way, shapes, fallen.g, left.g, albedo.y);
+    MultipleLight<F> blue = multiple_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
     if (m.inside) {
       if_any(!from_air, [&] {
         // Seen from below, surfaces above the water are no bottom.
         const Vec3<F> under = select(p.side < F(0), {F(0), F(0), F(0)}, albedo);
-        const auto choose = [&](Often<F>& down, const Often<F>& inside) {
+        const auto choose = [&](MultipleLight<F>& down, const MultipleLight<F>& inside) {
           down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
         };
-        choose(red, often_inside(m, 0, way, turned, fallen.r, left.r, under.x));
-        choose(green, often_inside(m, 1, way, turned, fallen.g, left.g, under.y));
-        choose(blue, often_inside(m, 2, way, turned, fallen.b, left.b, under.z));
+        choose(red, multiple_inside(m, 0, way, turned, fallen.r, left.r, under.x));
+        choose(green, multiple_inside(m, 1, way, turned, fallen.g, left.g, under.y));
+        choose(blue, multiple_inside(m, 2, way, turned, fallen.b, left.b, under.z));
       });
     }
     p.sun_multiple = {red.sun, green.sun, blue.sun};
@@ -212,20 +212,21 @@ struct Kernel<DepthFog> : DepthFog {
     }
   }
 
-  /// Of a view from the air. `fallen` and `left`: what is left of the beam at the end of the way,
-  /// and of its light at the viewer.
+  /// For a view from the air. `fallen` and `left`: the shares left of the beam at the end of the
+  /// path, and of its light at the viewer.
   template <class F>
-  static LIMPID_INLINE Often<F> often_down(const WaterMedium& m, std::size_t channel,
-                                           const Way<F>& way, const std::array<F, 4>& shapes,
-                                           F fallen, F left, F albedo) {
-    const ScatteredLight& light = m.often[channel];
+  static LIMPID_INLINE MultipleLight<F> multiple_down(const WaterMedium& m, std::size_t channel,
+                                                      const WaterPath<F>& way,
+                                                      const std::array<F, 4>& shapes, F fallen,
+                                                      F left, F albedo) {
+    const ScatteredLight& light = m.multiple[channel];
     const int place = static_cast<int>(channel);
     const std::array<F, 2> even{shapes[0], shapes[1]};
     const F x = layer_at(m, channel, way);
     const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
     const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
     const F water = given<F>(m.water, "depth_fog.water");
-    Often<F> up{F(0), F(0)};
+    MultipleLight<F> up{F(0), F(0)};
     if (m.scatters) {
       const F many = m.turns ? layer_power(light.sun, shapes, x)
                              : layer_power(std::array{light.sun[0], light.sun[1]}, even, x);

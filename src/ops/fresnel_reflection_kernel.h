@@ -266,15 +266,16 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   }
   static constexpr double kLeastVariance = 1e-4;
 
-  /// What the picture shows around a pixel that cannot resolve its waves. Three rays would meet a
-  /// bank or pass over it, all or none of a third of the facets, and draw dashes at its foot: so
-  /// the facets are parted where their rays pass the highest that stands in their way.
+  /// The skyline as a pixel that cannot resolve its waves mirrors it. Three rays meet a bank or
+  /// pass over it, all or none of a third of the facets, and would draw dashes at its foot: so the
+  /// facets are parted where their rays pass the skyline.
   template <class F>
   struct Outlook {
-    Vec3<F> parts;  ///< of those that each facet stands for the share whose rays do not pass it
-    F lean;         ///< slope from the mean facet to one whose ray meets what stands there
+    Vec3<F> parts;  ///< for each facet, the share of its facets whose rays stay below the skyline
+    F lean;         ///< slope from the mean facet to a facet whose ray meets the object there
   };
-  /// Of that height the rays of a facet of which a part meets it are followed to this one.
+  /// Rays of a facet of which only a part meets the object are followed to this share of its
+  /// height.
   static constexpr double kWithin = 0.75;
 
   template <class F, class Tap, class Mask>
@@ -386,8 +387,9 @@ struct Kernel<FresnelReflection> : FresnelReflection {
 
   // --- seen from within the water ---------------------------------------------------------------
 
-  /// Light that is mirrored down in the water comes to the mirror through it, from `way` away: of
-  /// pixels that are seen from within the water, where it is known. A way may have no end.
+  /// The light that the underside of the surface mirrors, after its path of length `way` through
+  /// the water to the surface: for pixels seen from within the water. `way` may be infinite; `at`:
+  /// the shift to the mirrored point.
   template <bool kEnds = true, class F, class Tap>
   static LIMPID_INLINE Rgb<F> through_water(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                             const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
@@ -411,12 +413,12 @@ struct Kernel<FresnelReflection> : FresnelReflection {
       const Rgb<F> there = bilinear_rgb<F>(tap, PlaneId::kAlbedoR, at);
       albedo = {there.r, there.g, there.b};
     }
-    return seen_in_water(*c.medium, Way<F>{length, sink, begin, begin + sink * length}, ray, light,
-                         albedo);
+    return seen_in_water(*c.medium, WaterPath<F>{length, sink, begin, begin + sink * length}, ray,
+                         light, albedo);
   }
 
-  /// What the dry picture shows of a ray that is mirrored down in the water. Where that meets
-  /// nothing that is seen, the level of what is seen next to its end goes on.
+  /// The dry picture along a ray that is mirrored down in the water. Where the ray meets no visible
+  /// surface, the level of the surface visible next to its end continues.
   template <class F, class Tap>
   [[gnu::noinline]] static Mirrored<F> seen_below(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                                   Vec3<F> n, const ScreenRay<F>& ray, F met,
@@ -426,7 +428,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     const F top = given<F>(c.eye_above) + dot(up, p.surface_point);
     const F fall = max(F(0) - dot(up, direction), F(0.02));
     const auto unseen = !(met < F(1e20));
-    // The place of the picture that lies next to where the ray is.
+    // The place of the picture next to the ray's.
     const auto next_to = [&](F s) {
       const Vec2<F> at = ray.shift_at(s);
       return Vec2<F>{
@@ -472,7 +474,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
     return min(reach_in(bounds, p.uv, shift), F(1)) * shift;
   }
 
-  /// A place of the planes, and how far away it is; +inf where nothing is there, or nobody knows.
+  /// A place of the planes and its distance, +inf where there is no surface or none is known.
   template <class F>
   struct End {
     Vec2<F> shift;
@@ -540,7 +542,7 @@ struct Kernel<FresnelReflection> : FresnelReflection {
   }
 
   /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
-  /// in its place. Else it is the last such place on the way there that counts, or the pixel
+  /// in its place. Else it is the last such place before it that counts, or the pixel
   /// itself.
   template <class F, class Tap, class Mask>
   static Vec2<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,

@@ -118,8 +118,8 @@ struct Kernel<WaterShadow> : WaterShadow {
       take(p, near_shade / max(near_sum, F(1e-6)), p.sun_near);
       take(p, far_shade / max(far_sum, F(1e-6)), p.sun_far);
     }
-    const Rgb<F>& often = p.sun_multiple;
-    if_any(often.r + often.g + often.b > F(0), [&] {
+    const Rgb<F>& multiple = p.sun_multiple;
+    if_any(multiple.r + multiple.g + multiple.b > F(0), [&] {
       // Around the entry point for the mean path, at the distance of that path.
       const Vec3<F> map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
       Vec2<F> around[kAround], low, high;

@@ -9,7 +9,7 @@ namespace limpid {
 /// A straight path through water, away from the viewer; `begin` and `end` are depths under the calm
 /// surface, >= 0, and the path descends by `sink` per unit of length (negative where it rises).
 template <class F>
-struct Way {
+struct WaterPath {
   F length;  ///< 0 ... 3e38
   F sink;    ///< -1 ... 1
   F begin, end;
@@ -24,7 +24,7 @@ struct SunColumn {
 /// Share of sunlight at the far end of the path relative to its near end, or the reverse where the
 /// far end is brighter.
 template <class F>
-LIMPID_INLINE F sun_left(const Way<F>& way, F rate, F down) {
+LIMPID_INLINE F sun_left(const WaterPath<F>& way, F rate, F down) {
   return exp(F(0) - abs(rate + down * way.sink) * way.length);
 }
 
@@ -34,7 +34,7 @@ LIMPID_INLINE F sun_left(const Way<F>& way, F rate, F down) {
 /// than the view loses it (towards the surface, seen from below) the integral runs from the other
 /// end. `left` is sun_left(), for callers that have it already.
 template <class F>
-LIMPID_INLINE SunColumn<F> sun_column(const Way<F>& way, F rate, F down, F left) {
+LIMPID_INLINE SunColumn<F> sun_column(const WaterPath<F>& way, F rate, F down, F left) {
   const F total = rate + down * way.sink;
   const auto brightens = total < F(0);
   const F first = select(brightens, rate * way.length + down * way.end, down * way.begin);
@@ -45,7 +45,7 @@ LIMPID_INLINE SunColumn<F> sun_column(const Way<F>& way, F rate, F down, F left)
   return {light, select(brightens, F(1) - share, share)};
 }
 template <class F>
-LIMPID_INLINE SunColumn<F> sun_column(const Way<F>& way, F rate, F down) {
+LIMPID_INLINE SunColumn<F> sun_column(const WaterPath<F>& way, F rate, F down) {
   return sun_column(way, rate, down, sun_left(way, rate, down));
 }
 

@@ -12,7 +12,7 @@ namespace {
 using test::Lane;
 using test::value;
 
-Way<double> way(double length, double sink, double begin) {
+WaterPath<double> way(double length, double sink, double begin) {
   return {length, sink, begin, std::fmax(begin + sink * length, 0)};
 }
 
@@ -21,7 +21,7 @@ struct Summed {
 };
 
 /// The integral as it is written, by midpoints.
-Summed summed(const Way<double>& w, double rate, double down) {
+Summed summed(const WaterPath<double>& w, double rate, double down) {
   const int steps = 20000;
   Summed sum;
   for (int i = 0; i < steps; ++i) {
@@ -37,8 +37,8 @@ Summed summed(const Way<double>& w, double rate, double down) {
 TEST(SunColumn, IsTheIntegralDownAcrossAndUp) {
   for (double rate : {0.0, 0.1, 1.5}) {
     for (double down : {0.0, 0.2, 2.5}) {
-      for (const Way<double>& w : {way(3, 0.8, 0), way(3, 1, 4), way(3, 0, 4), way(3, -0.4, 4),
-                                   way(4, -1, 4), way(0.01, -1, 1)}) {
+      for (const WaterPath<double>& w : {way(3, 0.8, 0), way(3, 1, 4), way(3, 0, 4),
+                                         way(3, -0.4, 4), way(4, -1, 4), way(0.01, -1, 1)}) {
         const SunColumn<double> got = sun_column(w, rate, down);
         const Summed expected = summed(w, rate, down);
         EXPECT_NEAR(got.light / expected.light, 1, 1e-6) << rate << " " << down << " " << w.sink;
@@ -62,7 +62,7 @@ TEST(SunColumn, LeftIsWhatTheEndLosesOfWaysThatBeginAtTheSurface) {
   for (double rate : {0.0, 0.1, 1.5}) {
     for (double down : {0.0, 0.2, 2.5}) {
       for (double sink : {0.0, 0.6, 1.0}) {
-        const Way<double> w = way(3, sink, 0);
+        const WaterPath<double> w = way(3, sink, 0);
         EXPECT_NEAR(sun_left(w, rate, down), std::exp(-rate * w.length) * std::exp(-down * w.end),
                     1e-15);
       }
@@ -79,8 +79,8 @@ TEST(SunColumn, FiniteForAnyWay) {
       for (double sink : {-1.0, -1e-8, 0.0, 0.5, 1.0}) {
         for (double begin : {0.0, 5.0}) {
           for (double length : {0.0, 1e-3, 3e38}) {
-            const Way<double> w = way(length, sink, begin);
-            const Way<Lane> lanes{Lane(w.length), Lane(w.sink), Lane(w.begin), Lane(w.end)};
+            const WaterPath<double> w = way(length, sink, begin);
+            const WaterPath<Lane> lanes{Lane(w.length), Lane(w.sink), Lane(w.begin), Lane(w.end)};
             const SunColumn<double> got = sun_column(w, rate, down);
             const SunColumn<Lane> lane = sun_column(lanes, Lane(rate), Lane(down));
             for (double light : {got.light, value(lane.light)}) {
