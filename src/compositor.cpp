@@ -90,7 +90,7 @@ HostOutputs outputs_of(const HostPicture& picture) {
   return all;
 }
 
-/// What a plan was made for, besides its look.
+/// The inputs of a plan, besides its look.
 struct PlannedFor {
   PlaneSet planes;
   std::uint32_t aovs = 0;  ///< bit i: AOV i
@@ -139,21 +139,21 @@ struct __attribute__((visibility("hidden"))) Compositor::State {
   Look look;
   CompositorOptions options;
   const HalfTarget* half = nullptr;
-  std::unique_ptr<Executor> pool;  ///< where the host gave none
+  std::unique_ptr<Executor> pool;  ///< if the host has given none
   Executor* executor = nullptr;
 
-  Frame frame;  ///< as entered; its textures are set from without
+  Frame frame;  ///< as entered; the host sets its textures
   std::vector<std::uint32_t> wave_map_bytes;
   LevelMaker wave_map_levels;
   Scene scene;
-  std::optional<Plan> plan;  ///< none: to be made
+  std::optional<Plan> plan;  ///< empty until it is made
   PlannedFor made_for;
   EnteredPlanes planes;
   HostTarget target;
   FusedRunner runner;
-  std::optional<GpuRunner> gpu;  ///< instead of that
+  std::optional<GpuRunner> gpu;  ///< in place of the fused runner
   SanitiseCounts replaced;
-  bool ran = false;  ///< a frame, with this plan
+  bool ran = false;  ///< whether a frame has run with this plan
 
   void forget_plan() {
     plan.reset();
@@ -217,7 +217,8 @@ Compositor::Compositor(const Conventions& conventions, const Look& look,
   validate(conventions);
   validate(options);
   constexpr PlaneSet kLeast = kColorPlanes | PlaneSet{PlaneId::kDepth};
-  limpid::make_plan(look, {.planes = kLeast}, {}, options.max_error);  // refuses both if need be
+  limpid::make_plan(look, {.planes = kLeast}, {},
+                    options.max_error);  // refuses an invalid look or max_error
   State& s = *state_;
   s.conventions = conventions;
   s.look = look;

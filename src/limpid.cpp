@@ -19,7 +19,7 @@
 #include "limpid/shade/shader_text.h"
 #include "limpid/version.h"
 
-/// The C functions: structs of C turned into those of compositor.h, exceptions into a status.
+/// The C functions: they convert structs of C to those of compositor.h, and exceptions to a status.
 
 namespace limpid {
 namespace {
@@ -27,7 +27,7 @@ namespace {
 static_assert(LIMPID_SUN_COLOR_B + 1 == kPlaneCount);
 static_assert(LIMPID_OUT_SKY + 3 == 4 + 3 * kAovCount);
 
-/// Only looks at `size` of it, the rest being 0.
+/// Copies the first `size` bytes of the caller's struct; the rest is 0.
 template <class Struct>
 Struct known(const Struct* given, const char* name) {
   Struct whole{};
@@ -41,7 +41,7 @@ Struct known(const Struct* given, const char* name) {
   return whole;
 }
 
-/// Fills as much of the caller's struct as the caller knows.
+/// Fills the part of the caller's struct that the caller's version has.
 template <class Struct>
 void tell(Struct whole, Struct* to, const char* name) {
   if (!to) throw Error(std::string(name) + " is NULL, expected a place for one");
@@ -208,7 +208,7 @@ const Thing& at(const std::vector<Thing>& list, std::size_t index, const char* n
               std::to_string(list.size()));
 }
 
-/// Runs body(); what it throws becomes a status and, by say(), a sentence.
+/// Runs body(); an exception becomes a status and, by say(), a sentence.
 template <class Body, class Say>
 limpid_status guarded(Body&& body, Say&& say) noexcept {
   try {
@@ -229,11 +229,11 @@ limpid_status guarded(Body&& body, Say&& say) noexcept {
   }
 }
 
-/// Of the last call that went wrong.
+/// The error of the last call that failed.
 struct Message {
   char text[1024] = "";
 
-  /// Keeps what may go wrong, and never allocates.
+  /// Keeps an error; never allocates.
   template <class Body>
   limpid_status guarded(Body&& body) noexcept {
     return limpid::guarded(body,
@@ -307,7 +307,7 @@ struct limpid_compositor {
 
 namespace {
 
-/// Runs body() on a compositor or a shader that is there.
+/// Runs body() on a compositor or a shader, if the pointer is not null.
 template <class Handle, class Body>
 limpid_status on(Handle* handle, Body&& body) noexcept {
   return handle ? handle->message.guarded(body) : LIMPID_REFUSED;

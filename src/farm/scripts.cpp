@@ -81,7 +81,7 @@ code=$?
 case $code in
   0) exit 0 ;;
   75) try_again ;;
-  129 | 130 | 143) exit $code ;; # Slurm or somebody ends the task
+  129 | 130 | 143) exit $code ;; # Slurm or a user ends the task
 esac
 
 # One frame cannot be made: all of them once more, each alone; those that are there are left alone.
@@ -95,7 +95,7 @@ for frame in ${frames//,/ }; do
     75) try_again ;;
     129 | 130 | 143) exit $code ;;
   esac
-  # The order is right for those who read it meanwhile: the sentence appears whole.
+  # In this order a reader sees the whole sentence or none.
   sentence=$(printf '%s\n' "$said" | sed -n 's/^limpid ERROR: //p' | tail -n 1)
   printf '%s\n' "${sentence:-frame $frame: limpid ended with exit code $code}" >"$farm/failed/.$frame.$task"
   mv "$farm/failed/.$frame.$task" "$farm/failed/$frame.txt"

@@ -21,7 +21,7 @@ struct LayerRule {
   std::string_view role;      ///< "": a known layer without a role
   std::string_view layer;     ///< in lower-case words; "water" also matches "surface"
   std::string_view channels;  ///< one per plane; "*" = the only channel of the layer
-  std::string_view who;       ///< the programs that use it
+  std::string_view programs;  ///< that use it
 };
 
 std::span<const LayerRule> layer_rules();

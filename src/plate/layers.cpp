@@ -20,12 +20,12 @@ std::vector<std::string> order_of_views(const std::vector<LayerGroup>& groups,
 
 std::string reason_of(const Candidate& candidate) {
   const LayerGroup& group = *candidate.group;
-  const std::string who = " (" + std::string(candidate.rule->who) + ")";
+  const std::string programs = " (" + std::string(candidate.rule->programs) + ")";
   if (candidate.rule->rank == LayerRank::kFileName) return "the file's name";
-  if (candidate.rule->rank == LayerRank::kBare) return "channels without a layer" + who;
-  if (!group.path.empty()) return "layer '" + group.path + "'" + who;
-  if (!group.source->part_name.empty()) return "part '" + group.source->part_name + "'" + who;
-  return "channel '" + candidate.channels[0] + "'" + who;
+  if (candidate.rule->rank == LayerRank::kBare) return "channels without a layer" + programs;
+  if (!group.path.empty()) return "layer '" + group.path + "'" + programs;
+  if (!group.source->part_name.empty()) return "part '" + group.source->part_name + "'" + programs;
+  return "channel '" + candidate.channels[0] + "'" + programs;
 }
 
 }  // namespace

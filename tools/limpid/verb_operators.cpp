@@ -115,7 +115,7 @@ int print_layer_rules() {
     std::printf("| %s | %s | %s | %s | %s |\n",
                 rule.role.empty() ? "none" : alternatives_text(rule.role).c_str(),
                 std::string(by_name_of(rule.rank)).c_str(), alternatives_text(rule.layer).c_str(),
-                alternatives_text(rule.channels).c_str(), std::string(rule.who).c_str());
+                alternatives_text(rule.channels).c_str(), std::string(rule.programs).c_str());
   }
   return 0;
 }

@@ -1,5 +1,5 @@
 // Asks for pictures, one at a time. There is no queue: what to ask for next is decided when the last has come, by what
-// is wanted then, so that nothing is made that nobody looks at any more. A whole picture, which may take seconds, is
+// is wanted then, so that no outdated picture is made. A whole picture, which may take seconds, is
 // broken off for a half one, which shows sooner, and so are the numbers of a pixel for any picture; a half picture never
 // is, so that something moves however fast one drags.
 
