@@ -68,7 +68,7 @@ TEST(Sanitise, NanAndInfAreToldApart) {
   EXPECT_EQ(twice.of(PlaneId::kColorR), (Replaced{6, 2}));
 }
 
-/// Rows are looked through before one of their values is touched: wherever the wrong one lies.
+/// Wrong values are found wherever they lie: rows are searched before any value changes.
 TEST(Sanitise, OneValueAmongManyIsFound) {
   struct Kind {
     Replaced (*sanitise)(const View<float>&);
