@@ -20,7 +20,7 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// No function of a pair is inlined: where GCC inlines only one, it takes free() for a mistake.
+// No function of a pair is inlined: where only one is inlined, GCC takes free() for a mistake.
 #define LIMPID_COUNTED __attribute__((noinline))
 LIMPID_COUNTED void* operator new(std::size_t size) {
   return counted(size, alignof(std::max_align_t));

@@ -190,8 +190,7 @@ struct Checked {
     if (meets({0, 0, 0}, r) < -2 / r.y) return true;  // the board stands before the water
     return meets((-2 / r.y) * r, glm::refract(v, n, 1 / 1.333)) < HUGE_VAL;
   }
-  /// The number of pixels away from the board's outline, seen through the water, that show part of
-  /// it.
+  /// The number of pixels that show the board through the water, away from its outline.
   int streaks(const Look& look) const {
     const test::Picture wet = test::reference(look, pool.buffers.frame, pool.scene);
     int count = 0;

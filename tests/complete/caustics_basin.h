@@ -207,7 +207,7 @@ inline LightMap followed(const Basin& basin) {
           bottom_x = x - (depth + w.height) * in.x / in.z;
           bottom_y = y - (depth + w.height) * in.y / in.z;
         };
-        if (basin.cliff) {  // the upper bottom, the lower one, or the wall between them
+        if (basin.cliff) {  // upper bottom, lower bottom, or the wall between
           depth = basin.deep(-1, 0), go();
           if (bottom_x >= 0) depth = basin.deep(1, 0), go();
           if (depth != basin.deep(bottom_x, bottom_y)) continue;
@@ -238,7 +238,7 @@ struct Grid {
   double grid(const View<const float>& table, Vec2<double> at) const { return grid_at(table, at); }
 };
 
-/// 0 where the dry picture has the sun's shadow, whatever the table says.
+/// The table's light, but 0 where the dry picture has the sun's shadow.
 inline LightMap of_table(const Basin& basin, const CausticsTable& table) {
   const Pass pass(basin.scene, basin.buffers.frame, kIor, kWholeState, basin.swell());
   const glm::dvec3& sun = basin.scene.sun->direction;

@@ -26,7 +26,7 @@ EdgeAround between(const Rgb<double>& pixel, const std::vector<Rgb<double>>& dry
   return around;
 }
 
-// Sides of one color are apart by 1 / 0.01 of the noise that is granted: s = 0.01.
+// Between sides of one color each the difference is 1 / 0.01 of the allowed noise: s = 0.01.
 TEST(EdgeMatte, LiesBetweenTwoColors) {
   const auto matte = matte_between(between({0.25, 0.75, 0}, {kRed}, {kGreen}));
   ASSERT_TRUE(matte);

@@ -157,7 +157,7 @@ TEST(Edges, LightOverBothSidesIsNoBlur) {
   EXPECT_FALSE(Parted(post).frame.edges);
 }
 
-// The ground goes on through the water's edge; its color changes slowly all over it.
+// The ground goes on through the water's edge; the ground's color changes slowly everywhere.
 TEST(Edges, AShoreIsNone) {
   Post post;
   post.make();

@@ -41,7 +41,7 @@ TEST(MirrorDepth, AWallIsSeenUpsideDown) {
   EXPECT_GT(known, 100);
 }
 
-// Where the wall stands before the water, the mirror's camera looked into it from below.
+// Where the wall stands before the water, the mirror's camera looked into the wall from below.
 TEST(MirrorDepth, InsidesAreNotReal) {
   Shore shore;
   const auto executor = make_executor(1);

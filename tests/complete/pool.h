@@ -9,7 +9,7 @@
 namespace limpid::test {
 
 /// A pool without walls: a bottom at y = -deep + rise z, with a texture of the world. The camera of
-/// simple_scene(), two metres above the water; z grows towards it.
+/// simple_scene(), two metres above the water; z grows towards the camera.
 template <int kWidth, int kHeight>
 struct PoolOf {
   static constexpr Size kSize{kWidth, kHeight};

@@ -52,7 +52,7 @@ double light_from_below(const test::Tray& tray) {
 }
 
 // All light of the sky comes back from water without an end. A bottom that is no more than half an
-// optical depth under the surface takes a tenth of what reaches it.
+// optical depth under the surface absorbs a tenth of the light that arrives.
 TEST(ScatteredLight, OfAWhiteFurnaceComesBackWhatTheBottomLeaves) {
   EXPECT_NEAR(light_from_below(furnace(1e4)), 1, 0.03);
   for (const double deep : {0.1, 0.3, 1.0}) {

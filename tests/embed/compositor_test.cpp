@@ -278,7 +278,7 @@ TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
   EXPECT_TRUE(same_bits(wet(asked, test::host_frame(zeros.frame, scene)), expected));
   EXPECT_EQ(asked.replaced().total(), 0);
 
-  // An alpha of 0 means the same, as float and as half.
+  // A depth of 0 means "nothing hit" where alpha is 0, as float and as half.
   const auto alpha = [](int x, int y) { return x > 20 && x < 30 && y > 20 ? 0.0f : 1.0f; };
   zeros.set(PlaneId::kColorA, alpha);
   clean.set(PlaneId::kColorA, alpha);

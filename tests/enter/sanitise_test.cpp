@@ -13,7 +13,7 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 const float kNan = std::nanf("");
 
-/// One row of values, sanitised by fn; returns what fn counted.
+/// Sanitises a row of values by fn; returns the count of fn.
 template <class Fn>
 Replaced on_row(std::vector<float>& values, Fn&& fn) {
   const int n = static_cast<int>(values.size());

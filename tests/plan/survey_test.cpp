@@ -125,7 +125,7 @@ TEST(Survey, OverscanIsInReach) {
   EXPECT_EQ(map_with(384, 81), "fff\nfff\nfff\nfff\nff#\n");
 }
 
-// Every plane that is looked up counts, even if its window is larger than the depth's window.
+// Every plane with lookups counts, even if its window is larger than the depth's window.
 TEST(Survey, AShadowBesideThePictureIsInReach) {
   Buffers b = tray(rect_of(kSize));
   b.set(PlaneId::kShadow, [](int x, int) { return x < 0 ? 0.0f : 1.0f; }, {-100, -20, 484, 100});
