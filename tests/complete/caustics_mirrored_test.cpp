@@ -90,8 +90,8 @@ TEST(MirroredCaustics, LeaveWhatThePictureShowsInShadow) {
       glm::lookAt(glm::dvec3(0, -0.2, 0), glm::dvec3(0, -0.2, -1), glm::dvec3(0, 1, 0));
   lit.basin.scene.camera->projection = orthographic(4, 4, 0.1, 50, ClipSpace::kGl);
   lit.basin.buffers.fill(PlaneId::kShadow, 0.25f);
-  // A row with level rays, 1.3 above the eye, at an image 2 away: the point lies 1.3 + 2 * 0.2
-  // deep, in a row lower by as much.
+  // A row with level rays, 1.3 above the eye, at an image 2 away: the point lies 1.3 - 0.2 deep,
+  // right under its image.
   lit.basin.buffers.fill(PlaneId::kReflectionDepth, 2);
   lit.basin.buffers.fill(PlaneId::kDepth, 2);
   const int row = 33;

@@ -33,7 +33,7 @@ std::string name_of(const NamedWater& water) {
          std::to_string(water.murkiness);
 }
 
-/// The water of Rec.709, at three wavelengths.
+/// The water's absorption in Rec.709, at three wavelengths.
 Rgb<double> absorption_709(const NamedWater& water) {
   return water.type == WaterType::kCase1 ? case_1_water(water.murkiness).absorption
                                          : water_optics(water.type).absorption;

@@ -16,7 +16,7 @@ using test::Lane;
 constexpr double kPi = std::numbers::pi;
 constexpr Vec3<double> kUp{0, 1, 0};
 
-// Directions up to the axes, where the octants meet, of any length.
+// Vectors of any length, right up to the axes, where the octants meet.
 TEST(Surroundings, LanesKnowTheArctangent) {
   double worst = 0;
   for (double size : {1e-30, 1e-3, 1.0, 1e30}) {
