@@ -44,7 +44,8 @@ void fill(ImageBuf& buf, int first, std::vector<int> channels) {
   }
 }
 
-/// Pixels that are not the plain ones, converted as OpenImageIO does, in the named channels.
+/// The number of pixels that differ from the plain pixels, converted as OpenImageIO does, in the
+/// named channels.
 int pixels_that_differ(const ImageBuf& buf, const std::string& names,
                        const std::vector<std::vector<float>>& plain) {
   const Rect window = window_of(buf);
@@ -101,7 +102,7 @@ TEST(Oiio, WindowsAreThoseOfThePicture) {
 }
 
 TEST(Oiio, MemoryOfOthersHasTheirStrides) {
-  // Rows from the lowest up, 5 floats a pixel of which the last is nobody's.
+  // Rows from the lowest up, 5 floats a pixel; no plane reads the last float.
   const Plain plain(kWindow);
   const int width = kWindow.width(), height = kWindow.height();
   std::vector<float> memory(5 * width * height, 7);

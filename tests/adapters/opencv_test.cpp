@@ -15,7 +15,7 @@ constexpr Rect kWindow{0, 0, 37, 21};
 /// Where a channel lies in OpenCV's pixels.
 int place_of(int channel) { return channel == kAlpha ? 3 : 2 - channel; }
 
-/// As floats; channels are those of pixels in OpenCV's order.
+/// The pixels as floats; channels are in OpenCV's order.
 cv::Mat dry_mat(int channels, Rect window = kWindow) {
   cv::Mat mat(window.height(), window.width(), CV_32FC(channels));
   for (int y = 0; y < mat.rows; ++y) {

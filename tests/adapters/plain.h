@@ -8,13 +8,14 @@
 
 #include "support.h"
 
-/// A dry frame in plain arrays, and what becomes of it: what the adapters' pictures must equal.
+/// A dry frame in plain arrays, and the chain's picture of it, which the adapters' pictures must
+/// equal.
 
 namespace limpid::test {
 
 constexpr int kRed = 0, kGreen = 1, kBlue = 2, kAlpha = 3, kDepth = 4;
 
-/// Values that halves hold exactly, other ones in each channel.
+/// Values that halves hold exactly, different in each channel.
 inline float dry(int x, int y, int channel) {
   if (channel == kDepth) return 3.5f + std::floor(384 * noise(x, y, channel)) / 64;
   return std::floor(512 * noise(x, y, channel)) / 512;
@@ -34,8 +35,8 @@ inline void composite(const HostFrame& frame, const HostPicture& picture) {
   Compositor({}, {}, {.executor = executor.get()}).run(frame, picture);
 }
 
-/// Red, green, blue, alpha and depth, each an array of its own; there may be more or less of it
-/// than of the picture.
+/// Red, green, blue, alpha and depth, each in an array of its own; the arrays may have more or
+/// fewer pixels than the picture.
 class Plain {
  public:
   explicit Plain(Rect display) : Plain(display, display) {}
@@ -48,13 +49,12 @@ class Plain {
     }
   }
 
-  /// As a host has it that has planes yet to set.
+  /// The frame of a host that has planes yet to set.
   HostFrame empty_frame() const {
     return {.display = display_, .planes = {}, .scene = simple_scene(display_.size())};
   }
 
-  /// What the chain makes of it, channel after channel: red, green, blue and, if there is one,
-  /// alpha.
+  /// The chain's output, channel after channel: red, green, blue and, if there is an alpha, alpha.
   std::vector<std::vector<float>> wet(bool with_alpha = true) const {
     HostFrame frame = empty_frame();
     const int count = with_alpha ? 4 : 3;

@@ -8,7 +8,7 @@
 namespace limpid {
 namespace {
 
-/// Whatever has to be converted on the way in and out.
+/// No run after the first allocates, whatever must be converted on entry and output.
 TEST(Allocations, NoneAfterACompositorsFirstFrame) {
   const Size size{133, 77};
   const test::Buffers b = test::noisy_frame(rect_of(size));

@@ -1,5 +1,5 @@
-// A program of its own: it replaces the operators new of all of it, and the linker leads calls of
-// calloc() to __wrap_calloc() (-Wl,--wrap), to count.
+// A separate program: it replaces every operator new of the program, and the linker leads calls of
+// calloc() to __wrap_calloc() (-Wl,--wrap), to count allocations.
 #include "allocations/count.h"
 
 #include <atomic>
@@ -20,7 +20,7 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// None of them inlined: where only one of a pair is, GCC takes free() for a mistake.
+// No function of a pair is inlined: where only one is inlined, GCC takes free() for a mistake.
 #define LIMPID_COUNTED __attribute__((noinline))
 LIMPID_COUNTED void* operator new(std::size_t size) {
   return counted(size, alignof(std::max_align_t));

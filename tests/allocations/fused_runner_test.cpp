@@ -16,7 +16,8 @@ TEST(Allocations, AreCounted) {
   EXPECT_GT(test::allocations(), before);
 }
 
-/// Made when the first of a size is run; whatever the look, the budget and the threads.
+/// Memory is allocated in the first run of a size; later runs allocate none, whatever the look, the
+/// budget and the threads.
 TEST(Allocations, NoneAfterTheFirstFrame) {
   const Size size{301, 77};
   Buffers b = test::noisy_frame(rect_of(size));
@@ -45,7 +46,7 @@ TEST(Allocations, NoneAfterTheFirstFrame) {
   }
 }
 
-/// Nor for the surface that is made where the frame has none.
+/// Runs do not allocate for a surface that is made where the frame has none, either.
 TEST(Allocations, NoneForWaterThatWavesRaise) {
   const Size size{301, 77};
   Buffers b = test::noisy_frame(rect_of(size));
@@ -69,7 +70,7 @@ TEST(Allocations, NoneForWaterThatWavesRaise) {
   EXPECT_EQ(test::allocations(), before);
 }
 
-/// A smaller frame fits into what a larger one has needed.
+/// A smaller frame fits into the memory of a larger frame.
 TEST(Allocations, NoneForASmallerFrame) {
   FusedRunner runner;
   const auto executor = make_executor(1);

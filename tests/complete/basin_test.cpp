@@ -6,7 +6,7 @@
 
 #include "ops/tray.h"
 
-// How wide the water is around a place of its bottom.
+// The width of the water around a place of its bottom.
 
 namespace limpid {
 namespace {
@@ -28,8 +28,8 @@ Basin::Walls walls_of(Drop&& drop, int x = 40, int y = 40) {
 float all(const Basin::Walls& walls) { return std::accumulate(walls.begin(), walls.end(), 0.0f); }
 
 TEST(Basin, WallsOfAChannelStandWhereEachDirectionMeetsThem) {
-  // 4 deep, from -3 to 3: eight directions, 22.5 and 67.5 degrees off the way across, meet a wall
-  // .8 and 2 depths away.
+  // 4 deep, from -3 to 3: eight directions, 22.5 and 67.5 degrees off the x axis, meet a wall .8
+  // and 2 depths away.
   const Basin::Walls walls = walls_of([](int x, int) { return std::abs(x) <= 3 ? 4.0 : -0.5; });
   EXPECT_FLOAT_EQ(all(walls), 1);
   EXPECT_FLOAT_EQ(walls[1], 0.5);             // .5 ... 1
@@ -56,7 +56,7 @@ TEST(Basin, WallsRightBesideAPlaceTakeAllThatIsThrownBackWhole) {
   EXPECT_NEAR(Basin::thrown_on(walls, 0, 1.333), whole, 1e-9);
   walls[0] = 0.5;
   EXPECT_NEAR(Basin::thrown_on(walls, 0, 1.333), whole / 2, 1e-9);
-  // To the surface and back at 49 degrees and flatter.
+  // Light to the surface and back at 49 degrees and flatter.
   EXPECT_LT(Basin::thrown_on(walls, 1, 1.333), whole / 2 * std::exp(-2 / 0.661));
 }
 

@@ -8,15 +8,15 @@
 #include "complete/scattered_light.h"
 #include "support.h"
 
-// The albedo of a bottom in a basin, from over and from within its water.
+// The albedo of a bottom in a basin, from above the water and from within.
 
 namespace limpid {
 namespace {
 
 constexpr Size kSize{48, 36};
 
-/// Of a basin 3 wide and 2 deep, all of that light, seen along it from `height` over the water: in
-/// green, where the bottom is 4 away.
+/// The albedo in green of a bottom in a basin 3 wide and 2 deep, seen along the basin from `height`
+/// above the water; the bottom is 4 away.
 float albedo_from(double height, ScatteredLightMaker& maker) {
   Scene scene = test::simple_scene(kSize);
   const glm::dvec3 eye(0, height, 0);
@@ -41,7 +41,7 @@ TEST(BottomAlbedo, ChangesWithoutAStepWhereAViewGoesUnderTheWater) {
   ScatteredLightMaker maker;
   const float over = albedo_from(0.1, maker), under = albedo_from(-0.1, maker);
   const float whole = std::abs(over - under);
-  EXPECT_GT(whole, 0.01f);  // walls around count from over the water alone
+  EXPECT_GT(whole, 0.01f);  // walls around count only from above the water
   float before = over;
   for (int i = 1; i <= 40; ++i) {
     const float now = albedo_from(0.1 - 0.005 * i, maker);

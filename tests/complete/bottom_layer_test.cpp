@@ -6,7 +6,7 @@
 
 #include "complete/pool.h"
 
-// The bottom behind what stands before it.
+// The bottom behind objects before it.
 
 namespace limpid {
 namespace {
@@ -14,11 +14,11 @@ namespace {
 using test::Pool;
 using test::PoolOf;
 
-constexpr double kThing = 40;  ///< its color; that of the bottom is below 1
+constexpr double kThing = 40;  ///< color of the object; the bottom's colors are below 1
 
 double floor_color(double x, double z) { return 0.5 + 0.2 * std::sin(x) + 0.1 * std::sin(z); }
 
-/// A pool in which something hides the pixels of a rectangle, at a share of the bottom's depth.
+/// A pool with an object before the pixels of a rectangle, at a share of the bottom's depth.
 struct Hidden {
   Pool pool;
   Rect thing;
@@ -46,7 +46,7 @@ struct Hidden {
   }
 };
 
-/// Bilinear, at the middle of a pixel.
+/// The value at the middle of a pixel, bilinear.
 double at_pixel(const BottomLayer& layer, const View<const float>& view, int x, int y) {
   const double u = (x + 0.5) / Pool::kSize.width, v = (y + 0.5) / Pool::kSize.height;
   const double px = (layer.scale.x * u + layer.offset.x) * view.window.width() - 0.5;
@@ -65,7 +65,7 @@ double at_pixel(const BottomLayer& layer, const View<const float>& view, int x, 
 TEST(BottomLayer, IsNotMadeWhereNothingStandsBeforeTheBottom) {
   BottomLayerMaker maker;
   EXPECT_FALSE(Hidden({0, 0, 0, 0}).made(maker));
-  // Nor where the bottom rises out of the water.
+  // No layer is made where the bottom rises out of the water, either.
   Hidden beach({0, 0, 0, 0});
   beach.pool.rise = -0.3;
   beach.pool.draw(floor_color);
@@ -73,7 +73,7 @@ TEST(BottomLayer, IsNotMadeWhereNothingStandsBeforeTheBottom) {
 }
 
 TEST(BottomLayer, GoesOnBehindWhatStandsInTheWaterOrAboveIt) {
-  for (const double share : {0.3, 0.45, 0.7}) {  // the surface is at half of the depth, about
+  for (const double share : {0.3, 0.45, 0.7}) {  // the surface is at about half of the depth
     const Hidden hidden({40, 44, 52, 56}, share);
     BottomLayerMaker maker;
     const BottomLayer* layer = hidden.made(maker);
@@ -82,7 +82,7 @@ TEST(BottomLayer, GoesOnBehindWhatStandsInTheWaterOrAboveIt) {
       for (int x = 32; x < 60; ++x) {
         EXPECT_NEAR(at_pixel(*layer, layer->shape.channels[0], x, y), hidden.drop(x, y), 0.1)
             << share << ": " << x << ", " << y;
-        // Little of the edges, and only where nothing else is known.
+        // Colors come little from the edges, and only where no other pixel is known.
         EXPECT_LT(at_pixel(*layer, layer->colors.channels[0], x, y), 0.85);
         EXPECT_GT(at_pixel(*layer, layer->colors.channels[0], x, y), 0.15);
       }
@@ -116,7 +116,8 @@ TEST(BottomLayer, ThingsAreThickAsTheyAreWide) {
     const double depth = 0.7 * hidden.pool.dry_depth(40, 50);
     const double pixel = 2 * std::tan(0.45) / Pool::kSize.height * depth;
     const double thickness = 1 / at_pixel(*layer, layer->shape.channels[2], 40 + width / 2, 50);
-    // A quarter as thick as wide, in cells of four pixels, by windows twice as wide each.
+    // The layer takes objects for a quarter as thick as wide, in cells of four pixels, by windows
+    // each twice as wide as the last.
     EXPECT_GT(thickness, 0.15 * width * pixel) << width;
     EXPECT_LT(thickness, 0.25 * (2 * width + 8) * pixel) << width;
     EXPECT_GE(thickness, last);
@@ -139,13 +140,13 @@ TEST(BottomLayer, ThreadsDoNotMatter) {
   }
 }
 
-// --- what rays see that end behind something --------------------------------------------------
+// --- rays that end behind an object ------------------------------------------------------------
 
 constexpr float kPlain = 0.5f;
 
 float checks(int x, int y) { return (x / 5 + y / 5) % 2 == 0 ? 5.0f : 50.0f; }
 
-/// Rays that march, past things of that thickness.
+/// Marched rays, which pass behind objects of that thickness.
 Look rays(double thickness = 0) {
   Look look = test::still_look();
   look.of<Refraction>() = {};
@@ -154,7 +155,7 @@ Look rays(double thickness = 0) {
   return look;
 }
 
-/// A plain bottom, before which a checked board stands: what stands there, and where.
+/// A plain bottom, before which a checked board stands: its shape and place.
 struct Checked {
   PoolOf<288, 216> pool;
   std::function<double(const glm::dvec3& from, const glm::dvec3& along)> meets;  ///< +inf: never
@@ -177,7 +178,7 @@ struct Checked {
                        [&](int x, int y) { return static_cast<float>(wave(x, y)[axis]); });
     }
   }
-  /// Of the water at a pixel.
+  /// The normal of the water at a pixel.
   glm::dvec3 wave(int x, int y) const {
     const glm::dvec3 at = (-2 / pool.ray(x, y).y) * pool.ray(x, y);
     return glm::normalize(
@@ -186,10 +187,10 @@ struct Checked {
   /// Whether the pixel's water shows the board.
   bool shows_board(int x, int y) const {
     const glm::dvec3 r = pool.ray(x, y), n = wave(x, y), v = glm::normalize(r);
-    if (meets({0, 0, 0}, r) < -2 / r.y) return true;  // it stands before the water
+    if (meets({0, 0, 0}, r) < -2 / r.y) return true;  // the board stands before the water
     return meets((-2 / r.y) * r, glm::refract(v, n, 1 / 1.333)) < HUGE_VAL;
   }
-  /// Pixels away from its outline, seen through the water, that show something of it.
+  /// The number of pixels that show the board through the water, away from its outline.
   int streaks(const Look& look) const {
     const test::Picture wet = test::reference(look, pool.buffers.frame, pool.scene);
     int count = 0;
@@ -205,8 +206,7 @@ struct Checked {
   }
 };
 
-/// A box with that middle, and half as large as that (Kay & Kajiya 1986, "Ray tracing complex
-/// scenes").
+/// A box with that middle and half size (Kay & Kajiya 1986, "Ray tracing complex scenes").
 auto box(glm::dvec3 middle, glm::dvec3 half) {
   return [=](const glm::dvec3& from, const glm::dvec3& along) {
     double enters = 0, leaves = HUGE_VAL;
@@ -220,8 +220,8 @@ auto box(glm::dvec3 middle, glm::dvec3 half) {
   };
 }
 
-// Where the pixel itself shows the bottom, the end of its ray is looked up in the layer, and not
-// before the thing that hides it.
+// Where the pixel itself shows the bottom, the end of its ray is looked up in the layer, not before
+// the object that hides the end.
 TEST(BottomLayer, ARayFromBottomToBottomEndsBehindWhatStandsInTheWater) {
   const Hidden hidden({36, 40, 56, 60}, 0.7);
   const test::Picture wet = test::reference(rays(), hidden.pool.buffers.frame, hidden.pool.scene);
@@ -249,12 +249,12 @@ TEST(BottomLayer, NothingOfABoatIsDraggedAlong) {
 
 TEST(BottomLayer, NothingOfWhatHoversUnderWaterIsDraggedAlong) {
   EXPECT_EQ(Checked(box({0.1, -2.7, -4}, {0.25, 0.25, 0.25})).streaks(rays()), 0);
-  // A sheet is thinner than it is wide: that one has to say.
+  // A sheet is thinner than wide: `thickness` must say so.
   EXPECT_EQ(Checked(box({0.1, -2.6, -4}, {0.35, 0.01, 0.3})).streaks(rays(0.02)), 0);
 }
 
 TEST(BottomLayer, EndsBehindAPostWhereThePictureShowsNoBottom) {
-  constexpr double kEnd = 12, kUnsure = 1.5;  // the bottom ends there, but for that
+  constexpr double kEnd = 12, kUnsure = 1.5;  // end of the bottom; not judged around it
   PoolOf<288, 216> pool;
   pool.rise = 0;
   pool.draw([](double, double) { return double{kPlain}; });
@@ -288,7 +288,7 @@ TEST(BottomLayer, EndsBehindAPostWhereThePictureShowsNoBottom) {
 TEST(BottomLayer, ARayPassesBehindWhatIsThin) {
   const Checked rope(box({0, -3, -5}, {5, 0.05, 0.05}));
   EXPECT_EQ(rope.streaks(rays()), 0);
-  // It hides as much as one says.
+  // With a large `thickness` the rope hides more.
   EXPECT_GT(rope.streaks(rays(100)), 0);
 }
 

@@ -6,7 +6,7 @@
 
 #include "complete/pool.h"
 
-// The plane of the bottom, and what of it lies beyond the picture.
+// The plane of the bottom, and its part beyond the picture.
 
 namespace limpid {
 namespace {
@@ -33,7 +33,7 @@ TEST(BottomPlane, PostsAndRocksDoNotPullAtIt) {
   pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
     const double depth = pool.dry_depth(x, y);
     if (x % 9 == 0) return 2.1f;                                             // before the water
-    if (x > 20 && x < 50 && y > 40) return static_cast<float>(0.8 * depth);  // in it
+    if (x > 20 && x < 50 && y > 40) return static_cast<float>(0.8 * depth);  // in the water
     return static_cast<float>(depth);
   });
   const auto plane = fit_bottom(pool.buffers.frame, pool.pass());

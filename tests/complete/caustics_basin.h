@@ -15,15 +15,14 @@
 #include "optics/waves.h"
 #include "support.h"
 
-// A table of caustics beside light that is followed as finely as it takes.
+// A table of caustics beside photons that are followed in small steps.
 
 namespace limpid::test {
 
 constexpr double kIor = 1.333, kCell = 0.01;
-constexpr int kSide = 192, kBorder = 24;  // pixels of a cell; those not judged
+constexpr int kSide = 192, kBorder = 24;  // pixels of a side; border pixels that are not judged
 
-/// Waves in all directions, the root mean square of whose slopes is this: short ones, or so many
-/// times as long.
+/// Waves in all directions with this root mean square of slopes; `longer` multiplies their lengths.
 inline std::vector<SineWave> waves_of(double slope, double longer = 1) {
   std::vector<SineWave> waves;
   const double lengths[] = {1.3, 0.9, 0.62, 0.43, 0.35, 0.27, 0.22, 0.18};
@@ -40,7 +39,7 @@ inline std::vector<SineWave> waves_of(double slope, double longer = 1) {
 
 constexpr double kPeriod = 2;  ///< of the waves of a map
 
-/// Waves that repeat, in a map of theirs.
+/// Waves that repeat with the period of a map.
 inline std::vector<SineWave> periodic_waves_of(double slope) {
   std::vector<SineWave> waves;
   const double turns[][2] = {{2, 1}, {-1, 3}, {3, -3}, {4, 3}, {-5, 2}, {2, 6}, {7, -3}, {5, 7}};
@@ -56,11 +55,11 @@ inline std::vector<SineWave> periodic_waves_of(double slope) {
   return waves;
 }
 
-/// What tells of the waves.
+/// The source of the water's slopes.
 enum class Told { kBySines, kByMap, kBySlopesOfMap, kByNormals };
 
-/// A basin that an orthographic camera looks straight down on: a pixel is 1 cm of it. x to the
-/// right, y up in the picture, from its middle; `deep` is how deep the bottom lies there.
+/// A basin under an orthographic camera that looks straight down; a pixel is 1 cm wide. From the
+/// middle of the picture x runs to the right, y up; `deep` is the depth of the bottom there.
 struct Basin {
   std::function<double(double x, double y)> deep;
   double sun_height = 40, sun_turn = 30;  ///< degrees, from x towards y
@@ -73,7 +72,8 @@ struct Basin {
   LevelMaker levels;
   SlopeMap slopes;
 
-  /// Whether the cliff keeps the light of calm water off, which goes so far aside.
+  /// Whether the cliff hides the bottom from the light of calm water, which moves aside by
+  /// `aside_x` per depth.
   bool shaded(double x, double aside_x) const {
     return cliff && x >= 0 && x < (deep(1, 0) - deep(-1, 0)) * aside_x;
   }
@@ -81,7 +81,7 @@ struct Basin {
   std::vector<SineWave> waves() const {
     return of_map() ? periodic_waves_of(slope) : waves_of(slope, longer);
   }
-  /// Only sines tell the water's height, and normals nothing beyond the picture.
+  /// Only sines give the water's height; normals give no slopes beyond the picture.
   WaveHeight surface(const std::vector<SineWave>& of, double x, double y) const {
     WaveHeight w = wave_height(of, x, y, time);
     if (told != Told::kBySines) w.height = 0;
@@ -162,13 +162,13 @@ struct Basin {
 
 using LightMap = std::vector<double>;  // kSide x kSide, a value a cell of the bottom
 
-/// Calm light that goes aside, for each unit that it sinks.
+/// How far calm light moves aside per unit of depth.
 inline glm::dvec2 aside_of(const glm::dvec3& to_sun) {
   return glm::dvec2(to_sun) * (-1 / std::sqrt(kIor * kIor - 1 + to_sun.z * to_sun.z));
 }
 
-/// Photons from a grid of 4 mm, over the sun's disc, each to where it meets the bottom; over the
-/// light of calm water there, each with what passes the surface.
+/// Photons from a grid of 4 mm, over the sun's disc, each counted where its ray meets the bottom;
+/// over the light of calm water there. Each photon carries its transmitted share.
 inline LightMap followed(const Basin& basin) {
   const Pass pass(basin.scene, basin.buffers.frame, kIor, kWholeState, basin.swell());
   const glm::dvec3 mid = basin.scene.sun->direction;
@@ -207,7 +207,7 @@ inline LightMap followed(const Basin& basin) {
           bottom_x = x - (depth + w.height) * in.x / in.z;
           bottom_y = y - (depth + w.height) * in.y / in.z;
         };
-        if (basin.cliff) {  // the upper bottom, the lower one, or the wall between them
+        if (basin.cliff) {  // upper bottom, lower bottom, or the wall between
           depth = basin.deep(-1, 0), go();
           if (bottom_x >= 0) depth = basin.deep(1, 0), go();
           if (depth != basin.deep(bottom_x, bottom_y)) continue;
@@ -238,7 +238,7 @@ struct Grid {
   double grid(const View<const float>& table, Vec2<double> at) const { return grid_at(table, at); }
 };
 
-/// 0 where the dry picture has the sun's shadow, whatever the table says.
+/// The table's light, but 0 where the dry picture has the sun's shadow.
 inline LightMap of_table(const Basin& basin, const CausticsTable& table) {
   const Pass pass(basin.scene, basin.buffers.frame, kIor, kWholeState, basin.swell());
   const glm::dvec3& sun = basin.scene.sun->direction;
@@ -281,7 +281,7 @@ struct Beside {
   double error, contrast, energy, table_energy;
 };
 
-/// Where `judged(x, y)` holds.
+/// Compares the cells for which `judged(x, y)` holds.
 inline Beside beside(const LightMap& truth, const LightMap& table,
                      const std::function<bool(double, double)>& judged) {
   const LightMap a = blurred(truth), b = blurred(table);

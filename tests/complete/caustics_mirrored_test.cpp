@@ -2,13 +2,13 @@
 
 #include "complete/caustics_basin.h"
 
-// The net of light on a bottom that is seen in the water's surface, from below.
+// The caustics on a bottom that is mirrored in the water's surface, seen from below.
 
 namespace limpid::test {
 namespace {
 
-/// Its camera looks straight up from 20 cm under the water, in which a level bottom is mirrored:
-/// x to the right, y down in the picture.
+/// The camera looks straight up from 20 cm under the water, which mirrors a level bottom: x runs to
+/// the right, y down in the picture.
 Basin from_below(double deep) {
   Basin basin;
   basin.deep = [=](double, double) { return deep; };
@@ -40,7 +40,7 @@ TEST(MirroredCaustics, AreLightThatIsFollowedToABottomThatNothingElseShows) {
   }
 }
 
-/// What a table makes of a reflection of 0.5 that is 1.5 + x / 4 along map_x.
+/// The light of a table of 1.5 + x / 4 along map_x on a reflection of 0.5.
 struct Lit {
   Basin basin = from_below(1.5);
   Caustics::Params params{.strength = 1, .sun_share = 1};
@@ -61,7 +61,7 @@ struct Lit {
     return frame;
   }
   double green(int x, int y) { return frame().plane(PlaneId::kReflectionG).at(x, y); }
-  /// Of the light that comes to the point whose image this column shows.
+  /// The table's light at the point whose image this column shows.
   double focused(int x) const {
     const glm::dvec3& sun = basin.scene.sun->direction;
     const double aside = 1.5 * aside_of({sun.x, -sun.z, sun.y}).x;
@@ -82,15 +82,16 @@ TEST(MirroredCaustics, AreLookedUpWhereLightEntersToThePointWhoseImageIsSeen) {
               1e-6);
 }
 
-// Of the point a metre and a half deep that a column mirrors, what the picture itself shows tells.
+// The picture shows the point that a column mirrors, 1.5 m deep, and whether the point is in
+// shadow.
 TEST(MirroredCaustics, LeaveWhatThePictureShowsInShadow) {
   Lit lit;
   lit.basin.scene.camera->view =
       glm::lookAt(glm::dvec3(0, -0.2, 0), glm::dvec3(0, -0.2, -1), glm::dvec3(0, 1, 0));
   lit.basin.scene.camera->projection = orthographic(4, 4, 0.1, 50, ClipSpace::kGl);
   lit.basin.buffers.fill(PlaneId::kShadow, 0.25f);
-  // A row that looks level, 1.3 above the eye, at an image 2 away: its point lies 1.3 + 2 * 0.2 as
-  // deep, in the row as much lower.
+  // A row with level rays, 1.3 above the eye, at an image 2 away: the point lies 1.3 - 0.2 deep,
+  // right under its image.
   lit.basin.buffers.fill(PlaneId::kReflectionDepth, 2);
   lit.basin.buffers.fill(PlaneId::kDepth, 2);
   const int row = 33;
@@ -104,15 +105,15 @@ TEST(MirroredCaustics, LeaveWhatThePictureShowsInShadow) {
   lit.params.sun_share = 0.8;
   EXPECT_EQ(lit.green(96, row + 1), 0.5);
   EXPECT_NEAR(lit.green(96, row), 0.5 * (1 + 0.2 / 0.4 * (focused - 1)), 1e-6);
-  lit.basin.buffers.fill(PlaneId::kDepth, 1.5f);  // something before the point
+  lit.basin.buffers.fill(PlaneId::kDepth, 1.5f);  // an object before the point
   EXPECT_NEAR(lit.green(96, row), 0.5 * (1 + 0.8 * (focused - 1)), 1e-6);
   lit.basin.buffers.fill(PlaneId::kDepth, 2);
   for (int c = 0; c < 3; ++c) lit.basin.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
   EXPECT_NEAR(lit.green(96, row), 0.5 * (1 + 0.6 * (focused - 1)), 1e-6);
 }
 
-// The light of the point in the middle of the picture enters through the surface, of which a column
-// towards the sun is in shadow.
+// The light of the point in the middle of the picture enters through the surface; a column of this
+// surface towards the sun is in shadow.
 TEST(MirroredCaustics, LeaveThatToWhichTheSurfaceLetsNoLightIn) {
   Lit lit;
   const glm::dvec3& sun = lit.basin.scene.sun->direction;

@@ -6,12 +6,12 @@ namespace {
 
 const auto kAll = [](double, double) { return true; };
 
-// Of the light of calm water, root mean square, after both are blurred by two pixels.
+// Errors are over the light of calm water, root mean square, after a blur of both by two pixels.
 
 TEST(Caustics, OnAFlatBottomAreLightThatIsFollowed) {
   for (const double deep : {0.3, 1.0, 5.0}) {
     for (const double sun : {20.0, 40.0, 60.0}) {
-      if (kSanitized && (deep != 1 || sun != 40)) continue;  // it takes minutes
+      if (kSanitized && (deep != 1 || sun != 40)) continue;  // the other cases take minutes
       for (const double slope : {0.035, 0.12}) {
         Basin basin;
         basin.deep = [=](double, double) { return deep; };
@@ -25,7 +25,7 @@ TEST(Caustics, OnAFlatBottomAreLightThatIsFollowed) {
   }
 }
 
-// Long waves hardly focus it: a ray for four texels leaves less of an error than one for each does.
+// Long waves hardly focus light: a ray for four texels has a smaller error than a ray for each.
 TEST(Caustics, OfLongWavesAreLightThatIsFollowed) {
   for (const double deep : {0.3, 1.0}) {
     for (const double sun : {20.0, 40.0, 60.0}) {
@@ -41,7 +41,8 @@ TEST(Caustics, OfLongWavesAreLightThatIsFollowed) {
   }
 }
 
-// The sun so low that waves let in more or less of its light, and that it grazes their backs.
+// The sun is so low that waves let in more or less of its light, and that its rays graze their
+// backs.
 TEST(Caustics, OfALowSunAreLightThatIsFollowed) {
   for (const double deep : {0.5, 2.0}) {
     for (const double sun : {10.0, 15.0}) {
@@ -59,7 +60,8 @@ TEST(Caustics, OfALowSunAreLightThatIsFollowed) {
   }
 }
 
-// Maps have no height, and their slopes lie between texels; the frame's normals end with it.
+// Maps have no height, and their slopes lie between texels; the frame's normals end with the
+// picture.
 TEST(Caustics, OfMapsAndNormalsAreLightThatIsFollowed) {
   for (const Told told : {Told::kByMap, Told::kBySlopesOfMap, Told::kByNormals}) {
     for (const double sun : {10.0, 40.0}) {
@@ -87,12 +89,12 @@ TEST(Caustics, OnASlopeAreLightThatIsFollowed) {
   }
 }
 
-// Within 15 cm of it, and of its shadow's end.
+// Cells within 15 cm of the cliff, and of its shadow's end, are judged.
 TEST(Caustics, BesideACliffAreLightThatIsFollowed) {
   const double upper = 0.8, lower = 1.6;
   for (const double sun : {20.0, 40.0, 60.0}) {
     if (kSanitized && sun != 40) continue;
-    for (const double turn : {60.0, 120.0}) {  // onto its wall, and from behind
+    for (const double turn : {60.0, 120.0}) {  // sun onto the cliff's wall, and from behind
       const double rise = std::sin(sun * std::numbers::pi / 180);
       const double level = std::sqrt(1 - rise * rise) * std::cos(turn * std::numbers::pi / 180);
       const double shadow = std::max((lower - upper) * aside_of({level, 0, rise}).x, 0.0);
@@ -111,7 +113,7 @@ TEST(Caustics, BesideACliffAreLightThatIsFollowed) {
   }
 }
 
-// What stands still in a picture of moving light would be seen, and so would what jumps.
+// A pattern that stands still in moving light would be seen, and so would a jump.
 TEST(Caustics, MoveAsLightDoes) {
   LightMap last_truth, last_table;
   double moved = 0, table_moved = 0;
@@ -165,7 +167,7 @@ TEST(Caustics, AreNoneWithoutSunOrWaves) {
   EXPECT_EQ(levels([](Basin& b) { b.deep = [](double, double) { return HUGE_VAL; }; }), 0);
 }
 
-// Waves as steep as they may be: whatever comes of it is light, and finite.
+// The steepest waves that parameters allow: the light is finite.
 TEST(Caustics, OfWavesThatFoldLightManyTimesAreFinite) {
   for (const double slope : {1.0, 30.0}) {
     for (const double sun : {1.0, 45.0, 90.0}) {

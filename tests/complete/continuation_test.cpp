@@ -5,7 +5,7 @@
 #include "complete/pool.h"
 #include "op/pixel_start.h"
 
-// What is seen of a bottom that goes on beyond the picture.
+// Views of a bottom that goes on beyond the picture.
 
 namespace limpid {
 namespace {
@@ -29,7 +29,8 @@ Look going_on(bool goes_on) {
   return look;
 }
 
-/// Nothing to be seen but the row of colors round the picture, which has its own places.
+/// A frame that shows nothing but the row of colors round the picture; a color is its lookup
+/// position.
 struct RowAlone {
   struct Quad {
     static double weight(int) { return 0.25; }
@@ -41,8 +42,8 @@ struct RowAlone {
   static Rgb<double> lat_long_rgb(const Texture&, Vec2<double> at) { return {at.x, at.y, 0}; }
 };
 
-// From the upper left corner to the right, down, to the left and up. What goes on in no direction
-// goes on from the nearest place of the edge.
+// The row runs from the upper left corner to the right, down, to the left and up. A bottom that
+// goes on in no direction goes on from the nearest place of the edge.
 TEST(Continuation, TheRowOfColorsGoesRoundThePicture) {
   const Pool pool;
   const Pass base = pool.pass();
@@ -112,7 +113,7 @@ TEST(Continuation, IsNotMadeWhereNothingLooksBeyondThePicture) {
   EXPECT_FALSE(made(maker, pool));
 }
 
-/// Mean error of what is transmitted, against the bottom as it is, where rays leave the picture.
+/// Mean error of the transmitted light, against the continued bottom, where rays leave the picture.
 double error_beyond(const test::Picture& got, const Pool& pool, double turn) {
   double sum = 0;
   int count = 0;
@@ -166,7 +167,7 @@ TEST(Continuation, PixelsThatLookIntoThePictureDoNotChange) {
   EXPECT_GT(changed, 300);
 }
 
-/// Neither do those whose end in the picture is a guess, for something hides it.
+/// Rays whose end in the picture is a guess, because an object hides the end, do not change either.
 TEST(Continuation, GuessesInThePictureDoNotChange) {
   Pool pool;
   pool.draw(lanes(0.3));
@@ -201,7 +202,7 @@ TEST(Continuation, BothRunnersSeeTheSame) {
   EXPECT_LT(far, 5);
 }
 
-/// What stands before the water at the edge of the picture is none of the bottom.
+/// An object before the water at the edge of the picture is no part of the bottom.
 TEST(Continuation, WhatStandsAtTheEdgeIsNotDrawnOn) {
   Pool pool;
   pool.draw(lanes(0));

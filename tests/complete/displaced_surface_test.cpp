@@ -21,11 +21,11 @@ using test::kInf;
 constexpr Size kSize{64, 48};
 constexpr double kNear = 0.1;
 
-/// Sum of amplitudes .063, steepest .19.
+/// The sum of the amplitudes is .063, the steepest slope .19.
 const std::vector<SineWave> kWaves{
     {0.03, 2, 3, 0.6, 2}, {-0.02, 3, -1, 4, 3}, {0.013, 1, 0.3, 2, 1}};
 
-/// Looks from `height` over the calm water along -z, down by `pitch` rad.
+/// A scene seen from `height` above the calm water along -z, down by `pitch` rad.
 Scene scene_at(double height, double pitch, std::vector<SineWave> waves = kWaves) {
   Scene scene;
   const glm::dvec3 eye(30.3, 1 + height, 20.2);
@@ -38,7 +38,7 @@ Scene scene_at(double height, double pitch, std::vector<SineWave> waves = kWaves
   return scene;
 }
 
-/// Straight down on the water, 8 units wide.
+/// A scene seen straight down, 8 units wide.
 Scene seen_in_parallel(double height) {
   Scene scene = scene_at(height, 0);
   const glm::dvec3 eye(3, 1 + height, 2);
@@ -58,7 +58,7 @@ Look sines(double strength = 1, std::vector<SineWave> waves = {}) {
   return look;
 }
 
-/// Color and a depth, which nothing stands in the way of.
+/// Planes of color and depth without objects before the water.
 Buffers bare(float depth = kInf) {
   Buffers b(rect_of(kSize));
   for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kColorR, c), 0.5f);
@@ -66,7 +66,7 @@ Buffers bare(float depth = kInf) {
   return b;
 }
 
-/// A surface and the rays that look for it.
+/// A surface and the rays that meet it.
 struct Made {
   Made(const Scene& s, const std::string* simd, const Look& look = sines(), int threads = 1)
       : scene(s),
@@ -84,7 +84,7 @@ struct Made {
   double under(int x, int y) const {
     return glm::dot(scene.water->up, pass.rays.ray_at(x + 0.5, y + 0.5));
   }
-  /// Of a point of the ray, over the water as optics/waves.h has it.
+  /// Height of a point of the ray above the water of optics/waves.h.
   double over(int x, int y, double depth) const {
     const glm::dvec3 p = point(x, y, depth);
     const PlaneAxes axes = plane_axes(scene.water->up);
@@ -92,7 +92,7 @@ struct Made {
         wave_height(pass.waves, glm::dot(p, axes.x), glm::dot(p, axes.y), scene.time).height;
     return glm::dot(scene.water->up, p) - scene.water->height - strength * wave;
   }
-  /// The first change of sides from a depth on, by many small steps.
+  /// The first crossing of the water beyond a depth, by many small steps.
   double searched(int x, int y, double from, double to) const {
     constexpr int kSteps = 2000;
     const bool above = over(x, y, from) >= 0;
@@ -152,8 +152,8 @@ TEST(DisplacedSurface, IsWhereASearchBySmallStepsFindsIt) {
   });
 }
 
-/// At angles at which crests hide what lies behind them one may be missed, but what is found lies
-/// on the water, and before it there is no more than a crest between two steps.
+/// At angles at which crests hide the water behind them a crest may be missed, but each depth found
+/// lies on the water, and before this depth there is at most a crest between two steps.
 TEST(DisplacedSurface, LiesOnTheWaterAtGrazingAngles) {
   on_all([](const std::string* simd) {
     const Made made(scene_at(0.4, 0.2), simd);
@@ -223,7 +223,7 @@ TEST(DisplacedSurface, IsMetFromEverywhereWithoutNan) {
         for_each_pixel([&](int x, int y) {
           const double depth = made.at(x, y), begin = made.over(x, y, kNear);
           ASSERT_GE(depth, kNear * (1 - 1e-6)) << x << ", " << y;
-          // What goes through all that waves reach, from side to side, meets them.
+          // A ray through the whole range of the waves' heights meets the water.
           if (begin > 1e-5 && made.under(x, y) < -1e-9) {
             EXPECT_TRUE(std::isfinite(depth));
           }
@@ -268,7 +268,7 @@ TEST(DisplacedSurface, IsOfTheLooksWavesTimesItsStrength) {
   });
 }
 
-// --- what decides that it is made ----------------------------------------------------------------
+// --- decides whether the surface is made ---------------------------------------------------------
 
 bool is_made(const Look& look, const Frame& frame, const Scene& scene) {
   return make_plan(look, test::inputs_of(frame, scene)).completed.has(PlaneId::kSurfaceDepth);
@@ -301,7 +301,7 @@ TEST(DisplacedSurface, IsToldByThePlan) {
   EXPECT_EQ(plan.of<WaveNormals>().rule, "complete_planes");
 }
 
-// --- what a picture shows of it ------------------------------------------------------------------
+// --- pictures of the surface ---------------------------------------------------------------------
 
 /// A beach that falls away from the camera and goes through the calm water, and the runs on it.
 struct Beach {
@@ -346,7 +346,7 @@ TEST(DisplacedSurface, MovesTheWaterline) {
   }
 }
 
-/// Of both runners, for what one reads of the other's surface is off by no more than rounding.
+/// Both runners agree within rounding, by which their reads of the surface differ.
 TEST(DisplacedSurface, IsTheSameToBothRunners) {
   const Beach beach;
   Look look = sines();

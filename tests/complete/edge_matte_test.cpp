@@ -26,13 +26,13 @@ EdgeAround between(const Rgb<double>& pixel, const std::vector<Rgb<double>>& dry
   return around;
 }
 
-// Sides of one color are apart by 1 / 0.01 of the noise that is granted: s = 0.01.
+// Between sides of one color each the difference is 1 / 0.01 of the allowed noise: s = 0.01.
 TEST(EdgeMatte, LiesBetweenTwoColors) {
   const auto matte = matte_between(between({0.25, 0.75, 0}, {kRed}, {kGreen}));
   ASSERT_TRUE(matte);
   const double cover = (0.25 - 0.01) / 0.98;
   EXPECT_NEAR(matte->cover, cover, 1e-9);
-  // What the estimate leaves is of both by their shares.
+  // The rest of the estimate belongs to both sides by their shares.
   const double rest = 0.25 - cover;
   EXPECT_NEAR(0.25 + matte->behind.r, (1 - cover) * rest, 1e-9);
   EXPECT_NEAR(0.75 + matte->behind.g, 1 - (1 - cover) * rest, 1e-9);
@@ -43,7 +43,7 @@ TEST(EdgeMatte, EndsAtTheSides) {
   EXPECT_EQ(matte_between(between(kGreen, {kRed}, {kGreen}))->cover, 0);
 }
 
-// Both sides vary in green alone, by as much as they are apart: red tells.
+// Both sides vary in green alone, by as much as their difference: red tells them apart.
 TEST(EdgeMatte, TextureOfBothSidesIsNoShare) {
   const std::vector<Rgb<double>> dry{{1, 0, 0}, {1, 2, 0}}, wet{{0, 1, 0}, {0, 3, 0}};
   const auto matte = matte_between(between({0.5, 0.9, 0}, dry, wet));
@@ -57,10 +57,10 @@ TEST(EdgeMatte, IsNotMadeUp) {
   EXPECT_FALSE(matte_between(between({0.5, 0.5, 0}, {kRed}, {})));           // the other
   EXPECT_FALSE(matte_between(between({0.5, 0.5, 0.9}, {kRed}, {kGreen})));   // a third color
   EXPECT_FALSE(matte_between(between({1.4, 0.5, 0}, {{1, 0, 0}, {0, 1, 0}},  // texture as large
-                                     {{0.9, 0, 0}, {0, 0.9, 0}})));          // as what is apart
+                                     {{0.9, 0, 0}, {0, 0.9, 0}})));          // as the difference
 }
 
-// Without sure dry pixels: dry is 1 at red 0.6, 1/2 at 0.3, 0 at none; so at 0.45 it is 3/4.
+// Without sure dry pixels: the dry share is 1 at red 0.6, 1/2 at 0.3, 0 at 0; so at 0.45 it is 3/4.
 TEST(EdgeMatte, RegressesTheSidesOnColor) {
   const Rgb<double> pixel{0.45, 0, 0};
   EdgeAround around;
@@ -71,7 +71,7 @@ TEST(EdgeMatte, RegressesTheSidesOnColor) {
   ASSERT_TRUE(matte);
   EXPECT_NEAR(matte->cover, 0.75, 1e-3);
   EXPECT_NEAR(matte->behind.r, -0.45, 1e-12);
-  // No pixel is dry; none is sure to be wet; color says nothing of which is which.
+  // No pixel is dry; none is sure to be wet; colors do not tell the sides apart.
   EdgeAround none = around;
   none.of(EdgeKind::kDry) = {};
   EXPECT_FALSE(matte_by_regression(none));
@@ -127,12 +127,12 @@ TEST(EdgeBlur, EndsWhereTheDifferenceGrowsSlowly) {
   EXPECT_EQ(growth.full_at(), 1);
   EXPECT_EQ(EdgeBlur::Growth{}.full_at(), 0);
   EXPECT_EQ(ramp(200).full_at(), 0);    // light over the whole picture
-  growth.dry[1] = 0.5 * growth.own[1];  // as of what is thin
+  growth.dry[1] = 0.5 * growth.own[1];  // as beside a thin object
   EXPECT_EQ(growth.full_at(), 1);
   growth.wet[1] = 0.5 * growth.own[1];
   growth.steps = 10;
-  EXPECT_EQ(growth.full_at(), 0);  // or as much of it beside the edge
-  growth.speckled = 4;  // where depth is one of both by chance, it is a blur all the same
+  EXPECT_EQ(growth.full_at(), 0);  // or as much change beside the edge
+  growth.speckled = 4;             // a blur even where depth is that of either side by chance
   EXPECT_EQ(growth.full_at(), 1);
 }
 

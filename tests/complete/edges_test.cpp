@@ -5,7 +5,7 @@
 #include "complete/post.h"
 #include "core/edge_cover.h"
 
-// Pixels that show water and something before it.
+// Pixels that show water and an object before it.
 
 namespace limpid {
 namespace {
@@ -14,7 +14,7 @@ using test::Post;
 
 constexpr int kRow = 60;
 
-/// The frame after Edges, and what it found in a row.
+/// The frame after Edges, and the edges of a row.
 struct Parted {
   Edges edges;
   Frame frame;
@@ -47,7 +47,7 @@ void expect_parted(const Post& post, double tolerance) {
     EXPECT_NEAR(parted.cover(x, post), post.cover(x), tolerance) << x;
     const EdgeCover::Pixel* p = parted.at(x);
     if (!p) continue;
-    // Both together are what the pixel was, and behind is the bottom.
+    // The two parts add up to the pixel; the part behind is the bottom.
     for (int c = 0; c < 3; ++c) {
       const PlaneId plane = plane_after(PlaneId::kColorR, c);
       const float behind = parted.frame.plane(plane).at(x, kRow);
@@ -79,7 +79,7 @@ TEST(Edges, WithDepthsOfOneSampleOfMany) {
   }
 }
 
-// Nowhere more than .6 of the pixel: no pixel shows the post alone.
+// The post covers at most .6 of any pixel: no pixel shows the post alone.
 TEST(Edges, OfWhatIsThinnerThanItsBlur) {
   Post post;
   post.width = 6;
@@ -105,8 +105,8 @@ TEST(Edges, TextureOfBothSidesDoesNotCount) {
   expect_parted(post.make(), 0.25);
 }
 
-// Light and texture of the two sides make them differ more, the farther away they are looked at.
-// That is no blur: an antialiased post, though thin, stays what it is.
+// Light and texture make the two sides differ more with distance from the edge. This is no blur: an
+// antialiased post, though thin, stays as it is.
 TEST(Edges, LightThatChangesAlongTheBottomIsNoBlur) {
   Post post;
   post.blur = 1;
@@ -145,7 +145,7 @@ TEST(Edges, SidesOfOneColorDoNotTell) {
   EXPECT_FALSE(Parted(post.make()).frame.edges);
 }
 
-// Neither does light that rises across both, as wide as the picture.
+// Light that rises across both sides, as wide as the picture, is no blur either.
 TEST(Edges, LightOverBothSidesIsNoBlur) {
   Post post;
   post.dark = post.light;
@@ -157,7 +157,7 @@ TEST(Edges, LightOverBothSidesIsNoBlur) {
   EXPECT_FALSE(Parted(post).frame.edges);
 }
 
-// The ground goes on through the water's edge; its color changes slowly all over it.
+// The ground goes on through the water's edge; the ground's color changes slowly everywhere.
 TEST(Edges, AShoreIsNone) {
   Post post;
   post.make();
@@ -169,7 +169,7 @@ TEST(Edges, AShoreIsNone) {
   EXPECT_FALSE(Parted(post).frame.edges);
 }
 
-// The alpha of a picture without a bottom is the share of what is in it.
+// The alpha of a picture without a bottom is the share of its objects.
 TEST(Edges, AlphaTellsWhereNothingIsBehind) {
   Post post;
   post.blur = 6;

@@ -18,12 +18,12 @@ using test::landscape;
 using test::noise;
 
 Look marching_look() {
-  Look look;  // of the models the physical ones
+  Look look;  // the physical models
   look.of<Refraction>().steps = Refraction::kMarch;
   return look;
 }
 
-/// The heights of one frame, and what they are of.
+/// The heights of one frame, with its plan and pass.
 struct Measured {
   Measured(const Buffers& buffers, const Scene& scene, const Look& look = marching_look(),
            const std::string& simd = {})
@@ -35,7 +35,7 @@ struct Measured {
   }
   const HeightBound& bound() const { return heights.bound(); }
 
-  /// Least and greatest height at which a ray through a texel sees it.
+  /// Least and greatest height at which a ray through a texel sees the surface there.
   Range heights_at(int x, int y) const {
     Range range{HUGE_VAL, -HUGE_VAL};
     for (const double at_x : {x + 0.0, x + 0.5, x + 1.0}) {
@@ -138,7 +138,7 @@ TEST(Heights, NothingThatIsSeenStandsHigher) {
   EXPECT_GT(finite, 1000);
 }
 
-/// The bottom of a basin 1.5 below calm water, but for the height of a texel.
+/// Of a basin 1.5 deep the heights are right within the height of a texel.
 TEST(Heights, AreNotFarAbove) {
   const Size size{320, 200};
   const Scene scene = test::simple_scene(size);
@@ -156,10 +156,10 @@ TEST(Heights, AreNotFarAbove) {
   EXPECT_GE(whole.highest, part.highest);
   EXPECT_NEAR(whole.deepest, 1.5, 0.1);
   EXPECT_NEAR(part.deepest, 1.5, 0.03);
-  // A ray's end 0.4 of the way from the surface to which is there: but for the same errors.
+  // The bottom lies at 0.4 of the path to the covered height: within the same errors.
   const double share = Kernel<Refraction>::kShareOfWay;
   EXPECT_NEAR(part.covers, -1.5 / share, 0.1);
-  // Of water that stands 0.3 higher the way to the bottom is 1.8 deep.
+  // Under water that stands 0.3 higher the path to the bottom is 1.8 deep.
   b.set(PlaneId::kSurfaceDepth, [&](int x, int y) {
     const RowRays<double> rays(pass, y + 0.5);
     return static_cast<float>(rays.calm_depth(x + 0.5) * (2 - 0.3) / 2);
@@ -167,13 +167,13 @@ TEST(Heights, AreNotFarAbove) {
   EXPECT_NEAR(Measured(b, scene).of({40, 184, 61, 191}).covers, 0.3 - 1.8 / share, 0.1);
 }
 
-/// A picture on its side tells as much as one that stands.
+/// A picture on its side gives the same errors as an upright picture.
 TEST(Heights, AreAsSureHoweverTheCameraIsRolled) {
   const Size size{200, 200};
   Scene scene = test::simple_scene(size);
   const HeightError level = calm_error(WaterView(scene, rect_of(size)));
   scene.camera->view = glm::rotate(glm::dmat4(1), std::numbers::pi / 2, {0, 0, 1}) *
-                       scene.camera->view;  // what was above is on the left
+                       scene.camera->view;  // the picture's top is on the left
   const HeightError rolled = calm_error(WaterView(scene, rect_of(size)));
   EXPECT_NEAR(rolled.over / level.over, 1, 1e-5);
   EXPECT_NEAR(rolled.under / level.under, 1, 1e-5);
@@ -184,13 +184,13 @@ TEST(Heights, WhatStandsHigherThanTheWaterDoesNotCount) {
   const Scene scene = test::simple_scene(size);
   Buffers b(rect_of(size));
   for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kColorR, c), 0.5f);
-  b.fill(PlaneId::kDepth, 0.5f);  // of 2 above the water
+  b.fill(PlaneId::kDepth, 0.5f);  // the camera is 2 above the water
   EXPECT_EQ(Measured(b, scene).of({0, 0, 64, 32}).highest, -kInf);
   EXPECT_EQ(Measured(b, scene).of({0, 0, 64, 32}).covers, kInf);
 }
 
-/// All that a mirrored ray may hit, where it is marched over the picture itself, and no more than
-/// that: what lies under the calm water it does not.
+/// The depths are those that a mirrored ray may hit where the ray is marched over the picture
+/// itself, and no others: the ray does not hit surfaces under the calm water.
 TEST(Heights, DepthsOfWhatTheMirrorMayHit) {
   const Size size{64, 32};
   const Scene scene = test::simple_scene(size);

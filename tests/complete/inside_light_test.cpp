@@ -2,7 +2,8 @@
 
 #include "complete/scattered_light.h"
 
-// What the water scatters into views that begin in it. tests/judge/trace has it beside walks.
+// The light that the water scatters into views from within it. tests/judge/trace compares it with
+// random walks.
 
 namespace limpid {
 namespace {
@@ -18,8 +19,8 @@ double even_sky_at(const ScatteredLight& light, double z, double sink) {
   return sum;
 }
 
-// Where nothing is absorbed, under an even sky, there is as much light everywhere and from all
-// sides: what a unit of way adds is what it takes.
+// Where nothing is absorbed, under an even sky, radiance is the same everywhere and in all
+// directions: a unit of path adds as much light as it takes.
 TEST(InsideLight, AWhiteFurnaceIsEvenAtAnyDepth) {
   for (const bool surface : {false, true}) {
     for (const double anisotropy : {0.0, 0.9}) {

@@ -4,7 +4,7 @@
 
 #include "complete/shore.h"
 
-// The depth of a mirror that nobody rendered.
+// The depth of a mirror that has no rendered depth.
 
 namespace limpid {
 namespace {
@@ -22,7 +22,7 @@ TEST(MirrorDepth, AWallIsSeenUpsideDown) {
   int known = 0;
   for (int y = kSize.height / 2; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
-      // Edges grow by two pixels, and rounding decides of one more.
+      // Edges grow by two pixels, and by rounding perhaps by a third.
       const double expected = shore.mirrored_depth(x, y);
       bool edge = shore.dry_depth(x, y) == 20;
       for (int off = -3; off <= 3; ++off) {
@@ -41,7 +41,7 @@ TEST(MirrorDepth, AWallIsSeenUpsideDown) {
   EXPECT_GT(known, 100);
 }
 
-// Where the wall stands before the water, the mirror's camera looked into it from below.
+// Where the wall stands before the water, the mirror's camera looked into the wall from below.
 TEST(MirrorDepth, InsidesAreNotReal) {
   Shore shore;
   const auto executor = make_executor(1);
@@ -118,8 +118,8 @@ TEST(MirrorDepth, AGivenDepthIsMendedOnlyInside) {
   EXPECT_GT(insides, 300);
 }
 
-// Far away a row of pixels is hundreds of units of water: what the mirror saw through a far bank
-// stands right over its line.
+// Far away a row of pixels is hundreds of units of water: the mirror's image of a far bank stands
+// right above the bank's line.
 TEST(MirrorDepth, ARayAlongTheWaterMeetsAFarBankAtItsLine) {
   Shore shore;
   shore.far = 150;
@@ -164,7 +164,7 @@ TEST(MirrorDepth, NothingStandsInTheOpenSea) {
   }
 }
 
-// The nearest wins whoever comes first.
+// The nearest surface wins in any order of threads.
 TEST(MirrorDepth, ThreadsDoNotMatter) {
   Shore alone, crowd;
   for (Shore* shore : {&alone, &crowd}) {

@@ -4,7 +4,7 @@
 
 #include "complete/shore.h"
 
-// What a mirror shows of plates that lack what it needs.
+// The picture of a mirror from plates that lack buffers.
 
 namespace limpid {
 namespace {
@@ -14,7 +14,7 @@ using test::Shore;
 
 constexpr float kWall = 3, kSky = 7, kInside = 90;
 
-/// A mirror that is nothing else, over calm water, in both runners.
+/// A pure mirror over calm water, in both runners.
 struct Mirror : Shore {
   Look look = test::still_look();
 
@@ -44,7 +44,7 @@ struct Mirror : Shore {
       });
     }
   }
-  /// By the reference, to which the fused runner is near.
+  /// The picture of the reference, after a check that the fused runner agrees.
   test::Picture pictures() {
     test::Picture exact = test::reference(look, buffers.frame, scene);
     const test::Picture fast = test::fused(look, buffers.frame, scene);
@@ -59,7 +59,7 @@ struct Mirror : Shore {
     const double sinks = ray(x, y).y;
     return sinks < 0 && -2 / sinks < dry_depth(x, y);
   }
-  /// What a mirror shows there, 0 near an end of the wall.
+  /// The mirror's color there, 0 near an end of the wall.
   float expected(int x, int y) const {
     const double at = mirrored_depth(x, y);
     for (int off = -4; off <= 4; ++off) {
@@ -68,7 +68,7 @@ struct Mirror : Shore {
     }
     return at == 20 ? kWall : kSky;
   }
-  /// The number of pixels that show the wall, once all that show anything are looked at.
+  /// Checks all mirrored pixels; the number of pixels that show the wall.
   int check(const test::Picture& picture, float sky = kSky) const {
     int walls = 0, skies = 0;
     for (int y = 0; y < kSize.height; ++y) {
@@ -90,7 +90,7 @@ TEST(AutoMirror, ShowsThePictureItselfWithoutAReflection) {
   EXPECT_GT(mirror.check(mirror.pictures()), 100);
 }
 
-// A film that is transparent shows no sky.
+// A transparent film shows no sky.
 TEST(AutoMirror, ShowsTheColorOfTheLookWhereThereIsNoSky) {
   Mirror mirror;
   mirror.buffers.fill(PlaneId::kColorA, 0);
@@ -101,7 +101,7 @@ TEST(AutoMirror, ShowsTheReflectionAndNeverItsInsides) {
   Mirror mirror;
   mirror.give_reflection();
   EXPECT_GT(mirror.check(mirror.pictures()), 100);
-  // Waves that lean away and back look where insides are, and do not show them.
+  // Waves that lean away and back look where the reflection has insides, and do not show them.
   mirror.buffers.set(PlaneId::kSurfaceNormalX, [](int, int) { return 0.0f; });
   mirror.buffers.set(PlaneId::kSurfaceNormalY, [](int, int) { return 1.0f; });
   mirror.buffers.set(PlaneId::kSurfaceNormalZ,
@@ -116,7 +116,7 @@ TEST(AutoMirror, ShowsTheReflectionAndNeverItsInsides) {
     }
   }
   EXPECT_GT(changed, 50);
-  // The same without the completed planes does.
+  // Without the completed planes the picture shows insides.
   mirror.look.of<FresnelReflection>().source = FresnelReflection::Source::kPlanar;
   const test::Picture planar = test::fused(mirror.look, mirror.buffers.frame, mirror.scene);
   float most = 0;

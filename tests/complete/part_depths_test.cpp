@@ -5,7 +5,7 @@
 #include "op/pass.h"
 #include "support.h"
 
-// The plate's surface, on the rays of parts of its pixels.
+// The depth of the plate's surface on the rays of parts of its pixels.
 
 namespace limpid {
 namespace {

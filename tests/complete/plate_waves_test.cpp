@@ -18,7 +18,7 @@ using test::Buffers;
 constexpr Size kSize{96, 64};
 constexpr double kWidth = 6, kHeight = 4;
 
-/// Straight down on 6 x 4 units of water at the height 1.
+/// A camera that looks straight down on 6 x 4 units of water at the height 1.
 Scene seen_in_parallel() {
   Scene scene;
   const glm::dvec3 eye(3, 4, 2);
@@ -28,13 +28,13 @@ Scene seen_in_parallel() {
   return scene;
 }
 
-/// A sine that repeats so many times across the picture and down it.
+/// A sine that repeats `across` times across the picture and `down` times down it.
 SineWave wave(double amplitude, int across, int down, double phase) {
   const double turn = 2 * std::numbers::pi;
   return {amplitude, turn * across / kWidth, turn * down / kHeight, phase, 0};
 }
 
-/// Their normals on a plane, as a renderer's bump map has them.
+/// The waves' normals on a plane, as in a renderer's bump map.
 Buffers bumped(const Scene& scene, const std::vector<SineWave>& waves) {
   Buffers b(rect_of(kSize));
   b.fill(PlaneId::kDepth, 50);

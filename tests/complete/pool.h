@@ -9,7 +9,7 @@
 namespace limpid::test {
 
 /// A pool without walls: a bottom at y = -deep + rise z, with a texture of the world. The camera of
-/// simple_scene(), two metres above the water; z grows towards it.
+/// simple_scene(), two metres above the water; z grows towards the camera.
 template <int kWidth, int kHeight>
 struct PoolOf {
   static constexpr Size kSize{kWidth, kHeight};
@@ -26,7 +26,7 @@ struct PoolOf {
     const double meets = (-deep - 2) / (r.y - rise * r.z);
     return meets > 0 ? meets : HUGE_VAL;
   }
-  /// `light(x, z)` of places in the world.
+  /// Colors the bottom by `light(x, z)` of its places in the world.
   template <class Light>
   void draw(Light&& light) {
     buffers.set(
@@ -46,8 +46,8 @@ struct PoolOf {
   Pass pass() const { return Pass(scene, buffers.frame, 1.333, kWholeState); }
   glm::dvec3 normal() const { return glm::normalize(glm::dvec3(0, 1, -rise)); }
 
-  /// Where the calm water of a pixel makes one look: its place in the picture, in pixels, the way,
-  /// and what is there.
+  /// The end of a pixel's ray under calm water: its place in the picture, in pixels, the length of
+  /// the path, and its place in the world.
   struct End {
     double x, y, way;
     glm::dvec3 at;  ///< relative to the eye

@@ -11,15 +11,15 @@ namespace limpid::test {
 /// its share of a pixel rises from 0 to 1 over `blur` pixels round each of its sides.
 struct Post {
   enum class Depth {
-    kMiddle,    ///< of what is seen in the middle of the blur
-    kOneSample  ///< of one of the things that are seen, by chance
+    kMiddle,    ///< the mean depth of the surfaces in the blur
+    kOneSample  ///< the depth of one of the surfaces in the blur, by chance
   };
   static constexpr Size kSize{128, 96};
   static constexpr double kPostDepth = 1.5, kMiddle = 64.2;
   double width = 40, blur = 0;
   Depth kind = Depth::kMiddle;
-  float texture = 0;  ///< of both sides: so much of their colors
-  float rise = 0;     ///< of the bottom's light to the right: so much of it over the picture
+  float texture = 0;  ///< amplitude on both sides, as a share of their colors
+  float rise = 0;     ///< growth of the bottom's light to the right, over the picture's width
   Rgb<float> dark{0.1f, 0.06f, 0.03f}, light{0.5f, 0.6f, 0.4f};
   Scene scene = simple_scene(kSize);
   Buffers buffers{rect_of(kSize)};

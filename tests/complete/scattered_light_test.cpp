@@ -11,8 +11,8 @@
 namespace limpid {
 namespace {
 
-// Of light that meets water which swallows 99 parts for each that it scatters no more than about
-// that part comes back, and deep water shows nothing of what lies under it.
+// Water that absorbs 99 parts of light for each part that it scatters returns no more than about
+// one part, and deep water shows nothing of the bottom.
 TEST(ScatteredLight, BoundsAreOfTheLightThatComes) {
   ScatteredLightMaker maker;
   const Rgb<double> absorption{0.99, 0.99, 0.99}, scattering{0.01, 0.01, 0.01};
@@ -22,15 +22,15 @@ TEST(ScatteredLight, BoundsAreOfTheLightThatComes) {
   EXPECT_LT(dark.most_sun, 0.01);
   EXPECT_LT(dark.beyond_sky[ScatteredLight::kLayers - 1], 1e-6);
   EXPECT_LT(dark.beyond_sun[ScatteredLight::kLayers - 1], 1e-6);
-  // No deeper layer is farther from endless water than what lies over it.
+  // No layer is farther from endless water than the layer above it.
   for (std::size_t k = 1; k < ScatteredLight::kLayers; ++k) {
     EXPECT_LE(dark.beyond_sky[k], dark.beyond_sky[k - 1]) << k;
     EXPECT_LE(dark.beyond_sun[k], dark.beyond_sun[k - 1]) << k;
   }
 }
 
-/// Water that absorbs nothing and scatters a half of the light in a unit of the way, under an even
-/// sky of radiance 1, over a bottom that throws back 0.9.
+/// Water that absorbs nothing and scatters half of the light per unit of path, under an even sky of
+/// radiance 1, over a bottom of albedo 0.9.
 test::Tray furnace(double deep) {
   test::Tray tray({3, 2});
   for (int c = 0; c < 3; ++c) {
@@ -52,7 +52,7 @@ double light_from_below(const test::Tray& tray) {
 }
 
 // All light of the sky comes back from water without an end. A bottom that is no more than half an
-// optical depth under the surface takes a tenth of what reaches it.
+// optical depth under the surface absorbs a tenth of the light that arrives.
 TEST(ScatteredLight, OfAWhiteFurnaceComesBackWhatTheBottomLeaves) {
   EXPECT_NEAR(light_from_below(furnace(1e4)), 1, 0.03);
   for (const double deep : {0.1, 0.3, 1.0}) {
@@ -78,7 +78,7 @@ TEST(ScatteredLight, WhatADeepBottomChangesIsInTheBound) {
   }
 }
 
-// That other pixels of the frame begin in the water is nothing to one that does not.
+// Pixels whose views begin in the water do not change a pixel whose view begins in the air.
 TEST(ScatteredLight, OfAViewFromTheAirDoesNotKnowOfOthers) {
   const test::Tray tray = furnace(3);
   const DepthFog::Params& fog = tray.look.of<DepthFog>();

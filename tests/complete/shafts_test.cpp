@@ -15,13 +15,13 @@
 #include "sanitized.h"
 #include "support.h"
 
-// Shafts of light beside light that is followed down through the waves, scattered once on its way.
+// Shafts of light beside photons that are followed down through the waves and scattered once.
 
 namespace limpid {
 namespace {
 
 constexpr double kIor = 1.333, kCell = 0.02;
-constexpr int kSide = 96, kBorder = 12;  // pixels; those not judged
+constexpr int kSide = 96, kBorder = 12;  // pixels of a side; border pixels that are not judged
 constexpr int kTexels = 320, kDepths = 24;
 
 std::vector<SineWave> waves_of(double slope) {
@@ -39,7 +39,7 @@ std::vector<SineWave> waves_of(double slope) {
 }
 
 /// Murky water over a level bottom, under a sun 50 degrees high, seen by an orthographic camera
-/// from this side, a pixel 2 cm wide.
+/// from `from`, a pixel 2 cm wide.
 struct Murk {
   double slope = 0.06, deep = 3, scattering = 0.5;
   glm::dvec3 from{0, 1, 0};
@@ -89,7 +89,7 @@ struct Murk {
 
 using Picture = std::vector<double>;  // kSide x kSide
 
-/// What the operator makes of the light that the water scatters, over what it is without shafts.
+/// The operator's scattered light over the scattered light without shafts.
 Picture made(const Murk& murk) {
   const Scene scene = murk.scene();
   const test::Buffers buffers = murk.buffers();
@@ -104,7 +104,7 @@ Picture made(const Murk& murk) {
   return ratio;
 }
 
-/// The same by photons, 6 mm apart, that are counted at many depths.
+/// The same ratio by photons, 6 mm apart, that are counted at many depths.
 Picture followed(const Murk& murk) {
   const Scene scene = murk.scene();
   test::Buffers buffers(rect_of({kSide, kSide}));
@@ -121,7 +121,7 @@ Picture followed(const Murk& murk) {
   const glm::dvec2 aside = level * (-1 / (kIor * sink));
   const double view_sink = refracted_cosine(murk.from.y, 1 / kIor);
   const glm::dvec2 view = in_map(murk.from) * (-1 / (kIor * view_sink));
-  // Where the eye's point of the calm surface is in the waves' own place.
+  // The point at which the eye's axis meets the calm surface, in coordinates of the waves.
   const glm::dvec2 eye = in_map(9.0 * murk.from);
 
   const double fades = rate / view_sink + down, most = std::min(murk.deep, 4 / fades);
@@ -175,7 +175,7 @@ Picture followed(const Murk& murk) {
   return seen;
 }
 
-/// By a Gaussian of a pixel and a half: photons are grainy.
+/// Blurred by a Gaussian of a pixel and a half: photons are grainy.
 Picture blurred(const Picture& picture) {
   const auto along = [](const Picture& from, int step_x, int step_y) {
     Picture to(from.size());
@@ -200,7 +200,8 @@ struct Beside {
   double error = 0, contrast = 0, made_contrast = 0, likeness = 0, energy = 0;
 };
 
-/// Root mean squares, over calm light; the correlation; made energy over that of the truth.
+/// Root mean squares, over calm light; the correlation; the operator's energy over that of the
+/// truth.
 Beside beside(const Murk& murk) {
   const Picture truth = blurred(followed(murk)), got = blurred(made(murk));
   double count = 0, mean = 0, got_mean = 0;
@@ -232,7 +233,7 @@ std::string text_of(const Murk& murk, const Beside& b) {
   return text.str();
 }
 
-// A view along the light sees it whole: there shafts are as uneven as the net on the bottom.
+// A view along the light sees whole shafts: they are as uneven as the caustics on the bottom.
 TEST(Shafts, AlongSunlightAreLightThatIsFollowed) {
   for (const double slope : {0.04, 0.12}) {
     for (const double deep : {1.0, 4.0}) {
@@ -249,7 +250,8 @@ TEST(Shafts, AlongSunlightAreLightThatIsFollowed) {
   }
 }
 
-// Other views see the mean over much of it, and little is left: never more than there is.
+// Other views see the mean over many shafts, so contrast is small: the operator adds no more than
+// the truth has.
 TEST(Shafts, AcrossSunlightAreNoMoreThanThereAre) {
   for (const double from : {-0.5, 0.0, 0.4}) {
     for (const double slope : {0.04, 0.12}) {
@@ -266,7 +268,7 @@ TEST(Shafts, AcrossSunlightAreNoMoreThanThereAre) {
   }
 }
 
-/// How much brighter each pixel's water is by shafts, under a shadow on the bottom.
+/// The gain of each pixel's water by shafts, under a shadow on the bottom.
 Picture more_of(const Murk& murk, double shafts, double strength, float shadow) {
   const Scene scene = murk.scene();
   test::Buffers buffers = murk.buffers();
@@ -297,7 +299,7 @@ TEST(Shafts, AreOfTheLightThatIsNotShaded) {
   }
 }
 
-// So the planner may leave them out where nobody would see them.
+// The planner leaves shafts out by this bound.
 TEST(Shafts, ChangeNoMoreThanTheirBound) {
   const Murk murk{0.12, 4, 0.5, Murk::sun()};
   const Scene scene = murk.scene();
@@ -316,7 +318,7 @@ TEST(Shafts, ChangeNoMoreThanTheirBound) {
   double most = 0;
   for (const double more : more_of(murk, 1, 1, 1)) most = std::max(most, std::abs(more));
   EXPECT_LE(most, bound);
-  EXPECT_GE(most, 0.05 * bound);  // no way has four times the brightest texel
+  EXPECT_GE(most, 0.05 * bound);  // no path has four times the brightest texel
   const double light = ranges.light;
   Kernel<WaterShadow>::propagate_ranges(look.of<WaterShadow>(), pass, ranges);
   EXPECT_GE(ranges.light, light + most);

@@ -32,7 +32,7 @@ struct Shore {
     if (2 + far * sinks > top) return kInf;
     return static_cast<float>(sinks < 0 ? std::min(far, -(2 + deep) / sinks) : far);
   }
-  /// What a mirror at the water shows: the wall, upside down.
+  /// The picture of a mirror at the water: the wall, upside down.
   double mirrored_depth(int x, int y) const {
     const double height = -(2 + far * ray(x, y).y);
     return height > 0 && height < top ? far : HUGE_VAL;

@@ -4,7 +4,7 @@
 
 #include "support.h"
 
-// The sky behind what hides it.
+// The sky behind objects that hide it.
 
 namespace limpid {
 namespace {
@@ -46,7 +46,7 @@ TEST(Sky, GoesOnBehindThings) {
   ASSERT_TRUE(horizon.sky.make(horizon.buffers.frame, *executor));
   for (int y = 8; y < 25; ++y) {
     for (int x = 8; x < 20; ++x) {
-      // Between the least and the greatest sky, and nothing of the block in it.
+      // The filled sky lies between the least and the greatest sky, without the block's color.
       EXPECT_GT(horizon.at(0, x, y), 0.9f);
       EXPECT_LT(horizon.at(0, x, y), 1.7f);
     }
@@ -60,7 +60,7 @@ TEST(Sky, IsNotMadeUpWhereThereIsNone) {
   EXPECT_FALSE(horizon.sky.make(horizon.buffers.frame, *executor));
 }
 
-// A film that is transparent shows no sky, but what stands for one.
+// A transparent film shows no sky, but the color that replaces it.
 TEST(Sky, IsNotWhereTheFilmIsTransparent) {
   Horizon horizon;
   horizon.buffers.fill(PlaneId::kColorA, 0);

@@ -7,7 +7,7 @@
 namespace limpid {
 namespace {
 
-/// As far along each direction of the map's axes.
+/// Four lookups, shifted by the same drift along each direction of the map's axes.
 FourShifts along_axes(double drift) { return {{{drift, 0}, {-drift, 0}, {0, drift}, {0, -drift}}}; }
 
 /// The slopes of a map at one time.
@@ -46,23 +46,23 @@ struct SteepMap {
 
 double stripes(int x, int) { return x % 2 == 0 ? 1 : 0; }
 
-/// At time 0 the four lookups are one: their mean varies as much as each.
+/// At time 0 the four lookups coincide: their mean varies as much as each lookup.
 TEST(SlopeMap, WithoutDriftIsTheMap) {
   const Sloped still(SteepMap({8, 4}, stripes).texture, 0);
   EXPECT_NEAR(still.at(0, 0, 2, 1), 1, 1e-5);
   EXPECT_NEAR(still.at(0, 0, 3, 1), 0, 1e-5);
   EXPECT_NEAR(still.at(0, 1, 1, 1), 0.5, 1e-5);
-  EXPECT_NEAR(still.at(2, 1, 1, 1), 0.5, 1e-5);  // of squares: variance 1/4
+  EXPECT_NEAR(still.at(2, 1, 1, 1), 0.5, 1e-5);  // mean of squares: variance 1/4
 }
 
-/// A texel of drift: two of the four see the other stripes, and nothing varies any more.
+/// With a drift of one texel two of the four lookups read the other stripes, and nothing varies.
 TEST(SlopeMap, WavesThatHaveDriftedApartCancel) {
   const Sloped apart(SteepMap({8, 4}, stripes).texture, 1. / 8);
   for (int x = 0; x < 8; ++x) EXPECT_NEAR(apart.at(0, 0, x, 0), 0.5, 1e-5);
-  EXPECT_NEAR(apart.at(2, apart.last(), 0, 0), 0.25, 1e-5);  // of squares: variance 0
+  EXPECT_NEAR(apart.at(2, apart.last(), 0, 0), 0.25, 1e-5);  // mean of squares: variance 0
 }
 
-/// The mean of the four, worked out by hand: each is bilinear in the map.
+/// The mean of the four lookups, worked out by hand: each is bilinear in the map.
 TEST(SlopeMap, IsTheMeanOfFourLookups) {
   const SteepMap map({5, 3}, [](int x, int y) { return test::noise(x, y, 8); });
   const auto at = [](int x, int y) { return double(test::noise((x + 10) % 5, (y + 6) % 3, 8)); };
@@ -96,8 +96,8 @@ TEST(SlopeMap, AlwaysHasTheMeanOfTheMap) {
   }
 }
 
-/// What a texel of the base holds is common to lookups while they are together, and nothing is
-/// once they are a texel apart.
+/// Lookups share the variance within a texel of the base while they coincide, and share none once
+/// they are a texel apart.
 TEST(SlopeMap, LargeMapsKeepWhatVariesWithinATexel) {
   const Size size{2048, 2};  // the base is 512x1
   const SteepMap map(size, stripes);
@@ -107,7 +107,7 @@ TEST(SlopeMap, LargeMapsKeepWhatVariesWithinATexel) {
     return got.at(2, got.last(), 0, 0) - mean * mean;
   };
   EXPECT_NEAR(variance(0), 0.25, 1e-4);
-  // Those that drift along y are 0.2 texels apart.
+  // The lookups that drift along y are 0.2 texels apart.
   EXPECT_NEAR(variance(0.1), 0.25 * (4 + 2 * 0.8) / 16, 1e-4);
 }
 

@@ -6,7 +6,7 @@
 #include "limpid/core/error.h"
 #include "limpid/core/scene.h"
 
-/// What red, green and blue are: matrices against published ones, names, refusals.
+/// Primaries of color spaces: matrices against published matrices, names, refusals.
 
 namespace limpid {
 namespace {
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 Primaries space(const char* name) { return find_color_space(name).value(); }
 
-/// Rows, as publications have them.
+/// Matrices by rows, as in publications.
 using Rows = double[3][3];
 void expect_near(const glm::dmat3& m, const Rows& rows, double tolerance) {
   for (int r = 0; r < 3; ++r) {
@@ -86,7 +86,7 @@ TEST(ColorSpace, NumbersReadBackToTheBit) {
   EXPECT_EQ(color_space_named(to_string(own)), own);
   EXPECT_EQ(color_space_named(" 0.6 0.3  0.2 0.7 0.15 0.06 0.3127 0.329 ").green,
             (Chromaticity{.2, .7}));
-  // What a file has rounded is the space itself.
+  // Primaries that a file has rounded are the space itself.
   EXPECT_EQ(to_string(color_space_named("0.7130 0.2930 0.1650 0.83 0.128 0.044 0.3217 0.3377")),
             "ACEScg");
 }

@@ -30,7 +30,7 @@ TEST(NearestName, FindsSlipsOfTheHandOnly) {
   EXPECT_EQ(nearest_name("colour", known), "");
   EXPECT_EQ(nearest_name("", known), "");
   EXPECT_EQ(nearest_name("offset", {}), "");
-  EXPECT_EQ(nearest_name(std::string(50'000'000, 'x'), known), "");  // at once
+  EXPECT_EQ(nearest_name(std::string(50'000'000, 'x'), known), "");  // returns at once
 }
 
 TEST(NearestName, AsASentence) {

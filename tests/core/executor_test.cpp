@@ -15,8 +15,8 @@
 namespace limpid {
 namespace {
 
-/// A line of work that remembers what came to it: how often each step took each item, the order at
-/// both ends, and how many items were on their way at most.
+/// A line of work that counts how often each step took each item, the order at both ends, and the
+/// largest number of items under way.
 struct Line {
   Line(int items, int allowed) : in_flight(allowed), taken(static_cast<std::size_t>(items)) {}
 
@@ -71,7 +71,7 @@ TEST_P(Pipeline, NothingIsDoneForNoItems) {
   EXPECT_TRUE(line.begun.empty());
 }
 
-/// A step that has the executor run tiles, as compositing does.
+/// A step whose executor runs tiles, as in compositing.
 TEST_P(Pipeline, StepsMayRunTiles) {
   struct Job {
     std::unique_ptr<Executor> executor;
@@ -92,7 +92,7 @@ TEST_P(Pipeline, StepsMayRunTiles) {
 INSTANTIATE_TEST_SUITE_P(Threads, Pipeline, testing::Values(0, 1, 2),
                          [](const auto& with) { return std::to_string(with.param); });
 
-/// A host's own pool that knows tiles only.
+/// A host's own pool that runs tiles only.
 class Host : public Executor {
  public:
   void run(int count, Task task, void* context) override {
@@ -108,7 +108,7 @@ TEST(Pipeline, OfAHostThatKnowsTilesOnlyGoesItemByItem) {
   EXPECT_EQ(line.most, 1u);
 }
 
-/// Ends the process with what the tasks of an executor add up to.
+/// Ends the process with the sum of an executor's tasks.
 [[noreturn]] void count_without_threads() {
   test::make_threads_impossible();
   const tbb::global_control stacks(tbb::global_control::thread_stack_size, std::size_t{4} << 30);
@@ -123,7 +123,7 @@ TEST(Executor, HasFewerThreadsWhereNoMoreCanBeMade) {
   EXPECT_EXIT(count_without_threads(), ::testing::ExitedWithCode(28), "");
 }
 
-/// A host's executor, which no task may throw through.
+/// A host's executor whose tasks must not throw.
 class Strict : public Executor {
  public:
   void run(int count, Task task, void* context) override {

@@ -43,7 +43,7 @@ constexpr Field<Params> kFields[] = {
 };
 constexpr std::span<const Field<Params>> kAll = kFields;
 
-/// What assign() says, "" when it takes the value.
+/// The message of assign(), "" when assign() takes the value.
 std::string refusal(int field, const Value& value) {
   Params params;
   try {
@@ -95,7 +95,7 @@ TEST(Field, TakesWhatIsDeclared) {
   EXPECT_EQ(refusal(5, Rows{{0.1, 1, 2, 3, 4}, {-100, 100, 0, 0, -5}}), "");
 }
 
-/// As a host may set it that casts a number.
+/// A value that a host sets by a cast of a number.
 TEST(Field, ValuesWithoutAWordReadAsNumbersThatAreRefused) {
   Params params;
   for (const int value : {2, 77, -1}) {
@@ -104,7 +104,7 @@ TEST(Field, ValuesWithoutAWordReadAsNumbersThatAreRefused) {
     EXPECT_EQ(read, Value(std::to_string(value)));
     EXPECT_THAT(refusal(0, read), HasSubstr("expected one of round, flat"));
   }
-  params.steps = -3;  // two words count down from -1
+  params.steps = -3;  // the two words stand for -1 and -2
   EXPECT_EQ(kFields[4].get(params), Value(-3.0));
   EXPECT_THAT(refusal(4, -3.0), HasSubstr("expected a whole number"));
 }
@@ -149,7 +149,7 @@ TEST(Field, CountsAndWordsShareAnInt) {
   assign("thing", steps, params, "none");
   EXPECT_EQ(params.steps, -2);
   EXPECT_NO_THROW(validate("thing", kAll, params));
-  params.steps = -3;  // no word, and below the range
+  params.steps = -3;  // no word stands for -3, which lies below the range
   EXPECT_THROW(validate("thing", kAll, params), Error);
 }
 

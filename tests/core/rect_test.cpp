@@ -25,7 +25,7 @@ TEST(Rect, Contains) {
   EXPECT_TRUE(r.contains({2, 1, 3, 2}));
   EXPECT_FALSE(r.contains({-1, 0, 3, 3}));
   EXPECT_FALSE(r.contains({0, 0, 11, 5}));
-  EXPECT_TRUE(r.contains({50, 50, 50, 60}));  // nothing is everywhere
+  EXPECT_TRUE(r.contains({50, 50, 50, 60}));  // an empty rectangle lies in every rectangle
 }
 
 TEST(Rect, Intersection) {

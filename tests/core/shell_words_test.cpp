@@ -10,7 +10,7 @@
 namespace limpid::test {
 namespace {
 
-/// What a shell makes of the line.
+/// The words that a shell makes of the line.
 std::string printed_by_shell(const std::string& line) {
   FILE* const pipe = ::popen(("printf '%s|' " + line).c_str(), "r");
   std::string text;

@@ -28,7 +28,7 @@ TEST(LevelSizes, HalveDownToOneTexel) {
   EXPECT_EQ(sizes.size(0), (Size{7, 3}));
   EXPECT_EQ(sizes.size(1), (Size{3, 1}));
   EXPECT_EQ(sizes.size(2), (Size{1, 1}));
-  // A column and a row more of each.
+  // Each level has a column and a row more.
   EXPECT_EQ(sizes.first[1], 8 * 4);
   EXPECT_EQ(sizes.first[2], 8 * 4 + 4 * 2);
   EXPECT_EQ(sizes.texels, 8 * 4 + 4 * 2 + 2 * 2);
@@ -48,7 +48,7 @@ TEST(TextureLevels, ATexelIsTheMeanOfThoseUnderIt) {
   }
 }
 
-/// Where sizes are odd, too: the last level is the mean of the map, not of a part.
+/// The last level is the mean of the whole map where sizes are odd, too.
 TEST(TextureLevels, TheLastIsTheMeanOfTheMap) {
   for (const Size size : {Size{1, 1}, Size{1, 5}, Size{7, 3}, Size{13, 11}, Size{64, 32}}) {
     const test::NoiseMap map(size.width, size.height);
@@ -74,8 +74,7 @@ TEST(TextureLevels, BeginAgainAtTheEnd) {
   EXPECT_EQ(texel(3, 3), texel(0, 0));
 }
 
-/// A map of 1040 x 2 texels: slopes 1 and 3 along x by turns, all of which are in each texel of the
-/// base.
+/// A map of 1040 x 2 texels: slopes 1 and 3 along x by turns; each texel of the base holds both.
 TEST(TextureLevels, LargeMapsKeepTheMomentsOfTheirSlopes) {
   const Size size{1040, 2};
   std::array<Plane, 3> planes;
@@ -123,7 +122,7 @@ Sym2<double> variance_of(const Texture& map, const FourShifts& shifts) {
   return slope_variance(maker.levels(), shifts);
 }
 
-/// Lookups that are together are one: its slopes over all texels, by hand.
+/// Lookups that coincide are one lookup: its slopes over all texels, by hand.
 TEST(SlopeVariance, OfOneLookupIsThatOfTheMap) {
   const test::NoiseMap map(8, 5);
   Vec2<double> mean{0, 0};
@@ -145,7 +144,7 @@ TEST(SlopeVariance, OfOneLookupIsThatOfTheMap) {
   }
 }
 
-/// Half of the lookups a quarter of a period on, where this wave is at its other phase.
+/// Half of the lookups move a quarter of a period, where this wave is at its other phase.
 TEST(SlopeVariance, OfWavesThatCancelIsNone) {
   std::array<Plane, 3> planes;
   Texture map;
@@ -162,7 +161,7 @@ TEST(SlopeVariance, OfWavesThatCancelIsNone) {
   EXPECT_NEAR(variance_of(map, {{{0.25, 0}, {0, 0}, {0, 0.5}, {0, 0}}}).xx, 0.25 / 4, 1e-5);
 }
 
-/// Maps larger than their base keep what varies within a texel of it, as SlopeMap does.
+/// Maps larger than their base keep the variance within a texel of the base, as SlopeMap does.
 TEST(SlopeVariance, OfALargeMapIsThatOfItsTexels) {
   std::array<Plane, 3> planes;
   Texture map;

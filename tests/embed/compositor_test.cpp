@@ -68,7 +68,8 @@ TEST(Compositor, TakesAnyStridesAndKeepsTheHostsMemory) {
   }
 }
 
-/// In and out: a frame of halves is the frame of these numbers, and pictures hold the nearest half.
+/// Input and output in half: a frame of halves is the frame of these numbers, and pictures hold the
+/// nearest half.
 TEST(Compositor, TakesAndGivesHalves) {
   Subject s;
   HostMemory memory(kPlaneCount, rect_of(kSize), {.sample = Sample::kHalf, .interleaved = true});
@@ -106,7 +107,7 @@ TEST(Compositor, TakesAndGivesHalves) {
   }
 }
 
-/// Each kind of depth, as conventions say it, is what make_eye_depth() makes of it.
+/// Each kind of depth in the conventions gives the depth of make_eye_depth().
 TEST(Compositor, MakesEyeDepthOfEveryKind) {
   const Subject s;
   struct Case {
@@ -163,7 +164,7 @@ TEST(Compositor, MakesEyeDepthOfEveryKind) {
       conventions.trusted = vouched;
       Compositor compositor(conventions, busy_look());
       HostFrame frame = test::host_frame((vouched ? trusted : raw).frame, scene);
-      frame.scene.camera->clip = ClipSpace::kGl;  // does not count
+      frame.scene.camera->clip = ClipSpace::kGl;  // has no effect
       EXPECT_TRUE(same_bits(wet(compositor, frame), expected))
           << static_cast<int>(conventions.depth) << static_cast<int>(c.clip) << vouched;
       EXPECT_EQ(compositor.replaced().total(), 0);
@@ -204,7 +205,7 @@ TEST(Compositor, WorksInPlace) {
     compositor.run(frame, there);
     compositor.run(frame, here);
     EXPECT_EQ(memory.bytes(), apart.bytes());
-    // Over the depth, too: all of it is in the host's hands.
+    // The picture may lie over the depth, too: all memory belongs to the host.
     HostPicture over_depth = there;
     Plane depth(rect_of(kSize));
     test::fill(host_view(depth.view()), s.buffers.frame.plane(PlaneId::kDepth));
@@ -224,7 +225,7 @@ TEST(Compositor, WorksInPlace) {
   }
 }
 
-/// What means nothing is replaced in a copy, counted, and makes no NaN; the host's planes stay.
+/// Meaningless values are replaced in a copy, counted, and make no NaN; the host's planes stay.
 TEST(Compositor, ReplacesWhatMeansNothing) {
   const Scene scene = test::simple_scene(kSize);
   Buffers dirty = raw_frame(kSize), clean = sane_frame(kSize);
@@ -253,7 +254,7 @@ TEST(Compositor, ReplacesWhatMeansNothing) {
   EXPECT_EQ(compositor.replaced().of(PlaneId::kShadow), (Replaced{0, 1}));
   EXPECT_EQ(compositor.replaced().total(), 5);
   EXPECT_TRUE(std::isnan(dirty.frame.plane(PlaneId::kColorG).at(66, 40)));
-  // The next frame begins anew.
+  // The next frame counts from 0.
   const Subject next;
   const Buffers raw = raw_frame(kSize);
   EXPECT_TRUE(same_bits(wet(compositor, test::host_frame(raw.frame, scene)), next.expected));
@@ -277,7 +278,7 @@ TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
   EXPECT_TRUE(same_bits(wet(asked, test::host_frame(zeros.frame, scene)), expected));
   EXPECT_EQ(asked.replaced().total(), 0);
 
-  // An alpha of 0 says so, too, as float and as half.
+  // A depth of 0 means "nothing hit" where alpha is 0, as float and as half.
   const auto alpha = [](int x, int y) { return x > 20 && x < 30 && y > 20 ? 0.0f : 1.0f; };
   zeros.set(PlaneId::kColorA, alpha);
   clean.set(PlaneId::kColorA, alpha);
@@ -288,7 +289,7 @@ TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
   test::fill(memory.channel(0), zeros.frame.plane(PlaneId::kColorA));
   frame.plane(PlaneId::kColorA) = memory.channel(0);
   EXPECT_TRUE(same_bits(wet(plain, frame), covered));
-  // Wherever the window of that alpha begins.
+  // The law holds wherever the window of the alpha begins.
   zeros.set(PlaneId::kColorA, alpha, {-7, -3, kSize.width + 7, kSize.height + 3});
   EXPECT_TRUE(same_bits(wet(plain, test::host_frame(zeros.frame, scene)), covered));
 }
@@ -338,7 +339,7 @@ TEST(Compositor, WritesAovs) {
       }
     }
   }
-  EXPECT_EQ(picture.aov(Aov::kFresnel, 20, 20), 0);  // not asked for: left alone
+  EXPECT_EQ(picture.aov(Aov::kFresnel, 20, 20), 0);  // not requested: left alone
 }
 
 TEST(Compositor, LooksUpTexturesOfTheHost) {
@@ -388,7 +389,8 @@ TEST(Compositor, ComputesOnTheHostsThreads) {
   EXPECT_GT(host.tasks, 1);
 }
 
-/// On threads of their own, over one executor that all share, each with frames of its own.
+/// Compositors on threads of their own, over one executor that all share, each with frames of its
+/// own.
 TEST(CompositorThreads, ManyAtOnceGiveTheSameBits) {
   const auto shared = make_executor(2);
   std::atomic<int> right = 0;

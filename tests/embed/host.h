@@ -14,7 +14,7 @@
 
 namespace limpid::test {
 
-/// Memory for some channels of one size, in one of the ways in which hosts keep them.
+/// Memory for some channels of one size, in a layout that hosts use.
 class HostMemory {
  public:
   struct Layout {
@@ -78,7 +78,7 @@ inline void fill(const HostOutput& to, const View<const float>& from) {
   }
 }
 
-/// The frame as it lies.
+/// The frame as a host passes it: views of its planes.
 inline HostFrame host_frame(const Frame& frame, const Scene& scene) {
   HostFrame host;
   host.display = frame.display;
@@ -89,7 +89,7 @@ inline HostFrame host_frame(const Frame& frame, const Scene& scene) {
   return host;
 }
 
-/// The color of the picture; `aovs` besides.
+/// The color of the picture, with `aovs`.
 inline HostPicture host_picture(const Target& target, std::initializer_list<Aov> aovs = {}) {
   HostPicture host;
   for (std::size_t c = 0; c < 3; ++c) host.color[c] = host_view(target.color[c]);
@@ -102,7 +102,7 @@ inline HostPicture host_picture(const Target& target, std::initializer_list<Aov>
   return host;
 }
 
-/// Color and alpha of what run_fused makes of the frame, every value.
+/// Color and alpha of run_fused for the frame, every value.
 inline std::vector<float> judged(const Look& look, const Frame& frame, const Scene& scene) {
   const Plan plan = make_plan(look, inputs_of(frame, scene));
   Picture picture(frame.work());

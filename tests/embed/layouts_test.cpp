@@ -6,13 +6,13 @@
 
 #include "embed/host.h"
 
-/// However a host lays its planes out, the picture is that of the same planes side by side; on one
-/// compositor, whatever the frames before were like.
+/// For any layout of a host's planes the picture is that of the same planes side by side; on one
+/// compositor, whatever the earlier frames.
 
 namespace limpid {
 namespace {
 
-/// Frames by chance: mt19937 gives the same numbers everywhere.
+/// Random frames: mt19937 gives the same numbers on every platform.
 class Chance {
  public:
   int from(int low, int high) {
@@ -29,7 +29,7 @@ bool holds_depth(PlaneId id) {
          id == PlaneId::kBelowDepth;
 }
 
-/// The same frame twice: `laid` out in some way, and `plain`.
+/// The same frame twice: `laid` out by chance, and `plain`.
 class Frames {
  public:
   explicit Frames(Chance& chance) : chance_(chance) {
@@ -98,7 +98,7 @@ class Frames {
   std::deque<std::vector<std::byte>> memory_;
 };
 
-/// Of the display window, from wherever it lies.
+/// Values in the display window, wherever it begins.
 std::vector<float> values(const HostPicture& picture, const Rect& display) {
   std::vector<float> all;
   for (const HostOutput& channel : picture.color) {
@@ -124,7 +124,8 @@ TEST(CompositorLayouts, GiveTheBitsOfPlainPlanes) {
     test::Picture plain(display), laid(display);
     HostPicture expected = test::host_picture(plain.target), got = test::host_picture(laid.target);
     expected.alpha = got.alpha = {};
-    // Over its own colors, green over red: all but those that repeat a sample.
+    // The picture lies over its own colors, green over red: all layouts but those that repeat a
+    // sample.
     bool places = true;
     for (int c = 0; c < 3; ++c) {
       places &= frames.laid.planes[c].x_stride != 0 && frames.laid.planes[c].y_stride != 0;

@@ -9,7 +9,7 @@
 
 #include "embed/host.h"
 
-/// A frame and a picture as C hands them over.
+/// A frame and a picture as C passes them.
 
 namespace limpid::test::c {
 
@@ -27,7 +27,7 @@ inline limpid_channel channel(int what, const View<const float>& view) {
           0};
 }
 
-/// A frame of noise and a picture for it, in C's words.
+/// A frame of noise and a picture for this frame, as C structs.
 class LimpidC : public testing::Test {
  protected:
   LimpidC() : buffers(noisy_frame(rect_of(kSize))), out(rect_of(kSize)) {
@@ -42,7 +42,7 @@ class LimpidC : public testing::Test {
     frame.plane_count = planes.size();
     set_matrix(frame.view, scene.camera->view);
     set_matrix(frame.projection, scene.camera->projection);
-    frame.water_up[1] = 2;  // need not be unit
+    frame.water_up[1] = 2;  // need not have length 1
     frame.has_sun = 1;
     for (int i = 0; i < 3; ++i) {
       frame.sun_direction[i] = 3 * scene.sun->direction[i];

@@ -11,7 +11,7 @@
 
 #include "embed/limpid_c.h"
 
-/// A look as a shader, as C asks for it.
+/// A look as a shader, through the C functions.
 
 namespace limpid {
 namespace {
@@ -22,13 +22,13 @@ using test::c::LimpidC;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// limpid_shader and what it says, in C's words.
+/// limpid_shader and its text, through the C functions.
 class LimpidCShader : public LimpidC {
  protected:
   LimpidCShader() { options.first_binding = 3; }
   ~LimpidCShader() override { limpid_destroy_shader(shader); }
 
-  /// That of the library, made of the same frame.
+  /// The library's shader of the same frame.
   ShaderText expected_text(const ShaderOptions& wanted) {
     Scene scene = test::simple_scene(kSize);
     scene.sun->direction = glm::normalize(3.0 * scene.sun->direction);
@@ -38,7 +38,7 @@ class LimpidCShader : public LimpidC {
   }
   void expect_no_shader(const char* why) {
     limpid_destroy_shader(shader);
-    shader = reinterpret_cast<limpid_shader*>(this);  // is overwritten
+    shader = reinterpret_cast<limpid_shader*>(this);  // the call overwrites this value
     EXPECT_EQ(limpid_create_shader(water, &frame, &options, &shader), LIMPID_REFUSED);
     EXPECT_EQ(shader, nullptr);
     EXPECT_THAT(limpid_message(water), HasSubstr(why));
@@ -121,7 +121,7 @@ TEST_F(LimpidCShader, HasTheTextAndTheBlockOfShaderText) {
   }
 }
 
-/// What it holds is its own, and a run does not see it.
+/// A shader owns its memory, and runs of the compositor do not change the shader.
 TEST_F(LimpidCShader, OutlivesItsCompositorAndLeavesRunsAlone) {
   ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK);
   const std::vector<float> picture_before = out.values();
@@ -145,7 +145,7 @@ TEST_F(LimpidCShader, OutlivesItsCompositorAndLeavesRunsAlone) {
   EXPECT_EQ(info.text, expected_text({}).text());
 }
 
-/// What is set is in the block, and the text stays.
+/// Parameters that are set are in the block, and the text stays.
 TEST_F(LimpidCShader, FollowsTheLook) {
   ASSERT_TRUE(make());
   ASSERT_EQ(limpid_set_number(water, "water_shadow", "strength", 0.5), LIMPID_OK);
@@ -203,7 +203,7 @@ TEST_F(LimpidCShader, RefusesWhatIsNone) {
   EXPECT_TRUE(make()) << limpid_message(water);
 }
 
-/// Without `trusted` a frame may hold NaN: what is replaced is not the shader's concern.
+/// Without `trusted` a frame may hold NaN: the shader does not depend on replaced values.
 TEST_F(LimpidCShader, TakesFramesThatAreNotSane) {
   limpid_destroy(water);
   ASSERT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);

@@ -82,10 +82,10 @@ TEST_F(LimpidC, MatricesMayLieRowAfterRow) {
 }
 
 TEST_F(LimpidC, TellsItsPlan) {
-  EXPECT_EQ(limpid_plan_text(water, nullptr, 0), 0u);  // none yet
+  EXPECT_EQ(limpid_plan_text(water, nullptr, 0), 0u);  // no run yet
   ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK);
   char text[2048];
-  EXPECT_EQ(limpid_replaced_text(water, nullptr, 0), 0u);  // vouched for
+  EXPECT_EQ(limpid_replaced_text(water, nullptr, 0), 0u);  // the frame is trusted
   EXPECT_GT(limpid_plan_text(water, text, sizeof text), 100u);
   EXPECT_THAT(text, StartsWith("wave_normals"));
 }
@@ -113,13 +113,13 @@ TEST_F(LimpidC, RunsOnTheHostsThreads) {
   options.executor = &host;
   options.simd = "scalar";
   ASSERT_EQ(limpid_create(&conventions, &options, &water, nullptr, 0), LIMPID_OK);
-  host = {};  // was copied
+  host = {};  // limpid_create() has copied the struct
   ASSERT_EQ(limpid_run(water, &frame, &picture), LIMPID_OK) << limpid_message(water);
   EXPECT_GT(tasks, 1);
 }
 
 TEST_F(LimpidC, TexturesAndAovs) {
-  // Without normals of its own the frame takes those of a map.
+  // A frame without normals takes the normals of a map.
   planes.erase(planes.begin() + LIMPID_SURFACE_NORMAL_X,
                planes.begin() + LIMPID_SURFACE_NORMAL_X + 3);
   frame.planes = planes.data();
@@ -201,12 +201,12 @@ TEST_F(LimpidC, RefusesFramesThatAreNone) {
   EXPECT_EQ(limpid_run(nullptr, &frame, &picture), LIMPID_REFUSED);
 }
 
-/// Older callers know less of a struct, and newer ones more.
+/// Older callers know fewer members of a struct, and newer callers more.
 TEST_F(LimpidC, StructsHaveSizes) {
   limpid_destroy(water);
   water = nullptr;
   char why[128] = "";
-  conventions.near_depth = 7;  // beyond what an older caller knows
+  conventions.near_depth = 7;  // beyond the members that an older caller knows
   conventions.depth = LIMPID_DEPTH_EYE;
   conventions.size = offsetof(limpid_conventions, near_depth);
   ASSERT_EQ(limpid_create(&conventions, nullptr, &water, why, sizeof why), LIMPID_OK) << why;

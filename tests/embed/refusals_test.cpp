@@ -8,7 +8,7 @@
 #include "embed/host.h"
 #include "embed/subject.h"
 
-/// What a compositor does not take, and that it says so before it writes.
+/// Frames and pictures that a compositor refuses, before it writes.
 
 namespace limpid {
 namespace {
@@ -78,7 +78,7 @@ TEST(Compositor, RefusesBeforeItWrites) {
   wrong = out;
   wrong.color[2] = out.color[1];
   EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("shares bytes with color"));
-  wrong.color[2].data = static_cast<std::byte*>(out.color[1].data) + 2;  // in part
+  wrong.color[2].data = static_cast<std::byte*>(out.color[1].data) + 2;  // overlaps in part
   EXPECT_THAT(refusal(compositor, good, wrong), HasSubstr("shares bytes with color"));
   wrong = out;
   wrong.of(Aov::kNormal)[1] =
@@ -98,7 +98,7 @@ TEST(Compositor, RefusesBeforeItWrites) {
   EXPECT_THROW(Compositor({}, bad), Error);
 }
 
-/// The commonest mistake of a host: reversed depth, and nobody was told.
+/// The commonest mistake of a host: reversed depth that the conventions do not declare.
 TEST(Compositor, RefusesDeviceDepthThatRunsTheOtherWay) {
   const Subject s;
   HostFrame frame = test::host_frame(s.buffers.frame, s.scene);

@@ -8,7 +8,7 @@
 
 #include "embed/host.h"
 
-/// What the tests of the compositor put water into, and by what they judge it.
+/// The frames for the tests of the compositor, and the pictures by which they are judged.
 
 namespace limpid::test {
 
@@ -22,15 +22,15 @@ inline Look busy_look() {
   return look;
 }
 
-/// Noise that is in the conventions of a frame but for its normals, unit to a float's last bit
-/// only.
+/// Noise in the conventions of a frame, except that normals have unit length only to a float's last
+/// bit.
 inline Buffers raw_frame(Size size) {
   Buffers b = noisy_frame(rect_of(size));
   b.set(PlaneId::kReflectionValid, [](int x, int y) { return noise(x, y, 50); });
   return b;
 }
 
-/// The same as it is entered.
+/// The same noise after entry.
 inline Buffers sane_frame(Size size) {
   Buffers b = raw_frame(size);
   std::array<Plane, 3> normal;
@@ -46,7 +46,7 @@ inline Buffers sane_frame(Size size) {
   return b;
 }
 
-/// A frame, its scene, and what the fused runner makes of it.
+/// A frame, its scene, and the fused runner's picture of them.
 struct Subject {
   explicit Subject(Size size = kSize)
       : buffers(sane_frame(size)),

@@ -38,7 +38,7 @@ TEST(Half, WhatIsExactComesBackAndNothingElsePasses) {
     }
     for (const float near : {1.0f, 0.1f, 6e-8f, 7e-5f, 65504.0f}) {
       const float between = std::nextafterf(near, 2 * near);
-      // Anywhere in a run, and behind the last whole vector of it.
+      // The value between two halves lies anywhere in a run, and behind the last whole vector.
       for (const std::size_t at : {0, 9, 16, 17}) {
         std::vector<float> run(18, 0.5f);
         EXPECT_TRUE(target.narrow_exactly(run.data(), halves.data(), 18)) << simd;

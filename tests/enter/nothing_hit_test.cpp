@@ -8,7 +8,7 @@
 
 #include "support.h"
 
-// What a plate itself says is "nothing hit", besides the numbers that always mean so.
+// The depth that a plate itself declares as "nothing hit", besides the numbers that always mean so.
 
 namespace limpid {
 namespace {
@@ -33,7 +33,7 @@ TEST(NothingHit, AZeroIsADepthUnlessItIsSaid) {
             (std::array<float, 4>{0, 1, test::kInf, 3}));
 }
 
-// What lies beside the plane in memory is another's.
+// Memory beside the plane belongs to the host and stays.
 TEST(NothingHit, IsMarkedInThePlaneAlone) {
   Plane wide(Rect{0, 0, 6, 1});
   for (int x = 0; x < 6; ++x) wide.view().at(x, 0) = 0;

@@ -13,7 +13,7 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 const float kNan = std::nanf("");
 
-/// One row of values, sanitised by fn; returns what fn counted.
+/// Sanitises a row of values by fn; returns the count of fn.
 template <class Fn>
 Replaced on_row(std::vector<float>& values, Fn&& fn) {
   const int n = static_cast<int>(values.size());
@@ -68,7 +68,7 @@ TEST(Sanitise, NanAndInfAreToldApart) {
   EXPECT_EQ(twice.of(PlaneId::kColorR), (Replaced{6, 2}));
 }
 
-/// Rows are looked through before one of their values is touched: wherever the wrong one lies.
+/// Wrong values are found wherever they lie: rows are searched before any value changes.
 TEST(Sanitise, OneValueAmongManyIsFound) {
   struct Kind {
     Replaced (*sanitise)(const View<float>&);

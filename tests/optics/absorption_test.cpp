@@ -153,7 +153,7 @@ TEST(FarShare, ErrorIsAsStatedAndItFallsFromAHalf) {
 
 TEST(HenyeyGreenstein, IntegratesToOneWithMeanCosineG) {
   for (double g : {-0.99, -0.5, 0.0, 0.3, 0.9, 0.99}) {
-    // Over u with cosine = 1 - 2 u^2 mirrored to the peak's side, which spreads the peak.
+    // The integral over u with cosine = 1 - 2 u^2, mirrored to the peak's side, spreads the peak.
     const int steps = 20000;
     double sum = 0, mean = 0;
     for (int i = 0; i < steps; ++i) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kWater = 1.333;
 
-/// Share that is reflected of even light from a half sphere.
+/// The reflected share of even light from a half sphere.
 double diffuse_reflectance(double ior) {
   const int steps = 200000;
   double sum = 0;
@@ -30,7 +30,7 @@ TEST(Crossing, StraightDownAndUp) {
   const double f0 = fresnel_exact(1.0, kWater);
   EXPECT_NEAR(radiance_crossing(kWater, f0), 0.5513, 5e-5);  // .97963 / 1.77689
   EXPECT_NEAR((1 - f0) * radiance_crossing(kWater, f0), 0.5401, 5e-5);
-  // With what the surface throws back at a bottom of albedo 0.5.
+  // With the light that the surface throws back at a bottom of albedo 0.5.
   EXPECT_NEAR((1 - f0) * radiance_crossing(kWater, f0) / (1 - kDiffuseWaterToAir * 0.5), 0.708,
               5e-4);
 }

@@ -25,7 +25,8 @@ double mean_of(const ThreeFacets<double>& facets, Fn&& fn) {
   return sum;
 }
 
-// Those that would lean below the level one are there, and polynomials are averaged as by many.
+// Facets that would lean lower than the level facet count as level, and polynomials average as over
+// many facets.
 TEST(Facets, OfAPlaneAverageSlopesThatEndAtALevel) {
   for (const double level : {-1.4, -0.5, 0.0, 0.7, 2.2}) {
     for (int degree = 0; degree <= 4; ++degree) {
@@ -44,7 +45,7 @@ TEST(Facets, OfAPlaneAreGaussAndHermitesWhereNoneEnds) {
     EXPECT_NEAR(facets.lean[2], -std::sqrt(3.0), 1e-12);
     EXPECT_NEAR(facets.share[0], 2.0 / 3, 1e-12);
   }
-  // Where they begin to end there is no step: a lookup of a sky that falls off above the horizon.
+  // Facets end without a step: a lookup of a sky that falls off above the horizon.
   const auto sky = [](double lean) { return std::exp(-std::max(lean + 2.3, 0.0)); };
   EXPECT_NEAR(mean_of(plane_facets(2.3001), sky), mean_of(plane_facets(2.2999), sky), 0.003);
 }
@@ -72,7 +73,7 @@ TEST(Facets, AreSharedOutByALean) {
   }
   EXPECT_EQ(seen_share_under(1.0, -1e30), 0);
   EXPECT_NEAR(seen_share_under(1e30, 1e30), 1, 1e-12);
-  // The mean facet that is turned away counts as one that the view grazes.
+  // A mean facet that is turned away counts as a facet that the view grazes.
   EXPECT_NEAR(seen_share_under(-2.0, 3.0), seen_share_under(0.0, 1.0), 1e-12);
 }
 
@@ -97,7 +98,8 @@ TEST(Facets, ThatLieUnderALimitAreFilledUpFromTheLowest) {
   }
 }
 
-// Along the surface facets are seen by how they lean towards the view alone: Rayleigh's law.
+// Along the surface the visibility of facets depends on their lean towards the view alone:
+// Rayleigh's law.
 TEST(Facets, AlongTheSurfaceLeanTowardsTheView) {
   const double right = std::sqrt(std::acos(-1) / 2);
   EXPECT_NEAR(seen_facets(0.0).lean[0], right, 1e-4);

@@ -16,7 +16,7 @@ namespace {
 
 Primaries space(const char* name) { return find_color_space(name).value(); }
 
-/// Every water that has a name, the murky ones among them.
+/// Every water that has a name, including the murky waters.
 std::vector<NamedWater> waters() {
   std::vector<NamedWater> all;
   for (int t = static_cast<int>(WaterType::kPure); t < static_cast<int>(WaterType::kCase1); ++t) {
@@ -33,7 +33,7 @@ std::string name_of(const NamedWater& water) {
          std::to_string(water.murkiness);
 }
 
-/// Of Rec.709, at three wavelengths.
+/// The water's absorption in Rec.709, at three wavelengths.
 Rgb<double> absorption_709(const NamedWater& water) {
   return water.type == WaterType::kCase1 ? case_1_water(water.murkiness).absorption
                                          : water_optics(water.type).absorption;
@@ -47,7 +47,7 @@ double apart(const Rgb<double>& a, const Rgb<double>& b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-/// The largest difference over ways of a millimetre to three kilometres, or to `most`.
+/// The largest difference over paths of a millimetre to three kilometres, or to `most`.
 double worst(const std::function<double(double)>& at, double most = 3000) {
   double largest = 0;
   for (double way = 1e-3; way <= most; way *= 1.05) largest = std::max(largest, at(way));
@@ -94,7 +94,7 @@ TEST(FittedWater, GrayWaterStaysGray) {
     EXPECT_GE(rate, gray.front());
     EXPECT_LE(rate, gray.back());
   }
-  EXPECT_LT(near.b, near.r);  // short wavelengths are lost less
+  EXPECT_LT(near.b, near.r);  // short wavelengths are absorbed less
 }
 
 TEST(FittedWater, NoOtherRateFitsBetter) {
@@ -120,8 +120,8 @@ TEST(FittedWater, NoOtherRateFitsBetter) {
   }
 }
 
-/// What is left of white light by the rates of each channel, beside the whole spectrum; the numbers
-/// of Rec.709 would be off by more.
+/// White light after absorption by the rates of each channel, beside the whole spectrum; the
+/// numbers of Rec.709 would be off by more.
 TEST(FittedWater, IsNearTheSpectrumAtEveryLength) {
   for (const char* name : {"ACEScg", "Rec.2020", "P3-D65"}) {
     const Primaries primaries = space(name);
@@ -139,8 +139,9 @@ TEST(FittedWater, IsNearTheSpectrumAtEveryLength) {
   }
 }
 
-/// A white plate in Rec.709 that is made wet and then converted, beside one that is made wet in
-/// ACEScg: what is between them is what three wavelengths and three rates cannot say of a spectrum.
+/// A white plate in Rec.709 that is made wet and then converted, beside a white plate that is made
+/// wet in ACEScg: their difference is the error of three wavelengths and three rates for a
+/// spectrum.
 TEST(FittedWater, ConvertedBeforeIsNearlyConvertedAfter) {
   const Primaries acescg = space("ACEScg");
   const glm::dmat3 convert = rgb_from_rgb(acescg, kRec709);
@@ -168,7 +169,7 @@ TEST(FittedWater, MixedInIsAddedTo) {
   EXPECT_EQ(murky.type.absorption, clear.type.absorption);
   EXPECT_EQ(murky.besides.scattering, (Rgb<double>{10, 10, 10}));
   EXPECT_EQ(clear.besides.scattering, (Rgb<double>{0, 0, 0}));
-  // Humus and grains take blue most.
+  // Humus and grains absorb blue most.
   EXPECT_GT(murky.besides.absorption.b, murky.besides.absorption.g);
   EXPECT_GT(murky.besides.absorption.g, murky.besides.absorption.r);
   EXPECT_GT(murky.besides.absorption.r, 0);

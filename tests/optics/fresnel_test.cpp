@@ -70,7 +70,7 @@ TEST(Fresnel, TotalReflectionFromBelowStartsAtTheCriticalAngle) {
   for (double degrees = 49; degrees <= 90; degrees += 1) EXPECT_EQ(exact(degrees, 1 / kWater), 1);
 }
 
-// Stokes: light that goes the same way backwards is reflected as much.
+// Stokes: light on the reversed path is reflected as much.
 TEST(Fresnel, SameFromBothSidesAlongOnePath) {
   for (double above : {0.0, 10.0, 45.0, 60.0, 85.0}) {
     const double below = std::asin(std::sin(above * kDegree) / kWater) / kDegree;

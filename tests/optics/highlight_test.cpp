@@ -15,7 +15,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr Vec3<double> kUp{0, 1, 0};
 
-/// In the plane z = 0, so many degrees from straight up towards +x.
+/// The direction in the plane z = 0, that many degrees from straight up towards +x.
 Vec3<double> leaning(double degrees) {
   return {std::sin(degrees * kDegree), std::cos(degrees * kDegree), 0};
 }
@@ -75,8 +75,8 @@ TEST(Highlight, NothingFromBehindTheSurface) {
 constexpr double kPi = std::numbers::pi;
 constexpr double kWater = 1.333;
 
-/// Integral of fn over the half sphere around up. Angles from straight up are graded, so that a
-/// peak there is met finely.
+/// Integral of fn over the half sphere around up. Steps of the angle from straight up grow, so that
+/// a peak there has fine steps.
 template <class Fn>
 double over_half_sphere(Fn&& fn, int rings = 600, int spokes = 300) {
   double sum = 0;
@@ -92,7 +92,7 @@ double over_half_sphere(Fn&& fn, int rings = 600, int spokes = 300) {
   return sum;
 }
 
-/// Share of the light from everywhere that a surface of perfect mirrors sends to the viewer.
+/// The share of even light that a surface of perfect mirrors sends to the viewer.
 double furnace(Vec3<double> v, double alpha) {
   return over_half_sphere([&](Vec3<double> l) { return ggx_mirror_lobe(kUp, v, l, alpha); });
 }
@@ -112,7 +112,7 @@ TEST(Ggx, DistributionHandWorkedAndNormalised) {
 }
 
 TEST(Ggx, VisibilityHandWorked) {
-  EXPECT_NEAR(ggx_visibility(1.0, 1.0, 0.3), 0.25, 1e-15);  // all is seen: 1 / (4 N.L N.V)
+  EXPECT_NEAR(ggx_visibility(1.0, 1.0, 0.3), 0.25, 1e-15);  // all facets are seen: 1 / (4 N.L N.V)
   EXPECT_NEAR(ggx_visibility(0.5, 0.25, 1.0), 0.5 / 0.75, 1e-15);
   EXPECT_NEAR(ggx_visibility(0.5, 0.25, 1e-9), 2, 1e-12);
   EXPECT_TRUE(std::isfinite(ggx_visibility(0.0, 0.0, 1e-3)));
@@ -197,8 +197,8 @@ TEST(Ggx, RougherIsLowerAndWider) {
             ggx_lobe(kUp, leaning(-20), leaning(60), 0.2, kWater));
 }
 
-// The sharp lobe is where float would lose its digits.
-// A point for a sun would be 1 / (4 pi alpha^2) there, 80 thousand at the least roughness.
+// Float would lose its digits at the sharp lobe. There the peak for a point sun would be 1 / (4 pi
+// alpha^2), 80 thousand at the least roughness.
 TEST(SunGlint, IsNoBrighterThanTheDiscItselfAndElseTheLobe) {
   const double disc = 1 / kSunSolidAngle;  // 14719 of its irradiance
   EXPECT_NEAR(kSunSolidAngle, 2 * kPi * (1 - std::cos(0.2665 * kDegree)), 5e-8);
@@ -221,7 +221,7 @@ TEST(SunDisc, IsItsRadianceMirroredOnTheDiscAndNothingBesideIt) {
   for (const double off : {-60.0, -0.267, 0.267, 5.0}) {
     EXPECT_EQ(sun_disc_lobe(kUp, v, leaning(30 + off), kWater), 0) << off;
   }
-  // Round: as far across the plane of incidence.
+  // The lobe is round: as wide across the plane of incidence.
   const auto across = [](double degrees) {
     const double c = std::cos(degrees * kDegree);
     const Vec3<double> l = leaning(30);

@@ -12,7 +12,7 @@ namespace {
 using test::Lane;
 using test::value;
 
-// The number header's functions on lanes are as exact as they say.
+// The number header's functions on lanes are as exact as the header says.
 
 TEST(Lanes, SineAndCosineErrorIsAsStated) {
   double sine_worst = 0, cosine_worst = 0;

@@ -15,7 +15,7 @@ constexpr double kWater = 1.333;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr Vec3<double> kUp{0, 1, 0};
 
-/// In the plane z = 0, so many degrees from straight up towards +x.
+/// The direction in the plane z = 0, that many degrees from straight up towards +x.
 Vec3<double> leaning(double degrees) {
   return {std::sin(degrees * kDegree), std::cos(degrees * kDegree), 0};
 }
@@ -25,13 +25,13 @@ Vec3<double> random_unit(int i, int channel) {
   return normalize_or<double>({coordinate(0), coordinate(1), coordinate(2)}, kUp);
 }
 
-/// Degrees from straight down.
+/// The direction's degrees from straight down.
 double bent(double degrees, double eta) {
   const Vec3<double> d = refract(leaning(degrees), kUp, eta).direction;
   return std::atan2(std::hypot(d.x, d.z), -d.y) / kDegree;
 }
 
-/// How far from the foot point the ray is at depth 1.
+/// The distance of the ray from the foot point at depth 1.
 double lateral(double degrees, double ior) {
   const Vec3<double> d = refract(leaning(degrees), kUp, 1 / ior).direction;
   return d.x / d.y;
@@ -71,7 +71,7 @@ TEST(Refract, ApparentDepths) {
   const double almost_down = 1e-4;
   EXPECT_NEAR(lateral(almost_down, kWater) / std::tan(almost_down * kDegree), 0.750, 5e-4);
   // At 60 degrees the image is astigmatic. Sagittal: where rays that leave round the vertical axis
-  // meet. Tangential: where neighbours in the plane of incidence meet.
+  // meet. Tangential: where neighbouring rays in the plane of incidence meet.
   const double outside = std::tan(60 * kDegree);
   EXPECT_NEAR(lateral(60, kWater) / outside, 0.493, 5e-4);
   const double step = 1e-4;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// What the phase function has within 10 degrees over its value there, summed over rings.
+// The share of the phase function within 10 degrees, over its value there, summed over rings.
 TEST(NarrowShare, IsThePeakOverItsFoot) {
   constexpr int kRings = 20000;
   constexpr double kStep = 10 * kPi / 180 / kRings;

@@ -20,7 +20,7 @@ struct Summed {
   double light = 0, far_share = 0;
 };
 
-/// The integral as it is written, by midpoints.
+/// The integral by its definition, by midpoints.
 Summed summed(const WaterPath<double>& w, double rate, double down) {
   const int steps = 20000;
   Summed sum;
@@ -42,7 +42,7 @@ TEST(SunColumn, IsTheIntegralDownAcrossAndUp) {
         const SunColumn<double> got = sun_column(w, rate, down);
         const Summed expected = summed(w, rate, down);
         EXPECT_NEAR(got.light / expected.light, 1, 1e-6) << rate << " " << down << " " << w.sink;
-        // The mean place of a brightening way lies beyond its middle.
+        // The mean place of scattering on a brightening path lies beyond the path's middle.
         EXPECT_NEAR(got.far_share, expected.far_share, 1e-6);
         EXPECT_EQ(got.far_share > 0.5 + 1e-12, rate + down * w.sink < 0);
       }
@@ -53,11 +53,11 @@ TEST(SunColumn, IsTheIntegralDownAcrossAndUp) {
 TEST(SunColumn, HandWorked) {
   EXPECT_NEAR(sun_column(way(2, 1, 0), 0.5, 0.5).light, 1 - std::exp(-2.0), 1e-12);
   EXPECT_NEAR(sun_column(way(2, 0, 3), 0.0, 0.5).light, 2 * std::exp(-1.5), 1e-12);
-  // Straight up to the surface from 3: exp(-1.5) (exp(1.5) - 1) / .5.
+  // A path straight up to the surface from 3: exp(-1.5) (exp(1.5) - 1) / .5.
   EXPECT_NEAR(sun_column(way(3, -1, 3), 0.0, 0.5).light, (1 - std::exp(-1.5)) / 0.5, 1e-12);
 }
 
-/// As depth_fog takes it from what it has.
+/// The integral from the values that depth_fog has.
 TEST(SunColumn, LeftIsWhatTheEndLosesOfWaysThatBeginAtTheSurface) {
   for (double rate : {0.0, 0.1, 1.5}) {
     for (double down : {0.0, 0.2, 2.5}) {
@@ -68,11 +68,11 @@ TEST(SunColumn, LeftIsWhatTheEndLosesOfWaysThatBeginAtTheSurface) {
       }
     }
   }
-  // Where it brightens it is the other way round.
+  // On a brightening path the relation is reversed.
   EXPECT_NEAR(sun_left(way(3, -1, 3), 0.0, 0.5), std::exp(-1.5), 1e-15);
 }
 
-// 3e38 is what +inf counts as.
+// +inf counts as 3e38.
 TEST(SunColumn, FiniteForAnyWay) {
   for (double rate : {0.0, 1e-30, 0.3, 2e6}) {
     for (double down : {0.0, 0.4, 1e12}) {

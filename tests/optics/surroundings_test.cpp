@@ -16,7 +16,7 @@ using test::Lane;
 constexpr double kPi = std::numbers::pi;
 constexpr Vec3<double> kUp{0, 1, 0};
 
-// Right up to the axes, where the octants meet, and at any size.
+// Vectors of any length, right up to the axes, where the octants meet.
 TEST(Surroundings, LanesKnowTheArctangent) {
   double worst = 0;
   for (double size : {1e-30, 1e-3, 1.0, 1e30}) {
@@ -48,7 +48,7 @@ TEST(Surroundings, PlacesOfTheAxes) {
   expect({3, 0, 3}, 0.5, 0.25);
 }
 
-// In float near the poles, too, where an arccosine of the height would be off by 3e-4.
+// Also in float near the poles, where an arccosine of the height would be off by 3e-4.
 TEST(Surroundings, PlacesAreThoseOfTheirAnglesInLanesToo) {
   for (double polar : {1e-5, 0.3, 1.5, 3.0, kPi - 1e-5}) {
     for (double turn : {-3.1, -1.0, 0.2, 2.0}) {

@@ -34,7 +34,7 @@ TEST(WaterIndex, FallsWithTheWavelengthAsGlassDoes) {
   }
 }
 
-// How far apart red and blue land per metre of depth, in mm.
+// The distance between red's and blue's landings per metre of depth, in mm.
 TEST(WaterIndex, DispersionHitsTheTable) {
   struct Row {
     double degrees, millimetres;

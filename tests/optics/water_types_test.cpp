@@ -46,7 +46,7 @@ TEST(WaterTypes, MurkinessHandWorked) {
   EXPECT_NEAR(pond.scattering.r, 2.0921, 5e-4);  // .3 30^.62 550 / 650 + .00758 (400 / 650)^4.32
   EXPECT_NEAR(pond.scattering.g, 2.4733, 5e-4);
   EXPECT_NEAR(pond.scattering.b, 3.0251, 5e-4);
-  // The murkier, the less light gets through and the more comes back; blue ocean, green pond.
+  // Murkier water lets less light through and sends more back; blue ocean, green pond.
   for (double m = 0; m < 0.95; m += 0.1) {
     const ClearAndMurky less = case_1_water(m), more = case_1_water(m + 0.1);
     EXPECT_LT(less.absorption.b, more.absorption.b);

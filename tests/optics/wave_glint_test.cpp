@@ -60,7 +60,7 @@ double sent_back(Vec3<double> l, Sym2<double> spread) {
   return sum;
 }
 
-// However wide it is spread, and of the disc alone, too.
+// The law holds for any spread, and for the disc alone, too.
 TEST(WaveGlint, HasTheEnergyOfTheDiscMirrored) {
   for (const double angle : {20.0, 50.0}) {
     const Vec3<double> l = leaning(angle);
@@ -76,7 +76,8 @@ TEST(WaveGlint, OfStillWaterIsTheBrightest) {
   EXPECT_NEAR(mirrored * kRadius * kRadius, kBrightestLobe, 1e-6 * kBrightestLobe);
 }
 
-// The axes are the look-up's, not the water's: turned together, view, light and facet see the same.
+// The axes belong to the lookup, not the water: turned together, view, light and facet see the
+// same.
 TEST(WaveGlint, IsTheSameAllAround) {
   const auto turned = [](double turn) {
     return lobe(leaning(20, turn), leaning(-15, turn), leaning(55.1, turn), {1e-6, 0, 1e-6});
@@ -91,7 +92,7 @@ TEST(WaveGlint, FollowsTheMeanFacet) {
   const Vec3<double> v = leaning(-60), l = leaning(20), n = leaning(-20);
   EXPECT_GT(lobe(n, v, l, {1e-5, 0, 1e-5}), 50);
   EXPECT_EQ(lobe(kUp, v, l, {1e-5, 0, 1e-5}), 0);
-  // Of a spread along the plane of incidence, not across it.
+  // The spread lies along the plane of incidence, not across.
   const Vec3<double> beside = leaning(30);
   EXPECT_GT(lobe(n, v, beside, {0.01, 0, 1e-6}), 0);
   EXPECT_EQ(lobe(n, v, beside, {1e-6, 0, 0.01}), 0);

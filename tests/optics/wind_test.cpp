@@ -17,14 +17,14 @@ TEST(Wind, SlopesAlongAndAcrossAreTogetherThoseOfAllDirections) {
   EXPECT_NEAR(wind_slopes(10).across, 0.0222, 1e-12);
 }
 
-// A wave of 100 m runs at 12.5 m/s, one of a metre at a tenth of that.
+// A wave of 100 m runs at 12.5 m/s, a wave of a metre at a tenth of that speed.
 TEST(Wind, LongWavesRunByGravity) {
   EXPECT_NEAR(phase_speed(100), 12.4952, 1e-3);
   EXPECT_NEAR(phase_speed(1), 1.2497, 1e-3);
   EXPECT_NEAR(phase_speed(4), 2 * phase_speed(1), 1e-3);
 }
 
-// No wave on water is slower than 23 cm/s, which is one of 1.7 cm.
+// No wave on water is slower than 23 cm/s, the speed of a wave of 1.7 cm.
 TEST(Wind, RipplesRunBySurfaceTension) {
   double slowest = 1e9, length = 0;
   for (double l = 0.001; l < 1; l *= 1.01) {

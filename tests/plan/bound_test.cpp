@@ -12,8 +12,8 @@
 #include "ops/water_shadow_kernel.h"
 #include "plan/patchy_frame.h"
 
-// What an operator declares as its bound, on whole frames whose ranges are found pixel by pixel,
-// with any of the other operators running.
+// The declared bound of each operator, on whole frames whose ranges are found pixel by pixel, with
+// any of the other operators running.
 
 namespace limpid {
 namespace {
@@ -33,7 +33,7 @@ void widen(Range& range, const View<const float>& view) {
   }
 }
 
-/// Of the frame as the place, with all that its planes hold in reach. False where no pixel is wet.
+/// The ranges of the frame, with all values of its planes in reach. False where no pixel is wet.
 bool ranges_of(const Frame& frame, const Pass& pass, Ranges& ranges) {
   ranges.surface = ranges.own = ranges.looked_up = ranges.sink = kNothing;
   ranges.shadow = ranges.own_shadow = {1, 1};
@@ -65,7 +65,7 @@ bool ranges_of(const Frame& frame, const Pass& pass, Ranges& ranges) {
     color = kNothing;
     widen(color, frame.plane(plane_after(planes.color, c)));
     widen(color, frame.plane(plane_after(PlaneId::kColorR, c)));
-    // Where nothing was hit no light is seen.
+    // Pixels where nothing was hit show no light.
     if (!std::isfinite(ranges.own.max) || !std::isfinite(ranges.looked_up.max)) widen(color, 0.0);
   }
   if (frame.plane(PlaneId::kShadow)) {
@@ -81,7 +81,7 @@ double farthest(const Picture& a, const Picture& b, const Rect& work) {
     for (int x = work.x0; x < work.x1; ++x) {
       for (int c = 0; c < 3; ++c) {
         const double want = a.target.color[c].at(x, y), got = b.target.color[c].at(x, y);
-        // But for rounding to float.
+        // The bound holds within rounding to float.
         most = std::max(most, std::abs(want - got) - 1e-6 * (1 + std::abs(want)));
       }
     }
@@ -90,9 +90,9 @@ double farthest(const Picture& a, const Picture& b, const Rect& work) {
 }
 
 struct Known {
-  int runs = 0;        ///< frames in which it runs
-  int finite = 0;      ///< frames in which the bound says anything
-  double closest = 0;  ///< change over bound
+  int runs = 0;        ///< frames in which the operator runs
+  int finite = 0;      ///< frames in which the bound is finite
+  double closest = 0;  ///< largest change over bound
 };
 
 TEST(Bound, NoOperatorMattersMoreThanItSays) {
@@ -107,7 +107,8 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     const Plan whole = make_plan(test::patchy_look(seed), test::inputs_of(frame, scene));
     Plan plan = whole;
     const auto drop = [](Plan& from, int op) { from.operators[op].verdict = Verdict::kInvisible; };
-    // Never what finds the way that others measure. Drawn by name, whatever else is in the chain.
+    // The operator that finds the path for others stays. Draws go by name, whatever else is in the
+    // chain.
     Kernels::for_each([&]<class Op, int I>() {
       int draw = 0;
       for (const char letter : Op::kName) draw += letter;
@@ -163,7 +164,7 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     if (beyond > 0) hidden.closest = std::max(hidden.closest, change / beyond);
   }
   EXPECT_EQ(known[Chain::index_of<WaveNormals>()].finite, 0) << "all hangs on the normals";
-  // Bounds that are never nearly met are no use.
+  // A bound that no change nearly reaches is useless.
   int ran = 0;
   Kernels::for_each([&]<class Op, int I>() {
     if (std::is_same_v<Op, Kernel<WaveNormals>> || known[I].runs == 0) return;

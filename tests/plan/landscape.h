@@ -2,8 +2,7 @@
 #include "op/pass.h"
 #include "plan/patchy_frame.h"
 
-/// Water over a bottom that is mostly smooth, as rays meet it: for marches, which noise would end
-/// at once.
+/// Water over a mostly smooth bottom for marches, which noise would end at once.
 
 namespace limpid::test {
 

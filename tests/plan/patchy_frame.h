@@ -3,18 +3,18 @@
 
 #include "plan/surveyed.h"
 
-/// Frames as the planner meets them: patches of shore, of deep and of shallow water, of things that
-/// stand before it, in shadow and in the sun, each large enough to fill cells.
+/// Frames as the planner meets them: patches of shore, of deep and of shallow water, of objects
+/// before the water, in shadow and in the sun, each large enough to fill cells.
 
 namespace limpid::test {
 
-/// A number in 0 ... 1 that is the same over patches of about 90 x 23 pixels.
+/// A number in 0 ... 1 that is constant over patches of about 90 x 23 pixels.
 inline float patch(int x, int y, int seed) {
   return noise((x + 1000) / 90 + 17 * seed, (y + 1000) / 23, seed);
 }
 
-/// One to several cells wide and high, awkward sizes first; with a larger data window (overscan)
-/// now and then.
+/// Frames one to several cells wide and high, awkward sizes first; now and then with a larger data
+/// window (overscan).
 inline Rect patchy_display(int seed) {
   constexpr Size kSizes[] = {{1, 1}, {1, 37}, {127, 16}, {128, 17}, {129, 33}, {300, 70}};
   return rect_of(kSizes[static_cast<std::size_t>(seed) % std::size(kSizes)]);
@@ -103,7 +103,7 @@ inline Buffers patchy_frame(Rect display, int seed) {
 
 inline Scene patchy_scene(Rect display) { return simple_scene(display.size()); }
 
-/// A look in which the planner finds something: any models, murky water, short and long reaches.
+/// A look in which the planner can drop operators: any models, murky water, short and long reaches.
 inline Look patchy_look(int seed) {
   int next = 0;
   const auto any = [&] { return static_cast<double>(noise(seed, next++, 77)); };

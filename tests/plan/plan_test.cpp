@@ -28,7 +28,7 @@ Look busy_look() {
   return look;
 }
 
-/// Of the operators that these tests speak of.
+/// The verdicts of the operators in these tests.
 std::string text(const Look& look, const Inputs& inputs, StateSet outputs = {}) {
   Plan plan = make_plan(look, inputs, outputs);
   const std::set<std::string_view> known{
@@ -89,7 +89,7 @@ TEST(Plan, ReadsTheEnvironmentBesideAReflectionOnlyToFillIt) {
                                        "is not valid\n"));
 }
 
-// Without normals nothing tilts, so nothing is refracted or split.
+// Without normals the surface is not tilted, so light is not refracted or split.
 TEST(Plan, WithoutWavesThereIsNothingToRefract) {
   EXPECT_EQ(text(busy_look(), {kBare | kShadow, false, true}),
             "wave_normals        dropped: input absent, no normal map\n"
@@ -138,7 +138,7 @@ TEST(Plan, DropsWavesThatNothingReads) {
             "fresnel_reflection  dropped: input absent, no reflection\n"
             "sun_highlight       dropped: input absent, no sun\n"
             "penetration         dropped: neutral, its parameters change nothing here\n");
-  // As an output of their own they are read.
+  // Where the normal is an output, its planes are read.
   const Plan plan = make_plan(look, no_mirror_no_sun, {StatePart::kNormal});
   EXPECT_EQ(plan.of<WaveNormals>().verdict, Verdict::kKept);
   EXPECT_TRUE(plan.planes.covers(kSurfaceNormalPlanes));
@@ -194,7 +194,7 @@ TEST(Plan, SaysWhatStateIsMade) {
   EXPECT_FALSE(make_plan(look, {kBare, false, true}, {}).made.has(StatePart::kFresnel));
 }
 
-// The way through the water is measured by the fog, whose color may be switched off.
+// The fog measures the path through the water, even if the fog's color is switched off.
 TEST(Plan, KeepsANeutralFogWhosePathIsWritten) {
   Look look = test::article_look();
   look.of<DepthFog>().alpha = 0;

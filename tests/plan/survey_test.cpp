@@ -90,8 +90,8 @@ TEST(Survey, DryCellsAreToldApart) {
       << "one wet pixel";
 }
 
-// What stands before the water is in reach of the cells around it, if near enough to their edge:
-// within 4 pixels and 2 for filtering, and then as far as the 32 x 16 pixels of its block go.
+// An object before the water is in reach of the cells around, if near enough to their edge: within
+// 4 pixels and 2 for filtering, and then as far as the 32 x 16 pixels of its block go.
 TEST(Survey, ForegroundAtTheEdgeOfACellCountsForItsNeighbour) {
   const auto map_with = [&](int x, int y, const Look& look) {
     Buffers b = tray(rect_of(kSize));
@@ -125,7 +125,7 @@ TEST(Survey, OverscanIsInReach) {
   EXPECT_EQ(map_with(384, 81), "fff\nfff\nfff\nfff\nff#\n");
 }
 
-// Of every plane that is looked up, be its window larger than that of the depth.
+// Every plane with lookups counts, even if its window is larger than the depth's window.
 TEST(Survey, AShadowBesideThePictureIsInReach) {
   Buffers b = tray(rect_of(kSize));
   b.set(PlaneId::kShadow, [](int x, int) { return x < 0 ? 0.0f : 1.0f; }, {-100, -20, 484, 100});
@@ -172,13 +172,13 @@ TEST(Survey, ShortenNeedsWaterAllAround) {
   EXPECT_EQ(map_of(survey_of(shorten, b.frame), 3), "fff\n##f\n##f\n##f\nfff\n")
       << "a dry texel does not count, however deep";
   EXPECT_EQ(map_of(survey_of(short_look(), b.frame), 3), "fff\nfff\nfff\nfff\nfff\n");
-  // Taps at the edge of a plane are those of other pixels than taps within another's window.
+  // Taps at the edge of a plane read other pixels than taps within another plane's window.
   b = tray(rect_of(kSize));
   b.set(PlaneId::kDepth, [](int, int) { return 6.0f; }, {-9, -9, 400, 90});
   EXPECT_EQ(survey_of(shorten, b.frame).summary().open.cells, 0);
 }
 
-/// Fog that is full after 1 unit of the way.
+/// Fog that is full after 1 unit of path.
 Look murky() {
   Look look = short_look();
   DepthFog::Params& fog = look.of<DepthFog>();
@@ -201,8 +201,8 @@ TEST(Survey, FullFogHidesWhatIsBehindIt) {
   EXPECT_EQ(survey_of(thin, b.frame).summary().opaque.cells, 0) << "1 % of the bottom is left";
 }
 
-// By the way's length 2: of the bottom 1 - 0.999 (2 0.4995) = 0.001999 is left, of a color 0.48 off
-// the fog's.
+// After a path of length 2: of the bottom 1 - 0.999 (2 0.4995) = 0.001999 is left, of a color 0.48
+// off the fog's color.
 TEST(Survey, AnErrorMakesThinnerFogOpaque) {
   Look look = murky();
   look.of<DepthFog>().density = 0.4995;
@@ -214,7 +214,7 @@ TEST(Survey, AnErrorMakesThinnerFogOpaque) {
   EXPECT_NEAR(survey.summary().bound, 0.001999 * 0.48, 1e-6);
 }
 
-// Positions that are written must be found.
+// Positions that are written must be computed.
 TEST(Survey, WhatIsWrittenIsNotSkipped) {
   const Buffers b = tray(rect_of(kSize));
   EXPECT_EQ(survey_of(murky(), b.frame, 0, {StatePart::kPath}).summary().opaque.cells, 0);
@@ -269,8 +269,8 @@ TEST(Survey, SnellsRaysMayReachTheWholePicture) {
   EXPECT_EQ(survey_of(snell, tray(rect_of(kSize)).frame).summary().open.cells, 0);
 }
 
-// Fog by the refracted way, of rays that go on for as long as the bottom under their own pixel lies
-// below the surface.
+// Fog by the refracted path, of rays that go on for as long as the bottom under their own pixel
+// lies below the surface.
 TEST(Survey, AShallowPixelOpensItsCellAlone) {
   Look look = murky();
   look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
@@ -281,7 +281,8 @@ TEST(Survey, AShallowPixelOpensItsCellAlone) {
   EXPECT_EQ(map_of(survey_of(look, b.frame), 3), "foo\nooo\nooo\nooo\nooo\n");
 }
 
-// Where a plane has the surface no depth under the calm one is known: a march may end at once.
+// Where a plane holds the surface, no depth under the calm surface is known: a march may end at
+// once.
 TEST(Survey, AMarchThroughWavyWaterMayBeShort) {
   Look look = murky();
   look.of<DepthFog>().distance = DepthFog::Distance::kRefracted;
@@ -292,7 +293,7 @@ TEST(Survey, AMarchThroughWavyWaterMayBeShort) {
   EXPECT_EQ(survey_of(look, b.frame).summary().opaque.cells, 0);
 }
 
-// Without a plane of the surface it is the scene's plane, which ends at the horizon.
+// Without a plane of the surface the surface is the scene's plane, which ends at the horizon.
 TEST(Survey, TheCalmPlaneIsMetBelowTheHorizon) {
   const Size size{256, 256};
   Buffers b(rect_of(size));
@@ -349,7 +350,7 @@ TEST(Survey, InterleavedAndTurnedPlanesAreSeenAsTheyAre) {
   EXPECT_EQ(map_of(survey_of(short_look(), b.frame), 3), "fff\n##f\n##f\n##f\nfff\n");
 }
 
-// --- told ---------------------------------------------------------------------------------------
+// --- the text of a survey -----------------------------------------------------------------------
 
 TEST(Survey, IsToldAsText) {
   Buffers b = tray(rect_of(kSize));
@@ -372,7 +373,7 @@ TEST(Survey, IsToldAsText) {
   EXPECT_THAT(measured, ContainsRegex("sun_highlight .* 12\\.500 ms"));
 }
 
-/// What stands behind the name in the row that it begins.
+/// The text behind the name in the row that begins with this name.
 std::string row_of(const std::string& text, const std::string& name) {
   const std::size_t at = text.find("\n  " + name + " ");
   if (at == std::string::npos) return "no row";

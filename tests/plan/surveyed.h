@@ -9,8 +9,8 @@
 #include "op/pass.h"
 #include "support.h"
 
-/// A survey as plainly as it can be obeyed: for each kind of cell the whole picture is run without
-/// what such cells skip, and their pixels are taken from that.
+/// The plainest use of a survey: for each kind of cell the whole picture is run without the steps
+/// that such cells skip, and the pixels of these cells are taken from this picture.
 
 namespace limpid::test {
 
@@ -39,8 +39,7 @@ inline Picture picture_of(const Plan& plan, const Frame& frame, const Scene& sce
 }
 
 /// The picture with every pixel run as the cells of this kind are. State that is made stays
-/// declared as made. An endless way is had from a scene that is as far as can be without being
-/// "nothing hit", without offset.
+/// declared as made. A scene just nearer than "nothing hit", without offset, gives an endless path.
 inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene, RunPlan run) {
   plan.max_error = 0;
   const Rect window = frame.plane(PlaneId::kDepth).window;
@@ -66,8 +65,8 @@ inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene
     params.rejection = Refraction::Rejection::kNone;
     params.off_frame = Refraction::OffFrame::kClamp;
   } else if (kind.open) {
-    // What snap asks of the depths is no more than its test, but for rays that know theirs, and for
-    // layers below, whose empty places it leaves.
+    // Snap reads depths only for its test, except of rays that know their depths, and of layers
+    // below, whose empty places it leaves.
     Refraction::Params& params = plan.look.of<Refraction>();
     const bool knows = params.model == Refraction::Model::kSnell && params.steps != 0;
     const bool below = frame.present().covers(kBelowPlanes);
@@ -82,7 +81,7 @@ inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene
   return picture_of(plan, frame, scene, run);
 }
 
-/// Calls visit(needs, x, y, picture) for each pixel, with the picture as its cell is run.
+/// Calls visit(needs, x, y, picture) for each pixel, with the picture that its cell's kind gives.
 template <class Visit>
 void for_each_as_surveyed(const Survey& survey, const Plan& plan, const Frame& frame,
                           const Scene& scene, RunPlan run, Visit&& visit) {

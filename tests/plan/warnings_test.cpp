@@ -5,7 +5,7 @@
 
 #include "support.h"
 
-// What is asked for and does nothing is told.
+// A parameter that is set and has no effect is reported.
 
 namespace limpid {
 namespace {
