@@ -84,7 +84,7 @@ TEST(BeerLambert, CrossingTheSurface) {
   EXPECT_NEAR(transmitted(tray), 0.5 * (1 - 0.0597) / 1.776889, 2e-5);
 }
 
-// b p E = .5 / (4 pi) pi = 1/8, times (1 - e^-1) / .5 or, with the way down, (1 - e^-2) / 1.
+// b p E = .5 / (4 pi) pi = 1/8, times (1 - e^-1) / .5 or, with the path down, (1 - e^-2) / 1.
 TEST(BeerLambert, SunInMurkyWater) {
   EXPECT_NEAR(in_scatter(murky_tray(Sunlight::kNone)), 0.25 * (1 - std::exp(-1.0)), 1e-6);
   EXPECT_NEAR(in_scatter(murky_tray(Sunlight::kStraight)), 0.125 * (1 - std::exp(-2.0)), 1e-6);
@@ -99,7 +99,7 @@ TEST(BeerLambert, SunInMurkyWater) {
   expect_rgb(rgb_of(tray.wet(), Aov::kInScatter, 1, 1), {red, 0, red / 2});
 }
 
-// Light that is scattered forwards is not lost on the way down: K = a + b (1 - g).
+// Light that is scattered forwards is not lost on the path down: K = a + b (1 - g).
 TEST(BeerLambert, ForwardScatteringReachesDeeper) {
   Tray tray = murky_tray(Sunlight::kRefracted);
   tray.look.of<DepthFog>().anisotropy = 0.8;
@@ -154,7 +154,7 @@ TEST(BeerLambert, SedimentAndHumusAreAddedToEachWater) {
     const double both = transmitted(tray);
     fog.sediment = 2;
     fog.cdom = 1;
-    // On the way down, light that is scattered forwards is not lost.
+    // On the path down, light that is scattered forwards is not lost.
     EXPECT_NEAR(transmitted(tray) / both,
                 left(sediment + humus + 1) * left(sediment + humus + 1 - 0.8), 1e-6);
     tray.scene.sun.reset();

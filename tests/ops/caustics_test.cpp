@@ -198,7 +198,7 @@ TEST(Caustics, SunColorTellsTheSunsLight) {
 }
 
 /// A bottom 4 below calm water, seen straight from above, a unit a pixel, sun from the right at 0.6
-/// of the vertical: straight light goes 16 / 3 to the left on its way down, refracted light 3. A
+/// of the vertical: straight light goes 16 / 3 to the left on its path down, refracted light 3. A
 /// board lies on the water in columns 12 ... 15.
 Tray under_a_board() {
   Tray tray({24, 5});

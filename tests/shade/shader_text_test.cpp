@@ -52,8 +52,8 @@ TEST(ShaderText, IsTheSameForAnySizeTimeAndPlace) {
   }
 }
 
-/// A parameter above 0 is a number of the block, by its name: another value above 0 changes that
-/// number alone.
+/// A parameter above 0 is a number of the block, by its name: another value above 0 changes the
+/// number and not the text.
 TEST(ShaderText, HasParametersAsNumbers) {
   const test::World world(false);
   Look look = test::shipped_look("realistic");
