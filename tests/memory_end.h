@@ -7,11 +7,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/// Has memory come to an end in a process of its own, as EXPECT_EXIT has one. Not with sanitizers.
+/// Lets memory come to an end in a process of its own, as EXPECT_EXIT starts. Not with sanitizers.
 
 namespace limpid::test {
 
-/// The system gives this process so many more bytes of addresses, and no more.
+/// The system gives this process at most this many more bytes of addresses.
 inline void limit_addresses(std::size_t more) {
   std::ifstream statm("/proc/self/statm");
   std::size_t pages = 0;
@@ -22,7 +22,8 @@ inline void limit_addresses(std::size_t more) {
   ::setrlimit(RLIMIT_AS, &limit);
 }
 
-/// Leaves room for small things, such as the text of an Error, and for nothing of 1 KiB or more.
+/// Leaves room for small allocations, such as the text of an Error, and for no allocation of 1 KiB
+/// or more.
 inline void exhaust_memory() {
   limit_addresses(0);
   constexpr std::size_t kSmall = 512, kRooms = 1000;
@@ -35,7 +36,7 @@ inline void exhaust_memory() {
   for (std::size_t i = 0; i < count; i += 2) std::free(rooms[i]);
 }
 
-/// No thread can be made any more: its stack would be larger than what the system gives.
+/// No thread can be started any more: its stack would be larger than the memory that is left.
 inline void make_threads_impossible() {
   constexpr std::size_t kGibibyte = std::size_t{1} << 30;
   pthread_attr_t attributes;

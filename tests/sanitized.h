@@ -2,8 +2,8 @@
 
 namespace limpid::test {
 
-/// Built with a sanitizer, which takes several times as much memory as the program, and addresses
-/// without end: limits that the system sets say nothing then.
+/// The build has a sanitizer, which takes several times as much memory as the program, and endless
+/// addresses: limits that the system sets have no meaning then.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #elif defined(__has_feature)

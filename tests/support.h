@@ -20,7 +20,7 @@ namespace limpid::test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-/// Deterministic numbers in 0 ... 1 from a place: no state, same on every machine.
+/// Deterministic numbers in 0 ... 1 from a position: no state, the same on every machine.
 inline float noise(int x, int y, int channel) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9E3779B1u ^
                     static_cast<std::uint32_t>(y) * 0x85EBCA77u ^
@@ -177,7 +177,8 @@ inline Inputs inputs_of(const Frame& frame, const Scene& scene) {
           scene.has_waves(),     scene.primaries};
 }
 
-/// Pure water, the light's way down and the surface left out: fog by one thing at a time.
+/// Pure water, without sunlight's path down and the surface: tests vary one property of fog at a
+/// time.
 inline DepthFog::Params plain_fog(DepthFog::Model model) {
   DepthFog::Params fog;
   fog.model = model;
@@ -206,7 +207,8 @@ inline Look article_look() {
   return look;
 }
 
-/// The same with every operator neutral or absent but those set afterwards.
+/// The same look with every operator neutral or absent, except operators that a test sets
+/// afterwards.
 inline Look still_look() {
   Look look = article_look();
   look.of<Refraction>().strength = 0;

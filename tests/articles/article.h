@@ -6,8 +6,8 @@
 
 #include "ops/tray.h"
 
-/// What the tests of the articles have in common. Each article's formulas are worked out by hand in
-/// the comments, at pixels of the tray (ops/tray.h), with the numbers of the article's look.
+/// The common code of the articles' tests. The comments work each article's formulas out by hand,
+/// at pixels of the tray (ops/tray.h), with the numbers of the article's look.
 
 namespace limpid::test {
 
@@ -21,8 +21,8 @@ inline void look_aslant(Tray& tray) {
       glm::lookAt(glm::dvec3(0, 6, 8), glm::dvec3(0, 0, 0), glm::dvec3(0, 1, 0));
 }
 
-/// Three planes that tell where they were looked up: red is x, green y, in pixels (whole at the
-/// centres), blue x again.
+/// Three planes whose values tell the position of a lookup: red is x, green y, in pixels (whole at
+/// the centres), blue x again.
 inline void fill_places(Buffers& buffers, PlaneId first) {
   const auto across = [](int x, int) { return static_cast<float>(x); };
   const auto down = [](int, int y) { return static_cast<float>(y); };
@@ -34,7 +34,7 @@ inline void fill_places(Buffers& buffers, PlaneId first) {
 /// world x and its v along -z, from the middle of the picture.
 class TexelMap {
  public:
-  /// From the color of the texel (x, y).
+  /// A map of fn(x, y), the color of the texel (x, y).
   template <class Fn>
   explicit TexelMap(Fn&& color) {
     for (Plane& plane : planes_) plane = Plane(Rect{0, 0, 8, 8});
@@ -48,7 +48,7 @@ class TexelMap {
     }
     for (int c = 0; c < 3; ++c) texture.channels[c] = planes_[c].view();
   }
-  /// The same color everywhere.
+  /// A map of one color.
   explicit TexelMap(Rgb<double> color) : TexelMap([=](int, int) { return color; }) {}
 
   Texture texture;
@@ -68,7 +68,7 @@ inline Vec3<double> normal_at(const Picture& picture, int x, int y) {
           picture.aov(Aov::kNormal, x, y, 2)};
 }
 
-/// Where a channel was looked up, in pixels from the pixel's own centre: x right, y down.
+/// The position of a channel's lookup, in pixels from the pixel's own centre: x right, y down.
 inline Vec2<double> shift_at(const Picture& picture, Aov stmap, int x, int y, Size size) {
   return {picture.aov(stmap, x, y, 0) * size.width - (x + 0.5),
           (1 - picture.aov(stmap, x, y, 1)) * size.height - (y + 0.5)};

@@ -32,7 +32,7 @@ TexelMap ramps() {
   return TexelMap([](int x, int y) { return Rgb<double>{x / 10.0, y / 10.0, 0.9}; });
 }
 
-/// Says (.5, -.5) as a distortion.
+/// A map whose distortion is (.5, -.5) everywhere.
 TexelMap flat_map() { return TexelMap(Rgb<double>{0.75, 0.25, 0.9}); }
 
 // distorted = tex(u + move, v) * .01; distorted = uv + (distorted.x, distorted.y + move); total =
@@ -48,7 +48,7 @@ TEST(MonogameWater, TwoStepDistortion) {
   tray.buffers.frame.wave_map = map.texture;
   const test::Picture got = tray.wet();
   expect_shift(shift_at(got, Aov::kStmapG, 6, 1, kEight), {-0.1284713, -0.1284713});
-  // Straight down nothing is mirrored: the dry picture as it is at the shifted place.
+  // Straight down the surface mirrors no light: the dry picture unchanged at the shifted position.
   expect_rgb(got.color(6, 1), {5.8715287, 0.8715287, 5.8715287}, 1e-5);
 }
 
@@ -64,8 +64,8 @@ TEST(MonogameWater, TheDistortionMoves) {
 }
 
 // normal = normalize(2 r - 1, b, 2 g - 1) at the distorted place: (-.5968, .9, .5968) / 1.2338298.
-// Kept: blue is not decoded, .9 instead of .8. Departs: the article puts green along +z, which
-// holds for one way to lay out a quad; here it runs along the map's own v, which is -z.
+// Kept: blue is not decoded, .9 instead of .8. Departs: the article puts green along +z, which is
+// right for only one layout of a quad; here green runs along the map's own v, which is -z.
 TEST(MonogameWater, NormalMap) {
   const TexelMap map = ramps();
   Tray tray = monogame_tray();
@@ -73,8 +73,9 @@ TEST(MonogameWater, NormalMap) {
   expect_vector(normal_at(tray.wet(), 6, 1), {-0.4836965, 0.7294350, 0.4836965});
 }
 
-// Kept: .001 / z is called a bend that grows with distance, and shrinks: calm water at depth 50 (z
-// = 49.9 / 99.9) shifts by .0020020 instead of .0100909, to the upper left whatever lies below.
+// Kept: the article calls .001 / z a bend that grows with distance, but .001 / z shrinks: calm
+// water at depth 50 (z = 49.9 / 99.9) shifts by .0020020 instead of .0100909, to the upper left
+// whatever lies below.
 TEST(MonogameWater, TheShiftByDistanceShrinks) {
   const TexelMap calm(Rgb<double>{0.5, 0.5, 1});
   Tray tray = monogame_tray();
@@ -87,8 +88,8 @@ TEST(MonogameWater, TheShiftByDistanceShrinks) {
   expect_shift(shift_at(tray.wet(), Aov::kStmapG, 6, 1, kEight), {-0.8, -0.8});
 }
 
-// _refractionClippingPlane: the refraction is drawn without what stands above the water, so a pole
-// in front of it is never refracted, though nothing is rejected on screen.
+// _refractionClippingPlane: the refraction is drawn without the objects above the water, so a pole
+// in front of the water is never refracted, though no lookup is rejected on screen.
 TEST(MonogameWater, RefractionIsThatBelowTheWater) {
   const TexelMap map = flat_map();
   Tray tray = monogame_tray();
@@ -119,16 +120,16 @@ TEST(MonogameWater, LinearFresnelOfTheCalmNormal) {
   fill_places(tray.buffers, PlaneId::kReflectionR);
   const test::Picture got = tray.wet();
   EXPECT_NEAR(got.aov(Aov::kFresnel, 6, 1), 0.4, 1e-6);
-  // Departs: without the article's + .001 / z, .0807 pixels more here: a flat mirror shows at each
-  // pixel what belongs there.
+  // Departs: without the article's + .001 / z, .0807 pixels more here: the lookup of a flat mirror
+  // is at the pixel itself.
   expect_rgb(rgb_of(got, Aov::kReflected, 6, 1), {0.4 * 6.04, 0.4 * 0.96, 0.4 * 6.04}, 1e-5);
   // The refraction: (.04 - .0807273, -.04 - .0807273) pixels.
   expect_rgb(rgb_of(got, Aov::kTransmitted, 6, 1),
              {0.6 * 5.9592727, 0.6 * 0.8792727, 0.6 * 5.9592727}, 1e-5);
 }
 
-// Kept: nothing at normal incidence, where water mirrors .02. Departs: seen from behind, V.n = -.5,
-// the article's 1 - V.n would be 1.5.
+// Kept: no reflection at normal incidence, where water mirrors .02. Departs: seen from behind, V.n
+// = -.5, the article's 1 - V.n would be 1.5.
 TEST(MonogameWater, LinearFresnelAtItsEnds) {
   EXPECT_EQ(fresnel_linear(1.0), 0);
   EXPECT_EQ(fresnel_linear(-0.5), 1);
@@ -183,15 +184,15 @@ Camera article_camera() {
 TEST(MonogameWater, ReflectionCamera) {
   const Camera mirrored = mirrored_camera(article_camera(), WaterPlane{});
   const glm::dvec4 seen = mirrored.view * glm::dvec4(10, 20, 200, 1);
-  // Departs: a true mirror keeps right and left. The article's picture is the same turned around,
-  // which it undoes by projecting the water with that camera.
+  // Departs: a true mirror keeps right and left. The article's picture is the same picture with its
+  // sides swapped; the article swaps them back by projecting the water with that camera.
   EXPECT_NEAR(seen.x, 10, 1e-12);
   EXPECT_NEAR(seen.y, 4, 1e-12);
   EXPECT_NEAR(seen.z, -122, 1e-12);
 }
 
-// clip(dot(world, (0, 1, 0, -height))): what is above the water stays, what is below goes. Departs:
-// by the near plane, not pixel by pixel.
+// clip(dot(world, (0, 1, 0, -height))): points above the water stay, points below are cut. Departs:
+// the near plane cuts, not each pixel.
 TEST(MonogameWater, ReflectionIsClippedAtTheWater) {
   const Camera mirrored = mirrored_camera(article_camera(), WaterPlane{});
   const auto depth = [&](double y) {

@@ -37,7 +37,7 @@ Rgb<double> drawn(const Model& model, const RasterView& view, glm::dvec3 to_sun,
 
 // n = V = (0, 0, 1), L = (.28, 0, .96): diffuse n.L = .96; reflect(-L, n) = (-.28, 0, .96), R.V =
 // .96, .96^20 = .4420024. Departs: the sum, 1.5020024, is not clamped; the article says that HLSL
-// makes it 1, but that is what an 8-bit picture does.
+// clamps the sum to 1, but an 8-bit picture does so.
 TEST(PhongSpecular, AmbientDiffuseSpecular) {
   const double sum = 0.1 + 0.96 + 0.4420024;
   expect_rgb(drawn(square(article_material()), test::flat_view(8, 8), {0.28, 0, 0.96}, 4, 4),

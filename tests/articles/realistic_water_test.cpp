@@ -46,7 +46,7 @@ TEST(RealisticWater, FourMapsDriftFourWays) {
 }
 
 // Departs: calm is the map's own up, its blue. The article lerps towards (0, 1, 0) in the axes of
-// the map, where that is green, so that its water at strength 0 stands upright.
+// the map, whose second axis is green, so that the article's water at strength 0 stands upright.
 TEST(RealisticWater, NoStrengthIsCalm) {
   const TexelMap map(Rgb<double>{0.9, 0.2, 0.7});
   Tray tray = realistic_tray(kEight);
@@ -101,8 +101,8 @@ TEST(RealisticWater, WhatStandsBeforeTheWaterIsNotRefracted) {
 }
 
 // Kept: only the middle of the lookup is tested, and as a point. 48.5 + 2.4 = 50.9 lies in texel
-// 50, so it passes; but mixed with texel 51 by .4 (blue), by .56 at 51.06 (green) and .72 at 51.22
-// (red). Fog leaves 1 - .9 * .6 = .46.
+// 50, so the lookup passes; but the lookup is mixed with texel 51 by .4 (blue), by .56 at 51.06
+// (green) and .72 at 51.22 (red). Fog leaves 1 - .9 * .6 = .46.
 TEST(RealisticWater, AFringeOfTheForegroundLeaks) {
   const test::Picture got = pole_tray(8).wet();
   expect_rgb(rgb_of(got, Aov::kTransmitted, 48, 1), {0.46 * 0.72, 0.46 * 0.56, 0.46 * 0.4}, 2e-5);
@@ -136,7 +136,7 @@ TEST(RealisticWater, FogIsARamp) {
   }
 }
 
-// Kept: the way is the difference of eye depths, aslant as straight down, unrefracted.
+// Kept: the path is the difference of eye depths, aslant as straight down, unrefracted.
 TEST(RealisticWater, FogGoesByEyeDepth) {
   Tray tray = realistic_tray(kEight);
   look_aslant(tray);
@@ -173,11 +173,11 @@ TEST(RealisticWater, RimMixesInTheMirror) {
   EXPECT_NEAR(got.aov(Aov::kFresnel, 3, 3), 0.064, 1e-6);
   expect_rgb(got.color(3, 3),
              {0.936 * 0.2408 + 0.064, 0.936 * 0.284 + 0.064, 0.936 * 0.2948 + 0.064});
-  // Kept: straight down nothing is mirrored, where water mirrors .02.
+  // Kept: straight down the surface mirrors no light; real water mirrors .02.
   Tray above = realistic_tray(kEight);
   for (int c = 0; c < 3; ++c) above.buffers.fill(plane_after(PlaneId::kReflectionR, c), 1);
   EXPECT_EQ(above.wet().aov(Aov::kFresnel, 3, 3), 0);
-  // Kept: a wave that faces away, V.n = -.6, mirrors like one at .6.
+  // Kept: a wave that faces away, V.n = -.6, mirrors as a wave at .6.
   tray.buffers.normal({0, -1, 0});
   EXPECT_NEAR(tray.wet().aov(Aov::kFresnel, 3, 3), 0.064, 1e-6);
 }
@@ -193,15 +193,16 @@ TEST(RealisticWater, WavesBendTheMirror) {
   EXPECT_NEAR(got.aov(Aov::kReflected, 50, 1, 1), 0.008 * 1, 1e-6);
 }
 
-// The article's unsolved problem: below the cut at the water its mirror shows the sky behind, which
-// waves bring into view. 50.5 + 1.2 = 51.7, between two texels of sky: .008 of it.
+// The article's unsolved problem: below the cut at the water its mirror shows the sky behind the
+// scene, which waves bring into view. 50.5 + 1.2 = 51.7, between two texels of sky: .008 of the
+// sky.
 TEST(RealisticWater, TheCutInTheMirror) {
   Tray tray = realistic_tray(kWide);
   tray.buffers.normal({0.6, 0.8, 0});
   const auto sky = [](int x, int) { return x < 51 ? 0.f : 1.f; };
   for (int c = 0; c < 3; ++c) tray.buffers.set(plane_after(PlaneId::kReflectionR, c), sky);
   EXPECT_NEAR(tray.wet().aov(Aov::kReflected, 50, 1), 0.008, 1e-6);  // kept, unless the frame says
-  // Departs: what the mirror did not see is not shown, where the frame tells.
+  // Departs: texels that the mirror did not see are not shown, if the frame marks these texels.
   tray.buffers.set(PlaneId::kReflectionValid, [](int x, int) { return x < 51 ? 1.f : 0.f; });
   EXPECT_EQ(tray.wet().aov(Aov::kReflected, 50, 1), 0);
 }
@@ -220,7 +221,7 @@ TEST(RealisticWater, HighlightAroundTheHalfVector) {
   const test::Picture got = tray.wet();
   EXPECT_NEAR(got.aov(Aov::kHighlight, 3, 3), 1, 2e-5);
   // Departs: light is added. The article lays white over the water by alpha, which would leave 1
-  // here and no trace of what is below.
+  // here and no trace of the light from below.
   expect_rgb(got.color(3, 3), {1.2408, 1.284, 1.2948}, 2e-5);
   // Departs: the glint has the sun's color, not white.
   tray.scene.sun->color = {3, 2, 1};

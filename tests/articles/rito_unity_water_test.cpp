@@ -77,8 +77,8 @@ TEST(RitoUnityWater, InversePowerFresnel) {
   RitoTray above;
   above.buffers.frame.wave_map = calm.texture;
   EXPECT_NEAR(above.wet().aov(Aov::kFresnel, 3, 3), 0, 1e-6);
-  // Kept: less intensity mirrors more, .5 at normal incidence. Departs: not below 0, where 1 - 2
-  // would take light away.
+  // Kept: less intensity mirrors more, .5 at normal incidence. Departs: not below 0; 1 - 2 would
+  // take light away.
   EXPECT_NEAR(fresnel_inverse_power(1.0, 0.5, 3.0), 0.5, 1e-12);
   EXPECT_EQ(fresnel_inverse_power(1.0, 2.0, 3.0), 0);
 }
@@ -95,8 +95,7 @@ TEST(RitoUnityWater, SurroundingsAreMirroredAtTheWave) {
   EXPECT_NEAR(tray.wet().aov(Aov::kReflected, 3, 3), a * 0.2114194 * 2, 1e-5);
 }
 
-// o.Emission = Tint / 2 + reflection * fresnel, nothing of what lies below. V.n = .6 calm, white
-// sky.
+// o.Emission = Tint / 2 + reflection * fresnel, without light from below. V.n = .6 calm, white sky.
 TEST(RitoUnityWater, TheTintIsAllThatComesFromBelow) {
   const TexelMap calm(Rgb<double>{0.5, 0.5, 1});
   RitoTray tray;
@@ -105,7 +104,7 @@ TEST(RitoUnityWater, TheTintIsAllThatComesFromBelow) {
   look_aslant(tray);
   const test::Picture got = tray.wet();
   expect_rgb(rgb_of(got, Aov::kTransmitted, 3, 3), {0, 0, 0}, 0);
-  // Departs: what is mirrored does not come from below as well: 1 - .784 of the tint's .005.
+  // Departs: mirrored light does not come from below as well: 1 - .784 of the tint's .005.
   expect_rgb(got.color(3, 3), {0.784, 0.784, 0.784 + 0.216 * 0.005}, 1e-6);
 }
 
@@ -119,7 +118,7 @@ TEST(RitoUnityWater, BlinnPhong) {
   look_aslant(tray);
   tray.scene.sun = Sun{{0, 0.8, -0.6}, {3, 2, 1}};
   expect_rgb(rgb_of(tray.wet(), Aov::kHighlight, 3, 3), {0.2897761, 0.1931841, 0.0965920}, 1e-5);
-  // Departs: masked by the sun's shadow, which the article's function is given and leaves unused.
+  // Departs: masked by the sun's shadow, an argument that the article's function does not use.
   tray.buffers.fill(PlaneId::kShadow, 0.5f);
   EXPECT_NEAR(tray.wet().aov(Aov::kHighlight, 3, 3), 0.1448881, 1e-5);
 }
@@ -136,14 +135,14 @@ TEST(RitoUnityWater, Penetration) {
   expect_rgb(tray.wet().color(3, 3), {red, red, red + 0.984448 * 0.216 * 0.005}, 1e-6);
 }
 
-// originNormal: the waves do not change what penetrates.
+// originNormal: the waves do not change the penetration.
 TEST(RitoUnityWater, PenetrationGoesByTheCalmNormal) {
   RitoTray tray;
   tray.buffers.normal({0.6, 0.8, 0});
   EXPECT_NEAR(tray.wet().aov(Aov::kTransmitted, 3, 3), 0.2 * 0.5, 1e-6);
 }
 
-// Departs: never less than nothing of the surface. Alpha .1 - .2 = -.1 would show 1.1 of the dry
+// Departs: the share of the surface is never below 0. Alpha .1 - .2 = -.1 would show 1.1 of the dry
 // picture.
 TEST(RitoUnityWater, PenetrationEndsAtTheDryPicture) {
   const TexelMap calm(Rgb<double>{0.5, 0.5, 1});
@@ -153,9 +152,9 @@ TEST(RitoUnityWater, PenetrationEndsAtTheDryPicture) {
   expect_rgb(tray.wet().color(3, 3), {0.5, 0.5, 0.5}, 1e-6);
 }
 
-// Departs: a glint is blended like the rest. The article adds it to alpha, .8 + 1 straight down,
-// and so takes away .8 of what it blends over. H = n = up with the sun overhead: 2 * .8 of its
-// color.
+// Departs: a glint is blended like the rest. The article adds the glint to alpha, .8 + 1 straight
+// down, and so takes away .8 of the light below. H = n = up with the sun overhead: 2 * .8 of the
+// sun's color.
 TEST(RitoUnityWater, AGlintDoesNotMakeWaterOpaque) {
   const TexelMap calm(Rgb<double>{0.5, 0.5, 1});
   RitoTray tray;

@@ -67,8 +67,8 @@ TEST(ShaderPrimer, DiffuseAndSpecularMaps) {
   expect_rgb(drawn(model, kSteep, {2, 1, 0.5}), {1.4520024, 0.7070024, 0.58}, 1e-5);
 }
 
-// Departs: the gate is n.L. The chapter's is diffuse.x, the red of the lit albedo, so that what has
-// no red, or stands in light without red, does not glint at all.
+// Departs: the gate is n.L. The chapter's gate is diffuse.x, the red of the lit albedo, so that a
+// surface without red, or in light without red, does not glint at all.
 TEST(ShaderPrimer, WhatIsNotRedGlintsToo) {
   const Model model = mapped(material_of(Shading::kPhong, 0), {0, 1, 1, 1}, {1, 1, 1, 1});
   expect_rgb(drawn(model, kSteep), {0.4420024, 1.4020024, 1.4020024}, 5e-6);

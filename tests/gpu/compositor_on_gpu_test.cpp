@@ -9,7 +9,7 @@
 #include "embed/limpid_c.h"
 #include "gpu/gpu.h"
 
-/// A compositor whose runner is a GPU's, in C++ and in C: the bits of that runner.
+/// A compositor whose runner is a GPU's, in C++ and in C, gives the bits of that runner.
 
 namespace limpid {
 namespace {
@@ -20,7 +20,7 @@ using ::testing::StartsWith;
 
 using CompositorOnGpu = test::GpuTest;
 
-/// What a GpuRunner makes of the frame with the look physical, color and alpha.
+/// The picture that a GpuRunner makes of the frame with the look physical, color and alpha.
 std::vector<float> judged(const Frame& frame, const Scene& scene) {
   Picture picture(frame.work());
   picture.target.aovs = {};
@@ -62,7 +62,7 @@ TEST_F(CompositorOnGpu, RefusesWhatAGpuDoesNotDo) {
               StartsWith("no GPU has 'no such device' in its name: expected a part of one of "));
 }
 
-/// A frame in C's words, outside of a test of its own.
+/// A frame in the C functions' types, outside of a test of its own.
 struct InC : test::c::LimpidC {
   using LimpidC::buffers;
   using LimpidC::conventions;

@@ -12,8 +12,7 @@
 
 namespace limpid::test {
 
-/// A test of what runs on a device, under Vulkan's validation layer, which prints what it finds
-/// wrong.
+/// A test on a device under Vulkan's validation layer, which prints the errors that it finds.
 class GpuTest : public testing::Test {
  protected:
   static void SetUpTestSuite() { setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 1); }

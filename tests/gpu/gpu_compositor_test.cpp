@@ -15,8 +15,8 @@
 #include "plan/landscape.h"
 #include "shade/bundled.h"
 
-/// Water in the images of a host, by its own commands, beside the runner that carries them there
-/// itself.
+/// Water in the images of a host, by the host's commands, compared with the runner that copies the
+/// planes to the device itself.
 
 namespace limpid {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 using test::Below;
 using test::Buffers;
 
-/// A host: its device, and images that it has drawn.
+/// A host: its device, and the images that the host has drawn.
 class Host {
  public:
   Host() : device(GpuDevice::open("")), commands(device), executor(make_executor(1)) {}
@@ -156,8 +156,8 @@ TEST_F(GpuHostTest, GivesTheBitsOfTheRunner) {
   EXPECT_EQ(water.device(), host->device->name());
 }
 
-/// Two frames that are recorded before the first has been run, a third after, of sines that raise
-/// the water and of a map that drifts; then another look.
+/// Two frames that are recorded before the first has been run, and a third after, with sines that
+/// raise the water and a map that drifts; then another look.
 TEST_F(GpuHostTest, KeepsFramesInFlightApart) {
   Land land(12);
   land.scene.water->waves = {{0.05, 2, 1, 0.4, 2}};
@@ -189,7 +189,7 @@ TEST_F(GpuHostTest, KeepsFramesInFlightApart) {
   expect_frame(1);
 }
 
-/// Over its own color, in halves, as engines keep it.
+/// The picture replaces its own color image, in half floats, as engines keep color.
 TEST_F(GpuHostTest, WorksInPlaceInHalves) {
   Land land(13);
   const Rect work = land.frame().work();
@@ -283,7 +283,7 @@ TEST_F(GpuHostTest, RefusesWhatDoesNotFit) {
   const GpuImageView picture = host->canvas(land.frame().work(), canvas);
   const auto refusal = [&](const GpuFrame& of, const GpuImageView& to) -> std::string {
     try {
-      water.record(VK_NULL_HANDLE, of, to);  // which is not reached
+      water.record(VK_NULL_HANDLE, of, to);  // unreachable
     } catch (const Error& error) {
       return error.what();
     }

@@ -17,8 +17,8 @@
 #include "plan/landscape.h"
 #include "shade/bundled.h"
 
-/// The runner on a device, beside the reference and the fused pass: Mesa's lavapipe, or whatever
-/// device comes first.
+/// The runner on a device, compared with the reference and the fused runner: Mesa's lavapipe, or
+/// the first device.
 
 namespace limpid {
 namespace {
@@ -37,8 +37,8 @@ class Gpu : public test::GpuTest {
   std::unique_ptr<Executor> executor = make_executor(2);
 };
 
-/// How far values are from the judge's: the mean of all, and of those that are off by less than
-/// 1e-3; and the share of the others. Large ones, such as depths, count by their own size.
+/// The distance of values from the judge's: the mean of all distances, the mean of those below
+/// 1e-3, and the share of the others. Large values, such as depths, count by their own size.
 struct Off {
   double mean = 0, near = 0, far = 0;
 };
@@ -69,8 +69,8 @@ std::vector<float> colors_of(const Picture& picture, const Rect& work) {
   return all;
 }
 
-/// As near to the reference in the mean as `within` times the fused runner, and as many outliers:
-/// the picture, and all that is written, of which some is a choice of one of several.
+/// The mean distance to the reference is at most `within` times the fused runner's, with as many
+/// outliers: in the picture and in all outputs, some of which choose one of several values.
 void expect_near(GpuRunner& runner, Executor& executor, const Look& look, const Frame& frame,
                  const Scene& scene, const std::string& name, double within = 1.5) {
   const Plan plan = make_plan(look, test::inputs_of(frame, scene), test::all_state());
@@ -178,7 +178,7 @@ TEST_F(Gpu, SeesTheWaterFromWithinIt) {
   }
 }
 
-/// Edges are mixed on the CPU, in the picture and the AOVs that sum to it.
+/// Edges are mixed on the CPU, in the picture and in the AOVs that sum to the picture.
 TEST_F(Gpu, MixesEdges) {
   test::Post post;
   post.blur = 6;
@@ -229,7 +229,7 @@ TEST_F(Gpu, CopiesDryPixelsBitForBit) {
   EXPECT_GT(dry, 1000);
 }
 
-/// Memory and pipelines that are kept from other frames change nothing.
+/// Memory and pipelines that are kept from other frames change no bit.
 TEST_F(Gpu, GivesTheSameBitsAfterOtherFrames) {
   const Land land(11), other(12, Below::kNone, 2, {97, 61});
   const Look physical = look_named("physical"), fast = look_named("fast");
@@ -287,11 +287,11 @@ TEST_F(Gpu, RefusesFramesThatAreTooLarge) {
     EXPECT_NE(std::string(error.what()).find("a picture of 40000x1 pixels: "), std::string::npos)
         << error.what();
   }
-  const Land land(15);  // and goes on
+  const Land land(15);  // a new run succeeds
   EXPECT_FALSE(land.by(*runner, look_named("realistic"), *executor).empty());
 }
 
-/// A file of the cache is used where it is as it was written, and made anew where it is not.
+/// A file of the cache is used if its bytes are as written, and is made anew otherwise.
 TEST_F(Gpu, KeepsPipelinesInAFolder) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(testing::TempDir()) / "limpid_gpu_cache" / "made";
@@ -299,7 +299,7 @@ TEST_F(Gpu, KeepsPipelinesInAFolder) {
   const Land land(16);
   const Look look = look_named("realistic");
   const std::vector<float> expected = land.by(*runner, look, *executor);
-  runner.reset();  // and with it the device, which has the pipeline
+  runner.reset();  // frees the device too, which has the pipeline
   const auto start = [&] {
     GpuRunner own({.cache = folder});
     EXPECT_TRUE(same_bits(land.by(own, look, *executor), expected));

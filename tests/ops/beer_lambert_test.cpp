@@ -28,7 +28,8 @@ Tray clear_tray() {
   return tray;
 }
 
-/// Nothing swallowed, half scattered evenly each metre, the sun straight above.
+/// Water that absorbs nothing and scatters half of the light each metre, evenly in all directions;
+/// the sun straight above.
 Tray murky_tray(Sunlight sunlight) {
   Tray tray = clear_tray();
   tray.scene.sun = Sun{};
@@ -54,7 +55,7 @@ TEST(BeerLambert, PureWater) {
   EXPECT_NEAR(got.aov(Aov::kPath, 1, 1), 2, 1e-6);
 }
 
-// The sun overhead comes down the same 2 again.
+// Light of the sun overhead goes down through the same depth of 2.
 TEST(BeerLambert, SunlightLosesOnItsWayDownToo) {
   Tray tray = clear_tray();
   tray.scene.sun = Sun{};
@@ -83,7 +84,7 @@ TEST(BeerLambert, CrossingTheSurface) {
   EXPECT_NEAR(transmitted(tray), 0.5 * (1 - 0.0597) / 1.776889, 2e-5);
 }
 
-// b p E = .5 / (4 pi) pi = 1/8, times (1 - e^-1) / .5 or, with the way down, (1 - e^-2) / 1.
+// b p E = .5 / (4 pi) pi = 1/8, times (1 - e^-1) / .5 or, with the path down, (1 - e^-2) / 1.
 TEST(BeerLambert, SunInMurkyWater) {
   EXPECT_NEAR(in_scatter(murky_tray(Sunlight::kNone)), 0.25 * (1 - std::exp(-1.0)), 1e-6);
   EXPECT_NEAR(in_scatter(murky_tray(Sunlight::kStraight)), 0.125 * (1 - std::exp(-2.0)), 1e-6);
@@ -98,7 +99,7 @@ TEST(BeerLambert, SunInMurkyWater) {
   expect_rgb(rgb_of(tray.wet(), Aov::kInScatter, 1, 1), {red, 0, red / 2});
 }
 
-// What is scattered forwards is not lost on the way down: K = a + b (1 - g).
+// Light that is scattered forwards is not lost on the path down: K = a + b (1 - g).
 TEST(BeerLambert, ForwardScatteringReachesDeeper) {
   Tray tray = murky_tray(Sunlight::kRefracted);
   tray.look.of<DepthFog>().anisotropy = 0.8;
@@ -129,7 +130,7 @@ TEST(BeerLambert, NamedWaters) {
   tray.scene.sun = Sun{};
   expect_rgb(rgb_of(tray.wet(), Aov::kTransmitted, 1, 1),
              0.5 * (ray * Rgb<double>{left(.46), left(.19), left(.39)}));
-  // What scatters adds to the ray's loss; K_d has it already.
+  // Scattering adds to the loss of the ray; K_d includes scattering already.
   fog.scattering = {0.1, 0.1, 0.1};
   EXPECT_NEAR(transmitted(tray), 0.5 * ray.r * left(0.1) * left(.46), 1e-6);
   fog.water_type = WaterType::kPure;
@@ -137,7 +138,7 @@ TEST(BeerLambert, NamedWaters) {
   EXPECT_NEAR(transmitted(tray), 0.5 * left(0.34 + 0.1) * left(0.34 + 0.1), 1e-6);
 }
 
-// Two grams of sediment scatter 1, humus of 1 at 440 nm takes e^-2.94 of red: of any water.
+// Two grams of sediment scatter 1; humus of 1 at 440 nm absorbs e^-2.94 of red, in any water.
 TEST(BeerLambert, SedimentAndHumusAreAddedToEachWater) {
   const double sediment = 0.082 * std::exp(-0.0123 * 207), humus = std::exp(-2.94);
   const auto left = [](double rate) { return std::exp(-2 * rate); };
@@ -153,7 +154,7 @@ TEST(BeerLambert, SedimentAndHumusAreAddedToEachWater) {
     const double both = transmitted(tray);
     fog.sediment = 2;
     fog.cdom = 1;
-    // On the way down what is scattered forwards is not lost.
+    // On the path down, light that is scattered forwards is not lost.
     EXPECT_NEAR(transmitted(tray) / both,
                 left(sediment + humus + 1) * left(sediment + humus + 1 - 0.8), 1e-6);
     tray.scene.sun.reset();
@@ -161,7 +162,7 @@ TEST(BeerLambert, SedimentAndHumusAreAddedToEachWater) {
   }
 }
 
-// Sediment throws light back, humus takes it.
+// Sediment scatters light back, humus absorbs light.
 TEST(BeerLambert, SedimentBrightensAndHumusDarkens) {
   Tray tray = murky_tray(Sunlight::kRefracted);
   DepthFog::Params& fog = tray.look.of<DepthFog>();
@@ -173,7 +174,7 @@ TEST(BeerLambert, SedimentBrightensAndHumusDarkens) {
   EXPECT_LT(in_scatter(tray), 0.9 * bright);
 }
 
-// What ocean water throws back of the light that it scatters (Petzold 1972).
+// The share of the scattered light that ocean water scatters back (Petzold 1972).
 TEST(BeerLambert, DefaultAnisotropyIsThatOfTheOcean) {
   const double g = DepthFog::Params{}.anisotropy;
   double back = 0;
@@ -219,8 +220,8 @@ TEST(BeerLambert, SunsAllOverTheSkyScatterNoMoreThanIsLost) {
   }
 }
 
-// Where nothing is swallowed, all sunlight that enters deep water is scattered in the end: 4 pi
-// times the radiance L straight up, seen through a rate of 1 + 1/cos_t instead of 1/cos_t.
+// Without absorption, all sunlight that enters deep water is scattered in the end: 4 pi times the
+// radiance L straight up, seen through a rate of 1 + 1/cos_t instead of 1/cos_t.
 TEST(BeerLambert, AllLightThatEntersDeepWaterIsScattered) {
   for (double angle : {0.0, 0.6, 1.2, 1.5}) {
     Tray tray = murky_tray(Sunlight::kRefracted);
@@ -292,12 +293,12 @@ TEST(BeerLambert, SkyUnderWaterIsGoneWhereThereIsWater) {
   tray.look.of<DepthFog>().ambient = {1, 1, 1};
   const Picture got = tray.wet();
   expect_rgb(rgb_of(got, Aov::kTransmittance, 1, 1), {0, 1, 0});
-  expect_rgb(rgb_of(got, Aov::kTransmitted, 1, 1), {0, 0, 0});  // clear, but nothing is there
+  expect_rgb(rgb_of(got, Aov::kTransmitted, 1, 1), {0, 0, 0});  // clear water over nothing
   const double deep = 1 + 0.9796267 / 8;                        // b / b, and b / 4 / (b + b)
   expect_rgb(rgb_of(got, Aov::kInScatter, 1, 1), {deep, 0, deep});
 }
 
-// A sun at or under the horizon neither lights the water nor loses anything on its way.
+// A sun at or below the horizon does not light the water, and no sunlight is lost.
 TEST(BeerLambert, AfterSunset) {
   for (glm::dvec3 direction : {glm::dvec3(1, 0, 0), glm::dvec3(0.8, -0.6, 0)}) {
     Tray tray = murky_tray(Sunlight::kRefracted);
@@ -309,7 +310,7 @@ TEST(BeerLambert, AfterSunset) {
   }
 }
 
-// --- against a sum over the way -----------------------------------------------------------------
+// --- against a sum over the path ----------------------------------------------------------------
 
 struct Angles {
   double zenith, azimuth;
@@ -320,13 +321,13 @@ struct Angles {
   Angles in_water() const { return {std::asin(std::sin(zenith) / kN), azimuth}; }
 };
 
-/// Single scattering by the textbook, all in the open: one channel.
+/// Single scattering by the textbook, under water only: one channel.
 struct Textbook {
   double a, b, g;
   Angles sun;
   Sunlight sunlight;
 
-  /// Towards a viewer, from a way that leaves `from` (depth below the surface) along `view`.
+  /// The light that is scattered to a viewer along a path that begins at depth `from` along `view`.
   double sun_scatter(double from, glm::dvec3 view, double length) const {
     const Angles in_water = sunlight == Sunlight::kRefracted ? sun.in_water() : sun;
     const double cosine = std::cos(sun.zenith), cos_t = std::cos(in_water.zenith);
@@ -349,7 +350,7 @@ struct Textbook {
   }
 };
 
-/// The operator alone on one pixel; `made` says whether the path is refraction's.
+/// The operator alone on one pixel; `made` tells whether refraction has made the path.
 Pixel<double> fogged(const DepthFog::Params& params, const Scene& scene, StateSet made,
                      const Pixel<double>& pixel) {
   const Tray tray({1, 1});
@@ -410,7 +411,8 @@ Scene diver() {
   return scene;
 }
 
-/// What such a camera sees in a direction; it meets the surface if that is nearer.
+/// The light that this camera sees in a direction; the view ends at the surface if the surface is
+/// nearer.
 Pixel<double> seen_by_diver(const Angles& towards, double dry_length) {
   Pixel<double> pixel = test::random_pixel(2, {});
   const glm::dvec3 view = towards.direction();

@@ -40,7 +40,7 @@ TEST(BlockPyramid, TellsOfTheBlocksThatABoxMeets) {
   EXPECT_EQ(highest(0, 0, 0, 0), 0);
   EXPECT_EQ(highest(3, 5, 4, 6), 6 * 8 + 4) << "no more than it meets";
   EXPECT_EQ(highest(2, 2, 5, 5), 5 * 8 + 5) << "sixteen blocks";
-  // Twenty: cells of four blocks each, so that it tells of some beside it, too.
+  // Twenty blocks: a cell has four blocks each, so the answer includes some blocks beside the box.
   EXPECT_EQ(highest(2, 2, 6, 5), 5 * 8 + 7);
   EXPECT_EQ(highest(0, 0, 7, 7), 63);
 }

@@ -11,16 +11,16 @@
 namespace limpid {
 namespace {
 
-/// A flat bottom, as it is seen around one pixel, and how often somebody looks. To the right of
-/// `shelf_from` it is another, and rises to that over `rise`.
+/// A flat bottom around one pixel, which counts its lookups. To the right of `shelf_from` the
+/// bottom is a shelf, and rises to the shelf over `rise`.
 struct FlatBottom {
   const Pass& pass;
   const Pixel<double>& pixel;
   double drop;  ///< below calm water
   int& looks;
-  double mixed = drop;  ///< what a mix of four texels says instead
+  double mixed = drop;  ///< the drop that a mix of four texels tells instead
   double shelf = drop, shelf_from = HUGE_VAL, rise = 1e-9;
-  double ended = 0;  ///< 1: the layer of the bottom says that it has ended
+  double ended = 0;  ///< 1: the bottom layer says that the bottom has ended
 
   double nearest(PlaneId, Vec2<double> shift) const {
     ++looks;
@@ -50,11 +50,11 @@ struct FlatBottom {
   Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {drop, ended, 0}; }
 };
 
-// Not so steep as a refracted ray: there is a way to go on screen.
+// Less steep than a refracted ray: the march crosses pixels on screen.
 constexpr Vec3<double> kDown{0, -0.5, 0.866}, kAside{0.8, -0.5, 0.3317};
 constexpr Size kSize{640, 360};
 
-/// A view of water, and the ray of one of its pixels, which falls by half of its way.
+/// A view of water, and the ray of one pixel, which falls by half of its length.
 struct View {
   explicit View(Vec3<double> direction) : buffers(rect_of(kSize)), pass(pass_of(buffers)) {
     const RowRays<double> rays(pass, 120.5);
@@ -67,12 +67,12 @@ struct View {
     b.fill(PlaneId::kDepth, 1);
     return Pass(test::simple_scene(kSize), b.frame, 1.333, {});
   }
-  /// In pixels, up to a way.
+  /// The shift in pixels at this length of the ray.
   double on_screen(double way) const {
     const Vec2<double> shift = ray->shift_at(way);
     return std::hypot(kSize.width * shift.x, kSize.height * shift.y);
   }
-  /// How long the way is some pixels beyond where it is so long.
+  /// The length of the ray some pixels beyond this length.
   double beyond(double way, double pixels) const {
     return ray->at_share(ray->share_at(way, most) + pixels / on_screen(most), most);
   }
@@ -81,7 +81,7 @@ struct View {
   Pass pass;
   Pixel<double> pixel{};
   std::optional<ScreenRay<double>> ray;
-  double most;  ///< the way to the edge of the picture
+  double most;  ///< the length of the ray at the edge of the picture
 };
 
 BottomSearch<double, FlatBottom>::Found march(View& view, const FlatBottom& tap) {
@@ -122,8 +122,8 @@ TEST(BottomSearch, TheLevelBetweenTexelsIsNearTheStaircase) {
   }
 }
 
-// Behind the edge of a shelf the ray is by that share of its depth under the calm surface farther
-// than what is seen. More than a quarter hides where it ends.
+// Behind the edge of a shelf the ray lies beyond the visible bottom by that share of its depth
+// under the calm surface. More than a quarter hides the end of the ray.
 TEST(BottomSearch, WhatStandsFarBeforeTheRayHidesItsEnd) {
   View view(kAside);
   int looks = 0;
@@ -136,7 +136,7 @@ TEST(BottomSearch, WhatStandsFarBeforeTheRayHidesItsEnd) {
   EXPECT_EQ(sure(0.32), 0);
 }
 
-// Behind such a shelf. Of the layer below, which goes on there, each end is found.
+// Behind such a shelf, each end is found in the bottom layer, which goes on there.
 TEST(BottomSearch, BehindWhatHidesItTheBottomIsThatOfTheLayer) {
   View view(kAside);
   BottomLayer layer{};
@@ -157,8 +157,8 @@ TEST(BottomSearch, BehindWhatHidesItTheBottomIsThatOfTheLayer) {
   }
 }
 
-// A cliff that rises between two looks is met, though the second is far behind its top, and by
-// less than a unit of the scene.
+// The march meets a cliff that rises between two lookups, though the second lookup lies far behind
+// the cliff's top, and less than a unit of the scene below the top.
 TEST(BottomSearch, ACliffIsMetBetweenTwoLooks) {
   View view(kAside);
   int looks = 0;

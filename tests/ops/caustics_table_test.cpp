@@ -11,13 +11,13 @@
 namespace limpid {
 namespace {
 
-/// As the reference looks tables up.
+/// Bilinear lookups, as the reference does them.
 struct PlainTap {
   double grid(const View<const float>& table, Vec2<double> at) const { return grid_at(table, at); }
 };
 
-/// Two levels of 9 x 9 texels, each of one light, the second one's twice as wide, both from (10,
-/// 20) on.
+/// Two levels of 9 x 9 texels, each of one light, both from (10, 20) on; the second level is twice
+/// as wide.
 struct TwoLevels {
   std::vector<float> fine, coarse;
   CausticsTable table;
@@ -36,7 +36,8 @@ TEST(CausticsTable, GoesFromLevelToLevelByTheWidthOfThePixel) {
   const TwoLevels two(2, 3);
   EXPECT_DOUBLE_EQ(two.at(4, 4, 0.1), 2);
   EXPECT_DOUBLE_EQ(two.at(4, 4, 1), 2);
-  // Half of it the first level, a quarter of the rest the second, within 2 texels of its edges.
+  // Half of the light is the first level's, a quarter of the rest the second's, within 2 texels of
+  // the edges.
   EXPECT_DOUBLE_EQ(two.at(4, 4, 1.5), 0.5 * 2 + 0.125 * 3 + 0.375);
   EXPECT_DOUBLE_EQ(two.at(8, 8, 2), 3);
   EXPECT_DOUBLE_EQ(two.at(8, 8, 3), 0.5 * 3 + 0.5);

@@ -4,8 +4,8 @@
 #include "ops/tray.h"
 #include "optics/water_index.h"
 
-// The operator alone, with tables that are worked out by hand. complete/caustics_test.cpp has what
-// is in them.
+// The operator alone, with tables that are worked out by hand. complete/caustics_test.cpp tests the
+// values in the tables.
 
 namespace limpid {
 namespace {
@@ -14,7 +14,7 @@ using test::Tray;
 
 constexpr double kIor = 1.333;
 
-/// A table whose value is base + x of the place: bilinear lookups hit it exactly.
+/// A table whose value is base + x of the position: bilinear lookups are exact.
 struct Ramp {
   explicit Ramp(double base, double per_x = 0) {
     for (int y = 0; y < 64; ++y) {
@@ -39,7 +39,7 @@ struct Basin {
     params.sun_share = 1;
   }
   Pass pass() const { return {tray.scene, tray.buffers.frame, kIor, kWholeState}; }
-  /// After refraction has found the bottom `drop` below the surface.
+  /// The light after refraction has found the bottom `drop` below the surface.
   Rgb<double> lit(int x, double drop, Vec3<double> normal = {0, 1, 0}) {
     const Pass c = pass();
     ReferenceState state(c, tray.buffers.frame, x, 2);
@@ -102,7 +102,8 @@ TEST(Caustics, MultiplyTheSunsShare) {
   EXPECT_EQ(basin.lit(4, 2).r, 0.5);
 }
 
-// What the water scatters on the 2 down to the bottom is focused no more, be it of one color alone.
+// Light that is scattered on the 2 down to the bottom is no longer focused, even if only one color
+// is scattered.
 TEST(Caustics, FadeWhereTheWaterScattersThem) {
   for (int c = 0; c < 3; ++c) {
     Ramp ramp(1.5);
@@ -114,7 +115,7 @@ TEST(Caustics, FadeWhereTheWaterScattersThem) {
   }
 }
 
-// Of a level bottom: 0.6 of the sun's color, and the sky.
+// On a level bottom: 0.6 of the sun's color, and the sky.
 TEST(Caustics, SunAndSkyTellTheShare) {
   const Ramp ramp(1.5);
   Basin basin(ramp, {0.8, 0.6, 0});
@@ -123,7 +124,7 @@ TEST(Caustics, SunAndSkyTellTheShare) {
   test::expect_rgb(lit, {0.5 * (1 + 0.5 * 0.75), 0.5 * (1 + 0.5 * 0.75), 0.5 * (1 + 0.5 * 0.3)});
 }
 
-// At x = 0, seen straight down, calm water lets light in that comes to the bottom `aside` towards
+// At x = 0, seen straight down, light that reaches the bottom enters calm water at `aside` towards
 // the sun.
 TEST(Caustics, AreLookedUpWhereCalmWaterLetsTheirLightIn) {
   const Ramp ramp(1.5, 0.1);
@@ -189,15 +190,15 @@ TEST(Caustics, SunColorTellsTheSunsLight) {
   Basin basin(ramp, {0, 1, 0});
   for (int c = 0; c < 3; ++c) basin.tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
   test::expect_rgb(basin.lit(4, 2), {0.65, 0.65, 0.65});
-  basin.tray.buffers.fill(PlaneId::kShadow, 0.5f);  // is in the plane already
+  basin.tray.buffers.fill(PlaneId::kShadow, 0.5f);  // the plane includes the shadow already
   basin.params.shadows = Caustics::Shadows::kStraight;
   test::expect_rgb(basin.lit(4, 2), {0.65, 0.65, 0.65});
-  basin.tray.buffers.fill(PlaneId::kSunColorG, 9);  // no more than all there is
+  basin.tray.buffers.fill(PlaneId::kSunColorG, 9);  // the share is at most all of the light
   test::expect_rgb(basin.lit(4, 2), {0.65, 0.75, 0.65});
 }
 
 /// A bottom 4 below calm water, seen straight from above, a unit a pixel, sun from the right at 0.6
-/// of the vertical: straight light goes 16 / 3 to the left on its way down, refracted light 3. A
+/// of the vertical: straight light goes 16 / 3 to the left on its path down, refracted light 3. A
 /// board lies on the water in columns 12 ... 15.
 Tray under_a_board() {
   Tray tray({24, 5});
@@ -232,20 +233,20 @@ TEST(Caustics, MoveShadowsToWhereTheWaterBendsThem) {
   for (const int x : {7, 8, 9}) EXPECT_NEAR(dry.color(x, 2).r, 0.2, 1e-6) << x;
   for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
   EXPECT_NEAR(dry.color(11, 2).r, 0.5, 1e-6);
-  // What straight light leaves dark shines as its neighbours do.
+  // The pixels that straight light leaves dark are as bright as their neighbours.
   for (const int x : {4, 5, 7, 14, 16}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
 }
 
 TEST(Caustics, LeaveShadowsThatAreCastInTheWater) {
   Tray tray = under_a_board();
-  tray.buffers.fill(PlaneId::kSurfaceShadow, 1);  // what casts it lies deeper
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 1);  // the caster of the shadow lies deeper
   const test::Picture wet = tray.wet();
   for (const int x : {7, 8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
   EXPECT_NEAR(wet.color(14, 2).r, 0.5, 1e-6);
 }
 
-// All of the surface that is seen lies in shadow. At the right edge light enters beyond the
-// picture, where nothing is known of shadows; between the two is no step.
+// The whole visible surface lies in shadow. At the right edge light enters beyond the picture,
+// where shadows are unknown; the light between the two has no step.
 TEST(Caustics, LoseShadowsTowardsTheEdgeOfThePicture) {
   Tray tray = under_a_board();
   tray.buffers.fill(PlaneId::kSurfaceShadow, 0).fill(PlaneId::kShadow, 1);
@@ -264,7 +265,7 @@ TEST(Caustics, LoseShadowsTowardsTheEdgeOfThePicture) {
   EXPECT_GT(between, 0);
 }
 
-// Red is bent less than green, blue more: so are its view and its light.
+// Red is bent less than green, blue more: in the view and in the light.
 TEST(Caustics, PartColorsAsTheirIndicesDo) {
   const Ramp ramp(1.5, 0.1);
   Basin basin(ramp, {0.8, 0.6, 0});

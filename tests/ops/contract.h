@@ -19,7 +19,7 @@ std::string label(std::string_view field = "") {
   return std::string(Op::kName) + "." + std::string(field);
 }
 
-/// Values that a parameter may have: its ends, its default, and what is often special.
+/// Values to test of a parameter: the ends of its range, its default, and special values.
 template <class P>
 std::vector<Value> candidates(const Field<P>& field) {
   std::vector<Value> values = {field.get(P{})};
@@ -77,7 +77,7 @@ void for_each_params(Fn&& fn) {
   }
 }
 
-/// Within the range, but no larger than a picture of noise can be compared in float.
+/// The parameter's range, cut to values at which a picture of noise can be compared in float.
 template <class Op>
 typename Op::Params random_params(int seed) {
   typename Op::Params params;
@@ -113,7 +113,7 @@ typename Op::Params random_params(int seed) {
   return params;
 }
 
-/// All inputs that there are; the plate's normals only if asked for, so that the maps get a turn.
+/// All inputs; the plate's normals only on request, so that the maps are tested too.
 struct World {
   explicit World(bool plate_normals = true)
       : buffers(noisy_frame(rect_of(kContractSize))),

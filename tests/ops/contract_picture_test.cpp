@@ -8,7 +8,7 @@
 #include "ops/contract.h"
 #include "ops/kernels.h"
 
-// What every operator of the chain promises, seen in pictures of noise.
+// The promises of every operator of the chain, tested in pictures of noise.
 
 namespace limpid {
 namespace {
@@ -24,7 +24,7 @@ bool same_bits(const Picture& a, const Picture& b) {
   return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0;
 }
 
-/// The plan with all operators kept that can be, neutral ones too.
+/// A plan that keeps all operators that can run, neutral ones too.
 Plan eager_plan(const Look& look, const World& world) {
   const Inputs inputs = test::inputs_of(world.buffers.frame, world.scene);
   Plan plan = make_plan(look, inputs, test::all_state());
@@ -60,7 +60,7 @@ TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
       });
     });
   }
-  // Refraction and fog stay for the path.
+  // Refraction and fog stay, because they make the path.
   EXPECT_THAT(dropped, testing::IsSupersetOf(
                            {"wave_normals", "prism_split", "water_shadow", "sun_highlight"}));
 }
@@ -122,7 +122,7 @@ TEST(Contract, PlanesThatThePlanDoesNotReadDoNotMatter) {
     look.of<Op>() = typename Op::Params{};
     const Inputs all = test::inputs_of(world.buffers.frame, world.scene);
     Plan plan = make_plan(look, all, {});
-    // Only this operator and the waves it may look at.
+    // Only this operator and the waves that it may read.
     plan.made = {};
     plan.planes =
         kColorPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth, PlaneId::kSurfaceDepth};

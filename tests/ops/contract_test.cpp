@@ -15,8 +15,8 @@
 #include "ops/noise_caustics.h"
 #include "ops/probe_strip.h"
 
-// What every operator of the chain promises, tested by the act of being in the chain: what it
-// declares, and what it does when applied alone. contract_picture_test.cpp has the rest.
+// The promises of every operator of the chain: its declarations, and its effect when it is applied
+// alone. An operator is tested because it is in the chain. contract_picture_test.cpp has the rest.
 
 namespace limpid {
 namespace {
@@ -32,7 +32,7 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Of a frame that has every plane, or all but some.
+/// The pass of a frame that has every plane but the absent ones.
 Pass probe_context(StateSet made, PlaneSet absent = {}, bool has_sky = true) {
   static const Buffers buffers = test::noisy_frame(rect_of(test::kContractSize));
   static const test::NoiseMap map(16, 8), sky(12, 6);
@@ -51,7 +51,7 @@ Pass probe_context(StateSet made, PlaneSet absent = {}, bool has_sky = true) {
   return Pass(scene, frame, 1.333, made);
 }
 
-// --- what operators declare ---------------------------------------------------------------------
+// --- declarations -------------------------------------------------------------------------------
 
 TEST(Contract, NamesAndSentences) {
   std::set<std::string_view> names, sentences;
@@ -157,7 +157,7 @@ TEST(Contract, NeedsArePlanesThatAreRead) {
   });
 }
 
-// --- what they do, alone ------------------------------------------------------------------------
+// --- effects of one operator --------------------------------------------------------------------
 
 /// Applies to 32 pixels whose state is random in all parts.
 template <class Op>
@@ -175,7 +175,7 @@ StateSet everything() {
   return all;
 }
 
-/// Of pixels that are seen from within the water.
+/// The same for pixels that are seen from below the surface.
 template <class Op>
 ProbeStrip probed_within(const typename Op::Params& params) {
   ProbeStrip strip;
@@ -209,7 +209,7 @@ TEST(Contract, OnlyDeclaredStateIsMade) {
 
 TEST(Contract, OnlyDeclaredStateIsUsed) {
   Kernels::for_each([&]<class Op, int>() {
-    StateSet hidden;  // neither used nor made: what it holds must not matter
+    StateSet hidden;  // neither used nor made: its values must not matter
     for (StatePart part : test::kStateParts) {
       if (!Op::kUses.has(part) && !Op::kMakes.has(part)) hidden = hidden | StateSet{part};
     }
@@ -243,7 +243,7 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
     for_each_params<Op>([&](const auto& params, const std::string& what) {
       const ProbeStrip strip = probed<Op>(params, everything(), everything());
       EXPECT_TRUE(Op::reads(params).covers(strip.tapped)) << what;
-      // Some planes are tapped only where a better one is absent.
+      // Some planes are read only where a better plane is absent.
       PlaneSet tapped = strip.tapped;
       for (const Role& role : roles()) {
         const PlaneSet optional = Op::reads(params) & role.planes();
@@ -263,13 +263,13 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
       tapped = tapped | within.tapped;
       EXPECT_TRUE(tapped.covers(Op::reads(params))) << what << " declares more than it taps";
       EXPECT_EQ(Op::needs(params).wave_map, strip.map_tapped) << what;
-      // It may stand in for what a plane lacks, too.
+      // The environment may also stand in for a missing plane.
       EXPECT_TRUE(strip.environment_tapped || !Op::needs(params).environment) << what;
     });
   });
 }
 
-// So the bounds of operators add up: none makes more of an error that was made before it.
+// So the bounds of operators add up: no operator amplifies an error of the operators before it.
 TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
   const auto sum = [](const Pixel<double>& p) {
     return p.transmitted + p.in_scatter + p.reflected + p.highlight;
@@ -278,12 +278,12 @@ TEST(Contract, LightIsPassedOnByAShareOfAtMostOne) {
     for (int seed = 0; seed < 200; ++seed) {
       const typename Op::Params params = random_params<Op>(seed);
       ProbeStrip plain, brighter;
-      plain.greatest = brighter.greatest = 1;  // shadow is no more
+      plain.greatest = brighter.greatest = 1;  // a shadow is at most 1
       for (int i = 0; i < 8; ++i) {
         plain.pixels.push_back(test::random_pixel(100 * seed + i, everything()));
         Pixel<double> p = plain.pixels.back();
         p.side = 1;
-        // Of what the sun scatters there is no more than of all that is scattered.
+        // The light that the sun scatters is part of all light that is scattered.
         p.sun_near = 0.3 * p.in_scatter, p.sun_far = 0.7 * p.in_scatter;
         plain.pixels.back() = p;
         p.transmitted = p.transmitted + Rgb<double>{0.1, 0.2, 0.3};
@@ -349,7 +349,7 @@ TEST(Contract, TapsStayWithinTheDeclaredReach) {
       EXPECT_GE(Op::reach(params), 0) << Op::kName;
       reach += Op::reach(params);
       Op::apply(params, pass, strip);
-      for (Pixel<double>& p : strip.pixels) {  // plate normals of the probe are noise, not unit
+      for (Pixel<double>& p : strip.pixels) {  // the probe's plate normals are noise, not unit
         const Vec3<double> n = normalize_or<double>(p.normal, {0, 1, 0});
         if (std::is_same_v<Op, Kernel<WaveNormals>>) p.normal = n, p.tilt = {n.x, n.z};
       }
@@ -360,19 +360,19 @@ TEST(Contract, TapsStayWithinTheDeclaredReach) {
 
 TEST(Contract, NeutralParametersAreTheIdentity) {
   std::set<std::string_view> seen;
-  StateSet made;  // by the operators before, once none of them and once all
+  StateSet made;  // of the operators before: no state, then all state
   Kernels::for_each([&]<class Op, int>() {
     for (StateSet before : {StateSet{}, made}) {
       for_each_params<Op>([&](const auto& params, const std::string& what) {
         if (!Op::neutral(params, before)) return;
         seen.insert(Op::kName);
-        // Refraction reads the pixel's own depth and color again, which the probe cannot know: see
-        // the pictures below.
+        // Refraction reads the pixel's own depth and color again, which the probe does not know:
+        // the pictures below test refraction.
         if (std::is_same_v<Op, Kernel<Refraction>>) return;
         const ProbeStrip strip = probed<Op>(params, before, before);
         for (int i = 0; i < 32; ++i) {
           for (StatePart part : test::kStateParts) {
-            if (part == StatePart::kPath) continue;  // measured all the same
+            if (part == StatePart::kPath) continue;  // the path is measured all the same
             ASSERT_EQ(test::values_of(test::random_pixel(i, before), part),
                       test::values_of(strip.pixels[i], part))
                 << what << ", state " << static_cast<int>(part);

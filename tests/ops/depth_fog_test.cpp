@@ -54,7 +54,8 @@ TEST(DepthFog, DeepWaterIsItsOwnColorUpToAlpha) {
     tray.look.of<DepthFog>().alpha = 1;
     test::expect_rgb(tray.wet().color(0, 0), {0.02, 0.10, 0.12});
     tray.look.of<DepthFog>().alpha = 0.9;
-    // Of a bottom, however far, a tenth is left; where there is none no light comes from there.
+    // A tenth of any bottom is left, however far away; where there is no bottom, no light comes
+    // from there.
     const double left = std::isinf(bottom) ? 0 : 0.05;
     test::expect_rgb(tray.wet().color(0, 0), {left + 0.018, left + 0.09, left + 0.108});
   }
@@ -103,7 +104,7 @@ TEST(DepthFog, LinearSaysWhatSurvives) {
   test::expect_rgb(rgb_of(got, Aov::kTransmittance, 1, 1), {0.73, 0.73, 0.73});
 }
 
-// The straight way is longer than the refracted one by this much on a flat bottom.
+// On a flat bottom the straight path is longer than the refracted path by this much.
 TEST(DepthFog, RefractedDistanceOfAFlatBottom) {
   const Tray tray({1, 1});
   DepthFog::Params params = test::plain_fog(DepthFog::Model::kLinear);
@@ -132,9 +133,9 @@ TEST(DepthFog, RefractedDistanceOfAFlatBottom) {
   EXPECT_EQ(path(kRefracted, {}, std::numbers::pi / 2, HUGE_VAL), HUGE_VAL);
 }
 
-// Light that is scattered once towards the viewer is bounded by the largest value of the phase
-// function: of a sun straight above and views that go down at least as steeply as refraction leads
-// them, at the angle farthest from straight back where the water scatters forwards, else there.
+// The bound of light that is scattered once towards the viewer is the largest value of the phase
+// function, for a sun straight above and views that go down at least as steeply as refracted rays:
+// at the angle farthest from straight back if the water scatters forwards, else straight back.
 TEST(DepthFog, BoundsKnowWhichWayTheWaterScatters) {
   Tray tray = shallow_tray();
   tray.scene.sun = Sun{};
@@ -156,7 +157,7 @@ TEST(DepthFog, BoundsKnowWhichWayTheWaterScatters) {
   EXPECT_NEAR(bound(-0.8) / bound(0), back, 1e-6 * back);
 }
 
-// It lights what is scattered and, of a surface that reflects from below, the bottom.
+// The sun lights the scattering water and, under a surface that reflects from below, the bottom.
 Ranges ranges_at(const Tray& tray, double way) {
   Ranges ranges;
   ranges.own = {way, way};
@@ -190,7 +191,7 @@ TEST(DepthFog, NoLightFromBelowIsBrighterThanItsRangesSay) {
   }
 }
 
-// However deep it is, and however little of red and blue comes up.
+// However deep the water is, and however little red and blue light comes up.
 TEST(DepthFog, WaterThatTakesNothingFromAColorIsNeverOpaque) {
   Tray tray({3, 2});
   DepthFog::Params& fog = tray.look.of<DepthFog>();

@@ -9,7 +9,8 @@
 #include "ops/probe_strip.h"
 #include "ops/wave_normals_kernel.h"
 
-// What waves too small for a pixel do to what it mirrors, and what a plate's normals tell of them.
+// The effect of waves smaller than a pixel on the pixel's reflection, and what a plate's normals
+// tell of these waves.
 
 namespace limpid {
 namespace {
@@ -21,8 +22,8 @@ Pass context_of() {
   return Pass(test::simple_scene(kSize), buffers.frame, 1.333, kWholeState);
 }
 
-/// A pixel seen at so many degrees over the water, along Pass::map_y, with slopes that vary by
-/// so much along the view and not across it.
+/// A pixel seen at this angle in degrees over the water, along Pass::map_y; its slopes have this
+/// deviation along the view, and none across the view.
 Pixel<double> pixel_at(const Pass& c, double degrees, double deviation) {
   const double rise = degrees * std::numbers::pi / 180;
   const Vec3<double> up = vec3_of<double>(c.up), away = vec3_of<double>(c.map_y);
@@ -110,8 +111,8 @@ TEST(Facets, NothingBreaksAtTheEdges) {
   }
 }
 
-// What is seen of a moved surface at a flat angle leans towards the view: many facets, each by the
-// area that is seen of it.
+// The visible part of moving water at a flat angle leans towards the view: the mean over many
+// facets, each weighted by its visible area.
 TEST(Facets, OfMovedWaterCountByTheirAreaThatIsSeen) {
   for (const double degrees : {0.5, 2.0, 5.0, 20.0, 80.0}) {
     const double deviation = 0.05, rise = std::tan(degrees * std::numbers::pi / 180);
@@ -140,7 +141,7 @@ struct Nine {
   Pixel<double> pixel;
   Around<double> normals;
 
-  /// The middle one, and others that lean as far to other sides, or the same.
+  /// The middle normal, and eight others that lean as far to other sides, or to the same side.
   Nine(Pixel<double> p, bool alike) : pixel(p) {
     constexpr double kTo[9] = {0, 1, 2, 3, 4.5, 5, 6, 0.5, 1.5};
     for (int k = 0; k < 9; ++k) {
@@ -184,9 +185,9 @@ WaveNormals::Params filtered_plate() {
   return params;
 }
 
-// A normal of a plate is a sample of the waves in the pixel. Of sines with random wave vectors, of
-// the covariance `turn`, the mean over a footprint S is exp(-k' S k / 2) times that at its middle,
-// in the mean over the vectors k.
+// A normal of a plate is a sample of the waves in the pixel. For sines with random wave vectors of
+// covariance `turn`, the mean over a footprint S is exp(-k' S k / 2) times the value at the middle,
+// averaged over the vectors k.
 TEST(PlateNormals, TellOfAPixelWhatItsWavesKeepOfThem) {
   const Pass c = wavy_plate();
   const WaveNormals::Params params = filtered_plate();

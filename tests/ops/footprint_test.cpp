@@ -9,7 +9,7 @@
 #include "ops/probe_strip.h"
 #include "ops/wave_normals_kernel.h"
 
-// What one pixel sees of the water, and what becomes of waves in it.
+// The footprint of one pixel on the water, and the waves in the footprint.
 
 namespace limpid {
 namespace {
@@ -64,8 +64,8 @@ TEST(Footprint, IsThatOfNeighbouringRays) {
   }
 }
 
-// Of a camera that stands as deep under the water as another one over it, upside down, each pixel
-// sees what the other one's does.
+// A camera below the surface has, upside down, the same footprints as a camera as far above the
+// surface.
 TEST(Footprint, FromBelowIsThatFromAbove) {
   Scene scene = test::simple_scene(kSize), below = scene;
   below.camera->view = glm::scale(glm::dmat4(1), glm::dvec3(1, -1, 1)) * below.camera->view *
@@ -80,8 +80,8 @@ TEST(Footprint, FromBelowIsThatFromAbove) {
   }
 }
 
-// Four parts of a pixel lie one behind the other on the water, each a quarter as long; a rolled
-// camera has them beside one another on the screen.
+// The four parts of a pixel lie one behind another on the water, each a quarter as long; in a
+// rolled camera the parts lie side by side on the screen.
 TEST(Footprint, OfAPartIsShorterTheWayTheWaterRecedes) {
   for (const double roll : {0.0, 0.5 * std::numbers::pi}) {
     Scene scene = test::simple_scene(kSize);
@@ -109,7 +109,7 @@ TEST(Footprint, OfAPartIsShorterTheWayTheWaterRecedes) {
   }
 }
 
-// Straight down the water recedes nowhere.
+// Straight down the water recedes in no direction.
 TEST(Footprint, PartsLieBelowOneAnotherStraightDown) {
   Scene scene = test::simple_scene(kSize);
   scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -1));

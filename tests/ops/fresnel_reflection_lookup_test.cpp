@@ -3,7 +3,7 @@
 #include "ops/tray.h"
 #include "optics/refract.h"
 
-// Where the mirror is looked up, and what must not be seen in it.
+// Where the operator looks the mirror up, and which values must not show.
 
 namespace limpid {
 namespace {
@@ -13,7 +13,7 @@ using test::Tray;
 using Lookup = FresnelReflection::Lookup;
 using Source = FresnelReflection::Source;
 
-/// A mirror that is nothing else, looked up along the ray.
+/// A surface that only mirrors, looked up along the ray.
 FresnelReflection::Params& all_mirror(Look& look) {
   FresnelReflection::Params& params = look.of<FresnelReflection>();
   params.reflectance = FresnelReflection::Reflectance::kRim;
@@ -32,7 +32,7 @@ void mirror_tells_its_place(test::Buffers& buffers, Rect window) {
       PlaneId::kReflectionB, [](int, int) { return 1.0f; }, window);
 }
 
-/// The normal that mirrors straight up to a direction, or one viewer to another.
+/// The normal that reflects one of two directions into the other.
 Vec3<double> halfway(Vec3<double> a, Vec3<double> b) { return normalize_or<double>(a + b, a); }
 
 // --- the environment ----------------------------------------------------------------------------
@@ -49,14 +49,14 @@ struct SkyTray : Tray {
     for (View<const float>& view : buffers.frame.environment.channels) view = sky.view();
     all_mirror(look).source = Source::kEnvironment;
   }
-  /// What is mirrored where the ray goes in this direction.
+  /// The mirrored value if the reflected ray has this direction.
   double towards(Vec3<double> direction) {
     buffers.normal(halfway({0, 1, 0}, direction));
     const test::Picture exact = wet(), fast = test::fused(look, buffers.frame, scene);
     EXPECT_NEAR(exact.color(0, 0).r, fast.color(0, 0).r, 2e-5);
     return exact.color(0, 0).r;
   }
-  /// Of texel coordinates, centres at +0.5: the second axis is world -z.
+  /// The direction of texel coordinates, centres at +0.5: the second axis is world -z.
   static Vec3<double> direction(double x, double y) {
     const double polar = y / kSky.height * std::numbers::pi;
     const double turn = (x / kSky.width - 0.5) * 2 * std::numbers::pi;
@@ -94,7 +94,7 @@ TEST(ReflectedEnvironment, NothingBelowTheHorizon) {
   }
 }
 
-// From below the surface mirrors what is below: along the axis of a picture of one pixel.
+// Seen from below, the surface mirrors the lower half: along the axis of a picture of one pixel.
 TEST(ReflectedEnvironment, TheUndersideMirrorsTheLowerHalf) {
   SkyTray tray;
   for (double y : {2.5, 3.0, 3.5, 3.9}) {
@@ -116,7 +116,7 @@ TEST(ReflectedEnvironment, TheUndersideMirrorsTheLowerHalf) {
 
 // --- along the ray ------------------------------------------------------------------------------
 
-// Calm water shows the mirror as it is, whatever its depth.
+// Calm water shows the mirror unchanged, whatever the mirror's depth.
 TEST(ReflectedRay, CalmWaterLooksAtItsOwnPlace) {
   const Size size{40, 30};
   for (bool depths : {false, true}) {
@@ -141,8 +141,8 @@ TEST(ReflectedRay, CalmWaterLooksAtItsOwnPlace) {
   }
 }
 
-// A ceiling 6 over the tray: a ray that leaves it by one to the right for two up meets it 3 to the
-// right. Its picture in the mirror is 6 below the water, at depth 16.
+// A ceiling 6 over the tray: a ray that leaves the tray by one to the right for two up meets the
+// ceiling 3 to the right. The ceiling's picture in the mirror is 6 below the water, at depth 16.
 TEST(ReflectedRay, EndsAtTheMirroredPoint) {
   Tray tray({20, 20});
   mirror_tells_its_place(tray.buffers, rect_of({20, 20}));
@@ -150,7 +150,7 @@ TEST(ReflectedRay, EndsAtTheMirroredPoint) {
   tray.buffers.normal(halfway({0, 1, 0}, {std::sqrt(0.2), std::sqrt(0.8), 0}));
   all_mirror(tray.look);
   test::expect_rgb(tray.wet().color(8, 5), {11, 5, 1}, 0.01);
-  // As far again: where the lookup leaves the picture it stays at the edge.
+  // At twice the distance the lookup would leave the picture: the lookup stays at the edge.
   tray.buffers.fill(PlaneId::kReflectionDepth, 22);
   test::expect_rgb(tray.wet().color(8, 5), {14, 5, 1}, 0.02);
   test::expect_rgb(tray.wet().color(16, 5), {19, 5, 1}, 1e-6);
@@ -201,8 +201,8 @@ TEST(ReflectedRay, FindsTheWallThatTheWaveMirrors) {
   }
 }
 
-// Infinitely far: the ray's vanishing point, however far that is; off the planes the last texel on
-// the straight way there. Planes may be larger than the picture.
+// Without depths the lookup is the ray's vanishing point, however far away; outside the planes, the
+// last texel on the straight line to the vanishing point. Planes may be larger than the picture.
 TEST(ReflectedRay, WithoutDepthsTheSceneIsFarAway) {
   Tray tray({10, 10});
   mirror_tells_its_place(tray.buffers, {-5, 0, 15, 10});
@@ -227,7 +227,7 @@ TEST(ReflectedRay, WithoutDepthsTheSceneIsFarAway) {
   EXPECT_NEAR(test::reference(look, buffers.frame, scene).color(0, 20).g, row, 1e-4);
 }
 
-// At 45 degrees, and so as far aside as what it meets lies under the mirror: 4.
+// At 45 degrees the lookup lies as far aside as the mirrored point lies under the mirror: 4.
 TEST(ReflectedRay, MarchesToWhatIsAsDeep) {
   const Size size{24, 4};
   Tray tray(size);
@@ -238,9 +238,9 @@ TEST(ReflectedRay, MarchesToWhatIsAsDeep) {
   EXPECT_NEAR(tray.wet().color(6, 2).r, 6 + 4, 0.1);
 }
 
-// As WithoutDepthsTheSceneIsFarAway, with something 25 away that the planes show at the end of the
-// endless ray, 30 rows below the pixel, though at that depth the ray is still 5 rows away: it hides
-// that end, and is not mirrored.
+// As WithoutDepthsTheSceneIsFarAway, with an object 25 away that the planes show at the end of the
+// endless ray, 30 rows below the pixel, though at that depth the ray is still 5 rows away: the
+// object hides the end of the ray, and is not mirrored.
 TEST(ReflectedRay, WhatHidesItsFarEndIsNotMirrored) {
   const Size size{1, 411};
   const Scene scene = test::simple_scene(size);
@@ -257,14 +257,14 @@ TEST(ReflectedRay, WhatHidesItsFarEndIsNotMirrored) {
   const double row = test::reference(look, buffers.frame, scene).color(0, 205).g;
   EXPECT_GT(row, 205 + 20);
   EXPECT_LT(row, far - 3);
-  // So far away that the ray is within a pixel of its end there, it is what is seen.
+  // An object so far away that the ray ends within a pixel of the object is mirrored.
   buffers.set(PlaneId::kReflectionDepth,
               [&](int, int y) { return std::abs(y - far) < 2.5 ? 2500.0f : kInf; });
   EXPECT_NEAR(test::reference(look, buffers.frame, scene).color(0, 205).g, far, 0.1);
 }
 
-// A wave that mirrors the ray into the water: it is laid flat, and the flat ray's picture is
-// itself.
+// A wave mirrors the ray into the water: the ray is laid flat, and the picture of the flat ray is
+// the ray itself.
 TEST(ReflectedRay, LiesFlatWhereTheWaveSendsItDown) {
   Tray tray({20, 20});
   mirror_tells_its_place(tray.buffers, rect_of({20, 20}));
@@ -280,7 +280,7 @@ TEST(ReflectedRay, LiesFlatWhereTheWaveSendsItDown) {
 
 // --- behind the cut -----------------------------------------------------------------------------
 
-/// Patches of a mirror that saw something, and a red sky in the rest.
+/// Patches of a mirror with valid texels, and a red sky in the rest.
 test::Noise cut_mirror(Size size) {
   test::Noise noise(size);
   const auto valid = [](int x, int y) { return test::noise(x / 5, y / 3, 3) > 0.5f; };
@@ -346,7 +346,7 @@ TEST(ReflectionBehindTheCut, IsFilledFromTheEnvironmentOrBlack) {
   }
 }
 
-// Halfway between a texel that counts and one that does not, all comes from the one that does.
+// Halfway between a valid and an invalid texel, all light comes from the valid texel.
 TEST(ReflectionBehindTheCut, TheValidTexelsFillUp) {
   Tray tray = Tray({10, 10});
   mirror_tells_its_place(tray.buffers, rect_of({10, 10}));

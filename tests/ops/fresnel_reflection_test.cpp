@@ -20,8 +20,9 @@ Tray mirror_tray(Vec3<double> normal = {0, 1, 0}) {
   return tray;
 }
 
-/// One pixel that looks along its axis, so many degrees from straight down (from straight up with
-/// the camera below the surface), into white light through the surface and white light in it.
+/// One pixel that looks along its axis, at this angle in degrees from straight down (from straight
+/// up with the camera below the surface); white light comes through the surface and white light is
+/// mirrored.
 struct Glance {
   Glance(double degrees, double height) : buffers(rect_of({1, 1})) {
     const double angle = degrees * std::numbers::pi / 180;
@@ -133,7 +134,7 @@ TEST(FresnelReflection, LookupFollowsTheTilt) {
   EXPECT_NEAR(mirrored(-10, 5), 0, 1e-5);
 }
 
-// All that comes from below the surface is dimmed by 1 - F, the light of the water too.
+// All light from below the surface is dimmed by 1 - F, the light of the water too.
 TEST(FresnelReflection, DimsTheFogAsItDimsTheBottom) {
   Tray tray = mirror_tray(kSixtyDegrees);
   tray.look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kLinear);
@@ -170,7 +171,7 @@ TEST(FresnelReflection, IsABlend) {
   });
 }
 
-// White below and white around: the surface is not to be seen.
+// White below and white around: the surface is invisible.
 TEST(FresnelReflection, WhiteFurnace) {
   const Size size{40, 30};
   test::Noise noise(size);
@@ -222,7 +223,8 @@ TEST(FresnelReflection, LosesNothingFromBelow) {
   for (double degrees : {0.0, 30.0, 45.0, 70.0}) {
     const Glance glance(degrees, -2);
     test::expect_rgb(glance.wet().color(0, 0), {1, 1, 1});
-    // Nor where nobody asks what the fog leaves, which does nothing and is not run.
+    // The same without a reader of the fog's transmittance: the fog, which changes nothing, does
+    // not run.
     const test::Picture bare(rect_of({1, 1}));
     Target target = bare.target;
     target.aovs = {};
@@ -234,8 +236,8 @@ TEST(FresnelReflection, LosesNothingFromBelow) {
   }
 }
 
-// What lies between the viewer and the surface was applied before: it dims the mirror too, and its
-// own light is not dimmed by the surface.
+// The water between the viewer and the surface was applied before: this water dims the mirror too,
+// and the surface does not dim this water's light.
 TEST(FresnelReflection, TheWaterInFrontOfTheUndersideStaysInFront) {
   const Glance glance(0, -2);
   FresnelReflection::Params params = glance.look.of<FresnelReflection>();
@@ -267,8 +269,8 @@ TEST(FresnelReflection, TheWaterInFrontOfTheUndersideStaysInFront) {
   test::expect_rgb(above.reflected, {4 * f, 4 * f, 4 * f});
 }
 
-// The planes are of the mirror on the eye's side, here under the water. A pixel that begins on the
-// other one has its own picture in their place.
+// The mirror planes belong to the eye's side of the surface, here under water. A pixel that begins
+// on the other side mirrors its own picture instead.
 TEST(FresnelReflection, PlanesAreOfTheSideOnWhichTheEyeIs) {
   Glance glance(0, -2);
   for (int c = 0; c < 3; ++c) glance.buffers.fill(plane_after(PlaneId::kReflectionR, c), 2);

@@ -36,7 +36,7 @@ TEST(Halve, FindsWhereItBegins) {
   EXPECT_EQ(at.high, 20.0 / 64);
 }
 
-// Of what begins more than once, too, and after an odd number of halvings.
+// Also for a condition that begins to hold more than once, and after an odd number of halvings.
 TEST(Halve, ComesToTheSameWhenItLooksAhead) {
   for (int seed = 0; seed < 200; ++seed) {
     const auto holds = [&](double t) { return std::sin(37 * t + seed) > 0; };

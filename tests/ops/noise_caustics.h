@@ -4,8 +4,8 @@
 
 namespace limpid::test {
 
-/// Light of 0 ... 3, or a bit below 0 as a sharpened table has it, in two levels around the eye;
-/// the same in the water.
+/// Light of 0 ... 3, or slightly below 0 as in a sharpened table, in two levels around the eye; the
+/// same light in the water.
 struct NoiseCaustics {
   NoiseCaustics() {
     table.count = 2;

@@ -7,7 +7,7 @@
 #include "ops/tray.h"
 
 // Nothing behind the water: where the dry picture has hit nothing, its color (a sky) is never seen
-// through the surface, whatever model looks for it.
+// through the surface, by any model of refraction.
 
 namespace limpid {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kBottomColor = 0.5;
 
 using R = Refraction;
 
-/// All ways to refract, with and without a prism, with a word each.
+/// All models of refraction, with and without a prism, each with a name.
 template <class Fn>
 void each_way(Fn&& fn) {
   const auto fog_models = {DepthFog::Model::kLinear, DepthFog::Model::kBeerLambert};
@@ -50,8 +50,8 @@ void each_way(Fn&& fn) {
   }
 }
 
-/// Water 2 below the camera with waves; the bottom 1 below it where `has_bottom`, else a sky
-/// without depth; something stands before the water at a few pixels.
+/// Water 2 below the camera with waves; the bottom 1 below the water where `has_bottom`, else a sky
+/// without depth; an object stands before the water at a few pixels.
 struct Sea {
   template <class HasBottom>
   explicit Sea(HasBottom&& has_bottom, bool below = false, bool foreground = true)
@@ -172,7 +172,8 @@ TEST(NothingBehind, PenetrationLetsNothingThrough) {
   each_wet(got, kSize, [&](int x, int y) { ASSERT_EQ(got.color(x, y).r, 0) << x << ", " << y; });
 }
 
-/// The sky over the water is seen from below, and is no guess for looks that do not march.
+/// The sky over the water is seen from below, and looks that do not march are confident of this
+/// sky.
 TEST(NothingBehind, FromBelowTheSkyIsSeen) {
   test::Buffers buffers(rect_of(kSize));
   Scene scene = test::simple_scene(kSize);

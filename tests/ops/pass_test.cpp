@@ -7,7 +7,7 @@
 namespace limpid {
 namespace {
 
-// The surface that is drawn may end before the plate does, at any of its sides.
+// The drawn surface may end before the plate does, at any side of the plate.
 TEST(Pass, KnowsWhereTheSurfaceThatIsDrawnEnds) {
   const Size size{8, 6};
   const Rect whole = rect_of(size);

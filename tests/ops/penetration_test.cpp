@@ -12,7 +12,7 @@ Penetration::Params view_angle(double alpha, double amount, double power) {
   return {Penetration::Model::kViewAngle, alpha, amount, power};
 }
 
-/// Dry color 0.5, fog of color (0.1, 0.2, 0.3) that hides all of it.
+/// Dry color 0.5; fog of color (0.1, 0.2, 0.3) that hides the dry color.
 Tray murky_tray() {
   Tray tray({6, 4});
   tray.look.of<DepthFog>().alpha = 1;
@@ -31,8 +31,8 @@ TEST(Penetration, StraightDownByHand) {
   }
 }
 
-// At 60 degrees from straight down V.up is 1/2: 1 - 0.8 (1/2)^2 = 0.8 of the surface is left, of
-// each of its parts.
+// At 60 degrees from straight down V.up is 1/2: 1 - 0.8 (1/2)^2 = 0.8 of each part of the surface
+// is left.
 TEST(Penetration, EveryPartOfTheSurfaceIsBlended) {
   test::ProbeStrip strip;
   strip.pixels.push_back(test::random_pixel(3, {}));
@@ -52,7 +52,7 @@ TEST(Penetration, EveryPartOfTheSurfaceIsBlended) {
   test::expect_rgb(p.in_scatter, {0.4, 0.2, 0.1}, 1e-12);
   test::expect_rgb(p.reflected, {8, 16, 24}, 1e-12);
   test::expect_rgb(p.highlight, {80, 160, 240}, 1e-12);
-  // What the probe gives for the dry color comes on top, by a fifth.
+  // The probe's value of the dry color is added, by a fifth.
   test::ProbeStrip of_dry;
   of_dry.pixels.push_back(black);
   Kernel<Penetration>::apply(params, pass, of_dry);
@@ -75,7 +75,7 @@ TEST(Penetration, OpaqueAndClearSurfaces) {
   const test::Picture half = noise.wet();
   each_wet(opaque, size, [&](int x, int y) {
     if (std::isinf(noise.buffers.frame.plane(PlaneId::kDepth).at(x, y))) {
-      test::expect_rgb(clear.color(x, y), opaque.color(x, y), 0);  // there is nothing to be seen
+      test::expect_rgb(clear.color(x, y), opaque.color(x, y), 0);  // no bottom is visible
       return;
     }
     const Rgb<double> picture{dry(0, x, y), dry(1, x, y), dry(2, x, y)};
@@ -84,7 +84,7 @@ TEST(Penetration, OpaqueAndClearSurfaces) {
   });
 }
 
-// The article means to see through where one looks down, not towards the horizon.
+// The article means to see through the water in views down, not towards the horizon.
 TEST(Penetration, LetsThroughLessTowardsTheHorizon) {
   Noise noise({5, 40});
   noise.buffers.fill(PlaneId::kSurfaceDepth, 3).fill(PlaneId::kDepth, 5);

@@ -44,7 +44,7 @@ TEST(PrismSplit, CalmWaterDoesNotSplit) {
   test::expect_rgb(rgb_of(tray.wet(), Aov::kTransmitted, 10, 20), {20010, 20010, 20010}, 0);
 }
 
-// The planner looks as far for what stands before the water: tilts are below 1.
+// The planner looks as far for objects before the water: tilts are below 1.
 TEST(PrismSplit, ReachesAsFarAsTheSteepestTilt) {
   const PrismSplit::Params params{PrismSplit::Model::kAxis, 0.25, 0};
   test::ProbeStrip strip;

@@ -12,8 +12,8 @@
 
 namespace limpid::test {
 
-/// Pixels in any state, to which an operator is applied alone, in double. Its samplers give noise
-/// and remember what was asked of them.
+/// Pixels in any state, to which an operator is applied alone, in double. The samplers give noise
+/// and record their lookups.
 class ProbeStrip {
  public:
   using Number = double;
@@ -194,7 +194,7 @@ void each_number(P& a, Q& b, StatePart part, Fn&& fn) {
   }
 }
 
-/// A part of the running state as numbers, to see whether it changed.
+/// A part of the running state as numbers, for comparing the state before and after an operator.
 inline std::vector<double> values_of(const Pixel<double>& p, StatePart part) {
   std::vector<double> values;
   each_number(p, p, part, [&](double v, double) { values.push_back(v); });
@@ -212,8 +212,8 @@ constexpr StatePart kStateParts[] = {
     StatePart::kFresnel,     StatePart::kReflected,     StatePart::kMirrorSources,
     StatePart::kHighlight,   StatePart::kConfidence};
 
-/// What the fixed part of a pixel says, then random state in the given parts; elsewhere it is as
-/// before the first operator.
+/// The fixed part of a pixel, then random state in the given parts; the other parts are as before
+/// the first operator.
 inline Pixel<double> random_pixel(int seed, StateSet random) {
   int next = 0;
   const auto number = [&] { return 2.0 * noise(seed, next++, 90) - 1; };

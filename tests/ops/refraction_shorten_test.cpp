@@ -5,7 +5,7 @@
 
 #include "ops/tray.h"
 
-// Rejection `shorten`: nothing that stands before the water is ever seen through it, and nothing
+// Rejection `shorten`: an object before the water is never seen through the water, and no color
 // jumps.
 
 namespace limpid {
@@ -16,7 +16,7 @@ using test::Tray;
 constexpr Size kSize{48, 40};
 constexpr float kForeground = 1e4f;
 
-/// Posts of a checker pattern before a bright bottom; every texel of a post would be seen at once.
+/// Posts of a checker pattern before a bright bottom; any texel of a post would be visible at once.
 bool post(int x, int y) { return (x / 6 + y / 5) % 2 == 0; }
 
 Tray checker_tray(double amount, int seed, double change = 0) {
@@ -152,10 +152,11 @@ TEST(Shorten, TheOffsetEndsAtTheEdgeOfThePost) {
   EXPECT_EQ(got.aov(Aov::kConfidence, 5, 1), 1);
   EXPECT_NEAR(got.aov(Aov::kTransmitted, 17, 1), 19, 1e-3);  // 25 is post: the last texel before it
   EXPECT_NEAR(got.aov(Aov::kConfidence, 17, 1), 0, 1e-6);
-  EXPECT_NEAR(got.aov(Aov::kStmapR, 17, 1, 0), (19.5 + 0.5) / 40, 1e-3);  // half of it valid
+  EXPECT_NEAR(got.aov(Aov::kStmapR, 17, 1, 0), (19.5 + 0.5) / 40, 1e-3);  // half a valid texel
 }
 
-/// A layer below that is cut at the crests of waves holds what stands out of the water in a trough.
+/// A layer below that is cut at the crests of waves has objects that stand out of the water in a
+/// trough.
 TEST(Shorten, WhatALayerBelowHasAboveTheSurfaceDoesNotCount) {
   Tray tray = checker_tray(1, 11);
   for (int c = 0; c < 3; ++c) {
@@ -190,15 +191,16 @@ TEST(Shorten, ALayerBelowNeedsNoRejection) {
   }
 }
 
-/// A ray from shallow water that ends deep, under what stands out of it. Nothing on its way is far
-/// enough for its end: the pixel's own texel of the layer below stands in, not the dry picture.
+/// A ray from shallow water that ends deep, below an object that stands out of the water. No texel
+/// along the ray is far enough for the ray's end: the pixel's own texel of the layer below stands
+/// in, not the dry picture.
 TEST(Shorten, AShallowLayerBelowStandsInForADeepEnd) {
   Tray tray(kSize);
   tray.buffers.fill(PlaneId::kDepth, 30);
   tray.buffers.set(PlaneId::kBelowDepth, [](int x, int) { return x < 20 ? 10.5f : 9.0f; });
   for (int c = 0; c < 3; ++c) tray.buffers.fill(plane_after(PlaneId::kBelowR, c), 0.25f);
   tray.look.of<Refraction>() = {.rejection = Refraction::Rejection::kShorten, .steps = 1};
-  // Leaning by 36.9 degrees: bent by 10.1, and 3.6 columns aside where it is 20 deep.
+  // Leaning by 36.9 degrees, a facet bends the ray by 10.1, which is 3.6 columns at a depth of 20.
   for (const double lean : {-0.6, 0.6}) {
     tray.buffers.normal({lean, 0.8, 0});
     const test::Picture got = tray.wet();
@@ -223,7 +225,8 @@ TEST(Shorten, WhereALayerBelowIsEmptyTheDryPictureStays) {
   }
 }
 
-/// Rays along one axis that end 0.02 of the picture beyond its last texels: 20 times that is lost.
+/// Rays along one axis that end 0.02 of the picture beyond its last texels lose 20 times 0.02 of
+/// the light.
 TEST(Shorten, OffTheFrameFogIsByTheWayOfAllColors) {
   for (const bool down : {false, true}) {
     Tray tray({20, 20});
@@ -240,7 +243,7 @@ TEST(Shorten, OffTheFrameFogIsByTheWayOfAllColors) {
   }
 }
 
-/// A shore on which no water is drawn: the layer below goes on under it, and so do rays.
+/// A shore on which no water is drawn: the layer below and the rays continue under the shore.
 TEST(Shorten, ALayerBelowIsSeenUnderTheShoreToo) {
   Tray tray(kSize);
   constexpr int kShore = 30;

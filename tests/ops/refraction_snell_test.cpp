@@ -111,8 +111,8 @@ TEST(Snell, SlopingBottomTakesStepsOrAMarch) {
   EXPECT_LT(errors[3], 0.2);
 }
 
-/// The beach that the shore becomes towards the viewer stands before the water further down, and
-/// must not be taken for something that hides the bottom.
+/// The beach, which the shore becomes towards the viewer, stands before the water further down, and
+/// must not count as an object that hides the bottom.
 TEST(Snell, RolledViewsFindTheSameEnd) {
   for (int steps : {4, Refraction::kMarch}) {
     Basin basin(0.5, 0.12, 0.3);
@@ -179,8 +179,8 @@ TEST(Snell, SkyUnderWaterHasNoEnd) {
   }
 }
 
-// A block that reaches almost up to the surface: rays from behind it end on the bottom that it
-// hides. They must not show the block's face, which they never meet.
+// A block that reaches almost up to the surface: rays from behind the block end on the bottom that
+// the block hides. These rays must not show the block's face, which they never meet.
 TEST(Snell, WhatStandsUnderWaterHidesTheBottomAndIsNotSmeared) {
   const auto block = [](int x, int y) { return x >= 20 && x < 44 && y >= 34 && y < 40; };
   Basin basin(0.5, 0), face(0.1, 0);
@@ -224,7 +224,7 @@ TEST(Snell, OffTheFrameIsInventedAndSaidSo) {
   }
 }
 
-// What is kept of the light is the share that the way is shorter by.
+// The share of the light that is kept is the share by which the path is shortened.
 TEST(Snell, FogOffTheFrameComesGradually) {
   Basin basin(3, 0);
   for (int c = 0; c < 3; ++c) basin.buffers.fill(plane_after(PlaneId::kColorR, c), 1);
@@ -244,7 +244,7 @@ TEST(Snell, FogOffTheFrameComesGradually) {
   EXPECT_GT(between, 20);
 }
 
-// From below, 30 degrees over the horizon: beyond the critical angle nothing is looked up.
+// From below, 30 degrees over the horizon: beyond the critical angle the operator does no lookup.
 TEST(Snell, WhereAllIsMirroredNothingIsUnsure) {
   Basin basin(3, 0);
   const glm::dmat4 upside_down = glm::scale(glm::dmat4(1), glm::dvec3(1, -1, 1));
@@ -284,7 +284,7 @@ TEST(Snell, OverscanIsUsedWhereThereIsSome) {
   EXPECT_NEAR(got.aov(Aov::kStmapG, 32, 47, 1), expected.uv.y, 2e-3);
 }
 
-/// Renderers give overscan to color and depth often, and to passes of the water never.
+/// Renderers often give overscan to color and depth, and never to passes of the water.
 TEST(Snell, OverscanOfColorAndDepthCountsWhateverOtherPlanesHave) {
   Basin basin = wide_basin();
   const Rays rays = rays_of(*basin.scene.camera, {kSize.width, kSize.height});
@@ -315,7 +315,7 @@ TEST(Snell, OverscanOfColorAndDepthCountsWhateverOtherPlanesHave) {
   }
 }
 
-/// Of a layer below the water, too, which was rendered for the picture alone.
+/// Also with a layer below the water, which was rendered for the picture alone.
 TEST(Snell, OverscanGoesOnWhereTheLayerBelowEnds) {
   Basin basin = wide_basin();
   for (int c = 0; c < 3; ++c) {

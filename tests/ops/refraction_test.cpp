@@ -45,7 +45,7 @@ TEST(Refraction, TapsAreClampedAtTheEdges) {
   EXPECT_NEAR(tray.wet().aov(Aov::kTransmitted, 9, 0), 0, 1e-6);
 }
 
-// What bends no light splits none either.
+// Water that bends no light splits no light either.
 TEST(Refraction, ChannelsStayTogetherInWaterOfIndexOne) {
   Tray tray = leaning_tray();
   for (int c = 0; c < 3; ++c) {
@@ -94,7 +94,7 @@ TEST(Refraction, SnapSwitchesThePrismOffInEveryChannel) {
   test::expect_rgb(rgb_of(got, Aov::kTransmitted, 2, 2), {279, 316, 353}, 1e-3);
 }
 
-// Fault of the model, kept: only the centre of the three prism taps is tested.
+// Fault of the model, kept: only the centre of the three prism lookups is tested.
 TEST(Refraction, SnapTestsOnlyTheCentreOfThePrism) {
   Tray tray = tray_with_post();
   tray.look.of<PrismSplit>().strength = 1.0 / 6;
@@ -126,7 +126,7 @@ TEST(Refraction, WhatSnapLetsPassLiesUnderTheSurface) {
   each_wet(got, size, [&](int x, int y) {
     const double own = double(noise.buffers.frame.plane(PlaneId::kDepth).at(x, y)) -
                        noise.buffers.frame.plane(PlaneId::kSurfaceDepth).at(x, y);
-    // All of it, or what is left beside texels at which nothing was hit; or nothing is there.
+    // The light is whole, or the part beside texels without a hit; or no surface was hit.
     const bool passed =
         got.aov(Aov::kConfidence, x, y) > 0 || std::isinf(got.aov(Aov::kPath, x, y));
     EXPECT_GT(got.aov(Aov::kPath, x, y), 0);  // 0 where the hit is in front of the surface

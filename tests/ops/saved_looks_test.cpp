@@ -7,7 +7,7 @@
 namespace limpid {
 namespace {
 
-/// Of each parameter its default and, of numbers, the range.
+/// The default of each parameter and, for numbers, the range.
 std::string declared() {
   std::string text;
   for (const Parameter& p : parameters(Look{})) {
@@ -21,8 +21,8 @@ std::string declared() {
   return text;
 }
 
-// A look that was saved names what differs from the defaults of its day: with another default it is
-// other water, with a narrower range it is refused. So neither changes by accident.
+// A saved look names its differences from the defaults of its version: another default makes other
+// water of the look, and a narrower range refuses the look. So neither changes by accident.
 TEST(SavedLooks, RelyOnTheseDefaultsAndRanges) {
   EXPECT_EQ(declared(), R"(water.ior = 1.333 in 1 ... 4
 water.edges = mixed

@@ -34,14 +34,15 @@ TEST(ScreenRay, ShareOfTheWayOnScreenAndBack) {
       for (const double t : {0.01, 0.3, 0.9}) {
         const double s = ray.at_share(t, end);
         EXPECT_NEAR(ray.share_at(s, end), t, 1e-12);
-        // Shares are of the way on screen: the shift there is that part of the one at the end.
+        // Shares are of the ray on screen: the shift at a share is that part of the shift at the
+        // end.
         EXPECT_NEAR(ray.shift_at(s).y, t * ray.shift_at(end).y, 1e-12);
       }
     }
   }
 }
 
-// What a pixel knows of the rest of the screen, beside the rays of the camera.
+// What a pixel knows of the rest of the screen, besides the rays of the camera.
 
 constexpr Size kSize{64, 48};
 
@@ -66,7 +67,7 @@ Pixel<double> pixel_at(const Pass& c, double x, double y, double surface_depth) 
   return p;
 }
 
-/// Relative to the eye, what is seen at eye depth `depth` at x, y.
+/// The visible point at x, y and eye depth `depth`, relative to the eye.
 Vec3<double> point_at(const Pass& c, double x, double y, double depth) {
   const RowRays<double> row(c, y);
   return row.origin_at(x) + depth * row.ray_at(x);
@@ -92,7 +93,7 @@ TEST(ScreenRay, PassesThroughWhatTheCameraSeesAtItsPlaces) {
       EXPECT_NEAR(got.x, shift.x, 1e-9) << parallel;
       EXPECT_NEAR(got.y, shift.y, 1e-9) << parallel;
       EXPECT_NEAR(ray.depth_at(far), 5, 1e-9) << parallel;
-      // How many times `across` that is, and back.
+      // The shift as a multiple of `across`, and back.
       const double reach = shift.y / ray.across.y;
       EXPECT_NEAR(ray.s_at(reach), far, 1e-6 * far) << parallel;
     }
@@ -109,7 +110,7 @@ TEST(ScreenRay, VanishesWhereItsDirectionIsSeen) {
     EXPECT_NEAR(ray.shift_at(HUGE_VAL).x, 9.0 / 64, 1e-9);
     EXPECT_NEAR(ray.shift_at(HUGE_VAL).y, 4.0 / 48, 1e-9);
     EXPECT_EQ(ray.s_at(2 / ray.w_step), HUGE_VAL) << "twice as far as the vanishing point";
-    // Towards the viewer and past it: huge, on the same side, and finite.
+    // Towards the viewer and past the viewer, the shift is huge, on the same side, and finite.
     const ScreenRay<double> back(c, p, -1.0 * direction);
     const Vec2<double> past = back.shift_at(1e4);
     EXPECT_GT(std::abs(past.x), 100);

@@ -48,11 +48,11 @@ TEST(SunHighlight, IsTheSunsColorInTheMirrorDirection) {
     tray.look.of<SunHighlight>().model = model;
     const test::Picture got = tray.wet();
     test::expect_rgb(rgb_of(got, Aov::kHighlight, 2, 2), {3, 2, 1}, 1e-4);
-    test::expect_rgb(got.color(2, 2), {3.5, 2.5, 1.5}, 1e-4);  // on top, not clamped
+    test::expect_rgb(got.color(2, 2), {3.5, 2.5, 1.5}, 1e-4);  // added, not clamped
   }
 }
 
-// Phong's lobes meet their bound there; GGX is brighter than they by orders of magnitude.
+// Phong's lobes meet their bound there; GGX is brighter than these lobes by orders of magnitude.
 TEST(SunHighlight, NoGlintIsBrighterThanItsBound) {
   Tray tray = sunny_tray();
   tray.buffers.normal(half_way());
@@ -112,7 +112,7 @@ TEST(SunHighlight, FacetsThatFaceAwayDoNotGlint) {
     EXPECT_GT(tray.wet().aov(Aov::kHighlight, 2, 2), 0);
     tray.scene.sun->direction.y *= -1;
     EXPECT_EQ(tray.wet().aov(Aov::kHighlight, 2, 2), 0);
-    // But a facet that leans towards it does.
+    // But a facet that leans towards the sun glints.
     tray.buffers.normal({std::sqrt(0.5), std::sqrt(0.5), 0});
     EXPECT_GT(tray.wet().aov(Aov::kHighlight, 2, 2), 0);
     tray.buffers.normal({0, 1, 0});
@@ -186,8 +186,8 @@ TEST(SunHighlight, GgxIsNoBrighterThanTheMirroredSun) {
   }
 }
 
-// What the articles' lobes do not: a rougher sea is duller in the mirror direction and brighter
-// beside it.
+// Unlike the articles' lobes, a rougher sea is duller in the mirror direction and brighter beside
+// it.
 TEST(SunHighlight, GgxSpreadsTheSameLight) {
   Tray tray = sunny_tray();
   const auto glint = [&](Vec3<double> normal, double roughness) {

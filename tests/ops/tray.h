@@ -33,7 +33,7 @@ struct Tray {
   Look look = still_look();
 };
 
-/// Noise everywhere but nothing mirrored and no layer below, seen by a perspective camera.
+/// Noise everywhere, but no reflection and no layer below, seen by a perspective camera.
 struct Noise {
   explicit Noise(Size size) : buffers(noisy_frame(rect_of(size))), scene(simple_scene(size)) {
     for (PlaneId first : {PlaneId::kReflectionR, PlaneId::kBelowR}) {

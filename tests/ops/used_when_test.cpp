@@ -8,7 +8,8 @@
 #include "ops/noise_caustics.h"
 #include "ops/probe_strip.h"
 
-// What the tables say of when a parameter matters, against what the operators do.
+// The conditions in the tables under which a parameter matters, compared with the operators'
+// effects.
 
 namespace limpid {
 namespace {
@@ -86,7 +87,7 @@ bool read(const Field<typename Op::Params>& field, const typename Op::Params& pa
   });
 }
 
-/// Parameters in range, in which numbers that something hangs on are 0 by turns.
+/// Parameters in range; numbers on which other parameters depend are 0 by turns.
 template <class Op>
 typename Op::Params some_params(int seed) {
   typename Op::Params params = test::random_params<Op>(seed);
@@ -108,8 +109,8 @@ TEST(UsedWhen, WhatIsNotReadChangesNothingAndTheRestDoesSomewhere) {
   const Pass pass(world.scene, frame, 1.333, everything());
   Kernels::for_each([&]<class Op, int>() {
     for (const auto& field : Op::fields()) {
-      // Not seen by pixels alone: a file's name, a choice among one, of what is thin,
-      // complete/bottom_layer_test.cpp, and of frames without sun_color, ops/caustics_test.cpp.
+      // Not visible in pixels: a file's name, a choice of one, the thickness
+      // (complete/bottom_layer_test.cpp), and frames without sun_color (ops/caustics_test.cpp).
       const bool only = field.kind == FieldKind::kChoice && field.choices.size() == 1;
       bool matters = only || field.kind == FieldKind::kText || field.name == "thickness" ||
                      field.name == "sun_share";

@@ -21,8 +21,8 @@ const auto kFillsNone = [](bool) { return 0.0; };
 const auto kFillsHalf = [](bool) { return 0.5; };
 const auto kNever = [](bool) { return false; };
 
-// From the far end on: the first place that is met is on the island, 0.85 ... 0.9 of the way, not
-// on the shore from which the way begins.
+// The search begins at the far end: the first valid place lies on the island, at 0.85 ... 0.9 of
+// the ray, not on the shore at which the ray begins.
 TEST(LastValid, IsTheOneNearestToTheEnd) {
   const auto valid = [](const Tap::Quad& q) {
     return all(q.shift.x <= 0.1 || (q.shift.x > 0.85 && q.shift.x < 0.9) ? 1 : 0);
@@ -45,7 +45,7 @@ TEST(ValidTaps, WhereAllIsValidArePlainBilinear) {
   EXPECT_EQ(taps.place.x, 1);
 }
 
-// A quarter is valid, and of the rest half is filled; the other half comes from the way.
+// A quarter is valid, and half of the rest is filled; the other half comes from the ray.
 TEST(ValidTaps, ShareWhatIsMissing) {
   const auto valid = [](const Tap::Quad& q) {
     return q.shift.x > 0.9 ? Four<double>{1, 0, 0, 0} : all(q.shift.x < 0.5 ? 1 : 0);
@@ -59,7 +59,7 @@ TEST(ValidTaps, ShareWhatIsMissing) {
   EXPECT_NEAR(taps.shortened.shift.x, 0.5, 2e-3);
 }
 
-// Nothing else is bearable: all that is missing is filled.
+// No other texel is bearable: the whole missing share is filled.
 TEST(ValidTaps, WhatStandsInStandsAlone) {
   const auto valid = [](const Tap::Quad& q) {
     return q.shift.x > 0.9 ? Four<double>{1, 0, 0, 0} : all(0);
@@ -69,7 +69,7 @@ TEST(ValidTaps, WhatStandsInStandsAlone) {
   EXPECT_EQ(taps.share, 0.25);
   EXPECT_EQ(taps.filled, 0.75);
   EXPECT_EQ(taps.weight(), 1);
-  // Without anything that stands in, the last resort has the rest.
+  // Without a texel that stands in, the last resort has the rest.
   const auto bearable = [](const Tap::Quad&) { return all(1); };
   const auto rest = valid_taps<double>(Tap{}, kEnd, valid, bearable, kFillsNone, kNever);
   EXPECT_EQ(rest.filled, 0);

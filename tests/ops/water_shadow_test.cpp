@@ -57,8 +57,8 @@ TEST(WaterShadow, IsLookedUpWhereTheRefractedRayEnds) {
   EXPECT_NEAR(got.color(4, 1).r, 0.5, 1e-5);
 }
 
-// The planner counts on it where refraction is left out: the bound is met by the two shadows that
-// differ most.
+// The planner relies on this bound where refraction is left out: the two shadows that differ most
+// reach the bound.
 TEST(WaterShadow, IsDisplacedByNoMoreThanItsRangeAndByAllOfIt) {
   Tray tray = half_shaded();
   const auto with_shadow = [&](float shadow) {
@@ -123,8 +123,8 @@ TEST(WaterShadow, ScatterTakesTheSunsPartOnly) {
   for (int x : {2, 7}) EXPECT_NEAR(got.aov(Aov::kTransmitted, x, 1), 0.5 * std::exp(-2.0), 1e-6);
 }
 
-// A shadow on the surface is where the light enters that any part of the way scatters: straight
-// above it, for the sun stands there and so does the viewer.
+// A shadow on the surface lies at the entry point of the light that any part of the path scatters:
+// straight above, because the sun and the viewer stand there.
 TEST(WaterShadow, ScatterKnowsTheSurfaceFromTheBottom) {
   Tray tray = half_shaded_murk();
   tray.buffers.fill(PlaneId::kSurfaceShadow, 1);
@@ -137,8 +137,8 @@ TEST(WaterShadow, ScatterKnowsTheSurfaceFromTheBottom) {
 }
 
 // The sun 45 degrees over the right: light that is scattered d deep enters d to the right. Shaded
-// to the left of column 5; the way is 4 long, and water that scatters little sends as much of each
-// of its quarters, whose middles lie 0.5, 1.5, 2.5 and 3.5 deep.
+// to the left of column 5; the path is 4 long, and water that scatters little sends as much light
+// from each quarter of the path; the quarters' middles lie 0.5, 1.5, 2.5 and 3.5 deep.
 TEST(WaterShadow, IsThatOfWhereTheSunlightEntered) {
   Tray tray = half_shaded_murk();
   tray.buffers.set(PlaneId::kSurfaceShadow, [](int x, int) { return x < 5 ? 0.f : 1.f; });
@@ -154,8 +154,9 @@ TEST(WaterShadow, IsThatOfWhereTheSunlightEntered) {
   EXPECT_NEAR(in_scatter(tray, 0) / all, 0, 0.01);
 }
 
-// The same sun over water so deep and murky that sunlight is scattered after 2 in the mean: of what
-// comes back exp(-d / 2) entered farther than d to the right. Four places stand for all of them.
+// The same sun over water so deep and murky that sunlight is scattered after 2 in the mean: exp(-d
+// / 2) of the scattered light entered farther than d to the right. Four places stand for all entry
+// points.
 TEST(WaterShadow, OfMurkyWaterIsThatOfLightThatFadesExponentially) {
   Tray tray = half_shaded_murk();
   tray.buffers.fill(PlaneId::kDepth, 50);
@@ -174,8 +175,8 @@ TEST(WaterShadow, OfMurkyWaterIsThatOfLightThatFadesExponentially) {
   }
 }
 
-// What is scattered next to the surface of water without an end is lit as the surface is there, in
-// float, too.
+// Light that is scattered next to the surface of endless water has the surface's shadow, in float,
+// too.
 TEST(WaterShadow, OfEndlessWaterIsOfTheSameLightInFloat) {
   Tray tray = half_shaded_murk();
   tray.buffers.fill(PlaneId::kDepth, test::kInf);
@@ -193,9 +194,8 @@ TEST(WaterShadow, OfEndlessWaterIsOfTheSameLightInFloat) {
   }
 }
 
-// In clear water each of four places stands for a quarter of a way of 40. Over those 10 light comes
-// in from 10 aside, and 0.6 of that is how wide it is looked up: half way between texels of 4
-// and 8.
+// In clear water each of four places stands for a quarter of a path of 40. Over those 10 light
+// comes in from 10 aside, and the lookup is 0.6 of that wide: half way between texels of 4 and 8.
 TEST(WaterShadow, ShaftsAreAsWideAsAQuarterOfAClearWay) {
   const Tray tray = half_shaded_murk();
   const float bright = 3, even = 1;
@@ -204,7 +204,7 @@ TEST(WaterShadow, ShaftsAreAsWideAsAQuarterOfAClearWay) {
   water.count = 2;
   water.levels[0] = {{&bright, 0, 0, texels}, {-800, -800}, 4};
   water.levels[1] = {{&even, 0, 0, texels}, {-1600, -1600}, 8};
-  water.depth = 1e-3;  // focused there and below
+  water.depth = 1e-3;  // focused at this depth and below
   CausticsTable table;
   table.in_water = &water;
   Pass pass(tray.scene, tray.buffers.frame, 1.333, kWholeState);
@@ -223,8 +223,8 @@ TEST(WaterShadow, ShaftsAreAsWideAsAQuarterOfAClearWay) {
   EXPECT_NEAR(more.far, 0.5 * (bright - even), 1e-9);
 }
 
-// Caustics that are not made for the water itself have none. Full shadow is black: all of the sun's
-// light, 2, may be missing.
+// Caustics that are not made for the water itself make no shafts. Full shadow is black: all of the
+// sun's light, 2, may be missing.
 TEST(WaterShadow, ShaftsThatCannotBeAreNotInItsBound) {
   Tray tray = half_shaded_murk();
   Pass pass(tray.scene, tray.buffers.frame, 1.333, kWholeState);
@@ -239,8 +239,8 @@ TEST(WaterShadow, ShaftsThatCannotBeAreNotInItsBound) {
   }
 }
 
-// As in IsLookedUpWhereTheRefractedRayEnds: from column 3 half way into the light. Where the view
-// enters the water it is in the shadow.
+// As in IsLookedUpWhereTheRefractedRayEnds: from column 3 half way into the light. The view enters
+// the water in the shadow.
 TEST(WaterShadow, ScatterFollowsTheRefractedRay) {
   Tray tray = half_shaded_murk();
   tray.buffers.normal({0.6, 0.8, 0});

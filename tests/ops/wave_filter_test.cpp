@@ -67,7 +67,7 @@ TEST(WaveFilter, LevelsPassIntoOneAnother) {
   for (const double width : {1.625, 2.0, 100.0}) EXPECT_NEAR(slope(width), 3, 1e-12) << width;
 }
 
-/// A pixel that holds the whole map, or a thousand of it, sees its mean.
+/// A pixel that holds the whole map, or a thousand maps, has the map's mean.
 TEST(WaveFilter, AMapWithinAPixelIsItsMean) {
   const NoiseMap map(8, 8);
   double mean[2] = {};
@@ -98,7 +98,7 @@ TEST(WaveFilter, AMapWithinAPixelIsItsMean) {
   }
 }
 
-/// From one to two texels a pixel nothing jumps.
+/// From one to two texels a pixel, no normal jumps.
 TEST(WaveFilter, BlendsIn) {
   const NoiseMap map(8, 8);
   for (const Model model : kMapModels) {
@@ -132,7 +132,7 @@ struct Striped {
     params.filter = Filter::kVariance;
   }
 
-  /// What the waves are where a pixel is so many units wide, after this drift in periods.
+  /// The waves in a pixel of this width, after this drift in periods.
   Pixel<double> wave(double width, double drift = 0) {
     params.speed = drift * params.tile_size;
     tray.scene.time = 1;
@@ -173,14 +173,15 @@ TEST(WaveFilter, WhatAPixelCannotResolveBecomesVariance) {
   EXPECT_LT(between, 0.0625);
 }
 
-/// Four lookups that see the same waves vary as one does; two against two, they cancel.
+/// Four lookups that read the same waves vary as one lookup does; two pairs of opposed lookups
+/// cancel.
 TEST(WaveFilter, KnowsHowFarTheLookupsHaveDrifted) {
   Striped striped;
   EXPECT_NEAR(striped.wave(2, 0.25).slope_variance.xx, 0.0625, 1e-5);
   EXPECT_NEAR(striped.wave(2, 0.125).slope_variance.xx, 0, 1e-5);
 }
 
-/// Stripes lean along x alone: across a wind along x nothing can be scaled.
+/// Stripes lean along x alone: a wind along x has no variance across to scale.
 TEST(WaveFilter, AWindScalesWhatAPixelCannotResolve) {
   Striped striped;
   striped.params.wind = 8;

@@ -36,8 +36,8 @@ Tray mapped_tray(const NoiseMap& map, double strength) {
   return tray;
 }
 
-/// The map's vector that the pixel (x, y) of mapped_tray() meets. World x = x - 3.5, map v runs
-/// along cross(up, x) = -z, z = y - 3.5; so u = x - 4 and v = 3 - y in texels, modulo 8.
+/// The map's vector at the pixel (x, y) of mapped_tray(). World x = x - 3.5, map v runs along
+/// cross(up, x) = -z, z = y - 3.5; so u = x - 4 and v = 3 - y in texels, modulo 8.
 Vec3<double> decoded(const NoiseMap& map, int x, int y) {
   const auto texel = [&](int c) {
     return 2.0 * map.texture.channels[c].at(((x - 4) % 8 + 8) % 8, ((3 - y) % 8 + 8) % 8) - 1;
@@ -68,7 +68,7 @@ Vec3<double> in_world(double x, double y, double up) { return {x, up, -y}; }
 
 Vec3<double> decoded(Rgb<double> c) { return in_world(2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1); }
 
-/// A map that is the same everywhere.
+/// A map of one color.
 struct FlatMap {
   explicit FlatMap(Rgb<double> color) {
     const double values[] = {color.r, color.g, color.b};
@@ -165,7 +165,8 @@ TEST(WaveNormals, TheMapStaysWithTheWorldWhenTheCameraMoves) {
   moved.scene.camera->view =
       glm::lookAt(glm::dvec3(3, 10, 0), glm::dvec3(3, 0, 0), glm::dvec3(0, 0, -1));
   expect_vector(normal_at(moved.wet(), 1, 5), normal_at(first, 4, 5));
-  // Turned by a quarter: what lay above the centre now lies to its right, same world normal.
+  // Turned by a quarter: a texel above the centre now lies to the centre's right, with the same
+  // world normal.
   Tray turned = mapped_tray(map, 0.7);
   turned.scene.camera->view =
       glm::lookAt(glm::dvec3(0, 10, 0), glm::dvec3(0, 0, 0), glm::dvec3(-1, 0, 0));
@@ -199,8 +200,8 @@ TEST(WaveNormals, SlopesOfOverhangsAreBounded) {
   }
 }
 
-// Four lookups lean by slopes, and slopes add up: twice as steep is twice as steep, which the mean
-// of vectors is not.
+// Four lookups lean by slopes, and slopes add up: twice the slope gives twice the mean slope; the
+// mean of vectors does not double.
 TEST(WaveNormals, SlopesAreTheMeanOfTheSlopes) {
   const NoiseMap map(8, 8);
   Tray tray = mapped_tray(map, 1);
@@ -216,7 +217,7 @@ TEST(WaveNormals, SlopesAreTheMeanOfTheSlopes) {
 }
 
 // At a third of a period's eighth: the first lookup moves by direction, the second, twice as wide,
-// back by 0.3 of it.
+// moves back by 0.3 of direction.
 TEST(WaveNormals, TwoFlowsDriftAgainstEachOther) {
   const NoiseMap map(8, 8);
   for (double degrees : {0.0, 90.0, 135.0}) {
@@ -334,7 +335,7 @@ TEST(WaveNormals, SinesTravelAlongTheirDirection) {
 TEST(WaveNormals, SinesAreTheScenesUnlessTheLookHasSome) {
   const std::vector<SineWave> of_scene = {{0.1, 1, 0.5, 0, 0}}, of_look = {{0.1, 0, 2, 0, 0}};
   Tray tray = waving_tray({});
-  expect_vector(normal_at(tray.wet(), 1, 2), {0, 1, 0}, 0);  // none at all
+  expect_vector(normal_at(tray.wet(), 1, 2), {0, 1, 0}, 0);  // no waves
   tray.scene.water->waves = of_scene;
   expect_vector(normal_at(tray.wet(), 1, 2), normal_at(waving_tray(of_scene).wet(), 1, 2), 0);
   tray.look.of<WaveNormals>().waves = of_look;
@@ -414,8 +415,8 @@ TEST(WaveNormals, PositionsTooFarForANumberStayInTheMap) {
   }
 }
 
-// Whatever way the camera looks: a wave that leans to the camera's right moves the lookup right,
-// one that leans away from the camera moves it up the picture.
+// In any direction of the camera, a wave that leans to the camera's right moves the lookup right,
+// and a wave that leans away from the camera moves the lookup up the picture.
 TEST(WaveNormals, TiltFollowsTheCameraInAnyWorld) {
   const Size size{10, 10};
   struct World {
@@ -447,7 +448,7 @@ TEST(WaveNormals, TiltFollowsTheCameraInAnyWorld) {
   }
 }
 
-// A camera on its side: its right is the plane's normal, so its up stands in.
+// The right of a camera on its side is the plane's normal, so the camera's up stands in.
 TEST(WaveNormals, TiltOfACameraOnItsSide) {
   Tray tray({10, 10});
   tray.scene.camera->view =

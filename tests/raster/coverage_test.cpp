@@ -36,7 +36,7 @@ int inside(const std::vector<Point>& polygon, Point p) {
 
 glm::vec3 point(Point p) { return pixel_point(p.x / 256.0, p.y / 256.0); }
 
-/// How often each pixel is covered, the triangles drawn one by one.
+/// The count of triangles that cover each pixel, drawn one by one.
 std::vector<int> counts(const std::vector<std::array<Point, 3>>& all, const std::string& simd) {
   std::vector<int> covered(kSize * kSize);
   const auto executor = make_executor(1);
@@ -54,7 +54,7 @@ std::vector<int> counts(const std::vector<std::array<Point, 3>>& all, const std:
   return covered;
 }
 
-/// Every pixel strictly inside once, strictly outside never, on the rim at most once.
+/// Each pixel strictly inside is covered once, strictly outside never, on the rim at most once.
 void expect_once(const std::vector<Point>& polygon, const std::vector<int>& covered) {
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
@@ -103,7 +103,7 @@ TEST_P(CoverageOnTarget, TwoTrianglesThatShareAnEdgeCoverEachPixelOnce) {
 TEST_P(CoverageOnTarget, FansHaveNoCracks) {
   Random random(2);
   for (int fan = 0; fan < 60; ++fan) {
-    // Rounded points of a circle: convex, after leaving out what is not.
+    // Rounded points of a circle, without the points that would make the rim concave.
     std::vector<Point> rim;
     const double radius = random.between(2, 17);
     const int corners = 5 + random.below(12);
@@ -112,7 +112,8 @@ TEST_P(CoverageOnTarget, FansHaveNoCracks) {
       rim.push_back({static_cast<int>(256 * (18.5 + radius * std::cos(angle))),
                      static_cast<int>(256 * (18.5 + radius * std::sin(angle)))});
     }
-    // Every other fan has its middle on a pixel's centre, which one of its triangles must get.
+    // Every other fan has its middle on a pixel's centre, which one of the fan's triangles must
+    // cover.
     const int off = fan % 2 ? random.below(200) - 100 : 0;
     const Point middle{256 * 18 + 128 + off, 256 * 18 + 128 - off};
     std::vector<std::array<Point, 3>> triangles;
@@ -127,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Simd, CoverageOnTarget, testing::ValuesIn(simd_targets(
                          [](const auto& target) { return target.param; });
 
 TEST(Coverage, LargeTrianglesAreExactToo) {
-  // Corners up to 16000 pixels away, one of which is each pixel's centre or next to it.
+  // Corners up to 16000 pixels away; one corner is each pixel's centre or next to the centre.
   Random random(3);
   for (int round = 0; round < 300; ++round) {
     const auto far = [&] {

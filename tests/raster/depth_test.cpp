@@ -16,7 +16,7 @@ double plane_depth(const RasterView& view, int x, int y, const glm::dvec3& p, co
   return glm::dot(n, p - from) / glm::dot(n, rays.ray_at(x + 0.5, y + 0.5));
 }
 
-/// Covered pixels, each compared to the plane.
+/// Counts the covered pixels, and compares each with the plane.
 int expect_plane(const RasterImage& image, const RasterView& view, const glm::dvec3& p,
                  const glm::dvec3& n, double tolerance) {
   int covered = 0;

@@ -44,7 +44,7 @@ TEST(Materials, VertexColorsAreMixedAcrossATriangle) {
 }
 
 TEST(Materials, VertexColorsAreMixedInPerspective) {
-  // A floor from z = -1 to -9 whose red is the distance: on the screen it is no line.
+  // A floor from z = -1 to -9 whose red is the distance: on the screen red is not linear.
   Model model = model_of({quad({-3, 0, -1}, {3, 0, -1}, {3, 0, -9}, {-3, 0, -9})});
   model.meshes[0].colors = {{0, 0, 0, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}};
   const RasterView view = perspective_view(64, 64, {0, 2, 2}, {0, 0, -4});
@@ -131,7 +131,8 @@ TEST(Materials, BlackEmissionNeedsNoTexture) {
 
 // --- textures ---
 
-/// What each of 12 pixels in a row shows of four texels, 1, 2, 3, 4: one each, from uv -1 to 2.
+/// The texel that each of 12 pixels in a row shows, of four texels 1, 2, 3, 4: one each, from uv -1
+/// to 2.
 std::vector<int> texels_shown(Wrap wrap, bool down) {
   Material m = white(Shading::kTextured);
   m.base_texture = 0;
@@ -167,8 +168,8 @@ TEST(Materials, TexturesRepeatClampOrMirror) {
 }
 
 TEST(Materials, ClampedTexturesDoNotMixTheirEnds) {
-  // Between the last texel's centre and the edge: the texel alone, but half the first if it
-  // repeats.
+  // Between the last texel's centre and the edge, a lookup has the last texel alone, but half of
+  // the first texel if the texture repeats.
   Material m = white(Shading::kTextured);
   m.base_texture = 0;
   Model model = rectangle(16, 16, m);

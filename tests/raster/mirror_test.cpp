@@ -45,7 +45,7 @@ TEST(Mirror, TwiceIsTheIdentityAndPointsOfThePlaneStay) {
   const glm::dvec3 p = on_plane(kTilted, 2, -3);
   EXPECT_NEAR(glm::length(glm::dvec3(m * glm::dvec4(p, 1)) - p), 0, 1e-14);
   EXPECT_NEAR(glm::determinant(glm::dmat3(m)), -1, 1e-14);
-  // One above by hand: straight over the plane y = 1 at height 3 goes to -1.
+  // A point above the plane, by hand: straight over the plane y = 1, height 3 goes to -1.
   const glm::dvec4 q = mirror({{0, 1, 0}, 1}) * glm::dvec4(5, 3, 7, 1);
   EXPECT_EQ(glm::dvec3(q), glm::dvec3(5, -1, 7));
 }
@@ -60,7 +60,8 @@ TEST(Mirror, ObliquePlanePointsLandOnTheNearPlane) {
         for (double b : {-1.0, 0.5}) {
           const glm::dvec3 p = on_plane(kTilted, a, b);
           EXPECT_NEAR(device_depth(mirrored, p), at_near, 1e-12);
-          // Above the plane is beyond the near plane and inside the range; below is cut away.
+          // A point above the plane is beyond the near plane and inside the range; a point below is
+          // cut away.
           EXPECT_GT(inwards * (device_depth(mirrored, p + 0.1 * kTilted.up) - at_near), 0);
           EXPECT_LT(inwards * (device_depth(mirrored, p - 0.1 * kTilted.up) - at_near), 0);
         }
@@ -73,7 +74,7 @@ TEST(Mirror, NothingOfTheOldFrustumIsLostAtTheFarPlane) {
   for (ClipSpace clip : kClips) {
     const Camera camera = looking_down(60, clip);
     const Camera mirrored = mirrored_camera(camera, kTilted);
-    // Walk the old frustum of the mirrored view; what is above the plane must stay within the clip
+    // Walk the old frustum of the mirrored view: points above the plane must stay within the clip
     // range.
     Camera plain = mirrored;
     plain.projection = camera.projection;

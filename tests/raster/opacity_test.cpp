@@ -143,7 +143,7 @@ TEST(Opacity, WhatIsOpaqueHidesBlendedSurfaces) {
   expect_color(
       shown(sheets({{sheet_of(AlphaMode::kBlend, 0.5, red), 5}, {sheet_of({}, 1, green), 3}})),
       green);
-  // So does a blended one that is opaque, and a masked one where it is there.
+  // So does an opaque blended sheet, and a masked sheet where its mask is opaque.
   expect_color(shown(sheets({{sheet_of(AlphaMode::kBlend, 0.5, red), 5},
                              {sheet_of(AlphaMode::kBlend, 1, green), 3}})),
                green);
@@ -254,7 +254,7 @@ TEST(Opacity, BackFacesAreLeftOutOfTheLayers) {
   expect_color(shown(model), over(0.5, {1, 0, 0}, kBackground));
 }
 
-/// A fence of two slats, each a quarter of its width, over a floor, and the sun above.
+/// A fence of two slats, each a quarter of the fence's width, over a floor, and the sun above.
 Model fence() {
   Material slats = white(Shading::kLambert);
   slats.alpha_mode = AlphaMode::kMask;
@@ -274,7 +274,7 @@ TEST(Opacity, AMaskedFenceThrowsTheShadowOfItsSlats) {
   const Model model = fence();
   const ShadowMap map = make_shadow_map(model, sun, std::nullopt, 512, *make_executor(1));
   const glm::dvec3 up(0, 1, 0);
-  // Texels are one unit wide: from -2 to -1 it is there, from -1 to 0 not, and so on.
+  // Texels are one unit wide: from -2 to -1 the fence has a slat, from -1 to 0 a gap, and so on.
   for (const auto& [x, lit] : {std::pair{-1.5, 0.0}, {-0.5, 1.0}, {0.5, 0.0}, {1.5, 1.0}}) {
     EXPECT_EQ(shadow_at(map, {x, 0, 0.3}, up), lit) << x;
   }
@@ -293,7 +293,7 @@ TEST(Opacity, BlendedSurfacesThrowTheirShadowByTheRuleOfDepth) {
 }
 
 TEST(Opacity, LayersAreLitWhereTheyAre) {
-  // A lambert sheet in full sun over a floor in the dark of another.
+  // A lambert sheet in full sun over the background.
   Material m = sheet_of(AlphaMode::kBlend, 0.5, {1, 1, 1});
   m.shading = Shading::kLambert;
   m.ambient = {0, 0, 0};

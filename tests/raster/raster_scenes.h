@@ -39,7 +39,7 @@ inline RasterView flat_view(int width, int height) {
   return view;
 }
 
-/// Where a pixel of flat_view is.
+/// The point of a pixel of flat_view.
 inline glm::vec3 pixel_point(double x, double y, double depth = 0) {
   return glm::vec3(x, -y, -depth);
 }
@@ -156,7 +156,7 @@ inline ModelTexture checker(int size) {
   return texture;
 }
 
-/// Hills of every material, seen from above their middle; some of it behind the camera.
+/// Hills of every material, seen from above their middle; some hills lie behind the camera.
 inline Model mixed_model() {
   Model model;
   for (Shading shading :

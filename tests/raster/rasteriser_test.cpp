@@ -136,7 +136,7 @@ TEST(Rasteriser, WaterIsDrawnAloneOrNotAtAll) {
 TEST(Rasteriser, DegenerateTrianglesAreCountedAndLeftOut) {
   const Mesh mesh = triangles({{0, 0, 0},
                                {0, 0, 0},
-                               {5, 5, 0},  // two corners in one
+                               {5, 5, 0},  // two corners at one point
                                {-3, -3, 0},
                                {0, 0, 0},
                                {3, 3, 0},  // on a line
@@ -157,7 +157,7 @@ TEST(Rasteriser, DegenerateTrianglesAreCountedAndLeftOut) {
 }
 
 TEST(Rasteriser, FlattenedInstancesAreDrawn) {
-  // A singular transform: the hills pressed flat still show, and their normals are the plane's.
+  // A singular transform: flattened hills still show, and their normals are the plane's.
   Model model = model_of({hills(8, 10, 1)});
   model.meshes[0].normals.clear();
   model.instances[0].world_from_mesh = glm::scale(glm::dmat4(1), glm::dvec3(1, 0, 1));

@@ -106,7 +106,7 @@ TEST(RenderPlate, DepthIsThatOfThePlanes) {
   EXPECT_GT(water_pixels, 1000);
 }
 
-/// The basin with a wall in its middle, from under the water to above it.
+/// The basin with a wall in its middle, from below the water to above the water.
 Model basin_with_wall(AlphaMode mode, double alpha) {
   Model model = basin();
   model.meshes.push_back(quad({-3, -0.8f, -3}, {6, 0, 0}, {0, 2, 0}, 4, 3));
@@ -171,8 +171,8 @@ TEST(RenderPlate, WhatIsBlendedIsInAllColorsAndByItsOpacityInTheRest) {
 TEST(RenderPlate, ReflectionOfAFlatMirrorIsTheSceneUpsideDown) {
   const Scene scene = over_basin();
   const RenderedPlate plate = render_basin(scene);
-  // The world turned over at the water, seen by the same camera through a plane that keeps what was
-  // above.
+  // The world turned over at the water, seen by the same camera through a plane that keeps the part
+  // that was above.
   Model turned = basin();
   for (Mesh& mesh : turned.meshes) {
     for (glm::vec3& p : mesh.positions) p.y = -p.y;
@@ -185,7 +185,7 @@ TEST(RenderPlate, ReflectionOfAFlatMirrorIsTheSceneUpsideDown) {
   Scene under = scene;
   under.sun->direction.y = -under.sun->direction.y;
   under.water =
-      WaterPlane{{0, 1, 0}, -50};  // far below: it cuts nothing, and the sun must be above it
+      WaterPlane{{0, 1, 0}, -50};  // far below: the plane cuts nothing; the sun must stand above it
   under.sun->direction = scene.sun->direction;
   const RenderedPlate image =
       render_plate(turned, under, {.size = kSize}, PlaneSet{PlaneId::kDepth}, *make_executor(1));
@@ -265,7 +265,7 @@ TEST(RenderPlate, BelowHoldsOnlyWhatIsUnderTheWater) {
   EXPECT_GT(found, 1000);
 }
 
-/// A step in the basin that is above calm water, and in the reach of waves of 2.5 cm.
+/// A step in the basin, above calm water and within reach of waves of 2.5 cm.
 TEST(RenderPlate, BelowReachesTheCrestsOfWaves) {
   Model model = basin();
   model.meshes.push_back(quad({-1, 0.02f, -1}, {2, 0, 0}, {0, 0, -2}, 1, 0));
@@ -296,7 +296,7 @@ TEST(RenderPlate, DrawsOnlyWhatIsWanted) {
   const RenderedPlate all = render_basin(over_basin());
   EXPECT_EQ(all.frame.present(), kEverything);
   for (const Role& role : roles()) {
-    if (!kEverything.covers(role.planes())) continue;  // made by others
+    if (!kEverything.covers(role.planes())) continue;  // other programs make these planes
     const RenderedPlate plate = render_basin(over_basin(), role.planes());
     ASSERT_EQ(plate.frame.present(), role.planes()) << role.name;
     for (int i = 0; i < role.count; ++i) {
@@ -340,7 +340,7 @@ TEST(RenderPlate, TheSunsShareIsNoMoreThanTheColorAndNoneInShadow) {
   EXPECT_GT(sky, 100);
 }
 
-/// The basin with a wall that is glossy, where nothing but the sun shines.
+/// The basin with a glossy wall, in sunlight alone.
 Model sunlit_basin(AlphaMode mode) {
   Model model = basin_with_wall(mode, 0.4);
   for (Material& m : model.materials) m.ambient = {0, 0, 0};
@@ -411,7 +411,7 @@ TEST(RenderPlate, SameBitsForAnyThreadCount) {
   }
 }
 
-/// In the water of the basin, looking up through it at the slab.
+/// A camera in the water of the basin, which looks up through the water at the slab.
 Scene under_water() {
   Scene scene = over_basin();
   scene.camera->view =
@@ -458,7 +458,7 @@ TEST(RenderPlate, TheUndersideMirrorsWhatIsInTheWater) {
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
       const glm::dvec3 eye = scene.camera->eye(), ray = rays.ray_at(x + 0.5, y + 0.5);
-      // In the mirror the floor is at y = 1, and the wall goes up to there from the water.
+      // In the mirror the floor is at y = 1, and the wall goes from the water up to the floor.
       if (eye.y + (-6 - eye.z) / ray.z * ray.y < 0.01) continue;
       const double to_floor = (1 - eye.y) / ray.y, to_wall = (-6 - eye.z) / ray.z;
       const double depth = plate.frame.plane(PlaneId::kReflectionDepth).at(x, y);
@@ -492,7 +492,7 @@ TEST(RenderPlate, AnEyeInTheWaterPlaneSeesTheDrySceneAndNoMirror) {
     EXPECT_NEAR(3 + depth.at(x, y) * rays.ray_at(x + 0.5, y + 0.5).z, -6, 1e-4) << height;
   }
   Scene above = over_basin();
-  above.water->waves = {{2.5, 0.3, 0, 0, 0}};  // a crest over the eye, which is over the plane
+  above.water->waves = {{2.5, 0.3, 0, 0, 0}};  // a crest over the eye, which is above the plane
   EXPECT_EQ(render_basin(above).frame.present(), kEverything);
 }
 
@@ -536,7 +536,7 @@ TEST(RenderPlate, WhatStandsOverTheWaterShadowsItsSurface) {
     EXPECT_FALSE(calm.frame.plane(PlaneId::kSurfaceDepth));
     expect_shadow_of_the_slab(scene, calm, 0);
 
-    // The lifted surface meets the same rays of the sun elsewhere: a wave of no slope lifts it.
+    // The lifted surface meets the same rays of the sun elsewhere: a wave without slope lifts it.
     scene.water->waves = {{0.4, 0, 0, 1.5707963267948966, 0}};
     expect_shadow_of_the_slab(scene, render_basin(scene), 0.4);
   }

@@ -158,7 +158,7 @@ TEST(Winding, BackFacesAreCulledUnlessDoubleSided) {
   EXPECT_TRUE(covered(back, false, false));
   back.materials[0].double_sided = true;
   EXPECT_TRUE(covered(back));
-  // A mirrored instance turns its triangles around; what was outside stays outside.
+  // A mirrored instance turns its triangles around; its outer sides stay outer sides.
   front.instances[0].world_from_mesh = glm::translate(glm::dmat4(1), glm::dvec3(32, 0, 0)) *
                                        glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
   EXPECT_TRUE(covered(front));
@@ -202,7 +202,7 @@ TEST(Texture, UvIsPerspectiveCorrect) {
   EXPECT_GT(covered, 5000);
 }
 
-/// The middle of a square whose texture, a checker of 64 x 64, has `texels` to a pixel.
+/// The middle row of a square whose texture, a checker of 64 x 64, has `texels` to a pixel.
 std::vector<float> row_of_checker(double texels) {
   Material m = white(Shading::kTextured);
   m.base_texture = 0;
@@ -222,7 +222,7 @@ TEST(Texture, MipLevelFollowsTheFootprint) {
     EXPECT_NEAR(sharp[i], i % 2 ? sharp[1] : 1 - sharp[1], 1e-4);
     EXPECT_NEAR(std::abs(sharp[i] - 0.5), 0.5, 1e-4);
   }
-  // 1.4 texels a pixel still read the first level, 1.43 the second, where all is grey.
+  // 1.4 texels a pixel still read the first level, 1.43 the second level, which is all grey.
   float spread = 0;
   for (float value : row_of_checker(1.4)) spread = std::max(spread, std::abs(value - 0.5f));
   EXPECT_GT(spread, 0.2f);

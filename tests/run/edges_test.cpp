@@ -32,8 +32,8 @@ struct Errors {
   double mean = 0, most = 0;
 };
 
-/// From what the post's own color over the water without the post comes to, in the columns around
-/// its sides, but for rows that look up where it hides the bottom.
+/// The difference from the post's own color over the water without the post, in the columns around
+/// the post's sides, without the rows whose lookups land where the post hides the bottom.
 Errors errors_of(const Post& post, const test::Picture& got, const test::Picture& without) {
   Errors errors;
   int count = 0;
@@ -110,7 +110,7 @@ TEST(EdgesInThePicture, FourTermsSumToIt) {
   }
 }
 
-// Measures are those of the water: of transmittance and Fresnel no mean with a post is taken.
+// Measures are those of the water: transmittance and Fresnel are not averaged with the post's.
 TEST(EdgesInThePicture, MeasuresAreOfTheWater) {
   const Pictures p(6, Post::Depth::kMiddle);
   int parts = 0;

@@ -12,7 +12,7 @@
 #include "optics/highlight.h"
 #include "support.h"
 
-// What the water gives back of the light, by the whole chain in both runners.
+// The energy of the light that the water returns, by the whole chain in both runners.
 
 namespace limpid {
 namespace {
@@ -50,7 +50,7 @@ void for_each_wet(const Picture& p, Fn&& fn) {
   EXPECT_GT(wet, 500);
 }
 
-/// A noisy frame in which everything seen is white.
+/// A noisy frame in which every surface is white.
 Buffers white_frame() {
   Buffers b = test::noisy_frame(rect_of(kSize));
   for (PlaneId first : {PlaneId::kColorR, PlaneId::kReflectionR, PlaneId::kBelowR}) {
@@ -78,7 +78,7 @@ class WhiteSky {
   Plane plane_;
 };
 
-/// The physical look over water that takes and sends nothing.
+/// The physical look over water that neither absorbs nor emits.
 Look clear_look() {
   Look look;
   look.of<DepthFog>() = test::plain_fog(DepthFog::Model::kBeerLambert);
@@ -96,7 +96,7 @@ Scene sunless_scene() {
 
 void expect_white(const Picture& p) {
   for_each_wet(p, [&](int x, int y) {
-    // Nothing is there, for one of the colors at least, and sends no light.
+    // For at least one color no surface is hit, and no light comes from there.
     if (std::isinf(p.aov(Aov::kPath, x, y)) || p.aov(Aov::kConfidence, x, y) < 0.85) return;
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(p.target.color[c].at(x, y), 1, 1e-5) << x << ", " << y << ", channel " << c;
@@ -222,7 +222,7 @@ TEST_P(Energy, AGlintIsNoBrighterThanTheMirroredSun) {
                   1e-5 * disc);
       brightest = std::max(brightest, share);
     });
-    // Rough water spreads the light so far that the bound is not reached.
+    // Rough water spreads the light so far that the bound is not met.
     EXPECT_GT(brightest, roughness < 0.01 ? 0.99 : 0) << roughness;
   }
 }
@@ -252,7 +252,7 @@ TEST_P(Energy, NothingGlintsInTheShadow) {
 
 TEST_P(Energy, ReflectanceIsAShare) {
   Buffers b = test::noisy_frame(rect_of(kSize));
-  // Any direction at all: facets that face away, too.
+  // Any direction, facets that face away included.
   set_normals(b, [](int x, int y) {
     const auto part = [&](int channel) { return test::noise(x, y, channel) - 0.5; };
     return glm::normalize(glm::dvec3(part(70), part(71), part(72)));

@@ -56,8 +56,8 @@ void expect_same_from_any_strides(const Look& look, Size size, const std::string
   EXPECT_TRUE(same_bits(test::fused(look, planar.frame, scene, options).values(),
                         test::fused(look, interleaved, scene, options).values()))
       << size.width << "x" << size.height;
-  // Three channels that are looked up together where no prism parts them; rows of the first lie
-  // twice as far apart.
+  // Three channels that are looked up together unless a prism parts them; rows of the first channel
+  // lie twice as far apart.
   Look whole = look;
   whole.of<PrismSplit>().strength = whole.of<PrismSplit>().gain = 0;
   Frame uneven = planar.frame;
@@ -107,7 +107,7 @@ TEST_P(FusedOnTarget, NormalMapAgreesWithTheReference) {
   b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
   b.set(PlaneId::kDepth, [](int x, int y) { return 2 + 8 * test::noise(x / 9, y / 9, 3); });
   const test::NoiseMap map(16, 8);
-  b.frame.wave_map = map.texture;  // which may lie anywhere
+  b.frame.wave_map = map.texture;  // a map may lie anywhere
   for (View<const float>& channel : b.frame.wave_map.channels) channel.window = {5, -3, 21, 5};
   Scene scene = test::simple_scene(size);
   scene.time = 12.3;
@@ -129,7 +129,7 @@ TEST_P(FusedOnTarget, NormalMapAgreesWithTheReference) {
   EXPECT_GT(wet, 500);
 }
 
-/// Water at the eye itself, and next to it: a ray that starts there may come from behind.
+/// Water at the eye itself, and next to the eye: a ray that starts there may come from behind.
 TEST_P(FusedOnTarget, WaterAtTheEyeMakesNoNan) {
   const Size size{33, 9};
   Buffers b = test::noisy_frame(rect_of(size));
@@ -142,7 +142,7 @@ TEST_P(FusedOnTarget, WaterAtTheEyeMakesNoNan) {
   }
 }
 
-/// 0.6^200 is 4e-45: high powers of what is not small would make denormals in floods.
+/// 0.6^200 is 4e-45: high powers of numbers that are not small would make many denormals.
 TEST_P(FusedOnTarget, MakesNoDenormals) {
   const Size size{67, 41};
   Buffers b = test::noisy_frame(rect_of(size));
@@ -167,7 +167,7 @@ TEST_P(FusedOnTarget, MakesNoDenormals) {
   EXPECT_GT(flushed, 0);
 }
 
-/// Eight bits of a value are one fetch for three channels, by a way of its own.
+/// Eight bits of a value are one fetch for three channels, by a code path of their own.
 TEST_P(FusedOnTarget, PackedNormalMapAgreesWithTheReference) {
   const Size size{133, 21};
   Buffers b = test::noisy_frame(rect_of(size));
@@ -242,9 +242,9 @@ TEST_P(FusedOnTarget, DryPixelsPassThroughBitForBit) {
   EXPECT_GT(dry, 50);
 }
 
-/// Planes side by side are read in pairs, others texel by texel: the same bits, by samplers (the
-/// article's look), by probes, and with what lies beside them, at windows of one column or one row,
-/// too.
+/// Planes side by side are read in pairs, others texel by texel, with the same bits: by samplers
+/// (the article's look), by probes, and with neighbouring planes, also at windows of one column or
+/// one row.
 TEST_P(FusedOnTarget, ReadsAndWritesAnyStrides) {
   Look plate = busy_look();
   plate.of<WaveNormals>().model = WaveNormals::Model::kPlate;
@@ -279,12 +279,12 @@ TEST(Fused, TimesAreOfTheOperatorsThatRun) {
   EXPECT_GT(times.rest, 0);
 }
 
-/// Where the survey finds no foreground the test for it is left out. One dry pixel takes that away
-/// from its cells; what is far from it does not change by a bit.
+/// Where the survey finds no foreground the foreground test is left out. One dry pixel makes its
+/// cells run the test; pixels far from the dry pixel do not change by a bit.
 TEST(Fused, CellsWithoutForegroundHaveTheBitsOfThoseWithout) {
   const Size size{512, 64};
   Buffers b = test::noisy_frame(rect_of(size));
-  for (int i = 0; i < kPlaneCount; ++i) {  // no foreground is in a layer of what lies below
+  for (int i = 0; i < kPlaneCount; ++i) {  // no foreground is in a layer below
     if (kBelowPlanes.has(static_cast<PlaneId>(i))) b.frame.planes[i] = {};
   }
   b.fill(PlaneId::kSurfaceDepth, 4);
@@ -382,7 +382,7 @@ TEST(Fused, RefusesWhatItCannotDo) {
   EXPECT_THROW(run_fused(make_plan({}, test::inputs_of(b.frame, scene)), b.frame, scene, over,
                          *make_executor(1)),
                Error);
-  // Offsets of texels are 32 bits wide. What lies that far beyond the stack is no target's.
+  // Offsets of texels are 32 bits wide. An address that far beyond the stack is no target's.
   const std::array<float, 4> row{5, 5, 5, 5};
   Frame huge = b.frame;
   huge.planes[index_of(PlaneId::kDepth)] = {row.data(), 1, std::ptrdiff_t{1} << 29, rect_of(size)};
@@ -463,7 +463,7 @@ TEST(Fused, APlanIsForTheScenesPrimariesAlone) {
   EXPECT_NO_THROW(run_reference(other, b.frame, scene, picture.target));
 }
 
-/// One thread, that a stop reaches after so many of the last tasks that it is given.
+/// An executor of one thread, which a stop reaches after this many of the last tasks.
 class StoppedExecutor : public Executor {
  public:
   void run(int count, Task task, void* context) override {
@@ -476,7 +476,7 @@ class StoppedExecutor : public Executor {
   std::stop_source source;
 };
 
-/// Of 7 x 5 tiles, those from the third on are as they were.
+/// Of 7 x 5 tiles, those from the third on are unchanged.
 TEST(Fused, AStopIsToldAndBeginsNoMoreTiles) {
   const Size size{70, 50};
   const Buffers b = test::noisy_frame(rect_of(size));
@@ -502,7 +502,7 @@ TEST(Fused, AStopIsToldAndBeginsNoMoreTiles) {
   for (int y = 0; y < size.height; ++y) {
     for (int x = y < 10 ? 20 : 0; x < size.width; ++x) EXPECT_TRUE(is_as(untouched, x, y));
   }
-  // It had been requested before: nothing begins.
+  // The stop was requested before the run: no tile begins.
   const Picture second(b.frame.work());
   EXPECT_THROW(runner.run(plan, b.frame, scene, second.target, executor, options), Stopped);
   EXPECT_TRUE(same_bits(second.values(), untouched.values()));

@@ -69,7 +69,7 @@ class Fixture {
     }
     return m;
   }
-  /// What happens to a plate on entry: unit normals, up for zero ones.
+  /// The entry of a plate: unit normals, up for zero normals.
   void normalise_normals() {
     std::array<View<const float>, 3> raw;
     for (int c = 0; c < 3; ++c) {

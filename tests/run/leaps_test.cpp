@@ -10,7 +10,7 @@
 #include "op/pass.h"
 #include "plan/landscape.h"
 
-/// A march that leaves out looks (FusedOptions::leaps) against one that does not.
+/// A march that leaves out lookups (FusedOptions::leaps) against a march that does not.
 
 namespace limpid {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using test::Below;
 using test::Buffers;
 
-/// Of shallow, wavy and murky water, whatever patchy_look() says, but marching.
+/// A marching look of shallow, wavy and murky water, whatever patchy_look() sets.
 Look marching_look(int seed) {
   Look look = test::patchy_look(seed);
   Refraction::Params& refraction = look.of<Refraction>();
@@ -28,7 +28,7 @@ Look marching_look(int seed) {
   return look;
 }
 
-/// How many of the numbers of the picture are others with leaps.
+/// The count of the picture's numbers that change with leaps.
 std::size_t others(const Look& look, const Frame& frame, const Scene& scene,
                    const std::string& simd) {
   const std::vector<float> with = test::fused(look, frame, scene, {.simd = simd}).values();
@@ -119,7 +119,7 @@ TEST_P(Leaps, ChangeNotABitWhereNumbersAreLargeOrSmall) {
   }
 }
 
-/// The plane of eye depths at which what `height_of(x, y)` gives, over the calm surface, is seen.
+/// The plane of eye depths at which the heights `height_of(x, y)` over the calm surface are seen.
 template <class HeightOf>
 void set_heights(Buffers& b, const Scene& scene, PlaneId plane, Rect window, HeightOf&& height_of) {
   const Pass pass(scene, b.frame, 1.333, {});

@@ -53,7 +53,7 @@ class MaxError : public testing::TestWithParam<int> {
 
 TEST_P(MaxError, ZeroChangesNotABit) {
   const Picture exact = run(0, {});
-  // Where all state is to be written nothing is hidden.
+  // If all state is to be written, no operator is hidden.
   expect_same_bits(exact, run(0, test::all_state()), " with all state");
 }
 

@@ -2,7 +2,7 @@
 
 #include "complete/shore.h"
 
-// What of a mirror was made, and where its light was taken from.
+// The AOVs of a mirror: which mirror was made, and where its light came from.
 
 namespace limpid {
 namespace {
@@ -20,7 +20,7 @@ Look look_of(Source source) {
   return look;
 }
 
-/// Without a reflection the shore's own picture is mirrored.
+/// A shore without a reflection, whose own picture is mirrored.
 test::Buffers without_reflection(const Shore& shore) {
   test::Buffers buffers(rect_of(kSize));
   for (int c = 0; c < 3; ++c) buffers.fill(plane_after(PlaneId::kColorR, c), 0.5f);
@@ -76,9 +76,9 @@ TEST(MirrorAovs, SourcesSumToOne) {
   }
 }
 
-/// Of waves whose slopes are Gaussian and that raise the water the share of what is seen of them
-/// that mirrors what stands up to the angle `top` over the water, from the angle `eye`. A ray that
-/// would go into the water goes along it.
+/// The share of the visible facets that mirrors objects up to the angle `top` over the water, from
+/// the angle `eye`, for waves with Gaussian slopes that raise the water. A ray that would go into
+/// the water goes along the water.
 double share_under(double top, double eye, double deviation) {
   double under = 0, all = 0;
   for (double slope = -6; slope < 6; slope += 1e-3) {
@@ -90,8 +90,8 @@ double share_under(double top, double eye, double deviation) {
   return under / all;
 }
 
-// A wall behind water whose waves no pixel resolves: each pixel mirrors it with all of its facets
-// that see it, and not with all or none of each third of them.
+// A wall behind water whose waves no pixel resolves: each pixel mirrors the wall with all facets
+// that see the wall, not with all or none of each third of the facets.
 TEST(MirrorAovs, UnresolvedWavesMirrorAWallByTheFacetsThatSeeIt) {
   constexpr double kDeviation = 0.1, kK = 200;
   Look look = test::still_look();
@@ -115,7 +115,7 @@ TEST(MirrorAovs, UnresolvedWavesMirrorAWallByTheFacetsThatSeeIt) {
       Shore shore;
       shore.far = 8, shore.top = top;
       shore.buffers.set(PlaneId::kDepth, [&](int x, int y) { return shore.dry_depth(x, y); });
-      // What the wall mirrors is 1, and the sky 0.
+      // The wall's mirrored light is 1, and the sky's 0.
       const auto shown = [&](PlaneId first, auto&& depth) {
         for (int c = 0; c < 3; ++c) {
           shore.buffers.set(plane_after(first, c),
@@ -145,8 +145,8 @@ TEST(MirrorAovs, UnresolvedWavesMirrorAWallByTheFacetsThatSeeIt) {
       }
     }
     for (const int of : quarters) EXPECT_GT(of, 0);
-    // Facets that pass the skyline are followed over the reflection, whose depth was made here and
-    // is two pixels wider than the wall.
+    // Facets that pass the skyline are followed over the reflection, whose depth the completer made
+    // and is two pixels wider than the wall.
     EXPECT_LT(worst, reflection ? 0.08 : 0.03);
     EXPECT_LT(std::abs(sum / count), 0.01) << reflection;
   }

@@ -73,8 +73,8 @@ TEST(NothingBehindFused, AgreesWithTheReferenceAndShowsNoSky) {
   }
 }
 
-/// Away from the gaps nothing changes for them: a cell in whose reach nothing is missing computes
-/// what all did before, to the bit.
+/// Away from the gaps no pixel changes: a cell that has no gap in its reach computes the same bits
+/// as without gaps.
 TEST(NothingBehindFused, ASkyBesideTheWaterChangesNoBitOfIt) {
   for (const char* name : {"physical", "fast", "realistic", "monogame"}) {
     const Sea with(false, true), without(false, false);

@@ -21,7 +21,7 @@ Scene sea() {
   return scene;
 }
 
-/// A reflection that brightens towards the horizon, and nothing in the water.
+/// A reflection that brightens towards the horizon, and black below the water.
 Buffers frame_of(const Scene& scene, bool with_surface) {
   Buffers b(rect_of(kSize));
   b.fill(PlaneId::kDepth, test::kInf);
@@ -68,7 +68,7 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-// On calm water and where the plate says where its water is.
+// On calm water and with the surface of a plate.
 TEST(PixelPart, MorePartsComeNearerToTheMeanOfMany) {
   const Scene scene = sea();
   for (const bool with_surface : {false, true}) {

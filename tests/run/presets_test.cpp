@@ -11,8 +11,8 @@
 #include "ops/depth_fog_kernel.h"
 #include "support.h"
 
-// The presets as they are shipped. What is tested of all looks, and of how they compute, is tested
-// of the look that they are based on; here is what their own numbers come to.
+// The presets as they are shipped. The base look's tests check the laws of all looks; here are the
+// results of the presets' own numbers.
 
 namespace limpid {
 namespace {
@@ -45,7 +45,7 @@ TEST(Presets, AreTheFilesOfTheFolderAndNamesOfNoLook) {
   }
 }
 
-/// Water, size and wind are their own; how it is computed is the base's.
+/// Water, size and wind are the preset's own; the computation is the base's.
 TEST(Presets, AreThePhysicsOfOneWater) {
   const Look physical = load_look(kData / "looks/physical.toml");
   const std::string own[] = {"wave_normals.strength",  "wave_normals.tile_size",
@@ -68,7 +68,7 @@ TEST(Presets, AreThePhysicsOfOneWater) {
     for (const char* key : {"wave_normals.tile_size", "wave_normals.wind", "depth_fog.murkiness"}) {
       EXPECT_NE(std::find(found.begin(), found.end(), key), found.end()) << name << ", " << key;
     }
-    // The sliders of murkiness, wind and sediment begin where the preset is.
+    // The sliders of murkiness, wind and sediment begin at the preset's values.
     EXPECT_EQ(look.of<DepthFog>().water_type, WaterType::kCase1) << name;
     EXPECT_EQ(differences(look_from_toml(to_toml(look), name), look), std::vector<std::string>{});
   }
@@ -86,7 +86,7 @@ TEST(Presets, AreEachAnotherWater) {
 TEST(Presets, HarbourIsJerlovs7C) {
   const DepthFog::Params fog = preset("harbour").of<DepthFog>();
   const Rgb<double> a = Kernel<DepthFog>::absorption(fog), b = Kernel<DepthFog>::scattering(fog);
-  const double g = fog.anisotropy;  // share thrown back, of Henyey and Greenstein
+  const double g = fog.anisotropy;  // the share that is scattered back, of Henyey and Greenstein
   const double back = (1 - g) / (2 * g) * ((1 + g) / std::sqrt(1 + g * g) - 1);
   const Rgb<double> loss = 1.0395 * (a + back * b);
   const Rgb<double> jerlov = water_optics(WaterType::kJerlov7C).down_attenuation;
@@ -95,7 +95,7 @@ TEST(Presets, HarbourIsJerlovs7C) {
   EXPECT_NEAR(loss.b / jerlov.b, 1, 0.25);
 }
 
-/// As murky and as rough as their names promise beside one another.
+/// The presets order murkiness and roughness as their names promise.
 TEST(Presets, StandInOrder) {
   const auto murk = [](const char* name) {
     return Kernel<DepthFog>::extinction(preset(name).of<DepthFog>()).g;

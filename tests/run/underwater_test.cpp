@@ -12,7 +12,7 @@
 #include "optics/waves.h"
 #include "support.h"
 
-// A camera in the water, or half in it: by the whole chain, in both runners.
+// A camera in the water, or half in the water: by the whole chain, in both runners.
 
 namespace limpid {
 namespace {
@@ -41,7 +41,7 @@ glm::dvec3 ray_of(const Scene& scene, int x, int y) {
   return rays_of(*scene.camera, {kSize.width, kSize.height}).ray_at(x + 0.5, y + 0.5);
 }
 
-/// A point of the ray over the wave there.
+/// The height over the wave of a point of the ray.
 double height_over_wave(const Scene& scene, int x, int y, double depth) {
   const glm::dvec3 at = scene.camera->eye() + depth * ray_of(scene, x, y);
   const PlaneAxes axes = plane_axes(scene.water->up);
@@ -50,7 +50,7 @@ double height_over_wave(const Scene& scene, int x, int y, double depth) {
              .height;
 }
 
-/// The window through which the view begins, at this pixel, over the wave there.
+/// The height over the wave of the window through which the view begins, at this pixel.
 double window_over_wave(const Scene& scene, int x, int y) {
   return height_over_wave(scene, x, y, kNear);
 }
@@ -113,7 +113,7 @@ TEST_P(Underwater, APixelIsInTheWaterWhereItsWindowIsUnderTheWave) {
       const bool wet = over < 0;
       (wet ? in_water : in_air) += 1;
       EXPECT_EQ(p.target.alpha.at(x, y), wet ? 1 : 0.5f) << x << ", " << y << ": " << over;
-      // The water begins at the eye, not at the window: the little between the two counts too.
+      // The water begins at the eye, not at the window: the short path between the two counts too.
       const double way = kWall * glm::length(ray_of(scene, x, y));
       EXPECT_NEAR(p.aov(Aov::kPath, x, y), wet ? way : 0, 1e-5);
       EXPECT_EQ(p.aov(Aov::kSurfaceDepth, x, y), test::kInf);
@@ -134,8 +134,8 @@ TEST_P(Underwater, APixelIsInTheWaterWhereItsWindowIsUnderTheWave) {
   }
 }
 
-/// Without a plane of the surface and without known waves the calm one is met, by the same side
-/// that the view begins on.
+/// Without a plane of the surface and without known waves the ray meets the calm plane, from the
+/// side on which the view begins.
 TEST_P(Underwater, TheCalmPlaneIsNotMetBeforeTheWindow) {
   Buffers b = wall_at(3);
   b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
@@ -163,7 +163,7 @@ TEST_P(Underwater, TheCalmPlaneIsNotMetBeforeTheWindow) {
   }
 }
 
-/// With known waves it is they that are met, and that say on which side the view begins.
+/// With known waves the ray meets the waves, and the waves tell on which side the view begins.
 TEST_P(Underwater, WavesAreNotMetBeforeTheWindow) {
   constexpr float kWall = 3;
   Buffers b = wall_at(kWall);
@@ -195,7 +195,7 @@ TEST_P(Underwater, WavesAreNotMetBeforeTheWindow) {
 
 TEST_P(Underwater, PixelsInTheAirDoNotKnowThatOthersAreInTheWater) {
   Buffers b = test::noisy_frame(rect_of(kSize));
-  for (int i = 0; i < 4; ++i) {  // the two cameras use it differently
+  for (int i = 0; i < 4; ++i) {  // the two cameras use the layer below differently
     b.frame.planes[index_of(PlaneId::kBelowR) + i] = {};
   }
   const Scene half = scene_at(0.05, 0, {kWave}), above = scene_at(0.05);
@@ -255,7 +255,7 @@ TEST_P(Underwater, BeyondTheCriticalAngleTheSurfaceIsAMirror) {
   EXPECT_GT(through, 500);
 }
 
-// In even water that glows evenly a way that the surface bends is as bright as a straight one.
+// In even water that glows evenly a path that the surface bends is as bright as a straight path.
 TEST_P(Underwater, WhatTheSurfaceMirrorsIsSeenThroughTheWaterToo) {
   constexpr double kDeep = 3, kAmbient = 0.2, kRate = 0.3;  // half of it scattered
   constexpr float kLight = 0.8f;
@@ -266,7 +266,7 @@ TEST_P(Underwater, WhatTheSurfaceMirrorsIsSeenThroughTheWaterToo) {
   look.of<DepthFog>().ambient = {kAmbient, kAmbient, kAmbient};
   using Source = FresnelReflection::Source;
   for (const Source source : {Source::kPlanar, Source::kAuto}) {
-    // By the second most of what is mirrored lies beyond the picture.
+    // At the second pitch most of the mirrored light lies beyond the picture.
     for (const double pitch : {0.1, 0.4}) {
       Scene scene = scene_at(-1, pitch);
       scene.sun.reset();
@@ -308,7 +308,7 @@ TEST_P(Underwater, SnellBendsOutwardsToWhatStandsInTheAir) {
   b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
   b.set(PlaneId::kDepth,
         [&](int x, int y) { return float((kCeiling + 1) / ray_of(scene, x, y).y); });
-  for (int c = 0; c < 3; ++c) {  // what lies below the water is not what is seen in the air
+  for (int c = 0; c < 3; ++c) {  // the layer below the water is not visible in the air
     b.fill(plane_after(PlaneId::kBelowR, c), 0);
   }
   b.fill(PlaneId::kBelowDepth, test::kInf);
@@ -330,7 +330,7 @@ TEST_P(Underwater, SnellBendsOutwardsToWhatStandsInTheAir) {
   }
 }
 
-/// The noise with something far away wherever nothing was hit.
+/// The noise with a far depth wherever no surface was hit.
 Buffers noise_with_an_end() {
   const Buffers noise = test::noisy_frame(rect_of(kSize));
   Buffers b = test::noisy_frame(rect_of(kSize));
@@ -371,13 +371,13 @@ TEST(UnderwaterSweep, NoNanAndTheRunnersAgreeThroughTheSurface) {
     const std::size_t far_ending = differences(ending.frame, scene, values);
     const std::size_t far = differences(whole.frame, scene, values);
     const std::size_t far_bare = differences(bare.frame, scene, values);
-    // An eye in the calm plane itself: whether it meets the plane is up to rounding.
+    // For an eye in the calm plane, rounding decides whether a ray meets the plane.
     if (height == 0) continue;
-    // So low over the water a ray crosses many texels of the noise for little of its way: floats
-    // are off by 1e-4 there, and where two texels or the waterline meet either may be taken.
+    // So low over the water a ray crosses many texels of the noise in a short path: floats are off
+    // by 1e-4 there, and at the edge of two texels or at the waterline either side may be taken.
     EXPECT_LE(far_ending, values / 2000) << height;
-    // A third of this noise has hit nothing: whether a way has an end is up to half of a texel's
-    // weight, too, and whether something has hidden it; all of a pixel's values follow.
+    // A third of this noise has hit nothing: half of a texel's weight decides, too, whether a ray
+    // has an end and whether an object hides the end; all values of the pixel follow.
     EXPECT_LE(far, values / 90) << height;
     EXPECT_LE(far_bare, values / 90) << height;
   }

@@ -78,7 +78,7 @@ TEST_P(FusedWaves, AgreeWithTheReferenceFarOff) {
           }
         }
         EXPECT_GT(wet, 3000);
-        // A place in the map is known to within some 1e-7 of the way to it.
+        // A position in the map is known to within some 1e-7 of the distance to the position.
         EXPECT_LE(far, wet / 200) << map_size.width << "x" << map_size.height << " " << int(model)
                                   << " " << int(filter);
       }
@@ -89,8 +89,8 @@ TEST_P(FusedWaves, AgreeWithTheReferenceFarOff) {
 INSTANTIATE_TEST_SUITE_P(Simd, FusedWaves, testing::ValuesIn(simd_targets()),
                          [](const auto& p) { return p.param; });
 
-/// One sample of far water beside the mean of 64: mean |difference| of pixels, and the largest of
-/// means of 8 x 8 pixels.
+/// One sample of far water compared with the mean of 64: the mean |difference| of pixels, and the
+/// largest difference of means of 8 x 8 pixels.
 struct Difference {
   double pixels = 0, blocks = 0;
 };
@@ -114,7 +114,7 @@ Difference beside_many_samples(Look look, Filter filter) {
     }
     return sum / (kSamples * kSamples);
   };
-  // The half of the water that is far, but for the line of the horizon.
+  // The far half of the water, without the line of the horizon.
   int first = 0;
   while (std::isinf(got.aov(Aov::kSurfaceDepth, 0, first))) ++first;
   first += 2;

@@ -9,7 +9,7 @@
 #include "ops/tray.h"
 #include "ops/wave_normals_kernel.h"
 
-// What a wind makes of the map that the looks have.
+// The effect of a wind on the looks' map.
 
 namespace limpid {
 namespace {
@@ -75,10 +75,10 @@ WindSlopes mean_squares(const Picture& picture, double degrees) {
   return mean;
 }
 
-/// Over a tile, or the two that the second of two flows has.
+/// Over a tile, or the two tiles of the second of two flows.
 TEST(WindOnMaps, SlopesAreThoseOfCoxAndMunk) {
   for (const Model model : kMapModels) {
-    // Two flows of one map are not quite without each other.
+    // Two flows of one map are not quite independent of each other.
     const double off = model == Model::kSlopes ? 0.02 : model == Model::kTwoFlows ? 0.1 : 0.04;
     for (const double wind : {1.0, 4.0, 10.0, 20.0}) {
       for (const double degrees : {0.0, 35.0, 250.0}) {
@@ -115,7 +115,7 @@ double apart(const Picture& a, const Picture& b) {
   return sum;
 }
 
-/// What is seen now lies a little farther downwind a moment later.
+/// The waves of now lie a little farther downwind a moment later.
 TEST(WindOnMaps, WavesRunWithTheWind) {
   constexpr double kMoment = 0.05, kWind = 5;
   for (const Model model : kMapModels) {
@@ -149,7 +149,7 @@ TEST(WindOnMaps, WavesRunAsFastAsTheirLength) {
       const Vec2<double> ahead = towards(60);
       double aside_of_all = 0, ahead_of_all = 0;
       for (int i = 0; i < 4; ++i) {
-        // A lookup that goes back shows waves that go on.
+        // A lookup that moves back shows waves that move forward.
         const Vec2<double> way = tile / 2 * (begin.of[i] - later.of[i]);
         const double along = way.x * ahead.x + way.y * ahead.y - skin_drift(wind);
         const double across = way.y * ahead.x - way.x * ahead.y;

@@ -11,14 +11,14 @@ namespace limpid::test {
 
 constexpr const char* kShippedLooks[] = {"physical", "fast", "realistic", "monogame", "rito"};
 
-/// As it is shipped, but with hard edges: mixed ones are mixed after the pixels are made.
+/// The look as it is shipped, but with hard edges: mixed edges are mixed after the pixels are made.
 inline Look shipped_look(const std::string& name) {
   Look look = load_look(std::string(LIMPID_DATA) + "/looks/" + name + ".toml");
   look.water.edges = Water::Edges::kHard;
   return look;
 }
 
-/// Calls fn(name, subject) for each scene that is bundled, rendered, and for the lagoon's plates.
+/// Calls fn(name, subject) for each rendered bundled scene, and for the lagoon's plates.
 template <class Fn>
 void for_each_bundled(Size size, Fn&& fn) {
   const std::filesystem::path data = LIMPID_DATA;

@@ -9,7 +9,7 @@
 #include "shade/program.h"
 #include "shade/symbol.h"
 
-/// How recordings are printed. That the text computes the right thing is shown where it runs.
+/// The text of recordings. Other tests run the text and compare its results.
 
 namespace limpid {
 namespace {
@@ -63,7 +63,7 @@ TEST_F(GlslTest, ATexelThatAnIfReplacesIsReadWhereItDoesNot) {
   EXPECT_LT(text.find("} else {"), text.find("limpid_texel_color")) << text;
 }
 
-/// Lookups of one width: four ifs, one after the other, would wait for one another.
+/// Lookups of one width share an if: four ifs, one after another, would wait for one another.
 TEST_F(GlslTest, LookupsOfOneWidthShareAnIf) {
   const Symbol width = own(PlaneId::kDepth), other = own(PlaneId::kSurfaceDepth);
   const auto lookup = [&](double at, const Symbol& wide) {
@@ -78,7 +78,7 @@ TEST_F(GlslTest, LookupsOfOneWidthShareAnIf) {
   EXPECT_EQ(text.find("if (limpid_is_fine(", first + 1), std::string::npos) << text;
 }
 
-/// As of texts for hosts: a pipeline lasts for a sequence.
+/// As for the texts for hosts: a pipeline lasts for a sequence.
 TEST(ProgramOfARunner, IsTheSameForAnyTimeAndStrength) {
   const test::World world(false);
   const Frame& frame = world.buffers.frame;

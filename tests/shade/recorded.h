@@ -39,8 +39,8 @@ class Recorded {
   const Plan& plan() const { return plan_; }
   const Frame& frame() const { return frame_; }
 
-  /// That every `step`-th pixel is what the reference makes of it, in all channels: the same double
-  /// but for its last digits, which may be the neighbouring float.
+  /// Every `step`-th pixel has the reference's values, in all channels: the same double but for its
+  /// last digits, which may round to the neighbouring float.
   void expect_reference(int step = 1) const {
     Picture judge(plate_.work());
     run_reference(plan_, plate_, scene_, judge.target);

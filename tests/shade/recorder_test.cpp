@@ -8,7 +8,7 @@
 #include "plan/pass_of.h"
 #include "shade/symbol.h"
 
-/// What the recorder makes of single formulas.
+/// The recordings of single formulas.
 
 namespace limpid {
 namespace {

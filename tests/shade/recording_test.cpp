@@ -11,8 +11,8 @@
 #include "shade/recorded.h"
 #include "shade/symbol.h"
 
-/// What operators do, written down: the program is what run_reference() does, and it has no number
-/// of the frame in it.
+/// Recordings of operators: the program computes the values of run_reference(), and contains no
+/// number of the frame.
 
 namespace limpid {
 namespace {
@@ -21,8 +21,8 @@ using test::Below;
 using test::Buffers;
 using test::Recorded;
 
-/// With all their models, and parameters from all over their ranges, between the others as they
-/// are by default.
+/// All models, and parameters from their whole ranges, between the other operators with their
+/// defaults.
 TEST(Recording, OfEveryOperatorWithEveryModelIsTheReference) {
   Chain::for_each([]<class Op, int I>() {
     for (int seed = 0; seed < 24; ++seed) {
@@ -64,7 +64,7 @@ struct Shallows {
   test::NoiseMap map;
 };
 
-/// How many levels of the tables of sunlight a recording looks up that have something to tell.
+/// How many levels of the tables of sunlight a recording looks up, of those that hold light.
 struct Tables {
   int of_bottom = 0, in_water = 0;
 };

@@ -11,8 +11,8 @@
 #include "ops/contract.h"
 #include "shade/bundled.h"
 
-/// The text of a shader and the values beside it. That it computes the right thing is shown where
-/// it runs.
+/// The text of a shader and the values beside the text. Other tests run the text and compare its
+/// results.
 
 namespace limpid {
 namespace {
@@ -52,7 +52,8 @@ TEST(ShaderText, IsTheSameForAnySizeTimeAndPlace) {
   }
 }
 
-/// A parameter that is set to another value above 0 is another number of the block, by its name.
+/// A parameter above 0 is a number of the block, by its name: another value above 0 changes the
+/// number and not the text.
 TEST(ShaderText, HasParametersAsNumbers) {
   const test::World world(false);
   Look look = test::shipped_look("realistic");
@@ -114,7 +115,7 @@ TEST(ShaderText, DeclaresEachNameAndPlaceOnce) {
   EXPECT_EQ(text.block().size() % 16, 0u);
 }
 
-/// A shader pays for what its look needs alone.
+/// A shader computes only what its look needs.
 TEST(ShaderText, ReadsOnlyWhatTheLookNeeds) {
   const test::World world(false);
   Look calm = test::still_look();
