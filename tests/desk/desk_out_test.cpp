@@ -1,4 +1,4 @@
-// What leaves the desk: looks that are saved, and command lines.
+// The output of the desk: saved looks and command lines.
 #include <fstream>
 #include <iterator>
 
@@ -30,7 +30,7 @@ void expect_same(const Look& a, const Look& b, const std::string& after) {
   }
 }
 
-/// Something else that the field can hold.
+/// A valid value of the field, for most kinds another than the present value.
 Value other_value(const Parameter& p) {
   const double middle = p.range.max < 1e9 ? 0.25 * p.range.min + 0.75 * p.range.max : 3.125;
   if (p.kind == FieldKind::kReal) return middle;

@@ -43,8 +43,8 @@ TEST_P(DeskWindows, ShowsThePreviewsBytesAtTheWholeSize) {
   EXPECT_EQ(murky, previewed(options, look));
 }
 
-/// The mean of |a - b| over the channels of half pixels, of 255: b's by their light, and a's by the
-/// mean light of the pixels that are (dx, dy) half pixels off theirs.
+/// The mean of |whole - half| over the channels of half pixels, of 255. The whole picture's value
+/// is the mean light of its pixels (dx, dy) half pixels beside the half pixel.
 double apart(const Shown& whole, const Shown& half, int dx, int dy) {
   const auto light = [](const Shown& shown, int x, int y, int c) {
     return linear_from_srgb(shown.rgba[(std::size_t(y) * shown.size.width + x) * 4 + c] / 255.0f);
@@ -67,7 +67,7 @@ double apart(const Shown& whole, const Shown& half, int dx, int dy) {
 
 TEST_P(DeskWindows, ShowsTheSameViewAtHalfTheSize) {
   Desk desk(options(GetParam()), *executor_);
-  // Calm: waves that are finer than pixels are not the same light when pixels grow.
+  // Calm, because waves finer than a pixel reflect another mean light when pixels grow.
   PictureRequest request = picture({"wave_normals.strength=0"});
   const Shown whole = desk.paint(request).shown;
   request.half = true;
@@ -233,7 +233,7 @@ TEST_F(DeskTest, TellsThePixelsNumbers) {
   EXPECT_GT(channels, 30u);
   EXPECT_NEAR(red, numbers.picture.r, 1e-5);
   PictureRequest darker = picture();
-  darker.exposure = -4;  // so that it is not white
+  darker.exposure = -4;  // so that the picture is not white
   const std::vector<std::uint8_t> shown = colors(desk.paint(darker).shown);
   EXPECT_NEAR(shown[3 * (30 * 64 + 40)], 255 * srgb_from_linear(numbers.picture.r / 16), 0.51);
   EXPECT_EQ(refusal([&] { desk.pixel(picture(), 64, 0); }),
@@ -242,7 +242,7 @@ TEST_F(DeskTest, TellsThePixelsNumbers) {
             "pixel 0, -1: expected 0 ... 63, 0 ... 35");
 }
 
-/// Two threads, and something that happens when work begins.
+/// An executor with two threads that calls `on_run` when work begins.
 class Interrupted : public Executor {
  public:
   void run(int count, Task task, void* context) override {
@@ -317,7 +317,7 @@ TEST_F(DeskTest, SaysWhatTheTimeWentInto) {
   EXPECT_LE(*painted.wet, 1);
 }
 
-/// Two frames: the second lies elsewhere in a window of its own.
+/// Two frames; the second frame has another window, at another place.
 DeskOptions two_frames(DeskOptions options, const fs::path& folder) {
   PlateOptions second;
   second.data = second.display = {10, 20, 74, 56};

@@ -106,7 +106,7 @@ TEST(HalfPlateTest, CountsValidReflectionsAlone) {
   const HalfPlate half(buffers.frame, *executor);
   EXPECT_EQ(half.frame().plane(PlaneId::kReflectionR).at(0, 0), 2);
   EXPECT_EQ(half.frame().plane(PlaneId::kReflectionValid).at(0, 0), 0.5f);
-  EXPECT_EQ(half.frame().plane(PlaneId::kReflectionR).at(1, 0), 3.5f);  // none is valid
+  EXPECT_EQ(half.frame().plane(PlaneId::kReflectionR).at(1, 0), 3.5f);  // no pixel is valid
   EXPECT_EQ(half.frame().plane(PlaneId::kReflectionValid).at(1, 0), 0);
 }
 

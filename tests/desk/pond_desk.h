@@ -11,7 +11,7 @@
 #include "desk/desk.h"
 #include "tool/made_plate.h"
 
-/// A desk on which the made-up pond lies (tool/made_plate.h), in a folder of its own.
+/// A desk with the made-up pond (tool/made_plate.h), in a folder for each test.
 
 namespace limpid::test {
 
@@ -33,11 +33,11 @@ class PondDesk : public ::testing::Test {
 
   /// The pond with its one look, "pond".
   DeskOptions options(const PlateOptions& plate = {}) const;
-  /// What composite() makes of the same, as 8 bits by its preview: rows of R, G, B.
+  /// The 8-bit preview of composite() for the same plate and look: rows of R, G, B.
   std::vector<std::uint8_t> previewed(const DeskOptions& options, const Look& look,
                                       std::optional<int> frame = {},
                                       std::optional<double> time = {}) const;
-  /// The same of what a desk shows.
+  /// The colors of a desk's picture in the order of previewed().
   static std::vector<std::uint8_t> colors(const Shown& shown);
 
   std::filesystem::path folder_;

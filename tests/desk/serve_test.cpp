@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// A connection without manners: what is sent are these bytes.
+/// A connection that sends raw bytes, valid HTTP or not.
 class Raw {
  public:
   explicit Raw(int port, int flags = 0) : socket_(::socket(AF_INET, SOCK_STREAM | flags, 0)) {
@@ -43,12 +43,12 @@ class Raw {
   void send(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-      if (sent <= 0) return;  // it was refused on the way
+      if (sent <= 0) return;  // the server refused the request on the way
       bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
   }
   void end() const { ::shutdown(socket_, SHUT_WR); }
-  /// Until the other side closes.
+  /// Reads until the server closes the connection.
   std::string receive() const {
     std::string all;
     char part[4096];
@@ -73,7 +73,7 @@ class ServeTest : public PondDesk {
   }
 
   std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
-  /// What comes back on these bytes.
+  /// The server's answer to these bytes.
   std::string answer(const std::string& bytes) const {
     const Raw connection(port_);
     connection.send(bytes);

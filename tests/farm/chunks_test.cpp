@@ -26,7 +26,7 @@ TEST(ChunksTest, ATaskTakesAboutTwoMinutes) {
 }
 
 TEST(ChunksTest, TasksAreAboutEquallyLong) {
-  // 120 would fit into a task: 4 and a rest of 20.
+  // A task could take 120 frames: 4 tasks and a rest of 20 frames.
   EXPECT_EQ(frames_a_task(1, 500, 1000), 100);
   EXPECT_EQ(frames_a_task(1, 121, 1000), 61);
   EXPECT_EQ(frames_a_task(1e-6, 7, 1000), 7);

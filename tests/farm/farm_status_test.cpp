@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// Six frames in three tasks, two of eight frames were there.
+/// Six frames in three tasks; two of the sequence's eight frames existed before the farm.
 class FarmStatusTest : public ::testing::Test {
  protected:
   FarmStatusTest() : folder_(temporary_.path / "wet.farm") {
@@ -42,7 +42,7 @@ class FarmStatusTest : public ::testing::Test {
 
 TEST_F(FarmStatusTest, AFrameIsMadeWhenAllOfItsFilesAreThere) {
   make(2);
-  write_text(temporary_.path / "wet.0003.exr", "made");  // without its preview
+  write_text(temporary_.path / "wet.0003.exr", "made");  // without the preview
   EXPECT_THAT(made_frames(record_, folder_.chunks()), ElementsAre(2));
   write_text(temporary_.path / "wet.0003.png", "made");
   EXPECT_THAT(made_frames(record_, folder_.chunks()), ElementsAre(2, 3));
@@ -143,7 +143,7 @@ TEST(FarmRateTest, IsThatOfTheLastFrames) {
   EXPECT_EQ(rate_of({5, 5}), 0);
   EXPECT_DOUBLE_EQ(rate_of({14, 10, 12}), 0.5);
   std::vector<double> times;
-  for (int i = 0; i < 100; ++i) times.push_back(i * 100.0);  // slow at first
+  for (int i = 0; i < 100; ++i) times.push_back(i * 100.0);  // the first frames are slow
   for (int i = 0; i < 60; ++i) times.push_back(1e5 + i * 0.25);
   EXPECT_DOUBLE_EQ(rate_of(times), 4);
 }

@@ -24,7 +24,7 @@ TEST(ProgramsTest, AWordIsAnArgumentWhateverIsInIt) {
 }
 
 TEST(ProgramsTest, WhatItPrintsIsReadHoweverMuchItIs) {
-  // More than a pipe holds, on both, so that reading one after the other would wait for ever.
+  // More bytes than a pipe holds, on both pipes: a reader of one pipe at a time would never end.
   const ProgramRun run = run_program(
       {"bash", "-c", "for i in {1..20000}; do echo out $i; echo err $i >&2; done; exit 7"});
   EXPECT_EQ(run.code, 7);
@@ -40,7 +40,7 @@ TEST(ProgramsTest, ASignalIsTold) {
 
 TEST(ProgramsTest, NobodyTypesAnythingAndSignalsAreAsUsual) {
   EXPECT_EQ(run_program({"cat"}).out, "");
-  std::signal(SIGPIPE, SIG_IGN);  // as the tool has it
+  std::signal(SIGPIPE, SIG_IGN);  // as in the tool
   EXPECT_EQ(run_program({"bash", "-c", "kill -PIPE $$"}).code, -SIGPIPE);
   std::signal(SIGPIPE, SIG_DFL);
 }
@@ -54,14 +54,14 @@ TEST(ProgramsTest, OneThatIsNotThereIsNamed) {
   }
 }
 
-// In a process of its own: nothing can be started any more after it.
+// In a separate process: after stopping, a process can start no more programs.
 TEST(ProgramsDeathTest, StoppingEndsThemAndWhatTheyHaveStarted) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(
       {
         int ends[2];
         if (::pipe(ends) != 0) std::_Exit(3);
-        // Its child inherits the end that is written to: that hangs up when all of them have gone.
+        // bash's child inherits the writing end: the pipe hangs up when all of them have ended.
         std::thread sleeper([&] {
           const std::string pipe =
               "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(ends[1]);

@@ -1,4 +1,4 @@
-// The scripts, run by bash: a program stands in for limpid, and writes down how it was called.
+// The scripts, run by bash: a program stands in for limpid, and writes down its arguments.
 #include "farm/scripts.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Writes its arguments, a line each call, and ends as a file `code.FRAMES` says, else well.
+/// Writes its arguments, a line each call, and ends with the code in `code.FRAMES`, by default 0.
 constexpr const char* kStandIn = R"sh(#!/bin/bash
 printf '<%s>' "$@" >>called.txt
 echo >>called.txt

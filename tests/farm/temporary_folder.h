@@ -16,7 +16,7 @@ inline std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A folder whose name has what shells and schedulers stumble over.
+/// A folder whose name has characters that scripts for shells and schedulers must quote.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

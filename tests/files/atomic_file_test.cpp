@@ -54,14 +54,14 @@ std::string error_in(Work work) {
   return "";
 }
 
-/// What is said of a path, which does not depend on whether it is only asked about.
+/// The error of a path: AtomicFile and expect_replaceable() give the same sentence.
 std::string error_of(const fs::path& path) {
   const std::string error = error_in([&] { AtomicFile file(path); });
   const std::string asked = error_in([&] { expect_replaceable(path); });
   return asked == error ? error : "asked: '" + asked + "', begun: '" + error + "'";
 }
 
-/// The same of a process that may not write everywhere, as root may.
+/// The error of a path in a process without root's right to write everywhere.
 std::string error_as_nobody(const fs::path& path) {
   constexpr id_t kNobody = 65534;
   int ends[2];
@@ -192,7 +192,7 @@ TEST(RemoveUnfinishedFiles, LeavesNothingButWholeFiles) {
   EXPECT_EQ(files_in(here), 1);
 }
 
-/// A process that has begun to write a file; it writes on until it is killed.
+/// A process that has begun to write a file and writes on until a signal ends the process.
 class Writer {
  public:
   explicit Writer(const fs::path& path) {
@@ -252,7 +252,7 @@ TEST(RemoveAbandonedFiles, OnlyWhatHasSuchAName) {
   remove_abandoned_files(here / "no");  // nothing to do
 }
 
-/// The lock is taken on what is open: a file that somebody else has locked, though nobody writes.
+/// A lock on an open leftover temporary file keeps the file, although no process writes to it.
 TEST(RemoveAbandonedFiles, LeavesWhatIsLocked) {
   const fs::path here = folder();
   write_text(here / ".limpid-7-0.exr", "half");
@@ -292,7 +292,7 @@ TEST(TidyFolder, OnceAProcess) {
   fs::create_symlink(here / "a.exr", here / "links/a.exr");
   AtomicFile(here / "a.exr").commit();
   EXPECT_TRUE(fs::exists(here / ".limpid-7-0.exr"));
-  tidy_folder_of(here / "links/a.exr");  // the folder of what it leads to
+  tidy_folder_of(here / "links/a.exr");  // the folder of the link's target
   EXPECT_FALSE(fs::exists(here / ".limpid-7-0.exr"));
   write_text(here / ".limpid-7-0.exr", "half");
   tidy_folder_of(here / "b.exr");
@@ -318,7 +318,7 @@ TEST(LocalFiles, AreThoseThatAreKnown) {
                              0x01021994ul, 0x794c7630ul}) {
     EXPECT_TRUE(is_local_type(type)) << std::hex << type;
   }
-  // NFS, SMB, CIFS, SMB 2, FUSE, 9P, AFS, Ceph, and what nobody knows.
+  // NFS, SMB, CIFS, SMB 2, FUSE, 9P, AFS, Ceph, and an unknown type.
   for (unsigned long type : {0x6969ul, 0x517bul, 0xff534d42ul, 0xfe534d42ul, 0x65735546ul,
                              0x01021997ul, 0x5346414ful, 0x00c36400ul, 0ul}) {
     EXPECT_FALSE(is_local_type(type)) << std::hex << type;

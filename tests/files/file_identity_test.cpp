@@ -61,7 +61,7 @@ TEST_F(FileIdentityTest, LinksAreFollowedToTheirEnd) {
   EXPECT_EQ(followed(here_ / "two.exr"), here_ / "folder/new.exr");
   fs::create_symlink("circle.exr", here_ / "circle.exr");
   EXPECT_THROW(followed(here_ / "circle.exr"), Error);
-  EXPECT_TRUE(same("circle.exr", "./circle.exr"));  // it ends
+  EXPECT_TRUE(same("circle.exr", "./circle.exr"));  // the search ends
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include "memory_end.h"
 #include "sanitized.h"
 
-/// A good file stays one when memory ends while it is read.
+/// A valid file is never called damaged because memory ends while the library reads the file.
 
 namespace limpid::exr_test {
 namespace {
 
-/// Ends the process: 0 when reading says that memory ended.
+/// Ends the process: code 0 if the error of read() has the fault kMemory.
 [[noreturn]] void read_without_memory(const std::string& path) {
   const ExrFile file = ExrFile::open(path);
   Plane plane(kData);
@@ -30,7 +30,7 @@ namespace {
   std::_Exit(code);
 }
 
-/// Ends the process: 0 when it read what was written, without threads.
+/// Ends the process: code 0 if read() returns the written values without threads.
 [[noreturn]] void read_without_threads(const std::string& path) {
   test::make_threads_impossible();
   set_file_threads(4);

@@ -12,7 +12,7 @@
 namespace limpid::fuzz {
 namespace {
 
-/// Takes what is printed, and drops it.
+/// Drops all printed bytes.
 class Silence : public std::streambuf {
  public:
   Silence() : out_(std::cout.rdbuf(this)), error_(std::cerr.rdbuf(this)) {}

@@ -8,7 +8,7 @@
 
 #include "fuzz/harness.h"
 
-/// Every file that a harness was started with or stumbled over, once more.
+/// Every seed of a harness, and every file that once broke a harness, is refused or read.
 
 namespace limpid::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 namespace limpid::fuzz {
 namespace {
 
-/// Small, so that what is allocated before pixels are found missing costs no time.
+/// Small, so that the allocation before the reader finds pixels missing costs no time.
 Limits small_limits() {
   Limits limits;
   limits.max_pixels = 1 << 18;

@@ -6,9 +6,9 @@
 
 #include "limpid/core/error.h"
 
-/// Entrances for bytes that nobody vouches for, one a parser: each takes anything, and returns.
-/// Error is the answer to bad bytes; whatever else comes out (another exception, a promise that
-/// does not hold, a crash, a hang) is a bug.
+/// Harnesses for untrusted input, one for each parser: each takes any bytes and returns. Error is
+/// the answer to bad bytes; any other outcome (another exception, a promise that does not hold, a
+/// crash, a hang) is a bug.
 
 namespace limpid::fuzz {
 
@@ -22,12 +22,12 @@ void cli(Bytes bytes);    ///< the words of a command line, a line each; no verb
 
 inline std::string text_of(Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 
-/// Throws what is no Error when a promise does not hold.
+/// Throws an exception other than Error when a promise does not hold.
 inline void expect(bool holds, const char* promise) {
   if (!holds) throw std::logic_error(promise);
 }
 
-/// Whether `work` returned: false when it threw Error. Its sentence must be one to be read.
+/// Whether `work` returned: false when it threw Error. The error's sentence must be readable.
 template <class Work>
 bool accepts(Work&& work) {
   constexpr std::size_t kMaxSentence = 1 << 16;

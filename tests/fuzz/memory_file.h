@@ -5,7 +5,7 @@
 
 namespace limpid::fuzz {
 
-/// A file without a disk, for readers that want a path.
+/// A file in memory, for readers that need a path.
 class MemoryFile {
  public:
   MemoryFile();
@@ -13,7 +13,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  /// What is in it from now on.
+  /// Replaces the content of the file.
   void hold(Bytes bytes);
   const std::filesystem::path& path() const { return path_; }
 

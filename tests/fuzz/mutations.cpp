@@ -24,7 +24,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Headers are small, and where most can go wrong: every second place is in one.
+/// Headers are small, but most faults of parsers show there: every second place is in a header.
 std::size_t some_place(Random& random, std::size_t size) {
   return random.below(random.one_in(2) ? std::min(size, kHeader) : size);
 }

@@ -17,8 +17,8 @@ std::string_view name_of(Damage damage);
 Damage damage_of(std::uint64_t number);
 
 /// A damaged copy: flipped bits, a run of equal or random bytes, an early end, a piece of `other`
-/// put in or over, or a number of the header replaced by one at the edge of its range. The same for
-/// the same bytes and number, on every machine.
+/// put in or over, or a number of the header replaced by a number at the edge of its range. The
+/// same bytes and number give the same copy on every machine.
 std::vector<std::uint8_t> damaged(Bytes bytes, Bytes other, std::uint64_t number);
 
 }  // namespace limpid::fuzz

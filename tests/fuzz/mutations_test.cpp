@@ -103,7 +103,7 @@ TEST(Probe, EndsWhatDoesNotEnd) {
       },
       1);
   EXPECT_EQ(outcome.end, Outcome::End::kBroken);
-  // By the processor's time, or on a busy machine by the clock's.
+  // Ended by processor time, or on a busy machine by wall-clock time.
   EXPECT_THAT(outcome.cause, testing::AnyOf(HasSubstr("signal 24"), HasSubstr("signal 14"),
                                             HasSubstr("signal 9")));
 }
@@ -119,7 +119,7 @@ TEST(Probe, MeasuresMemory) {
   EXPECT_LT(more, 1.5 * kSize);
 }
 
-/// The program `mutate` does this a thousand times a file.
+/// The program `mutate` makes a thousand mutations of each file; this test makes few.
 TEST(Mutations, OfDamagedFilesAreRefusedOrRead) {
   std::vector<std::vector<std::uint8_t>> files;
   for (const auto& entry : std::filesystem::directory_iterator(LIMPID_TEST_DATA "/damaged")) {

@@ -15,8 +15,8 @@ struct Outcome {
 
 /// Runs `work` in a child of this process, which should have no other threads. Work that throws
 /// Error is refused; any other exception, a signal, and `most_seconds` of the processor or ten
-/// times as many on the clock are broken. `address_space`, in bytes, is the most that the child can
-/// allocate; 0 leaves it alone, as programs with a sanitizer need it.
+/// times as many of wall-clock time are broken. `address_space`, in bytes, is the most that the
+/// child can allocate; 0 sets no limit, because programs with a sanitizer reserve terabytes.
 Outcome probe(const std::function<void()>& work, int most_seconds, long long address_space = 0);
 
 }  // namespace limpid::fuzz

@@ -12,7 +12,7 @@
 #include "limpid/job/sequence.h"
 #include "limpid/job/water.h"
 
-/// What all kinds of jobs have in common, on the pool of data/scenes.
+/// The laws that all kinds of jobs obey, on the pool of data/scenes.
 
 namespace limpid {
 namespace {
@@ -56,7 +56,7 @@ class JobTest : public ::testing::Test {
     job.output.picture = at("composite", frame);
     return job;
   }
-  /// The time that a file says it is of.
+  /// The time in a file's header.
   static double time_in(const fs::path& file) {
     const auto text = ExrFile::open(file).text_attribute(0, "limpid/scene");
     return text ? scene_from_toml(*text, file.string()).scene.time : -1;
@@ -131,7 +131,7 @@ TEST_F(JobTest, AFrameAloneIsASequenceOfOneInEveryKind) {
   EXPECT_EQ(bytes_of(at("composite", 7)), alone[2]);
 }
 
-/// What the work is refused with.
+/// The sentence of the Error that the work throws.
 template <class Work>
 std::string refusal(const Work& work) {
   try {

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Files plate.<frame>.exr in a folder of its own; nobody looks into them.
+/// Files plate.<frame>.exr in a folder for each test; the library never opens the files.
 class MissingTest : public ::testing::Test {
  protected:
   MissingTest()
@@ -35,7 +35,7 @@ class MissingTest : public ::testing::Test {
     return [this](int frame) {
       CompositeJob job;
       job.plate.files = {plate(frame)};
-      job.scene.scene.time = 100 + frame;  // tells whose scene it is
+      job.scene.scene.time = 100 + frame;  // tells the frame of the scene
       job.look.name = std::to_string(frame);
       job.output.picture = folder_ / (std::to_string(frame) + ".exr");
       job.time.otherwise = frame / 4.0;
@@ -66,7 +66,7 @@ TEST_F(MissingTest, SkippedFramesAreLeftOut) {
 
 TEST_F(MissingTest, TheNearestBeforeStandsInElseTheFirstAfter) {
   make({3, 4, 8});
-  // Not in the sequence, so it stands in for none.
+  // Frame 6 is not in the sequence, so frame 6 stands in for no other frame.
   make({6});
   const FilledSequence filled = fill_missing({1, 2, 3, 4, 5, 7, 8, 9}, job_of(), Missing::kHold);
   EXPECT_THAT(filled.frames, ElementsAre(1, 2, 3, 4, 5, 7, 8, 9));
@@ -99,7 +99,7 @@ TEST_F(MissingTest, AnyFileOfThePlateCounts) {
     const std::string depth = (folder_ / ("depth." + std::to_string(frame) + ".exr")).string();
     job.plate.named["depth"] = depth + ":Z";
     job.plate.named["shadow"] = (folder_ / "no.exr").string();
-    job.plate.layers["shadow"] = "none";  // so that nobody opens it
+    job.plate.layers["shadow"] = "none";  // so that no.exr is not opened
     job.plate.layers["reflection"] = depth;
     return job;
   };

@@ -15,7 +15,7 @@
 #include "limpid/files/text/look_file.h"
 #include "limpid/job/composite.h"
 
-/// Motion vectors of what is seen through the water, and of what it mirrors.
+/// Motion vectors of the bottom behind the water, and of objects that the water mirrors.
 
 namespace limpid {
 namespace {
@@ -48,7 +48,7 @@ class Lens {
 
   LookedUp looked_up() const { return {u_.view(), v_.view(), depth_.view(), kDisplay}; }
 
-  /// What becomes of vectors that grow to the right and down.
+  /// Vectors that grow to the right and down, carried through the lookup.
   std::array<Plane, 2> carried(const Rect& window = kDisplay) const {
     const Plane x = plane_of(kDisplay, [](int px, int) { return 2 + px; });
     const Plane y = plane_of(kDisplay, [](int, int py) { return -3 - py; });
@@ -82,7 +82,7 @@ TEST(Motion, IsTurnedAndStretchedAsTheLookupIs) {
   const double dx = seen[0].view().at(x, y), dy = -seen[1].view().at(x, y);
   EXPECT_NEAR(1.5 * dx + 0.5 * dy, 2 + from_x, 1e-3);
   EXPECT_NEAR(-0.25 * dx + 0.8 * dy, 3 + from_y, 1e-3);
-  // At the rim there are no slopes: the texel's own.
+  // At the rim there are no slopes: the result is the texel's own vector.
   EXPECT_EQ(seen[0].view().at(0, 12), 2 + std::floor(0.75 + 6.25 - 15 < 0 ? 0 : 0.75 + 6.25 - 15));
 }
 
@@ -105,7 +105,7 @@ TEST(Motion, IsFinite) {
   EXPECT_NEAR(seen[0].view().at(6, 5), 1, 1e-5);
 }
 
-/// A wall 8 in front of a level camera that stands 1.5 above the water, which mirrors it.
+/// The water mirrors a wall 8 in front of a level camera, which stands 1.5 above the water.
 class WallTest : public ::testing::Test {
  protected:
   static constexpr Rect kDisplay{0, 0, 80, 60};
@@ -118,8 +118,8 @@ class WallTest : public ::testing::Test {
     scene_.water = WaterPlane{{0, 1, 0}, 0};
   }
 
-  /// What becomes of the vectors (2, 1 + row / 10), by a normal that leans by so much to the right,
-  /// where the picture shows a depth and the mirror an image at these.
+  /// The vectors (2, 1 + row / 10), reflected by a normal that leans by the angle `lean` to the
+  /// right; the picture has the depth `shown`, the mirror image the depth `image`.
   std::array<Plane, 2> reflected(double lean = 0, double shown = kWall,
                                  double image = kWall) const {
     const auto constant = [](double value) {
@@ -144,8 +144,8 @@ class WallTest : public ::testing::Test {
 };
 
 // The horizon lies between the rows 29 and 30, the wall's foot 1.5 / 8 * 30 / tan 30 = 9.7 rows
-// below it. The image of a point at the height h is at -h: twice those rows further below the
-// horizon than the point is above it.
+// below the horizon. The image of a point at the height h is at -h: twice those rows further below
+// the horizon than the point is above the horizon.
 TEST_F(WallTest, IsTheThingsUpsideDown) {
   const auto seen = reflected();
   for (const int below : {11, 15, 25}) {
@@ -161,7 +161,7 @@ TEST_F(WallTest, IsTheThingsUpsideDown) {
   EXPECT_EQ(seen[0].view().at(40, 35), 0) << "the wall's foot";
 }
 
-// What is mirrored moves as the matrix 1 - 2 n n^T has it, which is its own inverse.
+// A mirrored point moves by the matrix 1 - 2 n n^T, which is its own inverse.
 TEST_F(WallTest, IsTurnedAsTheNormalSays) {
   const double lean = glm::radians(-10.0);
   const auto seen = reflected(lean);
@@ -189,11 +189,11 @@ TEST_F(WallTest, IsNoneOfWhatThePictureDoesNotShow) {
       }
     }
   }
-  // A normal that leans by 40 degrees shows what lies far to the right.
+  // A normal that leans by 40 degrees reflects points outside the picture, far to the right.
   EXPECT_EQ(reflected(glm::radians(40.0))[0].view().at(75, 50), 0);
 }
 
-/// A light spot on the bottom of a pool, which moves; the water is calm, the camera stands still.
+/// A light spot moves on the bottom of a pool; the water is calm, the camera stands still.
 class SpotTest : public ::testing::Test {
  protected:
   SpotTest()
@@ -224,7 +224,7 @@ class SpotTest : public ::testing::Test {
             (1 - clip.y / clip.w) / 2 * kPicture.height()};
   }
 
-  /// The spot at a place of the bottom; vectors to where everything there is after `step`.
+  /// Writes the spot at a place of the bottom, and the vectors of a bottom that moves by `step`.
   void write(const std::string& name, glm::dvec3 spot, glm::dvec3 step) const {
     std::vector<Plane> planes;
     ExrOutput output;

@@ -13,7 +13,7 @@
 namespace limpid {
 namespace {
 
-/// What happens to the slots of a sequence, and what goes wrong where.
+/// The record of a sequence's slots and frames; `event` can make a step throw.
 struct Story {
   std::function<void(const std::string& step, int frame)> event = [](const std::string&, int) {};
   std::atomic<int> slots = 0, busy = 0, most_busy = 0;
@@ -125,7 +125,7 @@ TEST_P(SequenceThreads, TheFirstErrorStopsItAndNamesTheFrame) {
       EXPECT_STREQ(error.what(), "frame 86: the dog ate it");
       EXPECT_EQ(error.fault(), Fault::kRetry);
     }
-    // 86 is the eighth: seven are written and told of, and no more than two began after it.
+    // 86 is the eighth frame: seven are written and told, and at most two frames began after 86.
     EXPECT_EQ(story.told.size(), 7u) << where;
     for (int i = 0; i < 7; ++i) EXPECT_TRUE(story.written.contains(100 - 2 * i)) << where;
     EXPECT_EQ(story.written.contains(86), where == "done");
@@ -134,7 +134,7 @@ TEST_P(SequenceThreads, TheFirstErrorStopsItAndNamesTheFrame) {
   }
 }
 
-/// Frame 98 fails last, but it comes before the others that do.
+/// Frame 98 fails last, but comes before the other failing frames in the sequence.
 TEST_P(SequenceThreads, TheEarliestFrameThatFailsIsTheOneNamed) {
   Story story;
   story.event = [&](const std::string& step, int frame) {

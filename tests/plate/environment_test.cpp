@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using Pixels = std::function<glm::dvec3(int x, int y)>;
 
 struct Written {
-  std::string envmap = {};  ///< byte of the attribute, or none
+  std::string envmap = {};  ///< byte of the attribute; empty: no attribute
   std::vector<std::string> channels = {"R", "G", "B"};
   glm::ivec2 corner = {0, 0};
 };
@@ -65,7 +65,7 @@ glm::dvec3 texel(const LoadedTexture& map, int x, int y) {
 
 Size size_of(const LoadedTexture& map) { return map.texture.channels[0].window.size(); }
 
-/// The world direction of a texel's centre, as Frame::environment has it.
+/// The world direction of a texel's centre in the layout of Frame::environment.
 glm::dvec3 direction_of(const glm::dvec3& up, Size size, int x, int y) {
   const PlaneAxes axes = plane_axes(up);
   const double around = 2 * std::numbers::pi * ((x + 0.5) / size.width - 0.5);
@@ -130,11 +130,11 @@ TEST(Environment, TurningByPartsOfATexelMixesNeighbours) {
 }
 
 /// The point of the unit cube that OpenEXR says each texel of a cube map shows: linear in a face,
-/// so that bilinear filtering gives it back exactly.
+/// so that bilinear filtering gives the point back exactly.
 glm::dvec3 point_of_cube(int side, int x, int y) {
   const Imath::Box2i window({0, 0}, {side - 1, 6 * side - 1});
   const auto face = static_cast<Imf::CubeMapFace>(y / side);
-  // direction() wants the place within the face: look for the one that pixelPosition() brings here.
+  // direction() takes the place within the face: find the place that pixelPosition() maps to (x, y)
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
       const Imath::V2f in_face(static_cast<float>(i), static_cast<float>(j));
@@ -188,7 +188,7 @@ TEST(Environment, TheSmallestOnes) {
       load_environment(write_picture({1, 6}, [](int, int y) { return glm::dvec3(y); }), 0);
   ASSERT_EQ(size_of(cube), (Size{4, 2}));
   for (int x = 0; x < 4; ++x) {
-    // 45 degrees up and 45 aside is the top's, by a little; then +Y is face 2, -Y is face 3.
+    // The direction 45 degrees up and 45 aside just falls into the top face. +Y is face 2, -Y 3.
     EXPECT_EQ(texel(cube, x, 0).x, 2);
     EXPECT_EQ(texel(cube, x, 1).x, 3);
   }

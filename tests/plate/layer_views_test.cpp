@@ -3,7 +3,7 @@
 
 #include "plate/named_layers.h"
 
-/// Stereo and the like: which channels belong to which view, and which view is taken.
+/// Each channel belongs to its view, and the library reads the requested view.
 
 namespace limpid {
 namespace {
@@ -34,7 +34,7 @@ LayerSource multi_view(const Names& views, const Names& channels) {
   return one;
 }
 
-/// As Nuke and the OpenEXR test images have them.
+/// The channel names of Nuke and of the OpenEXR test images.
 const Sources kParts = {source(0, "s.exr", kRgba, "rgba_right", 0, "right"),
                         source(0, "s.exr", {"Z"}, "depth_left", 1, "left"),
                         source(0, "s.exr", {"mask"}, "whitebarmask_left", 2, "left"),
@@ -86,7 +86,7 @@ TEST(LayerViews, ChannelsWithoutAViewAreThoseOfTheDefaultOne) {
   EXPECT_EQ(default_view(stereo), "left");
   EXPECT_EQ(found(stereo), "color: R G B\ndepth: Z\nshadow: left.shadow.Y\n");
   EXPECT_EQ(found(stereo, "left"), found(stereo));
-  // Right has no shadow: it does not take that of left.
+  // The right view has no shadow, and does not take the left view's shadow.
   EXPECT_EQ(found(stereo, "right"), "color: right.R right.G right.B\ndepth: depth.right.Z\n");
   EXPECT_EQ(found({multi_view({"right", "left"}, {"B", "G", "R", "left.Z"})}), "color: R G B\n");
 }

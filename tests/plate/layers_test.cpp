@@ -310,7 +310,7 @@ TEST(FindLayers, ThePictureOfTheSunsLightAlone) {
   }
 }
 
-// The alpha of a mirrored picture from elsewhere is no mask of what is real.
+// Only limpid's own reflection buffers keep a mask in alpha; other renderers' alpha is no mask.
 TEST(FindLayers, OnlyOurOwnReflectionHasItsMaskInAlpha) {
   EXPECT_EQ(found({"View.reflection.A", "View.reflection.B", "View.reflection.G",
                    "View.reflection.R", "View.reflection.Z"}),

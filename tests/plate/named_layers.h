@@ -15,7 +15,7 @@ inline LayerSource source(int file, const std::string& file_name, const Names& c
   return {file, part, file_name, part_name, view, channels};
 }
 
-/// "depth: ViewLayer.Depth.Z" a line, with file and part in front of the name where not 0.
+/// Lines such as "depth: ViewLayer.Depth.Z"; file and part stand before the name unless 0.
 inline std::string text_of(const LayerChoices& choices) {
   std::string text;
   for (const Role& role : roles()) {
@@ -31,7 +31,7 @@ inline std::string text_of(const LayerChoices& choices) {
   return text;
 }
 
-/// What choose_layer() says, or refuses.
+/// The answer of choose_layer(), or the sentence of its Error.
 inline std::string chosen(const std::string& role, const std::string& text,
                           const std::vector<LayerSource>& sources) {
   try {

@@ -5,7 +5,7 @@
 
 #include "files/exr/part_files.h"
 
-/// Which layers of a plate are handed on.
+/// Which layers of a plate are pass-through.
 
 namespace limpid {
 namespace {

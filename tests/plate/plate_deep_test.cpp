@@ -11,7 +11,7 @@
 #include "files/exr/deep_files.h"
 #include "files/exr/written.h"
 
-/// Plates of deep samples: what becomes color and depth, and what lies below the water.
+/// Plates of deep samples: which samples become color and depth, and which the below buffers.
 
 namespace limpid {
 namespace {
@@ -28,7 +28,7 @@ constexpr float kPost = 0.5f, kBottom = 0.25f;
 const PlaneSet kDeepPlanes =
     kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kColorA, PlaneId::kDepth};
 
-/// From 2 above the water straight down: its eye depth is 2 everywhere.
+/// A camera 2 above the water looks straight down: the water's eye depth is 2 everywhere.
 Scene scene(double height = 0) {
   Scene scene;
   scene.camera = Camera{glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0), glm::dvec3(0, 0, -1)),
@@ -104,7 +104,7 @@ TEST_F(DeepPlate, TheSurfaceOfThePlateWins) {
   const LoadedPlate plate = read(scene());
   EXPECT_EQ(plate.frame.plane(PlaneId::kBelowDepth).at(1, 1), kInf);
   EXPECT_EQ(plate.frame.plane(PlaneId::kBelowR).at(1, 1), 0);
-  // It is read even where the caller does not ask for it.
+  // The surface depth is read even if the caller does not request it.
   const LoadedPlate below = Plate::open(request_).read(kBelowPlanes | kColorPlanes, scene(), {});
   EXPECT_EQ(below.frame.plane(PlaneId::kBelowDepth).at(1, 1), kInf);
 }
@@ -115,7 +115,7 @@ TEST_F(DeepPlate, DistancesFromTheCameraBecomeEyeDepths) {
   const auto length = [&](int x, int y) {
     return static_cast<float>(glm::length(rays.ray_at(x + 0.5, y + 0.5)));
   };
-  // In the corner the distance 2.1 is above the water, which is 2 deep and 2.46 away.
+  // In the corner the water has the eye depth 2 and the distance 2.46: 2.1 is above the water.
   ASSERT_GT(2 * length(0, 0), 2.2f);
   deep.samples[{0, 0}] = {point(2.1f, kPost, 1), point(3 * length(0, 0), kBottom, 1)};
   add_deep(deep);

@@ -31,7 +31,7 @@ class PlateParts : public testing::Test {
     write_parts(path, kDisplay, parts);
     request_.files = {path};
   }
-  /// Of the whole plate at pixel (5, 7).
+  /// The value of the whole plate at pixel (5, 7).
   float at(PlaneId id) const {
     const Plate plate = Plate::open(request_);
     const LoadedPlate loaded = plate.read(plate.planes(), {}, {});
@@ -155,7 +155,7 @@ TEST_F(PlateParts, DeepPartsMayStandBesideFlatOnes) {
   write({samples, part_of("rgba", kDisplay, kRgba, 1), part_of("depth", kDisplay, {"Z"}, 9)});
   EXPECT_EQ(at(PlaneId::kColorR), level_at(1, 5, 7));
   EXPECT_EQ(at(PlaneId::kDepth), level_at(9, 5, 7));
-  // And a role each.
+  // Deep and flat parts can have roles of their own.
   Scene scene;
   scene.camera = Camera{glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0), glm::dvec3(0, 0, -1)),
                         perspective(1, 1.5, 0.1, 100, ClipSpace::kGl), ClipSpace::kGl};

@@ -105,14 +105,14 @@ TEST(Plate, WhatIsSmallerThanThePictureIsFilledUp) {
   }
 }
 
-/// A file without its only chunk: it opens, but no pixel of it can be read.
+/// Loses the only chunk of a file: the file opens, but none of its pixels can be read.
 void lose_pixels(const std::filesystem::path& path) {
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   for (std::uint64_t at = 8; at + 8 < bytes.size(); ++at) {
     std::uint64_t place = 0;
     std::memcpy(&place, bytes.data() + at, sizeof place);
-    if (place != at + 8) continue;  // the table of chunks has one, right behind it
+    if (place != at + 8) continue;  // the only chunk stands right behind the table
     file.seekp(static_cast<std::streamoff>(at));
     file.write("\0\0\0\0\0\0\0\0", 8);
     return;
@@ -137,7 +137,7 @@ TEST(Plate, WhatIsNotWantedIsNotDecoded) {
     EXPECT_EQ(static_cast<bool>(loaded.frame.plane(id)), wanted.has(id)) << i;
     EXPECT_EQ(static_cast<bool>(loaded.planes[static_cast<std::size_t>(i)]), wanted.has(id)) << i;
   }
-  // Of three channels of NaN in one file one is looked at.
+  // The file has three channels of NaN; only the wanted channel is read.
   EXPECT_EQ(loaded.replaced.total(), kOverscan.area());
   EXPECT_EQ(plate.read(dry, {}, {}).replaced.total(), 0);
   EXPECT_THROW(plate.read(dry | PlaneSet{PlaneId::kReflectionValid}, {}, {}), Error);
@@ -182,7 +182,7 @@ TEST(Plate, DepthKindsHoldForEveryDepth) {
   }
 }
 
-/// Each file is small: together they would not be.
+/// Each file is within the limits: all files together would exceed them.
 TEST(Plate, PlanesOfAFrameStayWithinTheLimitsTogether) {
   PlateFiles files({0, 0, 64, 512});
   files.add(kDryChannels, 4, "dry.exr");

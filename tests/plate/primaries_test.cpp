@@ -13,7 +13,7 @@
 
 #include "files/exr/written.h"
 
-/// The working space that a plate tells of.
+/// The working space that the headers of a plate declare.
 
 namespace limpid {
 namespace {

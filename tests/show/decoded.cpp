@@ -34,7 +34,7 @@ Decoded decoded_png_of(const std::string& letters) {
   return {{samples.width, samples.height}, samples.bytes};
 }
 
-/// Reads a number and goes past it.
+/// Reads a number and moves `at` behind the number.
 int number_at(const std::string& text, std::size_t& at) {
   const std::size_t end = text.find_first_not_of("0123456789", at);
   const int number = std::atoi(text.substr(at, end - at).c_str());

@@ -6,7 +6,7 @@
 
 #include "limpid/core/rect.h"
 
-/// What a terminal would draw of what was written to it.
+/// The pictures that a terminal would draw from a program's output.
 
 namespace limpid::test {
 
@@ -15,16 +15,16 @@ struct Decoded {
   std::vector<std::uint8_t> rgb;
 };
 
-/// The one picture in the text, which may have other words before it. Fails the test, and is empty,
-/// for a text that is not as the protocol has it.
+/// The only picture in the text; other words may stand before the picture. Fails the test, and
+/// returns an empty picture, for a text that breaks the protocol.
 Decoded decoded_kitty(const std::string& text);
 Decoded decoded_iterm(const std::string& text);
 Decoded decoded_sixel(const std::string& text);
 
-/// A picture file, as the bytes that a screen gets of it.
+/// The bytes of a picture file as a screen gets them.
 Decoded decoded_file(const std::filesystem::path& path);
 
-/// How far two pictures of one size are apart, of 255.
+/// The difference of two pictures of one size, of 255.
 struct Apart {
   double mean = 0;
   int most = 0;

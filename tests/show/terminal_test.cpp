@@ -123,7 +123,7 @@ TEST(Terminal, ThatIsNotKnownHasNoPictures) {
       {{"TERM", "footage"}},
       {{"TERM", "linux"}},
       {{"TERM", "xterm-256color"}, {"KONSOLE_VERSION", "211200"}},
-      // A multiplexer keeps pictures to itself, whatever terminal it began in.
+      // A multiplexer passes no pictures on, in any terminal.
       {{"TERM", "tmux-256color"}, {"KITTY_WINDOW_ID", "1"}},
       {{"TERM", "screen"}, {"LC_TERMINAL", "iTerm2"}},
       {{"TERM", "xterm-kitty"}, {"TMUX", "socket,1,0"}},
