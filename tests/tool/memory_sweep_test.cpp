@@ -9,7 +9,7 @@
 #include "tool/tool.h"
 
 /// Limits of memory from far too little up to enough, in steps of 1 MiB: each run but the last says
-/// that it needs more, whatever it was doing when memory came to an end.
+/// that the limit is too low, at whatever step of the work memory ran out.
 
 namespace limpid::test {
 namespace {

@@ -13,7 +13,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// What outputs say of how they were made.
+/// Each output holds its provenance: how it was made.
 
 namespace limpid::test {
 namespace {
@@ -191,7 +191,7 @@ TEST_F(ProvenanceTest, AnotherMaterialIsAnotherModel) {
   EXPECT_NE(rendered("emissive", R"("emissiveFactor": [0, 0, 1], )"), plain);
 }
 
-/// The truth says the same of itself as water does, but there is no plan to it.
+/// The outputs of `truth` have the same provenance as those of `water`, but no plan.
 TEST_F(ProvenanceTest, TheTruthSaysHowItWasTraced) {
   copy_pool("a");
   copy_pool("b");

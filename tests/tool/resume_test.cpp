@@ -35,7 +35,7 @@ class ResumeTest : public ToolTest {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// What stderr says of a run that succeeds.
+  /// The stderr of a run that succeeds.
   std::string said_by(const Words& words) const {
     const Ran ran = limpid(words);
     EXPECT_EQ(ran.code, 0) << ran.err;
@@ -78,7 +78,7 @@ TEST_F(ResumeTest, WholeFramesAreLeftAloneAndTheOthersMade) {
   EXPECT_EQ(file_number("wet.1.exr"), first);
   EXPECT_EQ(file_number("deep.4.exr"), deep);
 
-  // When there is nothing to do, nothing is done but for what was left behind.
+  // A run that has no frame to make only removes leftover temporary files.
   EXPECT_FALSE(fs::exists(folder_ / ".limpid-4194305-0.exr"));
   write_text(".limpid-4194305-0.png", "half of a frame");
   const ino_t second = file_number("wet.2.exr");
@@ -154,7 +154,7 @@ TEST_F(ResumeTest, WhatWasMadeOtherwiseIsMadeAgainAndSaid) {
   EXPECT_TRUE(outputs() == all);
 }
 
-/// One thing a time that is wrong with frame 2.
+/// One fault of frame 2 in each run.
 TEST_F(ResumeTest, WhatIsNotWholeOrNotOursIsMadeAgain) {
   write_plates({1, 2, 3, 4});
   said_by(words({}));
@@ -262,7 +262,7 @@ TEST_F(ResumeTest, OtherPixelsAreOtherInputs) {
                                    "scene_hash)\n"));
 }
 
-/// Nobody knows any more how it was made.
+/// A frame whose plate is missing is not kept: its provenance cannot be checked.
 TEST_F(ResumeTest, AFrameWithoutItsInputIsNotKept) {
   write_plates({1, 2, 3, 4});
   said_by(words({}));

@@ -40,7 +40,7 @@ class ShotReportTest : public ToolTest {
     EXPECT_TRUE(same(picture, "other.png")) << picture;
   }
 
-  /// What `compare` tells of the two.
+  /// The output of `compare` for the two.
   void expect_as_compared(const json& row, const std::string& a, const std::string& b) const {
     const Ran ran = limpid({"compare", a, b, "--channels", "R,G,B", "--clip", "4", "--metrics",
                             "ssim,flip", "--tolerance", "100"});

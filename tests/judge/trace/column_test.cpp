@@ -89,7 +89,7 @@ TEST(Column, KeepsAllLightOfAWhiteFurnace) {
       column.real_surface = real;
       column.scattering = {1, 1, 1};
       EXPECT_NEAR(trace_column(column, 500).mean.g, enters, 1e-9);
-      // Channels that differ share ways that are not as likely in each.
+      // Channels that differ share paths that are not as likely in each.
       column.scattering = {1, 2, 0.5};
       const ColumnLight light = trace_column(column, 100000);
       expect_within(light, enters * Rgb<double>{1, 1, 1}, 0.001);
