@@ -206,7 +206,7 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
           << at;
       EXPECT_TRUE(outputs() == all) << name << " " << at;
     }
-    // Among the pixels only --verify sees it.
+    // A byte among the pixels is seen by --verify only.
     std::string other = whole;
     other.back() = static_cast<char>(other.back() ^ 1);
     write_text(name, other);
@@ -222,7 +222,7 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
   write_text("wet.2.png", png);
   EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.png: is damaged: wrong checksum"));
   EXPECT_TRUE(outputs() == all);
-  // Other programs leave no hash, or this one as it was.
+  // Other programs drop the hash, or keep it as it was.
   ASSERT_EQ(oiiotool({"wet.2.exr", "--attrib", "copyright", "ours", "-o", "wet.2.exr"}).code, 0);
   EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.exr has changed since it was written"));
   EXPECT_TRUE(outputs() == all);
@@ -336,7 +336,7 @@ TEST_F(ResumeTest, HeldFramesHaveTheirOwnTime) {
   EXPECT_FALSE(same("wet.4.exr", "wet.3.exr"));
 }
 
-/// As limpid render leaves them, at 24 frames a second.
+/// Plates as limpid render writes them, at 24 frames a second.
 TEST_F(ResumeTest, HeldPlatesThatKnowTheirTimeAreMovedOn) {
   Words words{"render",   std::string(LIMPID_DATA) + "/scenes/pool.toml",
               "--size",   "32x18",

@@ -298,8 +298,8 @@ TEST(FlatWater, LetsNoLightInBeyondTheCriticalAngleOfABand) {
   }
 }
 
-/// As to the chain: what a sun gives that only just stands over the horizon is none, not all there
-/// is over nothing.
+/// As in the chain, a sun that only just stands over the horizon gives no light; its light is not
+/// divided by nothing.
 TEST(FlatWater, ASunOnTheHorizonCountsAsNone) {
   Scene scene = over_water(40);
   scene.sun->direction = glm::normalize(glm::dvec3(0, 5e-7, -1));
@@ -313,7 +313,7 @@ TEST(FlatWater, ASunOnTheHorizonCountsAsNone) {
   });
 }
 
-/// White everywhere, and nothing takes light away: white is what is seen.
+/// White everywhere, and nothing takes light away: the picture is white.
 TEST(FlatWater, KeepsAllLightOfAWhiteFurnace) {
   Model model = model_of({level(-1)}, white(Shading::kFlat));
   model.background = {1, 1, 1};
