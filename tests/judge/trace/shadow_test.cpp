@@ -18,7 +18,7 @@ Model half_covered(Rgb<double> color = {0.5, 0.5, 0.5}) {
   return model_of({level(-kDepth), slab}, lambert(color));
 }
 
-/// Looks straight down from x on, from under the slab's height, so that it hides nothing.
+/// Looks straight down from x on, from under the slab's height, so that the slab hides nothing.
 Scene beside_slab(const glm::dvec3& to_sun, double x) {
   Scene scene = over_water(90);
   scene.camera->view =
