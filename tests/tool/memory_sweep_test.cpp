@@ -48,7 +48,7 @@ class MemorySweepTest : public ToolTest, public ::testing::WithParamInterface<Li
     return run(folder_, command);
   }
 
-  /// Runs it under one limit after the other, until it is done.
+  /// Runs the tool under one limit after the other, until a run succeeds.
   void sweep(const Words& arguments, int step = 1) const {
     const std::vector<std::string> before = files();
     int mebibytes = GetParam().least;

@@ -143,8 +143,8 @@ TEST_F(ProvenanceTest, TheSameInputsGiveTheSameBytesAnywhere) {
   EXPECT_TRUE(text_of("deep.exr") == text_of(there + "out_deep.exr"));
 }
 
-/// Of all names only the wave map's is told: the look needs it. Nor does another instruction set
-/// pass for the same.
+/// The wave map's name is the only name in the provenance: the look needs it. Nor does another
+/// instruction set pass for the same.
 TEST_F(ProvenanceTest, WhatBytesDoDependOn) {
   composed("wet.exr", {"--simd", "scalar"});
   const std::string bytes = text_of("wet.exr");

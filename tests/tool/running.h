@@ -15,7 +15,7 @@ class Running {
  public:
   /// Without a shell between, as run().
   Running(const std::filesystem::path& folder, const Words& command);
-  /// Kills it if it still runs.
+  /// Kills the program if it still runs.
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;

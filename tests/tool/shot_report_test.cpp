@@ -1,5 +1,5 @@
-// `limpid report` of a plate: its numbers beside those of composite and compare, and what it
-// refuses. What a browser shows of its page: tests/tools/shot_page.py.
+// `limpid report` of a plate: its numbers beside those of composite and compare, and its refusals.
+// tests/tools/shot_page.py checks its page in a browser.
 #include <cmath>
 #include <set>
 
