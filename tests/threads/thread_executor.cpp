@@ -8,7 +8,7 @@
 #include "core/executor_pool.h"
 
 /// The executor of the build with ThreadSanitizer: threads of the standard library, made for each
-/// call. It keeps the promises of executor.h and no others, so that who relies on more is seen.
+/// call. It keeps the promises of executor.h and no others, so that code that relies on more fails.
 
 namespace limpid {
 namespace {
@@ -29,7 +29,7 @@ class ThreadExecutor : public Executor {
   void run(int count, Task task, void* context) override {
     std::atomic<int> next = 0;
     on_threads(std::min(threads_, count), [&] {
-      // Relaxed: the order of two tasks is nobody's business.
+      // Relaxed: no promise covers the order of two tasks.
       for (int i = next.fetch_add(1, std::memory_order_relaxed); i < count;
            i = next.fetch_add(1, std::memory_order_relaxed)) {
         task(context, i);
@@ -42,7 +42,7 @@ class ThreadExecutor : public Executor {
     std::mutex first, last;
     std::condition_variable left;
     int next = 0, leaving = 0;
-    // Each thread has one item on its way.
+    // Each thread works on one item at a time.
     on_threads(std::min(in_flight, count), [&] {
       for (;;) {
         int item = 0;

@@ -6,7 +6,7 @@
 
 #include "tool/tool.h"
 
-/// The names that other programs want of a picture's channels.
+/// The channels of a picture have the names that other programs expect.
 
 namespace limpid::test {
 namespace {

@@ -13,7 +13,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// No job writes over what it reads, nor twice into one file: it is refused before anything is
+/// A job that would write over its inputs, or twice into one file, is refused before any file is
 /// written.
 
 namespace limpid::test {
@@ -195,7 +195,7 @@ TEST_F(ApartTest, ComparedPicturesAndDataStay) {
   }
 }
 
-/// The link of an output stays, what it leads to is made.
+/// An output that is a link stays a link, and the file that the link names is written.
 TEST_F(ApartTest, OutputsGoWhereLinksLead) {
   fs::create_directory(folder_ / "disk");
   write_text("disk/old.exr", "old");
@@ -220,7 +220,7 @@ class ApartJobs : public ApartTest {
     job.output.picture = folder_ / "wet.exr";
     return job;
   }
-  /// What the work is refused with, all files being as they were.
+  /// The sentence of the refusal; all files must be as they were.
   template <class Work>
   std::string refusal(const Work& work) const {
     const auto before = contents();
@@ -287,7 +287,7 @@ TEST_F(ApartJobs, ModelsKnowTheirFiles) {
   EXPECT_THAT(refusal([&] { water(model, wet, *executor); }), HasSubstr("is an input, too"));
 }
 
-/// What is wrong with a frame otherwise is told when its turn comes.
+/// Other faults of a frame are reported when the sequence reaches the frame.
 TEST_F(ApartJobs, FramesWithoutAJobArePassedOver) {
   const std::vector<int> frames{1, 2, 3};
   std::vector<int> asked;

@@ -105,7 +105,7 @@ TEST_F(BadInputTest, DeepFile) {
   expect_bad_plate("deep.exr", {"deep.exr: no channel 'A'", "R, G, B, A and Z"});
   const Words with_kind = {"deep.exr", "--scene", "scene.toml", "--depth-kind", "inverse"};
   expect_no_composite(with_kind, {"deep.exr: holds deep samples", "kind eye or ray"});
-  // Other buffers are no samples: there is no one value a pixel.
+  // Other buffers cannot be deep: a pixel needs one value of them.
   expect_no_composite({"plate.exr", "--scene", "scene.toml", "--layer", "shadow=deep.exr:R"},
                       {"deep.exr: part 0", "holds deep samples", "flat pixels"});
 }

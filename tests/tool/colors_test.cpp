@@ -111,7 +111,7 @@ TEST_F(ColorsTest, RefusesUnknownNames) {
   EXPECT_EQ(wet("none.exr", "wet.exr", {"--colorspace", "ACEScg"}).code, 0);
 }
 
-/// A picture and its like in ACEScg are seen as one, whichever way it is told.
+/// A picture and the same picture in ACEScg compare as equal, however the files name the space.
 TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
   const Words convert = {"--ccmatrix",
                          ".61309732,.07019422,.02061560,0,.33952285,.91635557,.10956983,0,"
@@ -133,7 +133,7 @@ TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
   EXPECT_THAT(flip("ap1.exr", "told709.exr"),
               HasSubstr("  Metrics of color in Rec.709, made of ACEScg and Rec.709\n"));
   EXPECT_THAT(flip("told709.exr", "told709.exr"), Not(HasSubstr("Metrics of color in")));
-  // Both in a space that neither tells of: as if both told.
+  // Both in a space that neither file names: as if both files named it.
   EXPECT_EQ(mean(flip("ap1_untold.exr", "plate.exr", {"--colorspace", "ACEScg"})),
             mean(flip("ap1.exr", "toldap1.exr")));
   expect_refused(limpid({"compare", "ap1.exr", "ap1.exr", "--colorspace", "ACEScg"}),

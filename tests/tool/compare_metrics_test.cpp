@@ -108,7 +108,7 @@ TEST_F(CompareMetricsTest, OffsetsOfTheLookups) {
   EXPECT_THAT(ran.out, ContainsRegex("\n    G  median 0, .* wrongly accepted 0% of [1-9]"));
   EXPECT_THAT(ran.out, ContainsRegex("\n    B  median 0, .* of 0 lookups; wrongly rejected 0%, "
                                      "wrongly accepted [1-9]"));
-  // One whose red came from the right edge.
+  // A truth whose red came from the right edge.
   rechannel("wet.exr",
             "R,G,B,stmap.r.U=1,stmap.r.V,stmap.g.U,stmap.g.V,stmap.b.U,stmap.b.V,visible.R=1,"
             "visible.G=1,visible.B=1",

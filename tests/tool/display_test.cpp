@@ -88,7 +88,7 @@ TEST_F(DisplayTest, AConfigOfOpenColorIoShowsIt) {
     ASSERT_NEAR(half[i], 255 * light(srgb[i]) / 2, 2);
     ASSERT_NEAR(swapped[i / 3 * 3 + 2 - i % 3], 255 * light(srgb[i]), 3);
   }
-  // How it was shown is among what is said of how it was made.
+  // The provenance of the preview names the display.
   preview({"--ocio", "tiny.ocio", "--display", "swapped", "--exposure", "1"});
   const std::string told = limpid({"inspect", "wet.exr"}).out;
   for (const char* line : {"exposure = 1.0\n", "ocio = \"", "view = \"screen/swapped\"\n"}) {
@@ -105,7 +105,7 @@ TEST_F(DisplayTest, TheEnvironmentsConfigIsTheUsualOne) {
   EXPECT_EQ(bytes_of("env.png"), srgb);
   ASSERT_EQ(with_ocio("", {"--preview", "env.png"}).code, 0);
   EXPECT_EQ(bytes_of("env.png"), srgb);
-  // Nothing of it is asked for where nothing is shown.
+  // Without a preview no config is read.
   composed("wet.exr");
   const Ran ran = with_ocio("absent.ocio", {});
   EXPECT_EQ(ran.code, 0) << ran.err;

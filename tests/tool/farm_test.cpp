@@ -11,8 +11,8 @@
 #include "tool/running.h"
 #include "tool/tool.h"
 
-/// limpid farm, with tasks here and with a Slurm that is made of four scripts: what a real one does
-/// is seen by tools/check_farm.
+/// limpid farm, with tasks on this machine and with a Slurm made of scripts; tools/check_farm tests
+/// it with a real Slurm.
 
 namespace limpid::test {
 namespace {
@@ -30,7 +30,7 @@ constexpr const char* kWhole = " frames are there and whole, by the hashes that 
 class FarmTest : public ToolTest {
  protected:
   FarmTest() {
-    // sbatch answers by the numbers 11, 12 ...; squeue with what lies in `queue`.
+    // sbatch answers by the numbers 11, 12 ...; squeue with the text of the file `queue`.
     slurm("sbatch",
           "echo \"$*\" >>submitted; [ ! -e refuse-\"$(wc -l <submitted)\" ] || "
           "{ echo 'sbatch: error: no such partition' >&2; exit 1; }; "
@@ -248,7 +248,7 @@ TEST_F(FarmTest, TasksWithoutTheirLastJobAreTakenBack) {
   write_text("refuse-2", "");
   expect_refused(farm({"--chunk", "2", "-q"}, "1-2"), {"sbatch: sbatch: error: no such partition"});
   EXPECT_EQ(text_of("cancelled"), "11\n");
-  // Nothing is in its way then.
+  // The next farm starts unhindered.
   EXPECT_EQ(farm({"--chunk", "2", "-q"}, "1-2").out, "13\n");
 }
 
@@ -269,7 +269,7 @@ TEST_F(FarmTest, WithoutASlurmNothingIsBegun) {
   EXPECT_FALSE(fs::exists(folder_ / "it's wet/wet.farm"));
 }
 
-/// A stand-in for bash tells by a pipe when it has begun, and that hangs up when all has ended.
+/// A stand-in for bash tells by a pipe when it has begun; the pipe hangs up when all tasks ended.
 TEST_F(FarmTest, ASignalEndsTheTasksHere) {
   write_plates(2);
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
@@ -287,7 +287,7 @@ TEST_F(FarmTest, ASignalEndsTheTasksHere) {
   running.send(SIGTERM);
   EXPECT_EQ(running.wait(), -SIGTERM);
   EXPECT_FALSE(std::getline(pipe, line));
-  // Its lock is taken over.
+  // The lock of the ended farm is taken over.
   slurm("bash", "exec /bin/bash \"$@\"");
   EXPECT_EQ(farm({"--local", "1", "--chunk", "2"}, "1-2").code, 0);
 }

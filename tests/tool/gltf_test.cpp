@@ -3,7 +3,7 @@
 #include "files/gltf/made_gltf.h"
 #include "tool/tool.h"
 
-/// What the tool says of glTF files that it does not draw as they are.
+/// The tool reports each part of a glTF file that it does not draw as the file has it.
 
 namespace limpid::test {
 namespace {

@@ -15,12 +15,12 @@ inline constexpr Rect kPicture{0, 0, 64, 36};
 /// Columns left of it are dry, but for the row at the horizon.
 inline constexpr int kShore = 16;
 
-/// What one writes instead of the eye depth Z of a pixel whose ray is `ray_length` long for Z = 1.
+/// The number in place of the eye depth Z of a pixel whose ray is `ray_length` long for Z = 1.
 using DepthCode = std::function<double(double z, double ray_length)>;
 
 struct PlateOptions {
   Rect data = kPicture, display = kPicture;  ///< wherever they are, the picture stays the same
-  bool color = true, depth = true;           ///< whether it has them
+  bool color = true, depth = true;           ///< whether the plate has them
   DepthCode depth_code = [](double z, double) { return z; };
   bool broken = false;  ///< NaN and inf here and there: 2 in color, 1 in depth, 1 in shadow
   bool camera = false;  ///< with worldToCamera and worldToNDC

@@ -3,7 +3,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// An EXR is one by how it begins, whatever its name.
+/// The first bytes of a file make it an EXR, whatever its name.
 
 namespace limpid::test {
 namespace {

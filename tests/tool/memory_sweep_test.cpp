@@ -9,7 +9,7 @@
 #include "tool/tool.h"
 
 /// Limits of memory from far too little up to enough, in steps of 1 MiB: each run but the last says
-/// that it needs more, whatever it was doing when memory came to an end.
+/// that the limit is too low, at whatever step of the work memory ran out.
 
 namespace limpid::test {
 namespace {
@@ -48,7 +48,7 @@ class MemorySweepTest : public ToolTest, public ::testing::WithParamInterface<Li
     return run(folder_, command);
   }
 
-  /// Runs it under one limit after the other, until it is done.
+  /// Runs the tool under one limit after the other, until a run succeeds.
   void sweep(const Words& arguments, int step = 1) const {
     const std::vector<std::string> before = files();
     int mebibytes = GetParam().least;

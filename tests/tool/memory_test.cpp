@@ -3,7 +3,7 @@
 #include "sanitized.h"
 #include "tool/tool.h"
 
-/// --max-memory: what fits runs, what does not is refused in a sentence, and nothing takes more.
+/// --max-memory: a job that fits runs, a larger one is refused in a sentence, no job takes more.
 
 namespace limpid::test {
 namespace {

@@ -24,7 +24,7 @@ class NewFiles {
   NewFiles(const NewFiles&) = delete;
   NewFiles& operator=(const NewFiles&) = delete;
 
-  /// Waits for the next one; nothing when there is none and their maker has ended.
+  /// Waits for the next name; nothing when no name is left and the process that makes files ended.
   std::optional<std::string> next(const Running& maker) {
     if (names_.empty() && comes(maker)) take();
     if (names_.empty()) return std::nullopt;

@@ -18,7 +18,7 @@ struct RangedOption {
 
 const Words kNoNumbers = {"nan", "-nan", "inf", "-inf"};
 
-/// Options of a verb, and what else it needs.
+/// Options of a verb, and the other words that the verb needs.
 class OptionRangesTest : public ToolTest {
  protected:
   void expect_ranges(const Words& command, const std::vector<RangedOption>& options) const {
@@ -35,7 +35,7 @@ class OptionRangesTest : public ToolTest {
       for (const std::string& value : ranged.good) {
         Words words = command;
         words.push_back(ranged.option + "=" + value);
-        // The files are not there: that is told next.
+        // The files are missing: the next error says so.
         EXPECT_EQ(limpid(words).code, 1) << ranged.option << " " << value;
       }
       Words none = command;

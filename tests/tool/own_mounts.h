@@ -5,7 +5,7 @@
 
 namespace limpid::test {
 
-/// A command that runs `script` in a shell that may mount what nobody else sees, with `words` as
+/// A command that runs `script` in a shell with mounts of its own, with `words` as
 /// its "$@": as root, or in a user namespace. Empty where the system allows neither.
 inline Words with_own_mounts(const std::string& script, const Words& words) {
   for (const char* kind : {"-m", "-Urm"}) {

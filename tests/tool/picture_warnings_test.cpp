@@ -85,7 +85,7 @@ TEST(PictureWarnings, WhatHidesALowSunIsOutOfThePicture) {
   EXPECT_THAT(evening.warnings(), testing::Not(unseen));
 }
 
-// A pane of ten columns is told with its share; a blurred edge of two is not.
+// The warning gives the share of a pane of ten columns; a blurred edge of two causes no warning.
 TEST(PictureWarnings, GlassIsTakenForOpaque) {
   Evening evening;
   const auto pane = [&](int columns, float alpha) {

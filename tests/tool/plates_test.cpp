@@ -21,7 +21,7 @@ class WindowsTest : public ToolTest {
                             "look.toml", "-o", name + ".exr", "-q"});
     EXPECT_EQ(ran.code, 0) << ran.err;
   }
-  /// Whether both have the same pixels in `cut`, which is oiiotool's WxH+X+Y.
+  /// Whether both files have the same pixels in `cut`, in oiiotool's form WxH+X+Y.
   bool same_in(const std::string& cut, const std::string& a, const std::string& b) const {
     return oiiotool({"--fail", "0", a, "--cut", cut, b, "--cut", cut, "--diff"}).code == 0;
   }

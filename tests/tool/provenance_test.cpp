@@ -13,7 +13,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// What outputs say of how they were made.
+/// Each output holds its provenance: how it was made.
 
 namespace limpid::test {
 namespace {
@@ -143,8 +143,8 @@ TEST_F(ProvenanceTest, TheSameInputsGiveTheSameBytesAnywhere) {
   EXPECT_TRUE(text_of("deep.exr") == text_of(there + "out_deep.exr"));
 }
 
-/// Of all names only the wave map's is told: the look needs it. Nor does another instruction set
-/// pass for the same.
+/// The wave map's name is the only name in the provenance: the look needs it. Nor does another
+/// instruction set pass for the same.
 TEST_F(ProvenanceTest, WhatBytesDoDependOn) {
   composed("wet.exr", {"--simd", "scalar"});
   const std::string bytes = text_of("wet.exr");
@@ -191,7 +191,7 @@ TEST_F(ProvenanceTest, AnotherMaterialIsAnotherModel) {
   EXPECT_NE(rendered("emissive", R"("emissiveFactor": [0, 0, 1], )"), plain);
 }
 
-/// The truth says the same of itself as water does, but there is no plan to it.
+/// The outputs of `truth` have the same provenance as those of `water`, but no plan.
 TEST_F(ProvenanceTest, TheTruthSaysHowItWasTraced) {
   copy_pool("a");
   copy_pool("b");

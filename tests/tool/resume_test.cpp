@@ -35,7 +35,7 @@ class ResumeTest : public ToolTest {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// What stderr says of a run that succeeds.
+  /// The stderr of a run that succeeds.
   std::string said_by(const Words& words) const {
     const Ran ran = limpid(words);
     EXPECT_EQ(ran.code, 0) << ran.err;
@@ -78,7 +78,7 @@ TEST_F(ResumeTest, WholeFramesAreLeftAloneAndTheOthersMade) {
   EXPECT_EQ(file_number("wet.1.exr"), first);
   EXPECT_EQ(file_number("deep.4.exr"), deep);
 
-  // When there is nothing to do, nothing is done but for what was left behind.
+  // A run that has no frame to make only removes leftover temporary files.
   EXPECT_FALSE(fs::exists(folder_ / ".limpid-4194305-0.exr"));
   write_text(".limpid-4194305-0.png", "half of a frame");
   const ino_t second = file_number("wet.2.exr");
@@ -154,7 +154,7 @@ TEST_F(ResumeTest, WhatWasMadeOtherwiseIsMadeAgainAndSaid) {
   EXPECT_TRUE(outputs() == all);
 }
 
-/// One thing a time that is wrong with frame 2.
+/// One fault of frame 2 in each run.
 TEST_F(ResumeTest, WhatIsNotWholeOrNotOursIsMadeAgain) {
   write_plates({1, 2, 3, 4});
   said_by(words({}));
@@ -206,7 +206,7 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
           << at;
       EXPECT_TRUE(outputs() == all) << name << " " << at;
     }
-    // Among the pixels only --verify sees it.
+    // A byte among the pixels is seen by --verify only.
     std::string other = whole;
     other.back() = static_cast<char>(other.back() ^ 1);
     write_text(name, other);
@@ -222,7 +222,7 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
   write_text("wet.2.png", png);
   EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.png: is damaged: wrong checksum"));
   EXPECT_TRUE(outputs() == all);
-  // Other programs leave no hash, or this one as it was.
+  // Other programs drop the hash, or keep it as it was.
   ASSERT_EQ(oiiotool({"wet.2.exr", "--attrib", "copyright", "ours", "-o", "wet.2.exr"}).code, 0);
   EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.exr has changed since it was written"));
   EXPECT_TRUE(outputs() == all);
@@ -262,7 +262,7 @@ TEST_F(ResumeTest, OtherPixelsAreOtherInputs) {
                                    "scene_hash)\n"));
 }
 
-/// Nobody knows any more how it was made.
+/// A frame whose plate is missing is not kept: its provenance cannot be checked.
 TEST_F(ResumeTest, AFrameWithoutItsInputIsNotKept) {
   write_plates({1, 2, 3, 4});
   said_by(words({}));
@@ -336,7 +336,7 @@ TEST_F(ResumeTest, HeldFramesHaveTheirOwnTime) {
   EXPECT_FALSE(same("wet.4.exr", "wet.3.exr"));
 }
 
-/// As limpid render leaves them, at 24 frames a second.
+/// Plates as limpid render writes them, at 24 frames a second.
 TEST_F(ResumeTest, HeldPlatesThatKnowTheirTimeAreMovedOn) {
   Words words{"render",   std::string(LIMPID_DATA) + "/scenes/pool.toml",
               "--size",   "32x18",

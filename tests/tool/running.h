@@ -15,16 +15,16 @@ class Running {
  public:
   /// Without a shell between, as run().
   Running(const std::filesystem::path& folder, const Words& command);
-  /// Kills it if it still runs.
+  /// Kills the program if it still runs.
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  /// The next line without its end; nothing when there is none any more.
+  /// The next line without its end; nothing after the last line.
   std::optional<std::string> line();
   /// A descriptor that hangs up, for poll(), when the program has ended.
   int stdout_end() const { return pipe_; }
-  /// Nobody reads any more.
+  /// Closes the reading end of the pipe.
   void close_stdout();
   void send(int signal) const;
   /// Reads no more, waits for the end, and gives the exit code, or minus the signal that ended it.

@@ -3,7 +3,7 @@
 #include "tool/new_files.h"
 #include "tool/tool.h"
 
-/// Whoever waits for a program that has ended is told so, and does not wait for ever.
+/// A wait for a program that has ended returns.
 
 namespace limpid::test {
 namespace {

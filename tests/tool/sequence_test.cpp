@@ -78,7 +78,7 @@ TEST_F(SequenceTest, GivesTheBytesOfFrameByFrame) {
   write_plates("plate.%d.exr", {1, 2, 3, 4, 5, 6});
   std::vector<std::string> alone;
   for (int frame = 1; frame <= 6; ++frame) {
-    // One frame is a sequence, too, but it has nobody's buffers.
+    // One frame is a sequence, too, but takes over no buffers of an earlier frame.
     const std::string number = std::to_string(frame);
     const std::vector<std::string> bytes =
         made(sequence("plate." + number + ".exr", "wet.%d.exr",

@@ -1,5 +1,5 @@
-// `limpid report` of a plate: its numbers beside those of composite and compare, and what it
-// refuses. What a browser shows of its page: tests/tools/shot_page.py.
+// `limpid report` of a plate: its numbers beside those of composite and compare, and its refusals.
+// tests/tools/shot_page.py checks its page in a browser.
 #include <cmath>
 #include <set>
 
@@ -40,7 +40,7 @@ class ShotReportTest : public ToolTest {
     EXPECT_TRUE(same(picture, "other.png")) << picture;
   }
 
-  /// What `compare` tells of the two.
+  /// The output of `compare` for the two.
   void expect_as_compared(const json& row, const std::string& a, const std::string& b) const {
     const Ran ran = limpid({"compare", a, b, "--channels", "R,G,B", "--clip", "4", "--metrics",
                             "ssim,flip", "--tolerance", "100"});

@@ -57,7 +57,7 @@ TEST_F(StmapTest, WarpsTheDryPictureAsTheWaterDoes) {
   EXPECT_TRUE(warps("G", "stmap.g", "1e-4"));
   EXPECT_TRUE(warps("B", "stmap.b", "1e-4"));
   EXPECT_FALSE(warps("R", "stmap.b", "1e-3")) << "each color has a map of its own";
-  // There is a good deal to compare.
+  // Enough pixels were compared.
   const Ran stats = oiiotool({"wet.exr", "--ch", "confidence.Y", "--cut", "48x20+16+16", "--subc",
                               "0.999", "--mulc", "1e6", "--clamp:min=0:max=1", "--addc", "-0.5",
                               "--clamp:min=0", "--printstats"});

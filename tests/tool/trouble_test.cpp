@@ -15,8 +15,8 @@
 #include "tool/running.h"
 #include "tool/tool.h"
 
-/// What happens to a sequence when something goes wrong around it: what is done is whole, what was
-/// there stays, one sentence says what it was.
+/// A sequence under faults of its surroundings: finished outputs are whole, old files stay, and one
+/// sentence names the fault.
 
 namespace limpid::test {
 namespace {
@@ -70,7 +70,7 @@ class TroubleTest : public ToolTest {
     }
     return all;
   }
-  /// The files of a run that nothing goes wrong with.
+  /// The files of a run without a fault.
   std::map<std::string, std::string> undisturbed() const {
     fs::create_directory(folder_ / "good");
     EXPECT_EQ(run(folder_, words("good", {"-q"})).code, 0);
@@ -180,8 +180,8 @@ TEST_F(TroubleTest, AReadOnlyFolder) {
   EXPECT_EQ(text_of("out/wet.1.exr"), "old");
 }
 
-/// What a killed process left goes where locks can be trusted. A ramfs stands for the others: it is
-/// not among the file systems that are known to be local.
+/// Leftover temporary files of a killed process are removed where locks can be trusted. A ramfs
+/// stands for the other file systems: it is not among those that are known to be local.
 TEST_F(TroubleTest, AFolderThatOthersMayShare) {
   for (const std::string kind : {"tmpfs", "ramfs"}) {
     const std::string script = "mount -t " + kind +
@@ -246,7 +246,7 @@ void await_files(NewFiles& begun, const Running& running, int count) {
 
 class TroubleSignal : public TroubleTest, public ::testing::WithParamInterface<int> {};
 
-/// Nobody reads beyond the second frame, so that the sequence cannot end by itself.
+/// The test reads only to the second frame, so that the sequence cannot end by itself.
 TEST_P(TroubleSignal, EndsASequenceCleanly) {
   fs::create_directories(folder_ / kLong);
   write_text(kLong + "/wet.6.exr", "old");
@@ -280,7 +280,7 @@ TEST_P(TroubleKill, LeavesWholeFramesAndResumes) {
   running.send(SIGKILL);
   EXPECT_EQ(running.wait(), -SIGKILL);
 
-  // What has a final name is whole, the rest goes with the next run, which makes what is missing.
+  // Files with a final name are whole; the next run removes the others and makes what is missing.
   const auto good = undisturbed();
   int whole = 0;
   for (const auto& [name, bytes] : in(kLong)) {
@@ -307,7 +307,7 @@ TEST_F(TroubleTest, AReaderThatGoesStopsNothing) {
   expect_whole("out", kFrames);
 }
 
-/// What is printed must not go into the files that took the numbers of the streams.
+/// Printed text must not go into the files that took the numbers of the streams.
 TEST_F(TroubleTest, ClosedStreams) {
   Words closed{"/bin/sh", "-c", "exec \"$@\" <&- >&- 2>&-", "sh"};
   for (const std::string& word : words("out", {"-v"})) closed.push_back(word);

@@ -48,7 +48,7 @@ TEST_F(VerbsTest, OperatorsListsTheChain) {
   });
 }
 
-/// As the enum has them: one of them left out would shift all after it.
+/// The names follow the enum: a missing name would shift all names after it.
 TEST_F(VerbsTest, OperatorsNamesTheStateThatEachUsesAndMakes) {
   const Ran ran = limpid({"operators"});
   EXPECT_THAT(ran.out, HasSubstr("taps -; uses -; makes normal, slope_variance\n"));

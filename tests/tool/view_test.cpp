@@ -1,4 +1,4 @@
-// limpid view as a program: its one line, its end, and what it refuses. What it serves: tests/desk.
+// limpid view as a program: its one line, its end, and its refusals. tests/desk checks its pages.
 #include <csignal>
 #include <regex>
 

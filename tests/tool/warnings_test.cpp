@@ -5,7 +5,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// What is asked for and does nothing is told on stderr, once, a line each.
+/// Each option or parameter that has no effect is named on stderr, once, in a line of its own.
 
 namespace limpid::test {
 namespace {
@@ -28,7 +28,7 @@ class WarningsTest : public ToolTest {
     text.replace(text.find(old), old.size(), "height = " + height);
     write_text("scene.toml", text);
   }
-  /// Something is hit everywhere.
+  /// Every ray hits a surface.
   void close_plate(const std::string& file) const {
     PlateOptions closed;
     closed.depth_code = [](double z, double) { return z < 1e9 ? z : 60; };
@@ -89,7 +89,7 @@ TEST_F(WarningsTest, ALayerThatNothingReads) {
   EXPECT_EQ(ran.err,
             "limpid: warning: the layer shadow is named, and no running operator of the look look "
             "reads it\n");
-  // One that was found, not named, is no matter.
+  // A buffer that was found, not named, causes no warning.
   EXPECT_EQ(composite("wet.exr",
                       {"--set", "water_shadow.strength=0", "--set", "sun_highlight.strength=0"})
                 .err,

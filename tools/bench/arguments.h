@@ -8,12 +8,12 @@
 
 namespace limpid::bench {
 
-/// What a benchmark can be told.
+/// The options of a benchmark.
 struct Arguments {
   int rounds = 7;    ///< --rounds N, at least 1: the best one counts
   std::string simd;  ///< --simd NAME: this instruction set instead of the best (or all) there are
-  std::string rows;  ///< --rows TEXT: only rows that have it in their name
-  std::string size;  ///< --size 1080p or 4K: this one instead of both
+  std::string rows;  ///< --rows TEXT: only rows with the text in their name
+  std::string size;  ///< --size 1080p or 4K: this size instead of both
 
   std::string best_simd() const;
   bool wants_row(const std::string& name) const { return name.find(rows) != std::string::npos; }

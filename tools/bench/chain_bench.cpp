@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLargestMeanError = 2e-3;
 
-/// So that no row can pass by the picture of the one before.
+/// So that no row can pass by the picture of the row before.
 void spoil(const Target& target) {
   for (const View<float>& view : target.color) {
     for (int y = view.window.y0; y < view.window.y1; ++y) {
@@ -108,7 +108,7 @@ void ChainBench::add(const std::string& name, JudgedLook* judged, int threads, P
   rows_.push_back({{full, run}, judged});
 }
 
-/// Its first round is the one that judges the others.
+/// Its first round judges the others.
 void ChainBench::add_reference() {
   add("reference, double", nullptr, 1, [this](const Target& target, Executor&) {
     run_reference(realistic_.plan, plate_.frame, plate_.scene, target);

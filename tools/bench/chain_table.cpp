@@ -27,7 +27,7 @@ void print_row(const ChainRow& row, double pixels, double rival) {
   std::printf("\n");
 }
 
-/// Whose time is compared with whose.
+/// The two rows whose times are compared.
 struct Ratio {
   std::string of, to;
 };

@@ -1,5 +1,5 @@
-// Times the Compositor on 1080p frames of a host beside the fused runner on the same frame: what a
-// host pays for having its buffers taken as they are. Rounds go over all rows in turn; overhead is
+// Times the Compositor on 1080p frames of a host beside the fused runner on the same frame: the
+// price of taking a host's buffers as they are. Rounds go over all rows in turn; overhead is
 // the median over the rounds of a row's time by the runner's of the same round, so that a slow
 // moment of the machine hits both.
 #include <algorithm>
@@ -48,7 +48,7 @@ void fill(const HostOutput& to, const View<const float>& from) {
 struct TimedRow {
   std::string name;
   std::function<void()> run;
-  std::size_t beside = 0;  ///< the row that it is compared with: a runner on the same pixels
+  std::size_t beside = 0;  ///< the row to compare with: a runner on the same pixels
   std::vector<double> seconds = {};
 };
 

@@ -57,7 +57,7 @@ GlProcess::GlProcess(const std::string& what, int threads) {
   if (::pipe2(down, O_CLOEXEC) != 0 || ::pipe2(up, O_CLOEXEC) != 0) {
     throw std::runtime_error("no pipe");
   }
-  std::signal(SIGPIPE, SIG_IGN);  // a rival that is gone is told by write()
+  std::signal(SIGPIPE, SIG_IGN);  // write() reports a rival that has ended
   child_ = ::fork();
   if (child_ == 0) {
     ::dup2(down[0], STDIN_FILENO);

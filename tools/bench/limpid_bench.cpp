@@ -12,7 +12,7 @@
 namespace limpid::bench {
 namespace {
 
-/// What is freed stays with the process. The OpenCV chain would otherwise spend a third of its time
+/// Freed memory stays with the process. The OpenCV chain would otherwise spend a third of its time
 /// on getting pages from the kernel for its temporaries; the others allocate none.
 void keep_memory() {
   mallopt(M_MMAP_MAX, 0);

@@ -5,9 +5,9 @@
 
 namespace limpid::bench {
 
-/// What no runner can beat that reads what the look `realistic` reads and writes a picture: streams
-/// the frame's nine planes in and three out, past the caches where the machine can store so. The
-/// picture means nothing.
+/// The floor for every runner that reads the planes of the look `realistic` and writes a picture:
+/// streams the frame's nine planes in and three out, past the caches where the machine can store
+/// so. The picture means nothing.
 void run_memory_floor(const Frame& frame, const Target& target, Executor& executor);
 
 }  // namespace limpid::bench

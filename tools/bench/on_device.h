@@ -14,7 +14,7 @@
 
 namespace limpid::bench {
 
-/// A program and its textures on a device, to be run as often as one likes.
+/// A program and its textures on a device, for any number of runs.
 class OnDevice {
  public:
   /// With `filter` textures are read by the device's own bilinear filter, tiling where their name

@@ -6,7 +6,7 @@
 
 namespace limpid::bench {
 
-/// The look `realistic` on a plate with a normal map as somebody would write it with OpenCV:
+/// The look `realistic` on a plate with a normal map as a programmer writes it with OpenCV:
 /// whole-picture remap, multiply, pow, compare. The rival in the bench table. Positions, rays and
 /// temporaries are its own; inputs and outputs are shared without copies. Uses as many threads as
 /// cv::setNumThreads allows.

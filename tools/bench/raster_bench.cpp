@@ -19,7 +19,7 @@ struct Difference {
   double mean_color = 0, mean_depth = 0, other_percent = 0;
 };
 
-/// Pixels whose color is off by more than 0.02 count as other.
+/// Pixels whose colors differ by more than 0.02 count as different.
 Difference difference(const RasterScene& scene, const RasterImage& ours,
                       const std::vector<float>& theirs) {
   const Size size = scene.view.display.size();

@@ -11,8 +11,8 @@ namespace limpid::bench {
 /// A row of a table: something to time.
 struct Row {
   std::string name;
-  std::function<double()> run;  ///< does it once and tells the seconds it took
-  int most_rounds = std::numeric_limits<int>::max();  ///< for what is slow
+  std::function<double()> run;  ///< does the work once and returns its seconds
+  int most_rounds = std::numeric_limits<int>::max();  ///< fewer for slow rows
   double best_seconds = 1e30;
 };
 
@@ -23,7 +23,7 @@ double seconds_of(Body&& body) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Rounds go over all rows in turn, so that a noisy neighbour hits them alike; the best one counts.
+/// Rounds go over all rows in turn, so that a noisy neighbour hits them alike; the best counts.
 template <class Rows>
 void time_rows(Rows& rows, int rounds) {
   for (int round = 0; round < rounds; ++round) {

@@ -115,7 +115,7 @@ ArrayFrame frame_of(const py::dict& planes, const py::dict& scene, const Primari
   return made;
 }
 
-/// From here to the end of its block nobody else may use the compositor. Under the interpreter's
+/// Until the end of its block no other call may use the compositor. Under the interpreter's
 /// lock when made and when left.
 class Busy {
  public:

@@ -10,7 +10,7 @@
 namespace limpid::python {
 
 /// A Compositor with a pool of its own that takes arrays. It computes without the interpreter's
-/// lock; whatever is asked of it meanwhile is refused.
+/// lock; calls in the meantime are refused.
 class FrameAfterFrame {
  public:
   /// `conventions` and `runner` (runner, gpu, gpu_cache) are keywords of limpid.Compositor. Threads

@@ -12,7 +12,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Unit; what is that to rounding stays as it is, and long vectors do not overflow.
+/// Unit; a vector that is unit to rounding stays as it is, and long vectors do not overflow.
 glm::dvec3 direction_of(const py::handle& object, const std::string& name) {
   const glm::dvec3 v = point_of(object, name);
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});

@@ -10,8 +10,8 @@
 #include "limpid/core/field.h"
 #include "limpid/core/scene.h"
 
-/// Numbers, words, matrices and the things of a scene, from objects of Python. What takes a `name`
-/// throws Error that begins with it.
+/// Numbers, words, matrices and the parts of a scene, from objects of Python. A function with a
+/// parameter `name` throws Error that begins with the name.
 
 namespace limpid::python {
 

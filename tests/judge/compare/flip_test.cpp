@@ -116,7 +116,7 @@ TEST(Flip, NumbersThatAreNoneAreTheWorstThereIs) {
     EXPECT_EQ(error.map.view().at(4, 5), kInf);
     EXPECT_EQ(error.map.view().at(5, 5), 0);  // black in both: nothing spreads
   }
-  // The same in both is no difference.
+  // Equal values in both pictures are no difference.
   ColorPlanes same = scene(1), too = scene(1);
   for (ColorPlanes* picture : {&same, &too}) {
     picture->at(0, 8, 8) = kInf;

@@ -116,7 +116,7 @@ TEST(Offset, NumbersThatAreNoneAreTheWorstThereIs) {
     EXPECT_EQ(errors.median, 0);
     EXPECT_EQ(errors.measured, 5);
   }
-  // Where nothing is measured they do not count.
+  // Pixels without a measurement do not count.
   Row row(3);
   row.set(0, {.confidence = 0, .u = kNan});
   row.set(1, {.true_u = kNan, .visible = 0});

@@ -18,7 +18,7 @@
 #include "judge/report/finer_water.h"
 #include "judge/report/measure.h"
 
-/// What one brings, where it is judged, and that each buffer is of use.
+/// The buffers that a host brings, where they are judged, and that each buffer is of use.
 
 namespace limpid {
 namespace {

@@ -77,7 +77,7 @@ TEST(Column, SendsWhatAPathTracedPictureShows) {
   expect_within(trace_column(column, 100000), {.2706, .2024, .0759}, 0.02);
 }
 
-/// Nothing takes light away, and there is as much of it everywhere: as much is seen.
+/// Nothing takes light away, and there is as much light everywhere: as much light is seen.
 TEST(Column, KeepsAllLightOfAWhiteFurnace) {
   Column column{.scattering = {1, 1, 1}, .depth = 1.5, .bottom = {1, 1, 1}};
   column.irradiance = {0, 0, 0};
@@ -89,7 +89,7 @@ TEST(Column, KeepsAllLightOfAWhiteFurnace) {
       column.real_surface = real;
       column.scattering = {1, 1, 1};
       EXPECT_NEAR(trace_column(column, 500).mean.g, enters, 1e-9);
-      // Channels that differ share ways that are not as likely in each.
+      // Channels that differ share paths that are not as likely in each.
       column.scattering = {1, 2, 0.5};
       const ColumnLight light = trace_column(column, 100000);
       expect_within(light, enters * Rgb<double>{1, 1, 1}, 0.001);
@@ -159,7 +159,7 @@ TEST(Column, LosesToABlackBottomWhatDiffusionSays) {
   column.sky = {1, 1, 1};
   const double lost = HFunction(1).at(view) / (std::sqrt(3.0) * 11.4209);
   expect_within(trace_column(column, 100000), out * (1 - lost) * Rgb<double>{1, 1, 1}, 0.001);
-  // Light that goes on forwards goes as far by five times as many turns, but for the first ones.
+  // Light that goes on forwards goes as far by five times as many turns, but for the first turns.
   column.anisotropy = 0.8;
   column.scattering = {10, 10, 10};
   expect_within(trace_column(column, 20000), out * (1 - lost) * Rgb<double>{1, 1, 1}, 0.004);

@@ -174,9 +174,9 @@ TEST_P(FlatWaterLight, IsTheClosedForm) {
 }
 
 /// The water of the path-traced pictures in data/plates/lagoon (its README): absorption .42 .085
-/// .055, no scattering, the light's way down straight and without loss at the surface, radiance not
+/// .055, no scattering, the sun's path down straight and without loss at the surface, radiance not
 /// scaled on its way out. Seen at 60 degrees, a sun 27 degrees high, a metre of water, by hand:
-/// .9403 of the light passes the surface, 1.3155 m is the view's way, 2.2027 m that of the sun.
+/// .9403 of the light passes the surface, 1.3155 m is the view's path, 2.2027 m that of the sun.
 TEST(FlatWater, HasTheConventionsOfTheLagoonsTruth) {
   Look look = calm_look();
   DepthFog::Params& fog = look.of<DepthFog>();
@@ -232,7 +232,7 @@ Look murky_look(const Rgb<double>& rate) {
 }
 
 /// Under a crest the sun has lost nothing before it comes as deep as the calm plane. Seen from
-/// above, and from the water, on ways that go down, and on ways that rise into the crest.
+/// above, and from the water, on rays that go down, and on rays that rise into the crest.
 TEST(FlatWater, LosesNoSunlightAboveTheCalmPlane) {
   constexpr double kCrest = 0.5, kDepth = 1.5;
   const Rgb<double> rate{0.8, 0.4, 0.2};
@@ -298,8 +298,8 @@ TEST(FlatWater, LetsNoLightInBeyondTheCriticalAngleOfABand) {
   }
 }
 
-/// As to the chain: what a sun gives that only just stands over the horizon is none, not all there
-/// is over nothing.
+/// As in the chain, a sun that only just stands over the horizon gives no light; its light is not
+/// divided by nothing.
 TEST(FlatWater, ASunOnTheHorizonCountsAsNone) {
   Scene scene = over_water(40);
   scene.sun->direction = glm::normalize(glm::dvec3(0, 5e-7, -1));
@@ -313,7 +313,7 @@ TEST(FlatWater, ASunOnTheHorizonCountsAsNone) {
   });
 }
 
-/// White everywhere, and nothing takes light away: white is what is seen.
+/// White everywhere, and nothing takes light away: the picture is white.
 TEST(FlatWater, KeepsAllLightOfAWhiteFurnace) {
   Model model = model_of({level(-1)}, white(Shading::kFlat));
   model.background = {1, 1, 1};

@@ -106,8 +106,8 @@ TruthPicture ambient(const Model& model, double degrees = 40) {
   return traced(model, scene, look);
 }
 
-/// Light is a sum: with a pane of opacity a everything is a times what an opaque one shows, and the
-/// rest what none shows, be it in the air or in the water.
+/// Light is a sum: the picture with a pane of opacity a is a times that with an opaque pane, plus
+/// 1 - a times that without a pane, be it in the air or in the water.
 TEST(TracedOpacity, APaneMixesWhatItIsWithWhatLiesBehind) {
   for (const double height : {0.5, -0.7}) {
     const TruthPicture none = ambient(pane_over(height, AlphaMode::kMask, 0));
@@ -139,7 +139,7 @@ TEST(TracedOpacity, WhatIsMaskedAwayIsNowhere) {
 }
 
 TEST(TracedOpacity, ShadowsFallByTheRuleOfDepth) {
-  // Ambient light is none: what the sun does not reach is black, but for the pane itself.
+  // Without ambient light, surfaces that the sun does not reach are black, but for the pane.
   const auto floor_under = [&](AlphaMode mode, double alpha) {
     Model model = pane_over(3, mode, alpha);
     model.materials[0].ambient = {0, 0, 0};

@@ -6,7 +6,7 @@
 #include "judge/trace/trace_scenes.h"
 #include "optics/fresnel.h"
 
-/// Light by random ways through a model: beside the column, which has closed forms for judges, and
+/// Light by random paths through a model: beside the column, which has closed forms for judges, and
 /// beside the closed forms of one scattering.
 
 namespace limpid::test {
@@ -45,7 +45,7 @@ Look murky(const Rgb<double>& absorption, const Rgb<double>& scattering, double 
   return look;
 }
 
-/// What the picture shows in the mean, and how far off that may be.
+/// The mean of the picture, and its largest error.
 ColumnLight mean_of(const TruthPicture& p) {
   Rgb<double> sum{0, 0, 0}, squares{0, 0, 0};
   for_each_pixel(p.window.size(), [&](int x, int y) {
@@ -174,7 +174,7 @@ TEST(Paths, AreLitByTheSkyThatIsThere) {
   EXPECT_EQ(around.g, 0);
 }
 
-/// What a model of depth_fog takes for unscattered is not.
+/// Light that a model of depth_fog takes for unscattered is scattered here.
 TEST(Paths, AreTheSameForEachModelOfTheFog) {
   const Model model = model_of({level(-1)}, lambert({.5, .4, .3}));
   Look look = murky({.2, .1, .05}, {1, 1, 1}, 0.9, true);
@@ -293,8 +293,8 @@ TEST(Paths, AreSeenFromTheWaterToo) {
   expect_alike(mean_of(traced(model, scene, look, with_paths(200))), air);
 }
 
-/// Where nothing is absorbed and nothing lies below, ways end all the same, and hardly any light is
-/// lost by it.
+/// Where nothing is absorbed and nothing lies below, paths end all the same, and hardly any light
+/// is lost.
 TEST(Paths, EndInEndlessWaterThatAbsorbsNothing) {
   Scene scene = one_way(90);
   scene.sun.reset();
@@ -311,7 +311,7 @@ TEST(Paths, TellTheirNoise) {
   const TruthPicture few = traced(model, scene, look, with_paths(16)),
                      many = traced(model, scene, look, with_paths(256));
   EXPECT_NEAR(many.relative_error, few.relative_error / 4, 0.05 * few.relative_error);
-  // As the pixels say, which all look at the same.
+  // As the pixels say, which all look at the same water.
   const ColumnLight spread = mean_of(many);
   const double pixels = std::sqrt(double(kSmall.width) * kSmall.height);
   EXPECT_NEAR(pixels * (spread.error.r + spread.error.g + spread.error.b) /

@@ -9,7 +9,7 @@
 
 #include "judge/trace/trace_scenes.h"
 
-/// Samples, threads, dry pixels, waves, and what is refused.
+/// Samples, threads, dry pixels, waves, and refused scenes.
 
 namespace limpid::test {
 namespace {
@@ -229,7 +229,7 @@ TEST(TracedPicture, ViewsInTheWaterThatMeetNoSurfaceHaveItsNormal) {
   EXPECT_GT(down, 300);
 }
 
-/// What the Error says that comes when a scene that could be traced is changed.
+/// The sentence of the Error after a change to a scene that could be traced.
 template <class Change>
 std::string refusal(Change&& change) {
   Scene scene = over_water(40);

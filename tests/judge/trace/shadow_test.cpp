@@ -18,7 +18,7 @@ Model half_covered(Rgb<double> color = {0.5, 0.5, 0.5}) {
   return model_of({level(-kDepth), slab}, lambert(color));
 }
 
-/// Looks straight down from x on, from under the slab's height, so that it hides nothing.
+/// Looks straight down from x on, from under the slab's height, so that the slab hides nothing.
 Scene beside_slab(const glm::dvec3& to_sun, double x) {
   Scene scene = over_water(90);
   scene.camera->view =
@@ -58,7 +58,7 @@ TEST(TracedShadow, LiesOnTheBottomWhereTheSunsRefractedWayPutsIt) {
       const double ratio = std::sqrt((1 - (1 - d.y * d.y) / (kTraceIor * kTraceIor)));
       const double at = 1.3 + d.x * (0.4 / -d.y + kDepth / kTraceIor / ratio);
       if (std::abs(at - c.edge) < 1e-4) return;
-      // Without the ways' losses: red's over transmittance and reflection.
+      // Without the losses on the paths: red's over transmittance and reflection.
       const double f = value(p, Aov::kFresnel, x, y);
       const double seen =
           value(p, Aov::kTransmitted, x, y) / value(p, Aov::kTransmittance, x, y) / (1 - f);
@@ -96,7 +96,7 @@ TEST(TracedShadow, TheGlowOfTheWaterIsThatOfItsSunlitPart) {
     const auto glow = [&](double length) {
       return (1 - f) * kPi * 2 * 0.2 / (4 * kPi) * (1 - std::exp(-total * length)) / total;
     };
-    // 32 places on each way, of equal light: half of one's may be missed.
+    // 32 places on each path, of equal light: half of the light of one place may be missed.
     EXPECT_NEAR(value(p, Aov::kInScatter, x, y), glow(sunlit), glow(way) / 63);
     partly += sunlit < way;
     sum += value(p, Aov::kInScatter, x, y);

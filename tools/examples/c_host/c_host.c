@@ -1,6 +1,6 @@
 /* limpid in a host written in C: a beach that slopes into the water, planar floats, matrices row
- * after row, tiles on the host's own (here: the one) thread, and the way through the water as an
- * AOV. */
+ * after row, tiles on the host's own (here: the one) thread, and the path through the water as
+ * an AOV. */
 #include <limpid/limpid.h>
 #include <math.h>
 #include <stdio.h>

@@ -91,7 +91,7 @@ struct Frame {
   }
 };
 
-// Calm, clear, a little murky; what needs pixels in memory is not asked for.
+// Calm, clear, a little murky, without the parameters that need pixels in memory.
 limpid::Look engine_look() {
   limpid::Look look;
   look.set("water", "edges", "hard");
