@@ -1,0 +1,397 @@
+#pragma once
+#include <optional>
+
+#include "limpid/ops/fresnel_reflection.h"
+
+#include "op/mirror_search.h"
+#include "op/operator.h"
+#include "op/screen_ray.h"
+#include "op/valid_lookup.h"
+#include "op/water_medium.h"
+#include "optics/refract.h"
+#include "optics/surroundings.h"
+
+/// @file
+/// The light that a facet of the surface mirrors: from the reflection planes, the dry picture, the
+/// surroundings or a constant. ops/fresnel_reflection_kernel.h chooses the facets and blends it.
+
+namespace limpid {
+
+struct MirroredLight : FresnelReflection {
+  /// Light, and its source: Pixel::mirror_sources.
+  template <class F>
+  struct Mirrored {
+    Rgb<F> light, sources;
+  };
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_reflection() {
+    return {F(1), F(0), F(0)};
+  }
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_far() {
+    return {F(0), F(0), F(1)};
+  }
+
+  /// The depth plane over which mirrored rays march, or none.
+  static std::optional<PlaneId> marched(const Params& params, const Pass& c) {
+    if (params.source != Source::kAuto) return {};
+    if (!reads_planes(params, c)) return PlaneId::kDepth;
+    const bool follows = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
+    if (!follows || c.submersible) return {};
+    return PlaneId::kReflectionDepth;
+  }
+
+  template <class F>
+  static LIMPID_INLINE Rgb<F> constant(const Params& params) {
+    return {given<F>(params.color.r), given<F>(params.color.g), given<F>(params.color.b)};
+  }
+
+  static bool reads_planes(const Params& params, const Pass& c) {
+    return params.source == Source::kPlanar ||
+           (params.source == Source::kAuto && c.planes.covers(kReflectionPlanes));
+  }
+  /// Whether the place of the lookup is known without another lookup.
+  static bool looks_once(const Params& params, const Pass& c) {
+    const bool depths = params.lookup == Lookup::kRay && c.planes.has(PlaneId::kReflectionDepth);
+    return reads_planes(params, c) && !depths && !c.planes.has(PlaneId::kReflectionValid) &&
+           !c.submersible;
+  }
+
+  /// Light mirrored by the facet n, whose tilt is that of the operator wave_normals.
+  template <class F, class Tap>
+  static Mirrored<F> mirrored(const Params& params, const Pass& c, const Pixel<F>& p,
+                              const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
+    if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
+    if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
+    if (marched(params, c)) return seen_on_march(params, c, p, tap, n, F(1), n);
+    Mirrored<F> seen = params.lookup == Lookup::kRay
+                           ? seen_at(c, p, tap, n, follow(c, p, tap, n))
+                           : seen_at(c, p, tap, n, {given<F>(params.strength) * tilt, F(HUGE_VAL)});
+    if (c.submersible) {
+      const auto other_side = p.side * given<F>(c.eye_above) < F(0);
+      if_any(other_side, [&] {
+        const Mirrored<F> other = params.source == Source::kAuto
+                                      ? seen_in_picture(params, c, p, tap, n, F(1), n)
+                                      : Mirrored<F>{p.transmitted, {F(0), F(1), F(0)}};
+        seen = {select(other_side, other.light, seen.light),
+                select(other_side, other.sources, seen.sources)};
+      });
+    }
+    return seen;
+  }
+
+  /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
+  /// on the ray of the facet `low`.
+  template <class F, class Tap>
+  static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+    return reads_planes(params, c) ? seen_in_image(c, p, tap, n, part, low)
+                                   : seen_in_picture(params, c, p, tap, n, part, low);
+  }
+
+  /// The mirrored ray, unit, on the viewer's side of the surface.
+  template <class F>
+  static LIMPID_INLINE Vec3<F> mirrored_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, n);
+    return c.submersible ? lifted(ray, select(p.side < F(0), F(-1) * up, up)) : lifted(ray, up);
+  }
+
+  template <class F, class Tap>
+  static LIMPID_INLINE Rgb<F> surroundings(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                           Vec3<F> n) {
+    const Vec3<F> ray = mirrored_ray(c, p, n);
+    const Rgb<F> far = tap.lat_long_rgb(
+        c.environment, lat_long(dot(vec3_of<F>(c.map_x), ray), dot(vec3_of<F>(c.map_y), ray),
+                                dot(vec3_of<F>(c.up), ray)));
+    return through_water<false>(c, p, tap, ray, F(HUGE_VAL), far, {F(0), F(0)});
+  }
+
+  // --- seen from within the water ---------------------------------------------------------------
+
+  /// The light that the underside of the surface mirrors, after its path of length `way` through
+  /// the water to the surface: for pixels seen from within the water. `way` may be infinite; `at`:
+  /// the shift to the mirrored point.
+  template <bool kEnds = true, class F, class Tap>
+  static LIMPID_INLINE Rgb<F> through_water(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                            const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
+    if (!c.medium) return light;
+    const auto below = p.side < F(0);
+    if_any(below, [&] {
+      light =
+          select(below, dimmed<kEnds>(c, p, tap, ray, select(below, way, F(0)), light, at), light);
+    });
+    return light;
+  }
+  template <bool kEnds, class F, class Tap>
+  [[gnu::noinline]] static Rgb<F> dimmed(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                         const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
+    const Vec3<F> up = vec3_of<F>(c.up);
+    const F height = given<F>(c.eye_above) + dot(up, p.surface_point);
+    const F begin = max(F(0) - height, F(0)), sink = max(F(0) - dot(up, ray), F(0));
+    const F length = min(way, F(3e38));
+    Vec3<F> albedo{F(0), F(0), F(0)};
+    if (kEnds && c.planes.covers(kAlbedoPlanes)) {
+      const Rgb<F> there = bilinear_rgb<F>(tap, PlaneId::kAlbedoR, at);
+      albedo = {there.r, there.g, there.b};
+    }
+    return seen_in_water(*c.medium, WaterPath<F>{length, sink, begin, begin + sink * length}, ray,
+                         light, albedo);
+  }
+
+  /// The dry picture along a ray that is mirrored down in the water. Where the ray meets no visible
+  /// surface, the level of the surface visible next to its end continues.
+  template <class F, class Tap>
+  [[gnu::noinline]] static Mirrored<F> seen_below(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                                  Vec3<F> n, const ScreenRay<F>& ray, F met,
+                                                  Rgb<F> beyond) {
+    constexpr int kGuesses = 3;
+    const Vec3<F> up = vec3_of<F>(c.up), direction = mirrored_ray(c, p, n);
+    const F top = given<F>(c.eye_above) + dot(up, p.surface_point);
+    const F fall = max(F(0) - dot(up, direction), F(0.02));
+    const auto unseen = !(met < F(1e20));
+    // The place of the picture next to the ray's.
+    const auto next_to = [&](F s) {
+      const Vec2<F> at = ray.shift_at(s);
+      return Vec2<F>{
+          min(max(at.x, given<F>(c.dry.low.x) - p.uv.x), given<F>(c.dry.high.x) - p.uv.x),
+          min(max(at.y, given<F>(c.dry.low.y) - p.uv.y), given<F>(c.dry.high.y) - p.uv.y)};
+    };
+    F way = met;
+    if_any(unseen, [&] {
+      repeat<F>(kGuesses, [&] {
+        const Vec2<F> at = next_to(way);
+        const F depth = tap.nearest(PlaneId::kDepth, at);
+        const F drop = top - height_at(c, p, at, depth);
+        way = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, way);
+      });
+    });
+    const Vec2<F> at = next_to(way);
+    const Rgb<F> shown =
+        through_water(c, p, tap, direction, way, bilinear_rgb<F>(tap, PlaneId::kColorR, at), at);
+    const auto ends = way < F(1e20);
+    return {select(ends, shown, beyond),
+            {F(0), select(ends, F(1), F(0)), select(ends, F(0), F(1))}};
+  }
+
+  // --- the reflection planes --------------------------------------------------------------------
+
+  /// The mirrored ray in the reflection planes: in the mirrored scene it goes down into the mirror.
+  template <class F>
+  static LIMPID_INLINE ScreenRay<F> image_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, n);
+    return ScreenRay<F>(c, p, ray - (F(2) * dot(up, ray)) * up);
+  }
+
+  /// The shift at s scene units along the ray, or at the edge of the planes before that.
+  template <class F>
+  static LIMPID_INLINE Vec2<F> place_at(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
+                                        F s) {
+    return kept_in(c.reflection, p, ray, s);
+  }
+  template <class F>
+  static LIMPID_INLINE Vec2<F> kept_in(const Bounds& bounds, const Pixel<F>& p,
+                                       const ScreenRay<F>& ray, F s) {
+    const Vec2<F> shift = ray.shift_at(s);
+    return min(reach_in(bounds, p.uv, shift), F(1)) * shift;
+  }
+
+  /// A place of the planes and its distance, +inf where there is no surface or none is known.
+  template <class F>
+  struct End {
+    Vec2<F> shift;
+    F way;
+  };
+
+  /// Where the mirrored ray ends. With views that may begin in the water it is not marched: beside
+  /// the water's level a march over flat rays is decided by roundings.
+  template <class F, class Tap>
+  static End<F> follow(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n) {
+    const ScreenRay<F> ray = image_ray(c, p, n);
+    F way(HUGE_VAL);
+    if (!c.planes.has(PlaneId::kReflectionDepth)) return {place_at(c, p, ray, way), way};
+    constexpr int kSteps = 3;
+    way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
+    repeat<F>(kSteps, [&] { way = distance_to(c, p, tap, place_at(c, p, ray, way), way); });
+    return {place_at(c, p, ray, way), way};
+  }
+
+  /// Distance from the surface point to the surface that the planes show at `shift`; `otherwise`
+  /// where the texels there are not valid. Depths are mixed as 1 / depth, which is linear across a
+  /// plane and finite beside the sky.
+  template <class F, class Tap>
+  static F distance_to(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> shift,
+                       F otherwise) {
+    const auto quad = tap.quad(shift);
+    const Four<F> counts = valid<F>(c, tap, quad);
+    const Four<F> depths = tap.read(PlaneId::kReflectionDepth, quad);
+    F inverse = F(0), weight = F(0);
+    for (int k = 0; k < 4; ++k) {
+      const F share = quad.weight(k) * counts[k];
+      inverse = inverse + share / max(depths[k], F(1e-6));
+      weight = weight + share;
+    }
+    const auto seen = weight > F(1e-3);
+    return select(seen, length(way_to(c, p, shift, weight / max(inverse, F(1e-30)))), otherwise);
+  }
+
+  /// What the planes show by a march in the depth of the mirrored scene.
+  template <class F, class Tap>
+  static Mirrored<F> seen_in_image(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                                   F part, Vec3<F> low) {
+    const auto all = [](Vec2<F>, F depth) { return depth > F(0); };
+    Vec2<F> met{F(0), F(0)};
+    F hit(0);
+    const auto meets = part > F(0);
+    if_any(meets, [&] {
+      const ScreenRay<F> ray = image_ray(c, p, low);
+      const auto found = MirrorSearch<F, Tap>::march(
+          tap, tap.wet() && meets, PlaneId::kReflectionDepth, c.reflection, given<F>(c.eye_above),
+          p, ray, kImageSteps, all);
+      hit = select(meets, part * found.hit, hit);
+      met = select(found.hit > F(0.5), place_at(c, p, ray, found.way), met);
+    });
+    const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
+    const Vec2<F> far = far_landing(c, p, tap, image_ray(c, p, n), hit < F(1));
+    Mirrored<F> seen = seen_at(c, p, tap, n, {select(whole, met, far), F(HUGE_VAL)});
+    if_any(parted, [&] {
+      const Mirrored<F> there = seen_at(c, p, tap, n, {met, F(HUGE_VAL)});
+      const F share = select(parted, hit, F(0));
+      seen.light = seen.light + share * (there.light - seen.light);
+      seen.sources = seen.sources + share * (there.sources - seen.sources);
+    });
+    return seen;
+  }
+
+  /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
+  /// in its place. Else it is the last such place before it that counts, or the pixel
+  /// itself.
+  template <class F, class Tap, class Mask>
+  static Vec2<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                             const ScreenRay<F>& ray, const Mask& lanes) {
+    const Vec2<F> far = place_at(c, p, ray, F(HUGE_VAL));
+    Vec2<F> landing = far;
+    const auto wrong = [&](Vec2<F> shift) {
+      const F seen = tap.nearest(PlaneId::kReflectionDepth, shift);
+      const F way = (seen - ray.depth) / ray.depth_step;
+      const Vec2<F> off = place_at(c, p, ray, max(way, F(0))) - shift;
+      const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
+      return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
+    };
+    const auto strays = lanes && wrong(far);
+    if_any(strays, [&] {
+      F open = select(strays, F(1), F(0));
+      steps<F>(0, 6, [&](auto i) {
+        const Vec2<F> at = (F(0.85) - F(0.15) * Loop<F>::ratio(i, 1)) * far;
+        const auto good = open > F(0.5) && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
+        landing = select(good, at, landing);
+        open = select(good, F(0), open);
+        return open > F(0.5);
+      });
+      landing = select(open > F(0.5), Vec2<F>{F(0), F(0)}, landing);
+    });
+    return landing;
+  }
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03};
+  static constexpr double kWrong = 4;  ///< pixels
+
+  /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest: of
+  /// the facets n those beyond the share `part`, whose ray is that of the facet `low`.
+  template <class F, class Tap>
+  static Mirrored<F> seen_in_picture(const Params& params, const Pass& c, const Pixel<F>& p,
+                                     const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+    const ScreenRay<F> own(c, p, mirrored_ray(c, p, n));
+    const Rgb<F> beyond = far_away(params, c, p, tap, n, own);
+    const auto below = p.side < F(0);
+    Rgb<F> light = beyond;
+    F hit(0), way(HUGE_VAL);
+    const auto meets = part > F(0);
+    if_any(meets, [&] {
+      const ScreenRay<F> ray(c, p, mirrored_ray(c, p, low));
+      const auto on_side = [&](Vec2<F> shift, F depth) {
+        const F height = height_at(c, p, shift, depth);
+        return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
+      };
+      const auto found =
+          MirrorSearch<F, Tap>::march(tap, tap.wet() && meets, PlaneId::kDepth, c.dry,
+                                      given<F>(c.eye_above), p, ray, kPictureSteps, on_side);
+      const Vec2<F> shift =
+          select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
+      const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
+      hit = select(meets, part * found.hit, hit);
+      way = select(meets, found.way, way);
+      light = select(meets, beyond + hit * (seen - beyond), light);
+    });
+    Mirrored<F> all{light, {F(0), hit, F(1) - hit}};
+    if (c.submersible) {
+      if_any(below, [&] {
+        const Mirrored<F> under = seen_below(c, p, tap, n, own, way, beyond);
+        all = {select(below, under.light, all.light), select(below, under.sources, all.sources)};
+      });
+    }
+    return all;
+  }
+
+  /// The surroundings of the frame, or else of the look.
+  template <class F, class Tap>
+  static Rgb<F> far_away(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
+                         Vec3<F> n, const ScreenRay<F>& ray) {
+    if (c.environment) return surroundings(c, p, tap, n);
+    const Rgb<F> far = c.planes.covers(kSkyPlanes)
+                           ? bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)))
+                           : constant<F>(params);
+    return through_water<false>(c, p, tap, mirrored_ray(c, p, n), F(HUGE_VAL), far, {F(0), F(0)});
+  }
+
+  template <class F, class Tap>
+  static Rgb<F> bilinear_rgb(const Tap& tap, PlaneId first, Vec2<F> shift) {
+    const auto quad = tap.quad(shift);
+    const auto mean = [&](int channel) {
+      const Four<F> texels = tap.read(plane_after(first, channel), quad);
+      F sum = F(0);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * texels[k];
+      return sum;
+    };
+    return {mean(0), mean(1), mean(2)};
+  }
+
+  template <class F, class Tap, class Quad>
+  static LIMPID_INLINE Four<F> valid(const Pass& c, const Tap& tap, const Quad& quad) {
+    if (!c.planes.has(PlaneId::kReflectionValid)) return {F(1), F(1), F(1), F(1)};
+    Four<F> seen = tap.read(PlaneId::kReflectionValid, quad);
+    for (F& share : seen.at) share = select(share >= F(0.5), F(1), F(0));
+    return seen;
+  }
+
+  template <class F, class Tap>
+  static Mirrored<F> seen_at(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                             const End<F>& end) {
+    const auto taps =
+        valid_taps(tap, end.shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
+    Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
+                taps.read(tap, PlaneId::kReflectionB)};
+    F lacks(0);
+    if_any(taps.made_up, [&] { lacks = F(1) - taps.weight(); });
+    Rgb<F> sources = from_reflection<F>();
+    if (c.medium) {
+      const auto below = p.side < F(0);
+      const auto known = end.way < F(1e20) || (c.reflection_ends ? below : end.way < F(0));
+      if_any(below && known, [&] {
+        const Vec3<F> ray = mirrored_ray(c, p, n);
+        const Vec2<F> at = kept_in(c.dry, p, ScreenRay<F>(c, p, ray), end.way);
+        const Rgb<F> through = through_water(c, p, tap, ray, end.way, seen, at);
+        seen = select(known, through, seen);
+        lacks = select(below && known, F(0), lacks);  // the water before it is there
+      });
+    }
+    if (!c.environment) return {seen, sources};
+    const auto lacking = lacks > F(1e-5);
+    if_any(lacking, [&] {
+      const F far = select(lacking, lacks, F(0));
+      seen = seen + far * surroundings(c, p, tap, n);
+      sources = {sources.r - far, sources.g, far};
+    });
+    return {seen, sources};
+  }
+};
+
+}  // namespace limpid
