@@ -169,6 +169,8 @@ PartedWater with_finer_water(Model model, const FinerWater& how) {
         meshes = std::move(parted);
         made.reach = reach;
         if (step < 2) break;
+        // Twice this reach has been too far if it was halved.
+        if (reach < kFirstReach * how.shortest_wave) step = std::sqrt(step);
         reach *= step;
       } else if (meshes.empty()) {
         reach /= 2;
