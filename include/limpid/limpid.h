@@ -139,9 +139,9 @@ typedef struct limpid_conventions {
    * also how matrices for row vectors lie that are stored by rows, as Direct3D has them). */
   int32_t row_major;
   double near_depth, far_depth; /**< of normalised depth only */
-  /** What red, green and blue are, of frames, environments and looks alike: the name of a linear
-   * space ("ACEScg"), or eight numbers, x and y of red, green, blue and white, as `--colorspace` of
-   * the tool takes them. NULL: Rec.709. Read by limpid_create() alone. */
+  /** The color space of frames, environments and looks: the name of a linear space ("ACEScg"), or
+   * eight numbers, x and y of red, green, blue and white, as for `--colorspace` of the tool. NULL:
+   * Rec.709. Read by limpid_create() alone. */
   const char* colorspace;
 } limpid_conventions;
 #define LIMPID_CONVENTIONS \

@@ -18,8 +18,8 @@ namespace limpid {
 /// is what a grey closing of the depth below the water fills (Serra 1982, "Image Analysis and
 /// Mathematical Morphology"), by windows of three cells to a quarter of the picture: the smallest
 /// that fills it tells its width, of which a quarter is taken for its thickness. The bottom is then
-/// drawn on over these cells and those of what stands above the water, by a pyramid of means. So is
-/// that there is no bottom, from where the picture shows water without one.
+/// drawn on over these cells and those of objects above the water, by a pyramid of means. The share
+/// of water without a bottom is extended over these cells in the same way.
 class BottomLayerMaker {
  public:
   /// Null where no object stands in front of the bottom, no bottom is visible, the eye is in the
@@ -35,7 +35,7 @@ class BottomLayerMaker {
     float bottom;    ///< what reaches down to this is of the bottom
     int window;      ///< the smallest, in cells, that fills what stands there; 0 where nothing does
     float looks, standing;  ///< texels looked at, and the share that is not of the bottom
-    float bottomless;       ///< of them, those of water under which nothing is
+    float bottomless;       ///< of these, the texels that show water without a bottom
     float thinness;         ///< 1 / thickness of what stands there, 0 where nothing does
   };
   struct Scan;
@@ -51,7 +51,7 @@ class BottomLayerMaker {
 
   BottomLayer layer_;
   PullPush<4> bottom_;  ///< color and depth below the calm surface
-  PullPush<1> end_;     ///< share of the bottom that is not there
+  PullPush<1> end_;     ///< share of water without a bottom
   std::vector<Cell> cells_;
   std::vector<float> dilated_, closed_, room_;
   std::array<Plane, 6> planes_;  ///< color, depth below the calm surface, thinness, end_

@@ -33,10 +33,10 @@ constexpr const CausticsTarget* kTargets[] = {
 constexpr int kLooks = 320;      ///< along the longer side of the picture
 constexpr int kWeighed = 160;    ///< likewise, of sunlit bottoms
 constexpr double kMaxSun = 100;  ///< over the rest of the light, where that is almost nothing
-/// At which light is followed, of all levels: for each pixel, and at least as many as these; but no
-/// more than 64 for each pixel.
+/// The number of points at which light is followed, of all levels: kPointsOfPixel for each pixel,
+/// or kPoints if that is more; at most kMaxPointsOfPixel for each pixel.
 constexpr double kPointsOfPixel = 0.5, kPoints = 1e6, kMaxPointsOfPixel = 64;
-constexpr std::size_t kEvery = 7;  ///< of these is asked how wide texels shall be
+constexpr std::size_t kEvery = 7;  ///< one bottom of so many is asked for the width of texels
 constexpr double kFine = 0.05;     ///< share of the pixels that may want finer texels
 constexpr double kSpread = 4;      ///< times the depth at which light begins to fold
 /// Likewise: below it, rays two texels apart err less than rays one texel apart, which overlap by
@@ -45,7 +45,7 @@ constexpr double kSmooth = 0.2, kFinePerWave = 20;
 constexpr double kLowSun =
     0.42;  ///< its height as a sine, 25 degrees: below, waves let in more or less
 
-/// Of one row of the picture: what the dry scene shows below the calm surface.
+/// The bottom that the dry scene shows below the calm surface, in one row of the picture.
 class BottomRow {
  public:
   /// Places go evenly along the row, at the eye and for each unit of depth.

@@ -56,7 +56,7 @@ CausticsLevel::Span CausticsLevel::seen_in(int begin, int end) const {
   return sum;
 }
 
-/// To be followed, from the margin's begin to its end beyond so many texels.
+/// The number of rays along a line of so many texels and the margins on both sides.
 int CausticsLevel::rays_over(int texels) const {
   return static_cast<int>(std::ceil((texels + 2 * layout_.margin) / layout_.spacing));
 }

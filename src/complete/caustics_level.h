@@ -22,11 +22,11 @@ struct CausticsBottom {
   float x, y, depth;  ///< 0: not under water
 };
 
-/// What one pixel of the water of those sees of the bottom.
+/// The view of the bottom through one pixel of the water.
 struct CausticsSight {
   float depth;               ///< 0: the pixel is dry
   float seen_x, seen_y;      ///< where calm water lets light in that goes there
-  float texel;               ///< how wide it wants them
+  float texel;               ///< the width of the texels that it needs
   float enters_x, enters_y;  ///< where it begins to see them: there, or where it enters the water
 };
 
@@ -78,7 +78,7 @@ class CausticsLevel {
   bool empty() const { return layout_.size.width == 0; }
   const Layout& layout() const { return layout_; }
   void leave_out() { layout_.size = {0, 0}; }
-  /// Texels that light is followed to, or rays where those are more.
+  /// The number of texels that receive light, or of rays if there are more of them.
   double points() const;
 
   void find_bottom(std::span<const CausticsBottom> samples, Executor& executor);

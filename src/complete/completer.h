@@ -35,7 +35,7 @@ namespace limpid {
 /// depend on the number of threads. Keeps its memory from frame to frame.
 class Completer {
  public:
-  /// The frame with the planes made for it; its views are valid until the next call. `context` is
+  /// The frame with the planes made for it; its views are valid until the next call. `pass` is
   /// that of the original frame. A plane whose inputs the frame lacks is not made. Copies views
   /// only, no pixels. `simd` as in FusedOptions; without it formulas run in double.
   Frame complete(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,

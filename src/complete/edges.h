@@ -34,7 +34,7 @@ class Edges {
   Edges& operator=(Edges&&) noexcept;
 
   /// Replaces color and depth by own planes and sets Frame::edges, if there are such pixels; valid
-  /// until the next call. `context` is that of the frame. Keeps its memory.
+  /// until the next call. `pass` is that of the frame. Keeps its memory.
   void make(Frame& frame, const Pass& pass, Executor& executor);
 
  private:

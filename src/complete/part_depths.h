@@ -19,7 +19,7 @@ class PartDepths {
   static constexpr std::array kPlanes{PlaneId::kDepth, PlaneId::kSurfaceDepth,
                                       PlaneId::kBelowDepth};
 
-  /// Replaces the depths of the frame by own planes; they are valid until the next call. `context`
+  /// Replaces the depths of the frame by own planes; they are valid until the next call. `view`
   /// is that of the part.
   void move(Frame& frame, const WaterView& view, Executor& executor);
 

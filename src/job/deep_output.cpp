@@ -14,17 +14,18 @@ namespace limpid {
 namespace {
 
 /// From the last operator of the chain that has a path length.
-PathLength path_length_of(const Look& look) {
-  PathLength way;
-  for (const OperatorEntry& entry : operator_table()) way = entry.path_length(look).value_or(way);
-  return way;
+PathMeasure path_measure_of(const Look& look) {
+  PathMeasure measure;
+  for (const OperatorEntry& entry : operator_table())
+    measure = entry.path_measure(look).value_or(measure);
+  return measure;
 }
 
 /// The finite length that replaces an endless path: there the water is as dense as it gets. Nothing
 /// if the water does not dim light.
-std::optional<double> infinite_path(const PathLength& way) {
-  const Rgb<double>& e = way.extinction;
-  return way.ends ? way.ends : deep_reach({e.r, e.g, e.b});
+std::optional<double> infinite_path(const PathMeasure& measure) {
+  const Rgb<double>& e = measure.extinction;
+  return measure.ends ? measure.ends : deep_reach({e.r, e.g, e.b});
 }
 
 /// Front and back of the water in one pixel.
@@ -36,8 +37,8 @@ struct Extent {
 
 WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scene,
                          const Target& target) {
-  const PathLength way = path_length_of(plan.look);
-  const std::optional<double> endless = infinite_path(way);
+  const PathMeasure measure = path_measure_of(plan.look);
+  const std::optional<double> endless = infinite_path(measure);
   const WaterView view(scene, frame.display, swell_of(frame, swell_of(plan)));
   const View<float>&path = target.of(Aov::kPath)[0], &surface = target.of(Aov::kSurfaceDepth)[0];
 
@@ -46,7 +47,7 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
     const bool in_water = begins_in_water(view, rays, pixel_x) > 0;
     const double front = in_water ? view.near : surface.at(x, y);
     if (std::isinf(front)) return {front, front};
-    const bool along_axis = !in_water && way.along_axis;
+    const bool along_axis = !in_water && measure.along_axis;
     const Vec3<double> ray = rays.ray_at(pixel_x);
     const double way_per_depth = along_axis ? 1 : length(ray);
     const double back = (in_water ? 0 : front) + path.at(x, y) / way_per_depth;

@@ -25,14 +25,14 @@ class BottomSearch {
   /// it. `expected`: about how far the ray will go, as the search of the neighbouring pixel left
   /// it, 0 before the first search. It saves lookups and changes no result.
   LIMPID_INLINE BottomSearch(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel,
-                             const Tap& taps, const ScreenRay<F>& way, F falls,
+                             const Tap& taps, const ScreenRay<F>& way, F fall,
                              const double& thickness, int& expected)
       : c_(pass),
         planes_(seen),
         p_(pixel),
         tap_(taps),
         ray_(way),
-        fall_(falls),
+        fall_(fall),
         thickness_(thickness),
         expected_(expected) {}
 

@@ -14,9 +14,9 @@ struct Bracket {
   F low, high;
 };
 
-/// Bisects `times` times by holds(t) at the middle. With `ahead`, both quarters are tested together
-/// with the middle, one of them in vain: two bisections in the time of one, with the same bits as
-/// result.
+/// Bisects `times` times by holds(t) at the middle. Where kLooksAhead<F>, both quarters are tested
+/// together with the middle, one of them in vain: two bisections in the time of one, with the same
+/// bits as result.
 template <class F, class Holds>
 LIMPID_INLINE Bracket<F> halve(Bracket<F> at, int times, Holds&& holds) {
   const auto once = [&] {

@@ -59,11 +59,11 @@ class MirrorSearch {
     F hit;  ///< 1 or 0
   };
 
-  /// `height` is that of the eye over the calm water. `accept(shift, depth)` says which of the
-  /// things that are seen may be hit. Lanes other than `wet` hit nothing.
+  /// `height` is that of the eye over the calm water. `accept(shift, depth)` says which visible
+  /// surfaces may be hit. Lanes other than `lanes` hit nothing.
   template <class Mask, class Accept>
-  static Found march(const Tap& tap, const Mask& wet, PlaneId plane, const Bounds& bounds, F height,
-                     const Pixel<F>& p, const ScreenRay<F>& ray, const MirrorSteps& how,
+  static Found march(const Tap& tap, const Mask& lanes, PlaneId plane, const Bounds& bounds,
+                     F height, const Pixel<F>& p, const ScreenRay<F>& ray, const MirrorSteps& how,
                      Accept&& accept) {
     const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
     const Vec2<F> end = ray.shift_at(most);
@@ -102,7 +102,7 @@ class MirrorSearch {
     // Whether all steps after `begin` up to `last_one` need no look: what they pass is farther away
     // than the ray, or the ray has passed it before. Where the ray is far away 1 - t bend is a
     // small difference, and as far off as 1 is.
-    const auto passes = [&](int begin, int last_one, auto&& lanes) {
+    const auto passes = [&](int begin, int last_one, auto&& open) {
       const F a = share_of(begin), b = share_of(last_one);
       const auto depth_at = [&](F t, double off) {
         return ray.depth + t * gain / max(F(1 + off) - t * bend, F(1e-30));
@@ -111,22 +111,22 @@ class MirrorSearch {
       const F third = depth_at(b, -1e-6), fourth = depth_at(b, 1e-6);
       const F low = min(min(first, second), min(third, fourth));
       const F high = max(max(first, second), max(third, fourth));
-      const SeenRange seen = tap.range(plane, lanes, a * end, b * end);
-      if (seen.low > greatest(select(lanes, F(1 + 1e-5) * high, F(-HUGE_VAL)))) return true;
+      const SeenRange seen = tap.range(plane, open, a * end, b * end);
+      if (seen.low > greatest(select(open, F(1 + 1e-5) * high, F(-HUGE_VAL)))) return true;
       const F back = back_of(F(seen.high));
-      return !any(lanes && !(F(1 - 1e-5) * low > back));
+      return !any(open && !(F(1 - 1e-5) * low > back));
     };
     F before = F(0), met = F(0), found = F(0), last = F(0);
     Leaps leaps(how.steps);
     const auto leap = [&](int i) {
       return leaps.from(i, [&](int begin, int last_one) {
-        const bool over = passes(begin, last_one, wet && found < F(0.5));
+        const bool over = passes(begin, last_one, lanes && found < F(0.5));
         if (over) last = share_of(last_one);
         return over;
       });
     };
     const auto step = [&](auto i) {
-      const auto open = wet && found < F(0.5);
+      const auto open = lanes && found < F(0.5);
       const F t = share_of(i);
       const F seen = seen_at(t);
       const auto hit = open && within(t, seen);
@@ -144,9 +144,9 @@ class MirrorSearch {
         found = select(enters, F(1), found);
       });
       last = t;
-      return wet && found < F(0.5);
+      return lanes && found < F(0.5);
     };
-    if_any(wet, [&] { steps<F>(1, how.steps + 1, leap, step); });
+    if_any(lanes, [&] { steps<F>(1, how.steps + 1, leap, step); });
     if_any(found > F(0.5), [&] { met = edge(before, met, within); });
     return {select(found > F(0.5), ray.at_share(met, most), F(HUGE_VAL)), found};
   }

@@ -113,7 +113,7 @@ struct InReach {
 };
 
 /// How an operator measures the path through the water.
-struct PathLength {
+struct PathMeasure {
   bool along_axis = false;  ///< for a view from the air: along the view's axis, else along the ray
   /// Beyond this length the water gets no denser; empty where `extinction` alone decides.
   std::optional<double> ends;
@@ -173,10 +173,10 @@ struct Kernel;
 ///     bool lit_by_sky(const Params&);
 ///     // The waves that raise the water, if it has any; they live as long as the parameters.
 ///     Swell swell(const Params&);
-///     // The water that what is mirrored in it is seen through, if it is one.
+///     // The water through which a viewer in it sees mirrored light. Default: none.
 ///     std::optional<WaterMedium> medium(const Params&, const Pass&);
 ///     // How it measures StatePart::kPath, for what is made of the path (job/deep_output.h).
-///     PathLength path_length(const Params&);
+///     PathMeasure path_measure(const Params&);
 ///     // Its expected cost, in ns per pixel (plan/predict.h). Default: 1.
 ///     double ns(const Params&, const Running&);
 template <class T>

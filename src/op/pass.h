@@ -60,9 +60,9 @@ struct Pass : WaterView {
   PlateWaves plate_waves = {};       ///< of the frame's own surface, where a runner has made it
   const Continuation* continuation;  ///< of the bottom beyond the picture, or null
   const BottomLayer* bottom_layer;   ///< of the bottom behind what stands before it, or null
-  const CausticsTable* caustics;     ///< null where nobody has made it: it is not known
-  /// What views from within the water see what is mirrored through; nothing where there are none,
-  /// or where the plan has no such water.
+  const CausticsTable* caustics;     ///< null if no completer has made it: unknown then
+  /// The water through which viewers in it see the light that the surface mirrors; nothing if no
+  /// view begins in the water, or if no operator of the plan has a medium().
   std::optional<WaterMedium> medium = {};
   /// Whether an infinite depth of the reflection says that nothing is there: one that was made of
   /// the dry picture does not.

@@ -35,7 +35,6 @@ struct WaterMedium {
 
   static std::array<double, 3> channels(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
   std::array<double, 3> rates() const { return channels(rate); }
-  std::array<double, 3> downs() const { return channels(down); }
   std::array<double, 3> beams() const { return channels(beam); }
   std::array<double, 3> skies() const { return channels(sky); }
   std::array<double, 3> dry_suns() const { return channels(dry_sun); }
@@ -60,6 +59,14 @@ struct MediumNumbers {
     return {given<F>(c.r, name, 0), given<F>(c.g, name, 1), given<F>(c.b, name, 2)};
   }
 };
+
+/// In-scatter of the ambient light along a path; `left`: the path's transmittance.
+template <class F>
+LIMPID_INLINE Rgb<F> ambient_in_scatter(const MediumNumbers<F>& m, F length, const Rgb<F>& left) {
+  return m.ambient * Rgb<F>{column_light(m.rate.r, length, left.r),
+                            column_light(m.rate.g, length, left.g),
+                            column_light(m.rate.b, length, left.b)};
+}
 
 /// The multiple-scattered light of sun and sky, of one channel.
 template <class F>
@@ -137,11 +144,7 @@ Rgb<F> seen_in_water(const WaterMedium& m, const WaterPath<F>& way, const Vec3<F
   const Rgb<F> rate = numbers.rate, down = numbers.down;
   const Rgb<F> left = transmittance(way.length, rate), fallen = transmittance(way.end, down);
   Rgb<F> seen = fallen * left * light;
-  if (m.glows) {
-    seen = seen + numbers.ambient * Rgb<F>{column_light(rate.r, way.length, left.r),
-                                           column_light(rate.g, way.length, left.g),
-                                           column_light(rate.b, way.length, left.b)};
-  }
+  if (m.glows) seen = seen + ambient_in_scatter(numbers, way.length, left);
   const F turned = dot(numbers.to_sun, view);
   if (m.sunlit) {
     const Rgb<F> columns{sun_column(way, rate.r, down.r).light,

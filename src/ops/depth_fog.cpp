@@ -328,8 +328,8 @@ WaterMedium Kernel<DepthFog>::medium_of(const Params& params, const Pass& c) {
   return m;
 }
 
-PathLength Kernel<DepthFog>::path_length(const P& params) {
-  PathLength way{.along_axis = params.distance == Distance::kEye, .ends = {}};
+PathMeasure Kernel<DepthFog>::path_measure(const P& params) {
+  PathMeasure way{.along_axis = params.distance == Distance::kEye, .ends = {}};
   if (params.model != Model::kLinear) {
     way.extinction = extinction(params);
   } else if (params.density > 0) {

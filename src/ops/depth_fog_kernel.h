@@ -31,7 +31,7 @@ struct Kernel<DepthFog> : DepthFog {
   /// light is left.
   static double beyond(const Params& params, const Pass& c, const Ranges& ranges);
   /// In water the path is measured from the eye and along the ray, for any `distance`.
-  static PathLength path_length(const Params& params);
+  static PathMeasure path_measure(const Params& params);
   /// The bound of the operator that finds another place covers the fog there.
   static double displaced(const Params&, const Ranges&) { return 0; }
   static double ns(const Params& p, const Running&) { return p.model == Model::kLinear ? 0.6 : 9; }
@@ -111,7 +111,7 @@ struct Kernel<DepthFog> : DepthFog {
     const WaterMedium medium = medium_of(params, c);
     const MediumNumbers<F> numbers(medium);
     const Rgb<F> rate = numbers.rate, down = numbers.down;
-    const Rgb<F> ambient = numbers.ambient, sun = numbers.sun;
+    const Rgb<F> sun = numbers.sun;
     const Vec3<F> up = vec3_of<F>(c.up), to_sun = numbers.to_sun;
     const F eta = given<F>(1 / c.ior, "water.per_ior"), anisotropy = given<F>(params.anisotropy);
     const F bottom = given<F>(medium.bottom, "depth_fog.bottom");
@@ -137,12 +137,7 @@ struct Kernel<DepthFog> : DepthFog {
       p.transmitted = lit * p.transmittance * p.transmitted;
 
       p.in_scatter = p.sun_near = p.sun_far = p.sun_multiple = {F(0), F(0), F(0)};
-      if (medium.glows) {
-        const Rgb<F>& left = p.transmittance;
-        p.in_scatter = ambient * Rgb<F>{column_light(rate.r, length, left.r),
-                                        column_light(rate.g, length, left.g),
-                                        column_light(rate.b, length, left.b)};
-      }
+      if (medium.glows) p.in_scatter = ambient_in_scatter(numbers, length, p.transmittance);
       const F turned = dot(to_sun, view);
       p.sun_entry = select(from_air, view + (sink * per_rise) * to_sun, {F(0), F(0), F(0)});
       p.mean_scatter_distance = F(0);

@@ -255,12 +255,12 @@ struct Kernel<FresnelReflection> : MirroredLight {
 
   template <class F, class Tap, class Mask>
   static Outlook<F> outlook_of(const Params& params, const Pass& c, const Pixel<F>& p,
-                               const Tap& tap, const ThreeFacets<F>& facets, const Mask& rough,
+                               const Tap& tap, const ThreeFacets<F>& facets, const Mask& lanes,
                                Vec3<F> near, F level, F deviation) {
     const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, bent(c, p, p.normal));
     const Vec3<F> ahead = normalize_or(ray - dot(up, ray) * up, F(-1) * near);
     const F sine =
-        skyline(c, tap, rough, PlaneId::kDepth, c.dry, p, ScreenRay<F>(c, p, ahead + up), ahead,
+        skyline(c, tap, lanes, PlaneId::kDepth, c.dry, p, ScreenRay<F>(c, p, ahead + up), ahead,
                 reads_planes(params, c) ? kImageSteps.steps : kPictureSteps.steps);
     const F rise = max(dot(up, p.normal), F(1e-6)), eye = dot(up, p.to_viewer);
     // From the mean facet to the one half way between the view and a ray that rises so far.

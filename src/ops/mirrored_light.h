@@ -109,22 +109,24 @@ struct MirroredLight : FresnelReflection {
   // --- seen from within the water ---------------------------------------------------------------
 
   /// The light that the underside of the surface mirrors, after its path of length `way` through
-  /// the water to the surface: for pixels seen from within the water. `way` may be infinite; `at`:
-  /// the shift to the mirrored point.
+  /// the water to the surface: for pixels seen from within the water. `way` may be infinite.
+  /// `kEnds`: whether the path ends at a surface, whose albedo lies at the shift `at`.
   template <bool kEnds = true, class F, class Tap>
   static LIMPID_INLINE Rgb<F> through_water(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                             const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
     if (!c.medium) return light;
     const auto below = p.side < F(0);
     if_any(below, [&] {
-      light =
-          select(below, dimmed<kEnds>(c, p, tap, ray, select(below, way, F(0)), light, at), light);
+      light = select(
+          below, through_water_below<kEnds>(c, p, tap, ray, select(below, way, F(0)), light, at),
+          light);
     });
     return light;
   }
   template <bool kEnds, class F, class Tap>
-  [[gnu::noinline]] static Rgb<F> dimmed(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                         const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
+  [[gnu::noinline]] static Rgb<F> through_water_below(const Pass& c, const Pixel<F>& p,
+                                                      const Tap& tap, const Vec3<F>& ray, F way,
+                                                      Rgb<F> light, Vec2<F> at) {
     const Vec3<F> up = vec3_of<F>(c.up);
     const F height = given<F>(c.eye_above) + dot(up, p.surface_point);
     const F begin = max(F(0) - height, F(0)), sink = max(F(0) - dot(up, ray), F(0));

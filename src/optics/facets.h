@@ -82,8 +82,8 @@ LIMPID_INLINE F plane_share_under(F lean) {
   return AboveZero<F>(min(max(lean, F(-9)), F(9))).of[0];
 }
 
-/// Of a surface that waves raise, by the area that is seen: the integral of the density of
-/// seen_facets.
+/// The share of the facets of a surface raised by waves that lean less than `lean`, by visible
+/// area: the integral of the density of seen_facets.
 template <class F>
 LIMPID_INLINE F seen_share_under(F facing, F lean) {
   const F a = min(max(facing, F(0)), F(8)), x = min(max(lean + min(facing, F(0)), F(0) - a), F(9));
@@ -93,8 +93,8 @@ LIMPID_INLINE F seen_share_under(F facing, F lean) {
   return saturate(area / all.of[1]);
 }
 
-/// What of those that each of the three stands for lies under a limit, under which there is the
-/// share `under` of all: 0 ... 1.
+/// For each of the three facets, the share (0 ... 1) of the facets that it represents that lies
+/// under a limit; `under`: the share of all facets under that limit.
 template <class F>
 LIMPID_INLINE Vec3<F> parts_under(const ThreeFacets<F>& facets, F under) {
   const auto part = [&](int i, F above) {

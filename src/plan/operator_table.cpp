@@ -101,9 +101,9 @@ constexpr OperatorEntry entry_of() {
     if constexpr (requires(const P& p) { Op::swell(p); }) return Op::swell(look.of<Op>());
     return {};
   };
-  e.path_length = [](const Look& look) -> std::optional<PathLength> {
-    if constexpr (requires(const P& p) { Op::path_length(p); })
-      return Op::path_length(look.of<Op>());
+  e.path_measure = [](const Look& look) -> std::optional<PathMeasure> {
+    if constexpr (requires(const P& p) { Op::path_measure(p); })
+      return Op::path_measure(look.of<Op>());
     return std::nullopt;
   };
   e.ns = [](const Look& look, const Running& running) -> double {

@@ -35,7 +35,7 @@ struct OperatorEntry {
   bool (*lit_by_sky)(const Look&);
   Swell (*swell)(const Look&);
   std::optional<WaterMedium> (*medium)(const Look&, const Pass&);
-  std::optional<PathLength> (*path_length)(const Look&);
+  std::optional<PathMeasure> (*path_measure)(const Look&);
   double (*ns)(const Look&, const Running&);
 };
 

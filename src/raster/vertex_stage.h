@@ -13,7 +13,8 @@ LIMPID_LANES_INLINE VWD clip_bit(VWD distance, int bit) {
   return hn::IfThenElse(hn::Ge(distance, hn::Zero(kWD)), hn::Zero(kWD), wide(bit));  // NaN is out
 }
 
-/// kWide vertices; `floats` has three floats per vertex. `corners`, `attributes`: room for kWide.
+/// kWide vertices; `positions` and `normals` have three floats per vertex, `uvs` two. `corners`,
+/// `attributes`: room for kWide.
 LIMPID_LANES_INLINE void transform_wide(const VertexTransform& t, const float* positions,
                                         const float* normals, const float* uvs, Corner* corners,
                                         Attributes* attributes) {

@@ -50,7 +50,7 @@ void check_run(const Plan& plan, const Frame& frame, const Scene& scene, const T
   if (!agree(plan.primaries, scene.primaries)) {
     throw Error("scene: its primaries are " + to_string(scene.primaries) +
                 ", and the plan was made for " + to_string(plan.primaries) +
-                ": expected a plan for the scene's");
+                ": expected a plan for the primaries of the scene");
   }
   if (plan.needs_sun && !scene.sun) {
     throw Error("scene: the plan has a sun highlight, and the scene has no sun");

@@ -456,7 +456,7 @@ TEST(Fused, APlanIsForTheScenesPrimariesAlone) {
     } catch (const Error& error) {
       EXPECT_STREQ(error.what(),
                    "scene: its primaries are ACEScg, and the plan was made for Rec.709: expected a "
-                   "plan for the scene's");
+                   "plan for the primaries of the scene");
     }
   }
   const Plan other = make_plan({}, test::inputs_of(b.frame, scene));

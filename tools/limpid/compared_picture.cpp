@@ -216,8 +216,8 @@ bool is_linear(const std::string& path) {
   return holds_exr(path) || among(extension, {".hdr", ".rgbe", ".pfm"});
 }
 
-Primaries light_of(const std::string& path, const std::optional<Primaries>& named,
-                   const Primaries& untold) {
+Primaries primaries_of(const std::string& path, const std::optional<Primaries>& named,
+                       const Primaries& untold) {
   if (!is_linear(path)) return kRec709;
   return named ? *named : told_primaries(path).value_or(untold);
 }
@@ -255,7 +255,8 @@ PictureColor read_color(const std::string& path, const Primaries& to, const Limi
                                  [&](const std::string& name) { return among(name, known); });
   if (!plain) wanted.clear();  // channels of a layer, for any layer name
   const ComparedPicture picture = read_picture(path, wanted, limits);
-  return {picture.display, LinearColor(picture, std::nullopt, light_of(path, {}, to), to).take()};
+  return {picture.display,
+          LinearColor(picture, std::nullopt, primaries_of(path, {}, to), to).take()};
 }
 
 }  // namespace limpid::tool

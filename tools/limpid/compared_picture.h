@@ -65,10 +65,10 @@ std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const Compare
 /// Whether the colors of a picture are linear (EXR, HDR, PFM), not encoded as sRGB.
 bool is_linear(const std::string& path);
 
-/// What red, green and blue of a picture are: Rec.709 of one that is encoded as sRGB, else `named`,
-/// else what the file says, else `untold`. Throws Error for chromaticities that are none.
-Primaries light_of(const std::string& path, const std::optional<Primaries>& named,
-                   const Primaries& untold = kRec709);
+/// The color space of a picture: Rec.709 if it is encoded as sRGB, else `named`, else that of its
+/// file, else `untold`. Throws Error for chromaticities that are none.
+Primaries primaries_of(const std::string& path, const std::optional<Primaries>& named,
+                       const Primaries& untold = kRec709);
 
 /// The colors of a picture as the metrics of color want them: scene-linear, larger values than
 /// `clip` counted as that. EXR, HDR and PFM are taken to be linear, other formats to be encoded as

@@ -67,8 +67,8 @@ FarmWork composite_work(const CompositeArguments& a, const CommonArguments& comm
   work.faults = [sequence = work.sequence, filled](Executor& executor) {
     return faults_of_composite(sequence, filled.job_of, executor);
   };
-  work.rest = [sequence = work.sequence, filled](Executor& executor, VerifyLevel scrutiny) {
-    return rest_of_composite(sequence, filled.job_of, executor, scrutiny);
+  work.rest = [sequence = work.sequence, filled](Executor& executor, VerifyLevel level) {
+    return rest_of_composite(sequence, filled.job_of, executor, level);
   };
   return work;
 }
@@ -83,8 +83,8 @@ FarmWork water_work(const RenderArguments& a, const CommonArguments& common) {
   work.faults = [=, sequence = work.sequence](Executor& executor) {
     return faults_of_water(*model, sequence, job_of, executor);
   };
-  work.rest = [=, sequence = work.sequence](Executor& executor, VerifyLevel scrutiny) {
-    return rest_of_water(*model, sequence, job_of, executor, scrutiny);
+  work.rest = [=, sequence = work.sequence](Executor& executor, VerifyLevel level) {
+    return rest_of_water(*model, sequence, job_of, executor, level);
   };
   return work;
 }
@@ -100,8 +100,8 @@ FarmWork truth_work(const TruthArguments& a, const CommonArguments& common) {
   work.faults = [=, sequence = work.sequence](Executor& executor) {
     return faults_of_truth(*model, sequence, job_of, executor);
   };
-  work.rest = [=, sequence = work.sequence](Executor& executor, VerifyLevel scrutiny) {
-    return rest_of_truth(*model, sequence, job_of, executor, scrutiny);
+  work.rest = [=, sequence = work.sequence](Executor& executor, VerifyLevel level) {
+    return rest_of_truth(*model, sequence, job_of, executor, level);
   };
   return work;
 }

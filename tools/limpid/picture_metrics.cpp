@@ -137,12 +137,12 @@ PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
                     " are encoded as sRGB",
                 Fault::kUsage);
   }
-  const Primaries light_a = light_of(a.path, wanted.primaries);
-  const Primaries light_b = light_of(b.path, wanted.primaries);
-  if (!agree(light_a, kRec709) || !agree(light_b, kRec709)) {
-    metrics.spaces = to_string(light_a) + " and " + to_string(light_b);
+  const Primaries space_a = primaries_of(a.path, wanted.primaries);
+  const Primaries space_b = primaries_of(b.path, wanted.primaries);
+  if (!agree(space_a, kRec709) || !agree(space_b, kRec709)) {
+    metrics.spaces = to_string(space_a) + " and " + to_string(space_b);
   }
-  const LinearColor color_a(a, wanted.clip, light_a), color_b(b, wanted.clip, light_b);
+  const LinearColor color_a(a, wanted.clip, space_a), color_b(b, wanted.clip, space_b);
   const ColorPair pair{color_a.views(), color_b.views()};
   if (wanted.ssim) metrics.ssim = ssim(pair);
   if (wanted.flip) metrics.flip = flip(pair, wanted.observer);

@@ -64,8 +64,8 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
       missing_named(a.frames.missing));
   tell_missing(filled, sequence.frames.size(), common);
   sequence.frames = filled.frames;
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
-    return rest_of_composite(all, filled.job_of, *executor, scrutiny);
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel level) {
+    return rest_of_composite(all, filled.job_of, *executor, level);
   });
   if (sequence.frames.empty()) return 0;
   if (common.verbose) {

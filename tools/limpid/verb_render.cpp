@@ -32,8 +32,8 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
     one.output.plate = output_of_frame(choice, frame).picture;
     return one;
   };
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
-    return rest_of_render(model, all, job_of_frame, *executor, scrutiny);
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel level) {
+    return rest_of_render(model, all, job_of_frame, *executor, level);
   });
   Progress progress(common);
   const auto tell = [&](const SequenceProgress& at, const CompositeReport&) {
@@ -64,8 +64,8 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
     if (shown_by) show(report.preview, *shown_by);
     return 0;
   }
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
-    return rest_of_water(model, all, job_of_frame, *executor, scrutiny);
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel level) {
+    return rest_of_water(model, all, job_of_frame, *executor, level);
   });
   Progress progress(common);
   water_sequence(model, sequence, job_of_frame,

@@ -47,8 +47,8 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
   }
   const auto job_of_frame = [&](int frame) { return truth_job_of_frame(job, a, frame); };
   sequence.in_flight = 1;  // tracing keeps all threads busy
-  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel scrutiny) {
-    return rest_of_truth(model, all, job_of_frame, *executor, scrutiny);
+  sequence = rest_of(sequence, a.frames, common, [&](const Sequence& all, VerifyLevel level) {
+    return rest_of_truth(model, all, job_of_frame, *executor, level);
   });
   Progress progress(common);
   const auto tell = [&](const SequenceProgress& at, const TruthReport& report) {

@@ -129,8 +129,8 @@ class Compositor:
     clip: the projections' range of clip z: "gl", "d3d" (Vulkan) or "reversed"
     looks_along_plus_z: view space looks down +Z
     clip_y_down: clip y = +1 is the lowest row, as in Vulkan
-    colorspace: what red, green and blue are, of frames, environments and looks alike: the name of a linear space
-        ("ACEScg"), or eight numbers, x and y of red, green, blue and white
+    colorspace: the color space of frames, environments and looks: the name of a linear space ("ACEScg"), or eight
+        numbers, x and y of red, green, blue and white
     trusted: you vouch for the arrays (no NaN, shadows within 0 ... 1, unit normals): nothing is checked
     threads: 0 is one for each core
     simd: "" is the best of this machine; "avx512", "avx2", "sse4", "neon", "scalar"
