@@ -7,14 +7,14 @@
 #include <glm/geometric.hpp>
 
 #include "complete/rows.h"
-#include "op/plain_texture.h"
+#include "op/plain_textures.h"
 
 namespace limpid {
 namespace {
 
 /// Places of the surface as pixels for the operator wave_normals. There is no frame: planes read as
 /// absent planes do.
-class Places {
+class Places : public PlainTextures<Places> {
  public:
   using Number = double;
 
@@ -31,27 +31,6 @@ class Places {
   template <class Into>
   void around3(PlaneId, Into&& into) {
     for (Pixel<double>& p : pixels_) into(p, Around<double>{});
-  }
-  template <class Where, class Into>
-  void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
-    for (Pixel<double>& p : pixels_) into(p, tiled_rgb_at(texture, where(p)));
-  }
-  template <class Width, class Where, class Into>
-  void tiled_rgb(const Texture& texture, Width&& width, Where&& where, Into&& into) {
-    for (Pixel<double>& p : pixels_) into(p, tiled_rgb_at(texture, where(p), width(p)));
-  }
-  template <class Wanted, class Where, class Into>
-  void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where, Into&& into) {
-    for (Pixel<double>& p : pixels_) {
-      if (wanted(p)) into(p, tiled_rgb_at(texture, where(p)));
-    }
-  }
-  template <class Wanted, class Width, class Where, class Into>
-  void tiled_slopes_if(const SlopeLevels& levels, Wanted&& wanted, Width&& width, Where&& where,
-                       Into&& into) {
-    for (Pixel<double>& p : pixels_) {
-      if (wanted(p)) into(p, tiled_slopes_at(levels, where(p), width(p)));
-    }
   }
 
  private:

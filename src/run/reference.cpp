@@ -6,6 +6,7 @@
 #include "complete/completer.h"
 #include "op/pass.h"
 #include "op/pixel_start.h"
+#include "op/plain_textures.h"
 #include "ops/kernels.h"
 #include "plan/pass_of.h"
 #include "run/aov_of.h"
@@ -19,7 +20,7 @@ namespace {
 
 /// One row of the picture in double. The samplers are as simple as possible: the standard for the
 /// fast samplers.
-class ReferenceStrip {
+class ReferenceStrip : public PlainTextures<ReferenceStrip> {
  public:
   using Number = double;
 
@@ -76,33 +77,6 @@ class ReferenceStrip {
       into(p, Rgb<double>{tap.bilinear(first, shift), tap.bilinear(plane_after(first, 1), shift),
                           tap.bilinear(plane_after(first, 2), shift)});
     });
-  }
-
-  template <class Where, class Into>
-  void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
-    for (Pixel<double>& p : pixels_) {
-      into(p, tiled_rgb_at(texture, where(p)));
-    }
-  }
-
-  template <class Width, class Where, class Into>
-  void tiled_rgb(const Texture& texture, Width&& width, Where&& where, Into&& into) {
-    for (Pixel<double>& p : pixels_) into(p, tiled_rgb_at(texture, where(p), width(p)));
-  }
-
-  template <class Wanted, class Where, class Into>
-  void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where, Into&& into) {
-    for (Pixel<double>& p : pixels_) {
-      if (wanted(p)) into(p, tiled_rgb_at(texture, where(p)));
-    }
-  }
-
-  template <class Wanted, class Width, class Where, class Into>
-  void tiled_slopes_if(const SlopeLevels& levels, Wanted&& wanted, Width&& width, Where&& where,
-                       Into&& into) {
-    for (Pixel<double>& p : pixels_) {
-      if (wanted(p)) into(p, tiled_slopes_at(levels, where(p), width(p)));
-    }
   }
 
   template <class Fn>

@@ -150,7 +150,7 @@ struct Striped {
     const RowRays<double> rays(pass, 4.5);
     begin_pixel(pass, rays, 4.5, 1.0, 10.0, 14.0, pixel);
     begin_state(kWholeState, pass, Rgb<double>{}, pixel);
-    trace::OnePixel strip{pixel};
+    trace::OnePixel strip(pixel);
     Kernel<WaveNormals>::apply(params, pass, strip);
     return pixel;
   }

@@ -1,19 +1,20 @@
 #pragma once
 #include <cmath>
-#include <utility>
 
 #include "limpid/core/frame.h"
 
 #include "op/height_bound.h"
 #include "op/pixel.h"
-#include "op/plain_texture.h"
+#include "op/plain_textures.h"
 
 namespace limpid::trace {
 
 /// A strip of one pixel (op/operator.h) without planes, for operators whose only lookups are tiling
 /// textures and the sun's shadow on the surface at the pixel itself.
-struct OnePixel {
+struct OnePixel : PlainTextures<OnePixel> {
   using Number = double;
+
+  explicit OnePixel(Pixel<double>& p) : pixel(p) {}
 
   Pixel<double>& pixel;
   double shadow = 1;
@@ -48,23 +49,6 @@ struct OnePixel {
   template <class Fn>
   void probe(Fn&& fn) {
     fn(pixel, Tap{});
-  }
-  template <class Where, class Into>
-  void tiled_rgb(const Texture& texture, Where&& where, Into&& into) {
-    into(pixel, tiled_rgb_at(texture, where(std::as_const(pixel))));
-  }
-  template <class Width, class Where, class Into>
-  void tiled_rgb(const Texture& texture, Width&& width, Where&& where, Into&& into) {
-    into(pixel, tiled_rgb_at(texture, where(std::as_const(pixel)), width(pixel)));
-  }
-  template <class Wanted, class Where, class Into>
-  void tiled_rgb_if(const Texture& texture, Wanted&& wanted, Where&& where, Into&& into) {
-    if (wanted(pixel)) tiled_rgb(texture, where, into);
-  }
-  template <class Wanted, class Width, class Where, class Into>
-  void tiled_slopes_if(const SlopeLevels& levels, Wanted&& wanted, Width&& width, Where&& where,
-                       Into&& into) {
-    if (wanted(pixel)) into(pixel, tiled_slopes_at(levels, where(pixel), width(pixel)));
   }
 };
 

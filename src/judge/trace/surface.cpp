@@ -85,7 +85,7 @@ glm::dvec3 Surface::normal_at(const glm::dvec3& point) const {
   Pixel<double> pixel{};
   pixel.surface_point = formula_of(point);
   pixel.normal = formula_of(pass_.up);
-  OnePixel strip{pixel};
+  OnePixel strip(pixel);
   Kernel<WaveNormals>::apply(waves_, pass_, strip);
   return glm_of(pixel.normal);
 }

@@ -301,7 +301,7 @@ Rgb<double> Tracer::highlight(const SurfacePoint& at, const glm::dvec3& to_viewe
   pixel.side = 1;
   pixel.to_viewer = formula_of(to_viewer);
   pixel.normal = formula_of(at.normal);
-  OnePixel strip{pixel};
+  OnePixel strip(pixel);
   Kernel<SunHighlight>::apply(params, pass_, strip);
   const bool faces = glm::dot(at.normal, sun_.to_sun) > 0;
   if (pixel.highlight == kBlack || !faces) return kBlack;
