@@ -69,10 +69,11 @@ class Mirror {
  private:
   /// The pixel in which a point lies, if it is in `window`.
   std::optional<glm::ivec2> pixel_of(const glm::dvec3& point, const Rect& window) const {
-    const glm::dvec3 way = point - pass_.rays.origin;  // from the picture's corner, where uv is 0
-    const double w = pass_.w_origin + pass_.w_depth * glm::dot(pass_.forward, way);
-    const double x = glm::dot(pass_.to_u, way) / w * pass_.size.x + pass_.corner.x;
-    const double y = glm::dot(pass_.to_v, way) / w * pass_.size.y + pass_.corner.y;
+    const glm::dvec3 offset =
+        point - pass_.rays.origin;  // from the picture's corner, where uv is 0
+    const double w = pass_.w_origin + pass_.w_depth * glm::dot(pass_.forward, offset);
+    const double x = glm::dot(pass_.to_u, offset) / w * pass_.size.x + pass_.corner.x;
+    const double y = glm::dot(pass_.to_v, offset) / w * pass_.size.y + pass_.corner.y;
     if (!(w > 0 && x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1)) return {};
     return glm::ivec2(std::floor(x), std::floor(y));
   }

@@ -99,7 +99,7 @@ double path_fraction(const Plan& plan, const Frame& frame, const Pass& pass) {
   const bool same_window = !surface || surface.window == frame.plane(seen).window;
   const bool known =
       params.rejection == Refraction::Rejection::kShorten && kept_in_frame && same_window;
-  return known ? Kernel<Refraction>::kShareOfWay : 0;
+  return known ? Kernel<Refraction>::kShareOfPath : 0;
 }
 
 /// Whether all water up to `most` is seen from above: then surfaces higher than that are nearer.

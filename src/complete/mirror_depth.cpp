@@ -43,14 +43,14 @@ void scatter_row(const WaterView& c, const View<const float>& dry, int y, const 
   const RowHeights heights(c, y);
   for (int x = dry.window.x0; x < dry.window.x1; ++x) {
     const double depth = dry.at(x, y);
-    const double way = 2 * heights.at(x, depth);
-    if (!(way * c.eye_above > 0 && depth > 0 && depth < 1e30)) continue;
+    const double distance = 2 * heights.at(x, depth);
+    if (!(distance * c.eye_above > 0 && depth > 0 && depth < 1e30)) continue;
     const double u = (x - c.corner.x + 0.5) / c.size.x;
-    const double image_depth = depth + way * down_depth;
-    const double w = c.w_origin + c.w_depth * depth + way * w_step;
+    const double image_depth = depth + distance * down_depth;
+    const double w = c.w_origin + c.w_depth * depth + distance * w_step;
     if (!(w > 0 && image_depth > 0)) continue;
-    const double image_u = u + way * (down_u - u * w_step) / w;
-    const double image_v = v + way * (down_v - v * w_step) / w;
+    const double image_u = u + distance * (down_u - u * w_step) / w;
+    const double image_v = v + distance * (down_v - v * w_step) / w;
     const double px = image_u * c.size.x + c.corner.x, py = image_v * c.size.y + c.corner.y;
     const Rect& window = to.window;
     if (!(px >= window.x0 && px < window.x1 && py >= window.y0 && py < window.y1)) continue;

@@ -49,11 +49,11 @@ WaterExtent water_extent(const Plan& plan, const Frame& frame, const Scene& scen
     if (std::isinf(front)) return {front, front};
     const bool along_axis = !in_water && measure.along_axis;
     const Vec3<double> ray = rays.ray_at(pixel_x);
-    const double way_per_depth = along_axis ? 1 : length(ray);
-    const double back = (in_water ? 0 : front) + path.at(x, y) / way_per_depth;
+    const double length_per_depth = along_axis ? 1 : length(ray);
+    const double back = (in_water ? 0 : front) + path.at(x, y) / length_per_depth;
     if (back < kInfiniteDepth) return {front, std::max(front, back)};
     if (!endless) return {front, front};
-    const double end = front + *endless / way_per_depth;
+    const double end = front + *endless / length_per_depth;
     return {front, std::max(front, std::min<double>(end, kLargestDepth))};
   };
 

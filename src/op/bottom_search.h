@@ -16,8 +16,8 @@ template <class F, class Tap>
 class BottomSearch {
  public:
   struct Found {
-    F way;   ///< distance along the ray, +inf where it meets nothing
-    F sure;  ///< 1 where the bottom was seen, 0 where the distance is a guess
+    F distance;  ///< distance along the ray, +inf where it meets nothing
+    F sure;      ///< 1 where the bottom was seen, 0 where the distance is a guess
   };
 
   /// `fall`: the distance from the calm surface that the ray gains per unit of its length.
@@ -25,13 +25,13 @@ class BottomSearch {
   /// it. `expected`: about how far the ray will go, as the search of the neighbouring pixel left
   /// it, 0 before the first search. It saves lookups and changes no result.
   LIMPID_INLINE BottomSearch(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel,
-                             const Tap& taps, const ScreenRay<F>& way, F fall,
+                             const Tap& taps, const ScreenRay<F>& distance, F fall,
                              const double& thickness, int& expected)
       : c_(pass),
         planes_(seen),
         p_(pixel),
         tap_(taps),
-        ray_(way),
+        ray_(distance),
         fall_(fall),
         thickness_(thickness),
         expected_(expected) {}
@@ -39,11 +39,11 @@ class BottomSearch {
   /// k fixed-point steps: each takes the bottom as deep as where the last step landed, from the
   /// depth at the pixel itself on.
   Found iterate(int steps) const {
-    F way = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
-    repeat<F>(steps, [&] { way = to_level(way); });
-    const auto meets = way < F(1e20);
+    F distance = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
+    repeat<F>(steps, [&] { distance = to_level(distance); });
+    const auto meets = distance < F(1e20);
     // From below, an endless ray meets the sky, which is visible.
-    return {select(meets, way, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
+    return {select(meets, distance, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
   }
 
   /// Marches to where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU
@@ -64,12 +64,12 @@ class BottomSearch {
     // Tests the ray at a share t of its length; lanes that have met nothing stay open.
     const auto look_at = [&](F t, F texels, bool begins) {
       const auto open = wet && found < F(0.5);
-      const F way = ray_.at_share(t, most);
-      Sight at = look(way);
+      const F distance = ray_.at_share(t, most);
+      Sight at = look(distance);
       at.behind = select(open, at.behind, F(-1));
       const F hides = past(at, texels);
       auto hit = at.behind >= F(0) && hides < F(0.5);
-      if (begins) hit = hit || passes_level_near(way);
+      if (begins) hit = hit || passes_level_near(distance);
       // A steep rise of the bottom looks like an object in front of it until its edge is found.
       const auto doubtful = open && hidden < F(0.5) && at.behind >= F(0) && !hit;
       if_any(doubtful, [&] {
@@ -88,8 +88,8 @@ class BottomSearch {
       const auto leap = [&](int i) {
         const auto open = wet && found < F(0.5);
         if (i > next_doubt && !any(open && hidden < F(0.5))) {
-          const F way = ray_.at_share(F(double(i - 1) / kSteps), most);
-          if (stays_behind(open, way, most, stride)) return kSteps + 1;
+          const F distance = ray_.at_share(F(double(i - 1) / kSteps), most);
+          if (stays_behind(open, distance, most, stride)) return kSteps + 1;
           next_doubt = i - 1 + kLooksBetweenDoubts;
         }
         if (i < next_leap) return i;
@@ -111,7 +111,7 @@ class BottomSearch {
       expected_ = static_cast<int>(kSteps * least(select(wet, after, F(1))));
     }
     const auto meets = found > F(0.5);
-    F way = F(0), sure = F(0);
+    F distance = F(0), sure = F(0);
     if_any(meets, [&] {
       after = edge_between(before, after, most);
       const F met = ray_.at_share(after, most);
@@ -122,19 +122,19 @@ class BottomSearch {
       // is smooth, and at most about a texel away.
       const F smooth = to_level(met);
       const F texel = F(1.5) / pixels;
-      way = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
-                ray_.at_share(min(after + texel, F(1)), most));
+      distance = min(max(smooth, ray_.at_share(max(after - texel, F(0)), most)),
+                     ray_.at_share(min(after + texel, F(1)), most));
     });
     const auto unseen = wet && sure < F(0.5);
     if_any(unseen, [&] {
       const auto hides = unseen && (meets || hidden > F(0.5));
       const auto known = hides && (c_.bottom_layer ? p_.side > F(0) : F(0) > F(0));
       F ends = F(0);
-      if_any(unseen && !known, [&] { ends = iterate(kGuesses).way; });
+      if_any(unseen && !known, [&] { ends = iterate(kGuesses).distance; });
       if_any(known, [&] { ends = select(known, end_behind(known, most), ends); });
-      way = select(unseen, ends, way);
+      distance = select(unseen, ends, distance);
     });
-    return {select(way < F(1e20), way, F(HUGE_VAL)), sure};
+    return {select(distance < F(1e20), distance, F(HUGE_VAL)), sure};
   }
 
  private:
@@ -151,17 +151,19 @@ class BottomSearch {
   int leap_from(int i, int goal, Lanes open, F most) const {
     const F top = surface_height();
     if (any(open && top > given<F>(c_.heights.most))) return i;
-    const auto way_to = [&](int step) { return ray_.at_share(F(double(step) / kSteps), most); };
-    Vec2<F> from = ray_.shift_at(way_to(i));
+    const auto distance_at = [&](int step) {
+      return ray_.at_share(F(double(step) / kSteps), most);
+    };
+    Vec2<F> from = ray_.shift_at(distance_at(i));
     int length = kLeap;
     while (i < kSteps) {
       const bool before_goal = i < goal;
       if (before_goal) length = (goal - i + 1) / 2;
       if (length < 2) break;
       const int end = i + length < kSteps ? i + length : kSteps;
-      const F way = way_to(end);
-      const Vec2<F> to = ray_.shift_at(way);
-      const auto lowest = least(select(open, top - way * fall_, F(HUGE_VAL)));
+      const F distance = distance_at(end);
+      const Vec2<F> to = ray_.shift_at(distance);
+      const auto lowest = least(select(open, top - distance * fall_, F(HUGE_VAL)));
       if (lowest > tap_.heights(planes_.depth, open, from, to).highest) {
         i = end;
         from = to;
@@ -181,15 +183,15 @@ class BottomSearch {
   }
 
   /// Whether rays that have passed behind an object stay far behind all that they still pass, by
-  /// Pass::heights: past() would return hidden for each lookup from `way` on. Along the view ray of
-  /// a texel, depths are proportional to heights. So behind > slack is written here for calm water,
-  /// times -1; the texels' share is largest at one of the two ends.
+  /// Pass::heights: past() would return hidden for each lookup from `distance` on. Along the view
+  /// ray of a texel, depths are proportional to heights. So behind > slack is written here for calm
+  /// water, times -1; the texels' share is largest at one of the two ends.
   template <class Lanes>
-  bool stays_behind(Lanes open, F way, F most, F texels) const {
+  bool stays_behind(Lanes open, F distance, F most, F texels) const {
     const F top = surface_height();
-    const Vec2<F> from = ray_.shift_at(way), to = ray_.shift_at(most);
+    const Vec2<F> from = ray_.shift_at(distance), to = ray_.shift_at(most);
     const F slope = max(calm_step_down(from), calm_step_down(to));
-    const F deepest = F(1 - kHiding) * (way * fall_ - top) - texels * slope;
+    const F deepest = F(1 - kHiding) * (distance * fall_ - top) - texels * slope;
     const F surely = select(fall_ > F(kLeastFall), F(1 - 1e-4) * deepest, F(-HUGE_VAL));
     return least(select(open, surely, F(HUGE_VAL))) >
            tap_.heights(planes_.depth, open, from, to).deepest;
@@ -224,9 +226,9 @@ class BottomSearch {
     F own;  ///< eye depth of the ray
   };
 
-  LIMPID_INLINE Sight look(F way) const {
-    const Vec2<F> shift = ray_.shift_at(way);
-    const F seen = tap_.nearest(planes_.depth, shift), own = ray_.depth_at(way);
+  LIMPID_INLINE Sight look(F distance) const {
+    const Vec2<F> shift = ray_.shift_at(distance);
+    const F seen = tap_.nearest(planes_.depth, shift), own = ray_.depth_at(distance);
     const F drop = seen_drop(shift, seen);
     return {drop, select(drop > F(0) && own >= seen, own - seen, F(-1)), shift, own};
   }
@@ -241,20 +243,20 @@ class BottomSearch {
   [[gnu::noinline]] F end_behind(Lanes lanes, F most) const {
     const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
     // How far the bottom lies below the ray.
-    const auto room = [&](F way) {
-      return surface_height() + layer.bottom(ray_.shift_at(way)) - way * fall_;
+    const auto room = [&](F distance) {
+      return surface_height() + layer.bottom(ray_.shift_at(distance)) - distance * fall_;
     };
     const F end = min(most, given<F>(c_.bottom_layer->most_drop) / fall_);
     F before = F(0), after = end, room_before = room(F(0)), room_after = F(0);
     F found = select(lanes, F(0), F(1));
     steps<F>(1, kStepsBehind + 1, [&](auto i) {
-      const F way = ray_.at_share(Loop<F>::ratio(i, kStepsBehind), end);
-      const F here = room(way);
+      const F distance = ray_.at_share(Loop<F>::ratio(i, kStepsBehind), end);
+      const F here = room(distance);
       const auto open = found < F(0.5);
       const auto hit = open && here <= F(0);
-      after = select(hit, way, after);
+      after = select(hit, distance, after);
       room_after = select(open, here, room_after);
-      before = select(open && !hit, way, before);
+      before = select(open && !hit, distance, before);
       room_before = select(open && !hit, here, room_before);
       found = select(hit, F(1), found);
       return found < F(0.5);
@@ -271,8 +273,8 @@ class BottomSearch {
       room_before = select(hit, room_before, here);
     });
     const F level = max(end + room_after / fall_, F(0));
-    const F way = select(found > F(0.5), met, level);
-    const F behind = max(way, F(0));
+    const F distance = select(found > F(0.5), met, level);
+    const F behind = max(distance, F(0));
     // An object in the water may occlude its own parts: there its level continues. An object just
     // beyond, apart from it and above the water, occludes the bottom.
     const Vec2<F> here{F(0), F(0)};
@@ -330,12 +332,12 @@ class BottomSearch {
     return sqrt(x * x + y * y);
   }
 
-  /// Where the ray meets the level of the bottom seen at `way`, mixed from four texels; +inf where
-  /// half of their weight or more has no bottom; `way` itself where no texel lies below the
-  /// surface.
-  F to_level(F way) const {
-    if (c_.bottomless) return to_level_if_any(way);
-    const auto quad = tap_.quad(ray_.shift_at(way));
+  /// Where the ray meets the level of the bottom seen at `distance`, mixed from four texels; +inf
+  /// where half of their weight or more has no bottom; `distance` itself where no texel lies below
+  /// the surface.
+  F to_level(F distance) const {
+    if (c_.bottomless) return to_level_if_any(distance);
+    const auto quad = tap_.quad(ray_.shift_at(distance));
     const Four<F> depths = tap_.read(planes_.depth, quad);
     F level = F(0), weight = F(0);
     for (int k = 0; k < 4; ++k) {
@@ -345,12 +347,12 @@ class BottomSearch {
       weight = weight + share;
     }
     const auto seen = weight > F(1e-3);
-    return select(seen, level / (max(weight, F(1e-3)) * fall_), way);
+    return select(seen, level / (max(weight, F(1e-3)) * fall_), distance);
   }
 
   /// to_level() where there may be no bottom. A function of its own, to keep the march small.
-  [[gnu::noinline]] F to_level_if_any(F way) const {
-    const auto quad = tap_.quad(ray_.shift_at(way));
+  [[gnu::noinline]] F to_level_if_any(F distance) const {
+    const auto quad = tap_.quad(ray_.shift_at(distance));
     const Four<F> depths = tap_.read(planes_.depth, quad);
     F level = F(0), weight = F(0), endless = F(0);
     for (int k = 0; k < 4; ++k) {
@@ -362,16 +364,16 @@ class BottomSearch {
       weight = weight + some;
     }
     const auto seen = weight > F(1e-3);
-    const F met = select(seen, level / (max(weight, F(1e-3)) * fall_), way);
+    const F met = select(seen, level / (max(weight, F(1e-3)) * fall_), distance);
     return select(endless > F(1e-3) && endless >= weight, F(HUGE_VAL), met);
   }
 
   /// Whether the ray has passed the level of a bottom so near on screen that the staircase of
   /// depths need not show it. On a beach that rises out of the water there, no later lookup would
   /// show it.
-  LIMPID_INLINE auto passes_level_near(F way) const {
-    auto passes = length_on_screen(ray_.shift_at(way)) < F(2);
-    if_any(passes, [&] { passes = passes && to_level(way) < way; });
+  LIMPID_INLINE auto passes_level_near(F distance) const {
+    auto passes = length_on_screen(ray_.shift_at(distance)) < F(2);
+    if_any(passes, [&] { passes = passes && to_level(distance) < distance; });
     return passes;
   }
 

@@ -31,33 +31,33 @@ template <class F, class Tap>
 class BeyondPicture {
  public:
   struct Seen {
-    F way;          ///< distance along the ray
+    F distance;     ///< distance along the ray
     Vec2<F> shift;  ///< shift of the place at the edge that stands for the ray's end
     Rgb<F> color;
   };
 
   BeyondPicture(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel, const Tap& taps,
-                const ScreenRay<F>& way, Vec3<F> direction, F falls)
+                const ScreenRay<F>& distance, Vec3<F> direction, F falls)
       : c_(pass),
         on_(*pass.continuation),
         planes_(seen),
         p_(pixel),
         tap_(taps),
-        ray_(way),
+        ray_(distance),
         direction_(direction),
         fall_(falls) {}
 
   /// `guess`: the distance to the ray's end by the bottom visible in the picture.
   Seen look(F guess) const {
-    const F calm = way_to_plane(F(0), guess);
+    const F calm = distance_to_plane(F(0), guess);
     const F share = exp((F(0) - given<F>(on_.settle)) * pixels_beyond(ray_.shift_at(calm)));
-    const F way = way_to_plane(share * lift_at_edge(guess), guess);
-    const Vec2<F> end = ray_.shift_at(way), at = along_to_edge(end);
+    const F distance = distance_to_plane(share * lift_at_edge(guess), guess);
+    const Vec2<F> end = ray_.shift_at(distance), at = along_to_edge(end);
     const F gone = length_on_screen(at - end);
     const Texels texels = texels_at(at);
     const F kept = texels.share * exp((F(0) - given<F>(on_.fade)) * gone);
     const Rgb<F> far = tap_.lat_long_rgb(on_.colors, {round_edge(at), F(0.5)});
-    return {way, at, far + kept * (texels.color - far)};
+    return {distance, at, far + kept * (texels.color - far)};
   }
 
  private:
@@ -75,12 +75,12 @@ class BeyondPicture {
 
   /// Distance to the plane raised by `lift`; never above Continuation::least_drop, and `guess`
   /// where the ray is nearly parallel to the plane.
-  F way_to_plane(F lift, F guess) const {
+  F distance_to_plane(F lift, F guess) const {
     const Vec3<F> normal = vec3_of<F>(on_.normal);
     const F nears = F(0) - dot(normal, direction_);
     const F over = dot(normal, p_.surface_point) - given<F>(on_.offset) - lift;
-    const F way = select(nears > F(0.02), over / max(nears, F(0.02)), guess);
-    return max(way, given<F>(on_.least_drop) / fall_);
+    const F distance = select(nears > F(0.02), over / max(nears, F(0.02)), guess);
+    return max(distance, given<F>(on_.least_drop) / fall_);
   }
 
   /// Height over the plane of the bottom seen where the ray leaves the picture; 0 where the picture
@@ -89,7 +89,7 @@ class BeyondPicture {
     const Vec2<F> end = ray_.shift_at(guess);
     const Vec2<F> edge = min(reach_in(planes_.bounds, p_.uv, end), F(1)) * end;
     const F depth = tap_.nearest(planes_.depth, edge);
-    const Vec3<F> there = p_.surface_point + way_to(c_, p_, edge, depth);
+    const Vec3<F> there = p_.surface_point + offset_to(c_, p_, edge, depth);
     const F lift = dot(vec3_of<F>(on_.normal), there) - given<F>(on_.offset);
     const auto bottom = depth < F(1e30) && abs(lift) < given<F>(on_.lift);
     return select(bottom, lift, F(0));
@@ -106,11 +106,11 @@ class BeyondPicture {
       return select(abs(pace) > F(1e-12), lack / select(abs(pace) > F(1e-12), pace, F(1)), F(0));
     };
     const F x = times(lacks.x, across.x), y = times(lacks.y, across.y);
-    const auto one_way = x * y >= F(0);
+    const auto same_sign = x * y >= F(0);
     const F main =
         select(abs(lacks.x) * given<F>(c_.size.x) > abs(lacks.y) * given<F>(c_.size.y), x, y);
     const F both = select(abs(x) > abs(y), x, y);
-    const F by = select(one_way, both, main);
+    const F by = select(same_sign, both, main);
     // A line nearly parallel to the edge would start at an arbitrary place.
     const F far = max(abs(by * across.x), abs(by * across.y));
     const F near = saturate(F(2) - far) * select(by * step < F(0.98), F(1), F(0));

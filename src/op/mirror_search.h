@@ -55,8 +55,8 @@ template <class F, class Tap>
 class MirrorSearch {
  public:
   struct Found {
-    F way;  ///< distance along the ray, +inf where it meets nothing
-    F hit;  ///< 1 or 0
+    F distance;  ///< distance along the ray, +inf where it meets nothing
+    F hit;       ///< 1 or 0
   };
 
   /// `height` is that of the eye over the calm water. `accept(shift, depth)` says which visible

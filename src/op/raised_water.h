@@ -118,12 +118,12 @@ class RaisedRay {
 
   template <class M>
   LIMPID_INLINE void look_for_change(F side, M inside, M seeks, M comes, Bracket& b) const {
-    const F begin = b.near, way = b.far - b.near;
+    const F begin = b.near, span = b.far - b.near;
     F open = select(seeks, F(1), F(0)), near = b.near, at_near = b.at_near;
     steps<F>(1, kSteps + 1, [&](auto i) {
       const F even = Loop<F>::ratio(i, kSteps);
       // A ray that begins between the waves has smaller steps at its begin.
-      const F depth = begin + select(inside, even * even, even) * way;
+      const F depth = begin + select(inside, even * even, even) * span;
       const F here = side * height(depth);
       const auto last = comes && even > F(1 - 0.5 / kSteps);  // despite rounding
       const auto met = open > F(0.5) && (here <= F(0) || last);

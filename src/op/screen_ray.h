@@ -69,7 +69,7 @@ LIMPID_INLINE F height_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, 
 /// The vector from the pixel's surface point to the point at eye depth `depth` (+inf counts as
 /// 1e30) on the view ray at `shift`. From differences, like a ScreenRay.
 template <class F>
-LIMPID_INLINE Vec3<F> way_to(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
+LIMPID_INLINE Vec3<F> offset_to(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, F depth) {
   const Rays& rays = c.rays;
   const double width = c.size.x, height = c.size.y;
   const Vec3<F> origin = shift.x * vec3_of<F>(width * rays.origin_dx, "camera.origin_across") +

@@ -19,9 +19,9 @@ F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
     const Vec2<F> shift = t * end;
     const F seen = min(tap.nearest(plane, shift), F(1e30));
     const F height = height_at(c, p, shift, seen);
-    const Vec3<F> way = way_to(c, p, shift, seen);
-    const auto stands = seen < F(1e9) && height > F(0) && dot(way, ahead) > F(0);
-    return select(stands, min(height / max(length(way), F(1e-30)), F(1)), F(0));
+    const Vec3<F> offset = offset_to(c, p, shift, seen);
+    const auto stands = seen < F(1e9) && height > F(0) && dot(offset, ahead) > F(0);
+    return select(stands, min(height / max(length(offset), F(1e-30)), F(1)), F(0));
   };
   // Whether all that is seen at the steps after `begin` up to `last_one` is the sky, or under
   // water.

@@ -81,15 +81,15 @@ struct LitBottom {
   F sunlit, skylit;  ///< its irradiance, were it black, by a beam and by a sky of radiance 1
 };
 template <class F>
-LIMPID_INLINE F layer_at(const WaterMedium& m, std::size_t channel, const WaterPath<F>& way) {
+LIMPID_INLINE F layer_at(const WaterMedium& m, std::size_t channel, const WaterPath<F>& path) {
   const F rate = given<F>(m.rates()[channel], "depth_fog.rate", static_cast<int>(channel));
-  return layer_variable(min(rate * way.end, F(1e6)));
+  return layer_variable(min(rate * path.end, F(1e6)));
 }
 template <class F>
 LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel,
-                                      const WaterPath<F>& way, F fallen, F albedo) {
+                                      const WaterPath<F>& path, F fallen, F albedo) {
   const ScatteredLight& light = m.multiple[channel];
-  const F x = layer_at(m, channel, way);
+  const F x = layer_at(m, channel, path);
   return {min(max(albedo, F(0)), F(ScatteredLight::kMaxAlbedo)),
           given<F>(light.back_at_once) + layer_power(light.back, x),
           given<F>(m.cosine, "depth_fog.cosine") * fallen + layer_power(light.sun_below, x),
@@ -100,7 +100,7 @@ LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel,
 /// straight; the water between is as bright as if it had no bottom.
 template <class F>
 LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t channel,
-                                               const WaterPath<F>& way, F turned, F fallen, F left,
+                                               const WaterPath<F>& path, F turned, F fallen, F left,
                                                F albedo) {
   const ScatteredLight& light = m.multiple[channel];
   const int place = static_cast<int>(channel);
@@ -110,19 +110,19 @@ LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t
   MultipleLight<F> water{F(0), F(0)};
   if (m.scatters) {
     const auto by_sun =
-        inside_sun_shapes(way.sink, turned, given<F>(m.square, "depth_fog.square"), m.turns);
-    const auto by_sky = inside_sky_shapes(way.sink);
+        inside_sun_shapes(path.sink, turned, given<F>(m.square, "depth_fog.square"), m.turns);
+    const auto by_sky = inside_sky_shapes(path.sink);
     for (std::size_t i = 0; i < ScatteredLight::kFades; ++i) {
       F of_sun(0), of_sky(0);
       for (std::size_t k = 0; k < ScatteredLight::kInside; ++k) {
         of_sun = of_sun + given<F>(light.inside_sun[i][k]) * by_sun[k];
         of_sky = of_sky + given<F>(light.inside_sky[i][k]) * by_sky[k];
       }
-      const F column = sun_column(way, rate, given<F>(light.fades[i])).light;
+      const F column = sun_column(path, rate, given<F>(light.fades[i])).light;
       water = {water.sun + column * of_sun, water.sky + column * of_sky};
     }
   }
-  const LitBottom<F> bottom = lit_bottom(m, channel, way, fallen, albedo);
+  const LitBottom<F> bottom = lit_bottom(m, channel, path, fallen, albedo);
   const F seen = bottom.reflects * left / (F(1) - bottom.reflects * bottom.back);
   const F had = bottom.reflects * fallen * left * given<F>(m.per_bottom, "depth_fog.per_bottom");
   return {max(beam * water.sun, F(0)) +
@@ -138,25 +138,25 @@ LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t
 /// between the bottom and the surface. `view`: unit, along the path; `albedo`: of the bottom at the
 /// far end.
 template <class F>
-Rgb<F> seen_in_water(const WaterMedium& m, const WaterPath<F>& way, const Vec3<F>& view,
+Rgb<F> seen_in_water(const WaterMedium& m, const WaterPath<F>& path, const Vec3<F>& view,
                      Rgb<F> light, const Vec3<F>& albedo) {
   const MediumNumbers<F> numbers(m);
   const Rgb<F> rate = numbers.rate, down = numbers.down;
-  const Rgb<F> left = transmittance(way.length, rate), fallen = transmittance(way.end, down);
+  const Rgb<F> left = transmittance(path.length, rate), fallen = transmittance(path.end, down);
   Rgb<F> seen = fallen * left * light;
-  if (m.glows) seen = seen + ambient_in_scatter(numbers, way.length, left);
+  if (m.glows) seen = seen + ambient_in_scatter(numbers, path.length, left);
   const F turned = dot(numbers.to_sun, view);
   if (m.sunlit) {
-    const Rgb<F> columns{sun_column(way, rate.r, down.r).light,
-                         sun_column(way, rate.g, down.g).light,
-                         sun_column(way, rate.b, down.b).light};
+    const Rgb<F> columns{sun_column(path, rate.r, down.r).light,
+                         sun_column(path, rate.g, down.g).light,
+                         sun_column(path, rate.b, down.b).light};
     const F phase = henyey_greenstein(turned, given<F>(m.anisotropy, "depth_fog.phase"));
     seen = seen + phase * (numbers.sun * columns);
   }
   if (!m.multiple) return seen;
   const auto more = [&](std::size_t channel, F fell, F stays, F reflects) {
     const MultipleLight<F> multiple =
-        multiple_inside(m, channel, way, turned, fell, stays, reflects);
+        multiple_inside(m, channel, path, turned, fell, stays, reflects);
     return multiple.sun + multiple.sky;
   };
   seen = seen + Rgb<F>{more(0, fallen.r, left.r, albedo.x), more(1, fallen.g, left.g, albedo.y),

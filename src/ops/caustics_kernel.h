@@ -70,10 +70,10 @@ struct Kernel<Caustics> : Caustics {
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       const F surface = given<F>(c.eye_above) + dot(up, p.surface_point);
       // From within the water the view is straight.
-      const Vec3<F> straight = p.surface_point + way_to(c, p, p.shift, p.hit_depth);
+      const Vec3<F> straight = p.surface_point + offset_to(c, p, p.shift, p.hit_depth);
       const auto from_air = p.side > F(0.5);
-      const auto has_way = p.path > F(0) && p.path < F(1e20);
-      const auto seen_bottom = p.side > F(-0.5) && p.hit_depth < F(1e30) && (!from_air || has_way);
+      const auto has_path = p.path > F(0) && p.path < F(1e20);
+      const auto seen_bottom = p.side > F(-0.5) && p.hit_depth < F(1e30) && (!from_air || has_path);
       if_any(seen_bottom, [&] {
         const Aim<F> aim = aim_of(c, p, given<F>(c.ior));
         const F drop = select(seen_bottom && from_air, p.path * aim.fall, F(0));
@@ -86,8 +86,9 @@ struct Kernel<Caustics> : Caustics {
         const auto lit_bottom = seen_bottom && deep > F(0);
         const F depth = select(lit_bottom, deep, F(0));
 
-        const auto end_of = [&](const Aim<F>& way) {
-          return select(from_air, p.surface_point + (drop / way.fall) * way.direction, straight);
+        const auto end_of = [&](const Aim<F>& ended) {
+          return select(from_air, p.surface_point + (drop / ended.fall) * ended.direction,
+                        straight);
         };
         /// The entry point under calm water of the sunlight that reaches a place.
         const auto entry_of = [&](Vec3<F> end, F index) {

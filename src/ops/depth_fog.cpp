@@ -88,17 +88,17 @@ double apart(const Rgb<double>& color, const Ranges& ranges) {
 }
 
 /// Share that survives a path; 0 where it rounds to 0 in float.
-double survives(double rate, double way) {
-  const double tau = bound_product(rate, way);
+double survives(double rate, double distance) {
+  const double tau = bound_product(rate, distance);
   return tau > 104.5 ? 0 : std::exp(-tau);
 }
 
 /// An upper bound of column_light.
-double column(double rate, double way) { return rate > 0 ? std::min(way, 1 / rate) : way; }
+double column(double rate, double length) { return rate > 0 ? std::min(length, 1 / rate) : length; }
 
 /// The share of linear fog in front of the end of a path.
-double veil(const P& params, double way) {
-  return params.alpha * (1 - linear_fog(way, params.density, params.offset));
+double veil(const P& params, double distance) {
+  return params.alpha * (1 - linear_fog(distance, params.density, params.offset));
 }
 
 }  // namespace
@@ -171,36 +171,36 @@ ScatteringWater Kernel<DepthFog>::scattering_water(const P& params, const Pass& 
 }
 
 double Kernel<DepthFog>::bound(const P& params, const Pass& c, const Ranges& ranges) {
-  const double way = ranges.fog_path.max, bright = ranges.brightest();
+  const double distance = ranges.fog_path.max, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
-    return bound_product(veil(params, way), apart(params.color, ranges));
+    return bound_product(veil(params, distance), apart(params.color, ranges));
   }
   const WaterMedium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   return largest_of([&](auto part) {
-           const double taken = 1 - m.bottom * survives(part(m.rate) + part(m.down), way);
-           return bound_product(taken, bright) +
-                  bound_product(part(m.ambient) + sun * part(m.sun), column(part(m.rate), way));
+           const double taken = 1 - m.bottom * survives(part(m.rate) + part(m.down), distance);
+           return bound_product(taken, bright) + bound_product(part(m.ambient) + sun * part(m.sun),
+                                                               column(part(m.rate), distance));
          }) +
-         most_multiple(m, way);
+         most_multiple(m, distance);
 }
 
 void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   // With refraction, hit and path are those of refraction; else those of the pixel.
-  Range way = c.made.has(StatePart::kPosition) ? ranges.hit : ranges.own;
+  Range path = c.made.has(StatePart::kPosition) ? ranges.hit : ranges.own;
   if (params.distance == Distance::kRefracted && c.made.has(StatePart::kPosition)) {
-    way = ranges.path;
+    path = ranges.path;
   } else if (params.distance == Distance::kRefracted) {
     const auto bent = [&](double cosine) {
       return cosine / std::max(refracted_cosine(cosine, 1 / c.ior), 1e-6);
     };
     const Range cosine = ranges.cosine();
-    way = {bound_product(way.min, bent(std::max(cosine.min - 1e-6, 0.0))),
-           bound_product(way.max, ranges.ray_length.max * bent(cosine.max))};
+    path = {bound_product(path.min, bent(std::max(cosine.min - 1e-6, 0.0))),
+            bound_product(path.max, ranges.ray_length.max * bent(cosine.max))};
   } else if (params.distance == Distance::kRay) {
-    way = {way.min * ranges.ray_length.min, bound_product(way.max, ranges.ray_length.max)};
+    path = {path.min * ranges.ray_length.min, bound_product(path.max, ranges.ray_length.max)};
   }
-  ranges.fog_path = {0.999 * way.min, 1.001 * way.max};  // float rounds them
+  ranges.fog_path = {0.999 * path.min, 1.001 * path.max};  // float rounds them
 
   const double bright = ranges.brightest();
   if (params.model == Model::kLinear) {
@@ -231,22 +231,22 @@ void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& 
 }
 
 double Kernel<DepthFog>::beyond(const P& params, const Pass& c, const Ranges& ranges) {
-  const double way = ranges.fog_path.min, bright = ranges.brightest();
+  const double distance = ranges.fog_path.min, bright = ranges.brightest();
   if (params.model == Model::kLinear) {
     const double full = veil(params, HUGE_VAL);
     return bound_product(1 - full, ranges.contrast()) +
-           bound_product(full - veil(params, way), apart(params.color, ranges));
+           bound_product(full - veil(params, distance), apart(params.color, ranges));
   }
   const WaterMedium m = medium_of(params, c);
   const double sun = m.water * brightest_phase(params, c, m);
   return largest_of([&](auto part) {
            const double rate = part(m.rate);
            if (survives(rate, 3e38) > 0) return HUGE_VAL;  // no path is endless in float
-           const double left = survives(rate, way);
+           const double left = survives(rate, distance);
            return bound_product(left, m.bottom * bright) +
                   left / rate * (part(m.ambient) + sun * part(m.sun));
          }) +
-         beyond_multiple(m, way * refracted_cosine(0.0, 1 / c.ior));
+         beyond_multiple(m, distance * refracted_cosine(0.0, 1 / c.ior));
 }
 
 /// Each layer stands for all that are deeper.
@@ -263,12 +263,12 @@ double Kernel<DepthFog>::beyond_multiple(const WaterMedium& m, double depth) {
   return most;
 }
 
-double Kernel<DepthFog>::most_multiple(const WaterMedium& m, double way) {
+double Kernel<DepthFog>::most_multiple(const WaterMedium& m, double distance) {
   if (!m.multiple) return 0;
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const ScatteredLight& light = m.multiple[i];
-    const double depth = bound_product(m.rates()[i], way);
+    const double depth = bound_product(m.rates()[i], distance);
     const auto up_to = [&](double slope, double all) {
       return std::min(bound_product(slope, depth), all);
     };
@@ -329,13 +329,13 @@ WaterMedium Kernel<DepthFog>::medium_of(const Params& params, const Pass& c) {
 }
 
 PathMeasure Kernel<DepthFog>::path_measure(const P& params) {
-  PathMeasure way{.along_axis = params.distance == Distance::kEye, .ends = {}};
+  PathMeasure measure{.along_axis = params.distance == Distance::kEye, .ends = {}};
   if (params.model != Model::kLinear) {
-    way.extinction = extinction(params);
+    measure.extinction = extinction(params);
   } else if (params.density > 0) {
-    way.ends = (1 + std::max(params.offset, 0.0)) / params.density;
+    measure.ends = (1 + std::max(params.offset, 0.0)) / params.density;
   }
-  return way;
+  return measure;
 }
 
 }  // namespace limpid

@@ -55,7 +55,7 @@ struct Kernel<DepthFog> : DepthFog {
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    strip.each([&](Pixel<F>& p) { p.path = way_length(params.distance, c, p); });
+    strip.each([&](Pixel<F>& p) { p.path = path_length(params.distance, c, p); });
     if (params.model == Model::kLinear) {
       linear(params, strip);
     } else {
@@ -68,11 +68,11 @@ struct Kernel<DepthFog> : DepthFog {
   static double brightest_phase(const Params& params, const Pass& c, const WaterMedium& medium);
   /// The largest multiple-scattered radiance of paths up to a length; and from a depth on, the
   /// largest difference of that radiance from endless water's.
-  static double most_multiple(const WaterMedium& m, double way);
+  static double most_multiple(const WaterMedium& m, double path);
   static double beyond_multiple(const WaterMedium& m, double depth);
 
   template <class F>
-  static LIMPID_INLINE F way_length(Distance distance, const Pass& c, const Pixel<F>& p) {
+  static LIMPID_INLINE F path_length(Distance distance, const Pass& c, const Pixel<F>& p) {
     F d = max(p.hit_depth - p.surface_depth, F(0));
     if (distance != Distance::kEye) d = p.ray_length * d;
     if (distance == Distance::kRefracted) {
@@ -127,11 +127,11 @@ struct Kernel<DepthFog> : DepthFog {
       const F length = min(p.path, F(3e38)), fall = F(0) - dot(view, up);
       const F sink = select(from_air, max(fall, F(0)), fall);  // against rounding
       const F begin = select(from_air, F(0), eye_depth);
-      const WaterPath<F> way{length, sink, begin, max(begin + sink * length, F(0))};
+      const WaterPath<F> path{length, sink, begin, max(begin + sink * length, F(0))};
 
       p.transmittance = transmittance(length, rate);
       // Seen from below, surfaces above the water are not lit through the water.
-      const F under = select(p.side < F(0), F(0), way.end);
+      const F under = select(p.side < F(0), F(0), path.end);
       const Rgb<F> fallen = transmittance(under, down);
       const Rgb<F> lit = select(from_air, bottom, F(1)) * fallen;
       p.transmitted = lit * p.transmittance * p.transmitted;
@@ -149,12 +149,12 @@ struct Kernel<DepthFog> : DepthFog {
         Rgb<F> left = p.transmittance * fallen;
         if_any(!from_air, [&] {
           left = select(from_air, left,
-                        {sun_left(way, rate.r, down.r), sun_left(way, rate.g, down.g),
-                         sun_left(way, rate.b, down.b)});
+                        {sun_left(path, rate.r, down.r), sun_left(path, rate.g, down.g),
+                         sun_left(path, rate.b, down.b)});
         });
-        const SunColumn<F> red = sun_column(way, rate.r, down.r, left.r);
-        const SunColumn<F> green = sun_column(way, rate.g, down.g, left.g);
-        const SunColumn<F> blue = sun_column(way, rate.b, down.b, left.b);
+        const SunColumn<F> red = sun_column(path, rate.r, down.r, left.r);
+        const SunColumn<F> green = sun_column(path, rate.g, down.g, left.g);
+        const SunColumn<F> blue = sun_column(path, rate.b, down.b, left.b);
         const Rgb<F> light = seen * (sun * Rgb<F>{red.light, green.light, blue.light});
         p.sun_far = light * Rgb<F>{red.far_share, green.far_share, blue.far_share};
         p.sun_near = light - p.sun_far;
@@ -164,7 +164,7 @@ struct Kernel<DepthFog> : DepthFog {
             select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
         p.in_scatter = p.in_scatter + light;
       }
-      if (medium.multiple) add_multiple(medium, way, turned, fallen, albedo, p);
+      if (medium.multiple) add_multiple(medium, path, turned, fallen, albedo, p);
     };
     if (medium.multiple && c.planes.covers(kAlbedoPlanes)) {
       strip.own3(PlaneId::kAlbedoR, make);
@@ -175,16 +175,16 @@ struct Kernel<DepthFog> : DepthFog {
 
   /// Light that is scattered more than once, and of the bottom what `transmitted` lacks.
   template <class F>
-  static LIMPID_INLINE void add_multiple(const WaterMedium& m, const WaterPath<F>& way, F turned,
+  static LIMPID_INLINE void add_multiple(const WaterMedium& m, const WaterPath<F>& path, F turned,
                                          const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
     const auto from_air = p.side > F(0);
     const F doubly =
         m.turns ? henyey_greenstein(turned, given<F>(m.square, "depth_fog.square")) : F(0);
-    const std::array<F, 4> shapes{F(1), way.sink, turned, doubly};
+    const std::array<F, 4> shapes{F(1), path.sink, turned, doubly};
     const Rgb<F>& left = p.transmittance;
-    MultipleLight<F> red = multiple_down(m, 0, way, shapes, fallen.r, left.r, albedo.x);
-    MultipleLight<F> green = multiple_down(m, 1, way, shapes, fallen.g, left.g, albedo.y);
-    MultipleLight<F> blue = multiple_down(m, 2, way, shapes, fallen.b, left.b, albedo.z);
+    MultipleLight<F> red = multiple_down(m, 0, path, shapes, fallen.r, left.r, albedo.x);
+    MultipleLight<F> green = multiple_down(m, 1, path, shapes, fallen.g, left.g, albedo.y);
+    MultipleLight<F> blue = multiple_down(m, 2, path, shapes, fallen.b, left.b, albedo.z);
     if (m.inside) {
       if_any(!from_air, [&] {
         // Seen from below, surfaces above the water are no bottom.
@@ -192,9 +192,9 @@ struct Kernel<DepthFog> : DepthFog {
         const auto choose = [&](MultipleLight<F>& down, const MultipleLight<F>& inside) {
           down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
         };
-        choose(red, multiple_inside(m, 0, way, turned, fallen.r, left.r, under.x));
-        choose(green, multiple_inside(m, 1, way, turned, fallen.g, left.g, under.y));
-        choose(blue, multiple_inside(m, 2, way, turned, fallen.b, left.b, under.z));
+        choose(red, multiple_inside(m, 0, path, turned, fallen.r, left.r, under.x));
+        choose(green, multiple_inside(m, 1, path, turned, fallen.g, left.g, under.y));
+        choose(blue, multiple_inside(m, 2, path, turned, fallen.b, left.b, under.z));
       });
     }
     p.sun_multiple = {red.sun, green.sun, blue.sun};
@@ -211,13 +211,13 @@ struct Kernel<DepthFog> : DepthFog {
   /// path, and of its light at the viewer.
   template <class F>
   static LIMPID_INLINE MultipleLight<F> multiple_down(const WaterMedium& m, std::size_t channel,
-                                                      const WaterPath<F>& way,
+                                                      const WaterPath<F>& path,
                                                       const std::array<F, 4>& shapes, F fallen,
                                                       F left, F albedo) {
     const ScatteredLight& light = m.multiple[channel];
     const int place = static_cast<int>(channel);
     const std::array<F, 2> even{shapes[0], shapes[1]};
-    const F x = layer_at(m, channel, way);
+    const F x = layer_at(m, channel, path);
     const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
     const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
     const F water = given<F>(m.water, "depth_fog.water");
@@ -227,7 +227,7 @@ struct Kernel<DepthFog> : DepthFog {
                              : layer_power(std::array{light.sun[0], light.sun[1]}, even, x);
       up = {beam * (F(1) - fallen * left) * many, sky * layer_power(light.sky, even, x)};
     }
-    const LitBottom<F> bottom = lit_bottom(m, channel, way, fallen, albedo);
+    const LitBottom<F> bottom = lit_bottom(m, channel, path, fallen, albedo);
     const F passing = left + layer_power(light.passing, even, x);
     const F seen = bottom.reflects * passing / (F(1) - bottom.reflects * bottom.back);
     const F had = bottom.reflects * fallen * left;

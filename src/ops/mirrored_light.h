@@ -108,29 +108,31 @@ struct MirroredLight : FresnelReflection {
 
   // --- seen from within the water ---------------------------------------------------------------
 
-  /// The light that the underside of the surface mirrors, after its path of length `way` through
-  /// the water to the surface: for pixels seen from within the water. `way` may be infinite.
-  /// `kEnds`: whether the path ends at a surface, whose albedo lies at the shift `at`.
+  /// The light that the underside of the surface mirrors, after its path of length `distance`
+  /// through the water to the surface: for pixels seen from within the water. `distance` may be
+  /// infinite. `kEnds`: whether the path ends at a surface, whose albedo lies at the shift `at`.
   template <bool kEnds = true, class F, class Tap>
   static LIMPID_INLINE Rgb<F> through_water(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                            const Vec3<F>& ray, F way, Rgb<F> light, Vec2<F> at) {
+                                            const Vec3<F>& ray, F distance, Rgb<F> light,
+                                            Vec2<F> at) {
     if (!c.medium) return light;
     const auto below = p.side < F(0);
     if_any(below, [&] {
       light = select(
-          below, through_water_below<kEnds>(c, p, tap, ray, select(below, way, F(0)), light, at),
+          below,
+          through_water_below<kEnds>(c, p, tap, ray, select(below, distance, F(0)), light, at),
           light);
     });
     return light;
   }
   template <bool kEnds, class F, class Tap>
   [[gnu::noinline]] static Rgb<F> through_water_below(const Pass& c, const Pixel<F>& p,
-                                                      const Tap& tap, const Vec3<F>& ray, F way,
-                                                      Rgb<F> light, Vec2<F> at) {
+                                                      const Tap& tap, const Vec3<F>& ray,
+                                                      F distance, Rgb<F> light, Vec2<F> at) {
     const Vec3<F> up = vec3_of<F>(c.up);
     const F height = given<F>(c.eye_above) + dot(up, p.surface_point);
     const F begin = max(F(0) - height, F(0)), sink = max(F(0) - dot(up, ray), F(0));
-    const F length = min(way, F(3e38));
+    const F length = min(distance, F(3e38));
     Vec3<F> albedo{F(0), F(0), F(0)};
     if (kEnds && c.planes.covers(kAlbedoPlanes)) {
       const Rgb<F> there = bilinear_rgb<F>(tap, PlaneId::kAlbedoR, at);
@@ -158,19 +160,19 @@ struct MirroredLight : FresnelReflection {
           min(max(at.x, given<F>(c.dry.low.x) - p.uv.x), given<F>(c.dry.high.x) - p.uv.x),
           min(max(at.y, given<F>(c.dry.low.y) - p.uv.y), given<F>(c.dry.high.y) - p.uv.y)};
     };
-    F way = met;
+    F distance = met;
     if_any(unseen, [&] {
       repeat<F>(kGuesses, [&] {
-        const Vec2<F> at = next_to(way);
+        const Vec2<F> at = next_to(distance);
         const F depth = tap.nearest(PlaneId::kDepth, at);
         const F drop = top - height_at(c, p, at, depth);
-        way = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, way);
+        distance = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, distance);
       });
     });
-    const Vec2<F> at = next_to(way);
-    const Rgb<F> shown =
-        through_water(c, p, tap, direction, way, bilinear_rgb<F>(tap, PlaneId::kColorR, at), at);
-    const auto ends = way < F(1e20);
+    const Vec2<F> at = next_to(distance);
+    const Rgb<F> shown = through_water(c, p, tap, direction, distance,
+                                       bilinear_rgb<F>(tap, PlaneId::kColorR, at), at);
+    const auto ends = distance < F(1e20);
     return {select(ends, shown, beyond),
             {F(0), select(ends, F(1), F(0)), select(ends, F(0), F(1))}};
   }
@@ -201,7 +203,7 @@ struct MirroredLight : FresnelReflection {
   template <class F>
   struct End {
     Vec2<F> shift;
-    F way;
+    F distance;
   };
 
   /// Where the mirrored ray ends. With views that may begin in the water it is not marched: beside
@@ -209,12 +211,13 @@ struct MirroredLight : FresnelReflection {
   template <class F, class Tap>
   static End<F> follow(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n) {
     const ScreenRay<F> ray = image_ray(c, p, n);
-    F way(HUGE_VAL);
-    if (!c.planes.has(PlaneId::kReflectionDepth)) return {place_at(c, p, ray, way), way};
+    F distance(HUGE_VAL);
+    if (!c.planes.has(PlaneId::kReflectionDepth)) return {place_at(c, p, ray, distance), distance};
     constexpr int kSteps = 3;
-    way = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, way);
-    repeat<F>(kSteps, [&] { way = distance_to(c, p, tap, place_at(c, p, ray, way), way); });
-    return {place_at(c, p, ray, way), way};
+    distance = distance_to(c, p, tap, Vec2<F>{F(0), F(0)}, distance);
+    repeat<F>(kSteps,
+              [&] { distance = distance_to(c, p, tap, place_at(c, p, ray, distance), distance); });
+    return {place_at(c, p, ray, distance), distance};
   }
 
   /// Distance from the surface point to the surface that the planes show at `shift`; `otherwise`
@@ -233,7 +236,7 @@ struct MirroredLight : FresnelReflection {
       weight = weight + share;
     }
     const auto seen = weight > F(1e-3);
-    return select(seen, length(way_to(c, p, shift, weight / max(inverse, F(1e-30)))), otherwise);
+    return select(seen, length(offset_to(c, p, shift, weight / max(inverse, F(1e-30)))), otherwise);
   }
 
   /// What the planes show by a march in the depth of the mirrored scene.
@@ -250,7 +253,7 @@ struct MirroredLight : FresnelReflection {
           tap, tap.wet() && meets, PlaneId::kReflectionDepth, c.reflection, given<F>(c.eye_above),
           p, ray, kImageSteps, all);
       hit = select(meets, part * found.hit, hit);
-      met = select(found.hit > F(0.5), place_at(c, p, ray, found.way), met);
+      met = select(found.hit > F(0.5), place_at(c, p, ray, found.distance), met);
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
     const Vec2<F> far = far_landing(c, p, tap, image_ray(c, p, n), hit < F(1));
@@ -274,8 +277,8 @@ struct MirroredLight : FresnelReflection {
     Vec2<F> landing = far;
     const auto wrong = [&](Vec2<F> shift) {
       const F seen = tap.nearest(PlaneId::kReflectionDepth, shift);
-      const F way = (seen - ray.depth) / ray.depth_step;
-      const Vec2<F> off = place_at(c, p, ray, max(way, F(0))) - shift;
+      const F distance = (seen - ray.depth) / ray.depth_step;
+      const Vec2<F> off = place_at(c, p, ray, max(distance, F(0))) - shift;
       const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
       return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
     };
@@ -305,7 +308,7 @@ struct MirroredLight : FresnelReflection {
     const Rgb<F> beyond = far_away(params, c, p, tap, n, own);
     const auto below = p.side < F(0);
     Rgb<F> light = beyond;
-    F hit(0), way(HUGE_VAL);
+    F hit(0), distance(HUGE_VAL);
     const auto meets = part > F(0);
     if_any(meets, [&] {
       const ScreenRay<F> ray(c, p, mirrored_ray(c, p, low));
@@ -317,16 +320,16 @@ struct MirroredLight : FresnelReflection {
           MirrorSearch<F, Tap>::march(tap, tap.wet() && meets, PlaneId::kDepth, c.dry,
                                       given<F>(c.eye_above), p, ray, kPictureSteps, on_side);
       const Vec2<F> shift =
-          select(found.hit > F(0.5), ray.shift_at(found.way), Vec2<F>{F(0), F(0)});
+          select(found.hit > F(0.5), ray.shift_at(found.distance), Vec2<F>{F(0), F(0)});
       const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
       hit = select(meets, part * found.hit, hit);
-      way = select(meets, found.way, way);
+      distance = select(meets, found.distance, distance);
       light = select(meets, beyond + hit * (seen - beyond), light);
     });
     Mirrored<F> all{light, {F(0), hit, F(1) - hit}};
     if (c.submersible) {
       if_any(below, [&] {
-        const Mirrored<F> under = seen_below(c, p, tap, n, own, way, beyond);
+        const Mirrored<F> under = seen_below(c, p, tap, n, own, distance, beyond);
         all = {select(below, under.light, all.light), select(below, under.sources, all.sources)};
       });
     }
@@ -376,11 +379,12 @@ struct MirroredLight : FresnelReflection {
     Rgb<F> sources = from_reflection<F>();
     if (c.medium) {
       const auto below = p.side < F(0);
-      const auto known = end.way < F(1e20) || (c.reflection_ends ? below : end.way < F(0));
+      const auto known =
+          end.distance < F(1e20) || (c.reflection_ends ? below : end.distance < F(0));
       if_any(below && known, [&] {
         const Vec3<F> ray = mirrored_ray(c, p, n);
-        const Vec2<F> at = kept_in(c.dry, p, ScreenRay<F>(c, p, ray), end.way);
-        const Rgb<F> through = through_water(c, p, tap, ray, end.way, seen, at);
+        const Vec2<F> at = kept_in(c.dry, p, ScreenRay<F>(c, p, ray), end.distance);
+        const Rgb<F> through = through_water(c, p, tap, ray, end.distance, seen, at);
         seen = select(known, through, seen);
         lacks = select(below && known, F(0), lacks);  // the water before it is there
       });

@@ -61,12 +61,12 @@ LIMPID_INLINE PathLight<F> path_light(const Pass& c, const Pixel<F>& p, const Ta
         stretch = F(kLong[k]);
       });
     }
-    const F way = min(mean * (fading + even_share * (even - fading)), whole);
+    const F distance = min(mean * (fading + even_share * (even - fading)), whole);
     const F length = min(mean * (stretch + even_share * (F(2.0 / kPathSamples) - stretch)), whole);
-    const F there = way / max(whole, F(1e-30)), depth = sink * way;
-    const F lit = of_surface ? lit_at(PlaneId::kSurfaceShadow, line.shift_at(way))
+    const F there = distance / max(whole, F(1e-30)), depth = sink * distance;
+    const F lit = of_surface ? lit_at(PlaneId::kSurfaceShadow, line.shift_at(distance))
                              : begins + there * (ends - begins);
-    const Vec2<F> entry{at_x + way * aside.x, at_y + way * aside.y};
+    const Vec2<F> entry{at_x + distance * aside.x, at_y + distance * aside.y};
     const F light = caustics_at(table, tap, entry, max(pixel, F(kWide) * across * length));
     const F focused = min(depth / deepest, F(1)) * exp((F(0) - scattered) * depth);
     const F more = lit * focused * (light - F(1));

@@ -16,7 +16,7 @@ template <>
 struct Kernel<Refraction> : Refraction {
   /// Share of the distance from the surface to the end of snell's ray: a surface nearer than that
   /// hides the end.
-  static constexpr double kShareOfWay = 0.4;
+  static constexpr double kShareOfPath = 0.4;
 
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kTransmitted};
   static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted,
@@ -159,9 +159,9 @@ struct Kernel<Refraction> : Refraction {
       const auto found = params.marches() ? search.march() : search.iterate(params.steps);
       const auto goes = bent.goes > F(0.5);
       const Vec2<F> none{F(0), F(0)};
-      p.path = select(goes, found.way, F(0));
-      p.shift = select(goes, ray.shift_at(found.way), none);
-      p.hit_depth = select(goes, ray.depth_at(found.way), p.dry_depth);
+      p.path = select(goes, found.distance, F(0));
+      p.shift = select(goes, ray.shift_at(found.distance), none);
+      p.hit_depth = select(goes, ray.depth_at(found.distance), p.dry_depth);
       p.confidence = select(goes, found.sure, F(1));
       if (!split) return place_channels(p.shift, p.shift, p.shift, p);
       const auto channel = [&](F index) {
@@ -169,7 +169,7 @@ struct Kernel<Refraction> : Refraction {
         if_any(abs(index) > F(0), [&] {
           const Bent<F> own = bend(c, p, ior + index);
           const ScreenRay<F> own_ray(c, p, own.direction);
-          shift = select(goes, own_ray.shift_at(found.way * bent.fall / own.fall), none);
+          shift = select(goes, own_ray.shift_at(found.distance * bent.fall / own.fall), none);
         });
         return shift;
       };
@@ -217,8 +217,8 @@ struct Kernel<Refraction> : Refraction {
     if_any(off, [&] {
       const BeyondPicture<F, Tap> beyond(c, planes, p, tap, ray, bent.direction, bent.fall);
       const auto seen = beyond.look(select(off, p.path, F(1)));
-      p.path = select(off, seen.way, p.path);
-      p.hit_depth = select(off, ray.depth_at(seen.way), p.hit_depth);
+      p.path = select(off, seen.distance, p.path);
+      p.hit_depth = select(off, ray.depth_at(seen.distance), p.hit_depth);
       p.transmitted = select(off, seen.color, p.transmitted);
       p.shift = select(off, seen.shift, p.shift);
       p.shift_r = select(off, seen.shift, p.shift_r);
@@ -370,7 +370,7 @@ struct Kernel<Refraction> : Refraction {
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
     const BottomLayer* layer = params.looks_behind() ? c.bottom_layer : nullptr;
     // Where the end of the ray is a guess, only the bottom counts.
-    const F snell(params.model == Model::kSnell ? kShareOfWay : 0);
+    const F snell(params.model == Model::kSnell ? kShareOfPath : 0);
     const F path_fraction =
         layer ? select(p.confidence < F(1), F(BottomLayer::kOfBottom), snell) : snell;
     // In open water only surfaces under it can hide the end of a ray.
@@ -442,9 +442,10 @@ struct Kernel<Refraction> : Refraction {
           });
           const auto bottom = p.side > F(0) && clear > F(0.5);
           const F calm = min(calm_depth_at(c, p, shift), ray_end);
-          const F way = ray_end - calm;
-          const F deeper = depth_at_drop(c, p, shift, taps.shape(shift).drop) - calm - F(0.3) * way;
-          fills = select(bottom, saturate(F(5) * deeper / max(way, F(1e-3) * ray_end)), F(0));
+          const F distance = ray_end - calm;
+          const F deeper =
+              depth_at_drop(c, p, shift, taps.shape(shift).drop) - calm - F(0.3) * distance;
+          fills = select(bottom, saturate(F(5) * deeper / max(distance, F(1e-3) * ray_end)), F(0));
         });
         return fills;
       };

@@ -110,8 +110,8 @@ struct Kernel<WaterShadow> : WaterShadow {
       F near_shade(0), far_shade(0), near_sum(0), far_sum(0);
       for (int i = 0; i < kPathSamples; ++i) {
         const F even((2 * i + 1) / double(kPathSamples)), fading(kPathFalloff[i]);
-        const F way = min(mean * (fading + even_share * (even - fading)), whole);
-        const F there = way / max(whole, F(1e-30)), lost = shade(line.shift_at(way));
+        const F distance = min(mean * (fading + even_share * (even - fading)), whole);
+        const F there = distance / max(whole, F(1e-30)), lost = shade(line.shift_at(distance));
         near_shade = near_shade + (F(1) - there) * lost, near_sum = near_sum + (F(1) - there);
         far_shade = far_shade + there * lost, far_sum = far_sum + there;
       }

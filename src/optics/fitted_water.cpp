@@ -86,9 +86,10 @@ double weighted(const Spectrum& weights, const Spectrum& values) {
   return std::inner_product(weights.begin(), weights.end(), values.begin(), 0.0);
 }
 
-double left_of(const Spectrum& weights, const Spectrum& rates, double way) {
+double left_of(const Spectrum& weights, const Spectrum& rates, double distance) {
   double left = 0;
-  for (std::size_t i = 0; i < kSpectrumSize; ++i) left += weights[i] * std::exp(-rates[i] * way);
+  for (std::size_t i = 0; i < kSpectrumSize; ++i)
+    left += weights[i] * std::exp(-rates[i] * distance);
   return left;
 }
 
@@ -145,8 +146,8 @@ Rgb<Spectrum> channel_weights(const Primaries& primaries) {
   return {of_channel(0), of_channel(1), of_channel(2)};
 }
 
-Rgb<double> light_left(const Rgb<Spectrum>& weights, const Spectrum& rates, double way) {
-  return each(weights, [&](const Spectrum& w) { return left_of(w, rates, way); });
+Rgb<double> light_left(const Rgb<Spectrum>& weights, const Spectrum& rates, double distance) {
+  return each(weights, [&](const Spectrum& w) { return left_of(w, rates, distance); });
 }
 
 Rgb<double> fitted_rates(const Rgb<Spectrum>& weights, const Spectrum& rates) {
@@ -154,19 +155,19 @@ Rgb<double> fitted_rates(const Rgb<Spectrum>& weights, const Spectrum& rates) {
   const double low = *ends.first, high = *ends.second;  // clang 14 captures no bindings
   if (low == high) return {low, low, low};
   // Path lengths from where nothing is lost to where nothing is left.
-  constexpr int kWays = 192;
+  constexpr int kDistances = 192;
   const double first = std::log(1e-3 / high), last = std::log(30 / low);
   return each(weights, [&](const Spectrum& w) {
-    std::vector<double> ways(kWays), left(kWays);
-    for (int i = 0; i < kWays; ++i) {
-      ways[i] = std::exp(std::lerp(first, last, i / (kWays - 1.0)));
-      left[i] = left_of(w, rates, ways[i]);
+    std::vector<double> distances(kDistances), left(kDistances);
+    for (int i = 0; i < kDistances; ++i) {
+      distances[i] = std::exp(std::lerp(first, last, i / (kDistances - 1.0)));
+      left[i] = left_of(w, rates, distances[i]);
     }
     const auto error = [&](double log_rate) {
       const double rate = std::exp(log_rate);
       double sum = 0;
-      for (int i = 0; i < kWays; ++i) {
-        const double apart = std::exp(-rate * ways[i]) - left[i];
+      for (int i = 0; i < kDistances; ++i) {
+        const double apart = std::exp(-rate * distances[i]) - left[i];
         sum += apart * apart;
       }
       return sum;

@@ -41,7 +41,7 @@ WaterSpectra spectra_of(const NamedWater& water);
 Rgb<Spectrum> channel_weights(const Primaries& primaries);
 
 /// Red, green and blue left of white light after a path: the curve that fitted_rates() fits.
-Rgb<double> light_left(const Rgb<Spectrum>& weights, const Spectrum& rates, double way);
+Rgb<double> light_left(const Rgb<Spectrum>& weights, const Spectrum& rates, double distance);
 
 /// The rates s of red, green and blue by which exp(-s path) is nearest to light_left(): the
 /// integral of the squared difference over the logarithm of the path, over all paths, is least. So

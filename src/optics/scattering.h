@@ -24,8 +24,8 @@ struct SunColumn {
 /// Share of sunlight at the far end of the path relative to its near end, or the reverse where the
 /// far end is brighter.
 template <class F>
-LIMPID_INLINE F sun_left(const WaterPath<F>& way, F rate, F down) {
-  return exp(F(0) - abs(rate + down * way.sink) * way.length);
+LIMPID_INLINE F sun_left(const WaterPath<F>& path, F rate, F down) {
+  return exp(F(0) - abs(rate + down * path.sink) * path.length);
 }
 
 /// Light collected along the path if at depth z each length sends exp(-down z), `down` being the
@@ -34,19 +34,19 @@ LIMPID_INLINE F sun_left(const WaterPath<F>& way, F rate, F down) {
 /// than the view loses it (towards the surface, seen from below) the integral runs from the other
 /// end. `left` is sun_left(), for callers that have it already.
 template <class F>
-LIMPID_INLINE SunColumn<F> sun_column(const WaterPath<F>& way, F rate, F down, F left) {
-  const F total = rate + down * way.sink;
+LIMPID_INLINE SunColumn<F> sun_column(const WaterPath<F>& path, F rate, F down, F left) {
+  const F total = rate + down * path.sink;
   const auto brightens = total < F(0);
-  const F first = select(brightens, rate * way.length + down * way.end, down * way.begin);
-  const F share = far_share(abs(total), way.length, left);
-  F light = column_light(abs(total), way.length, left);
+  const F first = select(brightens, rate * path.length + down * path.end, down * path.begin);
+  const F share = far_share(abs(total), path.length, left);
+  F light = column_light(abs(total), path.length, left);
   // A path from the air begins at depth 0, with factor 1.
   if_any(first > F(0), [&] { light = exp(F(0) - first) * light; });
   return {light, select(brightens, F(1) - share, share)};
 }
 template <class F>
-LIMPID_INLINE SunColumn<F> sun_column(const WaterPath<F>& way, F rate, F down) {
-  return sun_column(way, rate, down, sun_left(way, rate, down));
+LIMPID_INLINE SunColumn<F> sun_column(const WaterPath<F>& path, F rate, F down) {
+  return sun_column(path, rate, down, sun_left(path, rate, down));
 }
 
 }  // namespace limpid

@@ -123,10 +123,10 @@ std::optional<TerminalPictures> terminal_pictures(
   return {};
 }
 
-std::string terminal_text(Size size, std::span<const std::uint8_t> rgb, TerminalPictures way) {
-  const auto text = way == TerminalPictures::kKitty   ? kitty_text
-                    : way == TerminalPictures::kIterm ? iterm_text
-                                                      : sixel_text;
+std::string terminal_text(Size size, std::span<const std::uint8_t> rgb, TerminalPictures protocol) {
+  const auto text = protocol == TerminalPictures::kKitty   ? kitty_text
+                    : protocol == TerminalPictures::kIterm ? iterm_text
+                                                           : sixel_text;
   return text(size, rgb) + "\n";
 }
 

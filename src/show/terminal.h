@@ -29,6 +29,6 @@ std::optional<TerminalPictures> terminal_pictures(
     const std::function<const char*(const char*)>& variable);
 
 /// The text for the terminal, with a line end: rgb are the picture's bytes, rows from the top.
-std::string terminal_text(Size size, std::span<const std::uint8_t> rgb, TerminalPictures way);
+std::string terminal_text(Size size, std::span<const std::uint8_t> rgb, TerminalPictures protocol);
 
 }  // namespace limpid

@@ -146,7 +146,7 @@ TEST(Continuation, WaysEndOnThePlane) {
   for (const int x : {3, 40, 90}) {
     ASSERT_TRUE(pool.leaves(x, Pool::kSize.height - 1));
     EXPECT_NEAR(on.aov(Aov::kPath, x, Pool::kSize.height - 1),
-                pool.end(x, Pool::kSize.height - 1).way, 1e-3);
+                pool.end(x, Pool::kSize.height - 1).distance, 1e-3);
     EXPECT_EQ(on.aov(Aov::kConfidence, x, Pool::kSize.height - 1), 0);
   }
 }

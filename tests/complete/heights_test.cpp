@@ -157,7 +157,7 @@ TEST(Heights, AreNotFarAbove) {
   EXPECT_NEAR(whole.deepest, 1.5, 0.1);
   EXPECT_NEAR(part.deepest, 1.5, 0.03);
   // The bottom lies at 0.4 of the path to the covered height: within the same errors.
-  const double share = Kernel<Refraction>::kShareOfWay;
+  const double share = Kernel<Refraction>::kShareOfPath;
   EXPECT_NEAR(part.covers, -1.5 / share, 0.1);
   // Under water that stands 0.3 higher the path to the bottom is 1.8 deep.
   b.set(PlaneId::kSurfaceDepth, [&](int x, int y) {

@@ -49,19 +49,19 @@ struct PoolOf {
   /// The end of a pixel's ray under calm water: its place in the picture, in pixels, the length of
   /// the path, and its place in the world.
   struct End {
-    double x, y, way;
+    double x, y, distance;
     glm::dvec3 at;  ///< relative to the eye
   };
   End end(int x, int y) const {
     const glm::dvec3 r = ray(x, y), point = (-2 / r.y) * r, in = glm::normalize(r);
     const glm::dvec3 level = glm::dvec3(in.x, 0, in.z) / 1.333;
     const glm::dvec3 t = level - glm::dvec3(0, std::sqrt(1 - glm::dot(level, level)), 0);
-    const double way = (-deep - 2 + rise * point.z - point.y) / (t.y - rise * t.z);
-    const glm::dvec3 at = point + way * t;
+    const double distance = (-deep - 2 + rise * point.z - point.y) / (t.y - rise * t.z);
+    const glm::dvec3 at = point + distance * t;
     const glm::dvec3 eye = scene.camera->eye();
     const glm::dvec4 clip = scene.camera->projection * scene.camera->view * glm::dvec4(eye + at, 1);
     return {(0.5 + 0.5 * clip.x / clip.w) * kSize.width - 0.5,
-            (0.5 - 0.5 * clip.y / clip.w) * kSize.height - 0.5, way, at};
+            (0.5 - 0.5 * clip.y / clip.w) * kSize.height - 0.5, distance, at};
   }
   bool leaves(int x, int y) const {
     const End e = end(x, y);

@@ -431,12 +431,12 @@ TEST(BeerLambert, AgreesWithTheSumSeenFromTheWater) {
       for (double length : {1.0, 9.0}) {
         const Angles towards{zenith, 1.0};
         const Pixel<double> pixel = seen_by_diver(towards, length);
-        const double way = pixel.side < 0 ? 3 / std::cos(zenith) : length;
+        const double distance = pixel.side < 0 ? 3 / std::cos(zenith) : length;
         DepthFog::Params params = params_of(t);
         params.crossing = Crossing::kRadiance;  // the viewer is in the water already
         const Pixel<double> got = fogged(params, scene, {StatePart::kPosition}, pixel);
-        EXPECT_NEAR(got.path, way, 1e-9);
-        const double expected = t.sun_scatter(3, towards.direction(), way);
+        EXPECT_NEAR(got.path, distance, 1e-9);
+        const double expected = t.sun_scatter(3, towards.direction(), distance);
         EXPECT_NEAR(got.in_scatter.r / expected, 1, 1e-5) << t.sun.zenith << " " << zenith;
       }
     }

@@ -68,13 +68,13 @@ struct View {
     return Pass(test::simple_scene(kSize), b.frame, 1.333, {});
   }
   /// The shift in pixels at this length of the ray.
-  double on_screen(double way) const {
-    const Vec2<double> shift = ray->shift_at(way);
+  double on_screen(double distance) const {
+    const Vec2<double> shift = ray->shift_at(distance);
     return std::hypot(kSize.width * shift.x, kSize.height * shift.y);
   }
   /// The length of the ray some pixels beyond this length.
-  double beyond(double way, double pixels) const {
-    return ray->at_share(ray->share_at(way, most) + pixels / on_screen(most), most);
+  double beyond(double distance, double pixels) const {
+    return ray->at_share(ray->share_at(distance, most) + pixels / on_screen(most), most);
   }
 
   test::Buffers buffers;
@@ -101,8 +101,8 @@ TEST(BottomSearch, KnownHeightsSaveLooksAndChangeNothing) {
   const auto known = march(view, {view.pass, view.pixel, 1, known_looks});
   EXPECT_EQ(each.sure, 1);
   EXPECT_EQ(known.sure, 1);
-  EXPECT_NEAR(each.way, 2, 1e-6);
-  EXPECT_EQ(known.way, each.way);
+  EXPECT_NEAR(each.distance, 2, 1e-6);
+  EXPECT_EQ(known.distance, each.distance);
   EXPECT_GT(each_looks, 20);
   EXPECT_LT(known_looks, each_looks / 2);
 }
@@ -112,13 +112,13 @@ TEST(BottomSearch, TheLevelBetweenTexelsIsNearTheStaircase) {
   for (const Vec3<double>& direction : {kDown, kAside}) {
     View view(direction);
     int looks = 0;
-    const auto way = [&](double mixed) {
-      return march(view, {view.pass, view.pixel, 1, looks, mixed}).way;
+    const auto distance = [&](double mixed) {
+      return march(view, {view.pass, view.pixel, 1, looks, mixed}).distance;
     };
     const double near = view.beyond(2, -1.5), far = view.beyond(2, 1.5);
-    EXPECT_NEAR(way(0.1), near, 0.1 * (2 - near));
-    EXPECT_NEAR(way(3), far, 0.1 * (far - 2));
-    EXPECT_NEAR(way(1 + 1e-4), 2 + 2e-4, 1e-9);
+    EXPECT_NEAR(distance(0.1), near, 0.1 * (2 - near));
+    EXPECT_NEAR(distance(3), far, 0.1 * (far - 2));
+    EXPECT_NEAR(distance(1 + 1e-4), 2 + 2e-4, 1e-9);
   }
 }
 
@@ -149,11 +149,11 @@ TEST(BottomSearch, BehindWhatHidesItTheBottomIsThatOfTheLayer) {
         view.pass, view.pixel, drop, looks, kShelf, kShelf, view.ray->shift_at(3).x};
     const auto found = march(view, tap);
     EXPECT_EQ(found.sure, 0);
-    EXPECT_LT(found.way, view.most);
-    EXPECT_NEAR(found.way, drop / 0.5, 1e-9);
+    EXPECT_LT(found.distance, view.most);
+    EXPECT_NEAR(found.distance, drop / 0.5, 1e-9);
     FlatBottom without = tap;
     without.ended = 1;
-    EXPECT_EQ(march(view, without).way, HUGE_VAL);
+    EXPECT_EQ(march(view, without).distance, HUGE_VAL);
   }
 }
 
@@ -164,13 +164,13 @@ TEST(BottomSearch, ACliffIsMetBetweenTwoLooks) {
   int looks = 0;
   const double stride = view.on_screen(view.most) / 48;
   for (const double pixels : {0.0, 0.2, 0.4, 0.6, 0.8}) {
-    const double way = view.beyond(2, pixels * stride);
-    const double from = view.ray->shift_at(way).x;
-    const double begins = view.ray->shift_at(view.beyond(way, -0.3 * stride)).x;
-    const auto found =
-        march(view, {view.pass, view.pixel, 3, looks, 3, 0.55 * 0.5 * way, from, from - begins});
+    const double distance = view.beyond(2, pixels * stride);
+    const double from = view.ray->shift_at(distance).x;
+    const double begins = view.ray->shift_at(view.beyond(distance, -0.3 * stride)).x;
+    const auto found = march(
+        view, {view.pass, view.pixel, 3, looks, 3, 0.55 * 0.5 * distance, from, from - begins});
     EXPECT_EQ(found.sure, 1) << pixels;
-    EXPECT_LE(found.way, way * 1.05) << pixels;
+    EXPECT_LE(found.distance, distance * 1.05) << pixels;
   }
 }
 

@@ -158,9 +158,9 @@ TEST(DepthFog, BoundsKnowWhichWayTheWaterScatters) {
 }
 
 // The sun lights the scattering water and, under a surface that reflects from below, the bottom.
-Ranges ranges_at(const Tray& tray, double way) {
+Ranges ranges_at(const Tray& tray, double distance) {
   Ranges ranges;
-  ranges.own = {way, way};
+  ranges.own = {distance, distance};
   ranges.color = {{{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}};
   ranges.light = 0.5;
   const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
@@ -178,14 +178,14 @@ TEST(DepthFog, NoLightFromBelowIsBrighterThanItsRangesSay) {
   sunlit.sunlight = DepthFog::Sunlight::kNone;
   for (const DepthFog::Params& fog : {red, sunlit}) {
     tray.look.of<DepthFog>() = fog;
-    for (const float way : {0.1f, 1.0f, 20.0f}) {
-      tray.buffers.fill(PlaneId::kDepth, 10 + way);
+    for (const float distance : {0.1f, 1.0f, 20.0f}) {
+      tray.buffers.fill(PlaneId::kDepth, 10 + distance);
       const test::Picture got = tray.wet();
-      const double bound = ranges_at(tray, way).light;
+      const double bound = ranges_at(tray, distance).light;
       for (int c = 0; c < 3; ++c) {
         const double light =
             got.aov(Aov::kTransmitted, 1, 1, c) + got.aov(Aov::kInScatter, 1, 1, c);
-        EXPECT_LE(light, bound * (1 + 1e-6)) << way;
+        EXPECT_LE(light, bound * (1 + 1e-6)) << distance;
       }
     }
   }

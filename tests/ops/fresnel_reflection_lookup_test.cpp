@@ -190,11 +190,11 @@ TEST(ReflectedRay, FindsTheWallThatTheWaveMirrors) {
         const glm::dvec3 start = eye - eye.y / ray.y * ray;
         const Vec3<double> to_viewer = normalize_or<double>({-ray.x, -ray.y, -ray.z}, {0, 1, 0});
         const Vec3<double> away = mirror(to_viewer, normal);
-        const double way = (-10 - start.z) / away.z;
+        const double distance = (-10 - start.z) / away.z;
         if (start.z < -9) continue;
         ++seen;
-        EXPECT_NEAR(got.color(x, y).r, start.x + way * away.x, 0.02);
-        EXPECT_NEAR(got.color(x, y).g, -way * away.y, 0.02);
+        EXPECT_NEAR(got.color(x, y).r, start.x + distance * away.x, 0.02);
+        EXPECT_NEAR(got.color(x, y).g, -distance * away.y, 0.02);
       }
     }
     EXPECT_GT(seen, 200);

@@ -54,10 +54,10 @@ struct Basin {
     const glm::dvec3 in = glm::normalize(ray);
     const glm::dvec3 sideways = glm::dvec3(in.x, 0, in.z) / ior;
     const glm::dvec3 t = sideways - glm::dvec3(0, std::sqrt(1 - glm::dot(sideways, sideways)), 0);
-    const double way = (-depth + slope * surface.z) / (t.y - slope * t.z);
+    const double distance = (-depth + slope * surface.z) / (t.y - slope * t.z);
     const glm::dvec4 clip =
-        scene.camera->projection * scene.camera->view * glm::dvec4(surface + way * t, 1);
-    return {{0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w}, way};
+        scene.camera->projection * scene.camera->view * glm::dvec4(surface + distance * t, 1);
+    return {{0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w}, distance};
   }
 
   test::Picture wet() const { return test::reference(look, buffers.frame, scene); }
@@ -235,10 +235,10 @@ TEST(Snell, FogOffTheFrameComesGradually) {
   int between = 0;
   for (int y = 20; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
-      const double kept = fog.aov(Aov::kTransmitted, x, y), way = clear.aov(Aov::kPath, x, y);
+      const double kept = fog.aov(Aov::kTransmitted, x, y), distance = clear.aov(Aov::kPath, x, y);
       if (kept < 0.01 || kept > 0.99) continue;
       ++between;
-      EXPECT_NEAR(kept * fog.aov(Aov::kPath, x, y), way, 1e-5 * way) << x << " " << y;
+      EXPECT_NEAR(kept * fog.aov(Aov::kPath, x, y), distance, 1e-5 * distance) << x << " " << y;
     }
   }
   EXPECT_GT(between, 20);

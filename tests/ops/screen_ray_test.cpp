@@ -86,9 +86,9 @@ TEST(ScreenRay, PassesThroughWhatTheCameraSeesAtItsPlaces) {
     const Pixel<double> p = pixel_at(c, 20.5, 30.5, 3);
     for (const Vec2<double>& pixels : {Vec2<double>{9, 4}, {-7, 12}, {0.5, -3}, {-15, -2}}) {
       const Vec3<double> end = point_at(c, 20.5 + pixels.x, 30.5 + pixels.y, 5);
-      const Vec3<double> way = end - p.surface_point;
-      const double far = length(way);
-      const ScreenRay<double> ray(c, p, (1 / far) * way);
+      const Vec3<double> offset = end - p.surface_point;
+      const double far = length(offset);
+      const ScreenRay<double> ray(c, p, (1 / far) * offset);
       const Vec2<double> shift = shift_of(pixels.x, pixels.y), got = ray.shift_at(far);
       EXPECT_NEAR(got.x, shift.x, 1e-9) << parallel;
       EXPECT_NEAR(got.y, shift.y, 1e-9) << parallel;
@@ -127,7 +127,7 @@ TEST(ScreenRay, HeightsAndWaysAreThoseOfThePointsSeen) {
       for (const double depth : {0.5, 3.0, 40.0}) {
         const Vec3<double> there = point_at(c, 20.5 + pixels.x, 30.5 + pixels.y, depth);
         EXPECT_NEAR(height_at(c, p, shift, depth), height_of(c, there), 1e-9) << parallel;
-        const Vec3<double> want = there - p.surface_point, got = way_to(c, p, shift, depth);
+        const Vec3<double> want = there - p.surface_point, got = offset_to(c, p, shift, depth);
         EXPECT_NEAR(got.x, want.x, 1e-9) << parallel;
         EXPECT_NEAR(got.y, want.y, 1e-9) << parallel;
         EXPECT_NEAR(got.z, want.z, 1e-9) << parallel;

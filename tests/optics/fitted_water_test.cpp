@@ -39,8 +39,9 @@ Rgb<double> absorption_709(const NamedWater& water) {
                                          : water_optics(water.type).absorption;
 }
 
-Rgb<double> left(const Rgb<double>& rates, double way) {
-  return {std::exp(-rates.r * way), std::exp(-rates.g * way), std::exp(-rates.b * way)};
+Rgb<double> left(const Rgb<double>& rates, double distance) {
+  return {std::exp(-rates.r * distance), std::exp(-rates.g * distance),
+          std::exp(-rates.b * distance)};
 }
 
 double apart(const Rgb<double>& a, const Rgb<double>& b) {
@@ -50,7 +51,8 @@ double apart(const Rgb<double>& a, const Rgb<double>& b) {
 /// The largest difference over paths of a millimetre to three kilometres, or to `most`.
 double worst(const std::function<double(double)>& at, double most = 3000) {
   double largest = 0;
-  for (double way = 1e-3; way <= most; way *= 1.05) largest = std::max(largest, at(way));
+  for (double distance = 1e-3; distance <= most; distance *= 1.05)
+    largest = std::max(largest, at(distance));
   return largest;
 }
 
@@ -104,8 +106,9 @@ TEST(FittedWater, NoOtherRateFitsBetter) {
     const Rgb<double> best = fitted_rates(weights, rates);
     const auto error_of = [&](double rate, double Rgb<double>::*channel) {
       double sum = 0;
-      for (double way = 1e-3; way < 1e4; way *= 1.1) {
-        const double difference = std::exp(-rate * way) - light_left(weights, rates, way).*channel;
+      for (double distance = 1e-3; distance < 1e4; distance *= 1.1) {
+        const double difference =
+            std::exp(-rate * distance) - light_left(weights, rates, distance).*channel;
         sum += difference * difference;
       }
       return sum;
@@ -129,8 +132,9 @@ TEST(FittedWater, IsNearTheSpectrumAtEveryLength) {
     for (const NamedWater& water : waters()) {
       const Spectrum rates = spectra_of(water).absorption;
       const auto off_by = [&](const Rgb<double>& of) {
-        return worst(
-            [&](double way) { return apart(left(of, way), light_left(weights, rates, way)); });
+        return worst([&](double distance) {
+          return apart(left(of, distance), light_left(weights, rates, distance));
+        });
       };
       const double fitted = off_by(fitted_water(primaries, water).type.absorption);
       EXPECT_LT(fitted, .065) << name << " " << name_of(water);
@@ -148,13 +152,15 @@ TEST(FittedWater, ConvertedBeforeIsNearlyConvertedAfter) {
   for (const NamedWater& water : waters()) {
     const Rgb<double> rates = absorption_709(water);
     const Rgb<double> fit = fitted_water(acescg, water).type.absorption;
-    const auto after = [&](double way) {
-      const Rgb<double> c = left(rates, way);
+    const auto after = [&](double distance) {
+      const Rgb<double> c = left(rates, distance);
       const glm::dvec3 v = convert * glm::dvec3(c.r, c.g, c.b);
       return Rgb<double>{v.x, v.y, v.z};
     };
-    const double fitted = worst([&](double way) { return apart(left(fit, way), after(way)); });
-    const double unfitted = worst([&](double way) { return apart(left(rates, way), after(way)); });
+    const double fitted =
+        worst([&](double distance) { return apart(left(fit, distance), after(distance)); });
+    const double unfitted =
+        worst([&](double distance) { return apart(left(rates, distance), after(distance)); });
     EXPECT_LT(fitted, .12) << name_of(water);
     if (rates.g < .1) {  // clear: red and green are far apart
       EXPECT_GT(unfitted, 1.8 * fitted) << name_of(water);

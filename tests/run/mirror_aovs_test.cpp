@@ -134,8 +134,8 @@ TEST(MirrorAovs, UnresolvedWavesMirrorAWallByTheFacetsThatSeeIt) {
       for (int y = kSize.height - 9; y < kSize.height; ++y) {
         const int x = kSize.width / 2;
         const glm::dvec3 ray = shore.ray(x, y);
-        const double way = -2 / ray.y, eye = std::atan(-ray.y / -ray.z);
-        const double right = share_under(std::atan(top / (8 + way * ray.z)), eye, kDeviation);
+        const double distance = -2 / ray.y, eye = std::atan(-ray.y / -ray.z);
+        const double right = share_under(std::atan(top / (8 + distance * ray.z)), eye, kDeviation);
         const double is = judge.aov(Aov::kReflected, x, y, 0);
         worst = std::max(worst, std::abs(is - right));
         sum += is - right;

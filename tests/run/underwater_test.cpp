@@ -114,8 +114,8 @@ TEST_P(Underwater, APixelIsInTheWaterWhereItsWindowIsUnderTheWave) {
       (wet ? in_water : in_air) += 1;
       EXPECT_EQ(p.target.alpha.at(x, y), wet ? 1 : 0.5f) << x << ", " << y << ": " << over;
       // The water begins at the eye, not at the window: the short path between the two counts too.
-      const double way = kWall * glm::length(ray_of(scene, x, y));
-      EXPECT_NEAR(p.aov(Aov::kPath, x, y), wet ? way : 0, 1e-5);
+      const double distance = kWall * glm::length(ray_of(scene, x, y));
+      EXPECT_NEAR(p.aov(Aov::kPath, x, y), wet ? distance : 0, 1e-5);
       EXPECT_EQ(p.aov(Aov::kSurfaceDepth, x, y), test::kInf);
       for (int c = 0; c < 3; ++c) {
         const float dry = b.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
@@ -233,15 +233,15 @@ TEST_P(Underwater, BeyondTheCriticalAngleTheSurfaceIsAMirror) {
   int total = 0, through = 0;
   for_each_pixel([&](int x, int y) {
     const glm::dvec3 ray = glm::normalize(ray_of(scene, x, y));
-    const double degrees = std::acos(ray.y) * 180 / std::numbers::pi, way = 1 / ray.y;
+    const double degrees = std::acos(ray.y) * 180 / std::numbers::pi, distance = 1 / ray.y;
     if (std::abs(degrees - 48.6) < 0.2) return;
-    EXPECT_NEAR(p.aov(Aov::kPath, x, y), way, 1e-5 * way);
+    EXPECT_NEAR(p.aov(Aov::kPath, x, y), distance, 1e-5 * distance);
     const double f = degrees > 48.6 ? 1 : fresnel_exact(ray.y, 1 / kIor);
     EXPECT_NEAR(p.aov(Aov::kFresnel, x, y), f, 2e-5);
     (degrees > 48.6 ? total : through) += 1;
     const double rates[] = {0.3, 0.1, 0.05}, mirrored[] = {0.5, 0.6, 0.7};
     for (int c = 0; c < 3; ++c) {
-      const double survives = std::exp(-rates[c] * way);
+      const double survives = std::exp(-rates[c] * distance);
       EXPECT_NEAR(p.aov(Aov::kReflected, x, y, c), f * survives * mirrored[c], 2e-5);
       if (f == 1) {
         EXPECT_EQ(p.aov(Aov::kTransmitted, x, y, c), 0);
@@ -273,8 +273,8 @@ TEST_P(Underwater, WhatTheSurfaceMirrorsIsSeenThroughTheWaterToo) {
       Buffers b = wall_at(test::kInf);
       b.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
       const auto to_level = [&](double up, int x, int y) {
-        const double way = up / ray_of(scene, x, y).y;
-        return way > 0 ? static_cast<float>(way) : test::kInf;
+        const double distance = up / ray_of(scene, x, y).y;
+        return distance > 0 ? static_cast<float>(distance) : test::kInf;
       };
       b.set(PlaneId::kDepth, [&](int x, int y) { return to_level(1 - kDeep, x, y); });
       for (int c = 0; c < 3; ++c) b.fill(plane_after(PlaneId::kColorR, c), kLight);

@@ -121,10 +121,10 @@ TEST(WindOnMaps, WavesRunWithTheWind) {
   for (const Model model : kMapModels) {
     for (const double degrees : {0.0, 90.0, 200.0}) {
       Sea sea(model, kWind, degrees, 1);
-      const double way = kMoment * (phase_speed(kTile / 8) + skin_drift(kWind));
+      const double distance = kMoment * (phase_speed(kTile / 8) + skin_drift(kWind));
       const Picture now = sea.at(3);
       const auto moved = [&](double angle) {
-        const Vec2<double> d = way * towards(angle);
+        const Vec2<double> d = distance * towards(angle);
         return apart(now, sea.at(3 + kMoment, d.x, d.y));
       };
       const double downwind = moved(degrees);
@@ -150,9 +150,9 @@ TEST(WindOnMaps, WavesRunAsFastAsTheirLength) {
       double aside_of_all = 0, ahead_of_all = 0;
       for (int i = 0; i < 4; ++i) {
         // A lookup that moves back shows waves that move forward.
-        const Vec2<double> way = tile / 2 * (begin.of[i] - later.of[i]);
-        const double along = way.x * ahead.x + way.y * ahead.y - skin_drift(wind);
-        const double across = way.y * ahead.x - way.x * ahead.y;
+        const Vec2<double> moved = tile / 2 * (begin.of[i] - later.of[i]);
+        const double along = moved.x * ahead.x + moved.y * ahead.y - skin_drift(wind);
+        const double across = moved.y * ahead.x - moved.x * ahead.y;
         const double length = tile / 4 * std::pow(0.5, i * 0.5);
         EXPECT_NEAR(std::hypot(along, across), phase_speed(length), 1e-4 * phase_speed(length));
         EXPECT_GT(along, std::abs(across)) << "within 45 degrees";

@@ -113,7 +113,7 @@ TEST(Terminal, IsKnownByItsEnvironment) {
       {{{"TERM", "xterm-sixel"}}, TerminalPictures::kSixel},
       {{{"TERM", "xterm-256color"}, {"KONSOLE_VERSION", "221203"}}, TerminalPictures::kSixel},
   };
-  for (const auto& [environment, way] : known) EXPECT_EQ(told_by(environment), way);
+  for (const auto& [environment, protocol] : known) EXPECT_EQ(told_by(environment), protocol);
 }
 
 TEST(Terminal, ThatIsNotKnownHasNoPictures) {

@@ -46,19 +46,19 @@ class ShowTest : public ToolTest {
 };
 
 TEST_F(ShowTest, WritesThePreviewToTheTerminalThatIsNamed) {
-  for (const char* way : {"kitty", "iterm", "sixel"}) {
+  for (const char* protocol : {"kitty", "iterm", "sixel"}) {
     const Ran ran =
-        composite("wet.exr", {"--preview", "wet.png", "-q", std::string("--show=") + way});
+        composite("wet.exr", {"--preview", "wet.png", "-q", std::string("--show=") + protocol});
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Decoded preview = bytes_of("wet.png");
-    const std::string name = way;
+    const std::string name = protocol;
     const Decoded shown = name == "kitty"   ? decoded_kitty(ran.out)
                           : name == "iterm" ? decoded_iterm(ran.out)
                                             : decoded_sixel(ran.out);
-    EXPECT_EQ(shown.size, preview.size) << way;
+    EXPECT_EQ(shown.size, preview.size) << protocol;
     const Apart by = apart(shown.rgb, preview.rgb);
-    EXPECT_LE(by.mean, name == "sixel" ? 5 : 0) << way;
-    EXPECT_LE(by.most, name == "sixel" ? 40 : 0) << way;
+    EXPECT_LE(by.mean, name == "sixel" ? 5 : 0) << protocol;
+    EXPECT_LE(by.most, name == "sixel" ? 40 : 0) << protocol;
   }
 }
 

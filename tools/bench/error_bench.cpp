@@ -12,17 +12,17 @@
 namespace limpid::bench {
 namespace {
 
-struct WayRow : Row {
+struct VariantRow : Row {
   Plan plan;
   TruthError error = {};
 };
 
-std::vector<WayRow> rows_of(const Lagoon& lagoon) {
-  std::vector<WayRow> rows;
-  for (const Lagoon::Refracted& way : Lagoon::ways_to_refract()) {
-    WayRow& row = rows.emplace_back();
-    row.name = way.name;
-    row.plan = lagoon.plan(way.look);
+std::vector<VariantRow> rows_of(const Lagoon& lagoon) {
+  std::vector<VariantRow> rows;
+  for (const Lagoon::Refracted& variant : Lagoon::refraction_variants()) {
+    VariantRow& row = rows.emplace_back();
+    row.name = variant.name;
+    row.plan = lagoon.plan(variant.look);
   }
   return rows;
 }
@@ -32,10 +32,10 @@ void bench(const Arguments& arguments) {
   const std::string simd = arguments.best_simd();
   const auto executor = make_executor(1);
   const Picture picture(lagoon.window());
-  std::vector<WayRow> rows = rows_of(lagoon);
-  std::erase_if(rows, [&](const WayRow& row) { return !arguments.wants_row(row.name); });
+  std::vector<VariantRow> rows = rows_of(lagoon);
+  std::erase_if(rows, [&](const VariantRow& row) { return !arguments.wants_row(row.name); });
   arguments.expect_rows(!rows.empty());
-  for (WayRow& row : rows) {
+  for (VariantRow& row : rows) {
     row.run = [&] {
       return seconds_of([&] { lagoon.run(row.plan, picture.target, *executor, simd); });
     };
@@ -55,7 +55,7 @@ void bench(const Arguments& arguments) {
   std::printf("  %-24s %10s %10s %10s\n", "refraction", "all wet", "in frame", "ns/pixel");
   const TruthError dry = lagoon.error_of(lagoon.dry());
   std::printf("  %-24s %10.4f %10.4f %10s\n", "no water at all", dry.wet, dry.in_frame, "");
-  for (const WayRow& row : rows) {
+  for (const VariantRow& row : rows) {
     std::printf("  %-24s %10.4f %10.4f %10.2f\n", row.name.c_str(), row.error.wet,
                 row.error.in_frame, 1e9 * row.best_seconds / pixels);
   }

@@ -119,8 +119,8 @@ struct Loop {
     vec3 under(Taps(seen.x + prism.x, seen.y, n.size).of(color[0]),
                Taps(seen.x + 0.5f * prism.x, seen.y + 0.5f * prism.y, n.size).of(color[1]),
                Taps(seen.x, seen.y + prism.y, n.size).of(color[2]));
-    const float way = std::max(hit - water, 0.0f);
-    const float veil = fog_alpha * std::clamp(fog_density * way - fog_offset, 0.0f, 1.0f);
+    const float distance = std::max(hit - water, 0.0f);
+    const float veil = fog_alpha * std::clamp(fog_density * distance - fog_offset, 0.0f, 1.0f);
     under += veil * (fog_color - under);
     under *= 1 - shadow_strength * (1 - Taps(seen.x, seen.y, n.size).of(shadow));
 

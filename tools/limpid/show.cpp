@@ -14,7 +14,7 @@ constexpr const char* kNamed = "--show=kitty, --show=iterm or --show=sixel";
 
 }  // namespace
 
-std::optional<TerminalPictures> way_to_show(const WaterOptions& options) {
+std::optional<TerminalPictures> chosen_protocol(const WaterOptions& options) {
   if (options.show.empty()) return {};
   if (options.show != "auto") return terminal_pictures_named(options.show);
   if (::isatty(STDOUT_FILENO) == 0) {
@@ -22,8 +22,8 @@ std::optional<TerminalPictures> way_to_show(const WaterOptions& options) {
                     kNamed + " to write the picture anyway",
                 Fault::kUsage);
   }
-  const auto way = terminal_pictures([](const char* name) { return std::getenv(name); });
-  if (way) return way;
+  const auto protocol = terminal_pictures([](const char* name) { return std::getenv(name); });
+  if (protocol) return protocol;
   const char* const term = std::getenv("TERM");
   throw Error("--show: the terminal (TERM=" + std::string(term ? term : "") +
                   ") is not known to show pictures: expected kitty, iTerm2, one with sixels, or " +
@@ -31,8 +31,8 @@ std::optional<TerminalPictures> way_to_show(const WaterOptions& options) {
               Fault::kUsage);
 }
 
-void show(const PreviewPixels& picture, TerminalPictures way) {
-  const std::string text = terminal_text(picture.size, picture.rgb, way);
+void show(const PreviewPixels& picture, TerminalPictures protocol) {
+  const std::string text = terminal_text(picture.size, picture.rgb, protocol);
   std::fwrite(text.data(), 1, text.size(), stdout);
 }
 

@@ -12,9 +12,9 @@ namespace limpid::tool {
 
 /// The protocol for the picture; nothing without --show. Throws the usage Error if the standard
 /// output is no terminal, or none that is known to show pictures, and no protocol is named.
-std::optional<TerminalPictures> way_to_show(const WaterOptions& options);
+std::optional<TerminalPictures> chosen_protocol(const WaterOptions& options);
 
 /// Writes the picture to the standard output.
-void show(const PreviewPixels& picture, TerminalPictures way);
+void show(const PreviewPixels& picture, TerminalPictures protocol);
 
 }  // namespace limpid::tool

@@ -49,7 +49,7 @@ void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds,
 int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
   expect_output(a.water.output);
   Sequence sequence = sequence_of(a.frames, a.water);
-  const auto shown_by = way_to_show(a.water);
+  const auto shown_by = chosen_protocol(a.water);
   const CompositeJob job = common_job(a, sequence, common);
   const auto executor = executor_of(common);
   if (sequence.frames.empty()) {

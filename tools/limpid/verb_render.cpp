@@ -46,7 +46,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
 int water_verb(const RenderArguments& a, const CommonArguments& common) {
   Sequence sequence = sequence_of(a.frames, a.water);
   if (!a.water.dry_run) expect_output(a.water.output);
-  const auto shown_by = way_to_show(a.water);
+  const auto shown_by = chosen_protocol(a.water);
   const WaterJob job = water_job(a, common);
   const auto executor = executor_of(common);
   const Model model = model_to_render(job.scene, a.draw_what_you_can, common);

@@ -37,8 +37,9 @@ Worst eye_in_the_surface(const HardWorld& world) {
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
         const bool in_water = 2 * y + 1 > kSize.height;
-        const double way = in_water ? 3 * double(line.sea.at(x, y).length) : 0;
-        const bool right = std::abs(picture.aov(Aov::kPath, x, y) - way) <= 4 * kRounding * way;
+        const double distance = in_water ? 3 * double(line.sea.at(x, y).length) : 0;
+        const bool right =
+            std::abs(picture.aov(Aov::kPath, x, y) - distance) <= 4 * kRounding * distance;
         worst.expect(right, [&] { return place_text(runner, look.name, x, y); });
       }
     }

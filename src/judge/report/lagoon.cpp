@@ -82,15 +82,15 @@ std::vector<SineWave> Lagoon::waves() {
           {0.0103451, -0.61976, 2.33579, 0.718878}};
 }
 
-std::vector<Lagoon::Refracted> Lagoon::ways_to_refract() {
+std::vector<Lagoon::Refracted> Lagoon::refraction_variants() {
   using Rejection = Refraction::Rejection;
   Look none = truth_look();
   // The normals are calm: normal_offset shifts by 0, at any strength.
   none.of<Refraction>().model = Refraction::Model::kNormalOffset;
   none.of<Refraction>().strength = 0;
-  std::vector<Refracted> ways{{"no refraction", none}};
+  std::vector<Refracted> variants{{"no refraction", none}};
   for (const int steps : {0, 1, 2, 4, Refraction::kMarch}) {
-    const std::string way =
+    const std::string variant =
         steps == Refraction::kMarch ? "snell march" : "snell steps " + std::to_string(steps);
     const std::pair<const char*, Rejection> rejections[] = {
         {"none", Rejection::kNone}, {"snap", Rejection::kSnap}, {"shorten", Rejection::kShorten}};
@@ -98,10 +98,10 @@ std::vector<Lagoon::Refracted> Lagoon::ways_to_refract() {
       Look look = truth_look();
       look.of<Refraction>().steps = steps;
       look.of<Refraction>().rejection = rejection;
-      ways.push_back({way + ", " + name, look});
+      variants.push_back({variant + ", " + name, look});
     }
   }
-  return ways;
+  return variants;
 }
 
 Plan Lagoon::plan(const Look& look, StateSet outputs) const {

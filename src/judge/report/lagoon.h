@@ -45,7 +45,7 @@ class Lagoon {
     Look look;
   };
   /// No refraction, then each number of steps with each rejection.
-  static std::vector<Refracted> ways_to_refract();
+  static std::vector<Refracted> refraction_variants();
 
   Rect window() const { return plate_.frame.work(); }
   Plan plan(const Look& look, StateSet outputs = {}) const;

@@ -51,9 +51,9 @@ class Looks {
   }
 
   void add(RunnerRow row) {
-    std::string way = row.runner + (row.simd.empty() ? "" : " " + row.simd);
-    way += row.threads == 1 ? ", 1 thread" : ", " + std::to_string(row.threads) + " threads";
-    m_.say(row.subject + ", " + row.look + ", " + way + ": " +
+    std::string run = row.runner + (row.simd.empty() ? "" : " " + row.simd);
+    run += row.threads == 1 ? ", 1 thread" : ", " + std::to_string(row.threads) + " threads";
+    m_.say(row.subject + ", " + row.look + ", " + run + ": " +
            costs_text(row.ns_per_pixel, row.error));
     m_.report.runners.push_back(std::move(row));
   }
@@ -84,7 +84,7 @@ class Looks {
     std::vector<RunnerRow> rows;
     std::vector<Timed> timed;
     for (LookRun& run : runs_) {
-      const auto add_way = [&](const std::string& simd, Executor& executor, int threads) {
+      const auto add_runs = [&](const std::string& simd, Executor& executor, int threads) {
         Timed work{[&, simd] {
           run_fused(run.plan, run.frame, subject_.scene(), scratch.target, executor,
                     {.simd = simd});
@@ -95,8 +95,8 @@ class Looks {
                         m_.options.rounds, 0, error_of(scratch, run.exact, false)});
         timed.push_back(std::move(work));
       };
-      for (const std::string& simd : simd_targets()) add_way(simd, m_.one, 1);
-      if (m_.threads > 1) add_way(m_.simd, m_.many, m_.threads);
+      for (const std::string& simd : simd_targets()) add_runs(simd, m_.one, 1);
+      if (m_.threads > 1) add_runs(m_.simd, m_.many, m_.threads);
       run_fused(run.plan, run.frame, subject_.scene(), run.fused.target, m_.many,
                 {.simd = m_.simd});
     }

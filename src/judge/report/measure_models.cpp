@@ -18,13 +18,13 @@ namespace {
 constexpr std::array<std::string_view, 4> kShown = {
     "no refraction", "snell steps 0, snap", "snell steps 2, shorten", "snell march, shorten"};
 
-void draw_truth(const Measuring& m, const Lagoon& lagoon, const std::string& way,
+void draw_truth(const Measuring& m, const Lagoon& lagoon, const std::string& variant,
                 const Picture& picture) {
-  if (std::find(kShown.begin(), kShown.end(), way) == kShown.end()) return;
-  m.report.truth_errors.push_back(
-      heat_figure_of(way, way + ", difference from the truth", picture.color(), lagoon.truth()));
-  if (way == kShown.back()) {
-    m.report.truth_figures.push_back(figure_of(way, way, picture.color()));
+  if (std::find(kShown.begin(), kShown.end(), variant) == kShown.end()) return;
+  m.report.truth_errors.push_back(heat_figure_of(variant, variant + ", difference from the truth",
+                                                 picture.color(), lagoon.truth()));
+  if (variant == kShown.back()) {
+    m.report.truth_figures.push_back(figure_of(variant, variant, picture.color()));
   }
 }
 
@@ -41,20 +41,20 @@ void measure_truth(const Measuring& m) {
   report.truth.push_back({"the dry picture", 0, dry.wet, dry.in_frame});
 
   const Picture picture(lagoon.window());
-  const std::vector<Lagoon::Refracted> ways = Lagoon::ways_to_refract();
+  const std::vector<Lagoon::Refracted> variants = Lagoon::refraction_variants();
   std::vector<Plan> plans;
-  for (const Lagoon::Refracted& way : ways) plans.push_back(lagoon.plan(way.look));
+  for (const Lagoon::Refracted& variant : variants) plans.push_back(lagoon.plan(variant.look));
   std::vector<Timed> timed;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     timed.push_back({[&, i] { lagoon.run(plans[i], picture.target, m.one, m.simd); }});
     timed[i].run();
     const TruthError error = lagoon.error_of(picture.color());
-    report.truth.push_back({ways[i].name, 0, error.wet, error.in_frame});
-    draw_truth(m, lagoon, ways[i].name, picture);
+    report.truth.push_back({variants[i].name, 0, error.wet, error.in_frame});
+    draw_truth(m, lagoon, variants[i].name, picture);
   }
   time_rounds(timed, m.options.rounds);
   const double pixels = static_cast<double>(lagoon.window().area());
-  for (std::size_t i = 0; i < ways.size(); ++i) {
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     TruthRow& row = report.truth[i + 1];
     row.ns_per_pixel = 1e9 * timed[i].best_seconds / pixels;
     m.say("truth, " + row.choice + ": " + short_number(row.ns_per_pixel) + " ns/pixel, error " +

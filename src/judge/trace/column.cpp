@@ -49,10 +49,10 @@ class Walker {
     double depth = 0;
     for (;;) {
       const double to_edge = ahead.z < 0 ? (end_ - depth) / -ahead.z : depth / ahead.z;
-      const double way = -std::log1p(-samples.next()) / chances.drawn(rate_);
-      if (way < to_edge) {
-        depth -= way * ahead.z;
-        chances.go_on(rate_ * transmittance(way, rate_));
+      const double distance = -std::log1p(-samples.next()) / chances.drawn(rate_);
+      if (distance < to_edge) {
+        depth -= distance * ahead.z;
+        chances.go_on(rate_ * transmittance(distance, rate_));
         light = light + henyey_greenstein(glm::dot(to_sun_, ahead), column_.anisotropy) *
                             (chances.worth() * albedo_ * sunlight_at(depth));
         if (samples.next() >= chances.drawn(albedo_)) return light;

@@ -241,8 +241,8 @@ double Tracer::sunlit_column(const Ray& ray, double length, double rate, double 
   for (Part& p : parts) {
     if (!(p.length > 0)) continue;
     const bool above = p.begin + p.end < 0;
-    const WaterPath<double> way{p.length, sinks, std::max(p.begin, 0.0), std::max(p.end, 0.0)};
-    p.light = std::exp(-rate * p.from) * sun_column(way, rate, above ? 0 : down).light;
+    const WaterPath<double> path{p.length, sinks, std::max(p.begin, 0.0), std::max(p.end, 0.0)};
+    p.light = std::exp(-rate * p.from) * sun_column(path, rate, above ? 0 : down).light;
     whole += p.light;
   }
   double reached = 0;

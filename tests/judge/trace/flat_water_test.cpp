@@ -253,19 +253,19 @@ TEST(FlatWater, LosesNoSunlightAboveTheCalmPlane) {
       const double slope = eye > 0 ? std::sqrt(1 - (1 - d.y * d.y) / (n * n)) : d.y;
       for (int c = 0; c < 3; ++c) {
         const double r = channel(rate, c);
-        double way = 0;  // without loss, of as much light
+        double column = 0;  // length of a path without loss that sends as much light
         if (eye > 0) {
           const double above = kCrest / slope, below = kDepth / slope, total = r + r * slope;
-          way = (1 - std::exp(-r * above)) / r +
-                std::exp(-r * above) * (1 - std::exp(-total * below)) / total;
+          column = (1 - std::exp(-r * above)) / r +
+                   std::exp(-r * above) * (1 - std::exp(-total * below)) / total;
         } else {
           // Sunlight at depth 1 - slope s: e^-r of it is left at the eye.
           const double below = 1 / slope, above = kCrest / slope, total = r - r * slope;
-          way = std::exp(-r) * (1 - std::exp(-total * below)) / total +
-                std::exp(-r * below) * (1 - std::exp(-r * above)) / r;
+          column = std::exp(-r) * (1 - std::exp(-total * below)) / total +
+                   std::exp(-r * below) * (1 - std::exp(-r * above)) / r;
         }
         const double sun = kPi * channel(scene.sun->color, c) * 0.5 * r / (4 * kPi);
-        EXPECT_NEAR(value(p, Aov::kInScatter, x, y, c), (1 - f) * sun * way, 1e-6);
+        EXPECT_NEAR(value(p, Aov::kInScatter, x, y, c), (1 - f) * sun * column, 1e-6);
       }
     });
     EXPECT_GT(seen, 300) << degrees;

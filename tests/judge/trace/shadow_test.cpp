@@ -89,16 +89,16 @@ TEST(TracedShadow, TheGlowOfTheWaterIsThatOfItsSunlitPart) {
     const double entry = 0.5 + d.x * (0.3 / -d.y);
     if (entry < 0) return;
     const double inside = std::sqrt(1 - (1 - d.y * d.y) / (kTraceIor * kTraceIor));
-    const double way = kDepth / inside;
-    const double sunlit = d.x < 0 ? std::min(way, entry * kTraceIor / -d.x) : way;
+    const double distance = kDepth / inside;
+    const double sunlit = d.x < 0 ? std::min(distance, entry * kTraceIor / -d.x) : distance;
     const double rate = 0.3 + 0.2, total = rate + rate * inside;
     const double f = value(p, Aov::kFresnel, x, y);
     const auto glow = [&](double length) {
       return (1 - f) * kPi * 2 * 0.2 / (4 * kPi) * (1 - std::exp(-total * length)) / total;
     };
     // 32 places on each path, of equal light: half of the light of one place may be missed.
-    EXPECT_NEAR(value(p, Aov::kInScatter, x, y), glow(sunlit), glow(way) / 63);
-    partly += sunlit < way;
+    EXPECT_NEAR(value(p, Aov::kInScatter, x, y), glow(sunlit), glow(distance) / 63);
+    partly += sunlit < distance;
     sum += value(p, Aov::kInScatter, x, y);
     expected += glow(sunlit);
   });
