@@ -69,7 +69,8 @@ class Printer {
         uses_(r_.nodes.size()),
         pinned_(r_.nodes.size()),
         chosen_(r_.nodes.size()),
-        defined_(r_.nodes.size()) {
+        defined_(r_.nodes.size()),
+        printed_(r_.flows.size()) {
     if (computes_frame) of_frame_ = values_of_frame(r_);
     count_uses();
   }
@@ -82,15 +83,10 @@ class Printer {
           title_ = r_.titles[static_cast<std::size_t>(s->what)];
           break;
         case Statement::Kind::kNode:
-          if (!r_.live[static_cast<std::size_t>(s->what)]) break;
-          if (at(s->what).op == NodeOp::kTiledWide) {
-            tiled_wide(s->what, std::span(s, statements.end()), indent);
-          } else {
-            define_once(s->what, indent);
-          }
+          node(std::span(s, statements.end()), indent);
           break;
         case Statement::Kind::kFlow:
-          flow(s->what, indent);
+          flow(std::span(s, statements.end()), indent);
           break;
       }
     }
@@ -389,6 +385,14 @@ class Printer {
     line(indent, "}");
   }
 
+  /// The first of these statements.
+  void node(std::span<const Statement> rest, int indent) {
+    const int id = rest[0].what;
+    if (!r_.live[static_cast<std::size_t>(id)]) return;
+    if (at(id).op == NodeOp::kTiledWide) return tiled_wide(id, rest, indent);
+    define_once(id, indent);
+  }
+
   void define_once(int id, int indent) {
     if (defined_[static_cast<std::size_t>(id)]) return;
     defined_[static_cast<std::size_t>(id)] = true;
@@ -429,31 +433,85 @@ class Printer {
     return false;
   }
 
-  void flow(int index, int indent) {
-    const Flow& flow = r_.flows[static_cast<std::size_t>(index)];
-    if (!r_.is_live(flow)) return;
+  const Flow& flow_at(int index) const { return r_.flows[static_cast<std::size_t>(index)]; }
+
+  std::vector<Flow::Merge> live_merges(const Flow& flow) const {
     std::vector<Flow::Merge> merges;
     for (const Flow::Merge& m : flow.merges) {
       if (r_.live[static_cast<std::size_t>(m.merged)]) merges.push_back(m);
     }
-    std::vector<std::string> otherwise;
-    for (const Flow::Merge& m : merges) {
-      const std::string name = fresh('v');
-      std::string begins = m.before < 0 ? "" : " = " + value(m.before);
-      if (!flow.loops && is_otherwise(m.before)) {
-        otherwise.push_back(name + std::exchange(begins, {}));
+    return merges;
+  }
+
+  std::string declare(const Flow::Merge& m) {
+    names_[m.merged] = fresh('v');
+    return std::string(type_word(at(m.merged).type)) + " " + names_[m.merged];
+  }
+
+  /// The first of these statements.
+  void flow(std::span<const Statement> rest, int indent) {
+    const Flow& flow = flow_at(rest[0].what);
+    if (!r_.is_live(flow) || printed_[static_cast<std::size_t>(rest[0].what)]) return;
+    flow.loops ? loop(flow, indent) : ifs(rest, indent);
+  }
+
+  /// An if, and those behind it that have its condition, if nothing between them needs what the
+  /// first ones change: more lookups are on their way together, and each number that they share
+  /// lives for a shorter time.
+  void ifs(std::span<const Statement> rest, int indent) {
+    const int condition = flow_at(rest[0].what).condition;
+    std::vector<Statement> all{rest[0]};
+    std::string title;
+    std::vector<std::string> titles{""};
+    Known known;
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < rest.size(); ++i) {
+      const Statement& s = rest[i];
+      if (s.kind == Statement::Kind::kTitle) title = r_.titles[static_cast<std::size_t>(s.what)];
+      if (s.kind == Statement::Kind::kNode && r_.live[static_cast<std::size_t>(s.what)] &&
+          !is_at_hand(s.what, known)) {
+        break;
       }
-      line(indent, std::string(type_word(at(m.merged).type)) + " " + name + begins + ";");
-      names_[m.merged] = name;
+      if (s.kind != Statement::Kind::kFlow || !r_.is_live(flow_at(s.what))) continue;
+      if (flow_at(s.what).loops || flow_at(s.what).condition != condition) break;
+      all.push_back(s);
+      titles.push_back(std::exchange(title, {}));
+      last = i;
     }
-    if (!flow.loops) {
-      line(indent, "if (" + bare(value(flow.condition)) + ") {");
+    for (std::size_t i = 1; i < last; ++i) {
+      if (rest[i].kind == Statement::Kind::kNode) node(rest.subspan(i), indent);
+    }
+    std::unordered_map<int, int> begins;  // the number of each merge where nothing changes it
+    std::vector<std::string> otherwise;
+    for (const Statement& s : all) {
+      for (const Flow::Merge& m : live_merges(flow_at(s.what))) {
+        const auto earlier = begins.find(m.before);
+        const int before = earlier == begins.end() ? m.before : earlier->second;
+        begins[m.merged] = before;
+        const std::string begin = before < 0 ? "" : " = " + value(before);
+        const std::string declared = declare(m);
+        if (is_otherwise(before)) otherwise.push_back(names_[m.merged] + begin);
+        line(indent, declared + (is_otherwise(before) ? "" : begin) + ";");
+      }
+    }
+    line(indent, "if (" + bare(value(condition)) + ") {");
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Flow& flow = flow_at(all[k].what);
+      if (!titles[k].empty()) title_ = titles[k];
       block(flow.block, indent + 1);
-      leave(merges, indent + 1);
-      if (!otherwise.empty()) line(indent, "} else {");
-      for (const std::string& set : otherwise) line(indent + 1, set + ";");
-      line(indent, "}");
-      return;
+      leave(live_merges(flow), indent + 1);
+      printed_[static_cast<std::size_t>(all[k].what)] = true;
+    }
+    if (!otherwise.empty()) line(indent, "} else {");
+    for (const std::string& set : otherwise) line(indent + 1, set + ";");
+    line(indent, "}");
+  }
+
+  void loop(const Flow& flow, int indent) {
+    const std::vector<Flow::Merge> merges = live_merges(flow);
+    for (const Flow::Merge& m : merges) {
+      const std::string begin = m.before < 0 ? "" : " = " + value(m.before);
+      line(indent, declare(m) + begin + ";");
     }
     const std::string i = fresh('i');
     names_[flow.index] = "float(" + i + ")";
@@ -504,6 +562,7 @@ class Printer {
   std::vector<bool> pinned_;
   std::vector<int> chosen_;  ///< how often an if leaves it as it is
   std::vector<bool> defined_;
+  std::vector<bool> printed_;  ///< of the flows
   std::unordered_map<int, std::string> names_;
   std::string title_;
   int next_ = 0;

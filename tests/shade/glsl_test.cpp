@@ -78,6 +78,44 @@ TEST_F(GlslTest, LookupsOfOneWidthShareAnIf) {
   EXPECT_EQ(text.find("if (limpid_is_fine(", first + 1), std::string::npos) << text;
 }
 
+int count(const std::string& text, const std::string& words) {
+  int times = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+    ++times;
+  }
+  return times;
+}
+
+/// What stands between them comes first, and a number that both change begins as before the first.
+TEST_F(GlslTest, IfsOfOneConditionAreOne) {
+  const Symbol depth = own(PlaneId::kDepth);
+  const SymbolMask far = depth > Symbol(2);
+  Symbol a = Symbol(1), b = Symbol(3);
+  if_any(far, [&] { a = depth; });
+  const Symbol between = sqrt(depth);
+  if_any(far, [&] {
+    a = a * between;
+    b = between;
+  });
+  const std::string text = GlslBody(recording_of(a + b * between)).text();
+  EXPECT_EQ(count(text, "if ("), 1) << text;
+  EXPECT_LT(text.find("sqrt("), text.find("if (")) << text;
+  EXPECT_EQ(count(text, " = 1.0;"), 2) << text;
+  EXPECT_EQ(count(text, " = 3.0;"), 1) << text;
+}
+
+/// What the first one changes is known only behind it.
+TEST_F(GlslTest, IfsStayTwoWhereWhatStandsBetweenNeedsTheFirst) {
+  const Symbol depth = own(PlaneId::kDepth);
+  const SymbolMask far = depth > Symbol(2);
+  Symbol a = Symbol(1);
+  if_any(far, [&] { a = depth; });
+  const Symbol between = sqrt(a);
+  if_any(far, [&] { a = a * between; });
+  const std::string text = GlslBody(recording_of(a + between)).text();
+  EXPECT_EQ(count(text, "if ("), 2) << text;
+}
+
 /// As for the texts for hosts: a pipeline lasts for a sequence.
 TEST(ProgramOfARunner, IsTheSameForAnyTimeAndStrength) {
   const test::World world(false);
