@@ -2,9 +2,7 @@
 
 #include "limpid/core/error.h"
 
-#include "core/convert_color.h"
 #include "files/content_hash.h"
-#include "plate/primaries.h"
 
 namespace limpid {
 
@@ -28,15 +26,6 @@ TextureFiles textures_read(const Plan& plan, const SceneFile& scene) {
   return files;
 }
 
-LoadedTexture load_surroundings(const TextureFiles& files, const Limits& limits) {
-  LoadedTexture loaded = load_environment(files.environment, files.rotation, limits);
-  if (const auto told = told_primaries(files.environment)) {
-    convert_color({loaded.planes[0].view(), loaded.planes[1].view(), loaded.planes[2].view()},
-                  files.primaries, *told);
-  }
-  return loaded;
-}
-
 void HeldTextures::show_in(Frame& frame) const {
   frame.wave_map = texture_of(wave_map);
   frame.environment = texture_of(environment);
@@ -57,8 +46,9 @@ std::shared_ptr<const LoadedTexture> SharedTextures::kept(
 HeldTextures SharedTextures::load(const TextureFiles& files, const Limits& limits) {
   return {kept(wave_map_, files.wave_map, 0, kRec709,
                [&] { return load_texture(files.wave_map, limits); }),
-          kept(environment_, files.environment, files.rotation, files.primaries,
-               [&] { return load_surroundings(files, limits); })};
+          kept(environment_, files.environment, files.rotation, files.primaries, [&] {
+            return load_environment(files.environment, files.rotation, files.primaries, limits);
+          })};
 }
 
 std::string SharedTextures::hash_of(const std::filesystem::path& path) {

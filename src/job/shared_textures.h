@@ -24,10 +24,6 @@ struct TextureFiles {
 };
 TextureFiles textures_read(const Plan& plan, const SceneFile& scene);
 
-/// load_environment(), of the primaries of `files` where the file says what its red, green and blue
-/// are; one that does not say is taken to be of them.
-LoadedTexture load_surroundings(const TextureFiles& files, const Limits& limits = {});
-
 /// Textures as long as somebody holds them; none where no file is.
 struct HeldTextures {
   std::shared_ptr<const LoadedTexture> wave_map, environment;

@@ -6,8 +6,10 @@
 #include "limpid/core/error.h"
 #include "limpid/enter/sanitise.h"
 
+#include "core/convert_color.h"
 #include "plate/environment.h"
 #include "plate/plate_file.h"
+#include "plate/primaries.h"
 
 namespace limpid {
 namespace {
@@ -86,13 +88,17 @@ LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limi
 }
 
 LoadedTexture load_environment(const std::filesystem::path& path, double rotation,
-                               const Limits& limits) {
+                               const Primaries& primaries, const Limits& limits) {
   const PlateFile file = PlateFile::open(path, limits);
   const EnvironmentLayout layout = layout_of(file);
   const int face = file.parts.front().data.width();
   if (layout == EnvironmentLayout::kCube) check_size(file, lat_long_of_cube(face), limits);
   LoadedTexture loaded = rgb_of(file, "an environment");
   loaded.planes = environment_planes(loaded.planes, layout, rotation);
+  if (const auto told = told_primaries(path)) {
+    convert_color({loaded.planes[0].view(), loaded.planes[1].view(), loaded.planes[2].view()},
+                  primaries, *told);
+  }
   for (std::size_t i = 0; i < 3; ++i) loaded.texture.channels[i] = loaded.planes[i].view();
   return loaded;
 }

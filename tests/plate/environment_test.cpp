@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <OpenEXR/ImfEnvmap.h>
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@
 #include "limpid/plate/texture.h"
 
 #include "files/exr/written.h"
+#include "plate/primaries.h"
 
 namespace limpid {
 namespace {
@@ -33,6 +35,7 @@ struct Written {
   std::string envmap = {};  ///< byte of the attribute; empty: no attribute
   std::vector<std::string> channels = {"R", "G", "B"};
   glm::ivec2 corner = {0, 0};
+  std::optional<Primaries> primaries = {};  ///< told by the file
 };
 
 fs::path write_picture(Size size, const Pixels& pixels, const Written& how = {}) {
@@ -53,6 +56,7 @@ fs::path write_picture(Size size, const Pixels& pixels, const Written& how = {})
   if (!how.envmap.empty()) {
     output.inherited["envmap"] = {"envmap", {how.envmap.begin(), how.envmap.end()}};
   }
+  if (how.primaries) tell_primaries(output.inherited, *how.primaries);
   const fs::path path = own_folder() / "sky.exr";
   write_exr(path, output);
   return path;
@@ -209,6 +213,20 @@ TEST(Environment, WindowsMayLieAnywhereAndValuesAreSane) {
   EXPECT_EQ(texel(map, 0, 1), glm::dvec3(5, 6, -7));
 }
 
+/// Red of Rec. ITU-R BT.2020-2 in the primaries of BT.709, by the matrix of ITU-R BT.2087-0.
+TEST(Environment, LightBecomesOfThePrimariesThatAreAskedFor) {
+  constexpr Primaries kRec2020{{.708, .292}, {.170, .797}, {.131, .046}, {.3127, .3290}};
+  const auto red = [](int, int) { return glm::dvec3(1, 0, 0); };
+  const fs::path path = write_picture({4, 2}, red, {.primaries = kRec2020});
+  const glm::dvec3 converted = texel(load_environment(path, 0), 1, 1);
+  EXPECT_NEAR(converted.x, 1.6605, 5e-5);
+  EXPECT_NEAR(converted.y, -0.1246, 5e-5);
+  EXPECT_NEAR(converted.z, -0.0182, 5e-5);
+  EXPECT_EQ(texel(load_environment(path, 0, kRec2020), 1, 1), glm::dvec3(1, 0, 0));
+  const fs::path silent = write_picture({4, 2}, red);
+  EXPECT_EQ(texel(load_environment(silent, 0, kRec2020), 1, 1), glm::dvec3(1, 0, 0));
+}
+
 TEST(Environment, OtherFormatsAreReadAsWell) {
   Plane gray(Rect{0, 0, 4, 2});
   gray.view().at(1, 1) = 1;
@@ -222,7 +240,7 @@ TEST(Environment, OtherFormatsAreReadAsWell) {
 TEST(Environment, RefusesOtherShapesAndWhatContradictsItself) {
   const auto refusal = [](Size size, const Written& how, const Limits& limits = {}) {
     const fs::path path = write_picture(size, own_place, how);
-    const std::string sentence = error_of([&] { load_environment(path, 0, limits); });
+    const std::string sentence = error_of([&] { load_environment(path, 0, kRec709, limits); });
     EXPECT_THAT(sentence, StartsWith(path.string() + ": "));
     return sentence;
   };

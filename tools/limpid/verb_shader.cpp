@@ -10,7 +10,6 @@
 #include "limpid/plate/plate.h"
 #include "limpid/plate/texture.h"
 
-#include "job/shared_textures.h"
 #include "verbs.h"
 #include "water_options.h"
 
@@ -87,7 +86,7 @@ Subject subject_of(const SceneFile& file, const ShaderArguments& a) {
   }();
   if (!file.environment.empty()) {
     subject.surroundings =
-        load_surroundings({{}, file.environment, file.environment_rotation, scene.primaries});
+        load_environment(file.environment, file.environment_rotation, scene.primaries);
     subject.frame.environment = subject.surroundings.texture;
   }
   return subject;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "limpid/core/color_space.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
 #include "limpid/core/texture_levels.h"
@@ -38,8 +39,11 @@ LoadedTexture load_texture(const std::filesystem::path& path, const Limits& limi
 /// The file's up is the water's up; its middle looks along PlaneAxes::x, turned by `rotation` (rad)
 /// about up, counter-clockwise from above. That is how Blender sees a file, with its z up; with y
 /// up in the scene, and the file's middle to look along z as OpenEXR says, a quarter turn
-/// clockwise. Turning by parts of a texel mixes neighbours. Throws Error for other shapes.
+/// clockwise. Turning by parts of a texel mixes neighbours.
+///
+/// The light becomes one of `primaries` where the file says what its red, green and blue are; a
+/// file that does not say is taken to be of them. Throws Error for other shapes.
 LoadedTexture load_environment(const std::filesystem::path& path, double rotation,
-                               const Limits& limits = {});
+                               const Primaries& primaries = kRec709, const Limits& limits = {});
 
 }  // namespace limpid

@@ -63,7 +63,8 @@ Subject Subject::of_plate(const std::filesystem::path& scene_file, Size size) {
   subject.planes_ = std::move(loaded.planes);
   thin(subject.frame_, subject.planes_, thinning(plate.display().size(), size));
   if (!file.environment.empty()) {
-    subject.environment_ = load_environment(file.environment, file.environment_rotation);
+    subject.environment_ =
+        load_environment(file.environment, file.environment_rotation, subject.scene_.primaries);
   }
   subject.describe(scene_file, "plate");
   return subject;
@@ -93,9 +94,10 @@ Subject Subject::of_model(const std::filesystem::path& scene_file, const Model& 
   subject.frame_ = plate.frame;
   subject.planes_ = std::move(plate.planes);
   if (!file.environment.empty()) {
-    subject.environment_ = load_environment(file.environment, file.environment_rotation);
+    subject.environment_ =
+        load_environment(file.environment, file.environment_rotation, subject.scene_.primaries);
   } else if (!sky.empty()) {
-    subject.environment_ = load_environment(sky, 0);
+    subject.environment_ = load_environment(sky, 0, subject.scene_.primaries);
   }
   subject.describe(scene_file, "scene");
   return subject;
