@@ -27,7 +27,6 @@ constexpr int kSamples = 1024;       ///< of the bottom, about this number at mo
 constexpr int kShareSamples = 4096;  ///< of the wet pixels, likewise
 constexpr std::size_t kEnough = 16;  ///< samples
 constexpr int kTries = 32;
-constexpr double kSteepest = 1.5;  ///< slope of a bottom; a steeper surface is a wall
 
 using Sample = BottomSample;
 
@@ -74,7 +73,8 @@ double height_of(const Plane3& plane, const glm::dvec3& at) {
 }
 
 bool is_bottom(const Plane3& plane) {
-  return std::isfinite(plane.x + plane.y + plane.z) && std::hypot(plane.x, plane.y) < kSteepest;
+  return std::isfinite(plane.x + plane.y + plane.z) &&
+         std::hypot(plane.x, plane.y) < BottomPlane::kSteepest;
 }
 
 Plane3 plane_through(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {

@@ -14,6 +14,8 @@ namespace limpid {
 
 /// A plane fitted to the bottom that a frame shows under its water. Relative to the eye.
 struct BottomPlane {
+  static constexpr double kSteepest = 1.5;  ///< slope of a bottom; a steeper surface is a wall
+
   glm::dvec3 normal;  ///< unit, upwards
   double offset;      ///< dot(normal, p) of its points p
   double drop;        ///< depth below the calm surface of the median surface under the water

@@ -70,11 +70,24 @@ struct Bottom {
     const RowHeights heights(c, y);
     return std::abs(heights.at(x, z) - heights.at(x, plane.depth_on(c, x, y))) < plane.slack;
   }
-  glm::dvec2 level_at(const BottomPlane& plane, int x, int y) const {
+  glm::dvec3 point_at(int x, int y, double z) const {
     const double column = x + 0.5 - c.corner.x, row = y + 0.5 - c.corner.y;
-    const glm::dvec3 p =
-        c.rays.origin_at(column, row) + plane.depth_on(c, x, y) * c.rays.ray_at(column, row);
+    return c.rays.origin_at(column, row) + z * c.rays.ray_at(column, row);
+  }
+  glm::dvec2 level_at(const BottomPlane& plane, int x, int y) const {
+    const glm::dvec3 p = point_at(x, y, plane.depth_on(c, x, y));
     return {glm::dot(c.t, p), glm::dot(c.b, p)};
+  }
+  /// Whether what a texel shows is steeper than a bottom, by its neighbours on one side.
+  bool is_wall(int x, int y) const {
+    if (window.width() < 2 || window.height() < 2) return false;
+    const auto seen = [&](int i, int j) { return point_at(i, j, depth.at(i, j)); };
+    const glm::dvec3 own = seen(x, y);
+    const glm::dvec3 along = seen(x + 1 < window.x1 ? x + 1 : x - 1, y) - own;
+    const glm::dvec3 away = seen(x, y + 1 < window.y1 ? y + 1 : y - 1) - own;
+    const glm::dvec3 normal = glm::cross(along, away);
+    const double up = std::abs(glm::dot(c.up, normal));
+    return !(std::hypot(1, BottomPlane::kSteepest) * up > glm::length(normal));
   }
 };
 
@@ -178,6 +191,14 @@ Rgb<float> robust_mean(std::vector<Rgb<float>>& colors) {
   return (1 / static_cast<float>(end - begin)) * sum;
 }
 
+/// 0 of none.
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// The place on the edge of a window, in shares of it, and the inward direction.
 struct EdgePlace {
   glm::dvec2 at, along, inwards;
@@ -190,10 +211,12 @@ EdgePlace place_on_edge(double share) {
   return {{0, 1 - u}, {0, 1}, {1, 0}};
 }
 
-/// Texels under the water near a place of the edge.
-void gather_near(const Bottom& bottom, const EdgePlace& edge, std::vector<Rgb<float>>& colors) {
+/// Texels under the water near a place of the edge: their colors, and heights over the plane of
+/// those of the bottom.
+void gather_near(const Bottom& bottom, const BottomPlane& plane, const EdgePlace& edge,
+                 std::vector<Rgb<float>>& colors, std::vector<double>& heights) {
   const Rect& w = bottom.window;
-  colors.clear();
+  colors.clear(), heights.clear();
   for (int i = 0; i < kTexelsAlong; ++i) {
     for (int j = 0; j < kTexelsDeep; ++j) {
       const double along = kAlong * (2.0 * (i + 0.5) / kTexelsAlong - 1);
@@ -202,13 +225,18 @@ void gather_near(const Bottom& bottom, const EdgePlace& edge, std::vector<Rgb<fl
       if (!(at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1)) continue;
       const int x = std::min(w.x0 + static_cast<int>(at.x * w.width()), w.x1 - 1);
       const int y = std::min(w.y0 + static_cast<int>(at.y * w.height()), w.y1 - 1);
-      if (bottom.wet(x, y)) colors.push_back(bottom.color_at(x, y));
+      if (!bottom.wet(x, y)) continue;
+      colors.push_back(bottom.color_at(x, y));
+      if (bottom.is_wall(x, y)) continue;
+      const glm::dvec3 p = bottom.point_at(x, y, bottom.depth.at(x, y));
+      heights.push_back(glm::dot(plane.normal, p) - plane.offset);
     }
   }
 }
 
-/// Unknown colors become those of the nearest known place around the edge.
-void close_gaps(std::array<View<float>, 3> colors, const std::array<bool, kColors>& known) {
+/// What is unknown in a row becomes that of the nearest known place around the edge.
+void close_gaps(std::array<View<float>, 3> colors, int row,
+                const std::array<bool, kColors>& known) {
   for (int i = 0; i < kColors; ++i) {
     if (known[static_cast<std::size_t>(i)]) continue;
     for (int off = 1; off <= kColors / 2; ++off) {
@@ -216,7 +244,7 @@ void close_gaps(std::array<View<float>, 3> colors, const std::array<bool, kColor
       const bool is_after = known[static_cast<std::size_t>(after)];
       if (!is_after && !known[static_cast<std::size_t>(before)]) continue;
       for (const View<float>& channel : colors) {
-        channel.at(i, 0) = channel.at(is_after ? after : before, 0);
+        channel.at(i, row) = channel.at(is_after ? after : before, row);
       }
       break;
     }
@@ -225,24 +253,28 @@ void close_gaps(std::array<View<float>, 3> colors, const std::array<bool, kColor
 
 }  // namespace
 
-void ContinuationMaker::paint_edge(const Frame& frame, const Pass& pass) {
+void ContinuationMaker::paint_edge(const Frame& frame, const Pass& pass, const BottomPlane& plane) {
   const Bottom bottom(frame, pass);
   std::array<View<float>, 3> to;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!colors_[i]) colors_[i] = Plane({0, 0, kColors, 1});
+    if (!colors_[i]) colors_[i] = Plane({0, 0, kColors, 2});
     to[i] = colors_[i].view();
     continuation_.colors.channels[i] = to[i];
   }
-  std::array<bool, kColors> known{};
+  std::array<bool, kColors> known{}, level{};
   for (int i = 0; i < kColors; ++i) {
-    gather_near(bottom, place_on_edge((i + 0.5) / kColors), near_);
+    gather_near(bottom, plane, place_on_edge((i + 0.5) / kColors), near_, heights_);
     known[static_cast<std::size_t>(i)] = !near_.empty();
+    level[static_cast<std::size_t>(i)] = !heights_.empty();
     const Rgb<float> color = near_.empty() ? Rgb<float>{0, 0, 0} : robust_mean(near_);
     to[0].at(i, 0) = color.r;
     to[1].at(i, 0) = color.g;
     to[2].at(i, 0) = color.b;
+    to[0].at(i, 1) = static_cast<float>(median(heights_));
+    to[1].at(i, 1) = to[2].at(i, 1) = 0;
   }
-  close_gaps(to, known);
+  close_gaps(to, 0, known);
+  close_gaps(to, 1, level);
 }
 
 const Continuation* ContinuationMaker::make(const Frame& frame, const Pass& c) {
@@ -263,7 +295,7 @@ const Continuation* ContinuationMaker::make(const Frame& frame, const Pass& c) {
   const double clear = saturate((lines.coherence - 0.15) / 0.35), loose = 1 - 0.9 * clear;
   continuation_.fade = loose * loose * kFade / c.size.y;
   continuation_.settle = kSettle / c.size.y;
-  paint_edge(frame, c);
+  paint_edge(frame, c, *plane);
   return &continuation_;
 }
 

@@ -19,12 +19,14 @@ class ContinuationMaker {
   const Continuation* make(const Frame& frame, const Pass& pass);
 
  private:
-  void paint_edge(const Frame& frame, const Pass& pass);
+  void paint_edge(const Frame& frame, const Pass& pass, const BottomPlane& plane);
 
   Continuation continuation_;
   Plane colors_[3];
-  // Texels near a place of the edge, texels of the bottom, and their slopes.
+  // Near a place of the edge: colors under the water, and heights of the bottom over the plane.
   std::vector<Rgb<float>> near_;
+  std::vector<double> heights_;
+  // Texels of the bottom, and their slopes.
   std::vector<BottomSample> samples_;
   std::vector<glm::dvec2> slopes_;
 };

@@ -16,13 +16,16 @@ struct Continuation {
   /// pool. Colors at the edge of the picture continue in this direction.
   glm::dvec3 along;
   double least_drop;  ///< below the calm surface, in scene units: the highest end of a ray
-  double lift;  ///< surfaces at the edge within this distance of the plane belong to the bottom
+  /// Surfaces at the edge within this distance of the bottom's height there belong to the bottom.
+  double lift;
   /// The edge's color has the weight e^(-fade pixels), the depth of its bottom e^(-settle pixels),
   /// by the distance of the ray's end from the edge in pixels.
   double fade, settle;
-  /// The remaining weight: colors near the edge, in one row around the picture from its upper left
-  /// corner, to the right, down, to the left and up, a quarter of the row for each side.
+  /// The remaining weight: colors near the edge, in the upper of two rows around the picture from
+  /// its upper left corner, to the right, down, to the left and up, a quarter of the row for each
+  /// side. Below them, in red, the height of the bottom near that edge over the plane.
   Texture colors;
+  static constexpr double kColorRow = 0.25, kHeightRow = 0.75;  ///< as places in `colors`
 };
 
 /// The ray of one pixel, or of one vector of pixels, beyond the picture. `falls` as in a
@@ -49,14 +52,17 @@ class BeyondPicture {
 
   /// `guess`: the distance to the ray's end by the bottom visible in the picture.
   Seen look(F guess) const {
-    const F calm = distance_to_plane(F(0), guess);
-    const F share = exp((F(0) - given<F>(on_.settle)) * pixels_beyond(ray_.shift_at(calm)));
-    const F distance = distance_to_plane(share * lift_at_edge(guess), guess);
+    const Vec2<F> toward = ray_.shift_at(guess);
+    const Vec2<F> edge = min(reach_in(planes_.bounds, p_.uv, toward), F(1)) * toward;
+    const F settled = tap_.lat_long_rgb(on_.colors, {round_edge(edge), F(on_.kHeightRow)}).r;
+    const F near = distance_to_plane(settled, guess);
+    const F share = exp((F(0) - given<F>(on_.settle)) * pixels_beyond(ray_.shift_at(near)));
+    const F distance = distance_to_plane(settled + share * step_at_edge(edge, settled), guess);
     const Vec2<F> end = ray_.shift_at(distance), at = along_to_edge(end);
     const F gone = length_on_screen(at - end);
     const Texels texels = texels_at(at);
     const F kept = texels.share * exp((F(0) - given<F>(on_.fade)) * gone);
-    const Rgb<F> far = tap_.lat_long_rgb(on_.colors, {round_edge(at), F(0.5)});
+    const Rgb<F> far = tap_.lat_long_rgb(on_.colors, {round_edge(at), F(on_.kColorRow)});
     return {distance, at, far + kept * (texels.color - far)};
   }
 
@@ -83,16 +89,14 @@ class BeyondPicture {
     return max(distance, given<F>(on_.least_drop) / fall_);
   }
 
-  /// Height over the plane of the bottom seen where the ray leaves the picture; 0 where the picture
-  /// shows no bottom there.
-  F lift_at_edge(F guess) const {
-    const Vec2<F> end = ray_.shift_at(guess);
-    const Vec2<F> edge = min(reach_in(planes_.bounds, p_.uv, end), F(1)) * end;
+  /// How much higher than `settled` over the plane the bottom is that is seen at the edge; 0 where
+  /// the picture shows no bottom there.
+  F step_at_edge(Vec2<F> edge, F settled) const {
     const F depth = tap_.nearest(planes_.depth, edge);
     const Vec3<F> there = p_.surface_point + offset_to(c_, p_, edge, depth);
-    const F lift = dot(vec3_of<F>(on_.normal), there) - given<F>(on_.offset);
-    const auto bottom = depth < F(1e30) && abs(lift) < given<F>(on_.lift);
-    return select(bottom, lift, F(0));
+    const F step = dot(vec3_of<F>(on_.normal), there) - given<F>(on_.offset) - settled;
+    const auto bottom = depth < F(1e30) && abs(step) < given<F>(on_.lift);
+    return select(bottom, step, F(0));
   }
 
   /// Where the line along the bottom through the ray's end enters the picture.

@@ -151,6 +151,36 @@ TEST(Continuation, WaysEndOnThePlane) {
   }
 }
 
+/// Between two banks no plane is the bottom: beyond the picture each bank keeps its height.
+TEST(Continuation, BanksGoOnAtTheirHeight) {
+  constexpr double kBank = 0.4;
+  Pool pool;
+  pool.rise = 0;
+  pool.draw(lanes(0));
+  // The bottom is the higher of the planes y = -deep +- kBank x.
+  pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    const glm::dvec3 r = pool.ray(x, y);
+    const double falls = kBank * std::abs(r.x) - r.y;
+    return static_cast<float>(falls > 0 ? (pool.deep + 2) / falls : HUGE_VAL);
+  });
+  const test::Picture on = test::reference(going_on(true), pool.buffers.frame, pool.scene);
+  const int y = Pool::kSize.height - 1;
+  double most = 0, sum = 0;
+  for (int x = 0; x < Pool::kSize.width; ++x) {
+    ASSERT_EQ(on.aov(Aov::kConfidence, x, y), 0) << x;
+    const glm::dvec3 r = pool.ray(x, y), point = (-2 / r.y) * r;
+    const test::Pool::End level = pool.end(x, y);
+    const glm::dvec3 t = (level.at - point) / level.distance;
+    const double side = t.x < 0 ? -1 : 1;
+    const double distance = (pool.deep - kBank * side * point.x) / (kBank * side * t.x - t.y);
+    const double off = std::abs(on.aov(Aov::kPath, x, y) / distance - 1);
+    most = std::max(most, off), sum += off;
+  }
+  // One bank's plane alone is off by 1.5 under the other bank.
+  EXPECT_LT(most, 0.2);
+  EXPECT_LT(sum / Pool::kSize.width, 0.07);
+}
+
 TEST(Continuation, PixelsThatLookIntoThePictureDoNotChange) {
   Pool pool;
   pool.draw(lanes(0.3));
