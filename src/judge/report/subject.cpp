@@ -11,9 +11,6 @@
 #include "limpid/plate/plate.h"
 #include "limpid/raster/render_plate.h"
 
-#include "core/convert_color.h"
-#include "plate/primaries.h"
-
 namespace limpid {
 namespace {
 
@@ -66,7 +63,7 @@ Subject Subject::of_plate(const std::filesystem::path& scene_file, Size size) {
   subject.planes_ = std::move(loaded.planes);
   thin(subject.frame_, subject.planes_, thinning(plate.display().size(), size));
   if (!file.environment.empty()) {
-    subject.surround(file.environment, file.environment_rotation);
+    subject.environment_ = load_environment(file.environment, file.environment_rotation);
   }
   subject.describe(scene_file, "plate");
   return subject;
@@ -96,20 +93,12 @@ Subject Subject::of_model(const std::filesystem::path& scene_file, const Model& 
   subject.frame_ = plate.frame;
   subject.planes_ = std::move(plate.planes);
   if (!file.environment.empty()) {
-    subject.surround(file.environment, file.environment_rotation);
+    subject.environment_ = load_environment(file.environment, file.environment_rotation);
   } else if (!sky.empty()) {
-    subject.surround(sky, 0);
+    subject.environment_ = load_environment(sky, 0);
   }
   subject.describe(scene_file, "scene");
   return subject;
-}
-
-void Subject::surround(const std::filesystem::path& environment, double rotation) {
-  environment_ = load_environment(environment, rotation);
-  const auto told = told_primaries(environment);
-  if (!told) return;
-  auto& planes = environment_.planes;
-  convert_color({planes[0].view(), planes[1].view(), planes[2].view()}, scene_.primaries, *told);
 }
 
 void Subject::describe(const std::filesystem::path& scene_file, std::string kind) {

@@ -52,8 +52,6 @@ class Subject {
   Frame frame_for(const Plan& plan);
 
  private:
-  /// Loads an environment, in the scene's working space.
-  void surround(const std::filesystem::path& environment, double rotation);
   void describe(const std::filesystem::path& scene_file, std::string kind);
 
   ReportSubject facts_;
