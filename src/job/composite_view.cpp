@@ -2,9 +2,13 @@
 
 #include <utility>
 
+#include "limpid/core/error.h"
 #include "limpid/files/exr/exr_camera.h"
+#include "limpid/files/text/scene_file.h"
 
 #include "core/toml_text.h"
+#include "files/content_hash.h"
+#include "job/parallax.h"
 #include "job/pass_through.h"
 #include "job/picture_warnings.h"
 #include "plate/primaries.h"
@@ -21,6 +25,31 @@ std::string reflected_text(const OutputChoice& choice) {
   return line("motion_of", choice.motion ? "[\"seen\", \"reflected\"]" : "[\"reflected\"]");
 }
 
+/// Camera and water of the job's second frame.
+Scene second_scene(const CompositeJob& job, const Plate& plate, const Scene& scene, double ior) {
+  CompositeJob of_second = job;
+  of_second.plate = job.second->plate;
+  of_second.scene = job.second->scene;
+  try {
+    const Plate second = Plate::open(of_second.plate);
+    if (second.display() != plate.display()) {
+      throw Error("expected the display window of this frame's plate");
+    }
+    Scene found = scene_of(of_second, second);
+    Parallax(WaterView(scene, plate.display()), WaterView(found, plate.display()), ior);
+    return found;
+  } catch (const Error& error) {
+    throw Error(std::string("the ") + (job.second->is_previous ? "previous" : "next") +
+                    " frame, for motion vectors: " + error.what(),
+                error.fault());
+  }
+}
+
+/// The vectors to a second frame, as Nuke calls them.
+MotionLayer second_layer(const CompositeJob& job) {
+  return {job.second->is_previous ? "motion_backward" : "motion_forward", {"u", "v"}, {}};
+}
+
 }  // namespace
 
 CompositeJob job_of_view(const CompositeJob& job, std::size_t view) {
@@ -29,6 +58,7 @@ CompositeJob job_of_view(const CompositeJob& job, std::size_t view) {
     one.view_name = job.other_views[view - 1].name;
     one.plate = job.other_views[view - 1].plate;
     one.scene = job.other_views[view - 1].scene;
+    one.second = job.other_views[view - 1].second;
   }
   one.other_views.clear();
   return one;
@@ -42,10 +72,17 @@ PreparedView prepare_view(const CompositeJob& job) {
   TextureFiles textures = textures_read(plan, job.scene);
   std::vector<PassedPart> passed = plate.passed(job.output.pass_through);
   std::vector<MotionLayer> motion;
-  if (has_motion(job.output)) motion = plate.motion_layers();
+  std::optional<Scene> second;
+  if (has_motion(job.output) && job.second) {
+    second = second_scene(job, plate, scene, plan.look.water.ior);
+    motion = {second_layer(job)};
+  } else if (has_motion(job.output)) {
+    motion = plate.motion_layers();
+  }
   expect_passable(passed, motion, job.output);
-  return {job.view_name,   std::move(plate),    std::move(scene),  depth,
-          std::move(plan), std::move(textures), std::move(passed), std::move(motion)};
+  return {job.view_name,    std::move(plate),    std::move(scene),  depth,
+          std::move(plan),  std::move(textures), std::move(passed), std::move(motion),
+          std::move(second)};
 }
 
 Record record_of(const CompositeJob& job, const PreparedView& view, SharedTextures& textures,
@@ -57,9 +94,11 @@ Record record_of(const CompositeJob& job, const PreparedView& view, SharedTextur
   }
   if (depth.nothing) inputs += "depth_nothing = " + toml_text(*depth.nothing) + "\n";
   inputs += view.plate.inputs_text(view.plan.planes) + texture_inputs(view.textures, textures);
-  const std::string options = picture_options(job.output, gpu) +
-                              view.plate.passed_text(view.passed) +
-                              view.plate.motion_text(view.motion) + reflected_text(job.output);
+  const std::string options =
+      picture_options(job.output, gpu) + view.plate.passed_text(view.passed) +
+      (view.second ? line("motion_to", toml_text(hash_of(to_toml(*view.second))))
+                   : view.plate.motion_text(view.motion)) +
+      reflected_text(job.output);
   Record record = record_of(view.scene, inputs, options);
   add_look(record, job.look, view.plan);
   return record;
@@ -96,7 +135,12 @@ void CompositeView::read(const CompositeJob& job, PreparedView view, SharedTextu
   file_.compression = job.output.compression;
   file_.name = plate.part_name().empty() ? kPicturePart : plate.part_name();
   motion_ = {};
-  if (has_motion(job.output)) motion_.read(plate, std::move(view.motion));
+  second_ = std::move(view.second);
+  if (second_) {
+    motion_.expect_second(std::move(view.motion));
+  } else if (has_motion(job.output)) {
+    motion_.read(plate, std::move(view.motion));
+  }
   others_ = pass_through(view.passed, file_);
   plate_ = std::move(view.plate);
 }
@@ -105,21 +149,45 @@ void CompositeView::run(const CompositeJob& job, const Plan& plan, Executor& exe
                         RunTimes* times) {
   canvas_for(canvas_, loaded_.frame.work(), job.output)
       .paint(plan, loaded_.frame, scene_, job.output, executor, times);
-  if (!has_motion(job.output)) return;
+  if (has_motion(job.output)) run_motion(job.output, plan.look.water.ior);
+}
+
+void CompositeView::run_motion(const OutputChoice& choice, double ior) {
   const Target& target = canvas_->target();
+  const Frame& frame = loaded_.frame;
   const View<float>& surface = target.of(Aov::kSurfaceDepth)[0];
-  if (job.output.motion) {
+  const WaterView view(scene_, frame.display);
+  std::optional<WaterView> second_view;
+  std::optional<Parallax> parallax;
+  if (second_) {
+    second_view.emplace(*second_, frame.display);
+    parallax.emplace(view, *second_view, ior);
+  }
+  if (choice.motion) {
     const auto& map = target.of(Aov::kStmapG);
-    motion_.carry({map[0], map[1], surface, loaded_.frame.display}, loaded_.frame.work());
+    const LookedUp looked_up{map[0], map[1], surface, frame.display};
+    if (parallax) {
+      motion_.carry(*parallax, looked_up, frame.plane(PlaneId::kDepth), frame.work());
+    } else {
+      motion_.carry(looked_up, frame.work());
+    }
   }
-  if (job.output.motion_reflected) {
+  if (choice.motion_reflected) {
     const auto& normal = target.of(Aov::kNormal);
-    const WaterView view(scene_, loaded_.frame.display);
-    motion_.reflect({surface, normal[0], normal[1], normal[2], target.of(Aov::kReflectionDepth)[0],
-                     loaded_.frame.plane(PlaneId::kDepth), view},
-                    loaded_.frame.work());
+    const Mirrored mirrored{surface,
+                            normal[0],
+                            normal[1],
+                            normal[2],
+                            target.of(Aov::kReflectionDepth)[0],
+                            frame.plane(PlaneId::kDepth),
+                            view};
+    if (parallax) {
+      motion_.reflect(*parallax, mirrored, frame.work());
+    } else {
+      motion_.reflect(mirrored, frame.work());
+    }
   }
-  file_.channels = motion_.channels(job.output);
+  file_.channels = motion_.channels(choice);
 }
 
 WrittenView CompositeView::written(Record record) {

@@ -27,6 +27,7 @@ struct PreparedView {
   TextureFiles textures;
   std::vector<PassedPart> passed;
   std::vector<MotionLayer> motion;
+  std::optional<Scene> second;  ///< that motion vectors lead to, if it is not the plate's vectors
 };
 PreparedView prepare_view(const CompositeJob& job);
 
@@ -55,8 +56,11 @@ class CompositeView {
   const Beyond& beyond() const { return beyond_; }
 
  private:
+  void run_motion(const OutputChoice& choice, double ior);
+
   Beyond beyond_;
   Scene scene_;
+  std::optional<Scene> second_;
   LoadedPlate loaded_;
   HeldTextures textures_;
   std::optional<Plate> plate_;     ///< whose layers are passed through

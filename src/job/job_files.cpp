@@ -109,9 +109,13 @@ Files inputs_of(const Model& model, const SceneFile& scene, const Look& look) {
 JobFiles files_of(const CompositeJob& job) {
   JobFiles files{files_of(job.plate), outputs_of(job.output)};
   add_texture_files(job.scene, job.look, files.inputs);
-  for (const CompositeJob::View& view : job.other_views) {
-    const Files more = files_of(view.plate);
+  const auto add = [&](const Files& more) {
     files.inputs.insert(files.inputs.end(), more.begin(), more.end());
+  };
+  if (job.second) add(files_of(job.second->plate));
+  for (const CompositeJob::View& view : job.other_views) {
+    add(files_of(view.plate));
+    if (view.second) add(files_of(view.second->plate));
     add_texture_files(view.scene, job.look, files.inputs);
   }
   return files;

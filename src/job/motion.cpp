@@ -8,6 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "job/parallax.h"
+#include "job/screen.h"
+
 namespace limpid {
 namespace {
 
@@ -17,10 +20,6 @@ constexpr double kMaxBending = 1;
 
 /// How the name of each MotionLayer begins.
 constexpr std::string_view kMotion = "motion";
-
-struct Place {
-  double x, y;
-};
 
 void fit(std::vector<Plane>& planes, std::size_t count, const Rect& window) {
   planes.resize(count);
@@ -67,7 +66,7 @@ class Map {
 /// Pixels, x right and y down.
 class Mirror {
  public:
-  explicit Mirror(const Mirrored& mirrored) : of_(mirrored), view_(mirrored.view) {}
+  explicit Mirror(const Mirrored& mirrored) : of_(mirrored), screen_(mirrored.view) {}
 
   /// The motion on the picture of what a pixel mirrors, or none.
   template <class MotionAt>
@@ -77,59 +76,34 @@ class Mirror {
     const double surface = of_.surface_depth.at(x, y), image = of_.reflection_depth.at(x, y);
     if (!(surface < image && image < HUGE_VAL)) return {};
     const Place here{x + 0.5, y + 0.5};
-    const glm::dvec3 ray = ray_at(here), start = point_at(here, surface);
+    const glm::dvec3 ray = screen_.ray_at(here), start = screen_.point_at(here, surface);
     const glm::dvec3 normal(of_.normal_x.at(x, y), of_.normal_y.at(x, y), of_.normal_z.at(x, y));
     if (!(glm::dot(ray, normal) < 0)) return {};
     const auto across = [&](const glm::dvec3& point) {
       return point - 2 * glm::dot(normal, point - start) * normal;
     };
     const glm::dvec3 thing = across(start + (image - surface) * ray);
-    const std::optional<Place> shown = place_of(thing);
+    const std::optional<Place> shown = screen_.place_of(thing);
     if (!shown) return {};
-    const double depth = glm::dot(view_.forward, thing - origin_at(*shown));
+    const double depth = glm::dot(screen_.view().forward, thing - screen_.origin_at(*shown));
     const auto seen = texel_of(*shown, of_.depth.window);
     if (!seen || !(std::abs(of_.depth.at(seen->first, seen->second) - depth) < kSame * depth)) {
       return {};
     }
     const std::optional<Place> moved = motion_at(seen->first, seen->second);
     if (!moved) return {};
-    const std::optional<Place> from = place_of(across(thing));
-    const std::optional<Place> to =
-        place_of(across(point_at({shown->x + moved->x, shown->y + moved->y}, depth)));
+    const std::optional<Place> from = screen_.place_of(across(thing));
+    const std::optional<Place> to = screen_.place_of(
+        across(screen_.point_at({shown->x + moved->x, shown->y + moved->y}, depth)));
     if (!from || !to) return {};
     return Place{to->x - from->x, to->y - from->y};
-  }
-
-  static std::optional<std::pair<int, int>> texel_of(const Place& place, const Rect& window) {
-    const double x = std::floor(place.x), y = std::floor(place.y);
-    if (!(x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1)) return {};
-    return std::pair(static_cast<int>(x), static_cast<int>(y));
   }
 
  private:
   static constexpr double kSame = 0.05;  ///< of a depth: what is mirrored is what is shown
 
-  // Points are relative to the eye.
-  glm::dvec3 ray_at(const Place& p) const {
-    return view_.rays.ray_at(p.x - view_.corner.x, p.y - view_.corner.y);
-  }
-  glm::dvec3 origin_at(const Place& p) const {
-    return view_.rays.origin_at(p.x - view_.corner.x, p.y - view_.corner.y);
-  }
-  glm::dvec3 point_at(const Place& p, double depth) const {
-    return origin_at(p) + depth * ray_at(p);
-  }
-  /// None of what lies behind the camera.
-  std::optional<Place> place_of(const glm::dvec3& point) const {
-    const glm::dvec3 of_origin = point - view_.rays.origin;
-    const double w = view_.w_origin + view_.w_depth * glm::dot(view_.forward, of_origin);
-    if (!(w > 0)) return {};
-    return Place{glm::dot(view_.to_u, of_origin) / w * view_.size.x + view_.corner.x,
-                 glm::dot(view_.to_v, of_origin) / w * view_.size.y + view_.corner.y};
-  }
-
   const Mirrored& of_;
-  const WaterView& view_;
+  Screen screen_;
 };
 
 }  // namespace
@@ -175,6 +149,23 @@ void reflect_motion(const Mirrored& mirrored, View<const float> x, View<const fl
 void MotionChannels::read(const Plate& plate, std::vector<MotionLayer> layers) {
   layers_ = std::move(layers);
   dry_ = plate.read_motion(layers_);
+}
+
+void MotionChannels::expect_second(std::vector<MotionLayer> layers) {
+  layers_ = std::move(layers);
+  dry_.clear();
+}
+
+void MotionChannels::carry(const Parallax& parallax, const LookedUp& looked_up,
+                           View<const float> depth, const Rect& window) {
+  fit(seen_, 2, window);
+  parallax.seen(looked_up, depth, seen_[0].view(), seen_[1].view());
+}
+
+void MotionChannels::reflect(const Parallax& parallax, const Mirrored& mirrored,
+                             const Rect& window) {
+  fit(reflected_, 2, window);
+  parallax.reflected(mirrored, reflected_[0].view(), reflected_[1].view());
 }
 
 void MotionChannels::carry(const LookedUp& looked_up, const Rect& window) {

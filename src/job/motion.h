@@ -43,11 +43,19 @@ struct Mirrored {
 void reflect_motion(const Mirrored& mirrored, View<const float> x, View<const float> y,
                     View<float> to_x, View<float> to_y);
 
-/// The vectors of a plate's layers, as channels of a picture.
+class Parallax;
+
+/// The vectors of a plate's layers, or those to a second frame, as channels of a picture.
 class MotionChannels {
  public:
   /// Reads the layers' planes.
   void read(const Plate& plate, std::vector<MotionLayer> layers);
+  /// Takes the names of the one layer that leads to a second frame.
+  void expect_second(std::vector<MotionLayer> layers);
+  /// Computes its vectors, of both kinds.
+  void carry(const Parallax& parallax, const LookedUp& looked_up, View<const float> depth,
+             const Rect& window);
+  void reflect(const Parallax& parallax, const Mirrored& mirrored, const Rect& window);
   /// Carries the vectors to the pixels that show their texels.
   void carry(const LookedUp& looked_up, const Rect& window);
   /// And to where it mirrors them.

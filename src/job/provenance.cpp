@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -175,18 +177,29 @@ std::string hash_of_view(const DisplayChoice& display) {
   return hash_of(bytes);
 }
 
-/// Nothing of the usual one. A config is known by its contents, or where it is no file, as
-/// OpenColorIO's own are not, by its name; its view also by what it makes of light.
+/// A config is known by its contents, or where it is no file, as OpenColorIO's own are not, by its
+/// name; its view also by what it makes of light. Hashed once a program, as DisplayTransform reads
+/// the config: the frames of a sequence share the text.
+std::string config_options(const DisplayChoice& display) {
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, std::string>, std::string> known;
+  const std::lock_guard lock(mutex);
+  std::string& text = known[{display.config.string(), display.view}];
+  if (text.empty()) {
+    std::error_code ignored;
+    const bool file = std::filesystem::is_regular_file(display.config, ignored);
+    text = line("ocio", toml_text(file ? hash_of_file(display.config) : display.config.string())) +
+           line("view", toml_text(display.view)) +
+           line("view_hash", toml_text(hash_of_view(display)));
+  }
+  return text;
+}
+
+/// Nothing of the usual one.
 std::string display_options(const DisplayChoice& display) {
   std::string text;
   if (display.exposure != 0) text += line("exposure", toml_text(display.exposure));
-  if (display.config.empty()) return text;
-  std::error_code ignored;
-  const bool file = std::filesystem::is_regular_file(display.config, ignored);
-  return text +
-         line("ocio", toml_text(file ? hash_of_file(display.config) : display.config.string())) +
-         line("view", toml_text(display.view)) +
-         line("view_hash", toml_text(hash_of_view(display)));
+  return display.config.empty() ? text : text + config_options(display);
 }
 
 std::string picture_options(const OutputChoice& choice, const std::string& gpu) {

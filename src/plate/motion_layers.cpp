@@ -84,7 +84,8 @@ std::vector<MotionLayer> find_motion_layers(const std::vector<LayerSource>& sour
       (named.empty() ? "no motion vectors found" : "motion=" + named + ": no such vectors") +
       ": expected a layer vector, motionvector, or forward and backward, with X Y (Z W), "
       "U V or R G; there is " +
-      layer_list(groups, sources) + "; name it with --layer motion=LAYER");
+      layer_list(groups, sources) +
+      "; name it with --layer motion=LAYER, or give --motion-to next");
 }
 
 }  // namespace limpid

@@ -333,6 +333,54 @@ TEST_F(SpotTest, IsWhereTheNextFrameShowsIt) {
   }
 }
 
+/// The spot stands still, and the camera moves; the plates' vectors are not used.
+TEST_F(SpotTest, LeadsToWhereTheSecondFrameShowsIt) {
+  const glm::dvec3 spot(0.3, kBottom, -4);
+  const auto executor = make_executor(1);
+  const Camera start = camera_;
+  for (const bool previous : {false, true}) {
+    for (const glm::dvec3 step : {glm::dvec3(0.3, 0, 0), glm::dvec3(0, 0.3, -0.2)}) {
+      camera_ = start;
+      write("now.exr", spot, {});
+      CompositeJob now_job = job("now.exr", "wet_now.exr");
+      camera_.view = glm::translate(start.view, -step);
+      write("then.exr", spot, {});
+      const CompositeJob then_job = job("then.exr", "wet_then.exr");
+      now_job.second = {then_job.plate, then_job.scene, previous};
+      composite(now_job, *executor);
+      CompositeJob unmoved = then_job;
+      composite(unmoved, *executor);
+      const std::string layer = previous ? "motion_backward" : "motion_forward";
+      const std::vector<Plane> now =
+          read("wet_now.exr", {"transmitted.R", layer + ".u", layer + ".v"});
+      const std::vector<Plane> then = read("wet_then.exr", {"transmitted.R"});
+      const glm::dvec2 rendered = centre(then[0]) - centre(now[0]);
+      const glm::dvec2 predicted(
+          mean(now[0], [&](int x, int y) { return now[1].view().at(x, y); }),
+          -mean(now[0], [&](int x, int y) { return now[2].view().at(x, y); }));
+      EXPECT_GT(glm::length(rendered), 2) << "there is something to tell";
+      EXPECT_LT(glm::length(predicted - rendered), 0.03 * glm::length(rendered));
+    }
+  }
+}
+
+TEST_F(SpotTest, LeadsToNoFrameUnderWater) {
+  write("now.exr", {0, kBottom, -4}, {});
+  CompositeJob job = this->job("now.exr", "wet.exr");
+  SceneFile below = job.scene;
+  below.camera->view = glm::translate(camera_.view, glm::dvec3(0, 3, 0));
+  job.second = {job.plate, below, false};
+  const auto executor = make_executor(1);
+  try {
+    composite(job, *executor);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("the next frame, for motion vectors: "));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("the camera of the second frame is -1.0"));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "wet.exr"));
+}
+
 TEST_F(SpotTest, MayBeOfWhatIsMirroredAlone) {
   const glm::dvec3 spot(0.3, kBottom, -4);
   write("now.exr", spot, {0.2, 0, 0});

@@ -46,6 +46,7 @@ struct CompositeArguments {
   std::optional<double> depth_nothing;
   int samples = 1, overscan = 0;
   std::vector<std::string> pass_through = {"none"};
+  std::string motion_to;  ///< "next", "previous", or "" for the plate's vectors
   FrameOptions frames;
   WaterOptions water;
 };

@@ -19,6 +19,7 @@ namespace {
 constexpr std::string_view kViewMark = "%V";
 constexpr std::string_view kAllViews = "all";
 /// Vectors are no plane of the chain, and are named as its planes are.
+constexpr std::string_view kPrevious = "previous";
 const std::string kMotion = "motion", kMotionReflected = "motion_reflected";
 
 /// The layers of --pass-through: empty for none, which must be the only word.
@@ -135,6 +136,35 @@ std::vector<std::string> views_named(const CompositeArguments& a, const std::opt
   return views;
 }
 
+/// The neighbor of a frame that its motion vectors lead to.
+CompositeJob::SecondFrame second_of(const CompositeArguments& a, int frame, const std::string& view,
+                                    const PlateRequest& plate, const SceneFile& scene) {
+  CompositeJob::SecondFrame second{plate, scene, a.motion_to == kPrevious};
+  try {
+    set_frame(a, second.is_previous ? frame - 1 : frame + 1, view, second.plate, second.scene);
+  } catch (const Error& error) {
+    throw Error("the " + a.motion_to + " frame, for motion vectors: " + error.what(),
+                error.fault());
+  }
+  return second;
+}
+
+/// Throws the usage Error for --motion-to without a second frame, or without vectors.
+void expect_second(const CompositeArguments& a, bool frames, bool vectors) {
+  if (a.motion_to.empty()) return;
+  const auto refuse = [&](const std::string& expected) {
+    throw Error("--motion-to " + a.motion_to + ": expected " + expected, Fault::kUsage);
+  };
+  if (!vectors) refuse("--aov motion or motion_reflected");
+  const bool numbered =
+      has_frame_number(a.scene) || std::any_of(a.plates.begin(), a.plates.end(), has_frame_number);
+  if (!frames || !numbered) {
+    refuse("--frames, and plates or a scene with the number of the frame in their names");
+  }
+  if (a.frames.missing != "error")
+    refuse("--missing error, since it leads to a frame that is there");
+}
+
 }  // namespace
 
 CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
@@ -172,6 +202,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   job.output = output_of(water);
   job.output.motion = motion;
   job.output.motion_reflected = motion_reflected;
+  expect_second(a, frame.has_value(), motion || motion_reflected);
   job.output.wave_samples = a.samples;
   job.output.overscan = a.overscan;
   job.output.pass_through = layers_to_pass(a.pass_through);
@@ -179,9 +210,14 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
 }
 
 CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int frame) {
-  set_frame(a, frame, job.view_name, job.plate, job.scene);
-  for (CompositeJob::View& view : job.other_views)
-    set_frame(a, frame, view.name, view.plate, view.scene);
+  const auto set = [&](const std::string& view, auto& inputs) {
+    if (!a.motion_to.empty()) {
+      inputs.second = second_of(a, frame, view, inputs.plate, inputs.scene);
+    }
+    set_frame(a, frame, view, inputs.plate, inputs.scene);
+  };
+  set(job.view_name, job);
+  for (CompositeJob::View& view : job.other_views) set(view.name, view);
   const bool scene_of_frame = has_frame_number(name_of_view(a.scene, job.view_name));
   job.time = time_of_frame(a.frames, a.water, job.scene, scene_of_frame, frame);
   job.output = output_of_frame(job.output, frame);

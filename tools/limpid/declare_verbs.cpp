@@ -325,6 +325,13 @@ void declare_verbs(CLI::App& app, Arguments& a) {
       ->delimiter(',')
       ->allow_extra_args(false);
   composite
+      .add_option(
+          "--motion-to", a.composite.motion_to,
+          "Compute --aov motion and motion_reflected by camera and water of the next or the "
+          "previous frame, for a scene that stands still (default: by the plate's vectors)")
+      ->option_text("next|previous")
+      ->check(CLI::IsMember({"next", "previous"}));
+  composite
       .add_option("--overscan", a.composite.overscan,
                   "Also write N pixels beyond each side of the picture, as far as all buffers have "
                   "them (default: 0)")

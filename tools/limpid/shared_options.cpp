@@ -83,7 +83,7 @@ void add_look(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--aov", a.aovs,
                   "Also write these AOVs: all, or a list of " + join(known) +
                       ", and motion and motion_reflected (composite only), for plates with motion "
-                      "vectors")
+                      "vectors or with --motion-to")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);

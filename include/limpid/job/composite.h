@@ -31,12 +31,24 @@ struct CompositeJob {
   JobTime time;
   Look look;
 
+  /// The next frame or the previous one: where its camera and its water plane are is what the
+  /// vectors of OutputChoice::motion and motion_reflected are computed by, as of a scene that
+  /// stands still, instead of by vectors of the plate. Its plate has the display window of this
+  /// frame's. Camera and calm water of both frames lie apart: the camera above the water.
+  struct SecondFrame {
+    PlateRequest plate;
+    SceneFile scene;
+    bool is_previous = false;
+  };
+  std::optional<SecondFrame> second = {};
+
   /// Of stereo: the views besides that of `plate`, each with its own camera. All are put into one
   /// file, a part each that is called after its view, `plate`'s the first.
   struct View {
     std::string name;
     PlateRequest plate;
     SceneFile scene;
+    std::optional<SecondFrame> second = {};
   };
   std::string view_name = {};  ///< of `plate`; where there are others
   std::vector<View> other_views = {};

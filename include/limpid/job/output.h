@@ -58,7 +58,8 @@ struct OutputChoice {
   /// (Plate::motion_layers()): `motion`, with the vectors that the plate has of the places that
   /// green was looked up at, as the lookup turns and stretches them. Exact to the first order of
   /// the motion where camera and water stand still; what the camera or the waves do to the lookup
-  /// from frame to frame is not in them. For composite() alone.
+  /// from frame to frame is not in them. With CompositeJob::second they are computed by camera and
+  /// water of the second frame instead. For composite() alone.
   bool motion = false;
   /// The same of what the surface mirrors: `motion_reflected`, by the vectors that the plate has
   /// where the mirrored ray meets what the picture shows (job/motion.h), else 0. For composite()

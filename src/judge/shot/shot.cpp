@@ -101,6 +101,9 @@ struct ShotMeasurement::Parts {
   RunTimes operator_times(const ShotVariant& own);
 
   void put(ShotPicture picture, const Shown& shown);
+  ShotError error_of(const ColorViews& color, const ColorViews& judge) const {
+    return shot_error(color, judge, wet, variants.scene().primaries);
+  }
   DisplayTransform display() const { return DisplayTransform({}, variants.scene().primaries); }
   void put_light(const ShotPicture& picture, const ColorViews& color) {
     put(picture, shown_light(color, display(), executor));
@@ -110,7 +113,7 @@ struct ShotMeasurement::Parts {
   std::array<View<float>, 3> painted(Aov aov);
   std::optional<ShotError> beside_truth(const ColorViews& color) const {
     if (!options.truth) return {};
-    return shot_error(color, truth, wet);
+    return error_of(color, truth);
   }
   void say(const std::string& what, double milliseconds, const ShotError& error) const;
 
@@ -237,8 +240,7 @@ void ShotMeasurement::Parts::show_plate(const ShotVariant& own) {
     put_difference({difference_file(kTruthFile), "wet and truth", "their difference", ""},
                    whole->views(), truth);
   }
-  shot.dry = {
-      "dry", kDryFile, std::nan(""), shot_error(dry, whole->views(), wet), beside_truth(dry), {}};
+  shot.dry = {"dry", kDryFile, std::nan(""), error_of(dry, whole->views()), beside_truth(dry), {}};
 }
 
 // --- speed and error ---
@@ -260,7 +262,7 @@ void ShotMeasurement::Parts::measure_looks(std::vector<ShotVariant>& looks) {
     ShotLook row{variant.name,
                  file,
                  kMilliseconds * variant.seconds,
-                 shot_error(color, whole->views(), wet),
+                 error_of(color, whole->views()),
                  beside_truth(color),
                  differences(variant.plan, looks[0].plan)};
     say("look " + row.name, row.milliseconds, row.error);
@@ -278,7 +280,7 @@ void ShotMeasurement::Parts::judge_fast(const std::vector<ShotVariant>& looks,
   };
   const std::size_t fast = place_of("fast"), physical = place_of("physical");
   if (std::max(fast, physical) >= looks.size()) return;
-  shot.fast_error = shot_error(colors[fast].views(), colors[physical].views(), wet);
+  shot.fast_error = error_of(colors[fast].views(), colors[physical].views());
   shot.fast_time_share = looks[fast].seconds / looks[physical].seconds;
 }
 
@@ -329,7 +331,7 @@ void ShotMeasurement::Parts::measure_operators(const ShotVariant& own) {
       put_difference(
           {row.difference, "change by " + row.name, "the difference of the picture without it", ""},
           color.views(), whole->views());
-      row.error = shot_error(color.views(), whole->views(), wet);
+      row.error = error_of(color.views(), whole->views());
       row.truth = beside_truth(color.views());
       say("without " + row.name, row.without_milliseconds, row.error);
       ++left;

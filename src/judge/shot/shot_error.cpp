@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/convert_color.h"
 #include "judge/compare/compare.h"
 #include "judge/compare/flip.h"
 #include "judge/compare/ssim.h"
@@ -32,9 +33,31 @@ double relative_error(const ColorViews& picture, const ColorViews& judge, const 
   return all > 0 ? off / all : std::nan("");
 }
 
+/// A picture with the primaries that metrics of color expect: itself, or a converted copy.
+class InRec709 {
+ public:
+  InRec709(const ColorViews& picture, const Primaries& primaries) : views_(picture) {
+    if (agree(primaries, kRec709)) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      planes_[c] = Plane(picture[c].window);
+      for (int y = picture[c].window.y0; y < picture[c].window.y1; ++y) {
+        std::copy_n(picture[c].row(y), picture[c].window.width(), planes_[c].view().row(y));
+      }
+      views_[c] = planes_[c].view();
+    }
+    convert_color({planes_[0].view(), planes_[1].view(), planes_[2].view()}, kRec709, primaries);
+  }
+  const ColorViews& views() const { return views_; }
+
+ private:
+  std::array<Plane, 3> planes_;
+  ColorViews views_;
+};
+
 }  // namespace
 
-ShotError shot_error(const ColorViews& picture, const ColorViews& judge, const WetMask& wet) {
+ShotError shot_error(const ColorViews& picture, const ColorViews& judge, const WetMask& wet,
+                     const Primaries& primaries) {
   CompareOptions options;
   options.clip = Lagoon::kBrightest;
   const ComparedChannel channels[] = {
@@ -44,9 +67,11 @@ ShotError shot_error(const ColorViews& picture, const ColorViews& judge, const W
   error.pixels = {all.mean, all.p99, all.p99_99, all.max};
   error.rmse = all.rmse;
   error.relative_wet = relative_error(picture, judge, wet);
+  const InRec709 shown(picture, primaries), shown_judge(judge, primaries);
+  const ColorPair pair{shown.views(), shown_judge.views()};
   const Rect w = judge[0].window;
-  if (std::min(w.width(), w.height()) >= kSsimWindow) error.ssim = ssim({picture, judge}).mean;
-  error.flip = flip({picture, judge}).mean;
+  if (std::min(w.width(), w.height()) >= kSsimWindow) error.ssim = ssim(pair).mean;
+  error.flip = flip(pair).mean;
   return error;
 }
 
