@@ -25,7 +25,7 @@ using ::testing::Not;
 class ReportTest : public ToolTest {
  protected:
   void expect_rows(const json& report) const;
-  /// Opens the page, with the checks put in, in a window so wide.
+  /// Opens the page with the inserted checks, in a window of this width.
   void expect_good_page(int width) const;
 };
 
@@ -38,7 +38,7 @@ std::vector<std::string> names_in(const fs::path& folder, bool folders) {
   return names;
 }
 
-/// The planner keeps its promise: no pixel is off by more than was allowed, but for rounding.
+/// The planner keeps its bound: no pixel has a larger error than allowed, except by rounding.
 void expect_budgets_kept(const json& rows, std::size_t subjects) {
   EXPECT_EQ(rows.size(), subjects * 2 * 5);
   for (const json& row : rows) {
@@ -48,7 +48,7 @@ void expect_budgets_kept(const json& rows, std::size_t subjects) {
   }
 }
 
-/// For two looks each: a row a buffer, from color and depth on.
+/// For each of two looks: one row per buffer, starting with color and depth.
 void expect_what_is_brought(const json& section, std::size_t subjects) {
   EXPECT_EQ(section["samples_a_pixel"], 16);
   EXPECT_EQ(section["subjects"].size(), subjects);
@@ -161,7 +161,7 @@ void ReportTest::expect_good_page(int width) const {
   EXPECT_THAT(seen["wide"], IsEmpty());
   EXPECT_GT(seen["images"], 15);
   EXPECT_EQ(seen["broken_images"], 0);
-  EXPECT_GE(seen["plots"].size(), 6);  // of error budgets one at least
+  EXPECT_GE(seen["plots"].size(), 6);  // at least one of them plots error budgets
   for (const json& plot : seen["plots"]) {
     EXPECT_GT(plot["width"], 400) << plot["title"];
     EXPECT_GT(plot["height"], 200) << plot["title"];
