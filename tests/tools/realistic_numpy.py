@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The look `realistic` in numpy float64: a second reading of its formulas, and the judge of ours.
+"""The look `realistic` in numpy float64: a second implementation of its formulas, which judges limpid's.
 
 Written from the descriptions of the models alone, never from the C++ code, so that a wrong formula
 cannot hide behind one text that all runners share.
