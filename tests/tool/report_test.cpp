@@ -73,25 +73,25 @@ void ReportTest::expect_rows(const json& report) const {
   ASSERT_GE(looks.size(), 5);
   EXPECT_EQ(report["subjects"].size(), subjects.size());
 
-  std::set<std::string> ways;
+  std::set<std::string> runs;
   for (const json& row : report["looks_by_runner"]) {
     EXPECT_GT(row["ns_per_pixel"], 0);
     EXPECT_LT(row["error"]["mean"], 1e-4) << row;
     if (row["threads"] != 1) continue;
     const std::string simd = row["simd"].is_null() ? "" : row["simd"];
-    ways.insert(std::string(row["subject"]) + "/" + std::string(row["look"]) + "/" + simd);
+    runs.insert(std::string(row["subject"]) + "/" + std::string(row["look"]) + "/" + simd);
   }
   std::vector<std::string> targets = simd_targets();
   targets.push_back("");  // the reference
   for (const std::string& subject : subjects) {
     for (const std::string& look : looks) {
       for (const std::string& simd : targets) {
-        EXPECT_TRUE(ways.contains(subject + "/" + look + "/" + simd))
+        EXPECT_TRUE(runs.contains(subject + "/" + look + "/" + simd))
             << subject << ", " << look << ", " << simd;
       }
     }
   }
-  EXPECT_EQ(ways.size(), subjects.size() * looks.size() * targets.size());
+  EXPECT_EQ(runs.size(), subjects.size() * looks.size() * targets.size());
 
   EXPECT_EQ(report["looks_beside_physical"].size(), subjects.size() * looks.size());
   for (const json& row : report["looks_beside_physical"]) {
