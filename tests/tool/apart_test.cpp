@@ -257,7 +257,7 @@ TEST_F(ApartJobs, AreRefusedByTheLibraryToo) {
                 composite_sequence(
                     {{3, 4}, 1}, [&](int) { return job(); }, {}, *executor);
               }),
-              HasSubstr("wet.exr: is another output of frame 3, too: expected a file of its own"));
+              HasSubstr("wet.exr: is another output of frame 3, too: expected a separate file"));
 }
 
 TEST_F(ApartJobs, ModelsKnowTheirFiles) {
