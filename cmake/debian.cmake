@@ -1,4 +1,4 @@
-# Debian packages, one a component: `cpack -G DEB`, or tools/dev package, which configures for /usr.
+# Debian packages, one per component: `cpack -G DEB`, or tools/dev package, which configures for /usr.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME limpid)
 set(CPACK_PACKAGE_VENDOR limpid)

@@ -67,7 +67,7 @@ class Uses {
     text += ", too";
     if (other != output) text += ", named " + other.string();
     throw Error(text + ": expected " +
-                    (of_other.writes ? "a file of its own for each output"
+                    (of_other.writes ? "a separate file for each output"
                                      : "an output that nothing is read from"),
                 Fault::kUsage);
   }

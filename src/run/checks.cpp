@@ -32,7 +32,7 @@ void check_apart(const Frame& frame, const View<float>& out) {
   const auto check = [&](std::span<const View<const float>> inputs) {
     for (const View<const float>& in : inputs) {
       if (overlap(host_view(in), host_view(out))) {
-        throw Error("target: it lies over the memory of the frame, expected memory of its own");
+        throw Error("target: it overlaps the memory of the frame, expected separate memory");
       }
     }
   };

@@ -53,7 +53,7 @@ void validate_apart(const HostOutputs& host, const Rect& work) {
     for (std::size_t j = 0; host[i] && j < i; ++j) {
       if (!host[j] || !share_bytes(host[i], host[j], work)) continue;
       throw Error("picture: " + name_of(static_cast<int>(i)) + " shares bytes with " +
-                  name_of(static_cast<int>(j)) + ", expected a place of its own");
+                  name_of(static_cast<int>(j)) + ", expected separate memory");
     }
   }
 }

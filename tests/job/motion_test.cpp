@@ -214,9 +214,9 @@ class SpotTest : public ::testing::Test {
   glm::dvec4 bottom(int x, int y) const {
     const Rays rays = rays_of(camera_, {kPicture.width(), kPicture.height()});
     const glm::dvec3 ray = rays.ray_at(x + 0.5, y + 0.5);
-    const double way = (kBottom - camera_.eye().y) / ray.y;
-    if (!(way > 0)) return {0, 0, 0, 0};
-    return {camera_.eye() + way * ray, 1};
+    const double distance = (kBottom - camera_.eye().y) / ray.y;
+    if (!(distance > 0)) return {0, 0, 0, 0};
+    return {camera_.eye() + distance * ray, 1};
   }
   glm::dvec2 on_screen(const glm::dvec4& world) const {
     const glm::dvec4 clip = camera_.projection * camera_.view * world;

@@ -20,7 +20,7 @@ using R = Refraction;
 
 /// All models of refraction, with and without a prism, each with a name.
 template <class Fn>
-void each_way(Fn&& fn) {
+void each_refraction(Fn&& fn) {
   const auto fog_models = {DepthFog::Model::kLinear, DepthFog::Model::kBeerLambert};
   for (const R::Model model : {R::Model::kNormalOffset, R::Model::kDudvOffset, R::Model::kSnell}) {
     for (const int steps : {0, 2, R::kMarch}) {
@@ -91,11 +91,11 @@ bool in_open_sea(int x, int y) { return x + y / 2 < 25; }
 
 TEST(NothingBehind, OpenSeaIsFullFogByAGuess) {
   const Sea sea([](int, int) { return false; }, false, false);
-  each_way([&](const Look& look, const std::string& way) {
+  each_refraction([&](const Look& look, const std::string& name) {
     const test::Picture got = sea.wet(look);
     const DepthFog::Params& fog = look.of<DepthFog>();
     each_wet(got, kSize, [&](int x, int y) {
-      SCOPED_TRACE(way + " at " + std::to_string(x) + ", " + std::to_string(y));
+      SCOPED_TRACE(name + " at " + std::to_string(x) + ", " + std::to_string(y));
       ASSERT_EQ(got.aov(Aov::kTransmitted, x, y), 0);
       ASSERT_TRUE(std::isinf(got.aov(Aov::kPath, x, y)));
       ASSERT_EQ(got.aov(Aov::kConfidence, x, y), 0);
@@ -109,11 +109,11 @@ TEST(NothingBehind, OpenSeaIsFullFogByAGuess) {
 TEST(NothingBehind, TheSkyNeverBleedsIn) {
   for (const bool below : {false, true}) {
     const Sea sea(in_open_sea, below);
-    each_way([&](const Look& look, const std::string& way) {
+    each_refraction([&](const Look& look, const std::string& name) {
       const test::Picture got = sea.wet(look);
       int none = 0, seen = 0;
       each_wet(got, kSize, [&](int x, int y) {
-        SCOPED_TRACE(way + (below ? ", below at " : " at ") + std::to_string(x) + ", " +
+        SCOPED_TRACE(name + (below ? ", below at " : " at ") + std::to_string(x) + ", " +
                      std::to_string(y));
         for (int c = 0; c < 3; ++c) {
           const double light = got.aov(Aov::kTransmitted, x, y, c);
@@ -127,15 +127,15 @@ TEST(NothingBehind, TheSkyNeverBleedsIn) {
         none += endless;
         seen += got.aov(Aov::kConfidence, x, y) > 0.9;
       });
-      EXPECT_GT(none, 50) << way;
-      EXPECT_GT(seen, 50) << way;
+      EXPECT_GT(none, 50) << name;
+      EXPECT_GT(seen, 50) << name;
     });
   }
 }
 
 TEST(NothingBehind, ABottomIsNotDarkerBesideIt) {
   const Sea sea(in_open_sea);
-  each_way([&](const Look& look, const std::string& way) {
+  each_refraction([&](const Look& look, const std::string& name) {
     Look clear = look;
     clear.of<DepthFog>().alpha = 0;
     clear.of<DepthFog>().model = DepthFog::Model::kLinear;
@@ -145,7 +145,7 @@ TEST(NothingBehind, ABottomIsNotDarkerBesideIt) {
       const double light = got.aov(Aov::kTransmitted, x, y);
       if (look.of<R>().off_frame == R::OffFrame::kFog) return;
       ASSERT_TRUE(light == 0 || std::abs(light - kBottomColor) < 1e-5)
-          << way << " at " << x << ", " << y << ": " << light;
+          << name << " at " << x << ", " << y << ": " << light;
     });
   });
 }
@@ -181,10 +181,10 @@ TEST(NothingBehind, FromBelowTheSkyIsSeen) {
       glm::lookAt(glm::dvec3(0, -2, 0), glm::dvec3(0, 0, -0.5), glm::dvec3(0, 1, 0));
   for (int c = 0; c < 3; ++c) buffers.fill(plane_after(PlaneId::kColorR, c), kSky);
   buffers.fill(PlaneId::kDepth, test::kInf);
-  each_way([&](const Look& look, const std::string& way) {
+  each_refraction([&](const Look& look, const std::string& name) {
     const test::Picture got = test::reference(look, buffers.frame, scene);
     const int x = kSize.width / 2, y = kSize.height / 2;
-    EXPECT_GT(got.aov(Aov::kTransmitted, x, y), 1) << way;
+    EXPECT_GT(got.aov(Aov::kTransmitted, x, y), 1) << name;
   });
 }
 

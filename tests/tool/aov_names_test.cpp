@@ -48,7 +48,7 @@ TEST_F(AovNamesTest, OfEachHost) {
                     "ViewLayer.stmap_g.U", "ViewLayer.stmap_g.V", "ViewLayer.stmap_g.A"}));
   EXPECT_THAT(names("arnold.exr"), IsSupersetOf({"R", "A", "transmitted.R", "fresnel", "path",
                                                  "normal.Z", "stmap_g.X", "stmap_g.Y"}));
-  // View layer, pass and one letter are all that Blender splits a name into.
+  // Blender splits a channel's name into view layer, pass and one letter.
   EXPECT_THAT(names("blender.exr"), Each(MatchesRegex("ViewLayer\\.[A-Za-z_]+\\.[RGBAXYZUV]")));
   EXPECT_THAT(names("nuke.exr"), Each(MatchesRegex("[RGBA]|[a-z_]+\\.[A-Za-z]+")));
 }
@@ -69,7 +69,7 @@ TEST_F(AovNamesTest, ChangeNothingElse) {
         limpid({"compare", "limpid.exr", files[i], "--channels", hosts[i], "--tolerance", "0"});
     EXPECT_EQ(ran.code, 0) << files[i] << ran.out << ran.err;
   }
-  // The third channel of a map is 1.
+  // The third channel of an ST map is 1.
   const Ran stats = oiiotool({"blender.exr", "--ch", "ViewLayer.stmap_r.A", "--printstats"});
   EXPECT_THAT(stats.out, HasSubstr("Stats Min: 1.0"));
   EXPECT_THAT(stats.out, HasSubstr("Stats Max: 1.0"));

@@ -32,7 +32,7 @@ class ApartTest : public ToolTest {
     }
     return all;
   }
-  /// Expects exit 2 with these parts, and all files as they were.
+  /// Expects exit code 2, a message with these parts, and unchanged files.
   void expect_untouched(const Words& words, const Words& parts) const {
     const auto before = contents();
     expect_refused(limpid(words), parts, 2);
@@ -115,7 +115,7 @@ TEST_F(ApartTest, ASequenceIsRefusedBeforeItsFirstFrame) {
   write_plates("q.%04d.exr", 3);
   expect_composite_refused({"q.####.exr", "-o", "q.####.exr", "--frames", "1-3"},
                            {"frame 1: q.0001.exr: is an input, too"});
-  // A plate that stays, and that the last frame would overwrite.
+  // A still plate, which the last frame would overwrite.
   for (const Words& more : {Words{}, Words{"--resume"}}) {
     Words words{"q.0003.exr", "-o", "q.####.exr", "--frames", "2-3"};
     words.insert(words.end(), more.begin(), more.end());
@@ -209,7 +209,7 @@ TEST_F(ApartTest, OutputsGoWhereLinksLead) {
   EXPECT_THAT(iinfo("disk/new.png"), HasSubstr("64 x   36"));
 }
 
-/// The library as the tool: jobs made by hand.
+/// The library refuses the same jobs as the tool; these jobs are built in C++.
 class ApartJobs : public ApartTest {
  protected:
   CompositeJob job() const {
@@ -220,7 +220,7 @@ class ApartJobs : public ApartTest {
     job.output.picture = folder_ / "wet.exr";
     return job;
   }
-  /// The sentence of the refusal; all files must be as they were.
+  /// The message of the refusal; all files must be unchanged.
   template <class Work>
   std::string refusal(const Work& work) const {
     const auto before = contents();
@@ -252,12 +252,12 @@ TEST_F(ApartJobs, AreRefusedByTheLibraryToo) {
     EXPECT_THAT(sequence, HasSubstr("wet.exr: is an input, too")) << input;
   }
   fs::remove(folder_ / "wet.exr");
-  // A fixed name in a sequence.
+  // One output name for all frames of a sequence.
   EXPECT_THAT(refusal([&] {
                 composite_sequence(
                     {{3, 4}, 1}, [&](int) { return job(); }, {}, *executor);
               }),
-              HasSubstr("wet.exr: is another output of frame 3, too: expected a file of its own"));
+              HasSubstr("wet.exr: is another output of frame 3, too: expected a separate file"));
 }
 
 TEST_F(ApartJobs, ModelsKnowTheirFiles) {

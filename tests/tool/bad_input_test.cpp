@@ -6,7 +6,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// Each fault is one clear sentence and exit 1; the old file under the output's name stays.
+/// Each fault gives one clear sentence and exit code 1; an old file under the output's name stays.
 
 namespace limpid::test {
 namespace {
@@ -105,7 +105,7 @@ TEST_F(BadInputTest, DeepFile) {
   expect_bad_plate("deep.exr", {"deep.exr: no channel 'A'", "R, G, B, A and Z"});
   const Words with_kind = {"deep.exr", "--scene", "scene.toml", "--depth-kind", "inverse"};
   expect_no_composite(with_kind, {"deep.exr: holds deep samples", "kind eye or ray"});
-  // Other buffers cannot be deep: a pixel needs one value of them.
+  // Other buffers cannot be deep: a pixel needs one value of each.
   expect_no_composite({"plate.exr", "--scene", "scene.toml", "--layer", "shadow=deep.exr:R"},
                       {"deep.exr: part 0", "holds deep samples", "flat pixels"});
 }
@@ -167,7 +167,7 @@ TEST_F(BadInputTest, UnwritableOutput) {
   fs::create_directory(folder_ / "wet.exr");
   expect_refused(composite("wet.exr"), {"wet.exr: is there and not a file"});
   EXPECT_TRUE(fs::is_empty(folder_ / "wet.exr"));
-  if (::geteuid() != 0) {  // root may write everywhere
+  if (::geteuid() != 0) {  // root can write to every folder
     fs::create_directory(folder_ / "locked");
     fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
     expect_refused(composite("locked/wet.exr"), {"locked/wet.exr: ", "permission denied"});

@@ -16,7 +16,7 @@ using ::testing::Not;
 constexpr const char* kAp1 = "0.713,0.293,0.165,0.83,0.128,0.044,0.32168,0.33767";
 constexpr const char* kBt709 = "0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329";
 
-/// A water by its name, beside which no color is given by hand: no scattering, no sun's disc.
+/// A named water type without any color set by hand: no scattering, no disc of the sun.
 const char* const kClear = R"([wave_normals]
 strength = 0.0
 [depth_fog]
@@ -35,7 +35,7 @@ class ColorsTest : public ToolTest {
     tell("told709.exr", kBt709);
     tell("toldap1.exr", kAp1);
   }
-  /// plate.exr with other colors, or chromaticities, or both.
+  /// plate.exr with other colors, other chromaticities, or both.
   void tell(const std::string& file, const char* chromaticities, const Words& change = {}) {
     Words words = {"plate.exr"};
     words.insert(words.end(), change.begin(), change.end());
@@ -51,7 +51,7 @@ class ColorsTest : public ToolTest {
     return limpid(words);
   }
   void wetted(const std::string& plate, const std::string& output, Words more = {}) {
-    more.push_back("-q");  // of the plate there is more to say
+    more.push_back("-q");  // the plate causes other warnings
     const Ran ran = wet(plate, output, more);
     EXPECT_EQ(ran.code, 0) << ran.err;
   }
@@ -80,7 +80,7 @@ TEST_F(ColorsTest, OtherPrimariesAreToldByThePlateTheSceneOrTheCommandLine) {
   EXPECT_TRUE(same("told.exr", "scene.exr"));
   wetted("plate.exr", "silent.exr");
   EXPECT_FALSE(same("silent.exr", "told.exr", .01)) << "the water is another";
-  // The pictures tell of it, too, and so does how they were made.
+  // The pictures and their provenance record the color space, too.
   for (const char* file : {"told.exr", "named.exr", "scene.exr"}) {
     EXPECT_THAT(space_of(file), HasSubstr(std::string(file) + ": ACEScg\n"));
     EXPECT_THAT(space_of(file), HasSubstr("colorspace = \"ACEScg\"\n"));
@@ -111,7 +111,7 @@ TEST_F(ColorsTest, RefusesUnknownNames) {
   EXPECT_EQ(wet("none.exr", "wet.exr", {"--colorspace", "ACEScg"}).code, 0);
 }
 
-/// A picture and the same picture in ACEScg compare as equal, however the files name the space.
+/// A picture and its conversion to ACEScg compare as equal, however the files name the space.
 TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
   const Words convert = {"--ccmatrix",
                          ".61309732,.07019422,.02061560,0,.33952285,.91635557,.10956983,0,"
@@ -133,7 +133,7 @@ TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
   EXPECT_THAT(flip("ap1.exr", "told709.exr"),
               HasSubstr("  Metrics of color in Rec.709, made of ACEScg and Rec.709\n"));
   EXPECT_THAT(flip("told709.exr", "told709.exr"), Not(HasSubstr("Metrics of color in")));
-  // Both in a space that neither file names: as if both files named it.
+  // A space given for both files acts as if each file named the space.
   EXPECT_EQ(mean(flip("ap1_untold.exr", "plate.exr", {"--colorspace", "ACEScg"})),
             mean(flip("ap1.exr", "toldap1.exr")));
   expect_refused(limpid({"compare", "ap1.exr", "ap1.exr", "--colorspace", "ACEScg"}),
@@ -148,8 +148,8 @@ TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
       {"--colorspace: is for linear pictures; encoded.png and encoded.png are encoded as sRGB"}, 2);
 }
 
-/// A plate in ACEScg and the same one in Rec.709, in the same water by its name: converted to
-/// ACEScg beforehand or afterwards, the picture is the same but for what three rates cannot be.
+/// The same plate in ACEScg and in Rec.709 under the same named water type: the two pictures,
+/// compared in ACEScg, differ only by the error of describing a spectrum by three rates.
 TEST_F(ColorsTest, TheSameWaterShowsTheSamePicture) {
   const Words convert = {"--ccmatrix",
                          ".61309732,.07019422,.02061560,0,.33952285,.91635557,.10956983,0,"

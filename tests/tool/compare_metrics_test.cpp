@@ -17,13 +17,13 @@ class CompareMetricsTest : public ToolTest {
     words.insert(words.end(), more.begin(), more.end());
     return limpid(words);
   }
-  /// The picture of `file` with other channels, each `NAME` or `NAME=NUMBER`.
+  /// The picture of `file` with replaced channels, each `NAME` or `NAME=NUMBER`.
   void rechannel(const std::string& file, const std::string& channels,
                  const std::string& output) const {
     const Ran ran = oiiotool({file, "--ch", channels, "-d", "float", "-o", output});
     ASSERT_EQ(ran.code, 0) << ran.err;
   }
-  /// Of a line `NAME = NUMBER, ...`.
+  /// The number in a line `NAME = NUMBER, ...`.
   static double number_of(const Ran& ran, const std::string& name) {
     const std::size_t at = ran.out.find("  " + name + " = ");
     EXPECT_NE(at, std::string::npos) << ran.out;
@@ -99,7 +99,7 @@ TEST_F(CompareMetricsTest, OtherFormatsAreDecodedFirst) {
 TEST_F(CompareMetricsTest, OffsetsOfTheLookups) {
   composed("wet.exr", {"--float", "--aov", "all"});
   const std::string maps = "stmap.r.U,stmap.r.V,stmap.g.U,stmap.g.V,stmap.b.U,stmap.b.V";
-  // A truth that says the same, and has all but blue.
+  // A truth with the same lookups, in which blue is not visible.
   rechannel("wet.exr", "R,G,B," + maps + ",visible.R=1,visible.G=1,visible.B=0", "truth.exr");
   const Words offset = with(kColor, {"--metrics", "offset"});
   const Ran ran = compare("wet.exr", "truth.exr", offset);
@@ -108,7 +108,7 @@ TEST_F(CompareMetricsTest, OffsetsOfTheLookups) {
   EXPECT_THAT(ran.out, ContainsRegex("\n    G  median 0, .* wrongly accepted 0% of [1-9]"));
   EXPECT_THAT(ran.out, ContainsRegex("\n    B  median 0, .* of 0 lookups; wrongly rejected 0%, "
                                      "wrongly accepted [1-9]"));
-  // A truth whose red came from the right edge.
+  // A truth whose red lookups end at the right edge.
   rechannel("wet.exr",
             "R,G,B,stmap.r.U=1,stmap.r.V,stmap.g.U,stmap.g.V,stmap.b.U,stmap.b.V,visible.R=1,"
             "visible.G=1,visible.B=1",
@@ -117,7 +117,7 @@ TEST_F(CompareMetricsTest, OffsetsOfTheLookups) {
   EXPECT_THAT(other.out, ContainsRegex("\n    R  median [1-9]"));
   EXPECT_THAT(other.out, ContainsRegex("\n    B  median 0, 95% 0,"));
   EXPECT_EQ(other.code, 0);
-  // Lookups that are not even numbers never pass.
+  // Lookups that are NaN never pass.
   rechannel("wet.exr",
             "R,G,B,stmap.r.U=nan,stmap.r.V,stmap.g.U,stmap.g.V,stmap.b.U,stmap.b.V,visible.R=1,"
             "visible.G=1,visible.B=1",
@@ -128,8 +128,8 @@ TEST_F(CompareMetricsTest, OffsetsOfTheLookups) {
   EXPECT_THAT(broken.out, HasSubstr("lookups are NaN or inf where they count\nFAILURE\n"));
 }
 
-/// A model is also drawn without what is over the water, and lookups go there: what hides something
-/// from the dry camera does not count then.
+/// A model is also drawn without the objects above the water, and lookups read that layer: an
+/// object that hides the bottom from the dry camera does not count then.
 TEST_F(CompareMetricsTest, OffsetsAreJudgedByThePictureThatWasLookedUp) {
   composed("plate_wet.exr", {"--float", "--aov", "all"});
   const std::string pool = std::string(LIMPID_DATA) + "/scenes/pool.toml";
@@ -205,7 +205,8 @@ TEST_F(CompareMetricsTest, AFrameALine) {
   const Ran good = compare("a.####.exr", "b.####.exr", {"--frames", "1-2"});
   EXPECT_EQ(good.code, 0);
   EXPECT_THAT(good.out, HasSubstr("\n  Flicker = 0, max 0\nPASS\n"));
-  // Frame 3 is that of time 1: over the range 1,3 the truth stands still and the picture does not.
+  // Frame 3 has the time of frame 1: over the range 1,3 the truth does not change and the picture
+  // does.
   const Ran skipped = compare("a.####.exr", "b.####.exr", {"--frames", "1,3"});
   EXPECT_GT(number_of(skipped, "Flicker"), 0);
   expect_refused(compare("a.####.exr", "b.####.exr", {"--frames", "4"}), {"a.0004.exr"});

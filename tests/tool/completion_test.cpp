@@ -10,7 +10,7 @@ using ::testing::Not;
 
 class CompletionTest : public ToolTest {
  protected:
-  /// What bash would offer for the last of these words.
+  /// The words that bash offers in place of the last of these words.
   std::string offered(const std::string& words) {
     write_text("limpid.bash", limpid({"completion", "bash"}).out);
     write_text("ask.bash", ". ./limpid.bash\nCOMP_WORDS=(" + words +

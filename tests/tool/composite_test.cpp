@@ -124,7 +124,7 @@ TEST_F(CompositeTest, AovsSumToThePicture) {
   composed("float.exr", {"--aov", "all", "--float"});
   EXPECT_EQ(oiiotool(sum_against_picture("half.exr", "2e-3")).code, 0);
   EXPECT_EQ(oiiotool(sum_against_picture("float.exr", "0")).code, 0);
-  for (const std::string term : {"in_scatter", "reflected", "highlight"}) {  // none is empty
+  for (const std::string term : {"in_scatter", "reflected", "highlight"}) {  // none is zero
     const Ran ran = oiiotool({"float.exr", "--ch", term + ".G", "--printstats"});
     EXPECT_THAT(ran.out, Not(HasSubstr("Stats Max: 0.000000"))) << term;
   }
@@ -135,7 +135,7 @@ TEST_F(CompositeTest, ThePreviewIsAPicture) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, ::testing::EndsWith("\nwet.png\n"));
   EXPECT_THAT(iinfo("wet.png"), HasSubstr("64 x   36, 3 channel, uint8 png"));
-  // It is the picture in sRGB, to half a step of 8 bits.
+  // The preview is the picture in sRGB, to half a step of 8 bits.
   const Ran alike = oiiotool({"--fail", "0.005", "wet.exr", "--ch", "R,G,B", "--clamp:min=0:max=1",
                               "--colorconvert", "linear", "sRGB", "wet.png", "--diff"});
   EXPECT_EQ(alike.code, 0) << alike.out << alike.err;

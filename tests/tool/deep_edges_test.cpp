@@ -3,8 +3,8 @@
 #include "complete/post.h"
 #include "job/deep_output.h"
 
-// The water of a deep file is that of whole pixels, also where something stands before a part of
-// one.
+// The water of a deep file is computed for whole pixels, also where an object covers a part of a
+// pixel.
 
 namespace limpid {
 namespace {

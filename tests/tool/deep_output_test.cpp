@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using Values = std::map<std::string, float>;
 using Place = std::pair<int, int>;
 
-/// The samples of a deep file, by pixel; at most one a pixel.
+/// The samples of a deep file, by pixel; at most one sample per pixel.
 std::map<Place, Values> samples_of(const std::filesystem::path& path) {
   const ExrFile file = ExrFile::open(path);
   std::vector<std::string> names;
@@ -84,7 +84,7 @@ TEST_F(DeepOutputTest, EveryWetPixelHasTheWaterThatThePictureHas) {
       if (!samples.contains(p)) continue;
       Values& sample = samples.at(p);
       EXPECT_EQ(sample["Z"], front);
-      // The look measures eye depth, and its fog is full after 1 / 0.15.
+      // The fog of the look is measured in eye depth and is full after 1 / 0.15.
       const bool ends = path < kEndless;
       endless += !ends;
       EXPECT_NEAR(sample["ZBack"], front + (ends ? path : 1 / 0.15f), 1e-5f * (front + path));
@@ -112,7 +112,7 @@ TEST_F(DeepOutputTest, IsADeepExrThatSaysWhereItIsFrom) {
                            "pond/studio: \"shallow end\"", "R (half)", "ZBack (float)"}) {
     EXPECT_THAT(info, HasSubstr(fact));
   }
-  // OpenImageIO finds the same color in it.
+  // OpenImageIO flattens the file to the same color.
   composed("terms.exr", {"--aov", "in_scatter"});
   ASSERT_EQ(oiiotool({"deep.exr", "--flatten", "--ch", "R,G,B", "-o", "flat.exr"}).code, 0);
   ASSERT_EQ(oiiotool({"terms.exr", "--ch", "R=in_scatter.R,G=in_scatter.G,B=in_scatter.B", "-o",
@@ -156,7 +156,7 @@ TEST_F(DeepOutputTest, ClearWaterIsThereButCoversNothing) {
   const auto samples = samples_of(folder_ / "deep.exr");
   EXPECT_GT(samples.size(), 900u);
   for (const auto& [place, sample] : samples) EXPECT_EQ(sample.at("A"), 0);
-  // Without an end and without density there is no place to end at.
+  // A ray without a bottom, in fog without density, has no end.
   composed_deep({"--set", "depth_fog.density=0"});
   const auto ended = samples_of(folder_ / "deep.exr");
   Flat wet(folder_ / "wet.exr");

@@ -49,7 +49,7 @@ class DeepPlateTest : public ToolTest {
     words.insert(words.end(), more.begin(), more.end());
     return limpid(words);
   }
-  /// What oiiotool finds in a channel of the water beside the post.
+  /// The statistics that oiiotool gives of a channel of the water beside the post.
   std::string beside_the_post(const std::string& file, const std::string& channel) const {
     return oiiotool({file, "--cut", "10x24+20+12", "--ch", channel, "--printstats"}).out;
   }
@@ -63,7 +63,7 @@ TEST_F(DeepPlateTest, TheBottomIsSeenBesideThePostAndNoPostInTheWater) {
   // The post itself stays.
   EXPECT_THAT(oiiotool({"wet.exr", "--cut", "4x24+30+12", "--ch", "R", "--printstats"}).out,
               HasSubstr("Stats Min: 1.000000"));
-  // Without the samples behind it the post bleeds into the water.
+  // Without the samples behind the post, the post's color bleeds into the water.
   const Ran flat = wet("flat.exr", {"--layer", "below_color=none", "--layer", "below_depth=none"});
   ASSERT_EQ(flat.code, 0) << flat.err;
   EXPECT_THAT(beside_the_post("flat.exr", "R"), Not(HasSubstr("Stats Max: 0.000000")));

@@ -1,4 +1,4 @@
-// --exposure, --display and --ocio: how --preview, --contact-sheet and --show show light.
+// --exposure, --display and --ocio: the view transform of --preview, --contact-sheet and --show.
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +31,7 @@ class DisplayTest : public ToolTest {
     composed("wet.exr", words);
     return bytes_of("wet.png");
   }
-  /// With $OCIO.
+  /// Runs the tool with the environment variable OCIO.
   Ran with_ocio(const std::string& ocio, const Words& more) const {
     Words words = {"/usr/bin/env", "OCIO=" + ocio, LIMPID_TOOL, "composite", "plate.exr", "--scene",
                    "scene.toml",   "--look",       "look.toml", "-o",        "env.exr"};

@@ -6,7 +6,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// The surroundings that a scene names: there or refused, loaded when the plan looks them up.
+/// The environment that a scene names must exist, and is loaded if the plan has lookups of it.
 
 namespace limpid::test {
 namespace {
@@ -81,8 +81,8 @@ TEST_F(EnvironmentTest, IsLoadedAndTurnedForAPlanThatReadsIt) {
   EXPECT_EQ(sky.channels[2].at(4, 1), 0);
 }
 
-/// The matrix between Rec.709 and ACEScg is published with ACES: red of the one is (.6131, .0702,
-/// .0206) of the other.
+/// The matrix between Rec.709 and ACEScg is published with ACES: red of Rec.709 is (.6131, .0702,
+/// .0206) in ACEScg.
 TEST_F(EnvironmentTest, IsMadeOfThePlansPrimariesWhereItsFileTellsItsOwn) {
   const auto sky_of = [&](const char* chromaticities, const char* space) {
     const Ran made =
@@ -121,7 +121,7 @@ TEST_F(EnvironmentTest, OfManyFramesIsLoadedOnce) {
   std::filesystem::remove(folder_ / "waves.exr");
   EXPECT_EQ(textures.load(textures_read(plan, scene)).environment, sky);
   EXPECT_EQ(textures.load(textures_read(plan, scene)).wave_map, map);
-  // Another file, or the same turned, is another texture.
+  // Another file, or the same file with another rotation, is another texture.
   scene.environment = folder_ / "other.exr";
   EXPECT_NE(textures.load(textures_read(plan, scene)).environment, sky);
   std::filesystem::remove(folder_ / "other.exr");

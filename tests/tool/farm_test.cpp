@@ -30,7 +30,7 @@ constexpr const char* kWhole = " frames are there and whole, by the hashes that 
 class FarmTest : public ToolTest {
  protected:
   FarmTest() {
-    // sbatch answers by the numbers 11, 12 ...; squeue with the text of the file `queue`.
+    // sbatch prints the job numbers 11, 12 ...; squeue prints the text of the file `queue`.
     slurm("sbatch",
           "echo \"$*\" >>submitted; [ ! -e refuse-\"$(wc -l <submitted)\" ] || "
           "{ echo 'sbatch: error: no such partition' >&2; exit 1; }; "
@@ -55,7 +55,7 @@ class FarmTest : public ToolTest {
       write_plate(folder_ / name_of_frame("plate.%d.exr", frame), options);
     }
   }
-  /// Its header is whole, its pixels are not: each stream of zlib has a checksum.
+  /// Damages the pixels of a file and leaves its header whole: the checksum of a zlib stream fails.
   void break_plate(int frame) const {
     const std::string name = name_of_frame("plate.%d.exr", frame);
     oiiotool({name, "--compression", "zips", "-o", name});
@@ -139,7 +139,7 @@ TEST_F(FarmTest, AFrameThatFailsIsNamedAndTheOthersAreMade) {
   const Ran status = farm({"status", "it's wet/wet.farm"});
   EXPECT_EQ(status.code, 1);
   EXPECT_EQ(status.out, "4 of 5 frames are done\nno task waits or runs\n" + sentence);
-  // Mended, that frame alone is left.
+  // After the repair only that frame is missing.
   write_plates(5);
   EXPECT_EQ(farm({"--local", "1", "--chunk", "3"}, "1-5").code, 0);
   EXPECT_EQ(text_of("it's wet/wet.farm/chunks.txt"), "2\n");
@@ -151,7 +151,7 @@ TEST_F(FarmTest, AnotherLookMakesAllFramesAgain) {
   ASSERT_EQ(farm({"--local", "1", "--chunk", "2"}, "1-2").code, 0);
   const Ran dry = farm({"--chunk", "2"}, "1-2", {"--set", "depth_fog.density=0.3"});
   EXPECT_EQ(dry.code, 0) << dry.err;
-  // Both pictures are there, but are those of before.
+  // Both pictures exist, but were made by the earlier run.
   EXPECT_THAT(farm({"status", "it's wet/wet.farm"}).out, StartsWith("0 of 2 frames are done\n"));
 }
 
@@ -248,7 +248,7 @@ TEST_F(FarmTest, TasksWithoutTheirLastJobAreTakenBack) {
   write_text("refuse-2", "");
   expect_refused(farm({"--chunk", "2", "-q"}, "1-2"), {"sbatch: sbatch: error: no such partition"});
   EXPECT_EQ(text_of("cancelled"), "11\n");
-  // The next farm starts unhindered.
+  // The next farm starts: no lock is left.
   EXPECT_EQ(farm({"--chunk", "2", "-q"}, "1-2").out, "13\n");
 }
 

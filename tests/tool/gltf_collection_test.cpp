@@ -10,7 +10,7 @@
 
 #include "tool/tool.h"
 
-/// The collection of tests/tools/gltf_collection.py: 60 files with what files of others have.
+/// The collection of tests/tools/gltf_collection.py: 60 files with features that exporters write.
 
 namespace limpid::test {
 namespace {
@@ -49,7 +49,7 @@ const View<const float>& plane(const RenderedPlate& plate, PlaneId id) {
   return plate.frame.plane(id);
 }
 
-/// Pixels in which a color differs by more.
+/// Pixels in which a color differs by more than the tolerance.
 int different(const RenderedPlate& a, const RenderedPlate& b, double tolerance) {
   int count = 0;
   for (int y = 0; y < kSize.height; ++y) {
@@ -94,8 +94,8 @@ TEST_F(GltfCollectionTest, IsDrawn) {
 }
 
 TEST_F(GltfCollectionTest, IsDrawnAsPlainTrianglesAre) {
-  // What is rounded in the file: half a step of a byte in uvs and normals, and an edge here and
-  // there. The rest is worked out in double and may differ by the last bit of a vertex.
+  // Rounding in the file: half a step of a byte in uvs and normals, which moves a few edges. All
+  // other numbers are computed in double and may differ by the last bit of a vertex.
   const std::map<std::string, double> rounded = {{"quantized_shorts", 0.01},
                                                  {"quantized_plain", 0.03},
                                                  {"skin_shorts", 0.01},

@@ -8,7 +8,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// --runner gpu, on whatever device comes first: Mesa's lavapipe, where there is no other.
+/// --runner gpu on the first device: Mesa's lavapipe on a machine without a GPU.
 
 namespace limpid::test {
 namespace {
@@ -44,7 +44,7 @@ TEST_F(GpuToolTest, GivesThePictureOfTheReference) {
   EXPECT_THAT(*options, HasSubstr("gpu = \"" + gpu_devices()[0].name + " ("));
 }
 
-/// Deep samples and samples of the waves, as by the fused runner.
+/// Deep output and wave samples equal those of the fused runner.
 TEST_F(GpuToolTest, WritesWhatOthersWrite) {
   const Words scene{std::string(LIMPID_DATA) + "/scenes/pool.toml",
                     "--size",

@@ -8,7 +8,7 @@
 
 #include "tool/tool.h"
 
-/// The looks and presets that come with the tool, as their users find them.
+/// The looks and presets that are installed with the tool.
 
 namespace limpid::test {
 namespace {
@@ -49,7 +49,7 @@ TEST_F(LooksTest, ShowsEachInAPictureOfThePlate) {
       limpid({"looks", "--pictures", "looks.png", "plate.exr", "--scene", "scene.toml"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("looks.png: 4 by 3 pictures"));
-  // Half of the plate each, four pixels apart.
+  // Each is half as large as the plate, with four pixels between them.
   EXPECT_THAT(iinfo("looks.png"), ContainsRegex(" [0-9]+ x +[0-9]+, 3 channel, uint8 png"));
   EXPECT_EQ(
       limpid({"looks", "-q", "--pictures", "again.png", "plate.exr", "--scene", "scene.toml"}).out,
@@ -91,7 +91,7 @@ TEST_F(LooksTest, APresetIsAnInputAndSoIsItsBase) {
   }
 }
 
-/// What a preset adds to a scene is no cause for a warning that the look physical has not.
+/// A preset causes no warning that the look `physical` does not cause on the same scene.
 TEST_F(LooksTest, PresetsWarnOfNothingOfTheirOwnInAnyScene) {
   std::vector<Words> pictures;
   for (const auto& entry : fs::directory_iterator(kData / "scenes")) {

@@ -6,23 +6,23 @@
 #include "limpid/core/camera.h"
 #include "limpid/files/exr/exr_writer.h"
 
-/// A plate of a pond with a shore on its left and sky above, made up by formulas: 64x36 pixels, the
-/// camera 2 above the water y = 0, the bottom at y = -1, the shore at y = 0.2.
+/// A plate of a pond with a shore on its left and sky above, computed from formulas: 64x36 pixels,
+/// the camera 2 above the water y = 0, the bottom at y = -1, the shore at y = 0.2.
 
 namespace limpid::test {
 
 inline constexpr Rect kPicture{0, 0, 64, 36};
-/// Columns left of it are dry, but for the row at the horizon.
+/// Columns left of this one are dry, except in the row at the horizon.
 inline constexpr int kShore = 16;
 
-/// The number in place of the eye depth Z of a pixel whose ray is `ray_length` long for Z = 1.
+/// The stored number for the eye depth Z of a pixel whose ray has the length `ray_length` at Z = 1.
 using DepthCode = std::function<double(double z, double ray_length)>;
 
 struct PlateOptions {
-  Rect data = kPicture, display = kPicture;  ///< wherever they are, the picture stays the same
-  bool color = true, depth = true;           ///< whether the plate has them
+  Rect data = kPicture, display = kPicture;  ///< any windows give the same picture
+  bool color = true, depth = true;           ///< whether the plate has these buffers
   DepthCode depth_code = [](double z, double) { return z; };
-  bool broken = false;  ///< NaN and inf here and there: 2 in color, 1 in depth, 1 in shadow
+  bool broken = false;  ///< some NaN and inf: 2 in color, 1 in depth, 1 in shadow
   bool camera = false;  ///< with worldToCamera and worldToNDC
 };
 
@@ -34,10 +34,10 @@ void write_plate(const std::filesystem::path& path, const PlateOptions& options 
 /// A tiling normal map of gentle waves, R G B.
 void write_waves(const std::filesystem::path& path);
 
-/// The scene of the plate; `more` are further lines of its [camera].
+/// The scene file of the plate; `more` holds further lines of its [camera].
 std::string scene_toml(const std::string& more = "near = 0.1\nfar = 100.0\n");
 
-/// Every operator does something; the map of the waves is waves.exr.
+/// A look in which every operator changes pixels; the wave map is waves.exr.
 std::string look_toml();
 
 }  // namespace limpid::test

@@ -3,7 +3,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// The first bytes of a file make it an EXR, whatever its name.
+/// The first bytes of a file decide that the file is an EXR, not its name.
 
 namespace limpid::test {
 namespace {
@@ -60,7 +60,7 @@ TEST_F(MagicTest, TexturesMayHaveAnyName) {
   EXPECT_TRUE(same("sky.exr.wet.exr", "sky.hdr.wet.exr"));
 }
 
-/// Linear, as any EXR.
+/// The colors are scene-linear, as in any EXR.
 TEST_F(MagicTest, ComparedPicturesToo) {
   composed("a.exr");
   composed("b.exr", {"--set", "depth_fog.density=0.1"});

@@ -8,23 +8,23 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// Limits of memory from far too little up to enough, in steps of 1 MiB: each run but the last says
-/// that the limit is too low, at whatever step of the work memory ran out.
+/// Limits of memory from far too little up to enough, in steps of 1 MiB: each run but the last
+/// reports that the limit is too low, at whichever step memory runs out.
 
 namespace limpid::test {
 namespace {
 
 constexpr int kMaxMebibytes = 2048;
 
-/// 1 MiB where the environment asks for it, else `coarse`: that much memory takes minutes to sweep.
+/// The step: 1 MiB if the environment asks for the fine sweep, which takes minutes; else `coarse`.
 int step_of(int coarse) { return std::getenv("LIMPID_EACH_MEBIBYTE") ? 1 : coarse; }
 
-/// How the limit is set.
+/// The mechanism that sets the limit.
 struct Limit {
   const char* name;
-  /// Runs the tool under a limit of so many MiB, for 10 s of the processor at most.
+  /// Runs the tool under a limit in MiB, for at most 10 s of processor time.
   const char* script;
-  int least;  ///< MiB; for ulimit what the system's loader needs before the tool can say a word
+  int least;  ///< MiB; for ulimit, the memory that the loader needs before the tool can print
 };
 
 void PrintTo(const Limit& limit, std::ostream* out) { *out << limit.name; }

@@ -25,8 +25,8 @@ class MemoryTest : public ToolTest {
     }
   }
 
-  /// Runs with --max-memory 64M; what it takes beyond a run that does nothing is a tenth more at
-  /// most.
+  /// Runs with --max-memory 64M; the memory beyond that of an idle run is at most a tenth over the
+  /// limit.
   Ran limited(Words arguments) const {
     arguments.insert(arguments.end(), {"--max-memory", "64M"});
     Ran ran = limpid(arguments);

@@ -14,7 +14,7 @@
 
 namespace limpid::test {
 
-/// The names that come into a folder, in order, as the system tells of them.
+/// The names of new files in a folder, in the order of the system's events.
 class NewFiles {
  public:
   explicit NewFiles(const std::filesystem::path& folder) : events_(::inotify_init1(IN_CLOEXEC)) {
@@ -24,7 +24,8 @@ class NewFiles {
   NewFiles(const NewFiles&) = delete;
   NewFiles& operator=(const NewFiles&) = delete;
 
-  /// Waits for the next name; nothing when no name is left and the process that makes files ended.
+  /// Waits for the next name; empty when no name is left and the process that makes files has
+  /// ended.
   std::optional<std::string> next(const Running& maker) {
     if (names_.empty() && comes(maker)) take();
     if (names_.empty()) return std::nullopt;
@@ -37,7 +38,7 @@ class NewFiles {
   bool comes(const Running& maker) const {
     pollfd ends[] = {{events_, POLLIN, 0}, {maker.stdout_end(), 0, 0}};
     ::poll(ends, 2, -1);
-    return ::poll(ends, 1, 0) == 1;  // its last ones come before it hangs up
+    return ::poll(ends, 1, 0) == 1;  // the last events come before the pipe hangs up
   }
   void take() {
     char bytes[4096];

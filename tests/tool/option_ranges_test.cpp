@@ -2,8 +2,8 @@
 
 #include "tool/tool.h"
 
-/// Every option that takes a number refuses what is out of its range as wrong usage, in a sentence
-/// that names option, value and range, before any file is looked at.
+/// Every option that takes a number refuses a value out of its range as wrong usage, in a sentence
+/// that names option, value and range, before any file is read.
 
 namespace limpid::test {
 namespace {
@@ -12,13 +12,13 @@ using ::testing::HasSubstr;
 
 struct RangedOption {
   std::string option;
-  std::string range;  ///< as the sentence has it
+  std::string range;  ///< in the words of the message
   Words good, bad;
 };
 
 const Words kNoNumbers = {"nan", "-nan", "inf", "-inf"};
 
-/// Options of a verb, and the other words that the verb needs.
+/// Options of a verb, and the other arguments that the verb needs.
 class OptionRangesTest : public ToolTest {
  protected:
   void expect_ranges(const Words& command, const std::vector<RangedOption>& options) const {
@@ -35,7 +35,7 @@ class OptionRangesTest : public ToolTest {
       for (const std::string& value : ranged.good) {
         Words words = command;
         words.push_back(ranged.option + "=" + value);
-        // The files are missing: the next error says so.
+        // The values are accepted: the next error is the missing file.
         EXPECT_EQ(limpid(words).code, 1) << ranged.option << " " << value;
       }
       Words none = command;
@@ -92,7 +92,7 @@ TEST_F(OptionRangesTest, OfRenderedPictures) {
   const RangedOption photons{
       "--photons", "a whole number, 0 ... 50000000", {"0", "50000000"}, {"-1", "50000001", "1e3"}};
   expect_ranges(of("truth"), {kTime, kFps, kSamples, paths, photons, seed});
-  // A size is looked at behind the scene.
+  // A size is checked after the scene is read.
   for (const std::string verb : {"render", "water", "truth"}) {
     for (const std::string& bad : sizes.bad) {
       expect_refused(
@@ -102,7 +102,7 @@ TEST_F(OptionRangesTest, OfRenderedPictures) {
   }
 }
 
-/// Each in its range, but not together.
+/// Each value is in its range, but the combination is not.
 TEST_F(OptionRangesTest, OfSizesThatAreTooMuchTogether) {
   const auto refused = [&](const Words& more, const Words& parts) {
     Words words{"water", LIMPID_DATA "/scenes/pool.toml", "-o", "wet.exr"};
@@ -146,7 +146,7 @@ TEST_F(OptionRangesTest, OfMemoryAndFrames) {
                  {"frames '1-2000000' are 2000000: expected at most 1000000"}, 2);
 }
 
-/// An empty word is not taken for an option that was not given.
+/// An empty argument is not the same as an omitted option.
 TEST_F(OptionRangesTest, EmptyWordsAreRefused) {
   for (const std::string option :
        {"--scene", "--layer", "--depth-kind", "--frames", "--look", "--set", "--aov", "-o",

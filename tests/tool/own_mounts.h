@@ -5,8 +5,8 @@
 
 namespace limpid::test {
 
-/// A command that runs `script` in a shell with mounts of its own, with `words` as
-/// its "$@": as root, or in a user namespace. Empty where the system allows neither.
+/// A command that runs `script` with the arguments `words` in a shell with its own mount namespace:
+/// as root, or in a user namespace. Empty if the system allows neither.
 inline Words with_own_mounts(const std::string& script, const Words& words) {
   for (const char* kind : {"-m", "-Urm"}) {
     Words command{"/usr/bin/unshare", kind, "/bin/sh", "-c", "mount -t tmpfs limpid /tmp"};

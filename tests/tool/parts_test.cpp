@@ -16,14 +16,14 @@ using exr_test::WrittenPart;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-/// A channel of the plate under another name.
+/// A channel of the plate, renamed.
 struct Renamed {
   std::string channel, from;
 };
 
 class PartsTest : public ToolTest {
  protected:
-  /// Channels of a plate as a part.
+  /// A part that holds these channels of a plate.
   WrittenPart part(const std::string& name, const std::vector<Renamed>& channels,
                    const std::string& plate = "plate.exr", const std::string& view = "") const {
     const ExrFile file = ExrFile::open(folder_ / plate);
@@ -48,7 +48,7 @@ class PartsTest : public ToolTest {
     words.insert(words.end(), more.begin(), more.end());
     return limpid(words);
   }
-  /// Expects the picture of another composite.
+  /// Expects the same picture as from another composite.
   void expect_as(const std::string& expected, const std::string& plate,
                  const Words& more = {}) const {
     const Ran ran = wet(plate, "of_parts.exr", more);

@@ -8,7 +8,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// Other layers of a plate beside the picture, as they were.
+/// Other layers of a plate are copied beside the picture, unchanged.
 
 namespace limpid::test {
 namespace {
@@ -22,8 +22,8 @@ using ::testing::Not;
 
 class PassThroughTest : public ToolTest {
  protected:
-  /// The plate's channels in a part, and besides: a cryptomatte, object ids, normals by any bits,
-  /// and vectors.
+  /// A part with the plate's channels, and further layers: a cryptomatte, object ids, normals with
+  /// arbitrary bits, and vectors.
   WrittenPart plate(const Rect& data = kPicture) const {
     WrittenPart part{"", "", data, {}};
     add(part, "plate.exr", {"R", "G", "B", "A", "depth.Z"});
@@ -72,7 +72,7 @@ class PassThroughTest : public ToolTest {
     for (const ExrChannel& channel : part.channels) names.push_back(channel.name);
     return names;
   }
-  /// The bits of a channel's whole rows in a window.
+  /// The bits of a channel in the rows of a window.
   std::vector<char> bits(const std::string& file, int part, const std::string& channel) const {
     const ExrFile exr = ExrFile::open(folder_ / file);
     const Rect data = exr.parts()[static_cast<std::size_t>(part)].data;
@@ -101,7 +101,7 @@ TEST_F(PassThroughTest, WhatIsNamedIsBesideThePictureBitByBit) {
   }
   EXPECT_EQ(file.text_attribute(0, "cryptomatte/f834d0a/manifest"), "{\"rock\":\"3f800000\"}");
   EXPECT_EQ(file.text_attribute(0, "shot/take"), "12b");
-  // Another program finds them, too.
+  // Another program finds the layers, too.
   EXPECT_THAT(iinfo("wet.exr"), HasSubstr("CryptoObject00.r"));
   EXPECT_EQ(oiiotool({"full.exr", "--ch", "IndexOB.X,Vector.X", "wet.exr", "--ch",
                       "IndexOB.X,Vector.X", "--diff"})
@@ -165,7 +165,7 @@ TEST_F(PassThroughTest, PartsStayPartsAndFilesBecomeSome) {
   EXPECT_EQ(bits("wet.exr", 1, "Y"), bits("parts.exr", 2, "Y"));
   EXPECT_EQ(file.parts()[2].name, "vectors");
   EXPECT_EQ(bits("wet.exr", 2, "X"), bits("vectors.0007.exr", 0, "X"));
-  // The picture is still what a program finds first, and what limpid compares.
+  // The picture is still the first layer that a program finds, and the layer that limpid compares.
   EXPECT_EQ(limpid({"compare", "wet.exr", "wet.exr", "--channels", "R,vectors"}).code, 0);
   EXPECT_EQ(limpid({"compare", "wet.exr", "wet.exr", "--channels", "ids.Y"}).code, 0);
   EXPECT_THAT(iinfo("wet.exr"), HasSubstr("3 subimages"));
@@ -184,7 +184,7 @@ TEST_F(PassThroughTest, SequencesResumeByIt) {
   EXPECT_THAT(resumed("Normal"), HasSubstr("1 of 1 frame"));
   EXPECT_THAT(resumed("Normal,Vector"), HasSubstr("was made otherwise (options)"));
   EXPECT_THAT(resumed("Normal,Vector"), HasSubstr("1 of 1 frame"));
-  // Of several parts as of one.
+  // Layers of several parts are copied like layers of one part.
   WrittenPart main = plate();
   main.name = "main";
   write("full.1.exr", {main, exr_test::part_of("ids", kPicture, {"Y"})});

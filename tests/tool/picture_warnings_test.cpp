@@ -4,7 +4,7 @@
 
 #include "support.h"
 
-// Probable mistakes that take more than a plate of the tool's tests to make.
+// Warnings of mistakes that need other frames than the plate of the tool's tests.
 
 namespace limpid {
 namespace {
@@ -76,7 +76,7 @@ TEST(PictureWarnings, WhatHidesALowSunIsOutOfThePicture) {
   });
   EXPECT_THAT(evening.warnings(), unseen);
   const glm::dvec3 low = evening.scene.sun->direction;
-  evening.scene.sun->direction = {low.z, low.y, 0};  // its glint lies far aside
+  evening.scene.sun->direction = {low.z, low.y, 0};  // the glint lies far outside the picture
   EXPECT_THAT(evening.warnings(), testing::Not(unseen));
   evening.scene.sun->direction = {0, 0.6, -0.8};
   EXPECT_THAT(evening.warnings(), testing::Not(testing::Contains(HasSubstr("the sun stands"))));
@@ -118,8 +118,9 @@ TEST(PictureWarnings, WavesOverTheCamera) {
   EXPECT_THAT(evening.warnings(), testing::Contains(HasSubstr("the waves reach 3")));
 }
 
-/// An orthographic camera that looks straight down on 64 x 48 of calm water, whose normals the
-/// frame has, 4 over a bottom; sun at 0.6 of the vertical from the right: light goes 3 aside.
+/// An orthographic camera that looks straight down on 64 x 48 of calm water, with normals in the
+/// frame, 4 above a bottom; the cosine of the sun's angle from the vertical is 0.6: on its path
+/// down the light moves 3 sideways.
 struct Noon : Evening {
   Noon() {
     Camera camera;
@@ -135,7 +136,7 @@ struct Noon : Evening {
     }
     lie(4);
   }
-  /// The bottom; a stone looks out of the water.
+  /// The bottom, with a stone that rises above the water.
   void lie(float deep) {
     buffers.set(PlaneId::kDepth, [=](int x, int y) { return x < 2 && y < 2 ? 9 : 10 + deep; });
   }

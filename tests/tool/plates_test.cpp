@@ -5,7 +5,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// The same picture in other plates: windows, kinds of depth, layers under other names, cameras.
+/// Plates with other windows, depth kinds, layer names and cameras give the same picture.
 
 namespace limpid::test {
 namespace {
@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 class WindowsTest : public ToolTest {
  protected:
-  /// The composite of a plate of these windows, as NAME.exr.
+  /// The composite of a plate with these windows, as NAME.exr.
   void composed_of(const std::string& name, const PlateOptions& options) const {
     write_plate(folder_ / (name + "_plate.exr"), options);
     const Ran ran = limpid({"composite", name + "_plate.exr", "--scene", "scene.toml", "--look",
@@ -34,7 +34,7 @@ TEST_F(WindowsTest, OverscanIsReadAndThePictureWritten) {
   EXPECT_THAT(info, HasSubstr("64 x   36, 4 channel"));
   EXPECT_THAT(info, ::testing::Not(HasSubstr("pixel data origin")));
   EXPECT_TRUE(same_in("32x20+16+8", "over.exr", "wet.exr"));
-  EXPECT_FALSE(same_in("64x36+0+0", "over.exr", "wet.exr"));  // the edges look into the overscan
+  EXPECT_FALSE(same_in("64x36+0+0", "over.exr", "wet.exr"));  // edges look up the overscan
 }
 
 TEST_F(WindowsTest, OverscanIsWrittenWhereItIsAskedFor) {

@@ -13,7 +13,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// Each output holds its provenance: how it was made.
+/// Each output records its provenance: inputs, options and program.
 
 namespace limpid::test {
 namespace {
@@ -40,7 +40,7 @@ class ProvenanceTest : public ToolTest {
     return made(name).at("limpid/scene_hash");
   }
 
-  /// Runs the tool in a folder within the test's own.
+  /// Runs the tool in a subfolder of the test's folder.
   void run_in(const std::string& inner, Words words) const {
     words.insert(words.begin(), LIMPID_TOOL);
     words.push_back("-q");
@@ -61,7 +61,7 @@ class ProvenanceTest : public ToolTest {
 const Words kNames{"limpid/inputs", "limpid/look",       "limpid/options", "limpid/plan",
                    "limpid/scene",  "limpid/scene_hash", "limpid/version"};
 
-/// By the xxHash project's own program: `xxhsum -H2`.
+/// The hash by the xxHash project's own program, `xxhsum -H2`.
 TEST(ContentHash, IsXxh3Of128Bits) {
   EXPECT_EQ(hash_of(""), "99aa06d3014798d86001c324468d497f");
   const std::string text(1000000, 'a');
@@ -143,8 +143,8 @@ TEST_F(ProvenanceTest, TheSameInputsGiveTheSameBytesAnywhere) {
   EXPECT_TRUE(text_of("deep.exr") == text_of(there + "out_deep.exr"));
 }
 
-/// The wave map's name is the only name in the provenance: the look needs it. Nor does another
-/// instruction set pass for the same.
+/// The wave map's name is the only file name in the provenance, because the look needs the name.
+/// Another instruction set gives another provenance.
 TEST_F(ProvenanceTest, WhatBytesDoDependOn) {
   composed("wet.exr", {"--simd", "scalar"});
   const std::string bytes = text_of("wet.exr");
@@ -256,7 +256,7 @@ TEST_F(ProvenanceTest, TheSceneHashTellsApartWhatIsToBeSeen) {
   fs::copy_file(LIMPID_DATA "/maps/water_normals.png", folder_ / "waves.png");
   expect_new("wave map", {"--set", "wave_normals.map=waves.png"});
 
-  // Look and options stand for themselves.
+  // Look and options are recorded as text, not as a hash.
   const Texts before = [&] {
     composed("wet.exr");
     return made("wet.exr");

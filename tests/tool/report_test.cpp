@@ -25,7 +25,7 @@ using ::testing::Not;
 class ReportTest : public ToolTest {
  protected:
   void expect_rows(const json& report) const;
-  /// Opens the page, with the checks put in, in a window so wide.
+  /// Opens the page with the inserted checks, in a window of this width.
   void expect_good_page(int width) const;
 };
 
@@ -38,7 +38,7 @@ std::vector<std::string> names_in(const fs::path& folder, bool folders) {
   return names;
 }
 
-/// The planner keeps its promise: no pixel is off by more than was allowed, but for rounding.
+/// The planner keeps its bound: no pixel has a larger error than allowed, except by rounding.
 void expect_budgets_kept(const json& rows, std::size_t subjects) {
   EXPECT_EQ(rows.size(), subjects * 2 * 5);
   for (const json& row : rows) {
@@ -48,7 +48,7 @@ void expect_budgets_kept(const json& rows, std::size_t subjects) {
   }
 }
 
-/// For two looks each: a row a buffer, from color and depth on.
+/// For each of two looks: one row per buffer, starting with color and depth.
 void expect_what_is_brought(const json& section, std::size_t subjects) {
   EXPECT_EQ(section["samples_a_pixel"], 16);
   EXPECT_EQ(section["subjects"].size(), subjects);
@@ -73,25 +73,25 @@ void ReportTest::expect_rows(const json& report) const {
   ASSERT_GE(looks.size(), 5);
   EXPECT_EQ(report["subjects"].size(), subjects.size());
 
-  std::set<std::string> ways;
+  std::set<std::string> runs;
   for (const json& row : report["looks_by_runner"]) {
     EXPECT_GT(row["ns_per_pixel"], 0);
     EXPECT_LT(row["error"]["mean"], 1e-4) << row;
     if (row["threads"] != 1) continue;
     const std::string simd = row["simd"].is_null() ? "" : row["simd"];
-    ways.insert(std::string(row["subject"]) + "/" + std::string(row["look"]) + "/" + simd);
+    runs.insert(std::string(row["subject"]) + "/" + std::string(row["look"]) + "/" + simd);
   }
   std::vector<std::string> targets = simd_targets();
   targets.push_back("");  // the reference
   for (const std::string& subject : subjects) {
     for (const std::string& look : looks) {
       for (const std::string& simd : targets) {
-        EXPECT_TRUE(ways.contains(subject + "/" + look + "/" + simd))
+        EXPECT_TRUE(runs.contains(subject + "/" + look + "/" + simd))
             << subject << ", " << look << ", " << simd;
       }
     }
   }
-  EXPECT_EQ(ways.size(), subjects.size() * looks.size() * targets.size());
+  EXPECT_EQ(runs.size(), subjects.size() * looks.size() * targets.size());
 
   EXPECT_EQ(report["looks_beside_physical"].size(), subjects.size() * looks.size());
   for (const json& row : report["looks_beside_physical"]) {
@@ -161,7 +161,7 @@ void ReportTest::expect_good_page(int width) const {
   EXPECT_THAT(seen["wide"], IsEmpty());
   EXPECT_GT(seen["images"], 15);
   EXPECT_EQ(seen["broken_images"], 0);
-  EXPECT_GE(seen["plots"].size(), 6);  // of error budgets one at least
+  EXPECT_GE(seen["plots"].size(), 6);  // at least one of them plots error budgets
   for (const json& plot : seen["plots"]) {
     EXPECT_GT(plot["width"], 400) << plot["title"];
     EXPECT_GT(plot["height"], 200) << plot["title"];

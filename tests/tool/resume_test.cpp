@@ -11,7 +11,7 @@
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 
-/// Sequences that go on where they stopped, and sequences with holes.
+/// Resumed sequences, and sequences with missing plates.
 
 namespace limpid::test {
 namespace {
@@ -46,13 +46,13 @@ class ResumeTest : public ToolTest {
     all.push_back("--resume");
     return said_by(all);
   }
-  /// The file under a name: another one has another number.
+  /// The inode of a file: a replaced file has another number.
   ino_t file_number(const std::string& name) const {
     struct stat status {};
     EXPECT_EQ(::stat((folder_ / name).c_str(), &status), 0) << name;
     return status.st_ino;
   }
-  /// All outputs with what is in them.
+  /// All outputs with their contents.
   std::map<std::string, std::string> outputs() const {
     std::map<std::string, std::string> all;
     for (const std::string& name : files()) {
@@ -86,7 +86,7 @@ TEST_F(ResumeTest, WholeFramesAreLeftAloneAndTheOthersMade) {
   EXPECT_EQ(file_number("wet.2.exr"), second);
   EXPECT_FALSE(fs::exists(folder_ / ".limpid-4194305-0.png"));
   EXPECT_EQ(resumed({"-q", "--preview", "wet.%d.png"}), "");
-  // Without --resume everything is made anew.
+  // Without --resume every frame is made again.
   EXPECT_EQ(said_by(words(preview)), "");
   EXPECT_NE(file_number("wet.2.exr"), second);
 }
@@ -105,7 +105,7 @@ TEST_F(ResumeTest, WhereFilesLieAndWhenTheyWereMadeDoesNotMatter) {
   EXPECT_EQ(said_by(moved), "limpid: 4 of 4 frames are there already\n");
 }
 
-/// A config of OpenColorIO stays as it is, and a table that it names does not.
+/// An OpenColorIO config is unchanged, but a lookup table that the config names has changed.
 TEST_F(ResumeTest, SeesAnotherTableOfAConfig) {
   const auto write_table = [&](const std::string& white) {
     write_text("table.spi1d",
@@ -184,7 +184,7 @@ TEST_F(ResumeTest, WhatIsNotWholeOrNotOursIsMadeAgain) {
   expect_again("wet.2.exr was made otherwise (version)");
 }
 
-/// One byte of frame 2: of its pixels, of the hash, of an attribute that came with the plate.
+/// Changes one byte of frame 2: in its pixels, in the hash, in an attribute copied from the plate.
 TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
   const Words preview{"--preview", "wet.%d.png"};
   write_plates({1, 2, 3, 4});
@@ -222,7 +222,7 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
   write_text("wet.2.png", png);
   EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.png: is damaged: wrong checksum"));
   EXPECT_TRUE(outputs() == all);
-  // Other programs drop the hash, or keep it as it was.
+  // Other programs remove the hash, or keep the old hash.
   ASSERT_EQ(oiiotool({"wet.2.exr", "--attrib", "copyright", "ours", "-o", "wet.2.exr"}).code, 0);
   EXPECT_THAT(verified(), HasSubstr("frame 2: wet.2.exr has changed since it was written"));
   EXPECT_TRUE(outputs() == all);
@@ -336,7 +336,7 @@ TEST_F(ResumeTest, HeldFramesHaveTheirOwnTime) {
   EXPECT_FALSE(same("wet.4.exr", "wet.3.exr"));
 }
 
-/// Plates as limpid render writes them, at 24 frames a second.
+/// Plates by `limpid render`, at 24 frames per second.
 TEST_F(ResumeTest, HeldPlatesThatKnowTheirTimeAreMovedOn) {
   Words words{"render",   std::string(LIMPID_DATA) + "/scenes/pool.toml",
               "--size",   "32x18",

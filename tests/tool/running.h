@@ -13,21 +13,22 @@ namespace limpid::test {
 /// far ahead of its reader: the pipe between them holds 4096 bytes.
 class Running {
  public:
-  /// Without a shell between, as run().
+  /// Starts the program without a shell, as run() does.
   Running(const std::filesystem::path& folder, const Words& command);
-  /// Kills the program if it still runs.
+  /// Kills the program if it is still running.
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
   /// The next line without its end; nothing after the last line.
   std::optional<std::string> line();
-  /// A descriptor that hangs up, for poll(), when the program has ended.
+  /// A descriptor for poll() that hangs up when the program has ended.
   int stdout_end() const { return pipe_; }
   /// Closes the reading end of the pipe.
   void close_stdout();
   void send(int signal) const;
-  /// Reads no more, waits for the end, and gives the exit code, or minus the signal that ended it.
+  /// Stops reading, waits for the end, and returns the exit code, or minus the signal that ended
+  /// the program.
   int wait();
 
  private:

@@ -22,7 +22,7 @@ using ::testing::Not;
 
 class SequenceTest : public ToolTest {
  protected:
-  /// Plates of frames that differ: what was deep becomes deeper, some have holes, one is smaller.
+  /// Plates of frames that differ: depths grow, some frames have NaN pixels, one frame is smaller.
   void write_plates(const std::string& pattern, const std::vector<int>& frames) const {
     for (const int frame : frames) {
       PlateOptions options;
@@ -97,7 +97,7 @@ TEST_F(SequenceTest, GivesTheBytesOfFrameByFrame) {
   }
 }
 
-/// A sequence and composite() of one frame, without --frames.
+/// A sequence of one frame equals composite() without --frames.
 TEST_F(SequenceTest, GivesTheBytesOfASingleFrame) {
   write_plates("plate.%d.exr", {4, 5});
   EXPECT_EQ(limpid(sequence("plate.%d.exr", "wet.%d.exr", {"--frames", "4-5", "-q"})).code, 0);
@@ -148,7 +148,8 @@ TEST_F(SequenceTest, FramesHaveTheirTime) {
                 .code,
             0);
   EXPECT_EQ(time_of("b.2.exr"), 3.25);
-  // What composite wrote is a plate that knows its time: it counts, unless told otherwise.
+  // An output of composite is a plate with a time attribute, which is used unless an option sets
+  // the time.
   const auto again = [&](const std::string& output, const Words& more) {
     Words words{"composite", "b.%d.exr",  "--layer", "depth=plate.%d.exr:depth.Z",
                 "--look",    "look.toml", "-o",      output,
@@ -239,7 +240,7 @@ TEST_F(SequenceTest, RenderedSequencesAreThoseOfTheirFrames) {
           << verb << " " << frame;
     }
   }
-  // A rendered sequence composites without being told anything, in its own time.
+  // A rendered sequence composites without options; its EXR files have the times.
   const Ran ran = limpid({"composite", "render.@.exr", "-o", "wet.@.exr", "--frames", "1-4"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(time_of("wet.3.exr"), 1.5);
@@ -254,12 +255,12 @@ TEST_F(SequenceTest, HelpTellsOfIt) {
   }
 }
 
-/// Runs a command with a terminal for stdout and stderr; gives what it showed there.
+/// Runs a command with a terminal for stdout and stderr; returns the printed text.
 std::string on_terminal(const std::filesystem::path& folder, Words command) {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
   EXPECT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
   const std::string other_end = ::ptsname(terminal);
-  const int held = ::open(other_end.c_str(), O_RDWR | O_NOCTTY);  // keeps what was written
+  const int held = ::open(other_end.c_str(), O_RDWR | O_NOCTTY);  // keeps the written text readable
   Words words{"/bin/sh", "-c", "exec \"$@\" > \"$0\" 2>&1", other_end};
   words.insert(words.end(), command.begin(), command.end());
   EXPECT_EQ(run(folder, words).code, 0);

@@ -6,7 +6,7 @@
 
 #include "tool/tool.h"
 
-/// Looks as shaders in other languages, as their users get them.
+/// The verb shader: looks as shaders in other languages.
 
 namespace limpid::test {
 namespace {
@@ -65,7 +65,7 @@ TEST_F(ShaderTest, SpirvIsWordsOfAModule) {
   EXPECT_EQ(magic, 0x07230203u);
 }
 
-/// The Khronos group's own reader takes the texts, and its validator the words.
+/// The Khronos group's compiler accepts the texts, and its validator accepts the SPIR-V.
 TEST_F(ShaderTest, OtherPeoplesCompilersTakeEveryLook) {
   const auto expect_taken = [&](const Words& command, const std::string& what) {
     const Ran ran = run(folder_, command);

@@ -34,13 +34,13 @@ class ShotReportTest : public ToolTest {
     return json::parse(text_of(folder + "/report.json"));
   }
 
-  /// A picture of the page is the preview that composite writes.
+  /// Each picture of the page equals the preview that composite writes.
   void expect_preview(const std::string& picture, const Words& more) const {
     composed("other.exr", with(more, {"--preview", "other.png"}));
     EXPECT_TRUE(same(picture, "other.png")) << picture;
   }
 
-  /// The output of `compare` for the two.
+  /// The output of `compare` for the two pictures.
   void expect_as_compared(const json& row, const std::string& a, const std::string& b) const {
     const Ran ran = limpid({"compare", a, b, "--channels", "R,G,B", "--clip", "4", "--metrics",
                             "ssim,flip", "--tolerance", "100"});
@@ -151,7 +151,7 @@ TEST_F(ShotReportTest, HasAllPicturesAndFacts) {
       run(folder_, {PYTHON3, "-c", "import xml.dom.minidom as d; d.parse('page/index.html')"});
   EXPECT_EQ(parsed.code, 0) << parsed.err;
 
-  // Of the AOVs, pixel by pixel, and of the plan.
+  // The numbers of the AOVs, pixel by pixel, and of the plan.
   composed("wet.exr",
            {"--float", "--aov", "surface_depth,confidence", "--set", "refraction.strength=0.2"});
   oiiotool({"wet.exr", "--ch", "confidence.Y,surface_depth.Z", "-o", "two.exr"});
@@ -226,14 +226,14 @@ TEST_F(ShotReportTest, RefusesATruthOfAnotherSizeOrWithoutColor) {
 
 TEST_F(ShotReportTest, RefusesAFolderThatCannotBeWrittenTo) {
   expect_refused(shot({"-o", "plate.exr"}), {"plate.exr", "not a folder"});
-  // A picture of the page would be what it is made from.
+  // A picture of the page would overwrite its own input.
   fs::create_directory(folder_ / "page");
   composed("page/truth.png.exr", {});
   composed("other.exr", {"--preview", "page/truth.png"});
   const std::string truth = text_of("page/truth.png");
   expect_refused(shot({"-o", "page", "--truth", "page/truth.png"}), {"truth.png", "input"}, 2);
   EXPECT_EQ(text_of("page/truth.png"), truth);
-  // A folder stands in the place of a picture.
+  // A folder has the name of a picture.
   fs::create_directories(folder_ / "other" / "wet.png");
   const std::vector<std::string> before = files();
   expect_refused(shot({"-o", "other"}), {"wet.png"});

@@ -19,7 +19,7 @@ class ShowTest : public ToolTest {
     expect_no_composite(words, parts, code);
   }
 
-  /// In a terminal of its own.
+  /// Runs the tool in its own terminal.
   Ran in_terminal(const Words& environment, const Words& more) const {
     Words words = {PYTHON3,
                    "-c",
@@ -100,10 +100,11 @@ TEST_F(ShowTest, TheContactSheetHasThePictureAndEveryAov) {
     const auto at = picture.rgb.begin() + 3 * (y * picture.size.width + x);
     return std::vector<std::uint8_t>(at, at + 3 * width);
   };
-  // The first is the preview, to the byte.
+  // The first cell is the preview, byte for byte.
   for (int y = 0; y < 36; ++y) ASSERT_EQ(row(sheet, 8, 8 + y, 64), row(preview, 0, y, 64)) << y;
 
-  // The AOVs are those that are written: transmittance, a share, as it is. It is the sixth.
+  // The AOVs have the written values: transmittance, in the sixth cell, is a share and stays
+  // unscaled.
   composed("aov.exr", {"--aov", "transmittance", "--float"});
   oiiotool({"aov.exr", "--ch", "transmittance.R,transmittance.G,transmittance.B", "--chnames",
             "R,G,B", "-d", "uint8", "-o", "share.png"});
@@ -120,7 +121,7 @@ TEST_F(ShowTest, TheContactSheetHasThePictureAndEveryAov) {
     }
   }
   EXPECT_EQ(found, 1);
-  // And the picture is as without a sheet.
+  // The picture is the same as without a sheet.
   composed("alone.exr", {});
   EXPECT_TRUE(same("wet.exr", "alone.exr"));
 }
@@ -131,7 +132,7 @@ TEST_F(ShowTest, ALargePictureIsSmallOnTheSheet) {
                           "sheet.png", "-q"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const Size size = bytes_of("sheet.png").size;
-  // A third as wide: 333 pixels, in 4 or 5 columns.
+  // The sheet is a third as wide: 333 pixels, in 4 or 5 columns.
   EXPECT_GE(size.width, 4 * 333);
   EXPECT_LE(size.width, 5 * 333 + 100);
 }

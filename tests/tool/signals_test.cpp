@@ -12,8 +12,8 @@
 namespace limpid::test {
 namespace {
 
-/// How a process ends that gets the signal while it writes a file: its signal, or minus its exit
-/// code.
+/// The end of a process that receives the signal while it writes a file: the signal, or minus the
+/// exit code.
 int end_of_writer(const std::filesystem::path& file, int signal) {
   const pid_t writer = ::fork();
   if (writer == 0) {

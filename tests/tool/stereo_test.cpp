@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class StereoTest : public ToolTest {
  protected:
-  /// Two plates, whose cameras stand apart, and a scene for each.
+  /// Two plates with separate cameras, and a scene file for each.
   StereoTest() {
     write_plate(folder_ / "left.exr");
     write_plate(folder_ / "right.exr", {.depth_code = [](double z, double) { return 0.9 * z; }});
@@ -26,14 +26,14 @@ class StereoTest : public ToolTest {
     write_text("left.toml", scene);
     write_text("right.toml", moved(scene));
   }
-  /// The first row of the view moves the world a little to the left.
+  /// The first row of the view matrix moves the world a little to the left.
   static std::string moved(std::string scene) {
     const std::size_t row = scene.find("view = [[") + 9;
     const std::size_t end = scene.find(']', row);
     const std::size_t last = scene.rfind(',', end);
     return scene.replace(last + 1, end - last - 1, " -0.3");
   }
-  /// One file of the plates, channels of the right one called after it.
+  /// One file with both plates; channels of the right plate have the prefix `right`.
   void write_stereo() const {
     exr_test::WrittenPart part{"", "", kPicture, {}};
     for (const std::string view : {"left", "right"}) {
@@ -85,7 +85,7 @@ TEST_F(StereoTest, EachViewIsWhatItIsAlone) {
                     "R=right.R,path=right.path", "--tolerance", "0"})
                 .code,
             0);
-  // Each part says how it was made, and the first one how all were.
+  // Each part records its provenance, and the first part that of all.
   const ExrFile alone = ExrFile::open(folder_ / "wet_right.exr");
   for (const char* name : {"limpid/scene", "limpid/inputs", "limpid/look"}) {
     const auto text = alone.text_attribute(0, name);
@@ -122,7 +122,7 @@ TEST_F(StereoTest, SequencesAndTheirRest) {
   wetted("%V.%d.exr", "%V.toml", "both.%d.exr", frames);
   EXPECT_THAT(wet("%V.%d.exr", "%V.toml", "both.%d.exr", frames).err,
               HasSubstr("2 of 2 frames are there already"));
-  // Another right eye is another picture.
+  // Another camera for the right eye gives another picture.
   write_plate(folder_ / "right.2.exr");
   EXPECT_THAT(
       wet("%V.%d.exr", "%V.toml", "both.%d.exr", frames).err,

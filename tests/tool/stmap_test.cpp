@@ -5,14 +5,14 @@
 
 #include "tool/tool.h"
 
-/// The maps of the refraction, applied by another program, give the same picture.
+/// The ST maps of the refraction, applied by another program, give the same picture.
 
 namespace limpid::test {
 namespace {
 
 class StmapTest : public ToolTest {
  protected:
-  /// A dry picture without detail, which every filter reads alike, under clear water.
+  /// A dry picture without detail, which every filter reads the same, under clear water.
   StmapTest() {
     EXPECT_EQ(oiiotool({"--pattern",
                         "fill:topleft=0.1,0.2,0.9:topright=0.8,0.4,0.5:"
@@ -28,8 +28,8 @@ class StmapTest : public ToolTest {
                "[fresnel_reflection]\nsource = \"constant\"\n");
   }
 
-  /// Whether a dry channel, warped by the map and times 1 - F, is what passes the surface: where
-  /// the lookup is real, off the picture's rim.
+  /// Whether a dry channel, warped by the map and times 1 - F, equals the light that passes the
+  /// surface, where the lookup succeeded and lies inside the picture's border.
   bool warps(const std::string& channel, const std::string& map, const std::string& tolerance) {
     const std::string warped = "dry.exr --ch " + channel + " wet.exr --ch " + map + ".U," + map +
                                ".V --st_warp:filter=triangle:flip_t=1 --chnames Y ";

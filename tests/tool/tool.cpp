@@ -23,7 +23,7 @@ std::string read_whole(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// A name that no other running test has.
+/// A name that no other running test uses.
 fs::path fresh_folder(const std::string& name) {
   const fs::path path =
       fs::path(::testing::TempDir()) / ("limpid-" + name + "-" + std::to_string(::getpid()));

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-/// The tool as its users meet it: run in a folder of its own, judged by what it prints, by its exit
-/// code, and by what OpenImageIO's tools find in the files that it wrote.
+/// The tool as a program: it runs in its own folder, and its printed text, its exit code and its
+/// files, read by OpenImageIO's tools, are checked.
 
 namespace limpid::test {
 
@@ -18,10 +18,10 @@ struct Ran {
   long long memory = 0;  ///< bytes resident at once, at most
 };
 
-/// What a command printed says it all when a test fails.
+/// A failing test prints the output of the command.
 void PrintTo(const Ran& ran, std::ostream* out);
 
-/// Runs a program in a folder, without a shell between: a word is an argument, whatever is in it.
+/// Runs a program in a folder, without a shell: each word is one argument, with any characters.
 Ran run(const std::filesystem::path& folder, const Words& command);
 
 class ToolTest : public ::testing::Test {
@@ -30,20 +30,20 @@ class ToolTest : public ::testing::Test {
   ~ToolTest() override;
 
   Ran limpid(const Words& arguments) const;
-  /// composite plate.exr --scene scene.toml --look look.toml -o OUTPUT and what else there is.
+  /// composite plate.exr --scene scene.toml --look look.toml -o OUTPUT, and further arguments.
   Ran composite(const std::string& output, const Words& more = {}) const;
-  /// composite() that must succeed in silence.
+  /// composite() that must succeed and print nothing.
   void composed(const std::string& output, const Words& more = {}) const;
   /// Expects exit 1 (or `code`), one sentence on stderr with all of `parts` in it, and no new file.
   void expect_refused(const Ran& ran, const Words& parts, int code = 1) const;
-  /// The same of composite() with an old file under the output's name, which must stay.
+  /// The same for composite() with an old file under the output's name, which must stay.
   void expect_no_composite(const Words& more, const Words& parts, int code = 1) const;
 
   Ran oiiotool(const Words& arguments) const;
-  /// What iinfo says of the files.
+  /// The output of iinfo for the files.
   std::string iinfo(const Words& files) const;
   std::string iinfo(const std::string& file) const { return iinfo(Words{file}); }
-  /// No channel of any pixel differs by more; 0: the same values.
+  /// No channel of any pixel differs by more than the tolerance; 0: the same values.
   bool same(const std::string& a, const std::string& b, double tolerance = 0) const;
 
   std::string text_of(const std::string& file) const;

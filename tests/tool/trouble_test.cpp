@@ -15,7 +15,7 @@
 #include "tool/running.h"
 #include "tool/tool.h"
 
-/// A sequence under faults of its surroundings: finished outputs are whole, old files stay, and one
+/// A sequence under faults of the system: finished outputs are whole, old files stay, and one
 /// sentence names the fault.
 
 namespace limpid::test {
@@ -36,7 +36,7 @@ class TroubleTest : public ToolTest {
     for (int frame = 1; frame <= kFrames; ++frame) {
       PlateOptions options;
       options.depth_code = [=](double z, double) { return z * (1 + 0.02 * frame); };
-      // The third is the first that is large.
+      // The third file is the first large one.
       if (frame < 3) options.data = {8, 0, 60, 12};
       write_plate(folder_ / name_of_frame("plate.%d.exr", frame), options);
     }
@@ -78,7 +78,7 @@ class TroubleTest : public ToolTest {
     EXPECT_EQ(all.size(), std::size_t{2 * kFrames});
     return all;
   }
-  /// Every file is one of the good ones, or "old" as before, and the first frames are there.
+  /// Every file is a correct output or still holds "old", and the first frames are complete.
   void expect_whole(const std::string& folder, int first_frames) const {
     const auto good = undisturbed();
     const auto found = in(folder);
@@ -94,7 +94,7 @@ class TroubleTest : public ToolTest {
     }
   }
 
-  /// The same by the library, one frame after the other.
+  /// The same frames by the library, one frame after the other.
   CompositeJob job(int frame) const {
     CompositeJob job;
     job.scene = load_scene(folder_ / "scene.toml");
@@ -107,7 +107,7 @@ class TroubleTest : public ToolTest {
     job.output.store_float = true;
     return job;
   }
-  /// The Error of the sequence in which `event` happens when frame 3 is done.
+  /// The Error of a sequence in which `event` happens after frame 3.
   template <class Event>
   Error error_after_third(const Event& event) const {
     const auto executor = make_executor(1);
@@ -149,7 +149,7 @@ TEST_F(TroubleTest, AFrameThatFailsLeavesNoneOfItsFiles) {
   EXPECT_FALSE(found.contains("wet.3.png"));
 }
 
-/// On a disk of a few hundred kilobytes, where the system lets one be mounted.
+/// On a file system of a few hundred kilobytes, if the test may mount one.
 TEST_F(TroubleTest, AFullDisk) {
   const std::string script =
       "mount -t tmpfs -o size=240k limpid out || exit 99; echo -n old > out/wet.4.exr; \"$@\"; "
@@ -180,8 +180,8 @@ TEST_F(TroubleTest, AReadOnlyFolder) {
   EXPECT_EQ(text_of("out/wet.1.exr"), "old");
 }
 
-/// Leftover temporary files of a killed process are removed where locks can be trusted. A ramfs
-/// stands for the other file systems: it is not among those that are known to be local.
+/// Leftover temporary files of a killed process are removed where file locks are reliable. A ramfs
+/// represents the other file systems, because it is not on the list of local file systems.
 TEST_F(TroubleTest, AFolderThatOthersMayShare) {
   for (const std::string kind : {"tmpfs", "ramfs"}) {
     const std::string script = "mount -t " + kind +
@@ -226,7 +226,7 @@ TEST_F(TroubleTest, APlateThatGoes) {
   EXPECT_EQ(in("out").size(), 8u);
 }
 
-/// Reads until that many frames are told of; some that follow are under way then.
+/// Reads until that many frames are reported; the next frames are in progress then.
 void read_frames(Running& running, int count) {
   while (count > 0) {
     const auto line = running.line();
@@ -235,7 +235,7 @@ void read_frames(Running& running, int count) {
   }
 }
 
-/// Waits until that many temporary files were begun.
+/// Waits until that many temporary files exist.
 void await_files(NewFiles& begun, const Running& running, int count) {
   while (count > 0) {
     const auto name = begun.next(running);
@@ -260,7 +260,7 @@ TEST_P(TroubleSignal, EndsASequenceCleanly) {
 
 INSTANTIATE_TEST_SUITE_P(All, TroubleSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
-/// How far a sequence has come when it is killed: frames told of, or temporary files begun.
+/// The progress of a sequence when it is killed: reported frames, or temporary files.
 struct Moment {
   int frames, files;
 };
@@ -270,7 +270,7 @@ void PrintTo(const Moment& moment, std::ostream* out) {
 
 class TroubleKill : public TroubleTest, public ::testing::WithParamInterface<Moment> {};
 
-/// tools/check_kill does it at random moments.
+/// tools/check_kill kills a sequence at random moments.
 TEST_P(TroubleKill, LeavesWholeFramesAndResumes) {
   fs::create_directories(folder_ / kLong);
   NewFiles begun(folder_ / kLong);
@@ -280,7 +280,8 @@ TEST_P(TroubleKill, LeavesWholeFramesAndResumes) {
   running.send(SIGKILL);
   EXPECT_EQ(running.wait(), -SIGKILL);
 
-  // Files with a final name are whole; the next run removes the others and makes what is missing.
+  // Files with a final name are whole; the next run removes all other files and makes the missing
+  // frames.
   const auto good = undisturbed();
   int whole = 0;
   for (const auto& [name, bytes] : in(kLong)) {
@@ -307,7 +308,7 @@ TEST_F(TroubleTest, AReaderThatGoesStopsNothing) {
   expect_whole("out", kFrames);
 }
 
-/// Printed text must not go into the files that took the numbers of the streams.
+/// Printed text must not go into files that have the descriptors of the closed streams.
 TEST_F(TroubleTest, ClosedStreams) {
   Words closed{"/bin/sh", "-c", "exec \"$@\" <&- >&- 2>&-", "sh"};
   for (const std::string& word : words("out", {"-v"})) closed.push_back(word);

@@ -21,7 +21,7 @@ class WarningsTest : public ToolTest {
     write_text("scene.toml", scene_toml());
     write_text("look.toml", look_toml());
   }
-  /// The scene with the water at that height.
+  /// The scene with the water at this height.
   void raise_water(const std::string& height) const {
     std::string text = scene_toml();
     const std::string old = "height = 0.0";
@@ -58,8 +58,8 @@ TEST_F(WarningsTest, ASettingThatAnotherSwitchesOff) {
 
 TEST_F(WarningsTest, AnAbsorptionWinsOverTheTypeOfTheLook) {
   write_text("named.toml", "[depth_fog]\nwater_type = \"9C\"\n");
-  // The plate's reflection has no depth, of which a look that looks along the ray is told; nor has
-  // it overscan.
+  // The plate's reflection has no depth, which a look with reflection lookups along the ray warns
+  // of, and no overscan.
   const Words plain = {"composite", "plate.exr",
                        "--scene",   "scene.toml",
                        "--set",     "fresnel_reflection.lookup=offset",
@@ -89,7 +89,7 @@ TEST_F(WarningsTest, ALayerThatNothingReads) {
   EXPECT_EQ(ran.err,
             "limpid: warning: the layer shadow is named, and no running operator of the look look "
             "reads it\n");
-  // A buffer that was found, not named, causes no warning.
+  // A buffer that was found by its name, not by --layer, causes no warning.
   EXPECT_EQ(composite("wet.exr",
                       {"--set", "water_shadow.strength=0", "--set", "sun_highlight.strength=0"})
                 .err,
@@ -156,7 +156,7 @@ TEST_F(WarningsTest, WaterThatLooksBeyondThePicture) {
               HasSubstr("no wet pixel looks beyond the picture\n"));
 }
 
-/// The numbers of each frame are its own, the sentence is not.
+/// The numbers differ between frames, the sentence does not.
 TEST_F(WarningsTest, WaterThatLooksBeyondThePictureIsToldOnceOfASequence) {
   for (int frame = 1; frame <= 3; ++frame) {
     PlateOptions wide;
@@ -238,7 +238,7 @@ TEST_F(WarningsTest, TheTimeOfASceneCountsWhereNoneIsGiven) {
   composed("other.exr", {"--time", "0"});
   EXPECT_TRUE(same("scene_time.exr", "given.exr"));
   EXPECT_FALSE(same("scene_time.exr", "other.exr"));
-  // Frames of a sequence begin at it.
+  // The frames of a sequence begin at this time.
   write_plate(folder_ / "plate.0024.exr");
   const Ran ran = limpid({"composite", "plate.#.exr", "--scene", "scene.toml", "--look",
                           "look.toml", "-o", "wet.#.exr", "--frames", "24", "-q"});

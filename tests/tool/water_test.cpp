@@ -74,7 +74,7 @@ TEST_F(WaterTest, TheCameraMayBeInTheWater) {
   EXPECT_EQ(rendered.code, 0) << rendered.err;
   const std::string info = iinfo("rendered.exr");
   EXPECT_THAT(info, HasSubstr("surface.Z"));
-  EXPECT_THAT(info, HasSubstr("reflection.R"));  // of the water's underside
+  EXPECT_THAT(info, HasSubstr("reflection.R"));  // the reflection at the water's underside
   const Ran wet = with({"water", "deep.toml", "--look", "realistic"}, "wet.exr");
   EXPECT_EQ(wet.code, 0) << wet.err;
   EXPECT_THAT(wet.out, ::testing::Not(HasSubstr("does not run")));
@@ -110,7 +110,7 @@ TEST_F(WaterTest, SamplesAreFilteredAfterTheWaterIsIn) {
   ASSERT_EQ(
       limpid({"water", scene("pool.toml"), "--size", "128x72", "--float", "-o", "large.exr"}).code,
       0);
-  // Filtering the large picture by hand is the same.
+  // Averaging the large picture by hand gives the same pixels.
   ASSERT_EQ(oiiotool({"large.exr", "--resize:filter=box", "64x36", "-o", "small.exr"}).code, 0);
   EXPECT_TRUE(same("four.exr", "small.exr", 1e-5));
   expect_refused(limpid({"water", scene("pool.toml"), "--samples", "0", "-o", "x.exr"}),

@@ -1,4 +1,4 @@
-"""A Chromium without a window, spoken with through a pipe: its DevTools protocol, messages of JSON that end in a 0 byte
+"""A headless Chromium, controlled through a pipe by its DevTools protocol: JSON messages that end in a 0 byte
 (--remote-debugging-pipe, on the descriptors 3 and 4)."""
 import base64
 import fcntl
@@ -105,7 +105,7 @@ class Browser:
             pass
 
     def run(self, script):
-        """What the expression gives, after the promise where it is one."""
+        """The value of the expression; of a promise, its result."""
         answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             raise PageError(f"{script}: {answer['exceptionDetails']['exception'].get('description')}")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Drives the page of `limpid view` in a browser without a window: by its mouse and keys, as one who tunes water does.
+"""Drives the page of `limpid view` in a browser without a window: by mouse and keys, like a user.
 Whatever comes of it is compared with what the tool makes on the command line, byte by byte.
 
   desk_page.py LIMPID DATA CHROMIUM
@@ -15,7 +15,7 @@ import tempfile
 
 from browser import BYTES_OF, Browser
 
-# What the checks need in the page.
+# Functions that the checks need in the page.
 HELPERS = r"""
 window.differing = (a, b) => {
   if (a.width !== b.width || a.height !== b.height) return `${a.width}x${a.height}, not ${b.width}x${b.height}`;
@@ -46,7 +46,7 @@ window.told = (id) => new Promise((done) =>
     }).observe(document.getElementById(id), {childList: true, characterData: true, subtree: true}));
 """
 
-# Half of the light, and red and blue in each other's place.
+# Half of the light, with red and blue swapped.
 OCIO_CONFIG = """ocio_profile_version: 1
 roles: {default: lin_rec709, scene_linear: lin_rec709}
 displays:
@@ -80,7 +80,7 @@ def expect_in(part, text, what):
 
 
 class Desk:
-    """A tool that serves, and a page of it in a browser."""
+    """A running `limpid view`, and its page in a browser."""
 
     def __init__(self, limpid, browser, folder, *arguments):
         self.limpid, self.browser, self.folder = limpid, browser, pathlib.Path(folder)
@@ -102,7 +102,7 @@ class Desk:
         self.run(f"window.{name} = desk.pixels(); 0")
 
     def differing(self, name):
-        """Values of the picture that are not those that were kept by that name."""
+        """The number of values of the picture that differ from those kept under that name."""
         return self.run(f"differing(desk.pixels(), {name})")
 
     def center(self, selector, across=0.5):
@@ -113,7 +113,7 @@ class Desk:
         self.browser.click(*self.center(selector))
 
     def enter(self, selector, text):
-        """Typed in place of what is there, with Enter behind."""
+        """Replaces the text of a field by typing, with Enter at the end."""
         self.click(selector)
         self.run(f"document.querySelector({json.dumps(selector)}).select()")
         self.browser.type(text)
@@ -351,7 +351,7 @@ def large_plate(desk):
 
 
 def broken_off(desk):
-    """A change while the whole picture is computed: a half one comes first, never the whole one of what was before."""
+    """A change while the full-size picture is computed: a half-size one comes first, never the old picture."""
     shown = desk.run("""(async () => {
       const before = desk.broken;
       desk.set('depth_fog.murkiness', 0.7);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes 60 small glTF files, each with one thing or some together that files of others have.
+"""Writes 60 small glTF files, each with one or several features that exporters write.
 
     gltf_collection.py FOLDER
 
@@ -164,7 +164,7 @@ def png(picture):
 
 
 def picture(alpha=False):
-    """A field of its own in each corner, so that every turn shows."""
+    """A different field in each corner, so that every rotation is visible."""
     y, x = np.mgrid[0:32, 0:32]
     cells = (x // 4 + y // 4) % 2
     colors = np.stack([255 - 5 * x, 60 + 6 * y, 80 + 100 * cells], -1)
@@ -375,7 +375,7 @@ def quantized_shorts(f):
 
 @file(twin="quantized_twin")
 def quantized_plain(f):
-    """Whole numbers that the node makes small."""
+    """Integer positions that the node scales down."""
     shape = ball()
     quantized(f, {"POSITION": f.accessor(np.round(shape.positions * 20000 + 3000), SHORT),
                   "NORMAL": f.accessor(np.round(shape.normals * 127), BYTE, True),
@@ -393,7 +393,7 @@ def quantized_bytes(f):
 # --- morph targets and skins ---
 
 def bulge(shape):
-    """What makes a post thick in the middle, and its normals."""
+    """The morph target that makes a post thick in the middle, with its normals."""
     around = shape.positions * [1, 0, 1]
     return around * (1.5 * np.cos(np.pi / 1.4 * shape.positions[:, 1:2])), 0.3 * shape.positions * [0, 1, 0]
 
@@ -595,7 +595,7 @@ def animated(f):
 
 @file()
 def deep_tree(f):
-    """Each turned against the one that it hangs on, the last one mirrored."""
+    """Nodes in a chain: each is rotated against its parent, and the last is mirrored."""
     mesh = f.mesh(f.primitive(box(0.25)))
     last = f.node(root=False, mesh=mesh, translation=[0.6, 0, 0], scale=[-0.7, 0.7, 0.7])
     middle = f.node(root=False, mesh=mesh, translation=[0.6, 0, 0], rotation=[0, 0, np.sin(0.3), np.cos(0.3)],
@@ -782,7 +782,7 @@ def unlit(f):
 
 @file()
 def double_sided(f):
-    """Seen from behind."""
+    """A surface seen from behind."""
     f.show(f.primitive(sheet(), f.material(doubleSided=True)), rotation=[0, 1, 0, 0])
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""SSIM, FLIP and HDR-FLIP in numpy float64: a second reading of the papers, and the judge of ours.
+"""SSIM, FLIP and HDR-FLIP in numpy float64: a second implementation from the papers, which judges limpid's.
 
 Written from the papers alone, never from the C++ code, and as plainly as they are: whole
 two-dimensional kernels where ours are separable, one picture at a time, nothing fast.
@@ -53,7 +53,7 @@ def srgb_of(linear):
 
 
 def ssim_map(a, b):
-    """Of two planes of peak 1."""
+    """SSIM of two planes with the peak value 1."""
     x, y = grid(5)
     window = np.exp(-(x * x + y * y) / (2 * 1.5**2))
     window /= window.sum()
@@ -105,7 +105,7 @@ CONTRAST = [((1, 0.0047), (0, 1e-5)), ((1, 0.0053), (0, 1e-5)), ((34.1, 0.04), (
 
 
 def seen(opponent, ppd):
-    """What a standard observer sees of it."""
+    """The picture filtered by the contrast sensitivity of a standard observer."""
     radius = int(np.ceil(3 * np.sqrt(0.04 / (2 * np.pi**2)) * ppd))
     x, y = grid(radius)
     squared = (x * x + y * y) / ppd**2
@@ -117,7 +117,7 @@ def seen(opponent, ppd):
 
 
 def features(opponent, ppd):
-    """Strength of edges and of points."""
+    """The strength of edges and of points."""
     gray = (opponent[..., 0] + 16) / 116
     sigma = 0.5 * 0.082 * ppd
     x, y = grid(int(np.ceil(3 * sigma)))
@@ -178,7 +178,7 @@ def hdr_flip_map(a, b, ppd=PIXELS_PER_DEGREE):
 
 
 def made_pictures(width, height):
-    """A bright window in a dim room, with lines and points; A is B with faults of many kinds."""
+    """A bright window in a dim room, with lines and points; A is B with many kinds of errors."""
     rng = np.random.default_rng(6)
     x, y = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
     b = np.stack([0.05 + 0.3 * x, 0.08 + 0.2 * y, 0.2 - 0.1 * x * y], -1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The look `realistic` in numpy float64: a second reading of its formulas, and the judge of ours.
+"""The look `realistic` in numpy float64: a second implementation of its formulas, which judges limpid's.
 
 Written from the descriptions of the models alone, never from the C++ code, so that a wrong formula
 cannot hide behind one text that all runners share.
@@ -63,7 +63,7 @@ def bilinear(image, u, v):
 
 
 def taps(image, u, v):
-    """The four texels that bilinear filtering mixes, and how much of each."""
+    """The four texels of a bilinear lookup, and their weights."""
     height, width = image.shape
     x, y = u * width - 0.5, v * height - 0.5
     x0, y0 = np.floor(x), np.floor(y)
@@ -80,7 +80,7 @@ def mean(values, weights):
 
 
 def seen(channel, depth, u, v):
-    """Bilinear, of texels at which something was hit; 0 where those have less than half the weight."""
+    """A bilinear lookup of texels with a surface; 0 where these have less than half of the weight."""
     values, weights = taps(channel, u, v)
     hit = np.isfinite(taps(depth, u, v)[0])
     lost = np.where(hit, 0, weights).sum(0)
@@ -108,7 +108,7 @@ def nearest(image, u, v):
 
 
 def to_viewer(view, projection, u, v):
-    """Unit vectors from what is seen at (u, v) to a perspective camera, in world space."""
+    """Unit vectors from the visible point at (u, v) to a perspective camera, in world space."""
     ndc_x, ndc_y = 2 * u - 1, 1 - 2 * v
     ray = np.stack(
         [
@@ -158,7 +158,7 @@ def realistic(plate, p=REALISTIC):
     py = np.where(snapped, 0.0, p["prism"] * my)
     path = depth_seen(depth, u1, v1, zs) - zs
 
-    # Prism: one lookup a channel. No light comes from where the water has no end.
+    # Prism: one lookup per channel. No light comes from water without a bottom.
     under = np.stack(
         [
             seen(color[..., 0], depth, u1 + px, v1),
@@ -176,7 +176,7 @@ def realistic(plate, p=REALISTIC):
     shadow = bilinear(plate["shadow"], u1, v1)
     under = under * (1 - p["darken"] * (1 - shadow))[..., None]
 
-    # Reflection by the rim.
+    # Reflection by the model `rim`.
     V = to_viewer(view, projection, u, v)
     F = (1 - np.abs(np.sum(V * normal, axis=-1))) ** p["rim_power"]
     reflected = bilinear(plate["reflection"], u + p["reflection"] * mx, v + p["reflection"] * my)

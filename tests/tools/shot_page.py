@@ -47,7 +47,7 @@ class Page:
         return self.browser.run(script)
 
     def keep(self, name, png):
-        """The picture's bytes in the page, by that name."""
+        """The bytes of the picture of this name in the page."""
         self.run(f"bytesOf('{base64.b64encode(png).decode()}').then((bytes) => {{ window.{name} = bytes; }})")
 
     def keep_file(self, name, file):

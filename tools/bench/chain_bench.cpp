@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLargestMeanError = 2e-3;
 
-/// So that no row can pass by the picture of the row before.
+/// Clears the canvas, so that no row passes with the picture of the row before.
 void spoil(const Target& target) {
   for (const View<float>& view : target.color) {
     for (int y = view.window.y0; y < view.window.y1; ++y) {
@@ -33,7 +33,7 @@ Look look_named(const char* name) {
   return load_look(LIMPID_DATA "/looks/" + std::string(name) + ".toml");
 }
 
-/// The work of the rivals, which look up the map itself at every distance.
+/// The look with the work of the rivals, which look up the unfiltered map at every distance.
 Look unfiltered(Look look) {
   look.of<WaveNormals>().filter = WaveNormals::Filter::kNone;
   return look;
@@ -57,7 +57,7 @@ ChainBench::ChainBench(const std::string& label, const Arguments& arguments)
               interleaved(plate_.frame.wave_map.channels)},
       executors_{make_executor(1), make_executor(2)},
       canvas_(plate_.frame.display) {
-  canvas_.target.alpha = {};  // rivals write none
+  canvas_.target.alpha = {};  // rivals write no alpha
   add_rows(label);
   arguments.expect_rows(!rows_.empty());
   for (ChainRow& row : rows_) check(row);
@@ -108,7 +108,7 @@ void ChainBench::add(const std::string& name, JudgedLook* judged, int threads, P
   rows_.push_back({{full, run}, judged});
 }
 
-/// Its first round judges the others.
+/// The first round of the reference gives the picture that judges the other rows.
 void ChainBench::add_reference() {
   add("reference, double", nullptr, 1, [this](const Target& target, Executor&) {
     run_reference(realistic_.plan, plate_.frame, plate_.scene, target);

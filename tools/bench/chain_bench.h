@@ -19,19 +19,19 @@
 
 namespace limpid::bench {
 
-/// A look on the plate, and its picture by the reference, should it be needed.
+/// A look on the plate, and its picture by the reference, if a row needs that picture.
 struct JudgedLook {
   JudgedLook(const Look& a_look, const MadePlate& plate);
 
   Look look;
   Plan plan;
   Picture judge;
-  double reference_seconds = 0;  ///< 0 until it is judged
+  double reference_seconds = 0;  ///< 0 until the reference has run
 };
 
 struct ChainRow : Row {
-  JudgedLook* judged = nullptr;  ///< the look that it paints, if its picture is to be checked
-  std::function<void()> fetch = [] {};  ///< gets the picture where run() has left it elsewhere
+  JudgedLook* judged = nullptr;         ///< the look of the row, if its picture is checked
+  std::function<void()> fetch = [] {};  ///< copies the picture into the canvas
   PictureError error = {};
 };
 
@@ -39,8 +39,8 @@ struct ChainRow : Row {
 /// plate, from the same planes into one canvas.
 class ChainBench {
  public:
-  /// `label` is that of --size. Throws Error when a row's picture is not that of the reference: it
-  /// would be timed doing other work.
+  /// `label` is the value of --size. Throws Error when a row's picture differs from that of the
+  /// reference: its time would be that of other work.
   ChainBench(const std::string& label, const Arguments& arguments);
   ChainBench(const ChainBench&) = delete;
   ChainBench& operator=(const ChainBench&) = delete;
@@ -49,8 +49,9 @@ class ChainBench {
 
   const std::vector<ChainRow>& rows() const { return rows_; }
   const MadePlate& plate() const { return plate_; }
-  std::string renderer() const;  ///< as OpenGL calls itself, "" where it has no row
-  /// Of the look `fast` against `physical`, both by the reference; none unless both have rows.
+  std::string renderer() const;  ///< the name of OpenGL's renderer, "" without a row of OpenGL
+  /// The error of the look `fast` against `physical`, both by the reference; empty unless both have
+  /// rows.
   std::optional<PictureError> fast_error() const;
 
  private:
@@ -74,7 +75,7 @@ class ChainBench {
   std::vector<ChainRow> rows_;
 };
 
-/// Of 1080p or 4K.
+/// The pixels of 1080p or 4K.
 Size size_of(const std::string& label);
 
 /// A LlvmpipeChain on the plate of that size, which it loads before it returns.

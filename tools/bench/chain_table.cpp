@@ -5,7 +5,7 @@
 namespace limpid::bench {
 namespace {
 
-/// Seconds of a row, 0 where there is none.
+/// Seconds of a row, 0 if the row is missing.
 double seconds(const ChainBench& bench, const std::string& name) {
   for (const ChainRow& row : bench.rows()) {
     if (row.name == name) return row.best_seconds;

@@ -1,7 +1,7 @@
 // Times the Compositor on 1080p frames of a host beside the fused runner on the same frame: the
-// price of taking a host's buffers as they are. Rounds go over all rows in turn; overhead is
-// the median over the rounds of a row's time by the runner's of the same round, so that a slow
-// moment of the machine hits both.
+// overhead of reading a host's buffers in place. Rounds go over all rows in turn; the overhead is
+// the median over the rounds of a row's time divided by the runner's time in the same round, so
+// that a slow moment of the machine affects both.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,7 +48,7 @@ void fill(const HostOutput& to, const View<const float>& from) {
 struct TimedRow {
   std::string name;
   std::function<void()> run;
-  std::size_t beside = 0;  ///< the row to compare with: a runner on the same pixels
+  std::size_t beside = 0;  ///< the row for comparison: a runner on the same pixels
   std::vector<double> seconds = {};
 };
 
@@ -57,7 +57,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// A made-up plate as hosts keep it, and the rows that take it so.
+/// A synthetic plate in the layouts of hosts, and the rows that read these layouts.
 class Host {
  public:
   Host(const Look& look, int threads, const std::string& simd)
@@ -120,7 +120,7 @@ class Host {
     rows_.push_back({name, [=] { compositor->run(frame, picture); }, beside_});
   }
 
-  /// The runner itself on such pixels, which the rows after it are compared with.
+  /// The runner itself on these pixels; the rows after it are compared with this row.
   void add_runner(const std::string& name, const std::string& simd, const HostFrame& host,
                   const HostPicture& picture) {
     Frame frame = plate_.frame;
@@ -134,7 +134,7 @@ class Host {
                      }});
   }
 
-  /// Color as pixels, in and out, and in place.
+  /// Interleaved color: from input to output, and in place.
   void add_interleaved(Sample sample, const std::string& name, const Look& look,
                        const CompositorOptions& options, HostFrame frame) {
     const std::size_t bytes =
@@ -172,7 +172,7 @@ class Host {
 
 void print(const std::string& title, Host& host, int rounds) {
   std::vector<TimedRow>& rows = host.rows();
-  for (TimedRow& row : rows) row.run();  // the first frame makes its memory
+  for (TimedRow& row : rows) row.run();  // the first frame allocates its memory
   for (int round = 0; round < rounds; ++round) {
     for (TimedRow& row : rows) row.seconds.push_back(seconds_of(row.run));
   }

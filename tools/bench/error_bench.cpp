@@ -1,5 +1,5 @@
-// Speed against error: variants of refraction, each with its time and its distance from a
-// path-traced picture of the same water, the plate lagoon.
+// Speed against error: variants of refraction on the plate lagoon, each with its time and its error
+// against a path-traced picture of the same water.
 #include <cstdio>
 #include <string>
 #include <vector>

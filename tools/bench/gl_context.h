@@ -11,8 +11,8 @@
 
 namespace limpid::bench {
 
-/// OpenGL 3.3 by EGL without a surface, current on this thread: Mesa's llvmpipe where there is no
-/// GPU.
+/// OpenGL 3.3 by EGL without a surface, current on this thread: Mesa's llvmpipe on a machine
+/// without a GPU.
 class GlContext {
  public:
   GlContext();
@@ -28,14 +28,15 @@ class GlContext {
 /// Throws std::runtime_error, "OpenGL: WHAT failed", unless `good`.
 void expect_gl(bool good, const char* what);
 
-/// Compiled, linked and in use.
+/// A program that is compiled, linked and in use.
 GLuint use_program(const char* vertex, const char* fragment);
 
-/// Draws into a float color buffer of this size from now on, with a float depth buffer if wanted.
+/// Makes a float color buffer of this size the target of later draws, with a float depth buffer if
+/// `depth`.
 void use_target(Size size, bool depth);
 
-/// Channels of the target (GL_RED, GL_DEPTH_COMPONENT ...) as planes one after the other, rows as
-/// OpenGL has them, from the bottom.
+/// Channels of the target (GL_RED, GL_DEPTH_COMPONENT ...) as planes one after the other; rows run
+/// from the bottom up, as in OpenGL.
 std::vector<float> read_planes(std::initializer_list<GLenum> channels, Size size);
 
 }  // namespace limpid::bench

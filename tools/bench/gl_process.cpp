@@ -53,7 +53,7 @@ T ask(int to, int from, char order) {
 }  // namespace
 
 GlProcess::GlProcess(const std::string& what, int threads) {
-  int down[2], up[2];  // of which a process started later inherits nothing
+  int down[2], up[2];  // closed in processes that are started later
   if (::pipe2(down, O_CLOEXEC) != 0 || ::pipe2(up, O_CLOEXEC) != 0) {
     throw std::runtime_error("no pipe");
   }

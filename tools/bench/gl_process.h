@@ -9,18 +9,19 @@ namespace limpid::bench {
 class GlDrawing {
  public:
   virtual ~GlDrawing() = default;
-  virtual void draw() = 0;  ///< returns when the picture is there
+  virtual void draw() = 0;  ///< returns when the picture is complete
   /// Its planes one after the other, rows from the top.
   virtual std::vector<float> picture() const = 0;
 };
 
-/// A drawing in a process of its own: Mesa's llvmpipe reads from the environment how many threads
-/// it has, once for each process. The process is this program again, which must call serve_drawing
-/// first; it makes the drawing named `what` and waits. It is told what to do, and tells what that
-/// took, by pipes; only the drawing is timed, there.
+/// A drawing in a separate process: Mesa's llvmpipe reads its number of threads from the
+/// environment, once per process. The process runs this program again, which must call
+/// serve_drawing first; it makes the drawing named `what` and waits. Commands and times go through
+/// pipes; the process times the drawing alone.
 class GlProcess {
  public:
-  /// One thread draws in the calling thread (LP_NUM_THREADS=0), more are that many besides it.
+  /// With one thread llvmpipe draws in the calling thread (LP_NUM_THREADS=0); more threads are
+  /// additional to the calling thread.
   GlProcess(const std::string& what, int threads);
   ~GlProcess();
   GlProcess(const GlProcess&) = delete;
@@ -34,7 +35,7 @@ class GlProcess {
   int child_ = 0, to_ = 0, from_ = 0;
 };
 
-/// False unless this program was started by GlProcess; then true, after serving it to its end.
+/// False unless GlProcess started this program; then true, after the last command was served.
 bool serve_drawing(int argc, char** argv,
                    std::unique_ptr<GlDrawing> (*make)(const std::string& what));
 

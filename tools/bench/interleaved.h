@@ -6,7 +6,7 @@
 
 namespace limpid::bench {
 
-/// Planes of one window as pixels: a0 b0 c0 a1 b1 c1 ...
+/// Planes of one window, interleaved: a0 b0 c0 a1 b1 c1 ...
 inline std::vector<float> interleaved(std::span<const View<const float>> planes) {
   const Rect& w = planes[0].window;
   std::vector<float> pixels;

@@ -13,7 +13,7 @@ namespace limpid::bench {
 namespace {
 
 /// Freed memory stays with the process. The OpenCV chain would otherwise spend a third of its time
-/// on getting pages from the kernel for its temporaries; the others allocate none.
+/// on pages from the kernel for its temporaries; the other rows allocate no memory.
 void keep_memory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);

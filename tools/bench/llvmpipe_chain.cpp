@@ -59,7 +59,7 @@ void set_numbers(const Uniforms& to, const RealisticNumbers& n) {
   to.set("sun_color", n.sun_color);
 }
 
-/// Three planes or one as the texture of the next unit.
+/// One or three planes as the texture of the next unit.
 void add_texture(const Uniforms& uniforms, const char* name, int unit,
                  std::span<const View<const float>> planes, GLint filter, GLint wrap) {
   GLuint texture = 0;

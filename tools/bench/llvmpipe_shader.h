@@ -2,8 +2,8 @@
 
 namespace limpid::bench {
 
-/// The look `realistic` in GLSL, in the shape a real-time programmer gives it: one fragment a
-/// pixel, bilinear float textures, row 0 of the picture at the bottom of the target.
+/// The look `realistic` in GLSL, as a real-time programmer writes it: one fragment per pixel,
+/// bilinear float textures, row 0 of the picture at the bottom of the target.
 inline constexpr const char* kRealisticVertex = R"(#version 330 core
 void main() {  // one triangle over the whole picture
   gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#define IMATH_HALF_NO_LOOKUP_TABLE  // which would have to be linked
+#define IMATH_HALF_NO_LOOKUP_TABLE  // the table would need a library to link
 #include <Imath/half.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -21,8 +21,8 @@ constexpr PlaneId kPlanes[] = {PlaneId::kColorR,      PlaneId::kColorG,      Pla
 
 constexpr int kMapSize = 512;
 
-/// Slopes of the waves in the map, a sum of sines that are whole within it. The longest is the
-/// map's side, the shortest a thirtieth.
+/// Slopes of the waves in the map: a sum of sines with whole periods in the map. The longest wave
+/// is the map's side, the shortest a thirtieth of it.
 glm::dvec2 slopes(double u, double v) {
   constexpr int kWaves[][2] = {{1, 2},  {-2, 1}, {3, 2},   {2, -4},  {-5, 3}, {6, 4},
                                {-3, 8}, {9, -5}, {11, 10}, {-15, 7}, {8, 19}, {27, -12}};
@@ -36,7 +36,7 @@ glm::dvec2 slopes(double u, double v) {
   return sum;
 }
 
-/// A normal's component as a PNG has it: whole 255ths.
+/// A normal's component with the precision of a PNG: whole 255ths.
 float as_byte(double component) {
   return static_cast<float>(std::round(255 * (0.5 + 0.5 * component))) / 255;
 }
@@ -61,7 +61,7 @@ MadePlate::MadePlate(Size size) {
   const auto put = [&](PlaneId id, int x, int y, double value) {
     planes_[index_of(id)].view().at(x, y) = static_cast<float>(value);
   };
-  // Colors are halves, as files have them.
+  // Colors are rounded to half, as in files.
   const auto put_color = [&](PlaneId id, int x, int y, double value) {
     put(id, x, y, imath_half_to_float(imath_float_to_half(static_cast<float>(value))));
   };

@@ -7,10 +7,10 @@
 
 namespace limpid::bench {
 
-/// A made-up plate of any size for timing: a camera over a bay, about 60 % of the pixels wet, rocks
-/// that come through the surface, cast shadows, a mirrored sky; a tiling normal map of 512 x 512
-/// texels with the values of a PNG, and no normals of its own. Smooth where real plates are smooth,
-/// with hard edges where they have edges.
+/// A synthetic plate of any size for timing: a camera over a bay, about 60 % of the pixels wet,
+/// rocks that come through the surface, cast shadows, a mirrored sky; a tiling normal map of 512 x
+/// 512 texels with the values of a PNG, and no normals of its own. Smooth where real plates are
+/// smooth, with hard edges where they have edges.
 struct MadePlate {
   explicit MadePlate(Size size);
 

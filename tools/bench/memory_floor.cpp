@@ -13,7 +13,7 @@ constexpr PlaneId kPlanes[3][3] = {
     {PlaneId::kColorR, PlaneId::kReflectionR, PlaneId::kDepth},
     {PlaneId::kColorG, PlaneId::kReflectionG, PlaneId::kSurfaceDepth},
     {PlaneId::kColorB, PlaneId::kReflectionB, PlaneId::kShadow}};
-/// Of one output plane at a time: as fast as whole cache lines of all twelve planes by AVX-512.
+/// One output plane at a time: as fast as whole cache lines of all twelve planes by AVX-512.
 constexpr int kRun = 256;
 constexpr int kBandRows = 16;
 

@@ -6,8 +6,8 @@
 namespace limpid::bench {
 
 /// The floor for every runner that reads the planes of the look `realistic` and writes a picture:
-/// streams the frame's nine planes in and three out, past the caches where the machine can store
-/// so. The picture means nothing.
+/// streams the frame's nine planes in and three out, with stores that bypass the caches where the
+/// machine has them. The picture has no meaning.
 void run_memory_floor(const Frame& frame, const Target& target, Executor& executor);
 
 }  // namespace limpid::bench

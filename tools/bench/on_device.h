@@ -17,22 +17,23 @@ namespace limpid::bench {
 /// A program and its textures on a device, for any number of runs.
 class OnDevice {
  public:
-  /// With `filter` textures are read by the device's own bilinear filter, tiling where their name
-  /// is of `tiled`.
+  /// With `filter` the device's own bilinear filter reads the textures; those named in `tiled`
+  /// repeat.
   OnDevice(std::shared_ptr<GpuDevice> device, const ShaderProgram& program, Executor& executor,
            bool filter = false, const std::string& tiled = "");
   ~OnDevice();
 
-  /// Runs the shader once and many times in a row, data on the device.
+  /// Runs the shader once and many times in a row, with data on the device.
   void time_shader();
-  /// Of one run: the shortest time of many in a row less the shortest of one, over their number. A
-  /// device that has rested is slow at first, so the first times do not count unless they are all.
+  /// Seconds of one run: the shortest time of many runs in a row less the shortest of one run,
+  /// divided by kTimes. A device that has rested is slow at first, so the first times do not count
+  /// unless they are all.
   double shader_seconds() const { return (many_ - one_) / kTimes; }
-  /// Of carrying all textures to the device and the pictures back, and nothing else.
+  /// Seconds to copy all textures to the device and the pictures back, without a run.
   double bus_seconds();
-  /// What textures, picture and AOVs hold.
+  /// Bytes of textures, picture and AOVs.
   std::size_t bytes() const;
-  /// Four floats a pixel of the first output.
+  /// The first output: four floats per pixel.
   std::vector<float> picture();
 
  private:

@@ -54,8 +54,8 @@ void four_maps(const RealisticNumbers& numbers, const Texture& texture, const Gr
                const cv::Mat& surface, cv::Mat n[3]) {
   const cv::Mat channels[3] = {mat_of(texture.channels[0]), mat_of(texture.channels[1]),
                                mat_of(texture.channels[2])};
-  // remap is much slower where it has to wrap. So places are brought to within a period, -0.5 ...
-  // 0.5, and looked up from 0.5 on in four copies of the map, which have room for a drift of
+  // remap is much slower where it has to wrap. So positions are wrapped to one period, -0.5 ...
+  // 0.5, and looked up from 0.5 on in four copies of the map, which leave room for a drift of
   // another period.
   cv::Mat map, four, sum, sample, at_x, at_y;
   cv::merge(channels, 3, map);

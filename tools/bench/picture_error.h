@@ -3,8 +3,8 @@
 
 namespace limpid::bench {
 
-/// |difference| of two pictures over all pixels and channels, white being 1; NaN is infinitely
-/// far off.
+/// |difference| of two pictures over all pixels and channels, with white = 1; NaN counts as an
+/// infinite difference.
 struct PictureError {
   double mean = 0, p9999 = 0, max = 0;
 };

@@ -50,7 +50,7 @@ Difference difference(const RasterScene& scene, const RasterImage& ours,
   return d;
 }
 
-/// False where this row is not wanted.
+/// False if this row is not selected.
 bool bench_scene(int index, const Arguments& arguments) {
   const RasterScene scene = raster_scene(index);
   if (!arguments.wants_row(scene.label)) return false;

@@ -9,7 +9,7 @@
 namespace limpid::bench {
 namespace {
 
-/// size x size cells over 16 x 9.4 units, smooth normals, the texture eight times.
+/// size x size cells over 16 x 9.4 units, smooth normals, the texture repeated eight times.
 Mesh hills(int size) {
   Mesh mesh;
   const double height = 0.4, k = 1.3;

@@ -11,18 +11,18 @@
 
 namespace limpid::bench {
 
-/// What a program that knows the look `realistic` alone works out once a frame, for rivals written
-/// by hand. For a perspective camera in the air.
+/// Numbers that a program for the look `realistic` alone computes once per frame, for rivals
+/// written by hand. The camera is perspective and in the air.
 struct RealisticNumbers {
   RealisticNumbers(const Look& look, const Frame& frame, const Scene& scene);
 
   Size size;
   glm::dvec3 ray, ray_dx, ray_dy;  ///< at the centre of the pixel (0, 0), and its steps
-  /// Place in the map, in periods, of a point p relative to the eye: begin + (dot(p, u), dot(p,
+  /// Position in the map, in periods, of a point p relative to the eye: begin + (dot(p, u), dot(p,
   /// v)).
   std::array<glm::dvec2, 4> map_begin;
   glm::dvec3 map_u, map_v;
-  /// Normal before it is made unit, of the sum of four colors: blend sum + blend_begin.
+  /// The normal before normalization, from the sum of four colors: blend sum + blend_begin.
   glm::dmat3 blend;
   glm::dvec3 blend_begin;
   glm::dvec3 tilt_x, tilt_y;                            ///< tilt = (dot(n, tilt_x), dot(n, tilt_y))

@@ -11,7 +11,7 @@
 namespace limpid::bench {
 namespace {
 
-/// std140: what is added lies at the next place that is its own alignment.
+/// A std140 block: each member lies at the next offset with the member's alignment.
 class Block {
  public:
   explicit Block(ShaderProgram& program) : bytes_(program.block) {}

@@ -7,10 +7,10 @@
 
 namespace limpid::bench {
 
-/// The rival's shader of the look `realistic` (llvmpipe_shader.h) for Vulkan: the same text, a
-/// thread a pixel instead of a fragment.
+/// The rival's shader of the look `realistic` (llvmpipe_shader.h) for Vulkan: the same text, with a
+/// thread per pixel instead of a fragment.
 ShaderProgram realistic_program(const Look& look, const Frame& frame, const Scene& scene);
-/// Of its textures the one that tiles.
+/// The name of the texture that tiles.
 inline constexpr const char* kRealisticMap = "map_texture";
 
 }  // namespace limpid::bench

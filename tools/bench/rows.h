@@ -12,7 +12,7 @@ namespace limpid::bench {
 struct Row {
   std::string name;
   std::function<double()> run;  ///< does the work once and returns its seconds
-  int most_rounds = std::numeric_limits<int>::max();  ///< fewer for slow rows
+  int most_rounds = std::numeric_limits<int>::max();  ///< a lower limit for slow rows
   double best_seconds = 1e30;
 };
 
@@ -23,7 +23,8 @@ double seconds_of(Body&& body) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Rounds go over all rows in turn, so that a noisy neighbour hits them alike; the best counts.
+/// Rounds go over all rows in turn, so that other load on the machine affects all rows; the fastest
+/// round counts.
 template <class Rows>
 void time_rows(Rows& rows, int rounds) {
   for (int round = 0; round < rounds; ++round) {

@@ -1,4 +1,4 @@
-// Compiled twice, LIMPID_SCALAR_LOOP being the name that the loop gets.
+// This file is compiled twice; LIMPID_SCALAR_LOOP is the name of the loop's function.
 #include "scalar_loop.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ int floor_of(float x) {
 
 float mix(float a, float b, float t) { return a + t * (b - a); }
 
-/// Four texels around a place on the screen, clamped to the picture, for any plane.
+/// Four texels around a position on the screen, clamped to the picture, for any plane.
 struct Taps {
   Taps(float x, float y, Size size) {
     const int left = floor_of(x), top = floor_of(y);
@@ -42,7 +42,7 @@ struct Taps {
   float u, v;
 };
 
-/// All that the loop needs, in float.
+/// All inputs of the loop, in float.
 struct Loop {
   explicit Loop(const ScalarJob& job)
       : n(job.numbers),

@@ -9,7 +9,7 @@
 
 namespace limpid::bench {
 
-/// What the loop reads. Its map is r g b r g b ..., which it likes best.
+/// The inputs of the loop. The map is interleaved, r g b r g b ..., because the loop is fastest so.
 struct ScalarJob {
   const RealisticNumbers& numbers;
   const Frame& frame;
@@ -18,8 +18,8 @@ struct ScalarJob {
 };
 
 /// The look `realistic` as a C++ programmer writes it by hand: one loop over the pixels in float,
-/// four taps a lookup, dry pixels copied at once, bands of rows for threads. Compiled as the fused
-/// pass is, -O3, and the second time for all that this machine has (-march=native).
+/// four taps per lookup, an early copy of dry pixels, bands of rows for threads. Compiled with -O3
+/// like the fused pass, and a second time for this machine (-march=native).
 void run_scalar_loop(const ScalarJob& job, const Target& target, Executor& executor);
 void run_scalar_loop_native(const ScalarJob& job, const Target& target, Executor& executor);
 

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr Size kSize{3840, 2160};
 constexpr int kFrames = 8, kRounds = 3;
 
-/// Gone with all that is in it at the end.
+/// A temporary folder, removed with its contents at the end.
 struct TemporaryFolder {
   TemporaryFolder()
       : path(fs::temp_directory_path() / ("limpid_sequence_bench-" + std::to_string(::getpid()))) {
@@ -43,7 +43,7 @@ struct TemporaryFolder {
   fs::path path;
 };
 
-/// A factor within 1 % of 1 that is another one on each pixel of each frame, as a renderer's noise.
+/// A factor within 1 % of 1 that differs on each pixel of each frame, like a renderer's noise.
 float grain(int x, int y, int seed) {
   auto h = static_cast<unsigned>(x) * 73856093u ^ static_cast<unsigned>(y) * 19349663u ^
            static_cast<unsigned>(seed) * 83492791u;
@@ -51,7 +51,7 @@ float grain(int x, int y, int seed) {
   return 1 + 0.02f * (static_cast<float>((h ^ h >> 15) & 0xffff) / 65536 - 0.5f);
 }
 
-/// Half color and shadow, float depth, PIZ: the plates as files.
+/// The plates as files: half color and shadow, float depth, PIZ.
 void write_plates(const MadePlate& plate, const std::string& name) {
   const Rect window = plate.frame.display;
   std::vector<Plane> color;
@@ -109,7 +109,7 @@ struct Bench {
     return job;
   }
 
-  /// What a frame's file has to do with the disk, a sequence's share of which is switched off.
+  /// Reads and writes the files of a frame without compositing; either can be left out.
   class Files : public FrameSlot {
    public:
     Files(const Bench& bench, bool reads, bool writes)
@@ -165,7 +165,7 @@ struct Bench {
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct CpuRow : Row {
-  double least_cpu_seconds = 1e30;  ///< of all threads together
+  double least_cpu_seconds = 1e30;  ///< summed over all threads
 };
 
 void bench(const Arguments& arguments) {
@@ -173,7 +173,7 @@ void bench(const Arguments& arguments) {
   const auto threads = static_cast<int>(std::thread::hardware_concurrency());
   set_file_threads(threads);
   const Bench b(arguments, folder.path);
-  std::list<CpuRow> rows;  // none of which moves
+  std::list<CpuRow> rows;  // list elements do not move
   const auto add = [&](const char* name, auto&& work) {
     if (!arguments.wants_row(name)) return;
     CpuRow& row = rows.emplace_back();

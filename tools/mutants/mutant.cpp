@@ -1,6 +1,5 @@
-// Compiled into the tree that holds its mutants. LIMPID_MUTANT is the number of
-// the one to be, and LIMPID_MUTANTS_REACHED a file that gets a byte for each place when the process
-// ends.
+// Compiled into the tree that holds its mutants. LIMPID_MUTANT is the number of the active mutant,
+// and LIMPID_MUTANTS_REACHED a file that gets a byte for each place when the process ends.
 #include "mutant.h"
 
 #include <cstdio>
@@ -24,7 +23,7 @@ void write_reached() {
   std::fclose(file);
 }
 
-// Before the objects with static storage, which are made of mutants, too.
+// This runs before the constructors of static objects, which hold mutants, too.
 __attribute__((constructor(101))) void begin() {
   if (const char* number = std::getenv("LIMPID_MUTANT")) active = std::atoi(number);
   if (std::getenv("LIMPID_MUTANTS_REACHED")) {

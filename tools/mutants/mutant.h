@@ -1,15 +1,15 @@
 #pragma once
 #include <type_traits>
 
-/// Included by each file that holds mutants (see sites.py). A place of the code that
-/// can be changed has a number, and the environment variable LIMPID_MUTANT says at which number
-/// this process changes it. `a < b` is written `a < Mark<7, false>() < b`: of the same precedence,
-/// so that no operand has to be found in the text, and it is the types of the operands that say
-/// what the change is.
+/// Included by each file that holds mutants (see sites.py). Each place of the code that can be
+/// changed has a number, and the environment variable LIMPID_MUTANT holds the number of the place
+/// that this process changes. `a < b` is written `a < Mark<7, false>() < b`: of the same
+/// precedence, so that no operand has to be found in the text; the types of the operands select the
+/// change.
 
 namespace limpid_mutants {
 
-/// What a run of the tests can learn of a place.
+/// The result of a recording run of the tests for a place.
 enum Reached : unsigned char { kNever, kFirst, kSecond, kUnchangeable };
 
 constexpr int kRecording = -2;
@@ -24,7 +24,7 @@ LIMPID_MUTANT_INLINE bool is_active(int number, Reached change) {
   return false;
 }
 
-/// Constant: the place may be a part of a constant, which stays as it is.
+/// Constant: the place may be a part of a constant expression, which stays unchanged.
 template <int Number, bool Constant>
 LIMPID_MUTANT_INLINE constexpr bool on(Reached change = kFirst) {
   if constexpr (Constant) {
@@ -83,7 +83,7 @@ LIMPID_MUTANT_OPERATOR(/, true, (a * b), (a * b))
 LIMPID_MUTANT_OPERATOR(%, true, (a / b), (a / b))
 #undef LIMPID_MUTANT_OPERATOR
 
-// These go from right to left.
+// These operators associate from right to left.
 template <class B, int Number, bool Constant>
 struct Right {
   const B& b;

@@ -53,7 +53,7 @@ def limpid(programs=PROGRAMS):
 # ---- which
 
 def all_sites(project):
-    """In order of kind and place: a number is the place in it."""
+    """All sites in order of kind and place; the number of a site is its index."""
     found = []
     for folder in project.folders:
         for path in sorted((project.root / folder).glob("*")):
@@ -63,7 +63,7 @@ def all_sites(project):
 
 
 def pick(everything, wanted, limit, seed):
-    """Each n-th of those that `wanted` holds for, so that each file and kind has its share."""
+    """Each n-th site for which `wanted` holds, so that each file and kind has its share."""
     candidates = [number for number, site in enumerate(everything) if wanted(site)]
     picked, by_path = {}, collections.defaultdict(list)
     step, offset = max(1.0, len(candidates) / limit), (seed * 0.618034) % 1
@@ -78,7 +78,7 @@ def pick(everything, wanted, limit, seed):
 
 
 def kept(project, everything, say):
-    """Those of the project's file that are still there."""
+    """The sites of the project's list that still exist."""
     lines = (project.root / project.kept).read_text().splitlines()
     numbers = {tree.identity(site): number for number, site in enumerate(everything)}
     there = sorted(numbers[line] for line in lines if line in numbers)
@@ -90,7 +90,7 @@ def kept(project, everything, say):
 # ---- what the page says
 
 def in_cell(text):
-    """As a table of Markdown has it."""
+    """A text as a cell of a Markdown table."""
     return re.sub(r"\s+", " ", text.strip()).replace("|", "\\|")
 
 
@@ -158,7 +158,7 @@ def run(project, arguments, say=print):
 
 
 def tell(project, judged, say):
-    """Lists the survivors, and says whether the page explains all of them."""
+    """Lists the survivors, and returns whether the page explains all of them."""
     known, counts = known_survivors(project), collections.defaultdict(collections.Counter)
     for site, verdict in judged:
         state = "survive" if verdict.state in SURVIVED else verdict.state

@@ -18,7 +18,7 @@ PATTERNS = [  # kind, what is changed
     ("constant", r"\b(?:true|false)\b"),
     ("bound", r"(?<![\w.>:])(?:std::)?(?:min|max|saturate|abs)(?=\()"),
 ]
-# What the compiler gets to know before there is a process that could change it, and what is no expression.
+# Code that is evaluated at compile time, before a process could change it, and code that is not an expression.
 UNTOUCHED = re.compile(r"\b(?:static_assert|requires|concept|enum|using|alignas|if constexpr|case|operator|extern"
                        r"|friend bool operator\S+|friend constexpr bool operator\S+)\b|^\s*template\b")
 FIRST = {"<": "<=", ">": ">=", "<=": "<", ">=": ">", "==": "!=", "!=": "==", "+": "-", "-": "+", "*": "/", "/": "*",
@@ -57,14 +57,14 @@ class Site:
 
 
 def masked(text):
-    """The same text, of the same length, with spaces for what is no code."""
+    """The text with everything except code replaced by spaces, of the same length."""
     blank = lambda match: re.sub(r"[^\n]", " ", match.group())
     return re.sub(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\])\'|^[ \t]*#(?:\\\n|[^\n])*|\[\[[^\]]*\]\]',
                   blank, text, flags=re.S | re.M)
 
 
 def closing(code, at):
-    """Where the bracket at `at` closes."""
+    """The position of the bracket that closes the bracket at `at`."""
     depth = 0
     for i in range(at, len(code)):
         if code[i] in OPEN:
@@ -77,7 +77,7 @@ def closing(code, at):
 
 
 def headers(code):
-    """For each brace: (where it opens, where it closes, the text before it)."""
+    """For each pair of braces: (opening position, closing position, the text before it)."""
     found, stack, begin = [], [], 0
     for match in re.finditer(r"[;{}()]", code):
         i, c = match.start(), match.group()
@@ -164,12 +164,12 @@ class Source:
         self.braces = headers(self.code)
 
     def statement(self, at):
-        """Where the statement begins that `at` is in."""
+        """The beginning of the statement that contains `at`."""
         start = max(self.code.rfind(c, 0, at) for c in ";{}")
         return start + 1
 
     def context(self, at):
-        """(is left out, is in a constexpr function, the `constexpr` that must go)."""
+        """(site is left out, site is in a constexpr function, the `constexpr` that must be removed)."""
         around = [(start, header) for start, end, header in self.braces if start < at < end]
         begin = self.statement(at)
         around.append((at, self.code[begin:at]))
@@ -193,7 +193,7 @@ class Source:
         return False, constant, unfreeze
 
     def name_behind(self, at):
-        """The name that the declaration with a `constexpr` at `at` gives."""
+        """The name that the declaration with a `constexpr` at `at` declares."""
         declared = re.split(r"[={;]|\[\w*\] ", self.code[at:self.code.index(";", at)], maxsplit=1)[0]
         return (re.findall(r"\w+", declared.split("[")[0]) or [""])[-1]
 
@@ -253,7 +253,7 @@ class Source:
         return site
 
     def with_changes(self, numbered):
-        """The text with every one of `numbered`, (number, site), in it. No two may overlap in part."""
+        """The text with all sites of `numbered`, pairs (number, site). No two sites may overlap in part."""
         edits = sorted(((site.span(), number, site) for number, site in numbered),
                        key=lambda edit: (edit[0][0], -edit[0][1], edit[2].reach is None))
         thaws = {site.unfreeze for _, site in numbered if site.unfreeze}

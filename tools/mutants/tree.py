@@ -14,7 +14,7 @@ POLITE = ["nice", "-n", "10"]  # building; the tests run last of all
 
 
 class Refused(Exception):
-    """Said to the user as it is."""
+    """An error whose text is printed unchanged."""
 
 
 class Tree:
@@ -37,7 +37,7 @@ class Tree:
         return [name for name in listed.stdout.split("\0") if name and (self.project.root / name).is_file()]
 
     def write(self, picked):
-        """`picked`: number: Site. Only what is new is written, for the build goes by times."""
+        """`picked` maps numbers to sites. Writes only changed files, since the build goes by times."""
         self.picked = dict(picked)
         self.is_new = False  # whether a mutant is there that has never been compiled
         by_path = {}
@@ -67,7 +67,7 @@ class Tree:
                 path.unlink()
 
     def write_again(self, dropped):
-        """Leaves out those that do not compile."""
+        """Leaves out the sites that do not compile."""
         for number in dropped:
             site = self.picked.pop(number)
             self.left_out.add(identity(site))
@@ -88,7 +88,7 @@ class Tree:
             raise Refused(f"the copy cannot be configured:\n{(run.stdout + run.stderr)[-2000:]}")
 
     def compile(self, say):
-        """Until all compiles: what does not compile for a change is left out."""
+        """Builds until all files compile: sites that break the build are left out."""
         environment = {**os.environ, "CCACHE_DISABLE": "1"}  # no two copies are alike
         if self.is_new:
             self.check_syntax(say)
@@ -101,7 +101,7 @@ class Tree:
             self.leave_out(run.stdout + run.stderr, say)
 
     def check_syntax(self, say):
-        """First alone what compiles fast: a header with a fault would be compiled a hundred times."""
+        """Compiles the fast files first, alone: a faulty header would otherwise be compiled a hundred times."""
         commands = [entry for entry in json.loads((self.build / "compile_commands.json").read_text())
                     if self.project.checked.search(os.path.relpath(entry["file"], self.source))
                     and "LIMPID_LANES_TARGET" not in entry["command"].replace("LIMPID_LANES_TARGET=scalar", "")]
@@ -133,7 +133,7 @@ class Tree:
         self.write_again(dropped)
 
     def blamed(self, output):
-        """The mutants that the compiler's errors are about: of each the nearest line that has one."""
+        """The mutants that cause the compiler's errors: for each error the nearest line with a mutant."""
         lines = {}
         for number, site in self.picked.items():
             first, last = site.span()
@@ -168,7 +168,7 @@ def in_force(text):
 
 
 def put(path, content):
-    """Whether it was another before."""
+    """Writes a file; returns whether its content changed."""
     if path.is_file() and path.read_bytes() == content:
         return False
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -177,5 +177,5 @@ def put(path, content):
 
 
 def identity(site):
-    """Stays when lines are put before it."""
+    """A key of the site that stays the same when lines are inserted before it."""
     return f"{site.path}|{site.text.strip()}|{site.column}|{site.old}"

@@ -35,7 +35,7 @@ class Trial:
         self.record_file = tree.folder / "reached.json"
 
     def run(self, program, tests, environment, cpu_seconds, extra=()):
-        """(exit status, CPU seconds, output) of a program in a folder of its own for temporary files."""
+        """(exit status, CPU seconds, output) of a program with a separate folder for temporary files."""
         scratch = tempfile.mkdtemp(prefix="mutant-")
 
         def limit():
@@ -49,7 +49,7 @@ class Trial:
                 [str(self.tests_folder / program), f"--gtest_filter={':'.join(tests)}", "--gtest_brief=1", *extra],
                 cwd=self.tests_folder, stdout=output, stderr=subprocess.STDOUT, preexec_fn=limit, start_new_session=True,
                 env={**os.environ, "TMPDIR": scratch, "TEST_TMPDIR": scratch, **environment})
-            # One that waits for ever uses no CPU.
+            # A program that waits forever uses no CPU time.
             alarm = threading.Timer(60 + 40 * cpu_seconds, lambda: os.killpg(process.pid, signal.SIGKILL))
             alarm.start()
             _, status, usage = os.wait4(process.pid, 0)
@@ -63,7 +63,7 @@ class Trial:
     # ---- what reaches what
 
     def list_tests(self, program):
-        """Each test's name, and what it is compiled of as times: what all tests of the program share, and its own source."""
+        """Each test's name, and the modification times of its program's shared code and of its own source."""
         objects = {}
         for entry in json.loads((self.tree.build / "compile_commands.json").read_text()):
             words = shlex.split(entry["command"])
@@ -87,7 +87,7 @@ class Trial:
                 "reached": {str(number): value for number, value in enumerate(content) if value}}
 
     def record(self, say):
-        """Runs each test of the unchanged programs alone; again only where it has been compiled anew."""
+        """Runs each test of the unchanged programs alone; again only after recompilation."""
         known = json.loads(self.record_file.read_text()) if self.record_file.exists() else {}
         self.reached = {}
         with concurrent.futures.ThreadPoolExecutor(self.tree.jobs) as pool:

@@ -59,7 +59,7 @@ void check(std::span<const ExrOutput> parts) {
   for (const ExrOutput& part : parts) {
     check(part);
     if (parts.size() > 1 && (part.name.empty() || !names.insert(part.name).second)) {
-      throw Error("part name '" + part.name + "': expected a name of its own for each part");
+      throw Error("part name '" + part.name + "': expected a different name for each part");
     }
   }
 }

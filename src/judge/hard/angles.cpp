@@ -94,7 +94,7 @@ void add_angle_cases(HardCases& cases) {
                      (6 * model.steepest + 8) * kRounding,
                      [=](const HardWorld& world) { return reflectance(world, model); }});
   }
-  cases.push_back({"angles", "to 89.99 degrees, shares", "what is beyond 0 ... 1",
+  cases.push_back({"angles", "to 89.99 degrees, shares", "distance of shares from 0 ... 1",
                    "8 roundings of a share near 1", 8 * kRounding, shares});
 }
 

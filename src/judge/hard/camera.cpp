@@ -106,16 +106,18 @@ void add_camera_cases(HardCases& cases) {
   down.down = 90;
   add_sea_cases(cases, "camera", "10 km up, straight down", down);
   const char* sound = "values that are not finite, all looks";
-  cases.push_back({"camera", "10 km up, every look", sound, "sane input makes none", 0, far_above});
-  cases.push_back({"camera", "eye in the surface", "pixels on the wrong side, or with another way",
-                   "below the horizon the way is in the water, to 4 roundings; above it is none", 0,
-                   eye_in_the_surface});
-  cases.push_back({"camera", "eye at the surface, every look", sound, "sane input makes none", 0,
-                   at_the_surface});
-  cases.push_back({"camera", "eye below the surface, every look", sound, "sane input makes none", 0,
-                   below_the_surface});
-  cases.push_back({"camera", "total reflection from below", "pixels that take it for another",
-                   "all beyond arcsin(1 / n), none before it", 0, total_reflection});
+  cases.push_back(
+      {"camera", "10 km up, every look", sound, "valid input gives finite values", 0, far_above});
+  cases.push_back(
+      {"camera", "eye in the surface", "pixels on the wrong side, or with another path",
+       "below the horizon the path is in the water, to 4 roundings; above there is none", 0,
+       eye_in_the_surface});
+  cases.push_back({"camera", "eye at the surface, every look", sound,
+                   "valid input gives finite values", 0, at_the_surface});
+  cases.push_back({"camera", "eye below the surface, every look", sound,
+                   "valid input gives finite values", 0, below_the_surface});
+  cases.push_back({"camera", "total reflection from below", "wrongly classified pixels",
+                   "total beyond arcsin(1 / n), and only there", 0, total_reflection});
 }
 
 }  // namespace limpid

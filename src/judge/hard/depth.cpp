@@ -226,14 +226,14 @@ void add_depth_cases(HardCases& cases) {
     }
   }
   cases.push_back({"depth", "far plane", "far planes that are not infinitely far",
-                   "nothing was hit there", 0, far_plane});
+                   "no surface was hit there", 0, far_plane});
   cases.push_back({"depth", "ray, inverse, normalised", "relative error of eye depth",
-                   "two roundings: of what is stored and of what comes out", 2.001 * kRounding,
+                   "two roundings: of the stored number and of the result", 2.001 * kRounding,
                    other_kinds});
   cases.push_back({"depth", "24 bit through the chain", "error of the path over its bound",
-                   "that of surface and bottom, and one rounding", 1, chain_path});
+                   "the bounds of surface and bottom, and one rounding", 1, chain_path});
   cases.push_back({"depth", "device depth in the chain, near 1e-3, far 1e9",
-                   "error of a place (picture = 1)", "four roundings of a place below 1/4",
+                   "error of a position (picture = 1)", "four roundings of a position below 1/4",
                    kRounding, device_in_the_chain});
 }
 

@@ -150,7 +150,7 @@ Worst tiles(const HardWorld& world) {
 }  // namespace
 
 void add_lookup_cases(HardCases& cases) {
-  cases.push_back({"lookups", "strengths of 1e6, inf, NaN", "that are not refused",
+  cases.push_back({"lookups", "strengths of 1e6, inf, NaN", "values that are not refused",
                    "no parameter reaches beyond 10 pictures", 0, refused});
   cases.push_back({"lookups", "10 pictures off", "difference from the texel at the edge",
                    "clamped there; 4 roundings of colors up to 0.8", 0.8 * 4 * kRounding, clamped});
@@ -158,7 +158,8 @@ void add_lookup_cases(HardCases& cases) {
                    "1e6 pictures over the farthest shift", "the shift is w / 1e-6 there", 1,
                    reaches_far});
   cases.push_back({"lookups", "rays through the eye's plane, every look",
-                   "values that are not finite", "sane input makes none", 0, behind_the_eye});
+                   "values that are not finite", "valid input gives finite values", 0,
+                   behind_the_eye});
   cases.push_back({"lookups", "1e6 tiles and more away, every look", "error of the normals' length",
                    "6 roundings", 6 * kRounding, tiles});
 }

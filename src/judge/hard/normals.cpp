@@ -136,16 +136,16 @@ void add_normal_cases(HardCases& cases) {
   cases.push_back({"normals", "of lengths 1e-12 to 1e38", "distance from the unit normal",
                    "two roundings of each coordinate, of numbers up to 1", 2 * kRounding,
                    unnormalised});
-  cases.push_back({"normals", "of length 0, NaN and inf", "that are not the water's up",
-                   "they have no direction", 0, without_direction});
+  cases.push_back({"normals", "of length 0, NaN and inf", "normals that are not the water's up",
+                   "such vectors have no direction", 0, without_direction});
   cases.push_back({"normals", "all around, every look", "values that are not finite",
-                   "V.n of any sign, and sane input makes none", 0, sound});
+                   "V.n may have any sign; valid input gives finite values", 0, sound});
   cases.push_back({"normals", "all around, every look, shares", "reflectance beyond 0 ... 1",
                    "8 roundings of a share near 1", 8 * kRounding, shares});
   cases.push_back(
       {"normals", "V.n = 0", "1 - reflectance", "8 roundings of 1", 8 * kRounding, edge_on});
   cases.push_back({"normals", "n.L below 0, every look", "glints",
-                   "facets that face away from the sun have none", 0, sun_below});
+                   "facets that face away from the sun have no glint", 0, sun_below});
 }
 
 }  // namespace limpid

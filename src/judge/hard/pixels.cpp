@@ -116,10 +116,11 @@ Worst brightness(const HardWorld& world) {
 
 void add_pixel_cases(HardCases& cases) {
   for (const Kind& kind : kKinds) {
-    cases.push_back({"pixels", std::string(kind.name) + " in every plane, every look",
-                     "values that are not finite",
-                     "what means nothing is replaced on entry, and sane input makes none", 0,
-                     [=](const HardWorld& world) { return sound(world, kind.value); }});
+    cases.push_back(
+        {"pixels", std::string(kind.name) + " in every plane, every look",
+         "values that are not finite",
+         "meaningless values are replaced on entry, and valid input gives finite values", 0,
+         [=](const HardWorld& world) { return sound(world, kind.value); }});
   }
   cases.push_back({"pixels", "dry ones of every kind", "values with other bits",
                    "dry pixels are copied", 0, dry_bits});

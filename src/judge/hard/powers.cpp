@@ -132,12 +132,12 @@ void add_power_cases(HardCases& cases) {
   cases.push_back({"powers", "exponent 0, base 0 to 1", "error of reflectance and lobe",
                    "x^0 is 1, for 0, too; 4 roundings", 4 * kRounding, exponent_zero});
   cases.push_back({"powers", "(1 - V.n)^100", "error over its bound",
-                   "7 roundings of 1 - V.n count 100 / (1 - V.n) fold, and the power's own", 1,
+                   "7 roundings of 1 - V.n times 100 / (1 - V.n), and the power's own", 1,
                    reflectance});
   cases.push_back({"powers", "(n.h)^200 to ^1e5", "error over its bound",
-                   "8 roundings of n.h count so many fold, and the power's own", 1, highlight});
+                   "8 roundings of n.h times the exponent, and the power's own", 1, highlight});
   cases.push_back({"powers", "denormals made by fused", "values",
-                   "they would stall it: it takes them for 0", 0, denormals});
+                   "denormals are slow: fused replaces them by 0", 0, denormals});
 }
 
 }  // namespace limpid

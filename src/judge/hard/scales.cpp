@@ -104,7 +104,7 @@ Worst powers_of_ten(const HardWorld& world) {
 void add_scale_cases(HardCases& cases) {
   add_sea_cases(cases, "scene units", "1e-3", scaled(Sea{}, 1e-3));
   add_sea_cases(cases, "scene units", "1e3", scaled(Sea{}, 1e3));
-  cases.push_back({"scene units", "2^-10 and 2^10, every look", "values that are others",
+  cases.push_back({"scene units", "2^-10 and 2^10, every look", "values that differ",
                    "a power of two changes exponents alone: the same bits", 0, powers_of_two});
   cases.push_back({"scene units", "1e-3 and 1e3, every look",
                    "difference from units of 1 (white = 1)",

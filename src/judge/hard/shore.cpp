@@ -159,10 +159,10 @@ void add_shore_cases(HardCases& cases) {
                    "0.6 and a slope of 0.6 over it, and 60 of the light",
                    (68 * 1.2 + 60) * kRounding, flicker});
   cases.push_back({"shore", "waterline shaken by 1 ulp, every look",
-                   "pixels on the wrong side of it",
-                   "none whose bottom is more than 2 ulp from the surface", 0, waterline});
+                   "pixels on the wrong side of the waterline",
+                   "only where the bottom is within 2 ulp of the surface", 0, waterline});
   cases.push_back({"shore", "surface and floor coincident, every look",
-                   "values that differ from the dry picture, and wet ones that do not",
+                   "values that differ from the dry picture, and wet values that do not",
                    "a pixel is wet where the surface is in front, and nowhere else", 0,
                    coincident});
   cases.push_back({"shore", "floor 1 ulp under the surface, every look", "path over its bound",

@@ -95,13 +95,13 @@ Worst wide_sound(const HardWorld& world) {
 
 void add_size_cases(HardCases& cases) {
   cases.push_back({"sizes", "1x1, 1xN, odd, every look", "values that are not finite",
-                   "sane input makes none", 0, sound});
+                   "valid input gives finite values", 0, sound});
   cases.push_back({"sizes", "1x1, 1xN, odd: closed forms", "error over its bound",
-                   "of surface depth, path and reflectance, as elsewhere", 1, closed_forms});
+                   "the bounds of surface depth, path and reflectance", 1, closed_forms});
   cases.push_back({"sizes", "32768 wide, lookups", "columns off, over their bound",
                    "4 roundings of the shift in columns, 4 of a color up to 255", 1, lookups});
   cases.push_back({"sizes", "32768 wide, every look", "values that are not finite",
-                   "sane input makes none", 0, wide_sound});
+                   "valid input gives finite values", 0, wide_sound});
 }
 
 }  // namespace limpid

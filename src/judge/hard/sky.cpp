@@ -102,9 +102,9 @@ Worst nothing_at_all(const HardWorld& world) {
 
 void add_sky_cases(HardCases& cases) {
   cases.push_back({"sky", "under water, every look", "values that are not finite",
-                   "inf - inf and 0 x inf are nowhere", 0, sound});
+                   "inf - inf and 0 x inf do not occur", 0, sound});
   cases.push_back({"sky", "fog of 0 and of next to 0", "error of the transmittance",
-                   "the limits: 1 where nothing is taken, else 0 (1 - alpha); 4 roundings",
+                   "the limits: 1 without absorption, else 0 (1 - alpha); 4 roundings",
                    4 * kRounding, limits});
   cases.push_back({"sky", "behind no surface, every look",
                    "values that differ from the dry picture", "inf is not in front of inf", 0,

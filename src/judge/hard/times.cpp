@@ -135,17 +135,18 @@ Worst sound(const HardWorld& world) {
 
 void add_time_cases(HardCases& cases) {
   cases.push_back({"time", "phase of waves to 1e7 s", "error over its bound",
-                   "half an ulp of omega t, and 2 pi in double as often as there are turns", 1,
+                   "half an ulp of omega t, and the error of 2 pi in double times the turns", 1,
                    phases});
-  cases.push_back({"time", "normals of waves at 1e7 s", "error over its bound",
-                   "8 roundings of the place in rad, 2 of a turn, 1.5e-7 of the cosine; 6 of the "
-                   "normal",
-                   1, waves});
+  cases.push_back(
+      {"time", "normals of waves at 1e7 s", "error over its bound",
+       "8 roundings of the position in rad, 2 of a turn, 1.5e-7 of the cosine; 6 of the "
+       "normal",
+       1, waves});
   cases.push_back({"time", "drift of maps at 1e7 s, every look",
-                   "normals that are not those of 0 s",
+                   "normals that differ from those at 0 s",
                    "625000 whole periods, or 187500 at 0.3 of the speed: the same bits", 0, drift});
   cases.push_back({"time", "1e7 s to 1e300 s, every look", "values that are not finite",
-                   "sane input makes none", 0, sound});
+                   "valid input gives finite values", 0, sound});
 }
 
 }  // namespace limpid

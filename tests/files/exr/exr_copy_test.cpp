@@ -187,7 +187,7 @@ TEST(ExrCopy, RefusesNamesThatAreThereAndMemoryThatIsNot) {
   EXPECT_THAT(error_of(here / "to.exr", {output}), HasSubstr("channel 'id' is given twice"));
   output = output_of(red);
   EXPECT_THAT(error_of(here / "to.exr", {output, output}),
-              HasSubstr("expected a name of its own for each part"));
+              HasSubstr("expected a different name for each part"));
   Limits limits;
   limits.max_memory = 60000;
   const ExrFile poor = ExrFile::open(here / "from.exr", limits);

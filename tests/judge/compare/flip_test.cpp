@@ -20,7 +20,7 @@ using test::MetricsFixture;
 constexpr Rect kWindow{-3, 2, 30, 27};
 const float kInf = std::numeric_limits<float>::infinity();
 
-// A gradient with an edge and a point in it, up to `most`.
+// A gradient up to `most`, with an edge and a point.
 ColorPlanes scene(float most) {
   return {kWindow, [&](int x, int y) -> ColorPlanes::Color {
             const float v = most * static_cast<float>(x + 3) / 33;
@@ -45,9 +45,9 @@ double flip_of_uniform(ColorPlanes::Color a, ColorPlanes::Color b) {
 
 TEST(Flip, UniformColorsByHand) {
   // No edges, no points, nothing to blur: only the redistributed distance of two colors. The
-  // numbers are those of metrics_numpy.py facts; black to white is 100^.7 = 25.119 of 41.276.
+  // numbers are those of metrics_numpy.py facts; black to white gives 100^.7 = 25.119 of 41.276.
   EXPECT_NEAR(flip_of_uniform({0, 0, 0}, {1, 1, 1}), 0.9673797615, 2e-6);
-  EXPECT_NEAR(flip_of_uniform({0, 1, 0}, {0, 0, 1}), 1, 2e-6);  // the farthest
+  EXPECT_NEAR(flip_of_uniform({0, 1, 0}, {0, 0, 1}), 1, 2e-6);  // the two farthest colors
   EXPECT_NEAR(flip_of_uniform({1, 0, 0}, {0, 1, 0}), 0.9866622752, 2e-6);
   EXPECT_NEAR(flip_of_uniform({0, 0, 0}, {0, 0, 1}), 0.9583294991, 2e-6);
   EXPECT_NEAR(flip_of_uniform({0.5f, 0.5f, 0.5f}, {0.18f, 0.18f, 0.18f}), 0.5715775215, 2e-6);
@@ -76,7 +76,7 @@ TEST(Flip, IsSymmetricToTheBitAndWithinOne) {
   const ErrorMap there = flip({a, b}), back = flip({b, a});
   EXPECT_EQ(largest_difference(there.map.view(), back.map.view()), 0);
   EXPECT_GT(there.mean, 0);
-  // Checkers of the two farthest colors, turned over.
+  // Checkers of the two farthest colors, and the same checkers with swapped colors.
   const auto checkers = [](int odd) {
     return ColorPlanes(kWindow, [odd](int x, int y) -> ColorPlanes::Color {
       return ((x ^ y) & 4) / 4 == odd ? ColorPlanes::Color{0, 1, 0} : ColorPlanes::Color{0, 0, 1};
@@ -116,7 +116,7 @@ TEST(Flip, NumbersThatAreNoneAreTheWorstThereIs) {
     EXPECT_EQ(error.map.view().at(4, 5), kInf);
     EXPECT_EQ(error.map.view().at(5, 5), 0);  // black in both: nothing spreads
   }
-  // Equal values in both pictures are no difference.
+  // Equal values in both pictures give no error.
   ColorPlanes same = scene(1), too = scene(1);
   for (ColorPlanes* picture : {&same, &too}) {
     picture->at(0, 8, 8) = kInf;
@@ -194,7 +194,7 @@ TEST(HdrFlip, SeesWhatOneExposureDoesNot) {
   const ErrorMap error = hdr_flip({a.views(), b.views()});
   EXPECT_GT(error.max, 0.2);
   EXPECT_LE(error.max, 1);
-  // What is brighter by the same gain in both pictures is looked at as much darker.
+  // The same gain on both pictures lowers the exposures by the same factor.
   const auto brighter = [](const ColorPlanes& picture) {
     return ColorPlanes(kWindow, [&](int x, int y) -> ColorPlanes::Color {
       const ColorViews views = picture.views();

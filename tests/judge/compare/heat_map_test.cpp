@@ -19,7 +19,7 @@ using Code = std::vector<float>;
 const Code kCold = {68, 1, 84}, kMiddle = {33, 145, 140}, kHot = {253, 231, 37},
            kMagenta = {255, 0, 255};
 
-// Tests may run side by side: a file for each.
+// Tests may run in parallel: each has its own file.
 std::filesystem::path scratch_file() {
   return std::filesystem::path(testing::TempDir()) /
          (std::string("limpid_heat_map_") +

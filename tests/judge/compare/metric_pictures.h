@@ -6,7 +6,7 @@
 
 namespace limpid::test {
 
-/// A color picture that a test makes up.
+/// A synthetic color picture of a test.
 class ColorPlanes {
  public:
   using Color = std::array<float, 3>;

@@ -6,7 +6,7 @@
 
 #include "judge/compare/flip.h"
 
-/// Two made-up pictures and what tests/tools/metrics_numpy.py says of them.
+/// Two synthetic pictures and the numbers of tests/tools/metrics_numpy.py for them.
 
 namespace limpid::test {
 

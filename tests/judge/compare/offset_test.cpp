@@ -54,7 +54,7 @@ TEST(Offset, ByHand) {
   row.set(3, {.u = 0.9f, .true_u = kNan, .visible = 0});          // wrongly accepted
   row.set(4, {.confidence = 0, .u = 0.9f, .visible = 0});         // rightly rejected
   row.set(5, {.depth = kInf, .confidence = 0, .u = 0.9f});        // dry
-  row.set(6, {.confidence = 0.5f, .v = 0.54f, .visible = 0.5f});  // 2: half is enough
+  row.set(6, {.confidence = 0.5f, .v = 0.54f, .visible = 0.5f});  // 2: half a confidence counts
   const OffsetComparison all = row.errors();
   const OffsetErrors& red = all.channels[0];
   EXPECT_EQ(red.wet, 7);

@@ -41,7 +41,7 @@ TEST(Ssim, EqualPicturesAreAlikeToTheBit) {
 }
 
 TEST(Ssim, UniformPicturesByHand) {
-  // No contrast: what remains is the term of luminance, (2 a b + C1) / (a^2 + b^2 + C1).
+  // Without contrast only the luminance term remains, (2 a b + C1) / (a^2 + b^2 + C1).
   const Plane a = made([](int, int) { return 0.25f; }), b = made([](int, int) { return 0.75f; });
   const double expected = (2 * 0.25 * 0.75 + 1e-4) / (0.0625 + 0.5625 + 1e-4);
   EXPECT_NEAR(ssim(a.view(), b.view()).mean, expected, 1e-12);
@@ -64,13 +64,13 @@ TEST(Ssim, IsWhatAnIndependentReadingOfThePaperGives) {
 }
 
 TEST(Ssim, CountsWindowsThatLieInThePicture) {
-  // A fault that no whole window has in it.
+  // A fault outside of every whole window.
   const Plane b = waves();
   Plane a = waves();
   a.view().at(kWindow.x0, kWindow.y0) = 0;
   const Ssim corner = ssim(a.view(), b.view());
   EXPECT_LT(corner.map.view().at(kWindow.x0, kWindow.y0), 0.99);
-  EXPECT_GT(corner.min, 0.999999);  // (3, 7) is reached by its faintest weight
+  EXPECT_GT(corner.min, 0.999999);  // the smallest weight of (3, 7) reaches the fault
   const Rect least{0, 0, 11, 11};
   Plane small(least);
   small.view().at(0, 0) = 1;
@@ -81,7 +81,7 @@ TEST(Ssim, CountsWindowsThatLieInThePicture) {
 TEST(Ssim, OfColorIsOfItsLuminanceAsADisplayShowsIt) {
   const ColorPlanes gray(kWindow, {0.2126f, 0.2126f, 0.2126f}), red(kWindow, {1, 0, 0});
   EXPECT_NEAR(ssim({gray.views(), red.views()}).mean, 1, 1e-9);
-  // Linear .5 and .18 are .7354 and .4614 on the display; beyond white all is white.
+  // Linear .5 and .18 are .7354 and .4614 on the display; values above white are clamped.
   const ColorPlanes half(kWindow, {0.5f, 0.5f, 0.5f}), mid(kWindow, {0.18f, 0.18f, 0.18f});
   const double a = 0.735357, b = 0.461356;
   EXPECT_NEAR(ssim({half.views(), mid.views()}).mean, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4),

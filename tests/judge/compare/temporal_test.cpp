@@ -27,7 +27,7 @@ Flicker flicker_of(const Values& a0, const Values& b0, const Values& a1, const V
 }
 
 TEST(Flicker, ByHand) {
-  // The truth goes up by 1, 0, -2, 0; the picture by 1, .5, -1, 0.
+  // The truth changes by 1, 0, -2, 0; the picture by 1, .5, -1, 0.
   const Flicker f = flicker_of({3, 1, 2, 9}, {0, 0, 4, 7}, {4, 1.5f, 1, 9}, {1, 0, 2, 7});
   EXPECT_EQ(f.mean, (0.5 + 1) / 4);
   EXPECT_EQ(f.rms, std::sqrt(1.25 / 4));
@@ -42,7 +42,7 @@ TEST(Flicker, AnErrorThatStaysDoesNotFlicker) {
   EXPECT_EQ(f.mean, 0);
   EXPECT_EQ(f.rms, 0);
   EXPECT_EQ(f.max, 0);
-  // Nor does what the truth itself does, however wild.
+  // Changes of the truth itself do not count either, however large.
   EXPECT_EQ(flicker_of({0, 9}, {0, 9}, {9, 0}, {9, 0}).max, 0);
 }
 

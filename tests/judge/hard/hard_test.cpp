@@ -22,7 +22,7 @@ TEST_P(Hard, IsWithinItsBound) {
   RecordProperty("margin", std::to_string(row.margin()));
 }
 
-/// As words: test names hold nothing else.
+/// As words, because test names hold only letters and digits.
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace_if(

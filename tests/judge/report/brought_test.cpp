@@ -18,7 +18,8 @@
 #include "judge/report/finer_water.h"
 #include "judge/report/measure.h"
 
-/// The buffers that a host brings, where they are judged, and that each buffer is of use.
+/// The rows of the report for buffers that a host brings: where they are judged, and that each
+/// buffer reduces the error.
 
 namespace limpid {
 namespace {
@@ -45,7 +46,7 @@ TEST(Brought, OneBufferAfterTheOther) {
     EXPECT_FALSE(before.meets(step.added));
     before = step.all;
   }
-  EXPECT_EQ(before, all - kSkyPlanes - kAlbedoPlanes);  // which are made, and never brought
+  EXPECT_EQ(before, all - kSkyPlanes - kAlbedoPlanes);  // computed, never brought
 }
 
 TEST(Brought, WhatAPlateLacksIsNoStep) {
@@ -56,7 +57,7 @@ TEST(Brought, WhatAPlateLacksIsNoStep) {
 TEST(Brought, WavesAreAsLongAsTheirSine) {
   const SineWave one{0.1, 3, 4, 0.5, 0};
   EXPECT_DOUBLE_EQ(wave_length(std::span(&one, 1)), 2 * std::numbers::pi / 5);
-  // Slopes alike: the mean of the squares of 3 and 4.
+  // The RMS of equal slopes: the mean of the squares of 3 and 4.
   const SineWave two[] = {{1.0 / 3, 3, 0, 0, 0}, {1.0 / 4, 0, 4, 0, 0}};
   EXPECT_DOUBLE_EQ(wave_length(two), 2 * std::numbers::pi / std::sqrt(12.5));
   EXPECT_TRUE(std::isnan(wave_length(std::span<const SineWave>{})));
@@ -98,7 +99,7 @@ TEST(Brought, NearIsWhereAPixelCoversLessThanAWave) {
   EXPECT_EQ(share(places(2.4), Place::kFar), 56 / 64.0);
   EXPECT_EQ(share(places(2.4), Place::kDry), 8 / 64.0);
   EXPECT_EQ(places(2.4).front(), Place::kDry);
-  EXPECT_EQ(share(places(std::nan("")), Place::kNear), 56 / 64.0);  // calm: nothing to resolve
+  EXPECT_EQ(share(places(std::nan("")), Place::kNear), 56 / 64.0);  // calm: no waves to resolve
 }
 
 TEST(Brought, TowardsTheHorizonPixelsAreFar) {
@@ -111,13 +112,13 @@ TEST(Brought, TowardsTheHorizonPixelsAreFar) {
   frame.display = {0, 0, 4, 64};
   for (int c = 0; c < 3; ++c) frame.planes[c] = color.view();
   const std::vector<Place> places = places_of(scene, frame, 3, [](int, int y) { return y >= 31; });
-  EXPECT_EQ(places[31 * 4], Place::kFar);  // above the horizon, as a crest may be
+  EXPECT_EQ(places[31 * 4], Place::kFar);  // above the horizon, where a crest may be
   EXPECT_EQ(places[32 * 4], Place::kFar);
   EXPECT_EQ(places[63 * 4], Place::kNear);
 }
 
-/// A square of water of that side from the eye on, in `across` x `across` squares, beside a dry
-/// triangle.
+/// A square of water with sides of length `side` that begins at the eye, in `across` x `across`
+/// squares, beside a dry triangle.
 Model lake(float side, int across) {
   Model model;
   model.materials.emplace_back();
@@ -141,8 +142,8 @@ Model lake(float side, int across) {
   return model;
 }
 
-/// Of the water: its area, how long the edges are together that belong to one triangle alone, and
-/// its longest edge whose middle is at most so far from the world's origin.
+/// Measures of the water mesh: its area, the total length of the edges that belong to one triangle
+/// only, and the longest edge whose middle is near the world's origin.
 struct Measured {
   double area = 0, longest = 0, border = 0;
 
@@ -154,7 +155,7 @@ struct Measured {
       const std::uint32_t* i = &mesh.indices[t];
       const auto at = [&](int k) { return glm::dvec3(mesh.positions[i[k % 3]]); };
       const double twice = glm::cross(at(1) - at(0), at(2) - at(0)).z;
-      EXPECT_GT(twice, 0);  // all wound as before
+      EXPECT_GT(twice, 0);  // all triangles are wound as before
       area += twice / 2;
       for (int k = 0; k < 3; ++k) {
         ++edges[std::minmax(i[k], i[(k + 1) % 3])];
@@ -189,7 +190,7 @@ TEST(FinerWater, NoHoleOpensWhereThePartedWaterEnds) {
   EXPECT_LT(parted.reach, 512);
   const Measured all(parted, 1e9), near(parted, 0.999 * parted.reach);
   EXPECT_NEAR(all.area, 512 * 512, 1e-3);
-  EXPECT_NEAR(all.border, 4 * 512, 1e-2);  // the square's own
+  EXPECT_NEAR(all.border, 4 * 512, 1e-2);  // the border of the square
   EXPECT_LE(near.longest, 8 / 4.0);
   EXPECT_GE(all.longest, 64);
 }
@@ -252,7 +253,7 @@ TEST_F(MeasureBrought, AllBuffersBeatColorAndDepthOnAScene) {
 TEST_F(MeasureBrought, TheTruthHasTheWavesThatTheLookIsGiven) {
   options_.size = {240, 135};
   measure_brought_scene(measuring_, LIMPID_DATA "/scenes/horizon.toml");
-  // Beside water on the grid of the scene itself it is off by .09.
+  // Water on the grid of the scene itself has an error of .09.
   EXPECT_LT(first("physical").wet, 0.07);
 }
 

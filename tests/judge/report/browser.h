@@ -5,8 +5,8 @@
 
 namespace limpid::test {
 
-/// What a browser answers to an expression of JavaScript once the page has been loaded and its
-/// scripts ran. A failure, and null, where the page complains or there is no browser.
+/// The value of a JavaScript expression in a browser after the page and its scripts were loaded. If
+/// the page reports an error or there is no browser, the test fails and the value is null.
 nlohmann::json asked(std::string page, const std::string& expression);
 
 }  // namespace limpid::test

@@ -10,13 +10,13 @@ namespace {
 
 using GpuRows = test::GpuTest;
 
-/// A row a look, from memory to memory, as near to the reference as the fused rows.
+/// One row per look, timed from memory to memory, as close to the reference as the fused rows.
 TEST_F(GpuRows, StandBesideTheOthers) {
   const std::filesystem::path data = LIMPID_DATA;
   ReportOptions options;
   options.rounds = 1;
   Look look = load_look(data / "looks/realistic.toml");
-  look.name = "physical";  // the judge of the looks
+  look.name = "physical";  // the report judges other looks by this one
   const auto executor = make_executor(1);
   Report report;
   const GpuOptions gpu;

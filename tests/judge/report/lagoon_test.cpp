@@ -21,7 +21,7 @@ class LagoonTest : public ::testing::Test {
 
 TEST_F(LagoonTest, MostOfTheBottomIsInTheFrame) {
   EXPECT_GT(lagoon_.in_frame_share(), 0.7);
-  EXPECT_LT(lagoon_.in_frame_share(), 0.85);  // else the rays that leave it were not noticed
+  EXPECT_LT(lagoon_.in_frame_share(), 0.85);  // else rays that leave the frame would not be counted
 }
 
 TEST_F(LagoonTest, MarchedWaterIsNearTheTruth) {

@@ -5,7 +5,7 @@
 
 namespace limpid::test {
 
-/// A small report of made-up numbers; `name` is a subject's.
+/// A small report of invented numbers; `name` is the name of a subject.
 inline Report made_report(const std::string& name = "pond") {
   Report report;
   report.made = "2001-02-03T04:05:06Z";

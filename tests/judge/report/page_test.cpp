@@ -10,7 +10,7 @@
 #include "judge/report/made_report.h"
 #include "judge/report/numbers.h"
 
-/// What a browser shows of made-up reports, and the page's own functions, called in it.
+/// Pages of invented reports in a browser, and calls of the page's own functions.
 
 namespace limpid {
 namespace {
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// Of the page of a made-up report; for what the functions of its scripts return.
+/// Values on the page of an invented report, for tests of its script functions.
 json called(const std::string& expression) { return asked(to_html(made_report()), expression); }
 
 // ---- numbers
@@ -113,12 +113,12 @@ TEST(PageAxis, RefusesWhatHasNoLogarithm) {
 
 TEST(PageLabels, NeitherMeetNorCoverMarkers) {
   const json seen = called(R"js((() => {
-    // A crowd: 24 points in a small part of the frame.
+    // A dense group: 24 points in a small part of the frame.
     const wishes = Array.from({length: 24}, (_, i) => (
         {x: 200 + 23 * (i % 6), y: 150 + 19 * Math.floor(i / 6) + 3 * (i % 2), width: 90, height: 14}));
     const frame = {x0: 0, y0: 0, x1: 640, y1: 360};
     const places = placeLabels(wishes, frame), boxes = places.filter((p) => p).map((p) => p.box);
-    // Compared here in other words than the page's own.
+    // The comparison is written independently of the page's own code.
     const overlap = (a, b) => Math.min(a.x1, b.x1) > Math.max(a.x0, b.x0) && Math.min(a.y1, b.y1) > Math.max(a.y0, b.y0);
     return {places: places.length, placed: boxes.length,
             meeting: boxes.filter((a, i) => boxes.some((b, j) => j < i && overlap(a, b))).length,
@@ -141,14 +141,14 @@ TEST(PageLabels, ALonelyOneStandsRightBesideItsMarker) {
       " ...placeLabels([{x: 5, y: 5, width: 50, height: 14}], {x0: 0, y0: 0, x1: 40, y1: 10})]");
   EXPECT_EQ(places[0], json({{"box", {{"x0", 109}, {"y0", 93}, {"x1", 159}, {"y1", 107}}},
                              {"lead", nullptr}}));
-  EXPECT_TRUE(places[1].is_null());               // wants none
+  EXPECT_TRUE(places[1].is_null());               // this point asks for no label
   EXPECT_DOUBLE_EQ(places[2]["box"]["x1"], 621);  // no room to the right
   EXPECT_TRUE(places[3].is_null());               // no room at all
 }
 
 // ---- the plot
 
-/// How often each of the selectors is met in the plot of two points that `change` has changed.
+/// The number of matches of each selector in the plot of two points, after `change`.
 json plotted(const std::string& change, const std::vector<std::string>& selectors) {
   return called(
       "(() => { const plot = {title: 'time & error', errorAxis: 'mean error', hasFront: true, "
@@ -163,7 +163,7 @@ json plotted(const std::string& change, const std::vector<std::string>& selector
 TEST(PagePlot, HasAxesLabelsAndTheFront) {
   EXPECT_EQ(plotted("", {"=cheap <model>", "=exact", "=time, ns/pixel, one thread", "=mean error",
                          "=0", ".m.s0.on", ".front", ".link", "g > title"}),
-            json({1, 1, 1, 1, 1, 2, 1, 0, 2}));  // 0 is the band of exact choices
+            json({1, 1, 1, 1, 1, 2, 1, 0, 2}));  // 0: the band of exact choices
   EXPECT_EQ(called("scatter({title: 'time & error', errorAxis: '', points: [{time: 1, error: 1,"
                    " series: '', label: '', about: ''}]}).getAttribute('aria-label')"),
             "time & error");

@@ -4,7 +4,7 @@
 
 #include "judge/trace/trace_scenes.h"
 
-/// Sunlight that waves focus on the bottom.
+/// Sunlight that the waves focus on the bottom.
 
 namespace limpid::test {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr Size kRow{96, 24};
 
-/// With the true normals of these waves, on a plane that stays flat.
+/// Water with the true normals of these waves, on a plane that stays flat.
 Look clear(const std::vector<SineWave>& waves = {}) {
   Look look = calm_look();
   DepthFog::Params& fog = look.of<DepthFog>();
@@ -25,7 +25,7 @@ Look clear(const std::vector<SineWave>& waves = {}) {
   return look;
 }
 
-/// Straight down, 3 wide.
+/// A view straight down, 3 wide.
 Scene from_above(const glm::dvec3& to_sun) {
   Scene scene = over_water(90, kRow);
   scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -1));
@@ -45,7 +45,7 @@ TruthOptions with_photons(int photons) {
 
 Material dark() { return lambert({.01, .01, .01}, {0, 0, 0}); }
 
-/// Mean of the green of the columns x0 ... x1 - 1.
+/// The mean of green over the columns x0 ... x1 - 1.
 double green(const TruthPicture& p, int x0 = 0, int x1 = kRow.width) {
   double sum = 0;
   for (int y = 0; y < kRow.height; ++y) {
@@ -54,7 +54,7 @@ double green(const TruthPicture& p, int x0 = 0, int x1 = kRow.width) {
   return sum / (x1 - x0) / kRow.height;
 }
 
-/// Calm water focuses nothing: the light is that of the calm plane, shadows too, but for noise.
+/// Calm water focuses no light: except for noise, light and shadows are those of the calm plane.
 TEST(Caustics, AreNoneUnderCalmWater) {
   for (const glm::dvec3 to_sun : {glm::dvec3(0, 1, 0), glm::dvec3(-0.8, 0.7, 0.2)}) {
     Mesh slab = quad({-1, 0.5f, -9}, {-0.2f, 0.5f, -9}, {-0.2f, 0.5f, 9}, {-1, 0.5f, 9});
@@ -78,17 +78,17 @@ TEST(Caustics, AreNoneUnderCalmWater) {
   }
 }
 
-/// Under the crest of a long wave light is focused as by a lens, 4 radii of curvature deep; under
-/// its trough it is spread. Shallower, at depth z, the light is 1 / (1 - z / f) and 1 / (1 + z / f)
-/// of that of the calm plane; in the mean it is as much.
+/// The crest of a long wave focuses light like a lens, at a depth of 4 radii of curvature; its
+/// trough spreads light. Shallower, at depth z, the light is 1 / (1 - z / f) and 1 / (1 + z / f) of
+/// the light under the calm plane; the mean is unchanged.
 TEST(Caustics, AreThoseOfTheLensOfAWave) {
-  constexpr double kAmplitude = 0.01, kWave = 2 * kPi, kDepth = 1;  // a wave is 1 long
+  constexpr double kAmplitude = 0.01, kWave = 2 * kPi, kDepth = 1;  // the wavelength is 1
   const Scene scene = from_above({0, 1, 0});
   // Its crests at x = 0, along PlaneAxes.
   const std::vector<SineWave> waves = {{kAmplitude, kWave, 0, kPi / 2, 0}};
   const Model model = model_of({level(-kDepth)}, dark());
   const double calm = green(traced(model, scene, clear(), with_photons(0)));
-  // The view is bent as well, but not at crest and trough.
+  // Waves refract the view as well, but not at crest and trough.
   const TruthPicture p = traced(model, scene, clear(waves), with_photons(2000000));
   const double focus = 1 / (kAmplitude * kWave * kWave) * kTraceIor / (kTraceIor - 1);
   const double crest = green(p, 47, 49), trough = green(p, 31, 33);
@@ -97,13 +97,14 @@ TEST(Caustics, AreThoseOfTheLensOfAWave) {
   EXPECT_GT(crest, 1.2 * trough);
 }
 
-/// From within the water, up to where its surface mirrors all light: nothing else shows the bottom.
+/// A view from within the water up to the surface, which reflects all light at this angle: the
+/// picture shows the bottom only by reflection.
 TEST(Caustics, LightTheBottomThatTheSurfaceMirrors) {
   Scene scene = from_above({0.1, 1, 0.1});
   scene.camera->view =
       glm::lookAt(glm::dvec3(0, -0.5, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
   scene.camera->projection = perspective(0.2, 4, 0.05, 100, ClipSpace::kGl);
-  const Look look = clear({{0.004, 0, 4 * kPi, 0, 0}});  // its crests go away from the eye
+  const Look look = clear({{0.004, 0, 4 * kPi, 0, 0}});  // its crests run away from the eye
   const Model model = model_of({level(-1)}, dark());
   const TruthPicture even = traced(model, scene, look, with_photons(0));
   const TruthPicture sent = traced(model, scene, look, with_photons(1000000));

@@ -5,7 +5,7 @@
 #include "judge/trace/trace_scenes.h"
 #include "support.h"
 
-/// The chain beside the truth, where what the chain leaves out does not matter.
+/// The chain beside the truth, in scenes where the chain's simplifications do not matter.
 
 namespace limpid::test {
 namespace {
@@ -25,7 +25,7 @@ struct Both {
   TruthPicture truth;
 };
 
-/// Both of a picture whose plate has overscan, so that few rays leave it.
+/// Chain and truth of a picture whose plate has overscan, so that few rays leave the plate.
 Both both(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map = {}) {
   const auto executor = make_executor(1);
   RenderedPlate plate = render_plate(model, scene, {.size = kSize, .overscan = 24},
@@ -36,7 +36,7 @@ Both both(const Model& model, const Scene& scene, const Look& look, const Textur
   return {reference(look, plate.frame, scene), traced(model, scene, look, options)};
 }
 
-/// A plain floor, a wall behind the water, everything in the sun.
+/// A plain floor, a wall behind the water, all in the sun.
 Model sunny_pool() {
   Mesh wall = quad({-60, 0, -25}, {60, 0, -25}, {60, 9, -25}, {-60, 9, -25});
   wall.uvs.clear();
@@ -65,7 +65,7 @@ TEST(ChainBesideTruth, AgreesOnCalmWaterOverALevelFloor) {
       for (Aov aov : {Aov::kTransmitted, Aov::kInScatter, Aov::kReflected, Aov::kHighlight}) {
         for (int c = 0; c < 3; ++c) {
           const double got = b.chain.aov(aov, x, y, c), right = value(b.truth, aov, x, y, c);
-          // The chain has one index for all that is not a direction.
+          // The chain uses one index for everything except directions.
           EXPECT_NEAR(got, right, gain == 0 ? 2e-5 : 0.025 * right + 2e-5);
         }
       }
@@ -136,7 +136,7 @@ TEST(ChainBesideTruth, AgreesOnWhichWayAMapsWavesBendTheView) {
   EXPECT_GT(judged, 800);
 }
 
-/// Without waves a mirror image is what the mirrored rays see.
+/// Without waves, the reflection is the picture that mirrored rays see.
 TEST(ChainBesideTruth, AgreesOnWhatCalmWaterMirrors) {
   const Scene scene = sunny(10);
   Look look = physical();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Within so large a share, and three standard errors.
+/// Equal within a relative tolerance plus three standard errors.
 void expect_within(const ColumnLight& got, const Rgb<double>& right, double share) {
   const auto near = [&](double mean, double error, double wanted, const char* channel) {
     EXPECT_NEAR(mean, wanted, share * wanted + 3 * error) << channel;
@@ -31,7 +31,8 @@ struct Water {
   Rgb<double> straight_deep, real_deep, straight_shallow, real_shallow;
 };
 
-/// By independent path tracing: 1 m deep over a bottom of albedo .3, and bottomless.
+/// Values of independent path tracing: water 1 m deep over a bottom of albedo .3, and without a
+/// bottom.
 constexpr Water kWaters[] = {{{1.5, 1.3, .8},
                               {.22, .3, .7},
                               {.0902, .0724, .0308},
@@ -69,7 +70,8 @@ TEST(Column, SendsWhatPathTracersSayOfMurkyWater) {
   }
 }
 
-/// The deep water of a path-traced picture, with its own sun, of irradiance 3 (1, .93, .82) / pi.
+/// The deep water of a path-traced picture with its own sun, whose irradiance is 3 (1, .93, .82) /
+/// pi.
 TEST(Column, SendsWhatAPathTracedPictureShows) {
   Column column{.absorption = {.22, .3, .7}, .scattering = {1.5, 1.3, .8}};
   column.real_surface = false;
@@ -77,7 +79,7 @@ TEST(Column, SendsWhatAPathTracedPictureShows) {
   expect_within(trace_column(column, 100000), {.2706, .2024, .0759}, 0.02);
 }
 
-/// Nothing takes light away, and there is as much light everywhere: as much light is seen.
+/// Nothing absorbs light, and the radiance is the same everywhere: the view has this radiance, too.
 TEST(Column, KeepsAllLightOfAWhiteFurnace) {
   Column column{.scattering = {1, 1, 1}, .depth = 1.5, .bottom = {1, 1, 1}};
   column.irradiance = {0, 0, 0};
@@ -89,7 +91,7 @@ TEST(Column, KeepsAllLightOfAWhiteFurnace) {
       column.real_surface = real;
       column.scattering = {1, 1, 1};
       EXPECT_NEAR(trace_column(column, 500).mean.g, enters, 1e-9);
-      // Channels that differ share paths that are not as likely in each.
+      // Different channels share paths whose probability differs between the channels.
       column.scattering = {1, 2, 0.5};
       const ColumnLight light = trace_column(column, 100000);
       expect_within(light, enters * Rgb<double>{1, 1, 1}, 0.001);
@@ -148,9 +150,9 @@ TEST(Column, SendsWhatTheHFunctionSaysOfDeepWater) {
   }
 }
 
-/// Where all scatter and nothing absorbs a black bottom under ten free paths gets what diffusion
-/// says: H(x) / (sqrt(3) (T + 1.4209)) of the light that goes in at x. van de Hulst 1980,
-/// "Multiple Light Scattering".
+/// With scattering and no absorption, the light that reaches a black bottom under ten mean free
+/// paths is that of diffusion theory: H(x) / (sqrt(3) (T + 1.4209)) of the light that goes in at x.
+/// van de Hulst 1980, "Multiple Light Scattering".
 TEST(Column, LosesToABlackBottomWhatDiffusionSays) {
   const double view_sine = std::sqrt(0.5) / 1.333, view = std::sqrt(1 - view_sine * view_sine);
   const double out = 1 - fresnel_exact(std::sqrt(0.5), 1.333);
@@ -159,14 +161,15 @@ TEST(Column, LosesToABlackBottomWhatDiffusionSays) {
   column.sky = {1, 1, 1};
   const double lost = HFunction(1).at(view) / (std::sqrt(3.0) * 11.4209);
   expect_within(trace_column(column, 100000), out * (1 - lost) * Rgb<double>{1, 1, 1}, 0.001);
-  // Light that goes on forwards goes as far by five times as many turns, but for the first turns.
+  // With forward scattering light travels as far in five times as many scatterings, except for the
+  // first ones.
   column.anisotropy = 0.8;
   column.scattering = {10, 10, 10};
   expect_within(trace_column(column, 20000), out * (1 - lost) * Rgb<double>{1, 1, 1}, 0.004);
 }
 
-/// Where little is scattered once is all there is: the sun's light on one turn in the water, and
-/// on the bottom.
+/// With little scattering, single scattering is all: sunlight that is scattered once in the water
+/// or at the bottom.
 TEST(Column, SendsWhatTheClosedFormsOfOneScatteringSay) {
   constexpr double kHeight = 35, kIor = 1.333, kDepth = 0.8, kRate = 0.9, kAlbedo = 1e-3;
   const double air = std::sin(kHeight * kPi / 180), inside = refracted_cosine(air, 1 / kIor);
@@ -186,15 +189,15 @@ TEST(Column, SendsWhatTheClosedFormsOfOneScatteringSay) {
     expect_within(trace_column(column, 50000), {glow, glow, glow}, 0.002);
     column.bottom = {.2, .2, .2};
     const double lit = sun * out * 0.2 / kPi * inside * std::exp(-2 * down);
-    // And what the surface throws back of it, less and less often.
+    // Then the light that the surface reflects back, a smaller share at each reflection.
     const ColumnLight light = trace_column(column, 50000);
     EXPECT_GT(light.mean.g, lit + glow);
     EXPECT_LT(light.mean.g, (lit + glow) / (1 - 0.4746 * 0.2));
   }
 }
 
-/// A bottom at the surface, water of no thickness: the bottom's own light, and what the surface
-/// throws back of it.
+/// A bottom at the surface, under water of no thickness: the light of the bottom, and the part that
+/// the surface reflects back.
 TEST(Column, ShowsABottomAtTheSurface) {
   Column column{.absorption = {1, 1, 1}, .scattering = {1, 5, 0}, .depth = 0};
   column.bottom = {.5, .5, .5};

@@ -5,7 +5,7 @@
 #include "judge/trace/trace_scenes.h"
 #include "optics/water_index.h"
 
-/// Calm water over a level floor, where everything has a closed form, worked out here by hand.
+/// Calm water over a level floor, where all values have closed forms, computed here by hand.
 
 namespace limpid::test {
 namespace {
@@ -20,7 +20,7 @@ double reflectance(double cosine, double n) {
   return 0.5 * (s * s + p * p);
 }
 
-/// Where the ray of a pixel ends on the floor.
+/// The point on the floor where the ray of a pixel ends.
 glm::dvec3 bottom_point(const Scene& scene, int x, int y, double depth, double n) {
   const glm::dvec3 eye = scene.camera->eye(), d = view_through(scene, x, y);
   const glm::dvec3 surface = eye - (eye.y / d.y) * d;
@@ -35,7 +35,7 @@ TEST(FlatWater, LooksThreeQuartersAsDeepFromStraightAbove) {
   const Model model = model_of({level(-1)});
   const Scene scene = over_water(90);
   const TruthPicture p = traced(model, scene, calm_look());
-  // Beside the middle pixel: the floor is seen under a smaller angle than without water.
+  // Beside the middle pixel: the view meets the floor at a smaller angle than without water.
   const double u = value(p, Aov::kStmapG, 17, 12),
                tangent = view_through(scene, 17, 12).x / -view_through(scene, 17, 12).y;
   const double half_width = 1 / scene.camera->projection[0][0];
@@ -83,7 +83,7 @@ TEST(FlatWater, ObliqueShiftsAndPathsAreTheKnownOnes) {
     const TruthPicture p = traced(model, scene, look);
     const glm::dvec3 d = view_through(scene, 16, 12);
     ASSERT_NEAR(std::acos(-d.y) * 180 / kPi, row.degrees, 1e-6);
-    // From a place in the picture back to the floor.
+    // From a position in the picture back to the floor.
     const auto floor_at = [&](Aov map) {
       const double v = value(p, map, 16, 12, 1), u = value(p, map, 16, 12, 0);
       const Rays rays = rays_of(*scene.camera, {kTraceSize.width, kTraceSize.height});
@@ -175,8 +175,8 @@ TEST_P(FlatWaterLight, IsTheClosedForm) {
 
 /// The water of the path-traced pictures in data/plates/lagoon (its README): absorption .42 .085
 /// .055, no scattering, the sun's path down straight and without loss at the surface, radiance not
-/// scaled on its way out. Seen at 60 degrees, a sun 27 degrees high, a metre of water, by hand:
-/// .9403 of the light passes the surface, 1.3155 m is the view's path, 2.2027 m that of the sun.
+/// scaled at the exit. Seen at 60 degrees, a sun 27 degrees high, a metre of water, by hand: .9403
+/// of the light passes the surface, 1.3155 m is the view's path, 2.2027 m that of the sun.
 TEST(FlatWater, HasTheConventionsOfTheLagoonsTruth) {
   Look look = calm_look();
   DepthFog::Params& fog = look.of<DepthFog>();
@@ -216,8 +216,8 @@ TEST(FlatWater, MirrorsTheEnvironmentThatTheLookAsksFor) {
   });
 }
 
-/// Murky water, no glow but the sun's, that goes straight down from wherever it is under the calm
-/// plane.
+/// Murky water with no in-scatter but the sun's; sunlight travels straight down from any point
+/// under the calm plane.
 Look murky_look(const Rgb<double>& rate) {
   Look look = calm_look();
   DepthFog::Params& fog = look.of<DepthFog>();
@@ -231,8 +231,8 @@ Look murky_look(const Rgb<double>& rate) {
   return look;
 }
 
-/// Under a crest the sun has lost nothing before it comes as deep as the calm plane. Seen from
-/// above, and from the water, on rays that go down, and on rays that rise into the crest.
+/// Under a crest sunlight has no loss above the level of the calm plane. Seen from above, and from
+/// the water, on rays that go down, and on rays that rise into the crest.
 TEST(FlatWater, LosesNoSunlightAboveTheCalmPlane) {
   constexpr double kCrest = 0.5, kDepth = 1.5;
   const Rgb<double> rate{0.8, 0.4, 0.2};
@@ -253,7 +253,7 @@ TEST(FlatWater, LosesNoSunlightAboveTheCalmPlane) {
       const double slope = eye > 0 ? std::sqrt(1 - (1 - d.y * d.y) / (n * n)) : d.y;
       for (int c = 0; c < 3; ++c) {
         const double r = channel(rate, c);
-        double column = 0;  // length of a path without loss that sends as much light
+        double column = 0;  // length of a lossless path with the same in-scatter
         if (eye > 0) {
           const double above = kCrest / slope, below = kDepth / slope, total = r + r * slope;
           column = (1 - std::exp(-r * above)) / r +
@@ -272,8 +272,8 @@ TEST(FlatWater, LosesNoSunlightAboveTheCalmPlane) {
   }
 }
 
-/// Index 1 and a gain that makes red's 0.6: of a low sun no red gets in, and of a low view none
-/// comes out.
+/// Index 1 and a gain that makes the index of red 0.6: no red light of a low sun enters the water,
+/// and none leaves towards a low view.
 TEST(FlatWater, LetsNoLightInBeyondTheCriticalAngleOfABand) {
   Look look = murky_look({0.5, 0.5, 0.5});
   look.water.ior = 1;
@@ -298,8 +298,7 @@ TEST(FlatWater, LetsNoLightInBeyondTheCriticalAngleOfABand) {
   }
 }
 
-/// As in the chain, a sun that only just stands over the horizon gives no light; its light is not
-/// divided by nothing.
+/// As in the chain, a sun just above the horizon gives no light: no division by zero.
 TEST(FlatWater, ASunOnTheHorizonCountsAsNone) {
   Scene scene = over_water(40);
   scene.sun->direction = glm::normalize(glm::dvec3(0, 5e-7, -1));
@@ -313,7 +312,7 @@ TEST(FlatWater, ASunOnTheHorizonCountsAsNone) {
   });
 }
 
-/// White everywhere, and nothing takes light away: the picture is white.
+/// White surroundings and no absorption: the picture is white.
 TEST(FlatWater, KeepsAllLightOfAWhiteFurnace) {
   Model model = model_of({level(-1)}, white(Shading::kFlat));
   model.background = {1, 1, 1};
@@ -335,8 +334,8 @@ TEST(FlatWater, KeepsAllLightOfAWhiteFurnace) {
   }
 }
 
-/// From below: what is within the critical angle comes from the air, bent outwards; beyond it the
-/// surface mirrors all light of the floor.
+/// From below: inside the critical angle the view is refracted into the air; outside of it the
+/// surface reflects all light of the floor.
 TEST(FlatWater, MirrorsTotallyBeyondTheCriticalAngle) {
   Model model = model_of({level(-3)}, white(Shading::kFlat));
   model.background = {0, 0, 1};

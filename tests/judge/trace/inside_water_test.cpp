@@ -3,15 +3,15 @@
 #include "judge/trace/trace_scenes.h"
 #include "support.h"
 
-// depth_fog.model = radiative_transfer in views that begin in the water, beside walks of light
-// through a pool of it.
+// depth_fog.model = radiative_transfer in views that begin in the water, beside random walks of
+// light through a pool of the same water.
 
 namespace limpid::test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A view from within water over a level floor, that looks down by so many degrees.
+/// A view from within water over a level floor; `down` is the angle below the horizon in degrees.
 struct Inside {
   double eye = 1, floor = 30;  ///< below the surface
   double down = 30, azimuth = 0;
@@ -59,7 +59,7 @@ struct Inside {
   }
 };
 
-/// Each channel within a share of the truth, beyond its noise.
+/// Each channel is within a share of the truth plus its noise.
 void expect_near(const Inside& view, double share) {
   constexpr Size kSize{12, 10};
   TruthOptions options;
@@ -107,7 +107,7 @@ TEST(InsideWater, UnderASkyAlone) {
   }
 }
 
-// The floor has the light that water scatters down to it, and that the surface throws back.
+// The floor receives the light that the water scatters down and the surface reflects back.
 TEST(InsideWater, ABottomIsLitAsPathTraced) {
   Inside clear{.eye = 1, .floor = 2, .down = 45, .albedo = {.6, .6, .6}, .sky = {.2, .3, .5}};
   clear.absorption = {.05, .1, .2};

@@ -8,8 +8,8 @@
 #include "ops/tray.h"
 #include "optics/fresnel.h"
 
-// depth_fog.model = radiative_transfer beside walks of light through the same water, over a level
-// bottom, with and without a surface that reflects.
+// depth_fog.model = radiative_transfer beside random walks of light through the same water, over a
+// level bottom, with and without a surface that reflects.
 
 namespace limpid {
 namespace {
@@ -18,8 +18,8 @@ using test::Picture;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// The chain's picture of level water: one pixel of an orthographic camera, the dry picture that of
-/// a Lambert floor.
+/// The chain's picture of level water: one pixel of an orthographic camera, whose dry picture is a
+/// Lambert floor.
 class Murk {
  public:
   explicit Murk(const Column& column)
@@ -73,7 +73,7 @@ class Murk {
   bool finite_;
 };
 
-/// Each channel within a share of the truth, beyond its noise.
+/// Each channel is within a share of the truth plus its noise.
 void expect_near(const Column& column, double share, std::uint64_t paths = 20000) {
   const ColumnLight truth = trace_column(column, paths);
   const Rgb<double> got = Murk(column).light();
@@ -161,7 +161,7 @@ TEST(MurkyWater, WaterThatScattersForwards) {
   }
 }
 
-// Light that a surface throws back down to the bottom, in water that scatters none.
+// Light that the surface reflects back to the bottom, in water without scattering.
 TEST(MurkyWater, ClearWaterKeepsLightIn) {
   for (const double depth : {0.001, 0.3, 2.0}) {
     Column column = murky(true);

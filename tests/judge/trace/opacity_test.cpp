@@ -4,12 +4,12 @@
 
 #include "judge/trace/trace_scenes.h"
 
-/// Masked and blended surfaces, vertex colors, emission: what the raster pass draws, by rays.
+/// Masked and blended surfaces, vertex colors, emission: rays give the picture of the raster pass.
 
 namespace limpid::test {
 namespace {
 
-/// Of the dry pixels, the share that the raster pass has too. A floor hides the water.
+/// The share of the dry pixels that equal those of the raster pass. A floor hides the water.
 double agreement(Model model) {
   model.meshes.push_back(level(-20, 300));
   model.meshes.back().material = static_cast<int>(model.materials.size());
@@ -40,7 +40,7 @@ double agreement(Model model) {
   return static_cast<double>(near) / all;
 }
 
-/// Hills of all materials, whose checks have holes or not.
+/// Hills of all materials, with or without holes in their checks.
 Model see_through(AlphaMode mode) {
   Model model = mixed_model();
   for (std::size_t i = 3; i < model.textures[0].rgba.size(); i += 4) {
@@ -80,8 +80,8 @@ TEST(TracedOpacity, ColorsEmissionAndWrappingAreTheRasterisers) {
   EXPECT_GT(agreement(model), 0.97);
 }
 
-/// A pane of flat color across the view, `height` over the water, and a floor. Seen from above
-/// alone, so that no mirrored view meets it once more.
+/// A pane of flat color across the view, `height` over the water, and a floor. The pane is visible
+/// from above only, so that no mirrored view meets it again.
 Model pane_over(double height, AlphaMode mode, double alpha) {
   Material pane = white(Shading::kFlat);
   pane.base_color = {0.9, 0.2, 0.4};
@@ -93,7 +93,7 @@ Model pane_over(double height, AlphaMode mode, double alpha) {
   return model;
 }
 
-/// Without the sun no shadow of the pane plays a part.
+/// Without a sun the pane casts no shadow.
 TruthPicture ambient(const Model& model, double degrees = 40) {
   Scene scene = over_water(degrees);
   scene.sun.reset();
@@ -106,8 +106,8 @@ TruthPicture ambient(const Model& model, double degrees = 40) {
   return traced(model, scene, look);
 }
 
-/// Light is a sum: the picture with a pane of opacity a is a times that with an opaque pane, plus
-/// 1 - a times that without a pane, be it in the air or in the water.
+/// Light is additive: the picture with a pane of opacity a is a times the picture with an opaque
+/// pane plus 1 - a times the picture without a pane, in the air and in the water.
 TEST(TracedOpacity, APaneMixesWhatItIsWithWhatLiesBehind) {
   for (const double height : {0.5, -0.7}) {
     const TruthPicture none = ambient(pane_over(height, AlphaMode::kMask, 0));
@@ -139,12 +139,12 @@ TEST(TracedOpacity, WhatIsMaskedAwayIsNowhere) {
 }
 
 TEST(TracedOpacity, ShadowsFallByTheRuleOfDepth) {
-  // Without ambient light, surfaces that the sun does not reach are black, but for the pane.
+  // Without ambient light, surfaces out of the sun are black, except the pane.
   const auto floor_under = [&](AlphaMode mode, double alpha) {
     Model model = pane_over(3, mode, alpha);
     model.materials[0].ambient = {0, 0, 0};
     model.materials[1].base_color = {0, 0, 0};
-    Scene scene = over_water(60);  // from under the pane
+    Scene scene = over_water(60);  // the view from under the pane
     scene.sun = Sun{{0, 1, 0}, {1, 1, 1}};
     Look look = calm_look();
     look.of<DepthFog>().water_type = WaterType::kCustom;

@@ -6,8 +6,8 @@
 #include "judge/trace/trace_scenes.h"
 #include "optics/fresnel.h"
 
-/// Light by random paths through a model: beside the column, which has closed forms for judges, and
-/// beside the closed forms of one scattering.
+/// Light by random paths through a model, beside the column, which closed forms check, and beside
+/// the closed forms of single scattering.
 
 namespace limpid::test {
 namespace {
@@ -23,7 +23,7 @@ TruthOptions with_paths(int paths, Size size = kSmall) {
   return options;
 }
 
-/// All its pixels look into the water alike.
+/// All pixels look into the water in the same direction.
 Scene one_way(double degrees) {
   Scene scene = over_water(degrees, kSmall);
   scene.camera->projection =
@@ -45,7 +45,7 @@ Look murky(const Rgb<double>& absorption, const Rgb<double>& scattering, double 
   return look;
 }
 
-/// The mean of the picture, and its largest error.
+/// The mean of the picture, and its largest standard error.
 ColumnLight mean_of(const TruthPicture& p) {
   Rgb<double> sum{0, 0, 0}, squares{0, 0, 0};
   for_each_pixel(p.window.size(), [&](int x, int y) {
@@ -71,8 +71,8 @@ void expect_alike(const ColumnLight& got, const ColumnLight& right, double most_
   }
 }
 
-/// A floor, a sun and an even sky above: nothing that a column does not have. Its sky lights the
-/// floor as the ambient of the floor's material.
+/// A floor, a sun and an even sky, as in a column. The sky lights the floor as the ambient light of
+/// the floor's material.
 TEST(Paths, SendWhatAColumnSends) {
   Scene scene = one_way(40);
   scene.sun = Sun{glm::normalize(glm::dvec3(0.3, 0.8, -0.4)), {1, 0.9, 0.8}};
@@ -100,7 +100,7 @@ TEST(Paths, SendWhatAColumnSends) {
   }
 }
 
-/// Nothing takes light away, and there is as much of it everywhere, from the mirrored sky, too.
+/// Nothing absorbs light, and the radiance is the same everywhere, also from the reflected sky.
 TEST(Paths, KeepAllLightOfAWhiteFurnace) {
   Scene scene = one_way(25);
   scene.sun.reset();
@@ -120,7 +120,8 @@ TEST(Paths, KeepAllLightOfAWhiteFurnace) {
   }
 }
 
-/// Where little is scattered, or nothing but the bottom there, one answer is all there is.
+/// With little scattering, or with light from the bottom alone, random paths agree with the closed
+/// form of single scattering.
 TEST(Paths, AgreeWithOneScatteringWhereThereIsLittle) {
   const Scene scene = one_way(50);
   TruthOptions once = with_paths(1);
@@ -142,8 +143,8 @@ TEST(Paths, AgreeWithOneScatteringWhereThereIsLittle) {
   }
 }
 
-/// The sky is the environment; without one that of the scene, and then what the look has for
-/// ambient light.
+/// The sky is the environment; without an environment the sky of the scene, and without that the
+/// ambient light of the look.
 TEST(Paths, AreLitByTheSkyThatIsThere) {
   const Model model = model_of({level(-50)}, lambert({0, 0, 0}));
   Scene scene = one_way(40);
@@ -160,7 +161,7 @@ TEST(Paths, AreLitByTheSkyThatIsThere) {
   EXPECT_NEAR(known.r, guessed.b, 1e-6);
   EXPECT_NEAR(known.b, guessed.r, 1e-6);
 
-  // An environment that is bright straight above alone: only a cone of it is seen from below.
+  // An environment that is bright only straight above: from below only a cone is visible.
   std::array<Plane, 3> planes;
   for (std::size_t c = 0; c < 3; ++c) {
     planes[c] = Plane(Rect{0, 0, 4, 64});
@@ -170,11 +171,11 @@ TEST(Paths, AreLitByTheSkyThatIsThere) {
     options.environment.channels[c] = planes[c].view();
   }
   const Rgb<double> around = seen();
-  EXPECT_NEAR(around.r, known.r / .4, 0.05 * around.r);  // but for the texels at the horizon
+  EXPECT_NEAR(around.r, known.r / .4, 0.05 * around.r);  // except for the texels at the horizon
   EXPECT_EQ(around.g, 0);
 }
 
-/// Light that a model of depth_fog takes for unscattered is scattered here.
+/// Light that a model of depth_fog counts as unscattered is scattered here.
 TEST(Paths, AreTheSameForEachModelOfTheFog) {
   const Model model = model_of({level(-1)}, lambert({.5, .4, .3}));
   Look look = murky({.2, .1, .05}, {1, 1, 1}, 0.9, true);
@@ -188,8 +189,8 @@ TEST(Paths, AreTheSameForEachModelOfTheFog) {
   EXPECT_EQ(seen(DepthFog::Model::kLinear), right);
 }
 
-/// A slab over half of the water: under it there is light, for it comes from beside it; dry
-/// surfaces show what the raster pass has.
+/// A slab over half of the water: light reaches the water under the slab from the side; dry
+/// surfaces are as in the raster pass.
 TEST(Paths, BringLightUnderShadowsAndLeaveDryPixelsAlone) {
   Mesh slab = quad({-3, 0.02f, -1}, {3, 0.02f, -1}, {3, 0.02f, -9}, {-3, 0.02f, -9});
   slab.uvs.clear();
@@ -220,8 +221,8 @@ TEST(Paths, BringLightUnderShadowsAndLeaveDryPixelsAlone) {
   EXPECT_GT(brighter, wet * 9 / 10);
 }
 
-/// What a wall throws straight at the floor belongs to the ambient light of the floor's material,
-/// in the water as in the air.
+/// Light that a wall reflects straight to the floor belongs to the ambient light of the floor's
+/// material, in the water as in the air.
 TEST(Paths, LeaveOutWhatDrySurfacesThrowAtOneAnother) {
   Mesh wall = quad({-30, -2, -3}, {30, -2, -3}, {30, -0.01f, -3}, {-30, -0.01f, -3});
   wall.uvs.clear();
@@ -233,13 +234,13 @@ TEST(Paths, LeaveOutWhatDrySurfacesThrowAtOneAnother) {
   const TruthPicture p = traced(model, scene, look, with_paths(50)),
                      q = traced(model, scene, look, once);
   expect_alike(mean_of(p), mean_of(q), 1e-6);
-  // What the surface throws back down is the water's.
+  // Light that the surface reflects back down belongs to the water.
   look = murky({0, 0, 0}, {0, 0, 0}, 0, true);
   EXPECT_GT(mean_of(traced(model, scene, look, with_paths(50))).mean.g,
             1.1 * mean_of(traced(model, scene, look, once)).mean.g);
 }
 
-/// In a basin, what the surface throws onto the walls comes to the floor by them.
+/// In a basin, light that the surface reflects to the walls reaches the floor by the walls.
 TEST(Paths, GoOnFromDrySurfacesToOthersWithWhatTheWaterSends) {
   Scene scene = one_way(90);
   scene.sun->direction = {0, 1, 0};  // along the walls
@@ -259,13 +260,13 @@ TEST(Paths, GoOnFromDrySurfacesToOthersWithWhatTheWaterSends) {
   };
   const double black = seen(0).mean.g, white = seen(.9).mean.g;
   EXPECT_GT(white, 1.03 * black);
-  // The surface throws light back where it is met so flatly that black walls stand before it.
+  // The surface reflects light at grazing angles, where the black walls block the path.
   const double enters = 1 - fresnel_exact(1.0, kTraceIor);
   const double direct = enters * enters / kTraceIor / kTraceIor * .8 * scene.sun->color.g;
   EXPECT_NEAR(black, direct, 0.02 * direct);
 }
 
-/// Where a mesh of the water ends the water goes on.
+/// Beyond the edge of its mesh the water continues.
 TEST(Paths, KnowNoEdgeOfASmallMeshOfWater) {
   const Scene scene = one_way(60);
   const Look look = murky({.1, .1, .1}, {.5, .5, .5}, 0.5, true);
@@ -276,7 +277,7 @@ TEST(Paths, KnowNoEdgeOfASmallMeshOfWater) {
                mean_of(traced(plane, scene, look, with_paths(200))));
 }
 
-/// From just under the surface the same radiance is seen before it goes out.
+/// A view from just under the surface has the same radiance before the exit.
 TEST(Paths, AreSeenFromTheWaterToo) {
   Scene scene = one_way(60);
   scene.camera->view = glm::translate(scene.camera->view, glm::dvec3(0, 2 + 1e-5, 0));
@@ -293,8 +294,7 @@ TEST(Paths, AreSeenFromTheWaterToo) {
   expect_alike(mean_of(traced(model, scene, look, with_paths(200))), air);
 }
 
-/// Where nothing is absorbed and nothing lies below, paths end all the same, and hardly any light
-/// is lost.
+/// Without absorption and without a bottom, paths still end, and hardly any light is lost.
 TEST(Paths, EndInEndlessWaterThatAbsorbsNothing) {
   Scene scene = one_way(90);
   scene.sun.reset();
@@ -311,7 +311,7 @@ TEST(Paths, TellTheirNoise) {
   const TruthPicture few = traced(model, scene, look, with_paths(16)),
                      many = traced(model, scene, look, with_paths(256));
   EXPECT_NEAR(many.relative_error, few.relative_error / 4, 0.05 * few.relative_error);
-  // As the pixels say, which all look at the same water.
+  // The noise of the pixels, which all look at the same water.
   const ColumnLight spread = mean_of(many);
   const double pixels = std::sqrt(double(kSmall.width) * kSmall.height);
   EXPECT_NEAR(pixels * (spread.error.r + spread.error.g + spread.error.b) /

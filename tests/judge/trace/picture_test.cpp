@@ -26,7 +26,7 @@ bool same_bits(const TruthPicture& p, const TruthPicture& q) {
   return same;
 }
 
-/// A floor and a wavy surface, both of many triangles; the floor is there twice.
+/// A floor and a wavy surface, both of many triangles; the floor has two copies.
 Model wavy_pool() {
   Mesh water = hills(20, 12, 0);
   water.uvs.clear();
@@ -73,8 +73,8 @@ TEST(TracedPicture, TermsSumToThePicture) {
   });
 }
 
-/// Of the share of a pixel that a straight edge covers: strata are right but for those that it
-/// crosses, about n of n^2, each wrong by at most 1 / n^2: the variance falls as 1 / n^3.
+/// The variance of the share of a pixel that a straight edge covers: only the strata that the edge
+/// crosses have an error, about n of n^2, each at most 1 / n^2: the variance falls as 1 / n^3.
 TEST(TracedPicture, SamplesConvergeAsStrataDo) {
   constexpr Size kSize{24, 24};
   const Scene scene = [&] {
@@ -109,7 +109,7 @@ TEST(TracedPicture, SamplesConvergeAsStrataDo) {
   EXPECT_LT(at_2 / at_6, 27 * 2.5);
 }
 
-/// All materials, textures in their mip levels, faces without normals, backs.
+/// All materials, textures in their mip levels, faces without normals, back faces.
 TEST(TracedPicture, DryPixelsAreTheRasterisers) {
   Model model = mixed_model();
   constexpr Size kSize{96, 72};
@@ -127,7 +127,7 @@ TEST(TracedPicture, DryPixelsAreTheRasterisers) {
   int near = 0, all = 0, lit = 0;
   for_each_pixel(kSize, [&](int x, int y) {
     if (std::isinf(plate.frame.plane(PlaneId::kDepth).at(x, y))) return;
-    // The raster pass has soft edges of shadows, and a bias.
+    // The raster pass has soft shadow edges and a depth bias.
     const float shadow = plate.frame.plane(PlaneId::kShadow).at(x, y);
     if (shadow != 0 && shadow != 1) return;
     double off = 0;
@@ -167,8 +167,8 @@ TEST(TracedPicture, MeetsTheRaisedSurfaceWhereTheRasteriserDrawsIt) {
   EXPECT_GT(wet, 300);
 }
 
-/// A bar over the water hides a strip of the floor from the dry camera; refracted rays that pass it
-/// meet that floor all the same.
+/// A bar over the water hides a strip of the floor from the dry camera; refracted rays that pass
+/// the bar still meet that floor.
 TEST(TracedPicture, WhatABarHidesIsNotVisible) {
   constexpr float kZ = -3, kLow = 0.3f, kHigh = 0.5f;
   const Mesh bar = quad({-9, kLow, kZ}, {9, kLow, kZ}, {9, kHigh, kZ}, {-9, kHigh, kZ});
@@ -195,8 +195,8 @@ TEST(TracedPicture, WhatABarHidesIsNotVisible) {
   EXPECT_GT(seen, 200);
 }
 
-/// Meshes without triangles, or with some that have no area, are as if they were not there, also
-/// before others.
+/// Meshes without triangles, and triangles without area, change nothing, also in front of other
+/// meshes.
 TEST(TracedPicture, TakesNoNoticeOfEmptyWater) {
   const Model model = wavy_pool();
   const TruthPicture right = traced(model, wavy_scene(), Look{});
@@ -213,7 +213,7 @@ TEST(TracedPicture, TakesNoNoticeOfEmptyWater) {
   EXPECT_TRUE(same_bits(right, traced(more, wavy_scene(), Look{})));
 }
 
-/// The calm normal, as the chain has it.
+/// The calm normal, as in the chain.
 TEST(TracedPicture, ViewsInTheWaterThatMeetNoSurfaceHaveItsNormal) {
   Scene scene = over_water(20);
   scene.water->height = 3;
@@ -229,7 +229,7 @@ TEST(TracedPicture, ViewsInTheWaterThatMeetNoSurfaceHaveItsNormal) {
   EXPECT_GT(down, 300);
 }
 
-/// The sentence of the Error after a change to a scene that could be traced.
+/// The message of the Error after a change to a valid scene.
 template <class Change>
 std::string refusal(Change&& change) {
   Scene scene = over_water(40);

@@ -14,11 +14,11 @@ Model half_covered(Rgb<double> color = {0.5, 0.5, 0.5}) {
   const float h = kSlabHeight, r = 100;
   Mesh slab = quad({-r, h, r}, {0, h, r}, {0, h, -r}, {-r, h, -r});
   slab.material = 0;
-  // Seen from below alone would do for shadows; both sides cast them.
+  // The slab is visible from below only; both sides cast shadows.
   return model_of({level(-kDepth), slab}, lambert(color));
 }
 
-/// Looks straight down from x on, from under the slab's height, so that the slab hides nothing.
+/// Looks straight down from position x, from under the slab, so that the slab hides nothing.
 Scene beside_slab(const glm::dvec3& to_sun, double x) {
   Scene scene = over_water(90);
   scene.camera->view =
@@ -58,7 +58,7 @@ TEST(TracedShadow, LiesOnTheBottomWhereTheSunsRefractedWayPutsIt) {
       const double ratio = std::sqrt((1 - (1 - d.y * d.y) / (kTraceIor * kTraceIor)));
       const double at = 1.3 + d.x * (0.4 / -d.y + kDepth / kTraceIor / ratio);
       if (std::abs(at - c.edge) < 1e-4) return;
-      // Without the losses on the paths: red's over transmittance and reflection.
+      // The light without the losses on the paths: red divided by transmittance and reflection.
       const double f = value(p, Aov::kFresnel, x, y);
       const double seen =
           value(p, Aov::kTransmitted, x, y) / value(p, Aov::kTransmittance, x, y) / (1 - f);
@@ -73,7 +73,8 @@ TEST(TracedShadow, LiesOnTheBottomWhereTheSunsRefractedWayPutsIt) {
   }
 }
 
-/// A vertical sun: the water glows for x > 0 alone, and of a slanting view only that part counts.
+/// A vertical sun: the water scatters light at x > 0 only, and only that part of a slanting view
+/// counts.
 TEST(TracedShadow, TheGlowOfTheWaterIsThatOfItsSunlitPart) {
   Scene scene = beside_slab({0, 1, 0}, 0.2);
   scene.camera->view =
@@ -96,7 +97,7 @@ TEST(TracedShadow, TheGlowOfTheWaterIsThatOfItsSunlitPart) {
     const auto glow = [&](double length) {
       return (1 - f) * kPi * 2 * 0.2 / (4 * kPi) * (1 - std::exp(-total * length)) / total;
     };
-    // 32 places on each path, of equal light: half of the light of one place may be missed.
+    // 32 positions on each path, of equal light: half of the light of one position may be missed.
     EXPECT_NEAR(value(p, Aov::kInScatter, x, y), glow(sunlit), glow(distance) / 63);
     partly += sunlit < distance;
     sum += value(p, Aov::kInScatter, x, y);

@@ -16,7 +16,7 @@ namespace limpid::test {
 constexpr Size kTraceSize{33, 25};
 constexpr double kTraceIor = 1.333;
 
-/// A level floor, `reach` to each side, under calm water at y = 0.
+/// A level floor that extends `reach` to each side, under calm water at y = 0.
 inline Mesh level(double y, double reach = 200) {
   const float r = static_cast<float>(reach), h = static_cast<float>(y);
   return quad({-r, h, r}, {r, h, r}, {r, h, -r}, {-r, h, -r});
@@ -29,7 +29,7 @@ inline Material lambert(Rgb<double> color, Rgb<double> ambient = {0.2, 0.2, 0.2}
   return m;
 }
 
-/// A camera 2 over the water that looks down by so many degrees, and a sun.
+/// A camera 2 above the water, which looks down by an angle in degrees, and a sun.
 inline Scene over_water(double degrees, Size size = kTraceSize) {
   const double a = degrees * std::numbers::pi / 180;
   Scene scene;
@@ -84,12 +84,12 @@ inline double channel(const Rgb<double>& color, int c) {
   return c == 0 ? color.r : c == 1 ? color.g : color.b;
 }
 
-/// Unit, through a pixel's centre.
+/// The unit direction through a pixel's centre.
 inline glm::dvec3 view_through(const Scene& scene, int x, int y, Size size = kTraceSize) {
   return glm::normalize(rays_of(*scene.camera, {size.width, size.height}).ray_at(x + 0.5, y + 0.5));
 }
 
-/// Where a world point is in the picture, (0, 0) the lower left.
+/// The position of a world point in the picture; (0, 0) is the lower left.
 inline glm::dvec2 place_of(const Scene& scene, const glm::dvec3& point) {
   const glm::dvec4 clip = scene.camera->projection * scene.camera->view * glm::dvec4(point, 1);
   return {0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w};

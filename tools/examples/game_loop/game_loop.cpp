@@ -23,7 +23,7 @@ namespace {
 constexpr limpid::Size kSize{480, 270};
 constexpr double kNear = 0.1;
 
-/// What the engine drew: a sandy bottom 1.5 below the water, and a rock that stands out of it.
+/// The engine's picture: a sandy bottom 1.5 below the water, and a rock that rises above the water.
 struct Drawn {
   std::vector<std::uint16_t> rgba = std::vector<std::uint16_t>(4 * kSize.width * kSize.height);
   std::vector<float> depth = std::vector<float>(kSize.width * kSize.height);
@@ -61,7 +61,7 @@ int main() {
   ThreadPool pool(std::thread::hardware_concurrency());
   Drawn target;
 
-  // Once: how the engine keeps depth, and the water.
+  // Once: the engine's kind of depth, and the look of the water.
   Look look;
   look.set("wave_normals", "model", "sines");
   look.set("wave_normals", "waves", Rows{{0.03, 2.1, 0.6, 0}, {0.02, -1.3, 3.2, 1}});
@@ -70,7 +70,7 @@ int main() {
   Compositor water({.depth = DepthKind::kDevice, .clip = ClipSpace::kReversed, .trusted = true},
                    look, {.executor = &pool});
 
-  // Once: where things lie. Whatever stays as it is need not be said again.
+  // Once: the addresses of the buffers. Values that do not change need not be set again.
   HostFrame frame{.display = rect_of(kSize), .planes = {}, .scene = {}};
   HostPicture picture;
   for (int c = 0; c < 4; ++c) {
@@ -111,6 +111,6 @@ int main() {
   }
   std::printf("%d frames of %dx%d: %.0f a second, %d of %d pixels under water are wet\n", kFrames,
               kSize.width, kSize.height, kFrames / spent.count(), wet, target.under_water);
-  // Where the depth were misread there would be water on the rock's top, or none at all.
+  // If the depth were misread, there would be water on the rock's top, or no water at all.
   return std::abs(wet - target.under_water) > target.under_water / 100;
 }

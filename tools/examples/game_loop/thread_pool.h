@@ -6,7 +6,7 @@
 
 #include "limpid/core/executor.h"
 
-/// The engine's threads. limpid hands over its tiles as tasks; the thread that waits for them
+/// The engine's threads. limpid submits its tiles as tasks; the thread that waits for the tasks
 /// helps.
 class ThreadPool : public limpid::Executor {
  public:

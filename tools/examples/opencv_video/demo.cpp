@@ -20,7 +20,8 @@ struct Hit {
   dvec3 normal, color{0.55, 0.75, 1};
 };
 
-/// Tiles 0.5 wide with grout between them. Blue: with red and blue mixed up they would be orange.
+/// Tiles 0.5 wide with grout between them. The tiles are blue: with red and blue swapped they would
+/// be orange.
 dvec3 tiles(double u, double v) {
   const double a = u / 0.5 - std::floor(u / 0.5), b = v / 0.5 - std::floor(v / 0.5);
   if (a < 0.06 || b < 0.06) return {0.75, 0.75, 0.7};
@@ -36,7 +37,7 @@ double ball_z(dvec3 eye, dvec3 ray, dvec3 ball) {
   return z > 1e-6 ? z : kInfinity;
 }
 
-/// What the ray meets first: rays are such that eye + z ray is at eye depth z.
+/// The first surface on the ray; eye + z ray lies at eye depth z.
 Hit trace(dvec3 eye, dvec3 ray, dvec3 ball) {
   Hit hit;
   const auto wall = [&](int axis, double place, dvec3 normal) {
@@ -52,7 +53,7 @@ Hit trace(dvec3 eye, dvec3 ray, dvec3 ball) {
   wall(0, -kHalfWidth, {1, 0, 0});
   wall(0, kHalfWidth, {-1, 0, 0});
   wall(2, kBack, {0, 0, 1});
-  // Stone around the basin, so that there is water in it alone.
+  // Stone around the basin, so that only the basin holds water.
   const double stone = (kRim - eye.y) / ray.y;
   const dvec3 at = eye + stone * ray;
   const bool beside = std::abs(at.x) > kHalfWidth || at.z < kBack;

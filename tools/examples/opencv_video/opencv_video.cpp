@@ -1,9 +1,10 @@
 // Puts water into a video: opencv_video DRY.avi DEPTH WET.avi FOV HEIGHT PITCH
 //
-// DEPTH is a picture of float eye depths in metres, TIFF or PFM: of all frames where the camera is
-// locked, else a pattern with #s for the frame's number, depth_##.tiff. FOV is the vertical angle
-// of the lens, HEIGHT how high the camera is above the water, PITCH how far it looks down: degrees,
-// metres, degrees. Without arguments it draws itself a dry video with depths first.
+// DEPTH is a picture of float eye depths in metres, TIFF or PFM: one file for all frames of a
+// locked camera, else a pattern with #s for the frame's number, depth_##.tiff. FOV is the vertical
+// angle of the lens, HEIGHT the height of the camera above the water, PITCH its angle below the
+// horizon: degrees, metres, degrees. Without arguments the program first draws a dry video with
+// depths.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -33,7 +34,7 @@ limpid::Camera camera_of(double fov, double height, double pitch, cv::Size size)
   return camera;
 }
 
-/// limpid works on light, not on bytes: 8-bit video has the curve of sRGB.
+/// limpid works on light, not on bytes: 8-bit video is encoded with the sRGB curve.
 cv::Mat linear_from_srgb(const cv::Mat& bytes) {
   cv::Mat1f curve(1, 256);
   for (int i = 0; i < 256; ++i) {
@@ -70,7 +71,7 @@ void composite(const std::string& dry, const std::string& depth, const std::stri
   cv::VideoCapture reader(dry);
   if (!reader.isOpened()) throw std::runtime_error(dry + ": cannot be read");
   const double known = reader.get(cv::CAP_PROP_FPS);
-  const double per_second = known > 0 ? known : 24;  // pictures by a pattern have none
+  const double per_second = known > 0 ? known : 24;  // picture sequences have no rate
   limpid::Compositor water({.depth = limpid::DepthKind::kEye}, pool_water());
   limpid::HostFrame frame;
   frame.scene.water = limpid::WaterPlane{};
@@ -88,7 +89,7 @@ void composite(const std::string& dry, const std::string& depth, const std::stri
     frame.display = limpid::window_of(picture);
     frame.scene.camera = camera_of(fov, height, pitch, picture.size());
     frame.scene.time = frames / per_second;
-    limpid::set_color(frame, picture);  // OpenCV's B, G, R go where they belong
+    limpid::set_color(frame, picture);  // B, G, R of OpenCV become R, G, B
     limpid::set_plane(frame, limpid::PlaneId::kDepth, eye_depth);
     water.run(frame, limpid::picture_of(picture));  // in place
 

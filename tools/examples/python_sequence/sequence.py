@@ -18,7 +18,7 @@ CHANNELS = {role["name"]: role["channels"] for role in limpid.roles()}
 
 
 def read(name, role):
-    """The role's channels as the file stores them, half or float, and what the file says of itself."""
+    """The role's channels in the type of the file, half or float, and the file's metadata."""
     path, _, channel = str(name).partition(":")
     picture = oiio.ImageInput.open(path)
     if picture is None:
@@ -34,7 +34,7 @@ def read(name, role):
 
 
 def read_map(path):
-    """R G B as float, whatever the format."""
+    """R G B as float, from any format."""
     picture = oiio.ImageBuf(str(path))
     if not picture.read(convert=oiio.FLOAT):
         raise SystemExit(picture.geterror())

@@ -118,7 +118,7 @@ Image::~Image() {
   vkFreeMemory(owner.device, memory, nullptr);
 }
 
-// Waits for all that came before, and lets all that comes after wait.
+// A full barrier: later commands wait for all earlier commands.
 static void turn(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
   VkImageMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;

@@ -4,7 +4,7 @@
 
 #include <vulkan/vulkan.h>
 
-// What an engine has anyway: an instance, a device with one queue, images and memory.
+// The objects that every engine has: an instance, a device with one queue, images and memory.
 
 void expect(VkResult result, const char* call);
 
@@ -13,7 +13,7 @@ struct Device {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
-  std::uint32_t family = 0;  // of the queue, which computes and copies
+  std::uint32_t family = 0;  // the family of the queue, which computes and copies
   VkCommandPool pool = VK_NULL_HANDLE;
 
   Device();
@@ -21,7 +21,7 @@ struct Device {
   VkDeviceMemory memory(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags) const;
 };
 
-// Memory that program and device share.
+// Memory that the program and the device share.
 struct Buffer {
   const Device& owner;
   VkBuffer buffer = VK_NULL_HANDLE;

@@ -24,7 +24,7 @@ namespace {
 constexpr limpid::Size kSize{480, 270};
 constexpr int kPixels = kSize.width * kSize.height, kFrames = 8, kInFlight = 2;
 
-// What belongs to one frame in flight.
+// The objects of one frame in flight.
 struct Frame {
   explicit Frame(const Device& device)
       : color(device, VK_FORMAT_R16G16B16A16_SFLOAT, kSize.width, kSize.height),
@@ -50,7 +50,7 @@ struct Frame {
   VkFence done = VK_NULL_HANDLE;
   int under_water = 0, number = -1;
 
-  // A sandy bottom 1.5 below the water, and a rock that stands out of it.
+  // A sandy bottom 1.5 below the water, and a rock that rises above the water.
   void draw(const limpid::Camera& camera) {
     const limpid::Rays rays = rays_of(camera, {kSize.width, kSize.height});
     const glm::dvec3 eye = camera.eye(), rock(0, -0.7, 0);
@@ -91,7 +91,7 @@ struct Frame {
   }
 };
 
-// Calm, clear, a little murky, without the parameters that need pixels in memory.
+// Looks of calm, clear and slightly murky water, without the parameters that need pixels in memory.
 limpid::Look engine_look() {
   limpid::Look look;
   look.set("water", "edges", "hard");
@@ -127,7 +127,7 @@ void run() {
   };
   for (int number = 0; number < kFrames; ++number) {
     Frame& frame = *frames[static_cast<std::size_t>(number % kInFlight)];
-    finish(frame);  // the one before in this place
+    finish(frame);  // the earlier frame of this slot
     limpid::Camera camera;
     camera.view =
         glm::lookAt(glm::dvec3(0.1 * number, 1.5, 4), glm::dvec3(0, -0.5, 0), glm::dvec3(0, 1, 0));
@@ -151,7 +151,7 @@ void run() {
     scene.planes[limpid::PlaneId::kColorR] = show(frame.color, 4);
     scene.planes[limpid::PlaneId::kDepth] = show(frame.depth, 1);
     water.record(frame.commands, scene, show(frame.color, 4));  // in place
-    frame.color.copy_to(frame.commands, frame.seen);            // what an engine would present
+    frame.color.copy_to(frame.commands, frame.seen);            // to be presented
     expect(vkEndCommandBuffer(frame.commands), "vkEndCommandBuffer");
     VkSubmitInfo submit{};
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
