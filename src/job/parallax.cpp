@@ -51,8 +51,8 @@ std::optional<Place> through_calm(const Screen& screen, const glm::dvec3& point,
   }
   const glm::dvec3 along = point - rise * view.up;
   const double across = glm::length(along);
-  const double way = refracted_way(view.eye_above, down, across, ior);
-  const glm::dvec3 flat = across > 0 ? way / across * along : glm::dvec3(0);
+  const double reach = refracted_reach(view.eye_above, down, across, ior);
+  const glm::dvec3 flat = across > 0 ? reach / across * along : glm::dvec3(0);
   return screen.place_of(flat - view.eye_above * view.up);
 }
 
@@ -63,22 +63,22 @@ void put(const std::optional<Place>& motion, int x, int y, View<float>& to_x, Vi
 
 }  // namespace
 
-double refracted_way(double up, double down, double across, double ior) {
-  // sin(in the air) - ior sin(in the water) grows with the way from below 0 to above 0.
-  double low = 0, high = across, way = across * up / (up + down / ior);
+double refracted_reach(double up, double down, double across, double ior) {
+  // sin(in the air) - ior sin(in the water) grows with the reach from below 0 to above 0.
+  double low = 0, high = across, reach = across * up / (up + down / ior);
   for (int step = 0; step < 60; ++step) {
-    const double rest = across - way;
-    const double air = std::hypot(up, way), water = std::hypot(down, rest);
-    if (!(water > 0)) return way;
-    const double off = way / air - ior * rest / water;
-    (off > 0 ? high : low) = way;
+    const double rest = across - reach;
+    const double air = std::hypot(up, reach), water = std::hypot(down, rest);
+    if (!(water > 0)) return reach;
+    const double off = reach / air - ior * rest / water;
+    (off > 0 ? high : low) = reach;
     const double slope = up * up / (air * air * air) + ior * down * down / (water * water * water);
-    double next = way - off / slope;
+    double next = reach - off / slope;
     if (!(next > low && next < high)) next = (low + high) / 2;
-    if (std::abs(next - way) <= 1e-14 * across) return next;
-    way = next;
+    if (std::abs(next - reach) <= 1e-14 * across) return next;
+    reach = next;
   }
-  return way;
+  return reach;
 }
 
 Parallax::Parallax(const WaterView& now, const WaterView& second, double ior)

@@ -13,7 +13,7 @@ namespace limpid {
 /// `up` above the surface, and `across` lies between them horizontally. The horizontal distance
 /// from the eye to the place where the ray meets the surface, by the law of refraction. All
 /// numbers are finite; up > 0, down >= 0, across >= 0, ior >= 1.
-double refracted_way(double up, double down, double across, double ior);
+double refracted_reach(double up, double down, double across, double ior);
 
 /// Motion vectors of a scene that stands still, by the camera and the water plane of a second
 /// frame: from the place where the calm water of this frame shows a point to the place where the

@@ -40,11 +40,11 @@ Scene scene_at(const glm::dvec3& eye, const glm::dvec3& direction, const glm::dv
 // 45 degrees in the air are asin(sin 45 / 1.333) in the water.
 TEST(Parallax, RaysAreRefracted) {
   const double below = std::tan(std::asin(std::sin(glm::radians(45.0)) / kIor));
-  EXPECT_NEAR(refracted_way(1, 2, 1 + 2 * below, kIor), 1, 1e-12);
-  EXPECT_NEAR(refracted_way(3, 2, 5, 1), 3, 1e-12) << "a straight line";
-  EXPECT_EQ(refracted_way(3, 2, 0, kIor), 0);
-  EXPECT_NEAR(refracted_way(3, 0, 7, kIor), 7, 1e-12) << "a point in the surface";
-  EXPECT_NEAR(refracted_way(1, 1e-9, 1e3, kIor), 1e3, 1e-6);
+  EXPECT_NEAR(refracted_reach(1, 2, 1 + 2 * below, kIor), 1, 1e-12);
+  EXPECT_NEAR(refracted_reach(3, 2, 5, 1), 3, 1e-12) << "a straight line";
+  EXPECT_EQ(refracted_reach(3, 2, 0, kIor), 0);
+  EXPECT_NEAR(refracted_reach(3, 0, 7, kIor), 7, 1e-12) << "a point in the surface";
+  EXPECT_NEAR(refracted_reach(1, 1e-9, 1e3, kIor), 1e3, 1e-6);
 }
 
 class PlumbTest : public ::testing::Test {
