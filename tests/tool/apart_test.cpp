@@ -101,7 +101,7 @@ TEST_F(ApartTest, NoOutputIsAnInput) {
 TEST_F(ApartTest, EachOutputIsAFileOfItsOwn) {
   const std::string sentence = ": is another output, too";
   expect_composite_refused({"plate.exr", "-o", "wet.exr", "--deep", "./wet.exr"},
-                           {"./wet.exr" + sentence + ", named wet.exr: expected a file of its"});
+                           {"./wet.exr" + sentence + ", named wet.exr: expected a separate file"});
   write_text("old.exr", "old");
   fs::create_symlink("old.exr", folder_ / "old.png");
   fs::create_symlink("new.exr", folder_ / "new.png");
