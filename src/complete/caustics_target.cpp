@@ -57,6 +57,48 @@ void read_tile(const TileRow& tile, int count, const SurfaceRow& to) {
   }
 }
 
+void read_normals(const NormalRow& row, int count, const SurfaceRow& to) {
+  const Rect& window = row.normal[0].window;
+  const int width = window.x1 - window.x0, height = window.y1 - window.y0;
+  const Lane iota(hn::Iota(kD, 0.0f)), none(0), last_x(width - 1), last_y(height - 1);
+  const Lane last_column(width > 1 ? width - 2 : 0), last_row(height > 1 ? height - 2 : 0);
+  for (int i = 0; i < count; i += kLanes) {
+    const auto at = [&](const EvenRow& even) LIMPID_LANES_LAMBDA {
+      return Lane(even.first + i * even.step) + Lane(even.step) * iota;
+    };
+    const Lane w = at(row.w), x = at(row.u) / w, y = at(row.v) / w;
+    const Mask seen = w > none && x >= none && x <= last_x && y >= none && y <= last_y;
+    Lane slope_x = none, slope_y = none;
+    if (any(seen)) {
+      const Lane column = select(seen, min(floor(x), last_column), none);
+      const Lane line = select(seen, min(floor(y), last_row), none);
+      const Lane u = x - column, v = y - line;
+      const auto read = [&](const View<const float>& view) LIMPID_LANES_LAMBDA {
+        const int x_stride = static_cast<int>(view.x_stride);
+        const int y_stride = static_cast<int>(view.y_stride);
+        const Places upper(hn::Add(hn::Mul(whole_of(column), hn::Set(kDI, x_stride)),
+                                   hn::Mul(whole_of(line), hn::Set(kDI, y_stride))));
+        const int right = width > 1 ? x_stride : 0, down = height > 1 ? y_stride : 0;
+        const auto mixed = [&](const float* data) LIMPID_LANES_LAMBDA {
+          if (right != 1) return lerp(fetch(data, upper), fetch(data + right, upper), u);
+          const Pair pair = fetch_pairs(data, upper);
+          return lerp(pair.left, pair.right, u);
+        };
+        return lerp(mixed(view.data), mixed(view.data + down), v);
+      };
+      const Lane n[3] = {read(row.normal[0]), read(row.normal[1]), read(row.normal[2])};
+      const auto along = [&](const Vec3<float>& axis) LIMPID_LANES_LAMBDA {
+        return n[0] * Lane(axis.x) + n[1] * Lane(axis.y) + n[2] * Lane(axis.z);
+      };
+      const Lane per_up = Lane(-1) / max(along(row.up), Lane(row.least_up));
+      slope_x = select(seen, along(row.map_x) * per_up, none);
+      slope_y = select(seen, along(row.map_y) * per_up, none);
+    }
+    hn::StoreU(slope_x.v, kD, to.slope_x + i);
+    hn::StoreU(slope_y.v, kD, to.slope_y + i);
+  }
+}
+
 struct Bottom {
   const LightRow& light;
 
@@ -240,7 +282,8 @@ namespace limpid {
 
 extern const CausticsTarget LIMPID_OF_TARGET(kCaustics_);
 const CausticsTarget LIMPID_OF_TARGET(kCaustics_) = {
-    HWY_NAMESPACE::add_sines, HWY_NAMESPACE::read_tile, HWY_NAMESPACE::follow,
-    HWY_NAMESPACE::spread,    HWY_NAMESPACE::splat,     HWY_NAMESPACE::filter};
+    HWY_NAMESPACE::add_sines, HWY_NAMESPACE::read_tile, HWY_NAMESPACE::read_normals,
+    HWY_NAMESPACE::follow,    HWY_NAMESPACE::spread,    HWY_NAMESPACE::splat,
+    HWY_NAMESPACE::filter};
 
 }  // namespace limpid

@@ -2,6 +2,9 @@
 #include <span>
 #include <string>
 
+#include "limpid/core/plane.h"
+#include "limpid/core/vec.h"
+
 namespace limpid {
 
 /// A sine along a row: its phase, in rad, and its height at the row's first place.
@@ -15,6 +18,20 @@ struct TileRow {
   const float* slopes;
   int texels;
   double first, step;  ///< of the places, in texels; the first lies within the tile
+};
+
+/// A number that changes evenly along a row.
+struct EvenRow {
+  double first = 0, step = 0;
+};
+
+/// A row of the calm surface as the picture shows it. The place in the planes of a frame's normals,
+/// in texels from the centre of the first one, is (u, v) / w; it is not seen where w <= 0.
+struct NormalRow {
+  View<const float> normal[3] = {};  ///< of one window
+  EvenRow u{}, v{}, w{};
+  Vec3<float> map_x{}, map_y{}, up{};
+  float least_up = 0;  ///< a normal that points less upwards counts as if it did
 };
 
 /// Adjacent places in a row of the surface.
@@ -78,6 +95,8 @@ struct Extremes {
 struct CausticsTarget {
   void (*add_sines)(std::span<const SineOfRow> sines, int count, const SurfaceRow& to);
   void (*read_tile)(const TileRow& tile, int count, const SurfaceRow& to);
+  /// Slopes of 0 where the planes do not show the place.
+  void (*read_normals)(const NormalRow& row, int count, const SurfaceRow& to);
   void (*follow)(const LightRow& light, int count, const SurfaceRow& surface, const LitRow& to);
   RowsHit (*spread)(const BeamRow& beams, int count, const SplatRow& to);
   void (*splat)(const SplatRow& from, int count, int stride, int widest, float* light);

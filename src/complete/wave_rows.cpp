@@ -37,9 +37,11 @@ class Places : public PlainTextures<Places> {
   std::span<Pixel<double>> pixels_;
 };
 
-/// Along map_x and map_y. A vertical surface gets the slope of the steepest waves.
+/// A vertical surface gets the slope of the steepest waves.
+constexpr double kLeastUp = 0.05;
+
+/// Along map_x and map_y.
 Vec2<double> slopes_of(const Pass& c, const Vec3<double>& n) {
-  constexpr double kLeastUp = 0.05;
   const double up = std::max(dot(n, vec3_of<double>(c.up)), kLeastUp);
   return {-dot(n, vec3_of<double>(c.map_x)) / up, -dot(n, vec3_of<double>(c.map_y)) / up};
 }
@@ -91,7 +93,7 @@ void WaveRows::row(double x, double y, double step, int count, const CausticsTar
                    Room& room, const SurfaceRow& to) const {
   std::fill_n(to.height, count, 0.0f);
   if (source_ == Source::kTile) return row_of_tile(x, y, step, count, target, room.tile, to);
-  if (source_ == Source::kNormals) return row_of_normals(x, y, step, count, to);
+  if (source_ == Source::kNormals) return row_of_normals(x, y, step, count, target, to);
   std::fill_n(to.slope_x, count, 0.0f);
   std::fill_n(to.slope_y, count, 0.0f);
   room.sines.clear();
@@ -236,38 +238,33 @@ void WaveRows::measure_normals() {
 }
 
 void WaveRows::row_of_normals(double x, double y, double step, int count,
-                              const SurfaceRow& to) const {
+                              const CausticsTarget& target, const SurfaceRow& to) const {
   const Pass& c = *pass_;
-  std::array<View<const float>, 3> normal{frame_->plane(PlaneId::kSurfaceNormalX),
-                                          frame_->plane(PlaneId::kSurfaceNormalY),
-                                          frame_->plane(PlaneId::kSurfaceNormalZ)};
-  Rect window = normal[0].window;
-  for (const View<const float>& view : normal) window = intersection(window, view.window);
-  for (View<const float>& view : normal) {
+  NormalRow row;
+  for (int k = 0; k < 3; ++k) {
+    row.normal[k] = frame_->plane(plane_after(PlaneId::kSurfaceNormalX, k));
+  }
+  Rect window = row.normal[0].window;
+  for (const View<const float>& view : row.normal) window = intersection(window, view.window);
+  for (View<const float>& view : row.normal) {
     view.data = &view.at(window.x0, window.y0);
     view.window = window;
   }
-  // From the picture's corner, where uv is 0. Numerators and denominators are linear along the row.
+  row.map_x = vec3_of<float>(c.map_x), row.map_y = vec3_of<float>(c.map_y);
+  row.up = vec3_of<float>(c.up), row.least_up = static_cast<float>(kLeastUp);
+  // From the picture's corner, where uv is 0.
   const glm::dvec3 first = x * c.map_x + y * c.map_y - c.eye_above * c.up - c.rays.origin;
-  const auto along = [&](const glm::dvec3& axis, double times, double plus) {
-    return glm::dvec2(plus + times * glm::dot(axis, first), times * step * glm::dot(axis, c.map_x));
+  const auto along = [&](const glm::dvec3& axis, double times) {
+    return EvenRow{times * glm::dot(axis, first), times * step * glm::dot(axis, c.map_x)};
   };
-  const glm::dvec2 w_at = along(c.forward, c.w_depth, c.w_origin);
-  const glm::dvec2 u_at = along(c.to_u, c.size.x, 0), v_at = along(c.to_v, c.size.y, 0);
-  const double left = c.corner.x - 0.5 - window.x0, top = c.corner.y - 0.5 - window.y0;
-  for (int i = 0; i < count; ++i) {
-    const double w = w_at.x + i * w_at.y;
-    const Vec2<double> place{(u_at.x + i * u_at.y) / w + left, (v_at.x + i * v_at.y) / w + top};
-    const bool seen = w > 0 && place.x >= 0 && place.x <= window.width() - 1 && place.y >= 0 &&
-                      place.y <= window.height() - 1;
-    to.slope_x[i] = to.slope_y[i] = 0;
-    if (!seen) continue;
-    const GridSpot spot(normal[0], place);
-    const Vec2<double> slope =
-        slopes_of(c, {spot.read(normal[0]), spot.read(normal[1]), spot.read(normal[2])});
-    to.slope_x[i] = static_cast<float>(slope.x);
-    to.slope_y[i] = static_cast<float>(slope.y);
-  }
+  const auto moved = [&](EvenRow at, double texels) {
+    return EvenRow{at.first + texels * row.w.first, at.step + texels * row.w.step};
+  };
+  row.w = along(c.forward, c.w_depth);
+  row.w.first += c.w_origin;
+  row.u = moved(along(c.to_u, c.size.x), c.corner.x - 0.5 - window.x0);
+  row.v = moved(along(c.to_v, c.size.y), c.corner.y - 0.5 - window.y0);
+  target.read_normals(row, count, to);
 }
 
 }  // namespace limpid

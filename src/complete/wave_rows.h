@@ -49,7 +49,8 @@ class WaveRows {
   void take_sines(std::span<const SineWave> waves, double strength);
   void row_of_tile(double x, double y, double step, int count, const CausticsTarget& target,
                    std::vector<float>& room, const SurfaceRow& to) const;
-  void row_of_normals(double x, double y, double step, int count, const SurfaceRow& to) const;
+  void row_of_normals(double x, double y, double step, int count, const CausticsTarget& target,
+                      const SurfaceRow& to) const;
 
   enum class Source { kSines, kTile, kNormals } source_ = Source::kSines;
   const Frame* frame_ = nullptr;
