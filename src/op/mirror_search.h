@@ -10,7 +10,8 @@ namespace limpid {
 /// How a ray is marched over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
 /// Tracing", in `steps` that grow with the distance from the pixel, the last three times as long as
 /// the first, then bisection. A visible surface counts as `thick` times its depth thick, and at
-/// most `thin` times the eye's height over the calm water more: a ray farther behind has passed it.
+/// most `thin` times the eye's height over the calm water more: a ray that was farther behind one
+/// pixel before has passed it. (Far away, a ray along the water crosses much depth in a pixel.)
 struct MirrorSteps {
   int steps;
   double thin, thick;
@@ -59,12 +60,12 @@ class MirrorSearch {
     F hit;       ///< 1 or 0
   };
 
-  /// `height` is that of the eye over the calm water. `accept(shift, depth)` says which visible
-  /// surfaces may be hit. Lanes other than `lanes` hit nothing.
+  /// `accept(shift, depth)` says which visible surfaces may be hit. Lanes other than `lanes` hit
+  /// nothing.
   template <class Mask, class Accept>
-  static Found march(const Tap& tap, const Mask& lanes, PlaneId plane, const Bounds& bounds,
-                     F height, const Pixel<F>& p, const ScreenRay<F>& ray, const MirrorSteps& how,
-                     Accept&& accept) {
+  static Found march(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
+                     const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray,
+                     const MirrorSteps& how, Accept&& accept) {
     const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
     const Vec2<F> end = ray.shift_at(most);
     // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend),
@@ -79,14 +80,18 @@ class MirrorSearch {
       const F seen = min(tap.nearest(plane, shift), F(1e30));
       return select(accept(shift, seen), seen, F(1e30));
     };
+    // The share of the length that lies in one pixel.
+    const F pixel =
+        F(1) / max(max(given<F>(c.size.x) * abs(end.x), given<F>(c.size.y) * abs(end.y)), F(1));
     // Whether the ray lies between front and back of the visible surface.
-    const F thin = F(how.thin) * abs(height);
+    const F thin = F(how.thin) * abs(given<F>(c.eye_above));
     const auto back_of = [&](F seen) {
       const F thick = F(how.thick) * seen;
       return seen + (thick + min(thin, thick));
     };
     const auto within = [&](F t, F seen) {
-      return is_behind(t, seen) && !is_behind(t, back_of(seen)) && seen < F(1e29);
+      return is_behind(t, seen) && !is_behind(max(t - pixel, F(0)), back_of(seen)) &&
+             seen < F(1e29);
     };
     // Where `hits` changes between two shares of the length.
     const auto edge = [&](F low, F high, auto&& hits) {
@@ -103,11 +108,11 @@ class MirrorSearch {
     // than the ray, or the ray has passed it before. Where the ray is far away 1 - t bend is a
     // small difference, and as far off as 1 is.
     const auto passes = [&](int begin, int last_one, auto&& open) {
-      const F a = share_of(begin), b = share_of(last_one);
+      const F a = share_of(begin), b = share_of(last_one), before = max(a - pixel, F(0));
       const auto depth_at = [&](F t, double off) {
         return ray.depth + t * gain / max(F(1 + off) - t * bend, F(1e-30));
       };
-      const F first = depth_at(a, -1e-6), second = depth_at(a, 1e-6);
+      const F first = depth_at(before, -1e-6), second = depth_at(before, 1e-6);
       const F third = depth_at(b, -1e-6), fourth = depth_at(b, 1e-6);
       const F low = min(min(first, second), min(third, fourth));
       const F high = max(max(first, second), max(third, fourth));
@@ -116,12 +121,12 @@ class MirrorSearch {
       const F back = back_of(F(seen.high));
       return !any(open && !(F(1 - 1e-5) * low > back));
     };
-    F before = F(0), met = F(0), found = F(0), last = F(0);
+    F before = F(0), met = F(0), found = F(0), last = F(0), seen_last = F(1e30);
     Leaps leaps(how.steps);
     const auto leap = [&](int i) {
       return leaps.from(i, [&](int begin, int last_one) {
         const bool over = passes(begin, last_one, lanes && found < F(0.5));
-        if (over) last = share_of(last_one);
+        if (over) last = share_of(last_one), seen_last = seen_at(last);
         return over;
       });
     };
@@ -129,21 +134,36 @@ class MirrorSearch {
       const auto open = lanes && found < F(0.5);
       const F t = share_of(i);
       const F seen = seen_at(t);
+      const auto behind = is_behind(t, seen);
       const auto hit = open && within(t, seen);
-      // A long step may lead through all of a thing.
+      // A long step may lead through all of a thing, or behind a thing and out again past its edge.
       const auto through =
-          open && !hit && is_behind(t, seen) && !is_behind(last, back_of(seen)) && seen < F(1e29);
+          open && !hit && behind && !is_behind(last, back_of(seen)) && seen < F(1e29);
+      const auto past_edge = open && !behind && is_behind(t, seen_last) &&
+                             !is_behind(last, seen_last) && seen_last < F(1e29);
       met = select(hit, t, met);
       before = select(hit, last, before);
       found = select(hit, F(1), found);
-      if_any(through, [&] {
-        const F front = edge(last, t, is_behind);
-        const auto enters = through && within(front, seen_at(front));
-        met = select(enters, front, met);
-        before = select(enters, front, before);
+      const auto leads = through || past_edge;
+      if_any(leads, [&] {
+        F low = last, high = t, front = seen;
+        repeat<F>(kHalvings, [&] {
+          const F middle = F(0.5) * (low + high), there = seen_at(middle);
+          const auto in = is_behind(middle, there);
+          // Beyond the edge is what the ray has not yet passed at the end of the step.
+          const auto beyond = past_edge && !in && !is_behind(t, there) && !is_behind(high, front);
+          const auto back = in || beyond;
+          high = select(back, middle, high);
+          low = select(back, low, middle);
+          front = select(back, there, front);
+        });
+        const auto enters = leads && within(high, front);
+        met = select(enters, high, met);
+        before = select(enters, low, before);
         found = select(enters, F(1), found);
       });
       last = t;
+      seen_last = seen;
       return lanes && found < F(0.5);
     };
     if_any(lanes, [&] { steps<F>(1, how.steps + 1, leap, step); });

@@ -249,17 +249,33 @@ struct MirroredLight : FresnelReflection {
     const auto meets = part > F(0);
     if_any(meets, [&] {
       const ScreenRay<F> ray = image_ray(c, p, low);
-      const auto found = MirrorSearch<F, Tap>::march(
-          tap, tap.wet() && meets, PlaneId::kReflectionDepth, c.reflection, given<F>(c.eye_above),
-          p, ray, kImageSteps, all);
+      const auto found =
+          MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kReflectionDepth,
+                                      c.reflection, p, ray, kImageSteps, all);
       hit = select(meets, part * found.hit, hit);
       met = select(found.hit > F(0.5), place_at(c, p, ray, found.distance), met);
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
     const Vec2<F> far = far_landing(c, p, tap, image_ray(c, p, n), hit < F(1));
-    Mirrored<F> seen = seen_at(c, p, tap, n, {select(whole, met, far), F(HUGE_VAL)});
+    // Where the mirror saw into an object, the picture shows the outside at the same place.
+    const auto from_outside = [&](const auto& meets_it, Mirrored<F> seen) {
+      if (!c.planes.has(PlaneId::kReflectionValid) || !c.planes.covers(kColorPlanes)) return seen;
+      const auto hollow = meets_it && tap.nearest(PlaneId::kReflectionValid, met) < F(0.5);
+      if_any(hollow, [&] {
+        const F stands = tap.nearest(PlaneId::kDepth, met);
+        const F image = tap.nearest(PlaneId::kReflectionDepth, met);
+        const auto shown = hollow && stands <= image && stands >= image;
+        const Rgb<F> outside{tap.nearest(PlaneId::kColorR, met), tap.nearest(PlaneId::kColorG, met),
+                             tap.nearest(PlaneId::kColorB, met)};
+        seen.light = select(shown, outside, seen.light);
+        seen.sources = select(shown, Rgb<F>{F(0), F(1), F(0)}, seen.sources);
+      });
+      return seen;
+    };
+    Mirrored<F> seen =
+        from_outside(whole, seen_at(c, p, tap, n, {select(whole, met, far), F(HUGE_VAL)}));
     if_any(parted, [&] {
-      const Mirrored<F> there = seen_at(c, p, tap, n, {met, F(HUGE_VAL)});
+      const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
       const F share = select(parted, hit, F(0));
       seen.light = seen.light + share * (there.light - seen.light);
       seen.sources = seen.sources + share * (there.sources - seen.sources);
@@ -268,26 +284,30 @@ struct MirroredLight : FresnelReflection {
   }
 
   /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
-  /// in its place. Else it is the last such place before it that counts, or the pixel
-  /// itself.
+  /// in its place. Else it is the nearest such place before it on the ray's line, or the pixel
+  /// itself. What stands nearer to the viewer than the pixel's water is certainly not mirrored
+  /// there: then the places beyond it count, too, which have a higher sky.
   template <class F, class Tap, class Mask>
   static Vec2<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, const Mask& lanes) {
     const Vec2<F> far = place_at(c, p, ray, F(HUGE_VAL));
     Vec2<F> landing = far;
-    const auto wrong = [&](Vec2<F> shift) {
-      const F seen = tap.nearest(PlaneId::kReflectionDepth, shift);
-      const F distance = (seen - ray.depth) / ray.depth_step;
-      const Vec2<F> off = place_at(c, p, ray, max(distance, F(0))) - shift;
-      const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
-      return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
-    };
-    const auto strays = lanes && wrong(far);
+    const F seen = tap.nearest(PlaneId::kReflectionDepth, far);
+    const Vec2<F> off = place_at(c, p, ray, max((seen - ray.depth) / ray.depth_step, F(0))) - far;
+    const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
+    const auto strays = lanes && seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
     if_any(strays, [&] {
       F open = select(strays, F(1), F(0));
-      steps<F>(0, 6, [&](auto i) {
-        const Vec2<F> at = (F(0.85) - F(0.15) * Loop<F>::ratio(i, 1)) * far;
-        const auto good = open > F(0.5) && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
+      steps<F>(1, 2 * kPlaces + 1, [&](auto i) {
+        // Beyond it and before it in turns, ever farther away.
+        const F turn = Loop<F>::ratio(i, 2), pair = floor(turn + F(0.5));
+        const auto beyond = turn < pair;
+        const F away = select(beyond, pair, F(0) - pair);
+        const Vec2<F> there = (F(1) + F(0.9 / kPlaces) * away) * far;
+        const Vec2<F> at = min(reach_in(c.reflection, p.uv, there), F(1)) * there;
+        const auto counts = !beyond || seen < ray.depth;
+        const auto good =
+            open > F(0.5) && counts && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
         landing = select(good, at, landing);
         open = select(good, F(0), open);
         return open > F(0.5);
@@ -296,8 +316,10 @@ struct MirroredLight : FresnelReflection {
     });
     return landing;
   }
+  static constexpr int kPlaces = 6;  ///< on each side
+  /// Pixels. The depth that complete/mirror_depth.h makes is two pixels wider than its objects.
+  static constexpr double kWrong = 4;
   static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03};
-  static constexpr double kWrong = 4;  ///< pixels
 
   /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest: of
   /// the facets n those beyond the share `part`, whose ray is that of the facet `low`.
@@ -316,9 +338,8 @@ struct MirroredLight : FresnelReflection {
         const F height = height_at(c, p, shift, depth);
         return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
       };
-      const auto found =
-          MirrorSearch<F, Tap>::march(tap, tap.wet() && meets, PlaneId::kDepth, c.dry,
-                                      given<F>(c.eye_above), p, ray, kPictureSteps, on_side);
+      const auto found = MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kDepth,
+                                                     c.dry, p, ray, kPictureSteps, on_side);
       const Vec2<F> shift =
           select(found.hit > F(0.5), ray.shift_at(found.distance), Vec2<F>{F(0), F(0)});
       const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);

@@ -59,8 +59,8 @@ struct Kernel<SunHighlight> : SunHighlight {
     constexpr MirrorSteps kSteps{16, 0.06, 0.03};
     const ScreenRay<F> ray(c, p, vec3_of<F>(c.sun.direction));
     const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
-    return MirrorSearch<F, Tap>::march(tap, tap.wet(), PlaneId::kDepth, c.dry,
-                                       given<F>(c.eye_above), p, ray, kSteps, above)
+    return MirrorSearch<F, Tap>::march(c, tap, tap.wet(), PlaneId::kDepth, c.dry, p, ray, kSteps,
+                                       above)
                .hit > F(0.5);
   }
 

@@ -128,5 +128,92 @@ TEST(AutoMirror, ShowsTheReflectionAndNeverItsInsides) {
   EXPECT_GT(most, 2 * kSky);
 }
 
+/// A wall whose mirror image a leaned facet sees from lower than the eye does: near its foot, rays
+/// meet it that in the picture end above it.
+struct Ridge : Mirror {
+  static constexpr Size kWide{320, 240};
+  double lean;
+
+  Ridge(double top_of_wall, double lean_of_facets) : lean(lean_of_facets) {
+    top = top_of_wall;
+    buffers = test::Buffers(rect_of(kWide));
+    const auto set = [&](PlaneId first, auto&& value) {
+      for (int c = 0; c < 3; ++c) buffers.set(plane_after(first, c), value);
+    };
+    buffers.set(PlaneId::kDepth, [&](int x, int y) { return depth(x, y); });
+    set(PlaneId::kColorR, [&](int x, int y) {
+      return depth(x, y) == kInf ? kSky : 2 + far * ray(x, y).y > 0 ? kWall : 1.0f;
+    });
+    set(PlaneId::kReflectionR,
+        [&](int x, int y) { return image_depth(x, y) == kInf ? kSky : kWall; });
+    buffers.set(PlaneId::kReflectionDepth, [&](int x, int y) { return image_depth(x, y); });
+    const double length = std::hypot(1, lean);
+    buffers.set(PlaneId::kSurfaceNormalX, [](int, int) { return 0.0f; });
+    buffers.set(PlaneId::kSurfaceNormalY, [&](int, int) { return float(1 / length); });
+    buffers.set(PlaneId::kSurfaceNormalZ, [&](int, int) { return float(lean / length); });
+  }
+  glm::dvec3 ray(int x, int y) const {
+    return rays_of(*scene.camera, {kWide.width, kWide.height}).ray_at(x + 0.5, y + 0.5);
+  }
+  float depth(int x, int y) const {
+    const double sinks = ray(x, y).y;
+    if (2 + far * sinks > top) return kInf;
+    return static_cast<float>(sinks < 0 ? std::min(far, -(2 + deep) / sinks) : far);
+  }
+  float image_depth(int x, int y) const {
+    const double height = -(2 + far * ray(x, y).y);
+    return height > 0 && height < top ? float(far) : kInf;
+  }
+  /// Height over the water at which the mirrored ray of a pixel passes the wall.
+  double passes_at(int x, int y) const {
+    const glm::dvec3 view = ray(x, y), normal = glm::normalize(glm::dvec3(0, 1, lean));
+    const glm::dvec3 mirrored = view - 2 * glm::dot(view, normal) * normal;
+    return (far - 2 / -view.y) * mirrored.y / -mirrored.z;
+  }
+};
+
+// A low, flat bank: the mirror saw the sky over it, and its inside. Facets that mirror along the
+// water show the bank.
+TEST(AutoMirror, ShowsTheOutsideOfABankThatTheMirrorSawFromWithin) {
+  Ridge ridge(0.5, -0.3);
+  for (int c = 0; c < 3; ++c) {
+    ridge.buffers.set(plane_after(PlaneId::kReflectionR, c), [&](int x, int y) {
+      const double height = 2 + ridge.far * ridge.ray(x, y).y;
+      return height > 0 && height < ridge.top ? kInside : kSky;
+    });
+  }
+  ridge.buffers.frame.planes[index_of(PlaneId::kReflectionDepth)] = {};
+  const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+  int wet = 0;
+  for (int y = 150; y < Ridge::kWide.height; ++y) {
+    for (int x = 20; x < Ridge::kWide.width - 20; ++x, ++wet) {
+      EXPECT_EQ(picture.color(x, y).r, kWall) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(wet, 1000);
+}
+
+TEST(AutoMirror, MeetsARidgeOnlyWhereItsRaysPassBelowIt) {
+  for (const double top : {1.0, 1.5, 3.0}) {
+    int walls = 0;
+    for (const double lean : {-0.02, 0.0, 0.03, 0.06, 0.1, 0.2}) {
+      Ridge ridge(top, lean);
+      const double pixel = -2 * ridge.far * ridge.ray(0, Ridge::kWide.height / 2).y;
+      const test::Picture exact = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+      for (int y = 0; y < Ridge::kWide.height; ++y) {
+        const int x = Ridge::kWide.width / 2;
+        const double passes = ridge.passes_at(x, y);
+        const bool wet = ridge.ray(x, y).y < 0 && 2 / -ridge.ray(x, y).y < ridge.far - 0.1;
+        if (!wet || passes < 0 || std::abs(passes - top) < 4 * pixel) continue;
+        // Places up to four pixels off count as right, and texels beside the edge are mixed.
+        EXPECT_EQ(exact.color(x, y).r < 0.5 * (kWall + kSky), passes < top)
+            << top << ", " << lean << ", row " << y;
+        walls += passes < top;
+      }
+    }
+    EXPECT_GT(walls, 10) << top;
+  }
+}
+
 }  // namespace
 }  // namespace limpid

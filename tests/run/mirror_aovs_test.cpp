@@ -116,18 +116,18 @@ TEST(MirrorAovs, UnresolvedWavesMirrorAWallByTheFacetsThatSeeIt) {
       shore.far = 8, shore.top = top;
       shore.buffers.set(PlaneId::kDepth, [&](int x, int y) { return shore.dry_depth(x, y); });
       // The wall's mirrored light is 1, and the sky's 0.
-      const auto shown = [&](PlaneId first, auto&& depth) {
+      const auto shown = [&](test::Buffers& buffers, PlaneId first, auto&& depth) {
         for (int c = 0; c < 3; ++c) {
-          shore.buffers.set(plane_after(first, c),
-                            [&](int x, int y) { return depth(x, y) < 1e9 ? 1.0f : 0.0f; });
+          buffers.set(plane_after(first, c),
+                      [&](int x, int y) { return depth(x, y) < 1e9 ? 1.0f : 0.0f; });
         }
       };
-      shown(PlaneId::kReflectionR, [&](int x, int y) { return shore.mirrored_depth(x, y); });
+      const auto dry = [&](int x, int y) { return shore.dry_depth(x, y); };
+      const auto mirrored = [&](int x, int y) { return shore.mirrored_depth(x, y); };
       test::Buffers bare = without_reflection(shore);
-      for (int c = 0; c < 3; ++c) {
-        bare.set(plane_after(PlaneId::kColorR, c),
-                 [&](int x, int y) { return shore.dry_depth(x, y) < 1e9f ? 1.0f : 0.0f; });
-      }
+      shown(bare, PlaneId::kColorR, dry);
+      shown(shore.buffers, PlaneId::kColorR, dry);
+      shown(shore.buffers, PlaneId::kReflectionR, mirrored);
       const Frame& frame = reflection ? shore.buffers.frame : bare.frame;
       const Picture judge = test::reference(look, frame, shore.scene);
       const Picture got = test::fused(look, frame, shore.scene);
