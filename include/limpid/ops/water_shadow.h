@@ -24,13 +24,14 @@ namespace limpid {
 /// v_multiple is the mean of four points, one mean free path around the middle one. Else v_near is
 /// the shadow at the pixel itself, and v_far and v_multiple that at uv'.
 ///
-/// `shafts`, of `scatter`: focused sunlight is as uneven in the water as on the bottom, and so is
-/// its single-scattered light: in_scatter += shafts (e_near sun_near + e_far sun_far), seen from
-/// the air. e is the mean of v (E - 1) at four points of the path: E the sunlight over that under
-/// calm water, at the mean depth of the scattered light or at the bottom, as in caustics.h, at the
-/// entry point of each, with the width by which the path moves sideways in its part; v as above,
-/// with `strength`. Above that depth E - 1 grows with the depth, and light scattered on its path
-/// down is even. 0 none, 1 physical.
+/// `shafts`, for `scatter` and views from the air: waves focus sunlight within the water, too,
+/// which makes its single-scattered light uneven: in_scatter += shafts (e_near sun_near + e_far
+/// sun_far). e is the mean of v (E - 1) at four points of the path; v as above, with `strength`. E
+/// is the irradiance by the sun, divided by that under calm water, as in caustics.h. It is looked
+/// up at the entry point of each of the four points, in a table for the mean depth of the scattered
+/// light, or for the bottom if that is higher, and filtered over the distance across the sunlight
+/// that the point's part of the path covers. Above the table's depth E - 1 grows in proportion to
+/// the depth; light scattered on its path down counts as even. 0 is no shafts, 1 physical.
 struct WaterShadow {
   enum class Model { kDarken, kScatter };
   struct Params {
