@@ -27,7 +27,7 @@ class Basin {
   /// steeper than 45 degrees; outside the picture there is water.
   Walls around(int x, int y) const;
 
-  /// Share of the light leaving a level bottom evenly that the surface reflects onto these walls,
+  /// Share of the diffuse light of a level bottom that the surface reflects onto these walls,
   /// without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
   static double thrown_on(const Walls& walls, double depth, double ior);
 

@@ -16,7 +16,7 @@ struct SlabDirections {
   explicit SlabDirections(double ior);
   Radiance cosine, weight;
 
-  /// Irradiance over pi of light from all around.
+  /// Irradiance over pi by light from all directions.
   double flux(const Radiance& radiance) const;
 };
 

@@ -3,33 +3,34 @@
 #include "op/screen_ray.h"
 
 /// @file
-/// Where a mirrored ray meets the surfaces that a depth plane shows.
+/// The intersection of mirrored rays with the surfaces in a depth plane.
 
 namespace limpid {
 
-/// How a ray is marched over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
+/// Parameters of a march over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
 /// Tracing", in `steps` that grow with the distance from the pixel, the last three times as long as
-/// the first, then bisection. A visible surface counts as `thick` times its depth thick, and at
-/// most `thin` times the eye's height over the calm water more: a ray farther behind has passed it.
+/// the first, then bisection. The thickness of a visible surface is `thick` times its depth, plus
+/// the same again up to `thin` times the eye's height over the calm water: a ray farther behind has
+/// passed the surface.
 struct MirrorSteps {
   int steps;
   double thin, thick;
 };
 
-/// The share of a march's length at which a step lies, of `count` steps.
+/// The share of a march's length at a step, of `count` steps.
 template <class F, class Step>
 LIMPID_INLINE F share_of_step(Step step, int count) {
   const F even = Loop<F>::ratio(step, count);
   return F(0.5) * (even + even * even);
 }
 
-/// Leads a march over those of its steps that need no lookup.
+/// Skips steps of a march that need no lookup.
 class Leaps {
  public:
   LIMPID_INLINE explicit Leaps(int steps) : steps_(steps), length_(steps), asks_(steps / 4) {}
 
-  /// The step after i - 1 that needs a look. passes(begin, last): whether those after `begin` up to
-  /// `last` need none.
+  /// The first step after i - 1 that may need a lookup. passes(begin, last): whether the steps
+  /// after `begin` up to `last` need none.
   template <class Passes>
   LIMPID_INLINE int from(int i, Passes&& passes) {
     while (i >= next_ask_ && i <= steps_ && asks_-- > 0) {
@@ -55,20 +56,20 @@ template <class F, class Tap>
 class MirrorSearch {
  public:
   struct Found {
-    F distance;  ///< distance along the ray, +inf where it meets nothing
+    F distance;  ///< distance along the ray, +inf where it meets no surface
     F hit;       ///< 1 or 0
   };
 
-  /// `height` is that of the eye over the calm water. `accept(shift, depth)` says which visible
-  /// surfaces may be hit. Lanes other than `lanes` hit nothing.
+  /// `height`: height of the eye over the calm water. `accept(shift, depth)`: whether the ray may
+  /// hit this visible surface. Lanes other than `lanes` have no hit.
   template <class Mask, class Accept>
   static Found march(const Tap& tap, const Mask& lanes, PlaneId plane, const Bounds& bounds,
                      F height, const Pixel<F>& p, const ScreenRay<F>& ray, const MirrorSteps& how,
                      Accept&& accept) {
     const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
     const Vec2<F> end = ray.shift_at(most);
-    // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend),
-    // which is compared with other depths without a division.
+    // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend);
+    // comparisons with other depths need no division.
     const F scale = F(1) / max(ray.w + most * ray.w_step, F(1e-6) * ray.w);
     const F gain = (most * scale) * (ray.w * ray.depth_step), bend = (most * scale) * ray.w_step;
     const auto is_behind = [&](F t, F depth) {
@@ -88,7 +89,7 @@ class MirrorSearch {
     const auto within = [&](F t, F seen) {
       return is_behind(t, seen) && !is_behind(t, back_of(seen)) && seen < F(1e29);
     };
-    // Where `hits` changes between two shares of the length.
+    // The share at which `hits` changes, between two shares of the length.
     const auto edge = [&](F low, F high, auto&& hits) {
       repeat<F>(kHalvings, [&] {
         const F t = F(0.5) * (low + high);
@@ -99,9 +100,9 @@ class MirrorSearch {
       return high;
     };
     const auto share_of = [&](auto step) { return share_of_step<F>(step, how.steps); };
-    // Whether all steps after `begin` up to `last_one` need no look: what they pass is farther away
-    // than the ray, or the ray has passed it before. Where the ray is far away 1 - t bend is a
-    // small difference, and as far off as 1 is.
+    // Whether all steps after `begin` up to `last_one` need no lookup: all surfaces there are
+    // farther away than the ray, or so near that the ray has passed them. Where the ray is far away
+    // 1 - t bend is a small difference, with the rounding error of 1.
     const auto passes = [&](int begin, int last_one, auto&& open) {
       const F a = share_of(begin), b = share_of(last_one);
       const auto depth_at = [&](F t, double off) {
@@ -130,7 +131,7 @@ class MirrorSearch {
       const F t = share_of(i);
       const F seen = seen_at(t);
       const auto hit = open && within(t, seen);
-      // A long step may lead through all of a thing.
+      // A long step may lead through a whole object.
       const auto through =
           open && !hit && is_behind(t, seen) && !is_behind(last, back_of(seen)) && seen < F(1e29);
       met = select(hit, t, met);

@@ -31,25 +31,26 @@ Runner runner_named(std::string_view name);
 /// choose one by name if machines must agree.
 ///
 ///     limpid/version     of the library
-///     limpid/look        all parameters, a look file; the wave map by its name alone
-///     limpid/plan        the operators that ran, and why the others did not
-///     limpid/scene       camera, water, sun and time, a scene file
-///     limpid/inputs      all else that decides what is to be seen: the kind of depths, which
-///                        channels of which file feed what, size and samples of what was rendered;
-///                        files and models by a hash of their contents (ExrFile::content_hash)
-///     limpid/scene_hash  such a hash of the two texts before it, one after the other: the same for
-///                        the same picture before look and options
-///     limpid/options     how it was computed and stored: runner, instruction set, GPU and driver,
-///                        AOVs and their names, compression, what is passed through
-///     limpid/view/NAME/  and then scene, inputs, scene_hash, options, look or plan, in the first
-///                        part of a file of several views: of each other view
-///     limpid/noise       of a ray-traced picture of more than one path a pixel: standard errors of
-///                        its colors over the colors, both in the mean (TruthPicture)
+///     limpid/look        all parameters, as a look file; the wave map by its name only
+///     limpid/plan        the operators that ran, and the reasons why the others did not
+///     limpid/scene       camera, water, sun and time, as a scene file
+///     limpid/inputs      all other inputs that affect the picture before look and options: the
+///                        kind of depths, the channels of files that feed each role, size and
+///                        samples of rendered buffers; files and models by a hash of their contents
+///                        (ExrFile::content_hash)
+///     limpid/scene_hash  a hash of the texts scene and inputs together: equal for the same picture
+///                        before look and options
+///     limpid/options     how the picture was computed and stored: runner, instruction set, GPU and
+///                        driver, AOVs and their names, compression, copied layers
+///     limpid/view/NAME/  scene, inputs, scene_hash, options, look or plan of each further view, in
+///                        the first part of a file with several views
+///     limpid/noise       of a path-traced picture with more than one path per pixel: mean standard
+///                        error of its colors over their mean (TruthPicture)
 ///
 /// Each EXR also has `limpid_file_hash`, a hash of its own bytes, which shows later changes
 /// (ExrFile::is_as_written).
 ///
-/// A rendered plate has no look and no plan, a ray-traced picture no plan: its options name the
+/// A rendered plate has no look and no plan, a path-traced picture no plan: its options name the
 /// runner "traced", light, samples, paths and seed.
 struct OutputChoice {
   std::vector<Aov> aovs;
