@@ -122,7 +122,7 @@ typedef enum limpid_output {
  * Strides count bytes; a stride of 0, for planes of a frame only, repeats a sample. A window of
  * four zeros is the whole picture. */
 typedef struct limpid_channel {
-  int32_t what;   /**< limpid_plane of a frame, limpid_output of a picture */
+  int32_t id;     /**< limpid_plane of a frame, limpid_output of a picture */
   int32_t sample; /**< limpid_sample */
   void* data;     /**< planes of a frame are only read, unless the picture overlaps them */
   ptrdiff_t x_stride, y_stride;

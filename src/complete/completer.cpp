@@ -48,8 +48,8 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   complete_water(plan, made_by("bottom_albedo", plan, frame), pass, executor, whole);
   const Refraction::Params& refraction = plan.look.of<Refraction>();
   if (!plan.made.has(StatePart::kPosition)) return whole;
-  if (refraction.goes_on()) whole.continuation = continuation_maker_.make(whole, pass);
-  if (refraction.looks_behind()) {
+  if (refraction.continues_bottom()) whole.continuation = continuation_maker_.make(whole, pass);
+  if (refraction.uses_bottom_layer()) {
     whole.bottom_layer = bottom_layer_.make(whole, pass, executor);
   }
   const WaterShadow::Params& shade = plan.look.of<WaterShadow>();
@@ -112,10 +112,10 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
     phrases.emplace_back("what the plate's surface does not resolve (wave_normals.filter)");
   }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
-  if (plan.look.of<Refraction>().goes_on()) {
+  if (plan.look.of<Refraction>().continues_bottom()) {
     phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
   }
-  if (plan.look.of<Refraction>().looks_behind()) {
+  if (plan.look.of<Refraction>().uses_bottom_layer()) {
     phrases.emplace_back("the bottom behind objects (refraction.rejection)");
   }
   if (plan.keeps<Caustics>()) phrases.emplace_back("caustics");

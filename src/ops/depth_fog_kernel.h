@@ -39,7 +39,7 @@ struct Kernel<DepthFog> : DepthFog {
   /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
   /// Absorption and scattering that sediment and cdom add to the water of a type.
-  static ClearAndMurky besides(const Params& params);
+  static WaterCoefficients additions(const Params& params);
   static Rgb<double> absorption(const Params& params);
   static Rgb<double> scattering(const Params& params);
   /// Whether a frame needs multiple scattering, and of which water.

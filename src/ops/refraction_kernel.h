@@ -86,7 +86,7 @@ struct Kernel<Refraction> : Refraction {
       if (params.model != Model::kSnell) measure_path(c, p);
       if (params.off_frame == OffFrame::kFog) fog_off_frame(planes.bounds, p);
     });
-    if (!params.goes_on() || !c.continuation) return;
+    if (!params.continues_bottom() || !c.continuation) return;
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       // Beyond the frame no texel confirms the end of a ray.
       if_any(p.confidence <= F(0), [&] { go_on_off_frame(c, planes, p, tap); });
@@ -368,7 +368,7 @@ struct Kernel<Refraction> : Refraction {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
-    const BottomLayer* layer = params.looks_behind() ? c.bottom_layer : nullptr;
+    const BottomLayer* layer = params.uses_bottom_layer() ? c.bottom_layer : nullptr;
     // Where the end of the ray is a guess, only the bottom counts.
     const F snell(params.model == Model::kSnell ? kShareOfPath : 0);
     const F path_fraction =

@@ -31,8 +31,8 @@ void check(const ShaderOptions& options) {
   if (options.set < 0 || options.set > 31) {
     throw Error("descriptor set " + std::to_string(options.set) + " is out of 0 ... 31");
   }
-  if (options.most_threads < 128) {
-    throw Error("most threads of a group = " + std::to_string(options.most_threads) +
+  if (options.max_threads < 128) {
+    throw Error("most threads of a group = " + std::to_string(options.max_threads) +
                 ": expected 128 at least");
   }
   if (options.first_binding < 0 || options.first_binding > 1000) {
@@ -95,7 +95,7 @@ class Writer {
     constexpr Size kShort{16, 8}, kLong{32, 32};
     constexpr std::ptrdiff_t kLongNodes = 5000;
     const auto nodes = std::count(recording_.live.begin(), recording_.live.end(), true);
-    const bool fits = kLong.width * kLong.height <= options_.most_threads;
+    const bool fits = kLong.width * kLong.height <= options_.max_threads;
     return fits && nodes > kLongNodes ? kLong : kShort;
   }
 

@@ -129,9 +129,9 @@ TEST(ShaderText, ReadsOnlyWhatTheLookNeeds) {
 
 TEST(ShaderText, LongProgramsHaveLargeGroupsWhereTheDeviceHasThem) {
   const test::World world(false);
-  const auto group_of = [&](const char* look, int most_threads) {
+  const auto group_of = [&](const char* look, int max_threads) {
     ShaderOptions options{.stage = Stage::kCompute};
-    options.most_threads = most_threads;
+    options.max_threads = max_threads;
     const ShaderText made = text_of(test::shipped_look(look), world, options);
     EXPECT_NE(made.text().find("local_size_x = " + std::to_string(made.group().width) +
                                ", local_size_y = " + std::to_string(made.group().height)),
@@ -161,7 +161,7 @@ TEST(ShaderText, RefusesWhatItCannotPrint) {
             "'a__b' is no name for a function: expected letters, digits and _");
   EXPECT_EQ(refusal({.set = 32}), "descriptor set 32 is out of 0 ... 31");
   EXPECT_EQ(refusal({.first_binding = -1}), "first binding -1 is out of 0 ... 1000");
-  EXPECT_EQ(refusal({.most_threads = 127}), "most threads of a group = 127: expected 128 at least");
+  EXPECT_EQ(refusal({.max_threads = 127}), "most threads of a group = 127: expected 128 at least");
   EXPECT_EQ(refusal({.aovs = {Aov::kSky}}),
             "the AOV sky shows a buffer of the frame: a shader has none to make");
 }

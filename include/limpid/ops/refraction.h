@@ -74,9 +74,11 @@ struct Refraction {
 
     bool marches() const { return model == Model::kSnell && steps == kMarch; }
     /// Whether rays that end behind an object look up Frame::bottom_layer.
-    bool looks_behind() const { return marches() && rejection == Rejection::kShorten; }
+    bool uses_bottom_layer() const { return marches() && rejection == Rejection::kShorten; }
     /// Whether rays that leave the picture look up Frame::continuation.
-    bool goes_on() const { return model == Model::kSnell && off_frame == OffFrame::kContinue; }
+    bool continues_bottom() const {
+      return model == Model::kSnell && off_frame == OffFrame::kContinue;
+    }
   };
 
   static constexpr std::string_view kName = "refraction";

@@ -82,12 +82,12 @@ constexpr WaterOptics water_optics(WaterType type) {
 }
 
 /// Absorption and scattering coefficients of water, 1/m.
-struct ClearAndMurky {
+struct WaterCoefficients {
   Rgb<double> absorption, scattering;
 };
 
 /// The same at one wavelength.
-struct ClearAndMurkyAt {
+struct WaterCoefficientsAt {
   double absorption, scattering;
 };
 
@@ -100,12 +100,12 @@ struct ClearAndMurkyAt {
 ///     a = (a_pure + .06 A(l) C^.65) (1 + .2 exp(-.014 (l - 440)))  Prieur & Sathyendranath 1981
 ///     b = b_pure + .3 C^.62 550 / l                                Gordon & Morel 1983
 ///     b_pure = .00758 (400 / l)^4.32                               Morel 1974, of sea water
-inline ClearAndMurkyAt case_1_water_at(double wavelength, double pure, double of_chlorophyll,
-                                       double murkiness) {
+inline WaterCoefficientsAt case_1_water_at(double wavelength, double pure, double of_chlorophyll,
+                                           double murkiness) {
   const double chlorophyll = 0.03 * std::pow(1000, murkiness);
-  const double swallows = 0.06 * std::pow(chlorophyll, 0.65);
+  const double absorbs = 0.06 * std::pow(chlorophyll, 0.65);
   const double scatters = 0.3 * std::pow(chlorophyll, 0.62);
-  return {(pure + swallows * of_chlorophyll) * (1 + 0.2 * std::exp(-0.014 * (wavelength - 440))),
+  return {(pure + absorbs * of_chlorophyll) * (1 + 0.2 * std::exp(-0.014 * (wavelength - 440))),
           0.00758 * std::pow(400 / wavelength, 4.32) + scatters * 550 / wavelength};
 }
 
@@ -115,7 +115,7 @@ inline ClearAndMurkyAt case_1_water_at(double wavelength, double pure, double of
 /// that is 1/12 of it at 443 nm (Babin et al. 2003, "Variations in the Light Absorption
 /// Coefficients of Phytoplankton, Nonalgal Particles, and Dissolved Organic Matter in Coastal
 /// Waters Around Europe").
-inline ClearAndMurkyAt sediment_water_at(double wavelength, double grams) {
+inline WaterCoefficientsAt sediment_water_at(double wavelength, double grams) {
   return {0.041 * grams * std::exp(-0.0123 * (wavelength - 443)), 0.5 * grams};
 }
 
@@ -127,20 +127,20 @@ inline double cdom_absorption_at(double wavelength, double at_440) {
 }
 
 namespace detail {
-constexpr ClearAndMurky of_channels(const ClearAndMurkyAt& r, const ClearAndMurkyAt& g,
-                                    const ClearAndMurkyAt& b) {
+constexpr WaterCoefficients of_channels(const WaterCoefficientsAt& r, const WaterCoefficientsAt& g,
+                                        const WaterCoefficientsAt& b) {
   return {{r.absorption, g.absorption, b.absorption}, {r.scattering, g.scattering, b.scattering}};
 }
 }  // namespace detail
 
 /// The three functions above at 650, 550 and 450 nm.
-inline ClearAndMurky case_1_water(double murkiness) {
+inline WaterCoefficients case_1_water(double murkiness) {
   const Rgb<double>& pure = kPureWaterAbsorption;
   return detail::of_channels(case_1_water_at(650, pure.r, 0.356, murkiness),
                              case_1_water_at(550, pure.g, 0.357, murkiness),
                              case_1_water_at(450, pure.b, 0.944, murkiness));
 }
-inline ClearAndMurky sediment_water(double grams) {
+inline WaterCoefficients sediment_water(double grams) {
   return detail::of_channels(sediment_water_at(650, grams), sediment_water_at(550, grams),
                              sediment_water_at(450, grams));
 }
@@ -151,9 +151,9 @@ inline Rgb<double> cdom_absorption(double at_440) {
 
 /// A named water type and its additions, fitted to other primaries than Rec.709.
 struct FittedWater {
-  ClearAndMurky type;            ///< scattering of kCase1 alone; of kCustom nothing
+  WaterCoefficients type;        ///< scattering of kCase1 alone; of kCustom nothing
   Rgb<double> down_attenuation;  ///< of Jerlov's types
-  ClearAndMurky besides;         ///< sediment and dissolved organic matter
+  WaterCoefficients additions;   ///< sediment and dissolved organic matter
 };
 
 }  // namespace limpid

@@ -42,7 +42,7 @@ struct CellNeeds {
 
 /// The operators that cells skip for their bounds, and the largest bound of each. Other operators
 /// are skipped because no operator reads their results.
-struct Weighed {
+struct SkippedByBound {
   std::uint16_t operators = 0;
   std::array<float, Chain::kCount> bounds{};
 };
@@ -82,10 +82,10 @@ class Survey {
   /// Sums over all cells. Dry cells run no operator and count as no other kind.
   struct Summary {
     CellCount all, dry, opaque, open;
-    CellCount full;                               ///< cells that skip no operator and are not open
-    std::array<CellCount, Chain::kCount> runs;    ///< cells that run the operator of the plan
-    std::array<CellCount, Chain::kCount> spared;  ///< wet cells that skip it
-    Weighed weighed;
+    CellCount full;                                ///< cells that skip no operator and are not open
+    std::array<CellCount, Chain::kCount> runs;     ///< cells that run the operator of the plan
+    std::array<CellCount, Chain::kCount> skipped;  ///< wet cells that skip it
+    SkippedByBound by_bound;
     double bound = 0;      ///< the largest CellNeeds::bound
     std::int64_t wet = 0;  ///< upper limit on the number of wet pixels
   };
@@ -108,10 +108,10 @@ class Survey {
   Size cells_, blocks_;    ///< cells of work_; blocks of all surveyed pixels, four per cell
   int left_ = 0, up_ = 0;  ///< blocks to the left of work_ and above it
   std::vector<Own> own_;   ///< per cell
-  std::vector<Extremes> extremes_;  ///< per block
-  std::vector<Extremes> across_;    ///< of the blocks beside a cell, per row of blocks
-  std::vector<CellNeeds> needs_;    ///< per cell
-  std::vector<Weighed> weighed_;    ///< per row of cells
+  std::vector<Extremes> extremes_;        ///< per block
+  std::vector<Extremes> across_;          ///< of the blocks beside a cell, per row of blocks
+  std::vector<CellNeeds> needs_;          ///< per cell
+  std::vector<SkippedByBound> by_bound_;  ///< per row of cells
   Summary summary_;
 };
 

@@ -30,7 +30,7 @@ struct ShaderOptions {
   int set = 0;                            ///< descriptor set of all declarations, 0 ... 31
   int first_binding = 0;                  ///< first binding, 0 ... 1000
   std::vector<Aov> aovs = {};             ///< returned by the function besides the picture
-  int most_threads = 128;                 ///< the device's limit on threads per group, at least 128
+  int max_threads = 128;                  ///< the device's limit on threads per group, at least 128
   bool half = false;  ///< whether images that a compute main() writes hold halves (rgba16f)
 };
 
@@ -91,7 +91,7 @@ class ShaderText {
   const std::vector<ShaderTexture>& textures() const { return textures_; }
   const std::vector<ShaderOutput>& outputs() const { return outputs_; }
   /// The pixels of a group of a compute main(), with one thread each: 16x8, or for long programs
-  /// 32x32 if `most_threads` permits.
+  /// 32x32 if `max_threads` permits.
   const Size& group() const { return group_; }
   /// The pixels that the shader computes: Frame::work().
   const Rect& work() const { return work_; }
