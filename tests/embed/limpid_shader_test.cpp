@@ -204,7 +204,7 @@ TEST_F(LimpidCShader, RefusesWhatIsNone) {
 }
 
 /// Without `trusted` a frame may hold NaN: the shader does not depend on replaced values.
-TEST_F(LimpidCShader, TakesFramesThatAreNotSane) {
+TEST_F(LimpidCShader, TakesFramesWithNan) {
   limpid_destroy(water);
   ASSERT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);
   buffers.set(PlaneId::kColorB, [](int x, int) { return x == 3 ? NAN : 0.5f; });

@@ -201,7 +201,7 @@ TEST(Environment, TheSmallestOnes) {
   EXPECT_EQ(texel(flat, 1, 0).x, 0);
 }
 
-TEST(Environment, WindowsMayLieAnywhereAndValuesAreSane) {
+TEST(Environment, WindowsMayLieAnywhereAndValuesAreFinite) {
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   const auto path = write_picture(
       {4, 2}, [&](int x, int) { return glm::dvec3(x == 0 ? nan : 5, x == 1 ? -inf : 6, -7); },
