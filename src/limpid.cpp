@@ -35,7 +35,7 @@ Struct known(const Struct* given, const char* name) {
   if (given->size < sizeof given->size || given->size > sizeof(Struct)) {
     throw Error(std::string(name) + ".size = " + std::to_string(given->size) +
                 ": expected at most " + std::to_string(sizeof(Struct)) +
-                ", as this library knows it");
+                ", the size in this library");
   }
   std::memcpy(&whole, given, given->size);
   return whole;
@@ -59,7 +59,7 @@ Enum named(int value, Enum last, const char* name) {
 }
 
 std::string text_of(const char* text, const char* name) {
-  if (!text) throw Error(std::string(name) + " is NULL, expected a text");
+  if (!text) throw Error(std::string(name) + " is NULL, expected a string");
   return text;
 }
 
@@ -140,7 +140,7 @@ void for_each_channel(const limpid_channel* list, std::size_t count, int kinds, 
     if (c.id < 0 || c.id >= kinds) {
       refuse("id = " + std::to_string(c.id) + ": expected 0 ... " + std::to_string(kinds - 1));
     }
-    if ((seen >> c.id) & 1u) refuse("id = " + std::to_string(c.id) + ": it is there already");
+    if ((seen >> c.id) & 1u) refuse("id = " + std::to_string(c.id) + ": it is given twice");
     if (c.sample != LIMPID_FLOAT && c.sample != LIMPID_HALF) {
       refuse("sample = " + std::to_string(c.sample) + ": expected LIMPID_FLOAT or LIMPID_HALF");
     }
@@ -194,7 +194,7 @@ ShaderOptions shader_options_of(const limpid_shader_options* given) {
     }
     const auto aov = static_cast<Aov>((first - LIMPID_OUT_TRANSMITTED) / 3);
     if (std::find(options.aovs.begin(), options.aovs.end(), aov) != options.aovs.end()) {
-      refuse(": it is there already");
+      refuse(": it is given twice");
     }
     options.aovs.push_back(aov);
   }

@@ -25,7 +25,7 @@ inline void validate(const OIIO::ImageBuf& buf) {
   if (buf.deep() || buf.spec().depth > 1) {
     fault = "it is deep or a volume, expected a flat picture";
   } else if (!buf.localpixels()) {
-    fault = "no pixels in memory of its own, expected some, as read(0, 0, true) leaves them";
+    fault = "it has no pixels in memory, expected read(0, 0, true) before";
   } else if (buf.pixeltype() != OIIO::TypeFloat && buf.pixeltype() != OIIO::TypeHalf) {
     fault = std::string("pixels of ") + buf.pixeltype().c_str() +
             ", expected float or half, scene-linear";
@@ -48,7 +48,7 @@ inline Rect display_of(const OIIO::ImageBuf& buf) {
 inline int channel_named(const OIIO::ImageBuf& buf, const std::string& name) {
   const int channel = buf.spec().channelindex(name);
   if (channel < 0) {
-    throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " + name + ", but " +
+    throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " + name + "; it has " +
                 join(buf.spec().channelnames));
   }
   return channel;
@@ -60,7 +60,8 @@ inline HostInput channel_of(const OIIO::ImageBuf& buf, int channel) {
   validate(buf);
   if (channel < 0 || channel >= buf.nchannels()) {
     throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " +
-                std::to_string(channel) + ", but " + std::to_string(buf.nchannels()));
+                std::to_string(channel) + ", expected 0 ... " +
+                std::to_string(buf.nchannels() - 1));
   }
   return {static_cast<const std::byte*>(buf.localpixels()) + channel * buf.pixeltype().size(),
           buf.pixeltype() == OIIO::TypeHalf ? Sample::kHalf : Sample::kFloat, buf.pixel_stride(),

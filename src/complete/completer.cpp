@@ -109,7 +109,7 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   if (plan.keeps<WaveNormals>() && waves.filter == WaveNormals::Filter::kVariance &&
       (waves.model == WaveNormals::Model::kPlate ||
        (plan.planes.has(PlaneId::kSurfaceDepth) && !plan.completed.has(PlaneId::kSurfaceDepth)))) {
-    phrases.emplace_back("what the plate's surface does not resolve (wave_normals.filter)");
+    phrases.emplace_back("waves that the plate's surface does not resolve (wave_normals.filter)");
   }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().continues_bottom()) {

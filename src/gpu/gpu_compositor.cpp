@@ -102,7 +102,7 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
   void fit_copy(const GpuImageView& color);
   void copy_color(VkCommandBuffer c, const GpuImageView& color);
   void expect_recorded() const {
-    if (!recorded) throw Error("compositor: no frame has been recorded as it is set now");
+    if (!recorded) throw Error("compositor: no frame has been recorded since its settings changed");
   }
 
   GpuCompositorOptions options;

@@ -14,9 +14,9 @@ constexpr double kSameObject = 0.05;
 
 void expect_above(const WaterView& view, const char* frame) {
   if (view.eye_above > 0 && !view.submersible) return;
-  throw Error("motion vectors by a second frame: the camera of " + std::string(frame) + " is " +
+  throw Error("motion vectors from two frames: the camera of " + std::string(frame) + " is " +
               std::to_string(view.eye_above) +
-              " above the calm water, expected all of its picture to begin above the water");
+              " above the calm water, expected a camera wholly above the water");
 }
 
 /// 1 / depth at a place: bilinear, which is exact for planes, within an object; else the texel's.

@@ -23,7 +23,7 @@ constexpr Field<P> kFields[] = {
     real<&P::density>("density", "1/scene unit", {0, 1e6}, "Slope of the linear fog.")
         .when("model", {"linear"}),
     real<&P::offset>("offset", "", {-1e6, 1e6},
-                     "Subtracted from the linear fog: clear water up to offset / density.")
+                     "Offset of the linear fog: clear water up to offset / density.")
         .when("model", {"linear"}),
     color<&P::color>("color", "radiance", {0, 1e6}, "Color of the linear fog.")
         .when("model", {"linear"}),

@@ -104,7 +104,7 @@ std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& surv
       op.reason = "no pixel is wet";
       op.rule = name_of(&CellRules::copy_dry);
     } else if (operator_table()[index].makes.has(StatePart::kPosition) && s.opaque.cells > 0) {
-      op.reason = "fog hides all that it could show, " + op.reason;
+      op.reason = "fog hides its effect, " + op.reason;
       op.rule = name_of(&CellRules::skip_hidden);
     } else if (((s.by_bound.operators >> i) & 1u) == 0) {
       op.verdict = Verdict::kUnread;

@@ -26,7 +26,7 @@ void check(const ShaderOptions& options) {
                       return c < 128 && (std::isalnum(c) || c == '_');
                     });
   if (!word || name.find("__") != std::string::npos || name.starts_with("gl_")) {
-    throw Error("'" + name + "' is no name for a function: expected letters, digits and _");
+    throw Error("'" + name + "' is not a function name: expected letters, digits and _");
   }
   if (options.set < 0 || options.set > 31) {
     throw Error("descriptor set " + std::to_string(options.set) + " is out of 0 ... 31");

@@ -174,14 +174,14 @@ class Tools(InAFolder):
     def test_where_it_is(self):
         tool = self.program("bin/limpid", "exit 0\n")
         self.assertEqual(find_tool(tool), tool)
-        with self.assertRaisesRegex(Failure, "limpid is not at 'nowhere'"):
+        with self.assertRaisesRegex(Failure, "no program at 'nowhere'"):
             find_tool("nowhere")
         before = os.environ["PATH"]
         self.addCleanup(os.environ.__setitem__, "PATH", before)
         os.environ["PATH"] = str(self.folder / "bin")
         self.assertEqual(find_tool(), tool)
         os.environ["PATH"] = str(self.folder)
-        with self.assertRaisesRegex(Failure, "limpid is not found on PATH"):
+        with self.assertRaisesRegex(Failure, "limpid is not on PATH"):
             find_tool()
 
     def test_looks_by_the_verb_else_of_the_folder(self):
@@ -203,7 +203,7 @@ class Tools(InAFolder):
         bad = self.program("bad", "echo 'limpid ERROR: wave.exr: no depth' >&2; exit 1\n")
         with self.assertRaisesRegex(Failure, "^wave.exr: no depth$"):
             run_tool([bad], log.append)
-        with self.assertRaisesRegex(Failure, "ended with status 3 and said nothing"):
+        with self.assertRaisesRegex(Failure, "ended with status 3 and no message"):
             run_tool([self.program("mute", "exit 3\n")], log.append)
         self.assertEqual(last_sentence("one\nlimpid: two\n\n"), "two")
 
@@ -226,7 +226,7 @@ class Runs(InAFolder):
         self.assertEqual(run.failure(), "no sun")
         run = self.run_of("exit 7\n")
         run.wait()
-        self.assertRegex(run.failure(), "ended with status 7: what it said is in .*log")
+        self.assertRegex(run.failure(), "the second Blender ended with status 7; see .*log")
         run = self.run_of("kill -SEGV $$\n")
         run.wait()
         self.assertIn(f"was ended by signal {int(signal.SIGSEGV)}", run.failure())

@@ -51,10 +51,10 @@ TEST(DeskRequestTest, RefusesWhatIsWrongInASentence) {
   EXPECT_EQ(refused("[1]"), "request: expected a JSON object");
   EXPECT_EQ(refused(R"({"look": "a")"), "request: expected a JSON object");
   EXPECT_EQ(refused(std::string(100000, '[')), "request: expected a JSON object");
-  EXPECT_EQ(refused("{}"), "request: look: expected a text");
-  EXPECT_EQ(refused(R"({"look": 1})"), "request: look: expected a text");
+  EXPECT_EQ(refused("{}"), "request: look: expected a string");
+  EXPECT_EQ(refused(R"({"look": 1})"), "request: look: expected a string");
   EXPECT_EQ(refused(R"({"look": "a", "half": 1})"), "request: half: expected true or false");
-  EXPECT_EQ(refused(R"({"look": "a", "show": 1})"), "request: show: expected a text");
+  EXPECT_EQ(refused(R"({"look": "a", "show": 1})"), "request: show: expected a string");
   EXPECT_EQ(refused(R"({"look": "a", "exposure": "1"})"), "request: exposure: expected a number");
   EXPECT_EQ(refused(R"({"look": "a", "frame": 1.5})"), "request: frame: expected a whole number");
   EXPECT_EQ(refused(R"({"look": "a", "frame": 3000000000})"),
@@ -64,13 +64,13 @@ TEST(DeskRequestTest, RefusesWhatIsWrongInASentence) {
   EXPECT_EQ(refused(R"({"look": "a", "set": []})"), "request: set: expected an object of settings");
   EXPECT_EQ(
       refused(R"({"look": "a", "set": {"a.b": true}})"),
-      "request: set: a.b: expected a number, a text, or a list of numbers or of rows of them");
+      "request: set: a.b: expected a number, a string, or a list of numbers or of rows of numbers");
   EXPECT_EQ(refused(R"({"look": "a", "hlf": true})"),
             "request: unknown key 'hlf': expected some of look, set, frame, time, half, show, "
             "exposure, display, instead; did you mean 'half'?");
   EXPECT_EQ(refusal([] { pixel_request(R"({"look": "a", "x": 1})"); }),
             "request: y: expected a whole number");
-  EXPECT_EQ(refusal([] { save_request(R"({"look": "a"})"); }), "request: name: expected a text");
+  EXPECT_EQ(refusal([] { save_request(R"({"look": "a"})"); }), "request: name: expected a string");
   EXPECT_THAT(refusal([] { choice_request(R"({"look": "a", "half": true})"); }),
               HasSubstr("unknown key 'half'"));
 }

@@ -154,11 +154,11 @@ TEST(ShaderText, RefusesWhatItCannotPrint) {
     return "";
   };
   EXPECT_EQ(refusal({.function = "2d"}),
-            "'2d' is no name for a function: expected letters, digits and _");
+            "'2d' is not a function name: expected letters, digits and _");
   EXPECT_EQ(refusal({.function = "gl_water"}),
-            "'gl_water' is no name for a function: expected letters, digits and _");
+            "'gl_water' is not a function name: expected letters, digits and _");
   EXPECT_EQ(refusal({.function = "a__b"}),
-            "'a__b' is no name for a function: expected letters, digits and _");
+            "'a__b' is not a function name: expected letters, digits and _");
   EXPECT_EQ(refusal({.set = 32}), "descriptor set 32 is out of 0 ... 31");
   EXPECT_EQ(refusal({.first_binding = -1}), "first binding -1 is out of 0 ... 1000");
   EXPECT_EQ(refusal({.max_threads = 127}), "most threads of a group = 127: expected 128 at least");

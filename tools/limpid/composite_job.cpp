@@ -65,7 +65,7 @@ bool has_view_mark(const std::string& name) { return name.find(kViewMark) != std
 std::string name_of_view(std::string name, const std::string& view) {
   for (std::size_t at = name.find(kViewMark); at != std::string::npos; at = name.find(kViewMark)) {
     if (view.empty()) {
-      throw Error(name + ": expected --view with the names that %V stands for", Fault::kUsage);
+      throw Error(name + ": expected --view with the names that replace %V", Fault::kUsage);
     }
     name.replace(at, kViewMark.size(), view);
   }
@@ -162,7 +162,7 @@ void expect_second(const CompositeArguments& a, bool frames, bool vectors) {
     refuse("--frames, and plates or a scene with the number of the frame in their names");
   }
   if (a.frames.missing != "error")
-    refuse("--missing error, since it leads to a frame that is there");
+    refuse("--missing error, since motion vectors need the other frame");
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   job.scene = std::move(job.other_views.front().scene);
   job.other_views.erase(job.other_views.begin());
   if (a.plates.empty() && job.plate.named.empty() && job.plate.layers.empty()) {
-    throw Error("nothing to put water into: give plates, or a scene that names some",
+    throw Error("nothing to put water into: expected plates, or a scene with [plates]",
                 Fault::kUsage);
   }
   if (has_view_mark(a.water.output)) {
@@ -226,7 +226,7 @@ CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int fra
 
 void expect_one_view(const CompositeJob& job, const std::string& verb) {
   if (job.other_views.empty()) return;
-  throw Error("--view: expected one view, for " + verb + " shows one at a time", Fault::kUsage);
+  throw Error("--view: expected one view, since " + verb + " shows one at a time", Fault::kUsage);
 }
 
 }  // namespace limpid::tool

@@ -101,7 +101,7 @@ int inspect_verb(const InspectArguments& a, const CommonArguments& common) {
   request.view = a.view;
   if (!a.scene.empty()) request.named = load_scene(a.scene).plates;
   if (request.files.empty() && request.named.empty() && request.layers.empty()) {
-    throw Error("nothing to inspect: give plates, or a scene that names some", Fault::kUsage);
+    throw Error("nothing to inspect: expected plates, or a scene with [plates]", Fault::kUsage);
   }
   std::printf("%s", Plate::inspect(request).c_str());
   return 0;

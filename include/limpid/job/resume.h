@@ -16,7 +16,7 @@ struct Rest {
 
   struct Other {
     int frame;
-    std::string why;  ///< "wet.0007.exr was made otherwise (look)"
+    std::string why;  ///< "wet.0007.exr was made differently (look)"
   };
   std::vector<Other> others;  ///< those of `frames` whose picture exists, but cannot be kept
 };

@@ -87,7 +87,7 @@ struct DepthFog {
   };
 
   static constexpr std::string_view kName = "depth_fog";
-  static constexpr std::string_view kAbout = "Dims and tints by the path through the water.";
+  static constexpr std::string_view kAbout = "Dims and tints light by its path in the water.";
   static std::span<const Field<Params>> fields();
 };
 

@@ -35,7 +35,7 @@ def passes_of(job, is_under_water):
         names += ["shadow", "surface_shadow"]
     if job.water:
         names += ["surface"] + ["waves"] * (job.waves == "OBJECT")
-    if not is_under_water:  # from there one sees neither a mirror nor a layer below
+    if not is_under_water:  # under water there is no reflection and no layer below
         names += ["mirror"] * job.reflection + ["below"] * job.below
     return names
 
@@ -95,7 +95,7 @@ class Work:
         facts = studio.at(frame)
         under = studio.is_under_water()
         if under:
-            self.warn("the camera is under water, where there is neither a mirror nor a layer below: not rendered")
+            self.warn("the camera is under water: reflection and layer below are not rendered")
         names = passes_of(self.job, under)
         plates = self.folder / "plates"
         plates.mkdir(exist_ok=True)
@@ -124,7 +124,7 @@ class Work:
         each = len(files_of(passes_of(job, False))) + 1 + int(job.surroundings)
         steps = Steps(len(self.tested()) + each * len(job.frames))
         overscan = self.overscan(steps)
-        say("note", f"overscan {overscan.left} left, {overscan.right} right, {overscan.top} top, "
+        say("note", f"overscan in pixels: {overscan.left} left, {overscan.right} right, {overscan.top} top, "
                     f"{overscan.bottom} bottom")
         for frame in job.frames:
             self.frame(frame, overscan, steps)
