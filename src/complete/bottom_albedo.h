@@ -43,14 +43,14 @@ class BottomAlbedo {
 
   /// Sums over a cell: its texels, their number, and the distance to sum around it.
   struct Cell {
-    std::array<float, 3> color{}, light{}, walls{};
+    std::array<float, 3> color{}, light{}, walls{}, shade{};
     float drop = 0, count = 0, reach = 0;
   };
   void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);
   void look_for_walls(const Frame& frame, const Pass& pass, const WaterOver& water, int row);
   int reach() const;
-  static float as_of_level(float albedo, const Cell& sums, std::size_t channel, float even,
-                           const WaterOver& water);
+  static float as_of_level(float albedo, const Cell& sums, std::size_t channel, double sun,
+                           double even, const WaterOver& water);
   void spread(int reach, Executor& executor);
   void draw_row(const Rect& window, int y);
 

@@ -96,8 +96,18 @@ LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel,
           given<F>(light.sky_at_once) + layer_power(light.sky_below, x)};
 }
 
+/// The part of a path above a level floor, by its height over the floor: a path through water that
+/// begins at the floor.
+template <class F>
+LIMPID_INLINE WaterPath<F> over_floor(const WaterPath<F>& path, F floor) {
+  const F begin = max(floor - path.begin, F(0)), sink = F(0) - path.sink;
+  const F room = select(sink < F(0), begin / max(F(0) - sink, F(1e-6)), F(3e38));
+  const F length = min(path.length, room);
+  return {length, sink, begin, max(begin + sink * length, F(0))};
+}
+
 /// For a view that begins in the water. The bottom is lit as that of a level layer; the water in
-/// front of it is as bright as water without a bottom.
+/// front of it is as bright as if it had the floor of the frame, if any.
 template <class F>
 LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t channel,
                                                const WaterPath<F>& path, F turned, F fallen, F left,
@@ -121,6 +131,23 @@ LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t
       const F column = sun_column(path, rate, given<F>(light.fades[i])).light;
       water = {water.sun + column * of_sun, water.sky + column * of_sky};
     }
+    const F floor = given<F>(light.floor);
+    if_any(floor > F(0), [&] {
+      const WaterPath<F> rising = over_floor(path, floor);
+      const F begin = min(path.begin, floor);
+      const WaterPath<F> falling{rising.length, path.sink, begin, max(floor - rising.end, F(0))};
+      for (std::size_t i = 0; i < ScatteredLight::kFloored; ++i) {
+        F of_sun(0), of_sky(0);
+        for (std::size_t k = 0; k < ScatteredLight::kInside; ++k) {
+          of_sun = of_sun + given<F>(light.floor_sun[i][k]) * by_sun[k];
+          of_sky = of_sky + given<F>(light.floor_sky[i][k]) * by_sky[k];
+        }
+        const F column = sun_column(i < ScatteredLight::kRising ? rising : falling, rate,
+                                    given<F>(light.floor_fades[i]))
+                             .light;
+        water = {water.sun + column * of_sun, water.sky + column * of_sky};
+      }
+    });
   }
   const LitBottom<F> bottom = lit_bottom(m, channel, path, fallen, albedo);
   const F seen = bottom.reflects * left / (F(1) - bottom.reflects * bottom.back);

@@ -57,7 +57,8 @@ namespace limpid {
 ///
 /// With `crossing` radiance the surface reflects from below by Fresnel's equations. The sky's
 /// radiance is that of the environment, else the scene's, else `ambient`. Views from under water
-/// have the light of infinitely deep water, and a bottom that is lit as that of the level layer.
+/// have the light of water over one level floor, as deep and bright as the visible bottom in the
+/// mean, and a bottom that is lit as that of the level layer.
 /// Without the tables of complete/ for a frame there is single scattering only.
 struct DepthFog {
   enum class Model { kLinear, kBeerLambert, kRadiativeTransfer };
