@@ -254,7 +254,7 @@ class Printer {
       case NodeOp::kAbs:
         return call("abs", node);
       case NodeOp::kSqrt:
-        return call("sqrt", node);
+        return call(of_frame_.empty() ? "sqrt" : "limpid_sqrt", node);
       case NodeOp::kFloor:
         return call("floor", node);
       case NodeOp::kExp:
