@@ -127,22 +127,27 @@ class MirrorSearch {
       });
     };
     const auto step = [&](auto i) {
-      const auto open = lanes && found < F(0.5);
       const F t = share_of(i);
-      const F seen = seen_at(t);
-      const auto hit = open && within(t, seen);
-      // A long step may lead through a whole object.
-      const auto through =
-          open && !hit && is_behind(t, seen) && !is_behind(last, back_of(seen)) && seen < F(1e29);
-      met = select(hit, t, met);
-      before = select(hit, last, before);
-      found = select(hit, F(1), found);
-      if_any(through, [&] {
-        const F front = edge(last, t, is_behind);
-        const auto enters = through && within(front, seen_at(front));
-        met = select(enters, front, met);
-        before = select(enters, front, before);
-        found = select(enters, F(1), found);
+      const Vec2<F> shift = t * end;
+      const F seen = min(tap.nearest(plane, shift), F(1e30));
+      // Most steps lie in front of all that is seen.
+      const auto behind = lanes && found < F(0.5) && is_behind(t, seen) && seen < F(1e29);
+      if_any(behind, [&] {
+        const auto counts = behind && accept(shift, seen);
+        const F back = back_of(seen);
+        const auto hit = counts && !is_behind(t, back);
+        // A long step may lead through a whole object.
+        const auto through = counts && !hit && !is_behind(last, back);
+        met = select(hit, t, met);
+        before = select(hit, last, before);
+        found = select(hit, F(1), found);
+        if_any(through, [&] {
+          const F front = edge(last, t, is_behind);
+          const auto enters = through && within(front, seen_at(front));
+          met = select(enters, front, met);
+          before = select(enters, front, before);
+          found = select(enters, F(1), found);
+        });
       });
       last = t;
       return lanes && found < F(0.5);

@@ -314,6 +314,17 @@ struct Kernel<Refraction> : Refraction {
   template <class F, class Tap>
   [[gnu::noinline]] static void leave_out_nothing(const Pass& c, const SeenPlanes& planes,
                                                   Pixel<F>& p, const Tap& tap) {
+    const bool split = c.made.has(StatePart::kPrism);
+    const auto misses = [&](Vec2<F> shift) {
+      const Four<F> depths = tap.read(planes.depth, tap.quad(shift));
+      return nothing(depths[0]) || nothing(depths[1]) || nothing(depths[2]) || nothing(depths[3]);
+    };
+    auto some = misses(p.shift);
+    if (split) some = some || misses(p.shift_r) || misses(p.shift_g) || misses(p.shift_b);
+    if_any(some, [&] { mix_again(split, planes, p, tap); });
+  }
+  template <class F, class Tap>
+  static void mix_again(bool split, const SeenPlanes& planes, Pixel<F>& p, const Tap& tap) {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     const auto mend = [&](const auto& taps, PlaneId plane, F& value) {
       if_any(taps.lost > F(0), [&] {
@@ -322,7 +333,7 @@ struct Kernel<Refraction> : Refraction {
       });
     };
     const auto common = counted(planes, p, tap, p.shift);
-    if (c.made.has(StatePart::kPrism)) {
+    if (split) {
       mend(counted(planes, p, tap, p.shift_r), red, p.transmitted.r);
       mend(counted(planes, p, tap, p.shift_g), green, p.transmitted.g);
       mend(counted(planes, p, tap, p.shift_b), blue, p.transmitted.b);
