@@ -31,13 +31,15 @@ struct CompositeJob {
   JobTime time;
   Look look;
 
-  /// The next frame or the previous one: where its camera and its water plane are is what the
-  /// vectors of OutputChoice::motion and motion_reflected are computed by, as of a scene that
-  /// stands still, instead of by vectors of the plate. Its plate has the display window of this
-  /// frame's. Camera and calm water of both frames lie apart: the camera above the water.
+  /// The next frame or the previous one: the vectors of OutputChoice::motion and motion_reflected
+  /// are computed by its camera, its water plane and its waves, as of a scene that stands still,
+  /// instead of by vectors of the plate. Its plate has the display window of this frame's, and may
+  /// be missing if `scene` has the camera and the water. In both frames the camera is above the
+  /// water.
   struct SecondFrame {
     PlateRequest plate;
     SceneFile scene;
+    JobTime time = {};
     bool is_previous = false;
   };
   std::optional<SecondFrame> second = {};
