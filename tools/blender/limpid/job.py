@@ -26,6 +26,7 @@ class Job:
     shadow: bool = True
     surroundings: bool = True
     aovs: bool = True
+    motion: str = ""      # vectors to the "next" or the "previous" frame, or none
     overscan: int = -1    # pixels on each side, or -1: as many as the plan asks for
     samples: int = 0      # of each pixel, or 0: as many as the scene has
 
