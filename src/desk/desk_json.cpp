@@ -315,11 +315,16 @@ SaveRequest save_request(std::string_view json) {
 std::string picture_bytes(const DeskPicture& picture) {
   Json milliseconds = Json::object();
   for (const auto& [name, time] : picture.milliseconds) milliseconds[name] = time;
+  Json replaced = Json::array();
+  for (const auto& [key, value, why] : picture.replaced) {
+    replaced.push_back({{"key", key}, {"value", value}, {"why", why}});
+  }
   const Shown& shown = picture.shown;
   const std::string facts = dumped({{"width", shown.size.width},
                                     {"height", shown.size.height},
                                     {"half", picture.half},
                                     {"milliseconds", std::move(milliseconds)},
+                                    {"replaced", std::move(replaced)},
                                     {"warnings", picture.warnings},
                                     {"advice", picture.advice},
                                     {"wet", picture.wet ? Json(*picture.wet) : Json(nullptr)},

@@ -20,7 +20,7 @@ sys.path.insert(0, str(ADD_ON))
 
 from limpid.changes import Changes  # noqa: E402
 from limpid.exr_window import place  # noqa: E402
-from limpid.frames import camera_at, frames_of, numbered  # noqa: E402
+from limpid.frames import camera_at, frames_of, neighbor_of, numbered  # noqa: E402
 from limpid.job import Job  # noqa: E402
 from limpid.lens import Lens, Overscan, widened  # noqa: E402
 from limpid.overscan import asked_for, largest, sampled, small  # noqa: E402
@@ -55,6 +55,9 @@ class Frames(unittest.TestCase):
         for text in ("", "a", "3-1", "1-4x0", "1..4", "1-999999", "-3"):
             with self.assertRaisesRegex(Failure, f"frames '{text}': expected"):
                 frames_of(text)
+
+    def test_neighbors(self):
+        self.assertEqual([neighbor_of(5, motion) for motion in ("next", "previous")], [6, 4])
 
     def test_markers_bind_cameras(self):
         bound = [(10, "b"), (1, "a")]

@@ -81,6 +81,7 @@ TEST(DeskReplyTest, HasThePixelsBehindTheirFacts) {
   picture.shown.rgba = {1, 2, 3, 255, 4, 5, 6, 255};
   picture.shown.scale = {0, 4};
   picture.milliseconds = {{"all", 3}, {"read", 1}};
+  picture.replaced = {{"wave_normals.model", "plate", "the frame has surface normals"}};
   picture.warnings = {"too much \xff water"};
   const std::string bytes = picture_bytes(picture);
   std::size_t size = 0;
@@ -90,6 +91,8 @@ TEST(DeskReplyTest, HasThePixelsBehindTheirFacts) {
   EXPECT_EQ(facts["height"], 1);
   EXPECT_EQ(facts["milliseconds"]["all"], 3);
   EXPECT_EQ(facts["scale"], nlohmann::json({0, 4}));
+  EXPECT_EQ(facts["replaced"][0]["key"], "wave_normals.model");
+  EXPECT_EQ(facts["replaced"][0]["value"], "plate");
   EXPECT_TRUE(facts["wet"].is_null());
   EXPECT_EQ(bytes.substr(4 + size), std::string("\1\2\3\xff\4\5\6\xff"));
 }

@@ -202,6 +202,13 @@ def presets(desk):
     desk.run("choose('look', 'physical')")
 
 
+def parameters_without_effect(desk):
+    """The plate has normals of its own, which no parameter of the look's waves changes."""
+    why = "document.getElementById('first:wave_normals.strength').closest('.field').querySelector('.why').textContent"
+    expect(desk.run(why), "no effect: model plate: the frame has surface normals", "a parameter that the plate overrules says so")
+    expect(desk.run(why.replace("wave_normals.strength", "caustics.strength")), "", "others say nothing")
+
+
 def wipe(desk):
     desk.run("choose('show', 'dry')")
     desk.keep("dry")
@@ -386,7 +393,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, Browser(chromium) as browser:
         with contextlib.closing(Desk(limpid, browser, folder, "--scene", f"{data}/plates/lagoon/lagoon.toml")) as desk:
             expect(desk.run("document.getElementById('display').offsetWidth"), 0, "without a config there is no view")
-            for check in (slider_by_the_mouse, undo_and_redo, presets, wipe, pinch, aov_and_numbers, bad_values, saving, server_gone):
+            for check in (slider_by_the_mouse, undo_and_redo, presets, parameters_without_effect, wipe, pinch, aov_and_numbers, bad_values, saving, server_gone):
                 check(desk)
         config = f"{folder}/tiny.ocio"
         pathlib.Path(config).write_text(OCIO_CONFIG)

@@ -68,6 +68,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
     return rest_of_composite(all, filled.job_of, *executor, level);
   });
   if (sequence.frames.empty()) return 0;
+  expect_second_frames(a, sequence, filled.job_of);
   if (common.verbose) {
     std::printf("%s", Plate::inspect(filled.job_of(sequence.frames.front()).plate).c_str());
   }

@@ -31,13 +31,14 @@ struct CompositeJob {
   JobTime time;
   Look look;
 
-  /// The next or the previous frame. Its camera and water plane give the vectors of
+  /// The next or the previous frame. Its camera, water plane and waves give the vectors of
   /// OutputChoice::motion and motion_reflected, as for a static scene, instead of the vectors of
-  /// the plate. The display windows of both plates must be equal, and both cameras must be above
-  /// the calm water.
+  /// the plate. Its plate has the display window of this frame's plate, and may be missing if
+  /// `scene` has the camera and the water. Both cameras must be above the calm water.
   struct SecondFrame {
     PlateRequest plate;
     SceneFile scene;
+    JobTime time = {};
     bool is_previous = false;
   };
   std::optional<SecondFrame> second = {};

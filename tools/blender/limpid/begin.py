@@ -73,6 +73,7 @@ def job_of(scene, view_layer, frames=""):
         waves=settings.waves if settings.water_kind == "OBJECT" else "LIMPID", sun=_sun(settings, scene, view_layer),
         reflection=settings.reflection, below=settings.below, shadow=settings.shadow,
         surroundings=settings.surroundings, aovs=settings.aovs,
+        motion="" if settings.motion == "NONE" else settings.motion.lower(),
         overscan=settings.overscan if settings.overscan_kind == "FIXED" else -1, samples=settings.samples)
 
 

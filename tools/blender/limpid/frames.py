@@ -29,6 +29,11 @@ def numbered(name, frame):
     return f"{name}.{frame:04d}"
 
 
+def neighbor_of(frame, motion):
+    """The frame that motion vectors lead to: the `next` or the `previous` one."""
+    return frame + 1 if motion == "next" else frame - 1
+
+
 def camera_at(frame, bound):
     """The camera of the last marker up to the frame, else of the first; markers are (frame, camera), as
     bound to the timeline. None if no marker binds a camera."""

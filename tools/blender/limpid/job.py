@@ -26,6 +26,7 @@ class Job:
     shadow: bool = True
     surroundings: bool = True
     aovs: bool = True
+    motion: str = ""      # vectors to the "next" or the "previous" frame, or none
     overscan: int = -1    # pixels on each side, or -1: the overscan of the plan
     samples: int = 0      # per pixel, or 0: the scene's sample count
 

@@ -48,6 +48,11 @@ class LimpidSettings(bpy.types.PropertyGroup):
     shadow: _flag("Shadow", "Render the sun's visibility at the bottom and at the water surface")
     surroundings: _flag("Surroundings", "Light the water by the world; a world of more than one color is rendered")
     aovs: _flag("AOVs", "Also write the AOVs")
+    motion: bpy.props.EnumProperty(name="Motion", items=(
+        ("NONE", "None", "No motion vectors"),
+        ("NEXT", "To the next frame", "Motion vectors of what is seen through the water and of what it mirrors, by the "
+         "camera and the waves of the next frame, for a scene that stands still"),
+        ("PREVIOUS", "To the previous one", "The same to the previous frame")))
     overscan_kind: bpy.props.EnumProperty(name="Overscan", items=(
         ("PLAN", "Automatic", "The overscan that limpid computes from a small test render"),
         ("FIXED", "Fixed", "A fixed number of pixels on each side")))
