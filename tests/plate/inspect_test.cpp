@@ -50,7 +50,7 @@ found
   depth   ViewLayer.Depth.Z           (dry_multilayer_blender_half_zip.exr)  - layer 'ViewLayer.Depth' (Blender, Nuke, Natron)
   shadow  ViewLayer.Shadow.R          (dry_multilayer_blender_half_zip.exr)  - layer 'ViewLayer.Shadow' (Blender)
 not found
-  reflection        what a flat mirror in the water plane shows at each pixel
+  reflection        the picture of a flat mirror in the water plane
   surface_depth     depth of the water surface
   surface_normal    world normal of the water surface
   reflection_valid  1 where the reflection is valid, 0 inside of clipped objects
@@ -97,7 +97,7 @@ found
   depth  Z        (stereo.exr, part 0)  - part 'beauty' (beside the color)
 not found
   shadow            visibility of the sun: 1 lit, 0 in shadow
-  reflection        what a flat mirror in the water plane shows at each pixel
+  reflection        the picture of a flat mirror in the water plane
   surface_depth     depth of the water surface
   surface_normal    world normal of the water surface
   reflection_valid  1 where the reflection is valid, 0 inside of clipped objects

@@ -119,7 +119,8 @@ inline constexpr FieldTable<WaterPlane> kWaterTable{
 
 inline constexpr Field<Sun> kSunKeys[] = {
     direction<&Sun::direction>("direction", "Direction towards the sun, of any length."),
-    color<&Sun::color>("color", "", {0, Sun::kBrightest}, "Radiance of a white surface that faces the sun."),
+    color<&Sun::color>("color", "", {0, Sun::kBrightest},
+                       "Radiance of a white surface that faces the sun."),
     real<&Sun::diameter>("diameter", "degrees", {Sun::kNarrowest, Sun::kWidest},
                          "Diameter of its disc."),
 };
