@@ -161,7 +161,7 @@ struct __attribute__((visibility("hidden"))) Compositor::State {
   }
 
   void expect_ran() const {
-    if (!ran) throw Error("compositor: no frame has been run as it is set now");
+    if (!ran) throw Error("compositor: no frame has been run since its settings changed");
   }
 
   void enter_scene(const Scene& host) {

@@ -35,7 +35,7 @@ Struct known(const Struct* given, const char* name) {
   if (given->size < sizeof given->size || given->size > sizeof(Struct)) {
     throw Error(std::string(name) + ".size = " + std::to_string(given->size) +
                 ": expected at most " + std::to_string(sizeof(Struct)) +
-                ", as this library knows it");
+                ", the size in this library");
   }
   std::memcpy(&whole, given, given->size);
   return whole;
@@ -59,7 +59,7 @@ Enum named(int value, Enum last, const char* name) {
 }
 
 std::string text_of(const char* text, const char* name) {
-  if (!text) throw Error(std::string(name) + " is NULL, expected a text");
+  if (!text) throw Error(std::string(name) + " is NULL, expected a string");
   return text;
 }
 
@@ -126,7 +126,7 @@ glm::dmat4 matrix_of(const double* numbers, bool row_major) {
   return row_major ? glm::transpose(m) : m;
 }
 
-/// The channels of a list, each handed to place(what, view). `kinds` is how many there are.
+/// The channels of a list, each passed to place(id, view). `kinds` is the number of ids.
 template <class Place>
 void for_each_channel(const limpid_channel* list, std::size_t count, int kinds, Size size,
                       const char* name, Place&& place) {
@@ -137,18 +137,18 @@ void for_each_channel(const limpid_channel* list, std::size_t count, int kinds, 
     const auto refuse = [&](const std::string& why) {
       throw Error(std::string(name) + "[" + std::to_string(i) + "]." + why);
     };
-    if (c.what < 0 || c.what >= kinds) {
-      refuse("what = " + std::to_string(c.what) + ": expected 0 ... " + std::to_string(kinds - 1));
+    if (c.id < 0 || c.id >= kinds) {
+      refuse("id = " + std::to_string(c.id) + ": expected 0 ... " + std::to_string(kinds - 1));
     }
-    if ((seen >> c.what) & 1u) refuse("what = " + std::to_string(c.what) + ": it is there already");
+    if ((seen >> c.id) & 1u) refuse("id = " + std::to_string(c.id) + ": it is given twice");
     if (c.sample != LIMPID_FLOAT && c.sample != LIMPID_HALF) {
       refuse("sample = " + std::to_string(c.sample) + ": expected LIMPID_FLOAT or LIMPID_HALF");
     }
     if (!c.data) refuse("data is NULL, expected pixels");
-    seen |= std::uint64_t{1} << c.what;
+    seen |= std::uint64_t{1} << c.id;
     Rect window{c.x0, c.y0, c.x1, c.y1};
     if (window == Rect{}) window = rect_of(size);
-    place(static_cast<std::size_t>(c.what),
+    place(static_cast<std::size_t>(c.id),
           HostOutput{c.data, static_cast<Sample>(c.sample), c.x_stride, c.y_stride, window});
   }
 }
@@ -194,7 +194,7 @@ ShaderOptions shader_options_of(const limpid_shader_options* given) {
     }
     const auto aov = static_cast<Aov>((first - LIMPID_OUT_TRANSMITTED) / 3);
     if (std::find(options.aovs.begin(), options.aovs.end(), aov) != options.aovs.end()) {
-      refuse(": it is there already");
+      refuse(": it is given twice");
     }
     options.aovs.push_back(aov);
   }

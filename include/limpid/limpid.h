@@ -2,8 +2,8 @@
 #define LIMPID_LIMPID_H
 
 /** @file
- * limpid as a post-processing stage, for C and for languages that call C: the interface of
- * limpid/compositor.h, which has the full documentation. C11.
+ * limpid as a post-processing stage, for C11 and for languages that call C: the interface of
+ * limpid/compositor.h, which has the full documentation.
  *
  *     limpid_compositor* water = NULL;
  *     limpid_conventions conventions = LIMPID_CONVENTIONS;
@@ -14,11 +14,11 @@
  *     if (limpid_run(water, &frame, &picture) != LIMPID_OK) puts(limpid_message(water));
  *     limpid_destroy(water);
  *
- * Structs begin with their size as the caller knows it, which the macros below set; all other
+ * Structs begin with their size in the caller's version, which the macros below set; all other
  * members may be 0. Members that later versions append count as 0 for an older caller; a size that
- * this library does not know is refused. Values of enums and limpid_channel never change. A
- * compositor is for one thread at a time, and so is a shader; several may work at once.
- * limpid/files/text/look_file.h reads look files, in C++.
+ * this library does not know is refused. Values of enums and limpid_channel never change. One
+ * compositor, or shader, is for one thread at a time; several may run at once. C++ code reads look
+ * files by limpid/files/text/look_file.h.
  */
 
 #include <stddef.h>
@@ -36,13 +36,13 @@ extern "C" {
 
 typedef enum limpid_status {
   LIMPID_OK = 0,
-  /** An argument is wrong: limpid_message() says which. No setting and no picture was changed. */
+  /** An argument is invalid: limpid_message() names it. No setting and no picture was changed. */
   LIMPID_REFUSED = 1,
-  LIMPID_NO_MEMORY = 2, /**< likewise */
+  LIMPID_NO_MEMORY = 2, /**< out of memory; no setting was changed */
   LIMPID_FAILED = 3     /**< a fault of the library */
 } limpid_status;
 
-/** What depth planes hold. */
+/** The kind of depth in depth planes. */
 typedef enum limpid_depth {
   LIMPID_DEPTH_EYE = 0,        /**< distance along the view axis */
   LIMPID_DEPTH_RAY = 1,        /**< distance from the eye along the pixel's ray */
@@ -60,7 +60,7 @@ typedef enum limpid_clip {
 
 typedef enum limpid_sample { LIMPID_FLOAT = 0, LIMPID_HALF = 1 } limpid_sample;
 
-/** What a plane of a frame is. Color and depth must be there. */
+/** The planes of a frame. Color and depth must be present. */
 typedef enum limpid_plane {
   LIMPID_COLOR_R = 0,
   LIMPID_COLOR_G = 1,
@@ -118,13 +118,13 @@ typedef enum limpid_output {
   LIMPID_OUT_SKY = 52
 } limpid_output;
 
-/** One channel in the host's memory. `data` points at its sample of the first pixel of the window;
- * strides count bytes, and repeat a sample of a frame where they are 0. A window of four zeros is
- * the whole picture. */
+/** One channel in the host's memory. `data` points at the sample of the first pixel of the window.
+ * Strides count bytes; a stride of 0, for planes of a frame only, repeats a sample. A window of
+ * four zeros is the whole picture. */
 typedef struct limpid_channel {
-  int32_t what;   /**< limpid_plane of a frame, limpid_output of a picture */
+  int32_t id;     /**< limpid_plane of a frame, limpid_output of a picture */
   int32_t sample; /**< limpid_sample */
-  void* data;     /**< not written to in a frame, unless the picture lies there, too */
+  void* data;     /**< planes of a frame are only read, unless the picture overlaps them */
   ptrdiff_t x_stride, y_stride;
   int32_t x0, y0, x1, y1; /**< pixels x0 <= x < x1, y0 <= y < y1 */
 } limpid_channel;
@@ -135,21 +135,21 @@ typedef struct limpid_conventions {
   int32_t depth; /**< limpid_depth */
   int32_t clip;  /**< limpid_clip */
   int32_t looks_along_plus_z, clip_y_down, trusted;
-  /** Matrices lie in memory row after row. 0: column after column, as OpenGL has them (which is
-   * also how matrices for row vectors lie that are stored by rows, as Direct3D has them). */
+  /** 1: matrices are stored row after row. 0: column after column, as in OpenGL (and as in
+   * Direct3D, whose matrices are for row vectors and stored by rows). */
   int32_t row_major;
-  double near_depth, far_depth; /**< of normalised depth only */
+  double near_depth, far_depth; /**< scene units, for normalised depth only */
   /** The color space of frames, environments and looks: the name of a linear space ("ACEScg"), or
    * eight numbers, x and y of red, green, blue and white, as for `--colorspace` of the tool. NULL:
-   * Rec.709. Read by limpid_create() alone. */
+   * Rec.709. Only limpid_create() reads the text. */
   const char* colorspace;
 } limpid_conventions;
 #define LIMPID_CONVENTIONS \
   { sizeof(limpid_conventions), 0, 0, 0, 0, 0, 0, 0, 0, NULL }
 
 /** Threads of the host. run() calls task(context, i) once for each i in 0 ... count - 1, on any
- * threads, in any order, and returns when all are done. Several threads may call it at once, if
- * their compositors share it. */
+ * threads, in any order, and returns when all calls have returned. Several threads may call run()
+ * at once, if their compositors share the executor. */
 typedef void (*limpid_task)(void* context, int index);
 typedef struct limpid_executor {
   size_t size;
@@ -159,7 +159,7 @@ typedef struct limpid_executor {
 #define LIMPID_EXECUTOR \
   { sizeof(limpid_executor), NULL, NULL }
 
-/** What computes. */
+/** The runner of a compositor. */
 typedef enum limpid_runner {
   LIMPID_RUNNER_FUSED = 0, /**< the CPU */
   LIMPID_RUNNER_GPU = 1    /**< a GPU, by Vulkan 1.2: limpid::GpuRunner */
@@ -167,13 +167,13 @@ typedef enum limpid_runner {
 
 typedef struct limpid_options {
   size_t size;
-  const limpid_executor* executor; /**< copied; NULL: a pool of the compositor's own */
-  int32_t threads;                 /**< of that pool; 0: one for each core */
+  const limpid_executor* executor; /**< copied; NULL: the compositor makes a pool of threads */
+  int32_t threads;                 /**< of that pool; 0: one per core */
   const char* simd;                /**< NULL: the best; else avx512 avx2 sse4 neon scalar */
-  double max_error; /**< what may be left out changes no channel by more (white = 1); of the CPU */
-  int32_t runner;   /**< limpid_runner */
-  const char* gpu;  /**< of the GPU: a part of its name; NULL: the first of the fastest kind */
-  const char* gpu_cache; /**< likewise: a folder that keeps compiled shaders; NULL: none */
+  double max_error;                /**< as in limpid::make_plan(); 0 on a GPU */
+  int32_t runner;                  /**< limpid_runner */
+  const char* gpu;       /**< a part of the GPU's name; NULL: the first GPU of the fastest kind */
+  const char* gpu_cache; /**< a folder that caches compiled shaders of the GPU; NULL: none */
 } limpid_options;
 #define LIMPID_OPTIONS \
   { sizeof(limpid_options), NULL, 0, NULL, 0, 0, NULL, NULL }
@@ -186,16 +186,16 @@ typedef struct limpid_frame {
   size_t plane_count;
   double view[16];       /**< view from world */
   double projection[16]; /**< clip from view */
-  double water_up[3];    /**< need not be unit */
+  double water_up[3];    /**< world up of the water plane, need not be unit */
   double water_height;
-  const double* waves; /**< amplitude k_x k_y phase omega of each: limpid::SineWave */
+  const double* waves; /**< amplitude k_x k_y phase omega of each wave: limpid::SineWave */
   size_t wave_count;
   int32_t has_sun;
   double sun_direction[3]; /**< towards the sun, need not be unit */
   double sun_color[3];
   double time; /**< seconds */
   int32_t has_sky;
-  double sky_radiance[3]; /**< of a uniform sky, which lights the water besides the sun */
+  double sky_radiance[3]; /**< of a uniform sky: limpid::SkyLight */
 } limpid_frame;
 #define LIMPID_FRAME                                                                         \
   {                                                                                          \
@@ -210,8 +210,8 @@ typedef struct limpid_picture {
 #define LIMPID_PICTURE \
   { sizeof(limpid_picture), NULL, 0 }
 
-/** Pixels of floats r g b, with further channels that are ignored. Rows have y_stride bytes, or
- * follow one another without a gap if it is 0. */
+/** Interleaved pixels of floats r g b; further channels are ignored. y_stride is the number of
+ * bytes from row to row; 0: rows follow one another without a gap. */
 typedef struct limpid_texture {
   size_t size;
   const float* data;
@@ -223,9 +223,9 @@ typedef struct limpid_texture {
 
 /** The parts of a shader text besides declarations and the function. */
 typedef enum limpid_shader_stage {
-  LIMPID_SHADER_FUNCTION = 0, /**< nothing: for a shader of the host */
-  LIMPID_SHADER_COMPUTE = 1,  /**< a main() for groups of 16 x 8 pixels, that writes images */
-  LIMPID_SHADER_FRAGMENT = 2  /**< a main() for a pixel of a full-screen triangle */
+  LIMPID_SHADER_FUNCTION = 0, /**< none: for a shader of the host */
+  LIMPID_SHADER_COMPUTE = 1,  /**< a main() for groups of 16 x 8 pixels, which writes images */
+  LIMPID_SHADER_FRAGMENT = 2  /**< a main() for the pixels of a full-screen triangle */
 } limpid_shader_stage;
 
 /** Options of a shader text: limpid::ShaderOptions. */
@@ -235,8 +235,8 @@ typedef struct limpid_shader_options {
   const char* function;  /**< a word of letters, digits and _; NULL: limpid_water */
   int32_t set;           /**< descriptor set of all declarations, 0 ... 31 */
   int32_t first_binding; /**< first binding, 0 ... 1000 */
-  /** That the function returns besides the picture: the first channel of each (LIMPID_OUT_PATH, not
-   * LIMPID_OUT_PATH + 1), each at most once. */
+  /** AOVs that the function returns besides the picture, each by its first channel
+   * (LIMPID_OUT_PATH, not LIMPID_OUT_PATH + 1) and at most once. */
   const int32_t* aovs;
   size_t aov_count;
 } limpid_shader_options;
@@ -246,15 +246,15 @@ typedef struct limpid_shader_options {
 /** The source of the values of a shader's texture. */
 typedef enum limpid_texture_source {
   LIMPID_TEXTURE_PLANES = 0, /**< the host's planes of `role`, in the channels r g b a */
-  LIMPID_TEXTURE_ROWS = 1,   /**< texels: numbers of each row of the picture */
-  LIMPID_TEXTURE_MADE = 2    /**< texels: a map of the look, or made for the frame */
+  LIMPID_TEXTURE_ROWS = 1,   /**< `texels`: numbers of each row of the picture */
+  LIMPID_TEXTURE_MADE = 2    /**< `texels`: a map of the look, or data computed for the frame */
 } limpid_texture_source;
 
 /** A shader and its uniform block: limpid::ShaderText. */
 typedef struct limpid_shader_info {
   size_t size;
   const char* text; /**< GLSL 4.50 for Vulkan */
-  const char* id;   /**< 16 hexadecimal digits, equal for equal texts */
+  const char* id;   /**< a hash of the text, 16 hexadecimal digits */
   const char* function;
   int32_t stage; /**< limpid_shader_stage */
   int32_t set;
@@ -270,24 +270,24 @@ typedef struct limpid_shader_info {
 /** A float of the uniform block. */
 typedef struct limpid_shader_number {
   size_t size;
-  const char* name;  /**< "refraction.strength"; in the text with _ for . and [ */
+  const char* name;  /**< "refraction.strength"; the text has _ for . and [ */
   size_t offset;     /**< bytes */
   float value;       /**< of the frame */
-  int32_t has_range; /**< 1 for a parameter that is used unchanged: its range */
+  int32_t has_range; /**< 1 for a parameter that is used unchanged, with the range below */
   double least, most;
 } limpid_shader_number;
 #define LIMPID_SHADER_NUMBER \
   { sizeof(limpid_shader_number), NULL, 0, 0, 0, 0, 0 }
 
-/** A sampler2D of the text, read by texelFetch alone, without a filter. */
+/** A sampler2D of the text, which reads it only by texelFetch, without a filter. */
 typedef struct limpid_shader_texture {
   size_t size;
   const char* name; /**< "limpid_depth" */
   int32_t binding;
   int32_t source;   /**< limpid_texture_source */
-  const char* role; /**< of planes, computed ones included: "depth", "color"; else "" */
-  int32_t plane;    /**< limpid_plane of its channel r; -1 where there is no role */
-  int32_t channels; /**< channels read, 1 ... 4 */
+  const char* role; /**< of planes, also computed ones: "depth", "color"; else "" */
+  int32_t plane;    /**< limpid_plane of its channel r; -1 without a role */
+  int32_t channels; /**< number of channels that are read, 1 ... 4 */
   int32_t width, height;
   const float* texels; /**< `channels` floats each, row after row; NULL for the host's planes */
 } limpid_shader_texture;
@@ -297,9 +297,9 @@ typedef struct limpid_shader_texture {
 /** An output of main(). The first is the picture. */
 typedef struct limpid_shader_output {
   size_t size;
-  const char* name; /**< "color", "path": of the AOV */
+  const char* name; /**< "color", or the AOV, such as "path" */
   int32_t channels;
-  int32_t binding; /**< of the image; the location of a fragment's */
+  int32_t binding; /**< of an image; the location of a fragment output */
 } limpid_shader_output;
 #define LIMPID_SHADER_OUTPUT \
   { sizeof(limpid_shader_output), NULL, 0, 0 }
@@ -310,21 +310,22 @@ typedef struct limpid_shader limpid_shader;
 /** "MAJOR.MINOR.PATCH" of the running library. */
 LIMPID_API const char* limpid_version(void);
 
-/** Makes a compositor with the look `physical`, which needs only a plate. NULL for conventions or
- * options: the defaults. If it does not return LIMPID_OK, *compositor is NULL, and `message`, if
- * not NULL, holds the reason, cut to message_size - 1 bytes. */
+/** Makes a compositor with the default parameters of all operators (limpid::Look). NULL for
+ * conventions or options: the defaults. If it does not return LIMPID_OK, *compositor is NULL, and
+ * `message`, if not NULL, has the reason, cut to message_size - 1 bytes. */
 LIMPID_API limpid_status limpid_create(const limpid_conventions* conventions,
                                        const limpid_options* options,
                                        limpid_compositor** compositor, char* message,
                                        size_t message_size);
-LIMPID_API void limpid_destroy(limpid_compositor* compositor); /**< NULL is fine */
+LIMPID_API void limpid_destroy(limpid_compositor* compositor); /**< NULL is allowed */
 
 /** The error of the last call on this compositor that did not return LIMPID_OK; "" before the
  * first. Valid until the next call on the compositor. */
 LIMPID_API const char* limpid_message(const limpid_compositor* compositor);
 
-/** One parameter of the look, as `limpid operators` lists them: "refraction", "strength". Rows are
- * those of tables of numbers, `columns` in each, one after another. */
+/** Sets one parameter of the look, from the next frame on; `limpid operators` lists their names,
+ * such as "refraction", "strength". limpid_set_rows() is for tables of numbers: `rows` rows of
+ * `columns` numbers, one after another. */
 LIMPID_API limpid_status limpid_set_number(limpid_compositor* compositor, const char* table,
                                            const char* key, double value);
 LIMPID_API limpid_status limpid_set_word(limpid_compositor* compositor, const char* table,
@@ -334,52 +335,51 @@ LIMPID_API limpid_status limpid_set_color(limpid_compositor* compositor, const c
 LIMPID_API limpid_status limpid_set_rows(limpid_compositor* compositor, const char* table,
                                          const char* key, const double* numbers, size_t rows,
                                          size_t columns);
+/** Sets all parameters to their defaults, from the next frame on. */
 LIMPID_API limpid_status limpid_reset_look(limpid_compositor* compositor);
 
-/** The memory belongs to the host and must stay unchanged: set a changed texture again. NULL
- * removes the texture. */
+/** Set the wave map and the surroundings: limpid::Compositor. The memory belongs to the host and
+ * must stay valid and unchanged: set a changed texture again. NULL removes the texture. */
 LIMPID_API limpid_status limpid_set_wave_map(limpid_compositor* compositor,
                                              const limpid_texture* map);
 LIMPID_API limpid_status limpid_set_environment(limpid_compositor* compositor,
                                                 const limpid_texture* environment);
 
-/** Puts water into a frame. */
+/** Puts water into a frame: limpid::Compositor::run(). */
 LIMPID_API limpid_status limpid_run(limpid_compositor* compositor, const limpid_frame* frame,
                                     const limpid_picture* picture);
 
-/** The look as a TOML text; for the last frame, what ran and why, one line per operator, and
- * the numbers of replaced values, as in "color 3 NaN 1 inf, depth 2 NaN". All write at most
- * size - 1 bytes and a 0, and return the length of the whole text without that 0; 0 if there is
- * none. */
+/** The look as a TOML text; the plan of the last frame, with one line per operator; and the numbers
+ * of its replaced values, as in "color 3 NaN 1 inf, depth 2 NaN". All write at most size - 1 bytes
+ * and a 0, and return the length of the whole text without that 0, or 0 if there is no text. */
 LIMPID_API size_t limpid_look_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_plan_text(const limpid_compositor* compositor, char* text, size_t size);
 LIMPID_API size_t limpid_replaced_text(const limpid_compositor* compositor, char* text,
                                        size_t size);
 
-/** The GPU that computes, and its driver, as those write a text; 0 where the CPU does. */
+/** The name of the GPU and its driver, written in the same way; no text if the CPU computes. */
 LIMPID_API size_t limpid_device_text(const limpid_compositor* compositor, char* text, size_t size);
 
-/** The look, with its maps, as one shader for frames like this one, and the values of this one:
- * limpid::Compositor::shader(). The same text, so the same shader, serves any size, time and
- * camera as long as the set of planes, the number of waves and the camera's side of the water stay
- * the same; make one for each frame, and take its block and textures. NULL for options: the
- * defaults. The host binds textures of LIMPID_TEXTURE_PLANES, which hold eye depth, unit normals
- * and row 0 at the top, for any conventions. The shader does not need the compositor any more. If
- * it does not return LIMPID_OK, *shader is NULL and limpid_message() of the compositor has the
- * reason. */
+/** The look, with its maps, as one shader for frames of this kind, with the values of this frame:
+ * limpid::Compositor::shader(). The text is the same for any size, time and camera as long as the
+ * set of planes, the number of waves and the camera's side of the water stay the same; call this
+ * for each frame for its block and textures, and compile the text once. NULL for options: the
+ * defaults. The host binds textures of LIMPID_TEXTURE_PLANES, with eye depth, unit normals and row
+ * 0 at the top, for any conventions. The shader does not refer to the compositor. If the call does
+ * not return LIMPID_OK, *shader is NULL and limpid_message() of the compositor has the reason. */
 LIMPID_API limpid_status limpid_create_shader(limpid_compositor* compositor,
                                               const limpid_frame* frame,
                                               const limpid_shader_options* options,
                                               limpid_shader** shader);
-LIMPID_API void limpid_destroy_shader(limpid_shader* shader); /**< NULL is fine */
+LIMPID_API void limpid_destroy_shader(limpid_shader* shader); /**< NULL is allowed */
 
-/** As limpid_message(), for the calls below. */
+/** The error of the last of the calls below on this shader, as limpid_message(). */
 LIMPID_API const char* limpid_shader_message(const limpid_shader* shader);
 
-/** They fill a struct up to its size, which stays. Its pointers belong to the shader, and are valid
- * until that is destroyed. LIMPID_REFUSED for an index that is not below the count; the struct then
- * stays unchanged. Numbers come by rising offset, textures by rising binding, outputs in the order
- * in which they were requested. */
+/** Fill a struct up to its size, which stays. Its pointers are valid until the shader is destroyed.
+ * Return LIMPID_REFUSED for an index that is not below the count, and then leave the struct
+ * unchanged. Numbers are sorted by offset, textures by binding; outputs have the order of the
+ * options. */
 LIMPID_API limpid_status limpid_get_shader(limpid_shader* shader, limpid_shader_info* info);
 LIMPID_API limpid_status limpid_get_shader_number(limpid_shader* shader, size_t index,
                                                   limpid_shader_number* number);

@@ -10,22 +10,22 @@
 #include "limpid/core/error.h"
 
 /// @file
-/// Adapter for pictures of OpenImageIO, without copies. A buffer holds its pixels or wraps memory
-/// of the application, flat, of float or half, with any strides and channels; channels are given by
-/// index or by name, as in "R" or "ViewLayer.Depth.Z". Its data window becomes that of the views,
-/// its display window that of the frame, in the same coordinates. Other buffers are refused, as in
-/// `ImageBuf 'a.png': pixels of uint8, expected ...`. Views hold nothing: the buffer must outlive
-/// them with the same pixels.
+/// Adapter for pictures of OpenImageIO, without copies. A buffer must own its pixels or wrap memory
+/// of the application, and be flat, of float or half; it may have any strides and channels.
+/// Channels are named by index or by name, as in "R" or "ViewLayer.Depth.Z". The data window of the
+/// buffer becomes that of the views, its display window that of the frame, in the same coordinates.
+/// Other buffers are refused by an Error such as `ImageBuf 'a.png': pixels of uint8, expected ...`.
+/// Views own no memory: the buffer must outlive them with the same pixels.
 
 namespace limpid {
 
-/// Throws Error unless its pixels can be read without a copy.
+/// Throws Error unless the pixels can be read without a copy.
 inline void validate(const OIIO::ImageBuf& buf) {
   std::string fault;
   if (buf.deep() || buf.spec().depth > 1) {
     fault = "it is deep or a volume, expected a flat picture";
   } else if (!buf.localpixels()) {
-    fault = "no pixels in memory of its own, expected some, as read(0, 0, true) leaves them";
+    fault = "it has no pixels in memory, expected read(0, 0, true) before";
   } else if (buf.pixeltype() != OIIO::TypeFloat && buf.pixeltype() != OIIO::TypeHalf) {
     fault = std::string("pixels of ") + buf.pixeltype().c_str() +
             ", expected float or half, scene-linear";
@@ -44,23 +44,24 @@ inline Rect display_of(const OIIO::ImageBuf& buf) {
   return {full.xbegin, full.ybegin, full.xend, full.yend};
 }
 
-/// Throws Error with the names of the channels.
+/// The index of a channel. Throws Error with the names of all channels for an unknown name.
 inline int channel_named(const OIIO::ImageBuf& buf, const std::string& name) {
   const int channel = buf.spec().channelindex(name);
   if (channel < 0) {
-    throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " + name + ", but " +
+    throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " + name + "; it has " +
                 join(buf.spec().channelnames));
   }
   return channel;
 }
 
-/// A channel to read or, of a buffer that is not const, to write. Throws Error as validate() does,
-/// and for a missing channel.
+/// A channel for reading or, if the buffer is not const, for writing. Throws Error as validate()
+/// does, and for a missing channel.
 inline HostInput channel_of(const OIIO::ImageBuf& buf, int channel) {
   validate(buf);
   if (channel < 0 || channel >= buf.nchannels()) {
     throw Error("ImageBuf '" + std::string(buf.name()) + "': has no channel " +
-                std::to_string(channel) + ", but " + std::to_string(buf.nchannels()));
+                std::to_string(channel) + ", expected 0 ... " +
+                std::to_string(buf.nchannels() - 1));
   }
   return {static_cast<const std::byte*>(buf.localpixels()) + channel * buf.pixeltype().size(),
           buf.pixeltype() == OIIO::TypeHalf ? Sample::kHalf : Sample::kFloat, buf.pixel_stride(),
@@ -87,7 +88,8 @@ inline void set_colors(HostFrame& frame, PlaneId red, const OIIO::ImageBuf& buf,
   for (int c = 0; c < 3; ++c) set_plane(frame, plane_after(red, c), buf, layer + "RGB"[c]);
 }
 
-/// The dry picture: R, G, B of a layer and its A, if any, by which the colors are multiplied.
+/// Sets the dry picture: R, G, B of a layer, and its A, if any, by which the colors must be
+/// multiplied.
 inline void set_color(HostFrame& frame, const OIIO::ImageBuf& buf, const std::string& layer = {}) {
   set_colors(frame, PlaneId::kColorR, buf, layer);
   const int alpha = buf.spec().channelindex(layer + "A");

@@ -9,16 +9,17 @@
 #include "limpid/core/error.h"
 
 /// @file
-/// Adapter for pictures of OpenCV, without copies. A matrix is 2-d, of 1, 3 or 4 channels of float
-/// or half (CV_32FC1, CV_16FC3 ...), with any step, also a part of a larger matrix. Channels of
-/// colors are in OpenCV's order, B G R (A). The pixel at row 0, column 0 has the position `at` in
-/// the picture, by default 0, 0. Bytes and doubles are refused, as in `cv::Mat of CV_8UC3: expected
-/// ...`: 8-bit pictures are not scene-linear, and only their reader knows their curve. Views do not
-/// share the matrix's reference count: it must outlive them.
+/// Adapter for pictures of OpenCV, without copies. A matrix must be 2D, with 1, 3 or 4 channels of
+/// float or half (CV_32FC1, CV_16FC3 ...); it may have any step and be a part of a larger matrix.
+/// Channels of colors are in OpenCV's order, B G R (A). The pixel at row 0, column 0 has the
+/// position `at` in the picture, by default 0, 0. Bytes and doubles are refused by an Error such as
+/// `cv::Mat of CV_8UC3: expected ...`: 8-bit pictures are not scene-linear, and the adapter does
+/// not know their transfer curve. Views do not share the matrix's reference count: the matrix must
+/// outlive them.
 
 namespace limpid {
 
-/// Throws Error unless it is a picture of a type that can be read without a copy.
+/// Throws Error unless the matrix has a type that can be read without a copy.
 inline void validate(const cv::Mat& mat) {
   const int depth = mat.depth(), channels = mat.channels();
   const bool fits = mat.dims == 2 && !mat.empty() && (depth == CV_32F || depth == CV_16F) &&
@@ -35,7 +36,7 @@ inline Rect window_of(const cv::Mat& mat, cv::Point at = {}) {
   return {at.x, at.y, at.x + mat.cols, at.y + mat.rows};
 }
 
-/// A channel to read or to write; type and size of the matrix do not change. Throws Error as
+/// A channel for reading or writing; type and size of the matrix do not change. Throws Error as
 /// validate() does, and for a missing channel.
 inline HostOutput channel_of(const cv::Mat& mat, int channel, cv::Point at = {}) {
   validate(mat);
@@ -49,7 +50,7 @@ inline HostOutput channel_of(const cv::Mat& mat, int channel, cv::Point at = {})
           window_of(mat, at)};
 }
 
-/// Red, green, blue. Throws Error as validate() does, and for a matrix of one channel.
+/// The channels red, green, blue. Throws Error as validate() does, and for a matrix of one channel.
 inline std::array<HostOutput, 3> colors_of(const cv::Mat& mat, cv::Point at = {}) {
   validate(mat);
   if (mat.channels() < 3) {
@@ -72,7 +73,8 @@ inline void set_colors(HostFrame& frame, PlaneId red, const cv::Mat& mat, cv::Po
   for (int c = 0; c < 3; ++c) frame.plane(plane_after(red, c)) = colors[c];
 }
 
-/// The dry picture. Four channels: with alpha, colors multiplied by it; three: without.
+/// Sets the dry picture: with alpha and premultiplied colors if the matrix has four channels,
+/// without alpha if it has three.
 inline void set_color(HostFrame& frame, const cv::Mat& mat, cv::Point at = {}) {
   set_colors(frame, PlaneId::kColorR, mat, at);
   frame.plane(PlaneId::kColorA) = mat.channels() == 4 ? channel_of(mat, 3, at) : HostOutput{};

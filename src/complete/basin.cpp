@@ -29,43 +29,75 @@ double square_at(double distance) {
   return tangent * tangent / (1 + tangent * tangent);
 }
 
+/// Share of the light leaving a level bottom evenly that the surface reflects and that comes down
+/// between the middle of a ring and that of the next.
+double thrown_from(std::size_t ring, double depth, double ior) {
+  const double whole = 1 / (ior * ior);  // beyond it, total reflection
+  const double from = std::max(square_at(middle_of(ring)), whole);
+  const double to = ring + 1 < Basin::kRings ? std::max(square_at(middle_of(ring + 1)), whole) : 1;
+  const double cosine = std::sqrt(std::max(1 - 0.5 * (from + to), 1e-6));
+  return (to - from) * std::exp(-2 * depth / cosine);
+}
+
+double level_size(const glm::dvec3& by, const glm::dvec3& up) {
+  return glm::length(by - glm::dot(by, up) * up);
+}
+
+/// Of a point, relative to the eye.
+double drop_of(const glm::dvec3& at, const Pass& c) { return -(c.eye_above + glm::dot(c.up, at)); }
+
+glm::dvec3 direction(int k, const Pass& c) {
+  const double angle = (k + 0.5) * (2 * std::numbers::pi / kDirections);
+  return std::cos(angle) * c.t + std::sin(angle) * c.b;
+}
+
 }  // namespace
 
-/// The surface that the picture shows at a point, `by` from a place. `near`: how far from it, over
-/// the plane of the water, a dry surface may lie.
-Basin::Shown Basin::at(const Place& place, const glm::dvec3& by, double near) const {
+std::optional<Basin::Sight> Basin::look(const Place& place, const glm::dvec3& by) const {
   const double z = place.z + glm::dot(c_.forward, by), w = c_.w_origin + c_.w_depth * z;
-  if (!(w > 0)) return Shown::kOutside;
+  if (!(w > 0)) return {};
   const glm::dvec2 from = (c_.w_origin + c_.w_depth * place.z) * place.uv;
   const double column = (from.x + glm::dot(c_.to_u, by)) / w * c_.size.x;
   const double row = (from.y + glm::dot(c_.to_v, by)) / w * c_.size.y;
   const double x = std::floor(column) + c_.corner.x, y = std::floor(row) + c_.corner.y;
   const Rect& window = depth_.window;
-  if (!(x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1)) {
-    return Shown::kOutside;
-  }
-  const double seen = depth_.at(static_cast<int>(x), static_cast<int>(y));
-  if (!(seen < (1 - kTexels) * z)) return Shown::kWater;
-  const glm::dvec3 off =
-      c_.rays.origin_at(column, row) + seen * c_.rays.ray_at(column, row) - (place.at + by);
-  const glm::dvec3 level = off - glm::dot(off, c_.up) * c_.up;
-  return glm::length(level) < near ? Shown::kDry : Shown::kUnknown;
+  if (!(x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1)) return {};
+  const int px = static_cast<int>(x), py = static_cast<int>(y);
+  const double seen = depth_.at(px, py);
+  return Sight{
+      px, py, z, seen,
+      c_.rays.origin_at(column, row) + seen * c_.rays.ray_at(column, row) - (place.at + by)};
+}
+
+/// The surface that the picture shows at a point, `by` from a place. `near`: how far from it, over
+/// the plane of the water, a dry surface may lie.
+Basin::Shown Basin::at(const Place& place, const glm::dvec3& by, double near) const {
+  const auto sight = look(place, by);
+  if (!sight) return Shown::kOutside;
+  if (!(sight->seen < (1 - kTexels) * sight->z)) return Shown::kWater;
+  return level_size(sight->off, c_.up) < near ? Shown::kDry : Shown::kUnknown;
+}
+
+/// The point under water that a pixel shows, if any.
+std::optional<Basin::Place> Basin::place_of(int x, int y) const {
+  const double column = x + 0.5 - c_.corner.x, row = y + 0.5 - c_.corner.y;
+  const double z = depth_.at(x, y);
+  const Place place{c_.rays.origin_at(column, row) + z * c_.rays.ray_at(column, row),
+                    {column / c_.size.x, row / c_.size.y},
+                    z};
+  if (!(drop_of(place.at, c_) > 0)) return {};
+  return place;
 }
 
 Basin::Walls Basin::around(int x, int y) const {
   Walls walls{};
-  const double column = x + 0.5 - c_.corner.x, row = y + 0.5 - c_.corner.y;
-  const double z = depth_.at(x, y);
-  const Place bottom{c_.rays.origin_at(column, row) + z * c_.rays.ray_at(column, row),
-                     {column / c_.size.x, row / c_.size.y},
-                     z};
-  const double drop = -(c_.eye_above + glm::dot(c_.up, bottom.at));
-  if (!(drop > 0)) return walls;
+  const auto bottom = place_of(x, y);
+  if (!bottom) return walls;
+  const double drop = drop_of(bottom->at, c_);
   for (int k = 0; k < kDirections; ++k) {
-    const double angle = (k + 0.5) * (2 * std::numbers::pi / kDirections);
-    const glm::dvec3 along = std::cos(angle) * c_.t + std::sin(angle) * c_.b;
+    const glm::dvec3 along = direction(k, c_);
     const auto shown_at = [&](double distance) {
-      return at(bottom, drop * (c_.up + distance * along), kNear * drop);
+      return at(*bottom, drop * (c_.up + distance * along), kNear * drop);
     };
     double before = 0;
     for (std::size_t ring = 0; ring < kRings; ++ring) {
@@ -80,7 +112,7 @@ Basin::Walls Basin::around(int x, int y) const {
       }
       // On a beach the bottom continues up to the shore.
       const double foot = std::max(before - 0.5, 0.0);
-      if (at(bottom, drop * (foot * along + 0.5 * c_.up), 0) == Shown::kWater) {
+      if (at(*bottom, drop * (foot * along + 0.5 * c_.up), 0) == Shown::kWater) {
         walls[ring] += 1.0f / kDirections;
       }
       break;
@@ -89,15 +121,34 @@ Basin::Walls Basin::around(int x, int y) const {
   return walls;
 }
 
+double Basin::sunlit_around(int x, int y, const View<const float>& shadow, double depth,
+                            double ior) const {
+  const auto bottom = place_of(x, y);
+  if (!bottom) return 1;
+  const double drop = drop_of(bottom->at, c_);
+  std::array<double, kRings> light;
+  for (std::size_t ring = 0; ring < kRings; ++ring) light[ring] = thrown_from(ring, depth, ior);
+  double sunlit = 0, all = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const glm::dvec3 along = direction(k, c_);
+    for (std::size_t ring = 0; ring < kRings; ++ring) {
+      const glm::dvec3 by = (drop * kLooks[ring]) * along;
+      const auto sight = look(*bottom, by);
+      if (!sight) break;
+      if (!(level_size(sight->off, c_.up) < kNear * drop)) continue;
+      if (!(drop_of(bottom->at + by + sight->off, c_) > 0)) break;  // the shore
+      const Rect& window = shadow.window;
+      if (!window.contains(Rect{sight->x, sight->y, sight->x + 1, sight->y + 1})) continue;
+      sunlit += light[ring] * shadow.at(sight->x, sight->y), all += light[ring];
+    }
+  }
+  return all > 0 ? sunlit / all : 1;
+}
+
 double Basin::thrown_on(const Walls& walls, double depth, double ior) {
-  const double whole = 1 / (ior * ior);  // beyond it, total reflection
   double beyond = 0, sum = 0;
   for (std::size_t ring = kRings; ring-- > 0;) {
-    // Light that comes down between the walls of this ring and of the next.
-    const double from = std::max(square_at(middle_of(ring)), whole);
-    const double to = ring + 1 < kRings ? std::max(square_at(middle_of(ring + 1)), whole) : 1;
-    const double cosine = std::sqrt(std::max(1 - 0.5 * (from + to), 1e-6));
-    beyond += (to - from) * std::exp(-2 * depth / cosine);
+    beyond += thrown_from(ring, depth, ior);
     sum += walls[ring] * beyond;
   }
   return sum;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -27,9 +28,15 @@ class Basin {
   /// steeper than 45 degrees; outside the picture there is water.
   Walls around(int x, int y) const;
 
-  /// Share of the light leaving a level bottom evenly that the surface reflects onto these walls,
+  /// Share of the diffuse light of a level bottom that the surface reflects onto these walls,
   /// without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
   static double thrown_on(const Walls& walls, double depth, double ior);
+
+  /// Share of the sunlight on the bottom around that the `shadow` of the dry picture leaves, each
+  /// place by the light that the surface reflects from there to this point: from two depths away
+  /// and more. 1 where the picture shows no bottom around. `depth`, `ior` as in thrown_on().
+  double sunlit_around(int x, int y, const View<const float>& shadow, double depth,
+                       double ior) const;
 
  private:
   /// A place of the bottom.
@@ -39,6 +46,15 @@ class Basin {
     double z;  ///< eye depth
   };
   enum class Shown { kWater, kDry, kUnknown, kOutside };
+  /// What the picture shows where a point lies, `by` from a place.
+  struct Sight {
+    int x, y;        ///< pixel
+    double z;        ///< eye depth of the point
+    double seen;     ///< of the surface
+    glm::dvec3 off;  ///< of the surface, from the point
+  };
+  std::optional<Place> place_of(int x, int y) const;
+  std::optional<Sight> look(const Place& place, const glm::dvec3& by) const;
   Shown at(const Place& place, const glm::dvec3& by, double near) const;
 
   const Pass& c_;

@@ -96,20 +96,24 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
     for (std::size_t i = 0; i < 3; ++i) {
       const auto thrown =
           static_cast<float>(share * Basin::thrown_on(walls, rates[i] * drop, c.ior));
+      const auto shade =
+          static_cast<float>(share * (1 - basin.sunlit_around(x, y, frame.plane(PlaneId::kShadow),
+                                                              rates[i] * drop, c.ior)));
       for (int r = row * kBlock; r < std::min((row + 1) * kBlock, rows_); ++r) {
         for (int k = column; k < std::min(column + kBlock, columns_); ++k) {
           Cell& cell = cells_[static_cast<std::size_t>(r) * columns_ + k];
           cell.walls[i] = thrown * cell.count;
+          cell.shade[i] = shade * cell.count;
         }
       }
     }
   }
 }
 
-/// The albedo of an endless floor that is as bright in this water as the basin's floor. `even`: the
-/// sky's part of the light.
-float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t channel, float even,
-                                const WaterOver& water) {
+/// The albedo of an endless floor in the sun that is as bright in this water as this floor, which
+/// has walls and shade around. `sun`, `even`: light of the sun and of the sky on a level floor.
+float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t channel, double sun,
+                                double even, const WaterOver& water) {
   const ScatteredLight& light = water.light[channel];
   const double rate = std::array{water.rate.r, water.rate.g, water.rate.b}[channel];
   const double depth = std::min(rate * sums.drop / sums.count, 1e6), x = layer_variable(depth);
@@ -122,13 +126,16 @@ float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t chan
       (even * sums.count + sunlit * level / std::numbers::pi) / sums.light[channel], 0.0, 1.0);
   const double lost = (1 - of_floor) * sums.walls[channel] / sums.count;
   const double most = std::min<double>(albedo, ScatteredLight::kMaxAlbedo);
-  if (!(light.back_at_once > 0 && lost > 0 && most > 0)) return albedo;
+  const double lit = std::clamp(
+      1 - sun * sums.shade[channel] / (sums.count * std::max(sun + even, 1e-30)), 0.0, 1.0);
+  if (!(light.back_at_once > 0 && (lost > 0 || lit < 1) && most > 0)) return albedo;
   // The dry picture already has the light that reached the bottom and rose without scattering.
   const double beam = cosine * std::exp(-depth / cosine), left = std::exp(-depth);
   const double passing = left + layer_power(light.passing, std::array{1.0, 1.0}, x);
-  const double lit = beam + layer_power(light.sun_below, x);
-  const double had = std::clamp(beam * left / std::max(passing * lit, 1e-30), 0.0, 1.0);
-  const double more = most * (1 / (1 - most * std::max(back - lost, 0.0)) - had);
+  const double below = beam + layer_power(light.sun_below, x);
+  const double had = std::clamp(beam * left / std::max(passing * below, 1e-30), 0.0, 1.0);
+  const double again = most * std::max(back - lost, 0.0);
+  const double more = most * (1 - had + lit * again / (1 - again));
   // a (1 / (1 - a back) - had) = more
   const double linear = 1 - had + more * back, square = had * back;
   const double root = std::sqrt(linear * linear + 4 * square * more);
@@ -150,6 +157,7 @@ void BottomAlbedo::spread(int reach, Executor& executor) {
       to.color[i] += sign * cell.color[i];
       to.light[i] += sign * cell.light[i];
       to.walls[i] += sign * cell.walls[i];
+      to.shade[i] += sign * cell.shade[i];
     }
     to.drop += sign * cell.drop, to.count += sign * cell.count;
   };
@@ -216,13 +224,16 @@ void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>&
              [&](int row) { look_for_walls(frame, pass, water, row); });
   }
   spread(reach(), executor);
+  const double rise = pass.has_sun ? std::max(glm::dot(pass.sun.direction, pass.up), 0.0) : 0;
   const std::array<double, 3> even{sky.r, sky.g, sky.b};
+  const std::array<double, 3> sun{rise * pass.sun.color.r, rise * pass.sun.color.g,
+                                  rise * pass.sun.color.b};
   for (Cell& cell : cells_) {
     for (std::size_t i = 0; i < 3; ++i) {
       const float albedo = cell.light[i] > 0 ? cell.color[i] / cell.light[i] : 0;
       cell.color[i] = std::clamp(albedo, 0.0f, 1.0f);
-      if (!(cell.walls[i] > 0)) continue;
-      cell.color[i] = as_of_level(cell.color[i], cell, i, static_cast<float>(even[i]), water);
+      if (!(cell.walls[i] > 0 || cell.shade[i] > 0)) continue;
+      cell.color[i] = as_of_level(cell.color[i], cell, i, sun[i], even[i], water);
     }
   }
   for (Plane& plane : planes_) {

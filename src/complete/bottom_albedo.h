@@ -15,7 +15,7 @@ namespace limpid {
 struct WaterOver {
   const ScatteredLights& light;
   Rgb<double> rate;  ///< a + b, 1/scene unit
-  double beam;       ///< cosine of the sunlight with the vertical, in the water
+  double beam;       ///< cosine of the angle between sunlight and vertical, in the water
 };
 
 /// The albedo of surfaces under the calm water, smoothed: their radiance in the dry picture over
@@ -23,10 +23,11 @@ struct WaterOver {
 /// over about two depths of water around. Ratios of sums are right in shadows and stay below 1 on
 /// walls; ratios of single pixels do not.
 ///
-/// In a narrow basin it is less: that of an endless floor which the water makes as bright. What the
-/// surface throws back there comes from walls in part (Basin), which have less light than the
-/// floor: the sun's on half of them alone, by the cosine of its way down. Views from within the
-/// water have none of that, and those that begin in both as much as begin in the air.
+/// In a narrow basin it is less: the albedo of an endless floor of the same brightness. Part of the
+/// light that the surface reflects down comes from walls there (Basin), which are darker than the
+/// floor: the sun lights only half of them, at its angle to the vertical. Views from within the
+/// water use no albedo in this way; views that begin in both use it by the share that begins in the
+/// air.
 class BottomAlbedo {
  public:
   /// Reads color, depth and, if present, shadow. `sky`: radiance of an even sky. 0 where there is
@@ -42,14 +43,14 @@ class BottomAlbedo {
 
   /// Sums over a cell: its texels, their number, and the distance to sum around it.
   struct Cell {
-    std::array<float, 3> color{}, light{}, walls{};
+    std::array<float, 3> color{}, light{}, walls{}, shade{};
     float drop = 0, count = 0, reach = 0;
   };
   void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);
   void look_for_walls(const Frame& frame, const Pass& pass, const WaterOver& water, int row);
   int reach() const;
-  static float as_of_level(float albedo, const Cell& sums, std::size_t channel, float even,
-                           const WaterOver& water);
+  static float as_of_level(float albedo, const Cell& sums, std::size_t channel, double sun,
+                           double even, const WaterOver& water);
   void spread(int reach, Executor& executor);
   void draw_row(const Rect& window, int y);
 

@@ -12,14 +12,14 @@
 
 namespace limpid {
 
-/// Makes the layer of the bottom that refraction looks up where a ray goes behind an object.
+/// Makes the layer of the bottom that refraction looks up for rays that go behind an object.
 ///
-/// In cells of a few pixels, about as many for each size of picture. What stands up from the bottom
-/// is what a grey closing of the depth below the water fills (Serra 1982, "Image Analysis and
-/// Mathematical Morphology"), by windows of three cells to a quarter of the picture: the smallest
-/// that fills it tells its width, of which a quarter is taken for its thickness. The bottom is then
-/// drawn on over these cells and those of objects above the water, by a pyramid of means. The share
-/// of water without a bottom is extended over these cells in the same way.
+/// Works in cells of a few pixels; their number is about the same for any size of picture. A grey
+/// closing of the depth below the water (Serra 1982, "Image Analysis and Mathematical Morphology"),
+/// by windows of three cells to a quarter of the picture, fills the cells of objects that stand on
+/// the bottom. The smallest window that fills an object gives its width, and a quarter of the width
+/// counts as its thickness. A pyramid of means then extends the bottom over these cells and those
+/// of objects above the water, and in the same way the share of water without a bottom.
 class BottomLayerMaker {
  public:
   /// Null where no object stands in front of the bottom, no bottom is visible, the eye is in the
@@ -32,11 +32,11 @@ class BottomLayerMaker {
     float highest;   ///< of its texels, as depth below the calm surface, 0 where one is above
     float nearness;  ///< 1 / eye depth there
     float width;     ///< of the cell there, in scene units
-    float bottom;    ///< what reaches down to this is of the bottom
-    int window;      ///< the smallest, in cells, that fills what stands there; 0 where nothing does
-    float looks, standing;  ///< texels looked at, and the share that is not of the bottom
-    float bottomless;       ///< of these, the texels that show water without a bottom
-    float thinness;         ///< 1 / thickness of what stands there, 0 where nothing does
+    float bottom;    ///< texels at this depth or deeper belong to the bottom
+    int window;      ///< smallest window that fills the object, in cells; 0 without an object
+    float looks, standing;  ///< number of lookups, and the share of them that show an object
+    float bottomless;       ///< number of lookups that show water without a bottom
+    float thinness;         ///< 1 / thickness of the object, 0 without an object
   };
   struct Scan;
 

@@ -22,7 +22,7 @@ struct BottomPlane {
   double shallow;     ///< likewise, with a twentieth of the surfaces higher
   double slack;  ///< surfaces nearer to the plane than this belong to the bottom, in scene units
 
-  /// The depth at which a pixel's ray meets the plane; infinite or below 0 where it does not.
+  /// The depth at which a pixel's ray meets the plane; infinite or below 0 if it does not.
   double depth_on(const Pass& pass, double x, double y) const;
 };
 
@@ -36,9 +36,9 @@ struct BottomSample {
 /// The plane of most of the bottom, without posts, rocks and walls: the best of several planes
 /// through three texels each (Fischler & Bolles 1981, "Random Sample Consensus"), then least
 /// squares. The texels near the edge of the picture count most, because rays leave it there.
-/// Samples a few thousand texels of the planes that refraction looks up. Nothing where hardly any
-/// lie under the water, and where the eye is not over the calm level. `room` is memory kept from
-/// frame to frame.
+/// Samples a few thousand texels of the planes that refraction looks up. Nothing if hardly any lie
+/// under the water, or if the eye is not above the calm level. `room` is memory kept from frame to
+/// frame.
 std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& pass,
                                       std::vector<BottomSample>& room);
 inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& pass) {
@@ -46,8 +46,8 @@ inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& pas
   return fit_bottom(frame, pass, room);
 }
 
-/// Computed where rays meet the bottom: for the sides, from each wet pixel at an edge; for the
-/// share, from a few thousand wet pixels.
+/// The refracted lookups that leave the picture, by the intersections of refracted rays with this
+/// plane: the overscan from each wet pixel at an edge, the share from a few thousand wet pixels.
 Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& pass);
 
 }  // namespace limpid

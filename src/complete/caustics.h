@@ -17,19 +17,20 @@ namespace limpid {
 /// Traces sunlight down from the waves and accumulates it on the bottom (Arvo 1986, "Backward Ray
 /// Tracing", with a regular grid of rays at the surface).
 ///
-/// The bottom's depth is that of the frame's planes, over the place where calm water lets light in,
-/// drawn on where no view ray meets it; where two bottoms lie below one place, their mean. The
-/// light of a ray goes to the table as a box as wide as neighbouring rays are apart, one to three
-/// texels; a filter of three texels along each axis undoes that blur, and blurs by the sun's disc.
-/// The same for any number of threads. Keeps its memory from frame to frame. 5 ms for 1920x1080
-/// pixels on one thread with AVX-512, twice as long where light is focused.
+/// The bottom's depth comes from the frame's planes, by entry points of calm water, and is extended
+/// to entry points of bottom that no view ray meets; if two depths belong to one entry point, their
+/// mean counts. The light of a ray is splatted into the table as a box as wide as the distance of
+/// neighbouring rays, one to three texels; a filter of three texels along each axis removes that
+/// blur, and adds the blur of the sun's disc. The same for any number of threads. Keeps its memory
+/// from frame to frame. 5 ms for 1920x1080 pixels on one thread with AVX-512, twice as long where
+/// light is focused.
 class CausticsMaker {
  public:
-  /// Valid until the next call. A table without levels if the sun is down, or the waves focus less
-  /// than kLeastContrast of its light. `simd` as in FusedOptions; without it one ray at a time.
-  /// `scattering` is that of the water, 1/scene unit: scattered light counts as spread over all of
-  /// the bottom. A bottom deeper than `deepest` counts as that deep, and views from the air count
-  /// down to twice that depth.
+  /// Valid until the next call. A table without levels if the sun is down, or if the waves change
+  /// the light by less than kLeastContrast. `simd` as in FusedOptions; without it one ray at a
+  /// time. `scattering`: of the water, 1/scene unit; scattered light counts as spread evenly over
+  /// the bottom. Deeper bottom counts as being at the depth `deepest`; for views from the air water
+  /// down to twice that depth counts as visible.
   const CausticsTable* make(const WaveNormals::Params& waves, const Rgb<double>& scattering,
                             const Frame& frame, const Pass& pass, Executor& executor,
                             const std::string* simd = nullptr, double deepest = HUGE_VAL);
@@ -53,7 +54,7 @@ class CausticsMaker {
   WaveRows waves_;
   std::vector<Weights> weights_;  ///< of rows of the picture
   std::vector<CausticsBottom> bottoms_;
-  std::vector<CausticsSight> sights_;  ///< of each kEvery bottoms
+  std::vector<CausticsSight> sights_;  ///< one for each kEvery bottoms
   int step_ = 1;                       ///< pixels from one bottom to the next
   std::vector<CausticsLevel> levels_;
   std::vector<float> wanted_;

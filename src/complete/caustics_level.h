@@ -17,25 +17,26 @@
 
 namespace limpid {
 
-/// The bottom at one pixel of a few: where calm water lets light in that goes there.
+/// The bottom at one of several pixels: its entry point under calm water.
 struct CausticsBottom {
   float x, y, depth;  ///< 0: not under water
 };
 
 /// The view of the bottom through one pixel of the water.
 struct CausticsSight {
-  float depth;               ///< 0: the pixel is dry
-  float seen_x, seen_y;      ///< where calm water lets light in that goes there
-  float texel;               ///< the width of the texels that it needs
-  float enters_x, enters_y;  ///< where it begins to see them: there, or where it enters the water
+  float depth;           ///< 0: the pixel is dry
+  float seen_x, seen_y;  ///< entry point, under calm water, of the light of the bottom
+  float texel;           ///< the width of the texels that it needs
+  /// the same for the near end of the view's path in the water, for shafts
+  float enters_x, enters_y;
 };
 
 /// Light in calm water, with its sideways travel per unit of depth.
 struct Sunlight {
   glm::dvec3 to_sun;  ///< along map_x, map_y and up
-  glm::dvec2 aside;
+  glm::dvec2 aside;   ///< sideways travel per unit of depth
   double ior, passes, focus;
-  double along, across;  ///< the sun's disc on the bottom, as a deviation, per unit of depth
+  double along, across;  ///< standard deviation of the sun's disc on the bottom, per unit of depth
   bool low;              ///< the sun is so low that transmission changes from wave to wave
 };
 

@@ -11,14 +11,15 @@
 
 namespace limpid {
 
-/// Caustics on the bottom that the surface mirrors to a view from within the water; beyond the
-/// critical angle it mirrors all light: the reflection planes, each pixel lit as Caustics lights a
-/// pixel of the bottom, at the point whose mirror image it shows.
+/// Caustics on the bottom as the surface mirrors it to a view from within the water (beyond the
+/// critical angle the surface mirrors all light). Each pixel of the reflection planes is lit as
+/// Caustics lights the bottom, at the point whose mirror image it shows.
 ///
-/// That point lies as deep as the reflection's depth puts its image high. The sun's share in its
-/// light comes from the dry picture, if it shows the point; else it is that of sunlit bottoms, for
-/// frames that have it, or that of sun and sky, by the shadow on the surface at the entry point.
-/// Where no plane shows the entry point either, the point counts as lit.
+/// The depth of that point below the surface is the height of its image over the surface, by the
+/// reflection's depth. The sun's share in its light comes from the dry picture, if that shows the
+/// point; else it is the share of sunlit bottoms, if the frame has sun_color, or that of sun and
+/// sky, by the shadow on the surface at the entry point. If no plane shows the entry point either,
+/// the point counts as lit.
 class MirroredCaustics {
  public:
   /// Replaces the views of the frame's reflection, if the eye is in the water and the reflection

@@ -25,13 +25,14 @@ struct EvenRow {
   double first = 0, step = 0;
 };
 
-/// A row of the calm surface as the picture shows it. The place in the planes of a frame's normals,
-/// in texels from the centre of the first one, is (u, v) / w; it is not seen where w <= 0.
+/// A row of the calm surface, projected into the picture. The position in the planes of a frame's
+/// normals, in texels from the centre of the first one, is (u, v) / w; where w <= 0 the picture
+/// does not show it.
 struct NormalRow {
   View<const float> normal[3] = {};  ///< of one window
   EvenRow u{}, v{}, w{};
   Vec3<float> map_x{}, map_y{}, up{};
-  float least_up = 0;  ///< a normal that points less upwards counts as if it did
+  float least_up = 0;  ///< lower limit of the upward component of a normal
 };
 
 /// Adjacent places in a row of the surface.
@@ -68,7 +69,7 @@ struct BeamRow {
   int widest;
 };
 
-/// What a ray adds to `widest` + 1 rows of the table, from the first texel on: of each four texels.
+/// The light that a ray adds to `widest` + 1 rows of the table, four texels each, from `texel` on.
 struct SplatRow {
   int* texel;
   float *along, *down;  ///< four per ray: light of each column, share of each row

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "complete/sky_radiance.h"
+#include "complete/water_floor.h"
 #include "ops/depth_fog_kernel.h"
 #include "ops/water_shadow_kernel.h"
 #include "ops/wave_normals_kernel.h"
@@ -45,11 +46,11 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   }
   complete_plate_waves(plan, frame.present() & plan.planes, pass, whole);
   complete_waves(plan, pass, executor, whole);
-  complete_water(plan, made_by("bottom_albedo", plan, frame), pass, executor, whole);
+  complete_water(plan, made_by("bottom_albedo", plan, frame), true, pass, executor, whole);
   const Refraction::Params& refraction = plan.look.of<Refraction>();
   if (!plan.made.has(StatePart::kPosition)) return whole;
-  if (refraction.goes_on()) whole.continuation = continuation_maker_.make(whole, pass);
-  if (refraction.looks_behind()) {
+  if (refraction.continues_bottom()) whole.continuation = continuation_maker_.make(whole, pass);
+  if (refraction.uses_bottom_layer()) {
     whole.bottom_layer = bottom_layer_.make(whole, pass, executor);
   }
   const WaterShadow::Params& shade = plan.look.of<WaterShadow>();
@@ -88,7 +89,7 @@ Frame Completer::complete_windows(const Plan& plan, const Frame& frame, const Pa
   Frame whole = frame;
   complete_surface(made_by("displaced_surface", plan, frame), pass, executor, &simd, whole);
   complete_waves(plan, pass, executor, whole);
-  complete_water(plan, {}, pass, executor, whole);
+  complete_water(plan, {}, false, pass, executor, whole);
   return whole;
 }
 
@@ -109,13 +110,13 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   if (plan.keeps<WaveNormals>() && waves.filter == WaveNormals::Filter::kVariance &&
       (waves.model == WaveNormals::Model::kPlate ||
        (plan.planes.has(PlaneId::kSurfaceDepth) && !plan.completed.has(PlaneId::kSurfaceDepth)))) {
-    phrases.emplace_back("what the plate's surface does not resolve (wave_normals.filter)");
+    phrases.emplace_back("waves that the plate's surface does not resolve (wave_normals.filter)");
   }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
-  if (plan.look.of<Refraction>().goes_on()) {
+  if (plan.look.of<Refraction>().continues_bottom()) {
     phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
   }
-  if (plan.look.of<Refraction>().looks_behind()) {
+  if (plan.look.of<Refraction>().uses_bottom_layer()) {
     phrases.emplace_back("the bottom behind objects (refraction.rejection)");
   }
   if (plan.keeps<Caustics>()) phrases.emplace_back("caustics");
@@ -162,18 +163,20 @@ void Completer::complete_waves(const Plan& plan, const Pass& pass, Executor& exe
   frame.wave_slopes = &slope_map_.levels();
 }
 
-void Completer::complete_water(const Plan& plan, PlaneSet made, const Pass& pass,
+void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, const Pass& pass,
                                Executor& executor, Frame& frame) {
   const DepthFog::Params& water = plan.look.of<DepthFog>();
   if (!Kernel<DepthFog>::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter))
     return;
   const ScatteringWater scattering = Kernel<DepthFog>::scattering_water(water, pass);
-  const ScatteredLights& light = scattered_light_.make(scattering);
-  frame.scattered_light = light.data();
   if (plan.reads_environment && frame.environment)
     frame.sky_radiance = sky_radiance(frame.environment);
-  if (made.empty()) return;
   const Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
+  const WaterFloor floor =
+      scattering.inside && pixels ? water_floor(frame, pass, sky) : WaterFloor{};
+  const ScatteredLights& light = scattered_light_.make(scattering, floor);
+  frame.scattered_light = light.data();
+  if (made.empty()) return;
   bottom_albedo_.make(frame, pass, sky,
                       {light, Kernel<DepthFog>::extinction(water), scattering.beam}, executor);
   for (int i = 0; i < 3; ++i) {

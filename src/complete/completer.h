@@ -54,8 +54,9 @@ class Completer {
                         const std::string* simd, Frame& frame);
   void complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass, const Frame& frame);
   void complete_waves(const Plan& plan, const Pass& pass, Executor& executor, Frame& frame);
-  void complete_water(const Plan& plan, PlaneSet made, const Pass& pass, Executor& executor,
-                      Frame& frame);
+  /// `pixels`: whether the frame has any here.
+  void complete_water(const Plan& plan, PlaneSet made, bool pixels, const Pass& pass,
+                      Executor& executor, Frame& frame);
 
   BelowOverscan below_overscan_;
   ContinuationMaker continuation_maker_;

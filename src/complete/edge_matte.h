@@ -47,8 +47,8 @@ struct EdgePlane {
   double here() const;
 };
 
-/// A kind of pixels around a pixel in the band of a blurred edge: `sure` beyond the band; dry in
-/// front of the pixel's water, or wet.
+/// Kinds of the pixels around a pixel in the band of a blurred edge: dry in front of the pixel's
+/// water, or wet; `sure` if beyond the band.
 enum class EdgeKind : std::uint8_t { kDry, kWet, kSureDry, kSureWet };
 
 /// The pixels around a pixel.

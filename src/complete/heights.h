@@ -13,12 +13,12 @@ namespace limpid {
 struct ScanTarget;
 
 /// Makes bounds that save lookups: the HeightBound for refracted lookups, the RangeBound of the
-/// depths that mirrored rays may meet, and that of the shadow on the surface.
+/// depths for mirrored rays, and the RangeBound of the shadow on the surface.
 ///
-/// Each texel counts with the greatest and the least height at which any ray through it may see its
-/// surface, or +inf if a ray does not lead down. SeenHeights::highest ignores surfaces higher than
-/// the highest water, which a march passes, and surfaces infinitely far, as where a layer below is
-/// empty.
+/// Each texel has bounds for all rays through it: the greatest and the least height of its surface,
+/// or +inf if a ray does not lead down. SeenHeights::highest ignores surfaces above the highest
+/// water, which a march passes, and infinitely distant surfaces, such as empty parts of a layer
+/// below.
 class Heights {
  public:
   /// Reads a frame that has been checked (the runners do that), with the Pass of the plan. `simd`
@@ -39,7 +39,7 @@ class Heights {
   void look_below(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
                   const ScanTarget& target);
 
-  // Of all levels.
+  // Cells of all levels.
   std::vector<SeenHeights> heights_;
   std::vector<SeenRange> depths_, shadows_;
   std::vector<float> water_;  ///< greatest heights, of the first level alone

@@ -13,6 +13,10 @@ class LeastSquares {
  public:
   using Row = std::array<double, N>;
 
+  /// `least`: of a function's own square, as if each component were also measured as 0. More keeps
+  /// components smaller that cancel each other.
+  explicit LeastSquares(double least = 1e-13) : least_(least) {}
+
   /// One equation: the functions' values, and the value of their combination.
   void add(const Row& functions, double value) {
     for (std::size_t i = 0; i < N; ++i) {
@@ -23,7 +27,6 @@ class LeastSquares {
 
   /// The coefficient of each function. By Cholesky's factors of the normal equations.
   Row solved() const {
-    constexpr double kLeast = 1e-13;  // of a function's own square
     std::array<std::array<double, N>, N> factor{};
     std::array<double, N> x{};
     for (std::size_t i = 0; i < N; ++i) {
@@ -33,7 +36,7 @@ class LeastSquares {
         if (i != j) {
           factor[i][j] = sum / factor[j][j];
         } else {
-          const double least = kLeast * products_[i][i] + 1e-300;
+          const double least = least_ * products_[i][i] + 1e-300;
           factor[i][i] = std::sqrt(std::max(sum, 0.0) + least);
         }
       }
@@ -53,6 +56,7 @@ class LeastSquares {
  private:
   std::array<std::array<double, N>, N> products_{};
   std::array<double, N> values_{};
+  double least_;
 };
 
 }  // namespace limpid

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "complete/least_squares.h"
 #include "complete/slab.h"
@@ -13,14 +14,25 @@ namespace limpid {
 namespace {
 
 constexpr int kDegree = ScatteredLight::kDegree, kShapes = ScatteredLight::kShapes;
+std::array<double, 3> channels(const Rgb<double>& c) { return {c.r, c.g, c.b}; }
+
 constexpr int kCount = SlabDirections::kCount, kModes = 4;
 /// In endless water, where all light fades with depth: less light than kDark, and layers optically
 /// deeper than kDeepest, count as nothing. The rates of fading are kept apart: the beam's rate is
 /// at least kApart times the slowest, the fastest is kFast times the beam's, and the one between is
 /// at least kSlow of the beam's.
 constexpr double kDark = 1e-6, kDeepest = 128, kApart = 1.3, kFast = 4, kSlow = 0.05;
+/// Of light from a floor: water optically less deep has none; rates at which the light fades, over
+/// that of extinction, and cosines of views with the vertical at which it is fitted.
+constexpr double kThinnest = 1e-4;
+constexpr std::array kFloorFades{0.3, 1.2, 5.0, 0.6};
+constexpr std::array kCosines{-0.95, -0.75, -0.5, -0.25, -0.08, 0.08, 0.25, 0.5, 0.75, 0.95};
 /// The directions in the water of a view from the air.
 constexpr int kFirstSeen = SlabDirections::kInside;
+
+/// Azimuths at which light is fitted.
+constexpr int kAzimuths = 6;
+double azimuth_of(int a) { return a * std::numbers::pi / (kAzimuths - 1); }
 
 /// Moments of the phase function without its peak, over its share. Legendre polynomials, fitted
 /// relatively from 10 degrees on.
@@ -88,23 +100,38 @@ class ShapesFit {
   LeastSquares<N * kDegree> fit_;
 };
 
+/// The water of one channel, under its surface.
+struct ChannelWater {
+  double beam, extinction, once;
+  SlabWater slab;
+  SlabDirections::Radiance reflects{};
+
+  ChannelWater(const ScatteringWater& water, const SlabDirections& directions,
+               const std::array<double, SlabWater::kMoments>& moments, double absorption,
+               double scattering)
+      : beam(std::clamp(water.beam, 0.02, 1.0)), slab{0, moments} {
+    const double wide = scattering * (1 - narrow_share(water.anisotropy));
+    extinction = absorption + wide;
+    once = extinction > 0 ? scattering / extinction : 0;
+    slab.albedo = extinction > 0 ? wide / extinction : 0;
+    for (std::size_t i = 0; i < kCount && water.surface; ++i) {
+      reflects[i] = fresnel_exact(directions.cosine[i], 1 / water.ior);
+    }
+  }
+};
+
 /// One channel: its layers in all modes, and the fits.
 class Channel {
  public:
   Channel(const ScatteringWater& water, const SlabDirections& directions,
-          const std::array<double, SlabWater::kMoments>& moments, double absorption,
-          double scattering)
+          const ChannelWater& channel)
       : directions_(directions),
         anisotropy_(water.anisotropy),
-        beam_(std::clamp(water.beam, 0.02, 1.0)) {
-    const double wide = scattering * (1 - narrow_share(water.anisotropy));
-    extinction_ = absorption + wide;
-    once_ = extinction_ > 0 ? scattering / extinction_ : 0;
-    const SlabWater slab{extinction_ > 0 ? wide / extinction_ : 0, moments};
-    SlabDirections::Radiance reflects{};
-    for (std::size_t i = 0; i < kCount && water.surface; ++i) {
-      reflects[i] = fresnel_exact(directions.cosine[i], 1 / water.ior);
-    }
+        beam_(channel.beam),
+        extinction_(channel.extinction),
+        once_(channel.once) {
+    const SlabWater& slab = channel.slab;
+    const SlabDirections::Radiance& reflects = channel.reflects;
     mode_count_ = water.anisotropy == 0 ? 1 : kModes;
     for (std::size_t mode = 0; mode < mode_count_; ++mode) {
       modes_[mode] = solve_slab(directions, slab, reflects, beam_, static_cast<int>(mode));
@@ -114,14 +141,12 @@ class Channel {
     fit_even();
     fit_sun();
     put_bounds();
-    if (water.inside && wide > 0) fit_inside(slab, reflects);
+    if (water.inside && slab.albedo > 0) fit_inside(slab, reflects);
   }
 
   const ScatteredLight& light() const { return light_; }
 
  private:
-  static constexpr int kAzimuths = 6;
-
   const SlabLayers& even_layers() const { return modes_[0]; }
 
   void fit_even() {
@@ -143,8 +168,6 @@ class Channel {
     light_.sky = sky.solved();
     light_.passing = passing.solved();
   }
-
-  static double azimuth_of(int a) { return a * std::numbers::pi / (kAzimuths - 1); }
 
   /// Multiple scattering of sunlight in a direction, by layer.
   double sun_of(std::size_t layer, std::size_t direction, int a) const {
@@ -221,7 +244,7 @@ class Channel {
 
   /// For views in the water.
   void fit_inside(const SlabWater& slab, const SlabDirections::Radiance& reflects) {
-    constexpr int kCosines = 8;  // to each side of level
+    constexpr int kSides = 8;  // cosines to each side of level
     constexpr std::size_t kFades = ScatteredLight::kFades, kInside = ScatteredLight::kInside;
     std::array<InsideLights, kModes> modes;
     for (std::size_t mode = 0; mode < mode_count_; ++mode) {
@@ -251,8 +274,8 @@ class Channel {
       fit.add(row, weight * value);
     };
     const double level_beam = std::sqrt(1 - beam_ * beam_);
-    for (int i = 0; i < 2 * kCosines; ++i) {
-      const double cosine = (i + 0.5) / kCosines - 1;  // of light with the upwards vertical
+    for (int i = 0; i < 2 * kSides; ++i) {
+      const double cosine = (i + 0.5) / kSides - 1;  // of light with the upwards vertical
       const auto mode = [&](int m) { return SlabSource(directions_, slab, m, cosine); };
       const std::array<SlabSource, kModes> sources{mode(0), mode(1), mode(2), mode(3)};
       for (std::size_t k = 0; k < count; ++k) {
@@ -287,23 +310,104 @@ class Channel {
   }
 
   const SlabDirections& directions_;
-  double anisotropy_, beam_, extinction_ = 0, once_ = 0;
+  double anisotropy_, beam_, extinction_, once_;
   std::array<SlabLayers, kModes> modes_;
   std::size_t mode_count_;
   ScatteredLight light_;
 };
 
+/// Fits the difference that a floor makes to the light in endless water.
+void put_floor(const SlabDirections& directions, const ChannelWater& water, const WaterFloor& floor,
+               double albedo, double anisotropy, ScatteredLight& light) {
+  constexpr std::size_t kFloored = ScatteredLight::kFloored, kInside = ScatteredLight::kInside;
+  constexpr double kSteady = 1e-7;
+  light.floor_sun = light.floor_sky = {};
+  light.floor = 0;
+  const SlabFloor below{water.extinction * floor.depth, albedo, floor.share};
+  const bool felt = below.depth > kThinnest && below.depth < kDeepest && below.share > 0;
+  if (!felt || !(water.slab.albedo > 0)) return;
+  const std::size_t mode_count = anisotropy == 0 ? 1 : kModes;
+  std::array<FlooredLights, kModes> with, without;
+  for (std::size_t m = 0; m < mode_count; ++m) {
+    const int mode = static_cast<int>(m);
+    const auto solve = [&](double share) {
+      return solve_over_floor(directions, water.slab, water.reflects, water.beam,
+                              {below.depth, below.albedo, share}, mode);
+    };
+    with[m] = solve(below.share), without[m] = solve(0);
+  }
+  LeastSquares<kInside * kFloored> of_sun(kSteady), of_sky(kSteady);
+  const double level_beam = std::sqrt(1 - water.beam * water.beam);
+  for (const double cosine : kCosines) {
+    std::array<std::optional<SlabSource>, kModes> sources;
+    for (std::size_t m = 0; m < mode_count; ++m) {
+      sources[m].emplace(directions, water.slab, static_cast<int>(m), cosine);
+    }
+    for (std::size_t k = 0; k < FlooredLights::kCount; ++k) {
+      const InsideLight &lit = with[0].lights[k], &before = without[0].lights[k];
+      const auto add = [&](auto& fit, const std::array<double, kInside>& shapes, double value,
+                           double change) {
+        const double weight = 1 / std::max(value, kDark);
+        std::array<double, kInside * kFloored> row;
+        for (std::size_t f = 0; f < kFloored; ++f) {
+          const double way = f < ScatteredLight::kRising ? below.depth - lit.depth : lit.depth;
+          for (std::size_t n = 0; n < kInside; ++n) {
+            row[f * kInside + n] = weight * std::exp(-kFloorFades[f] * way) * shapes[n];
+          }
+        }
+        fit.add(row, weight * change);
+      };
+      const double sky = sources[0]->of(lit.sky_up, lit.sky_down);
+      add(of_sky, inside_sky_shapes(cosine), sky,
+          sky - sources[0]->of(before.sky_up, before.sky_down));
+      std::array<double, kModes> values{}, changes{};
+      for (std::size_t m = 0; m < mode_count; ++m) {
+        const InsideLight &now = with[m].lights[k], &then = without[m].lights[k];
+        values[m] = sources[m]->of(now.sun_up, now.sun_down);
+        changes[m] = values[m] - sources[m]->of(then.sun_up, then.sun_down);
+      }
+      for (int a = 0; a < (mode_count > 1 ? kAzimuths : 1); ++a) {
+        double value = values[0], change = changes[0];
+        for (std::size_t m = 1; m < mode_count; ++m) {
+          const double wave = 2 * std::cos(double(m) * azimuth_of(a));
+          value += wave * values[m], change += wave * changes[m];
+        }
+        const double turned =
+            std::sqrt(1 - cosine * cosine) * level_beam * std::cos(azimuth_of(a)) -
+            cosine * water.beam;
+        add(of_sun, inside_sun_shapes(cosine, turned, anisotropy * anisotropy, mode_count > 1),
+            value, change);
+      }
+    }
+  }
+  const auto sun = of_sun.solved(), sky = of_sky.solved();
+  light.floor = floor.depth;
+  for (std::size_t f = 0; f < kFloored; ++f) {
+    light.floor_fades[f] = water.extinction * kFloorFades[f];
+    for (std::size_t n = 0; n < kInside; ++n) {
+      light.floor_sun[f][n] = water.extinction * sun[f * kInside + n];
+      light.floor_sky[f][n] = water.extinction * sky[f * kInside + n];
+    }
+  }
+}
+
 }  // namespace
 
-const ScatteredLights& ScatteredLightMaker::make(const ScatteringWater& water) {
-  if (made_ && water == water_) return light_;
+const ScatteredLights& ScatteredLightMaker::make(const ScatteringWater& water,
+                                                 const WaterFloor& floor) {
+  const bool same = made_ && water == water_;
+  if (same && floor == floor_) return light_;
   const SlabDirections directions(water.ior);
   const auto moments = moments_of(water.anisotropy);
-  const Rgb<double>&a = water.absorption, &b = water.scattering;
-  light_ = {Channel(water, directions, moments, a.r, b.r).light(),
-            Channel(water, directions, moments, a.g, b.g).light(),
-            Channel(water, directions, moments, a.b, b.b).light()};
-  water_ = water;
+  const std::array<double, 3> absorption = channels(water.absorption),
+                              scattering = channels(water.scattering),
+                              albedo = channels(floor.albedo);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ChannelWater channel(water, directions, moments, absorption[i], scattering[i]);
+    if (!same) light_[i] = Channel(water, directions, channel).light();
+    if (water.inside) put_floor(directions, channel, floor, albedo[i], water.anisotropy, light_[i]);
+  }
+  water_ = water, floor_ = floor;
   made_ = true;
   return light_;
 }

@@ -16,11 +16,12 @@ namespace limpid {
 /// Radiative Intensity Calculations in Moderately Thick Atmospheres").
 class ScatteredLightMaker {
  public:
-  /// Red, green, blue; until the next call.
-  const ScatteredLights& make(const ScatteringWater& water);
+  /// Red, green, blue; until the next call. `floor`: for views in the water.
+  const ScatteredLights& make(const ScatteringWater& water, const WaterFloor& floor = {});
 
  private:
   ScatteringWater water_;
+  WaterFloor floor_;
   bool made_ = false;
   ScatteredLights light_;
 };

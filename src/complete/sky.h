@@ -9,8 +9,8 @@
 
 namespace limpid {
 
-/// The sky of a frame behind its objects: the color where nothing was hit and alpha is above half,
-/// and elsewhere a smooth continuation of it (pull_push.h).
+/// The sky of a frame behind its objects: the color where no surface was hit and alpha is above
+/// half, and elsewhere a smooth continuation of this color (pull_push.h).
 class Sky {
  public:
   /// Reads color and depth. False, without a result, if the frame shows no sky.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace limpid {
 namespace {
@@ -43,6 +44,11 @@ Radiance each(const Radiance& a, Radiance b) {
 Radiance operator+(Radiance a, const Radiance& b) {
   for (std::size_t i = 0; i < kCount; ++i) a[i] += b[i];
   return a;
+}
+
+Matrix operator*(double a, Matrix b) {
+  for (Radiance& row : b) row = a * row;
+  return b;
 }
 
 Matrix operator+(Matrix a, const Matrix& b) {
@@ -130,18 +136,27 @@ struct Layer {
     }
   }
 
-  void make_twice_as_deep(double beam) {
-    const double left = std::exp(-depth / beam);  // of the beam, for the lower half
-    const Matrix between = to_and_fro(back * back);
-    const Radiance rising = between * (left * up + back * down);
+  /// Adds a layer of the same water below. The same water answers light from either side alike.
+  void put_on(const Layer& lower, double beam) {
+    const double left = std::exp(-depth / beam);  // of the beam, for the lower layer
+    const Matrix between = to_and_fro(lower.back * back);
+    const Radiance rising = between * (left * lower.up + lower.back * down);
     const Radiance sinking = down + back * rising;
     up = up + through * rising;
-    down = left * down + through * sinking;
-    const Matrix reaching = through * between;
-    back = back + reaching * (back * through);
-    through = reaching * through;
-    depth *= 2;
+    down = left * lower.down + lower.through * sinking;
+    const Matrix onwards =
+        lower.through * (&lower == this ? between : to_and_fro(back * lower.back)) * through;
+    back = back + through * between * (lower.back * through);
+    through = onwards;
+    depth += lower.depth;
   }
+  void make_twice_as_deep(double beam) { put_on(*this, beam); }
+};
+
+/// Whatever lies below some depth: its response to light from above, and to the beam.
+struct Lower {
+  Matrix back;
+  Radiance up;
 };
 
 SlabLight light_of(const Layer& layer, const SlabDirections& directions, const SlabWater& water,
@@ -218,47 +233,118 @@ SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
   return layers;
 }
 
+namespace {
+
+/// Light at the lower end of a layer under the surface, over what lies below.
+InsideLight light_at(const Layer& layer, const Lower& lower, const Radiance& reflects,
+                     const Radiance& entering, double beam) {
+  Matrix under = layer.back;
+  for (Radiance& row : under) row = each(reflects, row);
+  const Matrix between = to_and_fro(under);
+  // Light at the top, upwards, for light `up` from below and light sent up and transmitted above.
+  const auto top = [&](const Radiance& sent, const Radiance& up) {
+    return between * (sent + layer.through * up);
+  };
+  // Light from below that comes down again, for each of its directions.
+  Matrix again;
+  for (std::size_t j = 0; j < kCount; ++j) {
+    Radiance one{};
+    one[j] = 1;
+    const Radiance down = layer.back * one + layer.through * each(reflects, top(Radiance{}, one));
+    for (std::size_t i = 0; i < kCount; ++i) again[i][j] = down[i];
+  }
+  const Matrix to_below = to_and_fro(lower.back * again);
+  const auto solve = [&](const Radiance& sent, const Radiance& sinks, const Radiance& rises,
+                         Radiance& up, Radiance& down) {
+    const Radiance first = sinks + layer.through * each(reflects, top(sent, Radiance{}));
+    up = to_below * (lower.back * first + rises);
+    down = first + again * up;
+  };
+  InsideLight light;
+  light.depth = layer.depth;
+  solve(layer.up, layer.down, std::exp(-layer.depth / beam) * lower.up, light.sun_up,
+        light.sun_down);
+  solve(layer.back * entering, layer.through * entering, Radiance{}, light.sky_up, light.sky_down);
+  return light;
+}
+
+/// From the sky: transmitted light fills, at its own radiance, the cone in the water.
+Radiance light_entering(const Radiance& reflects, int mode) {
+  Radiance entering{};
+  for (std::size_t i = 0; i < kCount && mode == 0; ++i) entering[i] = 1 - reflects[i];
+  return entering;
+}
+
+Lower endless_water(Layer layer, double beam) {
+  while (layer.depth < kEndless) layer.make_twice_as_deep(beam);
+  return {layer.back, layer.up};
+}
+
+/// A layer over a floor.
+Lower over_floor(const Layer& layer, const SlabDirections& directions, const SlabFloor& floor,
+                 const Lower& endless, double beam, int mode) {
+  const double albedo = mode > 0 ? 0 : floor.albedo;  // Lambert's light is even
+  Matrix bounces;                                     // light down to light up
+  for (Radiance& row : bounces) {
+    for (std::size_t j = 0; j < kCount; ++j) {
+      row[j] = albedo * 2 * directions.weight[j] * directions.cosine[j];
+    }
+  }
+  Radiance lit;
+  lit.fill(albedo * beam);
+  const Matrix below = floor.share * bounces + (1 - floor.share) * endless.back;
+  const Radiance sent = floor.share * lit + (1 - floor.share) * endless.up;
+  const Matrix reaching = layer.through * to_and_fro(below * layer.back);
+  const double left = std::exp(-layer.depth / beam);
+  return {layer.back + reaching * (below * layer.through),
+          layer.up + reaching * (below * layer.down + left * sent)};
+}
+
+}  // namespace
+
 InsideLights solve_inside(const SlabDirections& directions, const SlabWater& water,
                           const SlabDirections::Radiance& reflects, double beam, int mode) {
-  const Layer thin(directions, water, beam, mode, kThin);
-  Layer endless = thin;
-  while (endless.depth < kEndless) endless.make_twice_as_deep(beam);
-  Layer layer = thin;
+  Layer layer(directions, water, beam, mode, kThin);
+  const Lower endless = endless_water(layer, beam);
   while (layer.depth < SlabLight::kFirst) layer.make_twice_as_deep(beam);
-  Radiance entering{};  // from the sky, as in light_of()
-  for (std::size_t i = 0; i < kCount && mode == 0; ++i) entering[i] = 1 - reflects[i];
+  const Radiance entering = light_entering(reflects, mode);
   InsideLights lights;
   for (InsideLight& light : lights) {
-    Matrix under = layer.back;
-    for (Radiance& row : under) row = each(reflects, row);
-    const Matrix between = to_and_fro(under);
-    // Light at the top, upwards, for light `up` from below and light sent up and transmitted above.
-    const auto top = [&](const Radiance& sent, const Radiance& up) {
-      return between * (sent + layer.through * up);
-    };
-    // Light from below that comes down again, for each of its directions.
-    Matrix again;
-    for (std::size_t j = 0; j < kCount; ++j) {
-      Radiance one{};
-      one[j] = 1;
-      const Radiance down = layer.back * one + layer.through * each(reflects, top(Radiance{}, one));
-      for (std::size_t i = 0; i < kCount; ++i) again[i][j] = down[i];
-    }
-    const Matrix to_below = to_and_fro(endless.back * again);
-    const auto solve = [&](const Radiance& sent, const Radiance& sinks, const Radiance& rises,
-                           Radiance& up, Radiance& down) {
-      const Radiance first = sinks + layer.through * each(reflects, top(sent, Radiance{}));
-      up = to_below * (endless.back * first + rises);
-      down = first + again * up;
-    };
-    light.depth = layer.depth;
-    solve(layer.up, layer.down, std::exp(-layer.depth / beam) * endless.up, light.sun_up,
-          light.sun_down);
-    solve(layer.back * entering, layer.through * entering, Radiance{}, light.sky_up,
-          light.sky_down);
+    light = light_at(layer, endless, reflects, entering, beam);
     layer.make_twice_as_deep(beam);
   }
   return lights;
+}
+
+FlooredLights solve_over_floor(const SlabDirections& directions, const SlabWater& water,
+                               const SlabDirections::Radiance& reflects, double beam,
+                               const SlabFloor& floor, int mode) {
+  constexpr std::size_t kHalvings = FlooredLights::kHalvings;
+  const Lower endless = endless_water(Layer(directions, water, beam, mode, kThin), beam);
+  const Radiance entering = light_entering(reflects, mode);
+  double thin = floor.depth;
+  const double least = std::ldexp(floor.depth, -static_cast<int>(kHalvings));
+  while (thin > std::min(kThin, least)) thin /= 2;
+  std::vector<Layer> parts;  // of the floor's depth: a half, a quarter ...
+  Layer layer(directions, water, beam, mode, thin);
+  while (layer.depth < 0.75 * floor.depth) {
+    parts.insert(parts.begin(), layer);
+    layer.make_twice_as_deep(beam);
+  }
+  FlooredLights floored;
+  std::size_t count = 0;
+  const auto add = [&](const Layer& above, const Layer& below) {
+    floored.lights[count++] = light_at(
+        above, over_floor(below, directions, floor, endless, beam, mode), reflects, entering, beam);
+  };
+  Layer deep = parts[0];
+  add(deep, deep);
+  for (std::size_t i = 1; i < kHalvings; ++i) {
+    deep.put_on(parts[i], beam);
+    add(parts[i], deep);
+    add(deep, parts[i]);
+  }
+  return floored;
 }
 
 SlabSource::SlabSource(const SlabDirections& directions, const SlabWater& water, int mode,

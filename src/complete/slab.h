@@ -16,7 +16,7 @@ struct SlabDirections {
   explicit SlabDirections(double ior);
   Radiance cosine, weight;
 
-  /// Irradiance over pi of light from all around.
+  /// Irradiance over pi by light from all directions.
   double flux(const Radiance& radiance) const;
 };
 
@@ -67,6 +67,21 @@ SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
 using InsideLights = std::array<InsideLight, SlabLight::kLayers>;
 InsideLights solve_inside(const SlabDirections& directions, const SlabWater& water,
                           const SlabDirections::Radiance& reflects, double beam, int mode);
+
+/// A level floor under the water, at an optical depth. A `share` of it reflects the light as a
+/// Lambert surface of this albedo does; the rest is the water's own light, as of endless water.
+struct SlabFloor {
+  double depth, albedo, share;
+};
+
+/// Light between the surface and a floor. Depths crowd near both.
+struct FlooredLights {
+  static constexpr std::size_t kHalvings = 10, kCount = 2 * kHalvings - 1;
+  std::array<InsideLight, kCount> lights;
+};
+FlooredLights solve_over_floor(const SlabDirections& directions, const SlabWater& water,
+                               const SlabDirections::Radiance& reflects, double beam,
+                               const SlabFloor& floor, int mode);
 
 /// In-scatter per unit of optical path along a cosine with the upwards vertical, -1 ... 1: of light
 /// that travels up and down, by direction.

@@ -12,11 +12,11 @@
 
 namespace limpid {
 
-/// The water's surface where no pixel shows it: its height and slopes at places along rows of the
-/// calm surface, by the waves of the look. For sines both; for tiling maps the slopes, by any
-/// model, from a tile of them; for the frame's own normals the scene's sines, if it has any, else
-/// the slopes of the normals within the picture, and calm water beyond it. Without a height the
-/// water is at the calm level, as it is for the pixels.
+/// Heights and slopes of the water's surface at places along rows of the calm surface, independent
+/// of pixels. Sines have heights and slopes. Tiling maps have slopes, which for any model are read
+/// from a precomputed tile. For the frame's own normals the scene's sines are used, if it has any,
+/// else the slopes of the normals within the picture, and calm water beyond it. Water without
+/// heights is at the calm level, as for the pixels.
 class WaveRows {
  public:
   /// False if the water is calm. The frame, the pass and the waves must live as long.

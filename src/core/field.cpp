@@ -116,7 +116,7 @@ void check(std::string_view owner, const FieldInfo& field, const Value& value) {
       }
       break;
     case FieldKind::kText:
-      if (!word) fail("a text");
+      if (!word) fail("a string");
       break;
     case FieldKind::kCountOrWord:
       if (x ? !inside(*x) || *x != std::floor(*x) : !is_one_of(field.choices, word)) {

@@ -20,7 +20,7 @@ constexpr Role kRoles[] = {
     {"shadow", PlaneId::kShadow, 1, 1, Sanitise::kShadow, "shadow", "Y", Storage::kHalf,
      "visibility of the sun: 1 lit, 0 in shadow"},
     {"reflection", PlaneId::kReflectionR, 3, 0, Sanitise::kColor, "reflection", "R G B",
-     Storage::kHalf, "what a flat mirror in the water plane shows at each pixel"},
+     Storage::kHalf, "the picture of a flat mirror in the water plane"},
     {"surface_depth", PlaneId::kSurfaceDepth, 1, kNoHit, Sanitise::kDepth, "surface", "Z",
      Storage::kFloat, "depth of the water surface"},
     {"surface_normal", PlaneId::kSurfaceNormalX, 3, 0, Sanitise::kNormal, "surface", "NX NY NZ",
@@ -53,7 +53,7 @@ const Role& role_named(std::string_view name) {
     if (role.name == name) return role;
     known.emplace_back(role.name);
   }
-  throw Error("'" + std::string(name) + "' is no buffer of a frame: expected one of " +
+  throw Error("'" + std::string(name) + "' is not a buffer of a frame: expected one of " +
               join(known) + did_you_mean(name, known));
 }
 

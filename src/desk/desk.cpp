@@ -66,6 +66,22 @@ std::string text_of(const DeskChoice& choice) {
   return text;
 }
 
+std::vector<ReplacedChoice> replaced_choices(const Look& asked, const Plan& plan) {
+  std::vector<ReplacedChoice> replaced;
+  const std::vector<Parameter> before = parameters(asked), after = parameters(plan.look);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const Parameter& p = after[i];
+    if (p.kind != FieldKind::kChoice || p.value == before[i].value) continue;
+    std::string why;
+    for (const PlannedOperator& op : plan.operators) {
+      if (op.name == p.table) why = op.reason;
+    }
+    replaced.push_back(
+        {std::string(p.table) + "." + std::string(p.name), to_string(p.value), std::move(why)});
+  }
+  return replaced;
+}
+
 }  // namespace
 
 /// The result of a run; valid until the next one.
@@ -81,6 +97,7 @@ struct Desk::Painted {
   const Canvas* canvas = nullptr;
   RunTimes times;
   double read_seconds = 0;
+  std::vector<ReplacedChoice> replaced;
   std::vector<std::string> warnings, advice;
 };
 
@@ -208,6 +225,7 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
   painted.display = held.plate().display();
   painted.window = painted.frame.work();
   painted.primaries = scene.primaries;
+  painted.replaced = replaced_choices(job.look, plan);
   painted.warnings = warnings_of(job, held.plate(), plan);
   if (!half) {
     warn_of_pixels(plan, painted.frame, scene, held.transparent(), painted.warnings);
@@ -288,6 +306,7 @@ DeskPicture Desk::paint(const PictureRequest& request) {
   DeskPicture picture;
   picture.shown = show(request, painted);
   picture.half = request.half;
+  picture.replaced = std::move(painted.replaced);
   picture.warnings = std::move(painted.warnings);
   picture.advice = std::move(painted.advice);
   auto& times = picture.milliseconds;

@@ -79,9 +79,17 @@ struct PictureRequest : DeskChoice {
   std::string display = {};      ///< one of Desk::displays(); "" for the first
 };
 
+/// A choice of the look that a rule of the planner replaces for this plate.
+struct ReplacedChoice {
+  std::string key;    ///< of the parameter, "wave_normals.model"
+  std::string value;  ///< that runs
+  std::string why;    ///< the reason in the plan
+};
+
 struct DeskPicture {
   Shown shown;
   bool half = false;
+  std::vector<ReplacedChoice> replaced;
   /// Times in milliseconds, in the order of the work: "all" is wall-clock time, "read", each
   /// operator and "rest" are sums over all threads.
   std::vector<std::pair<std::string, double>> milliseconds;

@@ -172,7 +172,7 @@ class Asked {
   std::string text(const char* key, std::optional<std::string> otherwise = {}) const {
     const Json* value = find(key);
     if (!value && otherwise) return *otherwise;
-    if (!value || !value->is_string()) refuse(key, "a text");
+    if (!value || !value->is_string()) refuse(key, "a string");
     return value->get<std::string>();
   }
 
@@ -224,7 +224,7 @@ std::string setting_text(const std::string& key, const Json& value) {
   if (value.is_number()) return key + "=" + toml_text(value.get<double>());
   if (is_numbers(value)) return key + "=" + numbers_text(value);
   if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_numbers)) {
-    Asked::refuse("set: " + key, "a number, a text, or a list of numbers or of rows of them");
+    Asked::refuse("set: " + key, "a number, a string, or a list of numbers or of rows of numbers");
   }
   std::vector<std::string> rows;
   for (const Json& row : value) rows.push_back(numbers_text(row));
@@ -315,11 +315,16 @@ SaveRequest save_request(std::string_view json) {
 std::string picture_bytes(const DeskPicture& picture) {
   Json milliseconds = Json::object();
   for (const auto& [name, time] : picture.milliseconds) milliseconds[name] = time;
+  Json replaced = Json::array();
+  for (const auto& [key, value, why] : picture.replaced) {
+    replaced.push_back({{"key", key}, {"value", value}, {"why", why}});
+  }
   const Shown& shown = picture.shown;
   const std::string facts = dumped({{"width", shown.size.width},
                                     {"height", shown.size.height},
                                     {"half", picture.half},
                                     {"milliseconds", std::move(milliseconds)},
+                                    {"replaced", std::move(replaced)},
                                     {"warnings", picture.warnings},
                                     {"advice", picture.advice},
                                     {"wet", picture.wet ? Json(*picture.wet) : Json(nullptr)},

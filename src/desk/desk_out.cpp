@@ -60,7 +60,8 @@ fs::path Desk::save(const DeskChoice& choice, const std::string& name, bool repl
   if (fs::is_symlink(there)) throw Error(path.string() + ": is a link: expected a file, or none");
   expect_apart({inputs_of(options_), {path}});
   if (fs::exists(there) && !replace) {
-    throw NameTaken(path.string() + ": is there already: expected another name, or to replace it");
+    throw NameTaken(path.string() +
+                    ": exists already: expected another name, or permission to replace it");
   }
   AtomicFiles files;
   files.add(path).write(text);

@@ -212,7 +212,7 @@ void* limpid_http_open(const HttpOptions* options, const HttpHost* host, int* po
     sentence = "port " + std::to_string(options->port) +
                ": cannot be opened (in use, or not allowed): expected another port, or 0 for any";
   } catch (const std::exception& error) {
-    sentence = std::string("cannot make a server (") + error.what() + ")";
+    sentence = std::string("cannot start a server (") + error.what() + ")";
   }
   put(to, sentence.data(), sentence.size());
   return nullptr;

@@ -7,7 +7,7 @@
 #include "limpid/core/error.h"
 
 #include "enter/nothing_hit.h"
-#include "enter/sane_row.h"
+#include "enter/valid_row.h"
 
 namespace limpid {
 namespace {
@@ -104,7 +104,7 @@ struct EnteredPlanes::Entry {
 
   void watch(const Role& role, int y0, int y1) const {
     PlaneRoute& route = this->route(role);
-    const SaneRange range = sane_range(role.sanitise);
+    const ValidRange range = valid_range(role.sanitise);
     for (int i = 0; i < role.count; ++i) {
       const HostInput view = plane(role, i);
       if (!view) continue;
@@ -114,7 +114,7 @@ struct EnteredPlanes::Entry {
         const auto* row = floats.row(y);
         const int count = view.window.width();
         const bool zero = covered(role) && row_has(0, row, floats.x_stride, count);
-        if (zero || !row_is_sane(range, row, floats.x_stride, count)) {
+        if (zero || !row_is_valid(range, row, floats.x_stride, count)) {
           route.wrong.store(true, std::memory_order_relaxed);
         }
       }

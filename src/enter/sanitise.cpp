@@ -8,7 +8,7 @@
 #include "limpid/core/error.h"
 
 #include "enter/nothing_hit.h"
-#include "enter/sane_row.h"
+#include "enter/valid_row.h"
 
 namespace limpid {
 namespace {
@@ -26,10 +26,10 @@ void for_each_pixel(const View<float>& plane, Fn&& fn) {
 /// Passes all values of rows with any invalid value, which nearly no row has, to `fn`; `fn` leaves
 /// valid values unchanged.
 template <class Fn>
-void for_each_insane(const View<float>& plane, const SaneRange& range, Fn&& fn) {
+void for_each_in_invalid_rows(const View<float>& plane, const ValidRange& range, Fn&& fn) {
   const Rect& w = plane.window;
   for (int y = w.y0; y < w.y1; ++y) {
-    if (row_is_sane(range, plane.row(y), plane.x_stride, w.width())) continue;
+    if (row_is_valid(range, plane.row(y), plane.x_stride, w.width())) continue;
     for_each_pixel({plane.row(y), plane.x_stride, plane.y_stride, {w.x0, y, w.x1, y + 1}}, fn);
   }
 }
@@ -54,7 +54,7 @@ Replaced convert_depth(const View<float>& plane, Missed&& missed, Convert&& conv
 /// Clamps to 0 ... 1; NaN and inf become `otherwise` and are counted.
 Replaced sanitise_share(const View<float>& plane, Sanitise kind, float otherwise) {
   Replaced replaced;
-  for_each_insane(plane, sane_range(kind), [&](float& s, int, int) {
+  for_each_in_invalid_rows(plane, valid_range(kind), [&](float& s, int, int) {
     if (std::isfinite(s)) {
       s = s < 0 ? 0 : s > 1 ? 1 : s;
     } else {
@@ -108,7 +108,7 @@ float largest_of(PlaneId plane) { return plane == PlaneId::kColorA ? 1 : kLarges
 
 Replaced sanitise_color(const View<float>& plane, float largest) {
   Replaced replaced;
-  for_each_insane(plane, sane_range(Sanitise::kColor), [&](float& c, int, int) {
+  for_each_in_invalid_rows(plane, valid_range(Sanitise::kColor), [&](float& c, int, int) {
     if (std::isfinite(c)) return;
     count(replaced, c);
     c = c > 0 ? largest : 0;
@@ -149,11 +149,12 @@ Replaced make_eye_depth(const View<float>& plane, const DepthSource& source) {
   switch (source.kind) {
     case DepthKind::kEye: {
       Replaced replaced;
-      for_each_insane(plane, sane_range(Sanitise::kDepth, nothing), [&](float& z, int, int) {
-        if (z > -kNoHit && z < nothing) return;
-        if (!(z > -kNoHit)) count(replaced, z);
-        z = kNoHit;
-      });
+      for_each_in_invalid_rows(plane, valid_range(Sanitise::kDepth, nothing),
+                               [&](float& z, int, int) {
+                                 if (z > -kNoHit && z < nothing) return;
+                                 if (!(z > -kNoHit)) count(replaced, z);
+                                 z = kNoHit;
+                               });
       return replaced;
     }
     case DepthKind::kRay: {

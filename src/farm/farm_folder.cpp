@@ -89,8 +89,9 @@ bool FarmFolder::has_record() const {
 FarmRecord FarmFolder::record() const {
   const fs::path name = file("farm.json");
   if (!has_record()) {
-    throw Error(path_.string() + ": not a farm (it has no farm.json); expected the folder that " +
-                "limpid farm named, as in shot/wet.farm");
+    throw Error(path_.string() +
+                ": not a farm (it has no farm.json); expected the folder of a farm, " +
+                "as in shot/wet.farm");
   }
   try {
     const json read = json::parse(text_of(name));

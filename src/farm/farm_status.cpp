@@ -170,11 +170,11 @@ std::string summary_text(const FarmVerdict& verdict, const FarmStatus& status) {
   why.insert(verdict.why.begin(), verdict.why.end());  // does not replace a task's sentence
   std::string text = std::to_string(verdict.frames - verdict.missing.size()) + " of " +
                      std::to_string(verdict.frames) +
-                     " frames are there and whole, by the hashes that they carry\n";
+                     " frames are complete, by the hashes in their headers\n";
   for (const int frame : verdict.missing) {
     const auto said = why.find(frame);
     text += "frame " + std::to_string(frame) + ": " +
-            (said == why.end() ? "is not there" : said->second) + "\n";
+            (said == why.end() ? "is missing" : said->second) + "\n";
   }
   return text;
 }

@@ -39,7 +39,7 @@ struct Pipe {
   Pipe() {
     int ends[2] = {-1, -1};
     if (::pipe2(ends, O_CLOEXEC) != 0) {
-      throw Error(std::string("no pipe: ") + std::strerror(errno), Fault::kRetry);
+      throw Error(std::string("cannot make a pipe: ") + std::strerror(errno), Fault::kRetry);
     }
     out = ends[0];
     in = ends[1];

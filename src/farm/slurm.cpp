@@ -65,8 +65,8 @@ std::size_t most_slurm_tasks() {
     const ProgramRun config = expect_done({"scontrol", "show", "config"});
     return static_cast<std::size_t>(most_tasks_of(config.out).value_or(kUsual));
   } catch (const Error& error) {
-    throw Error(std::string("no Slurm answers: ") + error.what() +
-                    "; expected one, or --local N to run the tasks here",
+    throw Error(std::string("Slurm does not answer: ") + error.what() +
+                    "; expected Slurm, or --local N to run the tasks here",
                 error.fault());
   }
 }
@@ -97,7 +97,7 @@ FarmQueue queue_of(const std::vector<long>& jobs) {
     std::erase_if(queue.tasks, [&](const SlurmTask& task) { return task.job != jobs.front(); });
   } catch (const Error& error) {
     queue.at_work.reset();
-    queue.note = std::string("The scheduler cannot be asked; frames only (") + error.what() + ")";
+    queue.note = std::string("Slurm does not answer (") + error.what() + ")";
   }
   return queue;
 }

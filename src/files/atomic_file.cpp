@@ -98,7 +98,7 @@ std::filesystem::path target_of(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(target, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw Error(path.string() + ": is there and not a file, so it is not replaced");
+    throw Error(path.string() + ": exists and is not a file: expected a file to replace, or none");
   }
   return target;
 }

@@ -41,7 +41,7 @@ struct Candidate {
   std::string name() const { return properties.deviceName; }
   /// Why the device cannot be used, or "".
   std::string fault() const {
-    if (properties.apiVersion < kVersion) return "knows a Vulkan older than 1.2";
+    if (properties.apiVersion < kVersion) return "supports only Vulkan before 1.2";
     if (family < 0) return "has no compute queue";
     if (!keeps_infinity) return "does not preserve infinity in 32-bit floats";
     return "";

@@ -41,8 +41,8 @@ class GpuDevice {
   VkPhysicalDevice physical() const { return physical_; }
   VkDevice handle() const { return device_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
-  /// Largest number of threads in a group (ShaderOptions::most_threads).
-  int most_threads() const { return static_cast<int>(limits_.maxComputeWorkGroupInvocations); }
+  /// Largest number of threads in a group (ShaderOptions::max_threads).
+  int max_threads() const { return static_cast<int>(limits_.maxComputeWorkGroupInvocations); }
   /// "NVIDIA H100 80GB HBM3 (NVIDIA 580.159)": the device, and its driver.
   const std::string& name() const { return name_; }
   std::uint32_t family() const { return family_; }  ///< of its queues

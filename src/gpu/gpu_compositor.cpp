@@ -102,7 +102,7 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
   void fit_copy(const GpuImageView& color);
   void copy_color(VkCommandBuffer c, const GpuImageView& color);
   void expect_recorded() const {
-    if (!recorded) throw Error("compositor: no frame has been recorded as it is set now");
+    if (!recorded) throw Error("compositor: no frame has been recorded since its settings changed");
   }
 
   GpuCompositorOptions options;
@@ -257,7 +257,7 @@ void GpuCompositor::record(VkCommandBuffer_T* commands, const GpuFrame& host,
   if (!s.plan->reads_environment) pass.environment = {};
   ShaderOptions options;
   options.stage = ShaderOptions::Stage::kCompute;
-  options.most_threads = s.device->most_threads();
+  options.max_threads = s.device->max_threads();
   options.half = holds_halves(picture.format);
   const Rect work = frame.work();
   const bool begins = picture.window.x0 == work.x0 && picture.window.y0 == work.y0;

@@ -136,7 +136,7 @@ void GpuRunner::run(const Plan& plan, const Frame& plate, const Scene& scene, co
   pass.plate_waves = k.completer.plate_waves();
   if (!plan.reads_environment) pass.environment = {};  // not checked
   ShaderOptions options = compute_shader(aovs_of(target));
-  options.most_threads = k.device->most_threads();
+  options.max_threads = k.device->max_threads();
   const ShaderProgram program = program_of(plan, plate, frame, pass, options, Gathered::kAll);
   k.fit(program);
   k.fill(program, executor);

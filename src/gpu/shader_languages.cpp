@@ -47,8 +47,8 @@ ShaderLanguage shader_language_named(std::string_view name) {
     if (kNames[i] == name) return static_cast<ShaderLanguage>(i);
     known.emplace_back(kNames[i]);
   }
-  throw Error("'" + std::string(name) + "' is no shader language: expected one of " + join(known) +
-              did_you_mean(name, known));
+  throw Error("'" + std::string(name) + "' is not a shader language: expected one of " +
+              join(known) + did_you_mean(name, known));
 }
 
 std::vector<std::uint32_t> spirv_of(const std::string& glsl, Stage stage) {

@@ -95,6 +95,7 @@ std::vector<Aov> computed_aovs(const OutputChoice& choice) {
   if (choice.motion) {
     add(Aov::kStmapG);
     add(Aov::kSurfaceDepth);
+    add(Aov::kNormal);  // for vectors to a second frame
   }
   if (choice.motion_reflected) {
     add(Aov::kSurfaceDepth);

@@ -35,7 +35,7 @@ std::string contradiction(const Primaries& named, const Plate& plate) {
   } catch (const Error&) {
     return "";
   }
-  return "the colorspace is named " + to_string(named) + ", and the plate says that it is " + told;
+  return "the color space is given as " + to_string(named) + ", and the plate names " + told;
 }
 
 }  // namespace
@@ -120,10 +120,9 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
   }
   if (plan.reads_environment && !agree(plan.primaries, kRec709) &&
       !told_primaries(job.scene.environment)) {
-    warnings.push_back(
-        "the environment " + job.scene.environment.filename().string() +
-        " does not say what its color space is, and is taken to be of the plate's, " +
-        to_string(plan.primaries));
+    warnings.push_back("the environment " + job.scene.environment.filename().string() +
+                       " names no color space: it is read in that of the plate, " +
+                       to_string(plan.primaries));
   }
   // It may stand by for a reflection.
   const bool mirrors = plan.reads_environment || plan.planes.meets(kReflectionPlanes);

@@ -25,29 +25,14 @@ std::string reflected_text(const OutputChoice& choice) {
   return line("motion_of", choice.motion ? "[\"seen\", \"reflected\"]" : "[\"reflected\"]");
 }
 
-/// Camera and water of the job's second frame.
-Scene second_scene(const CompositeJob& job, const Plate& plate, const Scene& scene, double ior) {
-  CompositeJob of_second = job;
-  of_second.plate = job.second->plate;
-  of_second.scene = job.second->scene;
-  try {
-    const Plate second = Plate::open(of_second.plate);
-    if (second.display() != plate.display()) {
-      throw Error("expected the display window of this frame's plate");
-    }
-    Scene found = scene_of(of_second, second);
-    Parallax(WaterView(scene, plate.display()), WaterView(found, plate.display()), ior);
-    return found;
-  } catch (const Error& error) {
-    throw Error(std::string("the ") + (job.second->is_previous ? "previous" : "next") +
-                    " frame, for motion vectors: " + error.what(),
-                error.fault());
-  }
-}
-
 /// The vectors to a second frame, as Nuke calls them.
 MotionLayer second_layer(const CompositeJob& job) {
   return {job.second->is_previous ? "motion_backward" : "motion_forward", {"u", "v"}, {}};
+}
+
+std::string no_normals(const CompositeJob& job) {
+  return std::string("the ") + (job.second->is_previous ? "previous" : "next") +
+         " frame has no normals of the surface: its water counts as calm for motion vectors";
 }
 
 }  // namespace
@@ -72,9 +57,9 @@ PreparedView prepare_view(const CompositeJob& job) {
   TextureFiles textures = textures_read(plan, job.scene);
   std::vector<PassedPart> passed = plate.passed(job.output.pass_through);
   std::vector<MotionLayer> motion;
-  std::optional<Scene> second;
+  std::optional<PreparedSecond> second;
   if (has_motion(job.output) && job.second) {
-    second = second_scene(job, plate, scene, plan.look.water.ior);
+    second = prepare_second(job, plate, scene, plan);
     motion = {second_layer(job)};
   } else if (has_motion(job.output)) {
     motion = plate.motion_layers();
@@ -96,8 +81,10 @@ Record record_of(const CompositeJob& job, const PreparedView& view, SharedTextur
   inputs += view.plate.inputs_text(view.plan.planes) + texture_inputs(view.textures, textures);
   const std::string options =
       picture_options(job.output, gpu) + view.plate.passed_text(view.passed) +
-      (view.second ? line("motion_to", toml_text(hash_of(to_toml(*view.second))))
-                   : view.plate.motion_text(view.motion)) +
+      (view.second
+           ? line("motion_to",
+                  toml_text(hash_of(to_toml(view.second->scene) + view.second->inputs_text())))
+           : view.plate.motion_text(view.motion)) +
       reflected_text(job.output);
   Record record = record_of(view.scene, inputs, options);
   add_look(record, job.look, view.plan);
@@ -119,6 +106,7 @@ void CompositeView::read(const CompositeJob& job, PreparedView view, SharedTextu
   report.warnings = warnings_of(job, plate, report.plan);
   warn_of_pixels(report.plan, loaded_.frame, scene_, loaded_.transparent, report.warnings);
   warn_of_beyond(beyond_, report.warnings);
+  if (view.second && view.second->lacks_normals) report.warnings.push_back(no_normals(job));
   for (std::string& warning : manifest_warnings(view.passed, job.output)) {
     report.warnings.push_back(std::move(warning));
   }
@@ -135,11 +123,13 @@ void CompositeView::read(const CompositeJob& job, PreparedView view, SharedTextu
   file_.compression = job.output.compression;
   file_.name = plate.part_name().empty() ? kPicturePart : plate.part_name();
   motion_ = {};
-  second_ = std::move(view.second);
-  if (second_) {
+  if (view.second) {
+    if (!second_) second_.emplace();
+    second_->read(std::move(*view.second));
     motion_.expect_second(std::move(view.motion));
-  } else if (has_motion(job.output)) {
-    motion_.read(plate, std::move(view.motion));
+  } else {
+    second_.reset();
+    if (has_motion(job.output)) motion_.read(plate, std::move(view.motion));
   }
   others_ = pass_through(view.passed, file_);
   plate_ = std::move(view.plate);
@@ -149,10 +139,10 @@ void CompositeView::run(const CompositeJob& job, const Plan& plan, Executor& exe
                         RunTimes* times) {
   canvas_for(canvas_, loaded_.frame.work(), job.output)
       .paint(plan, loaded_.frame, scene_, job.output, executor, times);
-  if (has_motion(job.output)) run_motion(job.output, plan.look.water.ior);
+  if (has_motion(job.output)) run_motion(job.output, plan, executor);
 }
 
-void CompositeView::run_motion(const OutputChoice& choice, double ior) {
+void CompositeView::run_motion(const OutputChoice& choice, const Plan& plan, Executor& executor) {
   const Target& target = canvas_->target();
   const Frame& frame = loaded_.frame;
   const View<float>& surface = target.of(Aov::kSurfaceDepth)[0];
@@ -160,14 +150,20 @@ void CompositeView::run_motion(const OutputChoice& choice, double ior) {
   std::optional<WaterView> second_view;
   std::optional<Parallax> parallax;
   if (second_) {
-    second_view.emplace(*second_, frame.display);
-    parallax.emplace(view, *second_view, ior);
+    second_view.emplace(second_->scene(), frame.display);
+    std::optional<Parallax::Waves> waves;
+    if (second_->has_waves(plan)) {
+      const auto& normal = target.of(Aov::kNormal);
+      waves = {{surface, normal[0], normal[1], normal[2]},
+               second_->paint(textures_, frame.display, choice, executor)};
+    }
+    parallax.emplace(view, *second_view, plan.look.water.ior, waves);
   }
   if (choice.motion) {
     const auto& map = target.of(Aov::kStmapG);
     const LookedUp looked_up{map[0], map[1], surface, frame.display};
     if (parallax) {
-      motion_.carry(*parallax, looked_up, frame.plane(PlaneId::kDepth), frame.work());
+      motion_.carry(*parallax, looked_up, frame.plane(PlaneId::kDepth), frame.work(), executor);
     } else {
       motion_.carry(looked_up, frame.work());
     }
@@ -182,7 +178,7 @@ void CompositeView::run_motion(const OutputChoice& choice, double ior) {
                             frame.plane(PlaneId::kDepth),
                             view};
     if (parallax) {
-      motion_.reflect(*parallax, mirrored, frame.work());
+      motion_.reflect(*parallax, mirrored, frame.work(), executor);
     } else {
       motion_.reflect(mirrored, frame.work());
     }

@@ -10,6 +10,7 @@
 #include "job/composite_inputs.h"
 #include "job/motion.h"
 #include "job/provenance.h"
+#include "job/second_surface.h"
 #include "job/shared_textures.h"
 
 /// @file
@@ -27,7 +28,7 @@ struct PreparedView {
   TextureFiles textures;
   std::vector<PassedPart> passed;
   std::vector<MotionLayer> motion;
-  std::optional<Scene> second;  ///< that motion vectors lead to, if it is not the plate's vectors
+  std::optional<PreparedSecond> second = {};  ///< for motion vectors, unless the plate has them
 };
 PreparedView prepare_view(const CompositeJob& job);
 
@@ -56,11 +57,11 @@ class CompositeView {
   const Beyond& beyond() const { return beyond_; }
 
  private:
-  void run_motion(const OutputChoice& choice, double ior);
+  void run_motion(const OutputChoice& choice, const Plan& plan, Executor& executor);
 
   Beyond beyond_;
   Scene scene_;
-  std::optional<Scene> second_;
+  std::optional<SecondSurface> second_;
   LoadedPlate loaded_;
   HeldTextures textures_;
   std::optional<Plate> plate_;     ///< whose layers are passed through

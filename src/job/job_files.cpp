@@ -66,10 +66,7 @@ class Uses {
     if (of_other.frame != of.frame) text += " of frame " + std::to_string(*of_other.frame);
     text += ", too";
     if (other != output) text += ", named " + other.string();
-    throw Error(text + ": expected " +
-                    (of_other.writes ? "a separate file for each output"
-                                     : "an output that nothing is read from"),
-                Fault::kUsage);
+    throw Error(text + ": expected a separate file for each output", Fault::kUsage);
   }
 
   FilesOfFrame files_of_frame_;

@@ -25,7 +25,7 @@ CompositeJob own_job(const JobOfFrame<CompositeJob>& job_of, int frame) {
   if (const auto gone = missing_file(job)) {
     throw Error(gone->string() +
                     ": has disappeared since the sequence began; run the sequence again to treat "
-                    "it as a missing plate",
+                    "this file as a missing plate",
                 Fault::kRetry);
   }
   return job;
@@ -75,7 +75,8 @@ FilledSequence fill_missing(const std::vector<int>& frames, const JobOfFrame<Com
     }
   }
   if (there.empty() && unclear.empty()) {
-    throw Error(holes[frames.front()].string() + ": no such file, for this frame or any other");
+    throw Error(holes[frames.front()].string() +
+                ": no such file, and no other frame has its plates");
   }
 
   const bool hold = missing == Missing::kHold && !there.empty();

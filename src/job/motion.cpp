@@ -157,15 +157,15 @@ void MotionChannels::expect_second(std::vector<MotionLayer> layers) {
 }
 
 void MotionChannels::carry(const Parallax& parallax, const LookedUp& looked_up,
-                           View<const float> depth, const Rect& window) {
+                           View<const float> depth, const Rect& window, Executor& executor) {
   fit(seen_, 2, window);
-  parallax.seen(looked_up, depth, seen_[0].view(), seen_[1].view());
+  parallax.seen(looked_up, depth, seen_[0].view(), seen_[1].view(), executor);
 }
 
-void MotionChannels::reflect(const Parallax& parallax, const Mirrored& mirrored,
-                             const Rect& window) {
+void MotionChannels::reflect(const Parallax& parallax, const Mirrored& mirrored, const Rect& window,
+                             Executor& executor) {
   fit(reflected_, 2, window);
-  parallax.reflected(mirrored, reflected_[0].view(), reflected_[1].view());
+  parallax.reflected(mirrored, reflected_[0].view(), reflected_[1].view(), executor);
 }
 
 void MotionChannels::carry(const LookedUp& looked_up, const Rect& window) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "limpid/core/executor.h"
 #include "limpid/files/exr/exr_writer.h"
 #include "limpid/job/output.h"
 #include "limpid/plate/plate.h"
@@ -54,8 +55,9 @@ class MotionChannels {
   void expect_second(std::vector<MotionLayer> layers);
   /// Computes its vectors, of both kinds.
   void carry(const Parallax& parallax, const LookedUp& looked_up, View<const float> depth,
-             const Rect& window);
-  void reflect(const Parallax& parallax, const Mirrored& mirrored, const Rect& window);
+             const Rect& window, Executor& executor);
+  void reflect(const Parallax& parallax, const Mirrored& mirrored, const Rect& window,
+               Executor& executor);
   /// Carries the vectors to the pixels that show their texels.
   void carry(const LookedUp& looked_up, const Rect& window);
   /// And to where it mirrors them.

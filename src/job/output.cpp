@@ -18,7 +18,7 @@ Runner runner_named(std::string_view name) {
   const std::vector<std::string> known(std::begin(kRunners), std::end(kRunners));
   const auto at = std::find(known.begin(), known.end(), name);
   if (at != known.end()) return static_cast<Runner>(at - known.begin());
-  throw Error("'" + std::string(name) + "' is no runner: expected one of " + join(known) +
+  throw Error("'" + std::string(name) + "' is not a runner: expected one of " + join(known) +
                   did_you_mean(name, known),
               Fault::kUsage);
 }

@@ -69,7 +69,7 @@ void expect_passable(const std::vector<PassedPart>& passed, const std::vector<Mo
       if (found == written.end()) continue;
       throw Error(part.file->path().string() + ": its channel '" + channel +
                       "', which is passed through, and " + found->second +
-                      " have one name: expected one of the two, or other names (--aov-names)",
+                      " have the same name: expected one of the two, or other names (--aov-names)",
                   Fault::kUsage);
     }
   }
@@ -85,11 +85,9 @@ std::vector<std::string> manifest_warnings(const std::vector<PassedPart>& passed
       const std::string name(attribute.bytes.begin(), attribute.bytes.end());
       const auto folder = [](const fs::path& path) { return fs::absolute(path).parent_path(); };
       if (folder(part.file->path()) == folder(choice.picture)) continue;
-      warnings.push_back("the manifest " + name +
-                         " of a cryptomatte that is passed through lies "
-                         "beside " +
-                         part.file->path().string() + " and is looked for beside " +
-                         choice.picture.string() + ": copy it there, too");
+      warnings.push_back("the manifest " + name + " of a passed-through cryptomatte lies beside " +
+                         part.file->path().string() + ": copy it to the folder of " +
+                         choice.picture.string());
     }
   }
   return warnings;
@@ -106,8 +104,8 @@ std::vector<ExrOutput> pass_through(const std::vector<PassedPart>& passed, ExrOu
     const ExrPart& stored = part_of(part);
     if (stored.display != picture.display) {
       throw Error(place_of(part) +
-                  ": is passed through and has another display window than the "
-                  "picture: expected the same");
+                  ": is passed through and has a different display window: expected that of "
+                  "the picture");
     }
     ExrOutput& output = parts.emplace_back();
     output.data = intersection(stored.data, picture.data);

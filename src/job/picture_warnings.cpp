@@ -57,8 +57,8 @@ std::string glass_text(double share, const std::string& what) {
   char percent[16];
   std::snprintf(percent, sizeof percent, "%.1f %%", 100 * share);
   return std::string(percent) + " of " + what +
-         " transparent, such as glass or a wide blur, and count as opaque at their depth: no water "
-         "is put behind them";
+         " transparent, such as glass or a wide blur, and count as opaque at their depth: there is "
+         "no water behind them";
 }
 
 /// Whether there are pixels of both kinds, as a meaningful picture has.
@@ -67,7 +67,7 @@ bool warn_of_wet(const Frame& frame, const Pass& pass, std::vector<std::string>&
   const Found found = look_at(frame, pass, 1);
   const std::string expected =
       "; if this is not intended, check height and up of the water, camera and kind of depth";
-  if (!found.wet) warnings.push_back("no pixel is wet, the picture is the dry one" + expected);
+  if (!found.wet) warnings.push_back("no pixel is wet, the output is the dry picture" + expected);
   if (!found.dry && !found.in_water) {
     warnings.push_back("every pixel is wet, no object is in front of the water" + expected);
   }
@@ -171,10 +171,10 @@ void warn_of_glint(const Plan& plan, const Frame& frame, const Pass& c,
   const glm::dvec2 sun = place_of(c.sun.direction);
   const glm::dvec2 image = place_of(c.sun.direction - 2 * std::sin(rise) * c.up);
   if (!within(image.x) || (within(sun.x) && within(sun.y))) return;
-  warnings.push_back("the sun stands " +
-                     std::to_string(std::lround(rise * 180 / std::numbers::pi)) +
-                     " degrees high and out of the picture: what may hide it from the water is not "
-                     "seen, and its glint may be too strong; expected a surface_shadow");
+  warnings.push_back(
+      "the sun is " + std::to_string(std::lround(rise * 180 / std::numbers::pi)) +
+      " degrees high and outside of the picture: objects that hide it from the water "
+      "are not visible, and its glint may be too strong; expected a surface_shadow");
 }
 
 void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
@@ -275,7 +275,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
 
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {
   if (share < 0.001) return;
-  warnings.push_back(glass_text(share, "the wet pixels show something under the water that is"));
+  warnings.push_back(glass_text(share, "the wet pixels show objects under water that are"));
 }
 
 Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene) {
@@ -294,7 +294,7 @@ void refuse_warnings(bool strict, const std::vector<std::string>& warnings) {
   if (!strict || warnings.empty()) return;
   throw Error(warnings.front() +
               (warnings.size() > 1
-                   ? " (and " + std::to_string(warnings.size() - 1) + " warnings more)"
+                   ? " (and " + std::to_string(warnings.size() - 1) + " more warnings)"
                    : ""));
 }
 

@@ -32,7 +32,7 @@ void check(const ExrFile& file, VerifyLevel level) {
   if (level == VerifyLevel::kWhole) return;
   const std::optional<bool> as_written = file.is_as_written();
   if (!as_written) throw Error(name + " has no hash of its bytes");
-  if (!*as_written) throw Error(name + " has changed since it was written (its hash is another)");
+  if (!*as_written) throw Error(name + " has changed since it was written (its hash differs)");
 }
 
 /// The file's values for the names of the record. Throws Error if it cannot be read or fails the
@@ -58,7 +58,7 @@ std::string why_not(const fs::path& file, const Record& record, VerifyLevel leve
       if (found == said.end()) return file.string() + " does not record how it was made";
       if (found->second != text) others.push_back(name.substr(name.find('/') + 1));
     }
-    return others.empty() ? "" : file.string() + " was made otherwise (" + join(others) + ")";
+    return others.empty() ? "" : file.string() + " was made differently (" + join(others) + ")";
   } catch (const Error& error) {
     return error.what();
   }
@@ -74,7 +74,7 @@ Found find(const ExpectedOutput& output, VerifyLevel level) {
   const std::vector<fs::path>& files = output.files.outputs;
   if (!is_there(files.front())) return {};
   for (const fs::path& file : files) {
-    if (!is_there(file)) return {false, file.string() + " is not there"};
+    if (!is_there(file)) return {false, file.string() + " is missing"};
   }
   Record record;
   try {

@@ -11,7 +11,7 @@ inline Scene scene_of(const Model& model, const SceneJob& job, Size size) {
   scene.time = job.time.of(job.scene);
   if (const auto& named = job.scene.primaries; named && !agree(*named, kRec709)) {
     throw Error("scene.colorspace = " + to_string(*named) +
-                ": expected Rec.709, which the colors of a glTF scene are of");
+                ": expected Rec.709, the color space of a glTF scene");
   }
   return scene_of_model(scene, model, size);
 }

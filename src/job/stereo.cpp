@@ -24,8 +24,8 @@ bool same_camera(const Camera& a, const Camera& b) {
 void expect_views(const CompositeJob& job, const std::vector<PreparedView>& views) {
   if (views.size() < 2) return;
   if (!job.output.deep.empty()) {
-    throw Error(job.output.deep.string() + ": a deep file holds one view, and there are " +
-                    std::to_string(views.size()) + ": expected --view with one",
+    throw Error(job.output.deep.string() + ": a deep file holds one view, and --view names " +
+                    std::to_string(views.size()) + ": expected one",
                 Fault::kUsage);
   }
   for (auto a = views.begin(); a != views.end(); ++a) {
@@ -33,7 +33,7 @@ void expect_views(const CompositeJob& job, const std::vector<PreparedView>& view
       const std::string both = "views " + a->name + " and " + b->name;
       if (a->name == b->name) throw Error(both + ": expected each once", Fault::kUsage);
       if (a->plate.display() != b->plate.display()) {
-        throw Error(both + " have other display windows: expected one size");
+        throw Error(both + " have different display windows: expected one");
       }
       if (same_camera(*a->scene.camera, *b->scene.camera)) {
         throw Error(

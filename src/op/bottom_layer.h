@@ -4,8 +4,7 @@
 #include "op/screen_ray.h"
 
 /// @file
-/// The bottom where no buffer shows it: behind objects that stand in the water, or in front of
-/// them.
+/// The bottom where no buffer shows it, because an object in the water hides it.
 
 namespace limpid {
 
@@ -18,8 +17,8 @@ struct BottomLayer {
 
   Texture colors;
   /// Red: depth of the bottom below the calm surface, in scene units. Green: more than half where
-  /// there is no bottom, for around there the picture shows none. Blue: 1 / thickness of what
-  /// stands before the bottom, 0 where nothing does.
+  /// there is no bottom, because the picture shows none around. Blue: 1 / thickness of the object
+  /// in front of the bottom, 0 without an object.
   Texture shape;
   glm::dvec2 scale, offset;  ///< from the picture's uv to the textures' uv
   double most_drop;          ///< the largest depth in `shape`
@@ -42,11 +41,11 @@ class BottomLayerTaps {
   }
   /// Shape::drop alone, for a third of the lookups.
   F bottom(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.shape, place(shift)).r; }
-  /// Whether the bottom has ended before `shift`.
+  /// Whether there is no bottom at `shift`.
   auto is_bottomless(Vec2<F> shift) const {
     return tap_.lat_long_rgb(layer_.shape, place(shift)).g > F(0.5);
   }
-  /// Whether what is seen at `shift`, `drop` below the calm surface, is of the bottom.
+  /// Whether the surface that is visible at `shift`, `drop` below the calm surface, is the bottom.
   auto is_bottom(Vec2<F> shift, F drop) const {
     return drop >= F(BottomLayer::kOfBottom) * bottom(shift);
   }

@@ -7,7 +7,7 @@
 #include "op/seen_planes.h"
 
 /// @file
-/// Where a refracted ray meets the surfaces that the depth plane shows.
+/// The intersection of refracted rays with the surfaces in the depth plane.
 
 namespace limpid {
 
@@ -16,14 +16,15 @@ template <class F, class Tap>
 class BottomSearch {
  public:
   struct Found {
-    F distance;  ///< distance along the ray, +inf where it meets nothing
-    F sure;      ///< 1 where the bottom was seen, 0 where the distance is a guess
+    F distance;  ///< distance along the ray, +inf where it meets no surface
+    F sure;      ///< 1 where the picture shows the bottom there, 0 where the distance is a guess
   };
 
   /// `fall`: the distance from the calm surface that the ray gains per unit of its length.
-  /// `thickness`: that of thin objects along the view, in scene units; 0: as Pass::bottom_layer has
-  /// it. `expected`: about how far the ray will go, as the search of the neighbouring pixel left
-  /// it, 0 before the first search. It saves lookups and changes no result.
+  /// `thickness`: the thickness of thin objects along the view, in scene units; 0: that of
+  /// Pass::bottom_layer. `expected`: the step at which the search of the neighbouring pixel met the
+  /// bottom, 0 before the first search; each search updates it. It saves lookups and changes no
+  /// result.
   LIMPID_INLINE BottomSearch(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel,
                              const Tap& taps, const ScreenRay<F>& distance, F fall,
                              const double& thickness, int& expected)
@@ -36,8 +37,8 @@ class BottomSearch {
         thickness_(thickness),
         expected_(expected) {}
 
-  /// k fixed-point steps: each takes the bottom as deep as where the last step landed, from the
-  /// depth at the pixel itself on.
+  /// k fixed-point steps: each takes the depth of the bottom from the end of the ray that the step
+  /// before found; the first takes the depth at the pixel itself.
   Found iterate(int steps) const {
     F distance = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
     repeat<F>(steps, [&] { distance = to_level(distance); });
@@ -61,7 +62,7 @@ class BottomSearch {
     const F first = min(ray_.share_at(shallow, most), F(1.0 / kSteps));
     const auto wet = tap_.wet();
     F before = F(0), after = F(1), found = F(0), hidden = F(0);
-    // Tests the ray at a share t of its length; lanes that have met nothing stay open.
+    // Tests the ray at a share t of its length; lanes without a hit stay open.
     const auto look_at = [&](F t, F texels, bool begins) {
       const auto open = wet && found < F(0.5);
       const F distance = ray_.at_share(t, most);
@@ -93,8 +94,8 @@ class BottomSearch {
           next_doubt = i - 1 + kLooksBetweenDoubts;
         }
         if (i < next_leap) return i;
-        // The first steps lead almost to where the neighbouring rays met the bottom, or else to the
-        // level of the bottom at the pixel itself.
+        // The first leap leads almost to the step at which the neighbouring rays met the bottom, or
+        // else to the level of the bottom at the pixel itself.
         const auto steps_to_level = [&] {
           const F level = ray_.share_at(min(own_drop / fall_, most), most);
           return static_cast<int>(kSteps * least(select(open, saturate(level), F(1))));
@@ -144,9 +145,9 @@ class BottomSearch {
   static constexpr double kLeastFall = 0.021;  ///< below it `fall` may exceed the true fall
   static constexpr int kStepsBehind = 12, kSecants = 3;
 
-  /// Step i, or a later step if the lookups from i up to it would find nothing: there Pass::heights
-  /// shows that the rays stay above all that they pass. Leaps up to the step `goal` become shorter
-  /// and shorter, because near the bottom only short ones are safe; leaps beyond it become longer.
+  /// Step i, or a later step if no lookup from i up to it would be a hit, because by Pass::heights
+  /// the rays stay above all surfaces on their path. Leaps up to the step `goal` become shorter and
+  /// shorter, because near the bottom only short leaps are safe; leaps beyond it become longer.
   template <class Lanes>
   int leap_from(int i, int goal, Lanes open, F most) const {
     const F top = surface_height();
@@ -182,10 +183,11 @@ class BottomSearch {
     return given<F>(c_.eye_above) + dot(vec3_of<F>(c_.up), p_.surface_point);
   }
 
-  /// Whether rays that have passed behind an object stay far behind all that they still pass, by
-  /// Pass::heights: past() would return hidden for each lookup from `distance` on. Along the view
-  /// ray of a texel, depths are proportional to heights. So behind > slack is written here for calm
-  /// water, times -1; the texels' share is largest at one of the two ends.
+  /// Whether rays that have passed behind an object stay far behind all surfaces on their path, by
+  /// Pass::heights, so that past() would return 1 at each lookup from `distance` on. Along the view
+  /// ray of a texel, depths are proportional to heights. So the condition behind > slack of past()
+  /// is tested for heights of calm water, times -1; the term of the texels is largest at one of the
+  /// two ends.
   template <class Lanes>
   bool stays_behind(Lanes open, F distance, F most, F texels) const {
     const F top = surface_height();
@@ -203,15 +205,15 @@ class BottomSearch {
     return falls * calm_depth_step(c_, p_, shift);
   }
 
-  /// How far a point seen on the screen lies below the surface point (above it, for a view from
-  /// below).
+  /// Height of the surface point over the point at `depth` on the view ray at `shift` (for a view
+  /// from below, height of that point over the surface point); at least 0.
   LIMPID_INLINE F drop_to(Vec2<F> shift, F depth) const {
     return max(p_.side * (surface_height() - height_at(c_, p_, shift, depth)), F(0));
   }
 
-  /// The same for what a texel shows; 0 where the texel gives no depth of the bottom: it shows an
-  /// object above the surface, or the layer below is empty there (the bottom rises out of the water
-  /// and was clipped).
+  /// The same for the depth of a texel; 0 where the texel has no depth of the bottom, because it
+  /// shows an object above the surface, or the layer below is empty (the bottom rises out of the
+  /// water and was clipped).
   LIMPID_INLINE F seen_drop(Vec2<F> shift, F depth) const {
     const F drop = drop_to(shift, depth);
     return planes_.below ? select(depth < F(1e30), drop, F(0)) : drop;
@@ -236,13 +238,13 @@ class BottomSearch {
   /// Whether the ray runs in front of a visible bottom.
   LIMPID_INLINE static auto is_free(const Sight& at) { return at.behind < F(0) && at.drop > F(0); }
 
-  /// Where the rays of `lanes` meet the bottom of Pass::bottom_layer, which goes on behind what
-  /// hides it, up to `most`, and beyond that its level there; +inf where it has ended. Equal steps
-  /// on screen, then by secants.
+  /// The distance at which the rays of `lanes` meet the bottom of Pass::bottom_layer, which
+  /// continues behind the objects that hide it, up to `most`; beyond `most` the distance to the
+  /// bottom's level there; +inf where there is no bottom. Equal steps on screen, then secants.
   template <class Lanes>
   [[gnu::noinline]] F end_behind(Lanes lanes, F most) const {
     const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
-    // How far the bottom lies below the ray.
+    // Height of the ray over the bottom.
     const auto room = [&](F distance) {
       return surface_height() + layer.bottom(ray_.shift_at(distance)) - distance * fall_;
     };
@@ -275,8 +277,8 @@ class BottomSearch {
     const F level = max(end + room_after / fall_, F(0));
     const F distance = select(found > F(0.5), met, level);
     const F behind = max(distance, F(0));
-    // An object in the water may occlude its own parts: there its level continues. An object just
-    // beyond, apart from it and above the water, occludes the bottom.
+    // An object in the water may hide parts of itself: there its level continues. An object above
+    // the water just beyond, apart from the first, hides the bottom.
     const Vec2<F> here{F(0), F(0)};
     const auto stands = !layer.is_bottom(here, F(0) - height_at(c_, p_, here, p_.dry_depth));
     F ends = select(layer.is_bottomless(ray_.shift_at(behind)), F(HUGE_VAL), behind);
@@ -289,8 +291,8 @@ class BottomSearch {
     return ends;
   }
 
-  /// Where the ray passes behind the visible surface, between two shares of its length on screen;
-  /// at `after` it is behind.
+  /// The share of the ray's length on screen at which it passes behind the visible surface, between
+  /// `before` and `after`; at `after` it is behind.
   [[gnu::noinline]] F edge_between(F before, F after, F most) const {
     return halve<F>(
                {before, after}, 6,
@@ -302,7 +304,8 @@ class BottomSearch {
 
   /// 1 where the visible surface lies far in front of the ray: it hides the bottom and is not hit.
   /// On a slope the ray may be behind by as much as depth changes from texel to texel; `texels`
-  /// such steps are allowed. An object of known thickness hides what lies behind that thickness.
+  /// such steps are allowed. An object of known thickness hides all points farther behind it than
+  /// this thickness.
   LIMPID_INLINE F past(const Sight& at, F texels) const {
     F hides(0);
     if_any(at.behind >= F(0), [&] {
@@ -332,9 +335,9 @@ class BottomSearch {
     return sqrt(x * x + y * y);
   }
 
-  /// Where the ray meets the level of the bottom seen at `distance`, mixed from four texels; +inf
-  /// where half of their weight or more has no bottom; `distance` itself where no texel lies below
-  /// the surface.
+  /// The distance at which the ray meets the level of the bottom that is visible at `distance`,
+  /// interpolated from four texels; +inf where half of their weight or more has no bottom;
+  /// `distance` itself where no texel lies below the surface.
   F to_level(F distance) const {
     if (c_.bottomless) return to_level_if_any(distance);
     const auto quad = tap_.quad(ray_.shift_at(distance));
@@ -350,7 +353,7 @@ class BottomSearch {
     return select(seen, level / (max(weight, F(1e-3)) * fall_), distance);
   }
 
-  /// to_level() where there may be no bottom. A function of its own, to keep the march small.
+  /// to_level() for pictures that may lack a bottom. A separate function, to keep the march small.
   [[gnu::noinline]] F to_level_if_any(F distance) const {
     const auto quad = tap_.quad(ray_.shift_at(distance));
     const Four<F> depths = tap_.read(planes_.depth, quad);

@@ -3,8 +3,8 @@
 
 namespace limpid {
 
-/// Whether independent lookups are nearly free, as with SIMD lanes on a CPU, where each lookup
-/// waits for memory.
+/// Whether a second independent lookup is nearly free, as for SIMD lanes on a CPU, where each
+/// lookup waits for memory.
 template <class F>
 inline constexpr bool kLooksAhead = false;
 

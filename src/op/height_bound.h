@@ -7,15 +7,16 @@
 
 namespace limpid {
 
-/// Bounds on what refraction may see in some texels, as heights over the calm surface, from above.
+/// Upper bounds on the surfaces that refraction may see in some texels, as heights over the calm
+/// surface.
 struct SeenHeights {
-  /// No surface under water is seen above this height, even if the water is as high as
-  /// HeightBound::most; -inf where there is none, +inf where it is not known.
+  /// No surface under water is above this height, even if the water is as high as
+  /// HeightBound::most; -inf without such surfaces, +inf if unknown.
   float highest = HUGE_VALF;
-  /// No surface is seen farther below the calm surface; +inf where one is infinitely far.
+  /// No surface is deeper than this below the calm surface; +inf if one is infinitely far.
   float deepest = HUGE_VALF;
-  /// All texels lie under the surface in front of them, deep enough to count for any lookup whose
-  /// ray ends above this height; +inf where that is not known.
+  /// All texels lie under the surface in front of them, deep enough to be accepted by any lookup
+  /// whose ray ends above this height; +inf if unknown.
   float covers = HUGE_VALF;
 
   static LIMPID_INLINE float greater(float a, float b) { return a < b ? b : a; }

@@ -3,34 +3,35 @@
 #include "op/screen_ray.h"
 
 /// @file
-/// Where a mirrored ray meets the surfaces that a depth plane shows.
+/// The intersection of mirrored rays with the surfaces in a depth plane.
 
 namespace limpid {
 
-/// How a ray is marched over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
+/// Parameters of a march over a depth plane: McGuire & Mara 2014, "Efficient GPU Screen-Space Ray
 /// Tracing", in `steps` that grow with the distance from the pixel, the last three times as long as
-/// the first, then bisection. A visible surface counts as `thick` times its depth thick, and at
-/// most `thin` times the eye's height over the calm water more: a ray that was farther behind one
-/// pixel before has passed it. (Far away, a ray along the water crosses much depth in a pixel.)
+/// the first, then bisection. The thickness of a visible surface is `thick` times its depth, plus
+/// the same again up to `thin` times the eye's height over the calm water: a ray that was farther
+/// behind one pixel before has passed the surface. (Far away, a ray along the water crosses much
+/// depth in a pixel.)
 struct MirrorSteps {
   int steps;
   double thin, thick;
 };
 
-/// The share of a march's length at which a step lies, of `count` steps.
+/// The share of a march's length at a step, of `count` steps.
 template <class F, class Step>
 LIMPID_INLINE F share_of_step(Step step, int count) {
   const F even = Loop<F>::ratio(step, count);
   return F(0.5) * (even + even * even);
 }
 
-/// Leads a march over those of its steps that need no lookup.
+/// Skips steps of a march that need no lookup.
 class Leaps {
  public:
   LIMPID_INLINE explicit Leaps(int steps) : steps_(steps), length_(steps), asks_(steps / 4) {}
 
-  /// The step after i - 1 that needs a look. passes(begin, last): whether those after `begin` up to
-  /// `last` need none.
+  /// The first step after i - 1 that may need a lookup. passes(begin, last): whether the steps
+  /// after `begin` up to `last` need none.
   template <class Passes>
   LIMPID_INLINE int from(int i, Passes&& passes) {
     while (i >= next_ask_ && i <= steps_ && asks_-- > 0) {
@@ -56,20 +57,20 @@ template <class F, class Tap>
 class MirrorSearch {
  public:
   struct Found {
-    F distance;  ///< distance along the ray, +inf where it meets nothing
+    F distance;  ///< distance along the ray, +inf where it meets no surface
     F hit;       ///< 1 or 0
   };
 
-  /// `accept(shift, depth)` says which visible surfaces may be hit. Lanes other than `lanes` hit
-  /// nothing.
+  /// `accept(shift, depth)`: whether the ray may hit this visible surface. Lanes other than `lanes`
+  /// have no hit.
   template <class Mask, class Accept>
   static Found march(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
                      const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray,
                      const MirrorSteps& how, Accept&& accept) {
     const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
     const Vec2<F> end = ray.shift_at(most);
-    // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend),
-    // which is compared with other depths without a division.
+    // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend);
+    // comparisons with other depths need no division.
     const F scale = F(1) / max(ray.w + most * ray.w_step, F(1e-6) * ray.w);
     const F gain = (most * scale) * (ray.w * ray.depth_step), bend = (most * scale) * ray.w_step;
     const auto is_behind = [&](F t, F depth) {
@@ -93,7 +94,7 @@ class MirrorSearch {
       return is_behind(t, seen) && !is_behind(max(t - pixel, F(0)), back_of(seen)) &&
              seen < F(1e29);
     };
-    // Where `hits` changes between two shares of the length.
+    // The share at which `hits` changes, between two shares of the length.
     const auto edge = [&](F low, F high, auto&& hits) {
       repeat<F>(kHalvings, [&] {
         const F t = F(0.5) * (low + high);
@@ -104,9 +105,9 @@ class MirrorSearch {
       return high;
     };
     const auto share_of = [&](auto step) { return share_of_step<F>(step, how.steps); };
-    // Whether all steps after `begin` up to `last_one` need no look: what they pass is farther away
-    // than the ray, or the ray has passed it before. Where the ray is far away 1 - t bend is a
-    // small difference, and as far off as 1 is.
+    // Whether all steps after `begin` up to `last_one` need no lookup: all surfaces there are
+    // farther away than the ray, or so near that the ray has passed them. Where the ray is far away
+    // 1 - t bend is a small difference, with the rounding error of 1.
     const auto passes = [&](int begin, int last_one, auto&& open) {
       const F a = share_of(begin), b = share_of(last_one), before = max(a - pixel, F(0));
       const auto depth_at = [&](F t, double off) {
@@ -121,49 +122,60 @@ class MirrorSearch {
       const F back = back_of(F(seen.high));
       return !any(open && !(F(1 - 1e-5) * low > back));
     };
-    F before = F(0), met = F(0), found = F(0), last = F(0), seen_last = F(1e30);
+    F before = F(0), met = F(0), found = F(0), last = F(0), last_nearest = F(1e30);
     Leaps leaps(how.steps);
     const auto leap = [&](int i) {
       return leaps.from(i, [&](int begin, int last_one) {
         const bool over = passes(begin, last_one, lanes && found < F(0.5));
-        if (over) last = share_of(last_one), seen_last = seen_at(last);
+        if (over) {
+          last = share_of(last_one);
+          last_nearest = min(tap.nearest(plane, last * end), F(1e30));
+        }
         return over;
       });
     };
     const auto step = [&](auto i) {
-      const auto open = lanes && found < F(0.5);
       const F t = share_of(i);
-      const F seen = seen_at(t);
-      const auto behind = is_behind(t, seen);
-      const auto hit = open && within(t, seen);
-      // A long step may lead through all of a thing, or behind a thing and out again past its edge.
-      const auto through =
-          open && !hit && behind && !is_behind(last, back_of(seen)) && seen < F(1e29);
-      const auto past_edge = open && !behind && is_behind(t, seen_last) &&
-                             !is_behind(last, seen_last) && seen_last < F(1e29);
-      met = select(hit, t, met);
-      before = select(hit, last, before);
-      found = select(hit, F(1), found);
-      const auto leads = through || past_edge;
-      if_any(leads, [&] {
-        F low = last, high = t, front = seen;
-        repeat<F>(kHalvings, [&] {
-          const F middle = F(0.5) * (low + high), there = seen_at(middle);
-          const auto in = is_behind(middle, there);
-          // Beyond the edge is what the ray has not yet passed at the end of the step.
-          const auto beyond = past_edge && !in && !is_behind(t, there) && !is_behind(high, front);
-          const auto back = in || beyond;
-          high = select(back, middle, high);
-          low = select(back, low, middle);
-          front = select(back, there, front);
+      const Vec2<F> shift = t * end;
+      const F nearest = min(tap.nearest(plane, shift), F(1e30));
+      // Most steps lie in front of all that is seen, and so did the steps before them.
+      const auto enters = is_behind(t, nearest) && nearest < F(1e29);
+      const auto leaves =
+          is_behind(t, last_nearest) && !is_behind(last, last_nearest) && last_nearest < F(1e29);
+      const auto open = lanes && found < F(0.5) && (enters || leaves);
+      if_any(open, [&] {
+        const F seen = select(accept(shift, nearest), nearest, F(1e30));
+        const auto behind = is_behind(t, seen);
+        const auto hit = open && within(t, seen);
+        // A long step may lead through a whole object, or behind an object and out again past its
+        // edge.
+        const auto through =
+            open && !hit && behind && !is_behind(last, back_of(seen)) && seen < F(1e29);
+        const auto past_edge = open && leaves && !behind && accept(last * end, last_nearest);
+        met = select(hit, t, met);
+        before = select(hit, last, before);
+        found = select(hit, F(1), found);
+        const auto leads = through || past_edge;
+        if_any(leads, [&] {
+          F low = last, high = t, front = seen;
+          repeat<F>(kHalvings, [&] {
+            const F middle = F(0.5) * (low + high), there = seen_at(middle);
+            const auto in = is_behind(middle, there);
+            // Beyond the edge is what the ray has not yet passed at the end of the step.
+            const auto beyond = past_edge && !in && !is_behind(t, there) && !is_behind(high, front);
+            const auto back = in || beyond;
+            high = select(back, middle, high);
+            low = select(back, low, middle);
+            front = select(back, there, front);
+          });
+          const auto meets = leads && within(high, front);
+          met = select(meets, high, met);
+          before = select(meets, low, before);
+          found = select(meets, F(1), found);
         });
-        const auto enters = leads && within(high, front);
-        met = select(enters, high, met);
-        before = select(enters, low, before);
-        found = select(enters, F(1), found);
       });
       last = t;
-      seen_last = seen;
+      last_nearest = nearest;
       return lanes && found < F(0.5);
     };
     if_any(lanes, [&] { steps<F>(1, how.steps + 1, leap, step); });

@@ -24,8 +24,8 @@
 ///
 /// The formula is written once, as a template over the strip to which it is applied: a run of
 /// pixels of one row, in `double` for the reference, in SIMD lanes for the fused pass. An operator
-/// never fetches a texel itself: it gives the place (a function from pixel to shift), the strip's
-/// samplers fetch, and the operator continues with the sample:
+/// never fetches a texel itself: it passes a function from the pixel to the shift of a lookup, a
+/// sampler of the strip fetches the texels, and the operator continues with the sample:
 ///
 ///     using F = typename Strip::Number;
 ///     strip.each([&](Pixel<F>& p) { ... });              // a formula on the state
@@ -46,22 +46,22 @@
 ///
 /// `width(const Pixel<F>&) -> F` is the width of the pixel in texels of the texture, or of the
 /// first level of SlopeLevels; at 1 or less the lookup is the one without `width`. `wanted(const
-/// Pixel<F>&)` is a mask: where it does not hold, the lookup may be skipped, or `into` may be
-/// called nevertheless, because other pixels of the vector need it; so `into` changes state by
-/// select().
+/// Pixel<F>&)` is a mask: where it does not hold, the lookup may be skipped, or the last function
+/// may be called nevertheless, because other pixels of the vector need it; so that function must
+/// change state by select().
 ///
 /// Operators run on double and on lanes, and are recorded as a shader, too (src/shade/record.h). So
 /// for numbers of the type F
 ///
-///   - no branch of C++ depends on a number: if_any(), repeat() and steps() (core/number.h) say
-///     what to do where a mask holds, and how many times. any() may leave out work without effect;
+///   - no branch of C++ depends on a number: if_any(), repeat() and steps() (core/number.h)
+///     are the branches and loops. any() may only skip work without effect;
 ///   - a body of these functions changes numbers and masks that live outside of it, nothing else,
 ///     and may run several times;
 ///   - a mask stays a mask: auto, never bool;
 ///   - numbers of scene, look, frame and time enter by given(); F() is for constants of a formula.
 ///
-/// Write what red, green and blue have in common once, with each(), pick() and only(): a shader
-/// then has a loop instead of three copies.
+/// Write code that is the same for red, green and blue once, with each(), pick() and only(): a
+/// shader then has a loop instead of three copies.
 ///
 /// A branch of C++ on a parameter or on the planes of the frame is allowed: it makes another
 /// shader. tests/shade records every operator with every model and runs the recording.
@@ -103,7 +103,7 @@ struct Running {
   PlaneSet planes, completed;  ///< planes that are read, and planes that are completed
 };
 
-/// What is known of a cell of the picture and of all texels that refracted lookups from it may
+/// Properties of a cell of the picture and of all texels that refracted lookups from it may
 /// read. Depths are eye depths.
 struct InReach {
   bool below = false;                               ///< the lookups read the layer below the water
@@ -130,11 +130,12 @@ struct CellKind {
 template <class Op>
 struct Kernel;
 
-/// What an operator must declare. `bound` is a promise: leaving the operator out, whichever of the
-/// other operators run, changes no channel of the picture by more than this where `ranges` hold (0:
-/// by not a bit, and an operator that makes nothing but kOutputTerms leaves those unchanged).
-/// HUGE_VAL where nothing is known. So that bounds add up, an operator passes on a share of at most
-/// 1 of the light before it, or widens Ranges::color by what it passes on beyond that.
+/// The required members of an operator. `bound` is a promise: leaving the operator out, for any set
+/// of other operators that run, changes no channel of the picture by more than this number where
+/// `ranges` hold. 0 means that no bit changes; an operator that makes only kOutputTerms must then
+/// leave them unchanged. HUGE_VAL means that no bound is known. So that bounds add up, an operator
+/// must transmit at most all of the light before it, or widen Ranges::color by the light that it
+/// adds.
 ///
 /// Optional static members; callers take the default where an operator has none:
 ///
@@ -146,9 +147,9 @@ struct Kernel;
 ///     // that uses state derived from the position, else 0.
 ///     double displaced(const Params&, const Ranges&);
 ///     // How much the picture changes if every path through the water counts as infinitely long,
-///     // for an operator that hides what lies far. Default: it hides nothing.
+///     // for an operator that hides distant surfaces. Default: it hides none.
 ///     double beyond(const Params&, const Pass&, const Ranges&);
-///     // Whether no object in front of the water can change the result in such a cell, so that
+///     // Whether no object in front of the water can change the result in the cell, so that
 ///     // the test for such objects may be left out. Default: it has no test.
 ///     bool foreground_free(const Params&, const InReach&);
 ///     // Its taps, and those of `reach`, follow mirrored rays or the sun's. Default: false, they
@@ -161,22 +162,23 @@ struct Kernel;
 ///     // Replaces parameters by better ones for the given inputs, and returns the reason as a
 ///     // phrase; "" where it changes none. Default: changes none.
 ///     std::string_view prefer(Params&, const AtHand&);
-///     // Why it looks up the surroundings, although it need not; "" where it does not.
+///     // Why it looks up the surroundings although its parameters do not require it, as a phrase;
+///     // "" if it does not.
 ///     std::string_view looks_around(const Params&, const AtHand&);
-///     // What is wrong with the inputs of the job, a sentence; "" for nothing.
+///     // A sentence on a fault of the inputs of the job; "" without one.
 ///     std::string_view warning(const Params&, const AtHand&);
-///     // Planes that are made for it where the plate lacks them (plan/completers.h).
+///     // Planes that completers make for it if the plate lacks them (plan/completers.h).
 ///     PlaneSet wants(const Params&, const AtHand&);
 ///     // Computes the parameters that depend on the working space. Default: none depends on it.
 ///     void work_in(const Primaries&, Params&);
-///     // Whether its light comes from the sky, too.
+///     // Whether it uses the light of the sky.
 ///     bool lit_by_sky(const Params&);
 ///     // The waves that raise the water, if it has any; they live as long as the parameters.
 ///     Swell swell(const Params&);
 ///     // The water through which a viewer in it sees mirrored light. Default: none.
 ///     std::optional<WaterMedium> medium(const Params&, const Pass&);
-///     // How it measures StatePart::kPath, for what is made of the path (job/deep_output.h).
-///     PathMeasure path_measure(const Params&);
+///     // How it measures StatePart::kPath, for outputs that depend on the path
+///     (job/deep_output.h). PathMeasure path_measure(const Params&);
 ///     // Its expected cost, in ns per pixel (plan/predict.h). Default: 1.
 ///     double ns(const Params&, const Running&);
 template <class T>

@@ -32,18 +32,20 @@ struct Pass : WaterView {
   /// the frame refers to must live as long.
   Pass(const Scene& scene, const Frame& frame, double ior, StateSet made, const Swell& swell = {});
 
-  PlaneSet planes;                ///< planes of the frame, for operators that use optional ones
-  Bounds dry, below, reflection;  ///< of color with depth, of the others with theirs
-  Bounds surface;                 ///< of the water's depth; `dry` if the frame has none
-  bool surface_ends;              ///< before `dry` does: beyond it the calm level is used
-  Sun sun;                        ///< for operators that declare it as a need
-  bool has_sun;                   ///< for operators with an optional sun
+  PlaneSet planes;  ///< planes of the frame, for operators that use optional ones
+  /// Of the planes of color and depth, of the layer below, and of the reflection.
+  Bounds dry, below, reflection;
+  Bounds surface;  ///< of the surface depth; `dry` if the frame has none
+  /// Whether `surface` lacks a part of `dry` or `below`, where the calm level is used instead.
+  bool surface_ends;
+  Sun sun;       ///< for operators that declare it as a need
+  bool has_sun;  ///< for operators with an optional sun
   double ior;
   Texture wave_map, environment;
   const SlopeLevels* wave_slopes;         ///< of the wave map at this time, or null
   Sym2<double> wave_variance;             ///< likewise, or 0
-  const ScatteredLight* scattered_light;  ///< of red, green, blue, or null
-  Rgb<double> sky;                        ///< radiance of an even sky, 0 if it is not known
+  const ScatteredLight* scattered_light;  ///< for red, green, blue; or null
+  Rgb<double> sky;                        ///< radiance of a uniform sky, 0 without one
   bool has_sky;
   StateSet made;  ///< state that the plan's operators make; neutral or absent ones make none
   /// False if no object stands in front of the water anywhere that refraction may look up
@@ -58,14 +60,14 @@ struct Pass : WaterView {
   RangeBound mirrored = {};          ///< likewise, of the depths for mirrored marches
   RangeBound lit = {};               ///< likewise, of the shadow on the surface
   PlateWaves plate_waves = {};       ///< of the frame's own surface, where a runner has made it
-  const Continuation* continuation;  ///< of the bottom beyond the picture, or null
-  const BottomLayer* bottom_layer;   ///< of the bottom behind what stands before it, or null
-  const CausticsTable* caustics;     ///< null if no completer has made it: unknown then
+  const Continuation* continuation;  ///< the bottom beyond the picture, or null
+  const BottomLayer* bottom_layer;   ///< the bottom behind objects in front of it, or null
+  const CausticsTable* caustics;     ///< null if no completer has made it
   /// The water through which viewers in it see the light that the surface mirrors; nothing if no
   /// view begins in the water, or if no operator of the plan has a medium().
   std::optional<WaterMedium> medium = {};
-  /// Whether an infinite depth of the reflection says that nothing is there: one that was made of
-  /// the dry picture does not.
+  /// Whether an infinite depth of the reflection means that the mirrored scene has no surface
+  /// there. False for a depth that was computed from the dry picture.
   bool reflection_ends = false;
 };
 

@@ -29,11 +29,11 @@ struct Pixel {
   Vec2<F> prism_r, prism_g, prism_b;  ///< shift of each channel beyond `shift`; begin as 0
   Rgb<F> dispersion;  ///< index of refraction of each channel, less the common index; begins as 0
 
-  Vec2<F> shift;                      ///< where the refracted ray ends; begins as 0
-  Vec2<F> shift_r, shift_g, shift_b;  ///< where each channel is finally looked up; begin as 0
+  Vec2<F> shift;                      ///< to the end of the refracted ray; begins as 0
+  Vec2<F> shift_r, shift_g, shift_b;  ///< to the final lookup of each channel; begin as 0
   F hit_depth;                        ///< dry eye depth at `shift`; begins as dry_depth
-  F path;                ///< scene units, >= 0, +inf where the ray meets nothing; begins as 0
-  F confidence;          ///< begins as 1; as 0 at the begin of water without a bottom
+  F path;                ///< scene units, >= 0, +inf where the ray meets no surface; begins as 0
+  F confidence;          ///< begins as 1; as 0 for water without a bottom
   Rgb<F> transmittance;  ///< begins as 1
 
   /// Begins as the dry color at this pixel; as 0 if nothing was hit and no surface lies in between:
@@ -58,7 +58,7 @@ struct Pixel {
   LIMPID_INLINE Rgb<F> beauty() const { return transmitted + in_scatter + reflected + highlight; }
 };
 
-/// Whether an eye depth says that nothing was hit.
+/// Whether an eye depth means that no surface was hit.
 template <class F>
 LIMPID_INLINE auto nothing(F depth) {
   return depth > F(1e30);

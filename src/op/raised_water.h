@@ -5,7 +5,7 @@
 #include "core/water_view.h"
 
 /// @file
-/// The meeting of rays with water that sine waves raise.
+/// The intersection of rays with water that sine waves raise.
 
 namespace limpid {
 
@@ -58,9 +58,9 @@ class RaisedRay {
     start_ = F(c.w_depth == 0 ? 0 : c.near);
   }
 
-  /// Eye depth of the first meeting, +inf if there is none. Six steps between the highest and the
-  /// lowest possible water search a change of sides, and the point is refined between two of them.
-  /// A ray that sinks faster than any wave has a single meeting and needs no steps.
+  /// Eye depth of the first intersection, +inf if there is none. Six steps between the highest and
+  /// the lowest possible water search a change of sides, and the point is refined between two of
+  /// them. A ray that sinks faster than any wave has a single intersection and needs no steps.
   LIMPID_INLINE F first_meeting() const {
     const F crest(water_.crest), infinite(HUGE_VAL);
     const auto level = abs(under_) < F(1e-30);

@@ -9,8 +9,8 @@ namespace limpid {
 
 /// Bounds for all wet pixels of an area, a cell or the whole picture, and for all texels that their
 /// lookups may reach. Known before a pixel is computed, from the planes and from the operators, in
-/// the order of the chain (see OperatorBounds). All values lie inside these ranges, often well
-/// inside. Views begin in the air.
+/// the order of the chain (Operator::bound in op/operator.h). All values lie inside these ranges,
+/// often well inside. Views begin in the air.
 ///
 /// The bounds on light hold for any set of operators that run. So a bound made of them stays valid
 /// if another operator is left out, too.
@@ -18,7 +18,7 @@ struct Ranges {
   Range surface{0, HUGE_VAL};    ///< eye depth of the surface
   Range own{0, HUGE_VAL};        ///< eye depth of the dry scene at a pixel, less its surface's
   Range looked_up{0, HUGE_VAL};  ///< eye depth of all texels that refraction may look up
-  double least_drop = 0;         ///< least depth of a bottom in the picture under the calm surface
+  double least_drop = 0;  ///< least depth below the calm surface of the bottom in the picture
   Range sink{-HUGE_VAL, HUGE_VAL};  ///< depth under the surface gained per unit of eye depth
   Range ray_length{1, HUGE_VAL};    ///< per unit of eye depth along the view
   std::array<Range, 3> color{

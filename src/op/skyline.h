@@ -6,10 +6,10 @@
 
 namespace limpid {
 
-/// Sine of the elevation of the skyline: of the objects that a depth plane shows above the calm
-/// water, along `ray` on screen and on the side of `ahead`, the highest one as seen from a pixel's
-/// surface point; 0 where there is none. `ray` goes up, so that on screen it leads beyond the
-/// horizon. Lanes other than `lanes` get any number.
+/// Sine of the elevation of the skyline, as seen from a pixel's surface point: of all objects above
+/// the calm water that a depth plane shows along `ray` on screen and on the side of `ahead`, the
+/// highest one counts; 0 without objects. `ray` goes up, so that on screen it leads beyond the
+/// horizon. The results of lanes other than `lanes` are undefined.
 template <class F, class Tap, class Mask>
 F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
           const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray, Vec3<F> ahead,
@@ -23,18 +23,19 @@ F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
     const auto stands = seen < F(1e9) && height > F(0) && dot(offset, ahead) > F(0);
     return select(stands, min(height / max(length(offset), F(1e-30)), F(1)), F(0));
   };
-  // Whether all that is seen at the steps after `begin` up to `last_one` is the sky, or under
-  // water.
+  // Whether the plane shows only sky or surfaces under water at the steps after `begin` up to
+  // `last_one`.
   const auto passes = [&](int begin, int last_one) {
     const Vec2<F> a = share_of_step<F>(begin, count) * end;
     const Vec2<F> b = share_of_step<F>(last_one, count) * end;
     const float low = tap.range(plane, lanes, a, b).low;
     const F level = max(calm_depth_at(c, p, a), calm_depth_at(c, p, b));
-    // From below the calm level, what lies farther away than that level stands over it.
+    // Seen from below the calm level, a surface farther away than that level is above it.
     if (!(c.eye_above > 0)) return low >= 1e9f;
     return low >= 1e9f || low > greatest(select(lanes, F(1 + 1e-4) * level, F(-HUGE_VAL)));
   };
-  // The step at which the highest is seen is parted, to find where that ends.
+  // Bisection between the step with the highest object and the next one finds the edge of the
+  // object.
   constexpr int kHalvings = 3;
   F sine = F(0), at = F(0), after = F(0);
   Leaps leaps(count);

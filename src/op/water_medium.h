@@ -13,23 +13,23 @@
 
 namespace limpid {
 
-/// Water, and the light in it: what the pixels of a frame have in common (ops/depth_fog.h has the
+/// Water, and the light in it, as shared by all pixels of a frame (ops/depth_fog.h has the
 /// formulas).
 struct WaterMedium {
   Rgb<double> rate;      ///< a + b
-  Rgb<double> down;      ///< K / cos_sun: what sunlight loses for each depth
+  Rgb<double> down;      ///< K / cos_sun: attenuation of sunlight per unit of depth
   Rgb<double> ambient;   ///< b ambient
   Rgb<double> sun;       ///< b E'
   glm::dvec3 to_sun;     ///< unit, in the water
   double bottom, water;  ///< crossing, of the bottom's light and of the sun's in-scatter
-  bool glows, sunlit;    ///< whether there is in-scatter of each kind
-  /// Of light that is scattered more than once, of red, green, blue; null without.
+  bool glows, sunlit;    ///< whether there is in-scatter of ambient light, and of sunlight
+  /// Multiple scattering, for red, green, blue; or null.
   const ScatteredLight* multiple;
   Rgb<double> beam, sky;         ///< E' / pi, and the sky's radiance in the water
-  double cosine;                 ///< of the beam with the vertical
-  Rgb<double> dry_sun, dry_sky;  ///< what `transmitted` has of a white level floor
+  double cosine;                 ///< of the angle between the beam and the vertical
+  Rgb<double> dry_sun, dry_sky;  ///< light of a white level floor that `transmitted` has already
   double per_bottom;             ///< 1 / bottom; 0 where no light enters
-  double anisotropy, square;     ///< and its square
+  double anisotropy, square;     ///< g of the phase function, and its square
   bool scatters, turns;          ///< whether light is scattered, and unevenly
   bool inside;                   ///< whether views may begin in the water
 
@@ -96,8 +96,18 @@ LIMPID_INLINE LitBottom<F> lit_bottom(const WaterMedium& m, std::size_t channel,
           given<F>(light.sky_at_once) + layer_power(light.sky_below, x)};
 }
 
-/// Of a view that begins in the water. The bottom is lit as that of a level layer, and seen
-/// straight; the water between is as bright as if it had no bottom.
+/// The part of a path above a level floor, by its height over the floor: a path through water that
+/// begins at the floor.
+template <class F>
+LIMPID_INLINE WaterPath<F> over_floor(const WaterPath<F>& path, F floor) {
+  const F begin = max(floor - path.begin, F(0)), sink = F(0) - path.sink;
+  const F room = select(sink < F(0), begin / max(F(0) - sink, F(1e-6)), F(3e38));
+  const F length = min(path.length, room);
+  return {length, sink, begin, max(begin + sink * length, F(0))};
+}
+
+/// For a view that begins in the water. The bottom is lit as that of a level layer; the water in
+/// front of it is as bright as if it had the floor of the frame, if any.
 template <class F>
 LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t channel,
                                                const WaterPath<F>& path, F turned, F fallen, F left,
@@ -121,6 +131,23 @@ LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t
       const F column = sun_column(path, rate, given<F>(light.fades[i])).light;
       water = {water.sun + column * of_sun, water.sky + column * of_sky};
     }
+    const F floor = given<F>(light.floor);
+    if_any(floor > F(0), [&] {
+      const WaterPath<F> rising = over_floor(path, floor);
+      const F begin = min(path.begin, floor);
+      const WaterPath<F> falling{rising.length, path.sink, begin, max(floor - rising.end, F(0))};
+      for (std::size_t i = 0; i < ScatteredLight::kFloored; ++i) {
+        F of_sun(0), of_sky(0);
+        for (std::size_t k = 0; k < ScatteredLight::kInside; ++k) {
+          of_sun = of_sun + given<F>(light.floor_sun[i][k]) * by_sun[k];
+          of_sky = of_sky + given<F>(light.floor_sky[i][k]) * by_sky[k];
+        }
+        const F column = sun_column(i < ScatteredLight::kRising ? rising : falling, rate,
+                                    given<F>(light.floor_fades[i]))
+                             .light;
+        water = {water.sun + column * of_sun, water.sky + column * of_sky};
+      }
+    });
   }
   const LitBottom<F> bottom = lit_bottom(m, channel, path, fallen, albedo);
   const F seen = bottom.reflects * left / (F(1) - bottom.reflects * bottom.back);

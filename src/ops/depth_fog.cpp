@@ -23,7 +23,7 @@ constexpr Field<P> kFields[] = {
     real<&P::density>("density", "1/scene unit", {0, 1e6}, "Slope of the linear fog.")
         .when("model", {"linear"}),
     real<&P::offset>("offset", "", {-1e6, 1e6},
-                     "Subtracted from the linear fog: clear water up to offset / density.")
+                     "Offset of the linear fog: clear water up to offset / density.")
         .when("model", {"linear"}),
     color<&P::color>("color", "radiance", {0, 1e6}, "Color of the linear fog.")
         .when("model", {"linear"}),
@@ -118,9 +118,9 @@ void Kernel<DepthFog>::work_in(const Primaries& primaries, Params& p) {
   p.fitted = fitted_water(primaries, {p.water_type, p.murkiness, p.sediment, p.cdom});
 }
 
-ClearAndMurky Kernel<DepthFog>::besides(const Params& params) {
-  if (params.fitted) return params.fitted->besides;
-  ClearAndMurky water = sediment_water(params.sediment);
+WaterCoefficients Kernel<DepthFog>::additions(const Params& params) {
+  if (params.fitted) return params.fitted->additions;
+  WaterCoefficients water = sediment_water(params.sediment);
   water.absorption = water.absorption + cdom_absorption(params.cdom);
   return water;
 }
@@ -132,7 +132,7 @@ Rgb<double> Kernel<DepthFog>::absorption(const Params& params) {
     if (params.water_type == WaterType::kCase1) return case_1_water(params.murkiness).absorption;
     return water_optics(params.water_type).absorption;
   };
-  return of_type() + besides(params).absorption;
+  return of_type() + additions(params).absorption;
 }
 
 Rgb<double> Kernel<DepthFog>::scattering(const Params& params) {
@@ -141,7 +141,7 @@ Rgb<double> Kernel<DepthFog>::scattering(const Params& params) {
     if (params.fitted) return params.fitted->type.scattering;
     return case_1_water(params.murkiness).scattering;
   };
-  return of_type() + besides(params).scattering;
+  return of_type() + additions(params).scattering;
 }
 
 Rgb<double> Kernel<DepthFog>::extinction(const Params& params) {

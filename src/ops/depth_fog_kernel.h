@@ -39,7 +39,7 @@ struct Kernel<DepthFog> : DepthFog {
   /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
   /// Absorption and scattering that sediment and cdom add to the water of a type.
-  static ClearAndMurky besides(const Params& params);
+  static WaterCoefficients additions(const Params& params);
   static Rgb<double> absorption(const Params& params);
   static Rgb<double> scattering(const Params& params);
   /// Whether a frame needs multiple scattering, and of which water.
@@ -231,13 +231,15 @@ struct Kernel<DepthFog> : DepthFog {
     const F passing = left + layer_power(light.passing, even, x);
     const F seen = bottom.reflects * passing / (F(1) - bottom.reflects * bottom.back);
     const F had = bottom.reflects * fallen * left;
+    const F sunlit = water * (seen * beam * bottom.sunlit);
+    const F more =
+        max(sunlit - had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place), F(0));
+    // Sunlight that comes back to the bottom fell on it far around: the albedo has that shade.
+    const F again = min(bottom.reflects * bottom.back * sunlit, more);
     // The sky's light in `transmitted` was dimmed as sunlight, and may be too bright.
-    return {
-        water * up.sun + max(water * (seen * beam * bottom.sunlit) -
-                                 had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
-                             F(0)),
-        water * (up.sky + seen * sky * bottom.skylit) -
-            had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
+    return {water * up.sun + (more - again),
+            again + water * (up.sky + seen * sky * bottom.skylit) -
+                had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
   }
 };
 

@@ -298,18 +298,19 @@ struct MirroredLight : FresnelReflection {
     const auto strays = lanes && seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
     if_any(strays, [&] {
       F open = select(strays, F(1), F(0));
-      steps<F>(1, 2 * kPlaces + 1, [&](auto i) {
-        // Beyond it and before it in turns, ever farther away.
-        const F turn = Loop<F>::ratio(i, 2), pair = floor(turn + F(0.5));
-        const auto beyond = turn < pair;
-        const F away = select(beyond, pair, F(0) - pair);
-        const Vec2<F> there = (F(1) + F(0.9 / kPlaces) * away) * far;
-        const Vec2<F> at = min(reach_in(c.reflection, p.uv, there), F(1)) * there;
-        const auto counts = !beyond || seen < ray.depth;
-        const auto good =
-            open > F(0.5) && counts && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
+      const auto take = [&](const auto& wanted, Vec2<F> at) {
+        const auto good = wanted && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
         landing = select(good, at, landing);
         open = select(good, F(0), open);
+      };
+      steps<F>(1, kPlaces + 1, [&](auto i) {
+        const F away = F(0.9) * Loop<F>::ratio(i, kPlaces);
+        const auto beyond = open > F(0.5) && seen < ray.depth;
+        if_any(beyond, [&] {
+          const Vec2<F> there = (F(1) + away) * far;
+          take(beyond, min(reach_in(c.reflection, p.uv, there), F(1)) * there);
+        });
+        take(open > F(0.5), (F(1) - away) * far);
         return open > F(0.5);
       });
       landing = select(open > F(0.5), Vec2<F>{F(0), F(0)}, landing);

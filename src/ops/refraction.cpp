@@ -59,8 +59,8 @@ void Kernel<Refraction>::propagate_ranges(const P& params, const Pass& c, Ranges
     ranges.path = {known ? std::max(drop - slack, 0.0) : 0, HUGE_VAL};
     // The ray's own depth at its end, or a texel's depth where a texel is looked up.
     const bool of_texel = params.steps == 0 || params.rejection == Rejection::kShorten;
-    const bool continues = params.goes_on() && c.continuation;
-    const bool behind = params.looks_behind() && c.bottom_layer;
+    const bool continues = params.continues_bottom() && c.continuation;
+    const bool behind = params.uses_bottom_layer() && c.bottom_layer;
     if (!of_texel || continues || behind) ranges.hit = {0, HUGE_VAL};
     // A ray falls at most one unit per unit of its length.
     if (continues) ranges.path.min = std::min(ranges.path.min, c.continuation->least_drop);

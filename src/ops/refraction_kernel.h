@@ -86,7 +86,7 @@ struct Kernel<Refraction> : Refraction {
       if (params.model != Model::kSnell) measure_path(c, p);
       if (params.off_frame == OffFrame::kFog) fog_off_frame(planes.bounds, p);
     });
-    if (!params.goes_on() || !c.continuation) return;
+    if (!params.continues_bottom() || !c.continuation) return;
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       // Beyond the frame no texel confirms the end of a ray.
       if_any(p.confidence <= F(0), [&] { go_on_off_frame(c, planes, p, tap); });
@@ -314,6 +314,17 @@ struct Kernel<Refraction> : Refraction {
   template <class F, class Tap>
   [[gnu::noinline]] static void leave_out_nothing(const Pass& c, const SeenPlanes& planes,
                                                   Pixel<F>& p, const Tap& tap) {
+    const bool split = c.made.has(StatePart::kPrism);
+    const auto misses = [&](Vec2<F> shift) {
+      const Four<F> depths = tap.read(planes.depth, tap.quad(shift));
+      return nothing(depths[0]) || nothing(depths[1]) || nothing(depths[2]) || nothing(depths[3]);
+    };
+    auto some = misses(p.shift);
+    if (split) some = some || misses(p.shift_r) || misses(p.shift_g) || misses(p.shift_b);
+    if_any(some, [&] { mix_again(split, planes, p, tap); });
+  }
+  template <class F, class Tap>
+  static void mix_again(bool split, const SeenPlanes& planes, Pixel<F>& p, const Tap& tap) {
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     const auto mend = [&](const auto& taps, PlaneId plane, F& value) {
       if_any(taps.lost > F(0), [&] {
@@ -322,7 +333,7 @@ struct Kernel<Refraction> : Refraction {
       });
     };
     const auto common = counted(planes, p, tap, p.shift);
-    if (c.made.has(StatePart::kPrism)) {
+    if (split) {
       mend(counted(planes, p, tap, p.shift_r), red, p.transmitted.r);
       mend(counted(planes, p, tap, p.shift_g), green, p.transmitted.g);
       mend(counted(planes, p, tap, p.shift_b), blue, p.transmitted.b);
@@ -368,7 +379,7 @@ struct Kernel<Refraction> : Refraction {
     const bool surface_plane = c.planes.has(PlaneId::kSurfaceDepth);
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
-    const BottomLayer* layer = params.looks_behind() ? c.bottom_layer : nullptr;
+    const BottomLayer* layer = params.uses_bottom_layer() ? c.bottom_layer : nullptr;
     // Where the end of the ray is a guess, only the bottom counts.
     const F snell(params.model == Model::kSnell ? kShareOfPath : 0);
     const F path_fraction =

@@ -24,10 +24,10 @@ Rgb<double> falling_loss(const DepthFog::Params& params) {
   // Most light is scattered forwards.
   const double turned = 1 - params.anisotropy;
   if (typed) {
-    const ClearAndMurky besides = Kernel<DepthFog>::besides(params);
+    const WaterCoefficients additions = Kernel<DepthFog>::additions(params);
     const Rgb<double> down =
         params.fitted ? params.fitted->down_attenuation : water_optics(type).down_attenuation;
-    return down + besides.absorption + turned * besides.scattering;
+    return down + additions.absorption + turned * additions.scattering;
   }
   return Kernel<DepthFog>::absorption(params) + turned * Kernel<DepthFog>::scattering(params);
 }

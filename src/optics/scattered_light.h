@@ -40,6 +40,15 @@ struct ScatteringWater {
   bool operator==(const ScatteringWater&) const = default;
 };
 
+/// The bottom around a viewer in the water, as a level floor.
+struct WaterFloor {
+  double depth = 0;             ///< below the calm surface, scene units
+  Rgb<double> albedo{0, 0, 0};  ///< 0 ... 1
+  double share = 0;  ///< of the views down into the water that meet a bottom; 0: endless water
+
+  bool operator==(const WaterFloor&) const = default;
+};
+
 /// Multiple scattering in one channel. Radiances are those in the water, over the radiance of a
 /// white Lambert surface that faces the sun's beam in the water ("sun"), or over the radiance of an
 /// even sky ("sky"). Polynomials in x = t / (t + 2), without a constant, t being the optical depth
@@ -73,6 +82,13 @@ struct ScatteredLight {
   static constexpr std::size_t kFades = 4, kInside = 6;
   std::array<double, kFades> fades{};
   std::array<std::array<double, kInside>, kFades> inside_sun{}, inside_sky{};
+
+  /// What a floor of the water changes of that, above the floor: terms that fade with the height
+  /// over the floor (the first kRising) or with the depth, each by those shapes.
+  static constexpr std::size_t kFloored = 4, kRising = 3;
+  double floor = 0;  ///< its depth; 0 without
+  std::array<double, kFloored> floor_fades{};
+  std::array<std::array<double, kInside>, kFloored> floor_sun{}, floor_sky{};
 
   /// For bounds. Multiple scattering: the largest radiance over all views and depths, and the
   /// largest per optical depth, for shallow water. Light from the bottom: the largest, for albedo

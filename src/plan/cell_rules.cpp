@@ -133,9 +133,9 @@ Ranges CellRules::reckoned(const Ranges& planes, bool endless) const {
 /// Compared with a little less than the budget, because sums round.
 bool CellRules::affords(CellState& cell, int index, double bound) const {
   if (!(cell.spent + bound <= plan_.max_error * (1 - 1e-6))) return false;
-  float& most = cell.weighed.bounds[static_cast<std::size_t>(index)];
+  float& most = cell.by_bound.bounds[static_cast<std::size_t>(index)];
   most = std::max(most, static_cast<float>(bound));
-  cell.weighed.operators = cell.weighed.operators | bit(index);
+  cell.by_bound.operators = cell.by_bound.operators | bit(index);
   cell.spent += bound;
   return true;
 }

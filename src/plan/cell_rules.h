@@ -15,7 +15,7 @@ struct CellState {
   bool wet;              ///< has a wet pixel
   const Ranges& planes;  ///< ranges of the planes
   const InReach& reach;
-  Weighed& weighed;  ///< receives the operators skipped for their bound
+  SkippedByBound& by_bound;  ///< receives the operators skipped for their bound
   CellNeeds needs = {};
   Ranges ranges = {};  ///< ranges after the operators that run
   double spent = 0;    ///< of Plan::max_error

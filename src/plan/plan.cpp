@@ -20,7 +20,7 @@ void leave_out(Plan& plan, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end()) {
-      throw Error("'" + name + "' is no operator to leave out: expected one of " + join(known) +
+      throw Error("'" + name + "' is not an operator to leave out: expected one of " + join(known) +
                   did_you_mean(name, known));
     }
     PlannedOperator& op = plan.operators[static_cast<std::size_t>(at - known.begin())];

@@ -120,7 +120,7 @@ void complete_planes(Plan& plan, const Inputs& inputs) {
       const PlaneSet made = (makes - inputs.planes) | (makes & completer.corrects);
       if (made.empty() || !inputs.planes.covers(completer.inputs)) continue;
       plan.completed = plan.completed | made;
-      add_reason(op, std::string(completer.name) + " is made");
+      add_reason(op, std::string(completer.name) + " is computed");
     }
   });
 }

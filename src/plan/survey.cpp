@@ -178,7 +178,7 @@ void Survey::Scan::lay_out() {
   const auto cells = static_cast<std::size_t>(s.count());
   const auto rows = static_cast<std::size_t>(s.blocks_.height);
   s.own_.assign(cells, Own{});
-  s.weighed_.assign(static_cast<std::size_t>(s.cells_.height), {});
+  s.by_bound_.assign(static_cast<std::size_t>(s.cells_.height), {});
   s.needs_.assign(cells, CellNeeds{});
   s.extremes_.resize(rows * static_cast<std::size_t>(s.blocks_.width));
   s.across_.resize(rows * static_cast<std::size_t>(s.cells_.width));
@@ -326,9 +326,10 @@ void Survey::Scan::decide_row(void* self, int row) {
 void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   const Own& own = survey.own_[static_cast<std::size_t>(index)];
   CellNeeds& needs = survey.needs_[static_cast<std::size_t>(index)];
-  Weighed& weighed = survey.weighed_[static_cast<std::size_t>(index / survey.cells_.width)];
+  SkippedByBound& by_bound =
+      survey.by_bound_[static_cast<std::size_t>(index / survey.cells_.width)];
   if (own.wet == 0) {
-    needs = rules.decide({.wet = false, .planes = {}, .reach = {}, .weighed = weighed});
+    needs = rules.decide({.wet = false, .planes = {}, .reach = {}, .by_bound = by_bound});
     return;
   }
   const auto range = [&](int low, int high) -> Range { return {-reached[low], reached[high]}; };
@@ -363,7 +364,7 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   }
   const InReach reach{looked_up.below, -reached[kNear], reached[kFar], own.surface_far,
                       reached[kGap] == 0};
-  needs = rules.decide({.wet = true, .planes = ranges, .reach = reach, .weighed = weighed});
+  needs = rules.decide({.wet = true, .planes = ranges, .reach = reach, .by_bound = by_bound});
   needs.grounded = wanted.has(looked_up.depth) && reached[kFar] < 1e30f;
 }
 
@@ -411,14 +412,14 @@ void Survey::sum_up(const Plan& plan) {
     for (int op = 0; op < Chain::kCount; ++op) {
       const auto at = static_cast<std::size_t>(op);
       add(summary_.runs[at], plan.keeps(op) && needs.needs(op));
-      add(summary_.spared[at], plan.keeps(op) && !needs.dry && !needs.needs(op));
+      add(summary_.skipped[at], plan.keeps(op) && !needs.dry && !needs.needs(op));
     }
     summary_.bound = std::max(summary_.bound, double{needs.bound});
   }
   for (const Own& own : own_) summary_.wet += own.wet;
-  for (const Weighed& row : weighed_) {
-    summary_.weighed.operators = summary_.weighed.operators | row.operators;
-    raise(summary_.weighed.bounds, row.bounds);
+  for (const SkippedByBound& row : by_bound_) {
+    summary_.by_bound.operators = summary_.by_bound.operators | row.operators;
+    raise(summary_.by_bound.bounds, row.bounds);
   }
 }
 

@@ -46,7 +46,7 @@ std::string cells_text(const Plan& plan, const Survey::Summary& s) {
   for (std::size_t i = 0; i < operator_table().size(); ++i) {
     const CellKind& kind = operator_table()[i].skipped;
     if (kind.name.empty()) continue;
-    text += kind_text(std::string(kind.name).c_str(), s.spared[i], s.all,
+    text += kind_text(std::string(kind.name).c_str(), s.skipped[i], s.all,
                       std::string(kind.about).c_str());
   }
   text += kind_text("full", s.full, s.all, "all of the plan runs");
@@ -98,15 +98,15 @@ std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& surv
     PlannedOperator& op = operators[index];
     if (!plan.keeps(i) || s.runs[index].cells > 0) continue;
     op.verdict = Verdict::kInvisible;
-    op.reason = bound_text(s.weighed.bounds[index]);
+    op.reason = bound_text(s.by_bound.bounds[index]);
     op.rule = name_of(&CellRules::skip_invisible);
     if (s.dry.cells == s.all.cells) {
       op.reason = "no pixel is wet";
       op.rule = name_of(&CellRules::copy_dry);
     } else if (operator_table()[index].makes.has(StatePart::kPosition) && s.opaque.cells > 0) {
-      op.reason = "fog hides all that it could show, " + op.reason;
+      op.reason = "fog hides its effect, " + op.reason;
       op.rule = name_of(&CellRules::skip_hidden);
-    } else if (((s.weighed.operators >> i) & 1u) == 0) {
+    } else if (((s.by_bound.operators >> i) & 1u) == 0) {
       op.verdict = Verdict::kUnread;
       op.reason = "no running operator of a cell reads its results";
       op.rule = name_of(&CellRules::skip_unread);

@@ -9,7 +9,7 @@
 namespace limpid {
 namespace {
 
-constexpr const char* kReason = "as asked for";
+constexpr const char* kReason = "named for the buffer";
 
 /// One override: `text` names a layer or channels for `role`, in these sources.
 class Choosing {
@@ -115,8 +115,8 @@ class Choosing {
       const std::vector<std::string> channels = channels_of(groups_[0]);
       if (!channels.empty()) return choice_of(role_, {&groups_[0], channels}, kReason);
     }
-    throw Error(subject() + ": no layer there is known to be " + std::string(role_.about) +
-                "; name its channels, there is " + layer_list(groups_, sources_));
+    throw Error(subject() + ": no layer has a known name for " + std::string(role_.name) +
+                "; name its channels; there is " + layer_list(groups_, sources_));
   }
 
   LayerChoice checked(const Candidate& candidate) const {

@@ -58,8 +58,8 @@ std::string listed(std::vector<std::string> texts, std::size_t count) {
     }
   }
   const std::string of_views = views.size() > 1 ? " (views " + join(views) + ")" : "";
-  throw Error(subject + ": " + std::to_string(candidates.size()) + " choices fit equally well" +
-              of_views + ": " + listed(texts, candidates.size()) + "; say which, as in --layer " +
+  throw Error(subject + ": " + std::to_string(candidates.size()) + " candidates fit equally well" +
+              of_views + ": " + listed(texts, candidates.size()) + "; choose one, as in --layer " +
               std::string(role.name) + "=" + texts[0]);
 }
 

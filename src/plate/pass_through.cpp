@@ -223,7 +223,8 @@ class Passing {
   void expect_flat(const LayerGroup& group) const {
     const std::string file = group.source->file_name;
     if (!exr_of(group)) {
-      throw Error(file + ": is no EXR: expected layers of an EXR to pass through", Fault::kUsage);
+      throw Error(file + ": is not an EXR: expected layers of an EXR to pass through",
+                  Fault::kUsage);
     }
     if (group.source->deep) {
       throw Error(file + ", part " + std::to_string(group.source->part) +

@@ -155,7 +155,7 @@ std::optional<Primaries> Plate::primaries() const {
   } catch (const Error& error) {
     const ChannelRef& ref = state_->color_ref();
     throw Error(state_->files[static_cast<std::size_t>(ref.file)].path.string() + ": " +
-                error.what() + ", or another colorspace named");
+                error.what() + ", or another [scene] colorspace");
   }
 }
 

@@ -53,8 +53,8 @@ EnvironmentLayout layout_of(const PlateFile& file) {
     if (found != attributes.end() && found->second.type == "envmap" &&
         found->second.bytes.size() == 1) {
       const bool says_cube = found->second.bytes[0] != 0;
-      said = std::string("an attribute envmap that says ") + (says_cube ? "cube" : "lat-long") +
-             " and ";
+      said =
+          std::string("the attribute envmap says ") + (says_cube ? "cube" : "lat-long") + " and ";
       agrees = says_cube ? cube : lat_long;
     }
   }

@@ -158,8 +158,8 @@ Corner corner_of(const VertexTransform& t, const Vertex& v) {
 /// Limits q to the range of the corners; the same rule as in set_up() for whole triangles.
 void bound_depth(const std::array<float, 3>& q, bool perspective, Triangle& out) {
   const double least = std::min({q[0], q[1], q[2]}), most = std::max({q[0], q[1], q[2]});
-  const bool sane = std::abs(out.a) + std::abs(out.b) + std::abs(out.c) < 1e30;
-  if (!sane) {
+  const bool has_slope = std::abs(out.a) + std::abs(out.b) + std::abs(out.c) < 1e30;
+  if (!has_slope) {
     out.a = out.b = 0;
     out.c = most;
   }

@@ -145,9 +145,9 @@ LIMPID_LANES_INLINE void set_up_wide(const DrawnInstance& instance, const Corner
   // A plane through the eye has no slope on the screen: such a triangle has the depth of its
   // nearest corner. Collinear corners make no triangle.
   const VWD steepness = hn::Add(hn::Abs(a), hn::Add(hn::Abs(b), hn::Abs(c)));
-  const MWD sane = hn::Lt(steepness, wide(1e30));
+  const MWD has_slope = hn::Lt(steepness, wide(1e30));
   const VWD least = wide(hn::Load(kWF, q_min)), most = wide(hn::Load(kWF, q_max));
-  const VWD slope = hn::IfThenElseZero(sane, hn::Add(hn::Abs(a), hn::Abs(b)));
+  const VWD slope = hn::IfThenElseZero(has_slope, hn::Add(hn::Abs(a), hn::Abs(b)));
   // Snapped corners extend a triangle, and its q, by up to 1/512 pixel.
   const VWD slack = hn::Mul(wide(0.01), hn::Min(slope, hn::Sub(most, least)));
   const VWD lowest = hn::Sub(least, slack);
@@ -155,9 +155,9 @@ LIMPID_LANES_INLINE void set_up_wide(const DrawnInstance& instance, const Corner
   const VWD size = hn::Add(hn::Abs(n.x), hn::Add(hn::Abs(n.y), hn::Abs(n.z)));
 
   alignas(64) double out_a[kWide], out_b[kWide], out_c[kWide], out_size[kWide];
-  hn::Store(hn::IfThenElseZero(sane, a), kWD, out_a);
-  hn::Store(hn::IfThenElseZero(sane, b), kWD, out_b);
-  hn::Store(hn::IfThenElse(sane, c, most), kWD, out_c);
+  hn::Store(hn::IfThenElseZero(has_slope, a), kWD, out_a);
+  hn::Store(hn::IfThenElseZero(has_slope, b), kWD, out_b);
+  hn::Store(hn::IfThenElse(has_slope, c, most), kWD, out_c);
   hn::Store(size, kWD, out_size);
   hn::Store(hn::DemoteTo(kWF, floor), kWF, q_min);
   hn::Store(hn::DemoteTo(kWF, hn::Add(most, slack)), kWF, q_max);

@@ -200,7 +200,7 @@ PlaneSet renderable(const Model& model, const Scene& scene) {
                                  [](const Instance& i) { return i.water; });
   if (water) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
   if (!water && !scene.water->waves.empty()) {
-    throw Error("water.waves move a mesh, and the geometry has none whose node says water = true");
+    throw Error("water.waves move a mesh, and the geometry has no node with water = true");
   }
   // A calm mesh adds nothing to the plane; its normals would only replace other normals.
   if (water && !scene.water->waves.empty()) planes = planes | kSurfaceNormalPlanes;

@@ -34,7 +34,7 @@ void validate(const HostOutput& view, int index, const Rect& work) {
   }
   if (shares_bytes(view, work)) {
     throw Error("picture: " + name_of(index) +
-                " has strides by which pixels share bytes, expected a place for each");
+                " has strides by which pixels share bytes, expected separate memory for each");
   }
 }
 

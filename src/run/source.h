@@ -3,7 +3,7 @@
 
 #include "core/fetch.h"
 
-/// Channels as lanes read them. For inclusion by lanes_target.cpp alone.
+/// Reading and writing channels in lanes. For inclusion by lanes_target.cpp alone.
 
 namespace limpid::HWY_NAMESPACE {
 

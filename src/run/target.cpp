@@ -131,7 +131,7 @@ Aov aov_named(std::string_view name) {
     if (kAovs[i].name == name) return static_cast<Aov>(i);
     known.emplace_back(kAovs[i].name);
   }
-  throw Error("'" + std::string(name) + "' is no AOV: expected one of " + join(known) +
+  throw Error("'" + std::string(name) + "' is not an AOV: expected one of " + join(known) +
               did_you_mean(name, known));
 }
 

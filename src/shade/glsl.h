@@ -15,6 +15,7 @@ struct GlslNeeds {
   bool power = false;                        ///< any other exponent
   bool infinity = false;
   bool loops = false;
+  bool slope_moments = false;  ///< mean and square of one place
 };
 
 /// A recording as the statements of a GLSL function body. Numbers of the frame are `limpid.NAME`,

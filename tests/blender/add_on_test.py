@@ -35,20 +35,20 @@ say(properties._known_looks(settings, bpy.context, "s"))
 class Refuses(InBlender):
     def test_what_is_missing_or_wrong_is_told_in_words(self):
         cases = {
-            "no water: pick the object that is the water, or give its height": "settings.water = None",
+            "no water: pick the water object, or give the height of the water": "settings.water = None",
             "is not in the view layer": "scene.collection.objects.unlink(settings.water)",
-            "has no face that lies level: expected a mesh with a surface": "settings.water.rotation_euler = (1.5708, 0, 0)",
+            "has no level face: expected a mesh with a level surface": "settings.water.rotation_euler = (1.5708, 0, 0)",
             "no sun: expected a light of the type Sun in the scene": "bpy.data.objects['Sun'].hide_render = True",
-            "its nodes are more than one Emission of one color": """
+            "its brightness is unknown: expected one Emission node": """
 sun = bpy.data.objects['Sun'].data
 sun.use_nodes = True
 tree = sun.node_tree
 tree.links.new(tree.nodes.new('ShaderNodeTexSky').outputs[0], tree.nodes['Emission'].inputs['Color'])""",
-            "no camera: expected one in the scene": "scene.camera = None",
-            "is panoramic: expected a perspective or an orthographic one": "scene.camera.data.type = 'PANO'",
+            "no camera: expected a perspective or orthographic camera": "scene.camera = None",
+            "is panoramic: expected a perspective or orthographic camera": "scene.camera.data.type = 'PANO'",
             "the scene is stereoscopic: expected one view": "scene.render.use_multiview = True",
-            "frames '3-1': expected ranges that go up": "settings.frames_kind, settings.frames = 'LIST', '3-1'",
-            "limpid is not at ": "bpy.context.preferences.addons['limpid_blender'].preferences.tool = '//nowhere'",
+            "frames '3-1': expected ascending ranges": "settings.frames_kind, settings.frames = 'LIST', '3-1'",
+            "no program at ": "bpy.context.preferences.addons['limpid_blender'].preferences.tool = '//nowhere'",
             "no look is named 'nolook': expected one of": "settings.look = 'nolook'",
             "did you mean 'density'?": "settings.settings = 'depth_fog.densty=1'",
             "No closing quotation": "settings.settings = 'a.b=\"1'",
@@ -76,16 +76,16 @@ say([wet(), state.failure])
     def test_a_file_that_was_never_saved_and_a_tool_that_is_not_there(self):
         (unsaved,) = self.said(None, "bpy.ops.mesh.primitive_plane_add()\nsettings.water = bpy.context.object\n"
                                      "bpy.data.lights[0].type = 'SUN'\nsay(wet())")
-        self.assertIn("this file was never saved, so that '//' means no folder", unsaved)
+        self.assertIn("this file was never saved, so '//' names no folder", unsaved)
         (missing,) = self.said(self.scene("pool"), PLAIN + "say(wet())",
                                environment=dict(self.environment, PATH="/usr/bin:/bin"))
-        self.assertIn("limpid is not found on PATH: install it, or give its path", missing)
+        self.assertIn("limpid is not on PATH: install limpid, or give its path", missing)
 
     def test_a_farm_sees_it_in_the_exit_status(self):
         expression = "import bpy; bpy.ops.limpid.wet()"
         said = self.blender("--addons", "limpid_blender", self.scene("pool"), "--python-exit-code", 3, "--python-expr",
                             expression, code=3)
-        self.assertIn("no water: pick the object", said)
+        self.assertIn("no water: pick the water object", said)
 
 
 class Leaves(InBlender):

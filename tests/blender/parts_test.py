@@ -20,7 +20,7 @@ sys.path.insert(0, str(ADD_ON))
 
 from limpid.changes import Changes  # noqa: E402
 from limpid.exr_window import place  # noqa: E402
-from limpid.frames import camera_at, frames_of, numbered  # noqa: E402
+from limpid.frames import camera_at, frames_of, neighbor_of, numbered  # noqa: E402
 from limpid.job import Job  # noqa: E402
 from limpid.lens import Lens, Overscan, widened  # noqa: E402
 from limpid.overscan import asked_for, largest, sampled, small  # noqa: E402
@@ -55,6 +55,9 @@ class Frames(unittest.TestCase):
         for text in ("", "a", "3-1", "1-4x0", "1..4", "1-999999", "-3"):
             with self.assertRaisesRegex(Failure, f"frames '{text}': expected"):
                 frames_of(text)
+
+    def test_neighbors(self):
+        self.assertEqual([neighbor_of(5, motion) for motion in ("next", "previous")], [6, 4])
 
     def test_markers_bind_cameras(self):
         bound = [(10, "b"), (1, "a")]
@@ -174,14 +177,14 @@ class Tools(InAFolder):
     def test_where_it_is(self):
         tool = self.program("bin/limpid", "exit 0\n")
         self.assertEqual(find_tool(tool), tool)
-        with self.assertRaisesRegex(Failure, "limpid is not at 'nowhere'"):
+        with self.assertRaisesRegex(Failure, "no program at 'nowhere'"):
             find_tool("nowhere")
         before = os.environ["PATH"]
         self.addCleanup(os.environ.__setitem__, "PATH", before)
         os.environ["PATH"] = str(self.folder / "bin")
         self.assertEqual(find_tool(), tool)
         os.environ["PATH"] = str(self.folder)
-        with self.assertRaisesRegex(Failure, "limpid is not found on PATH"):
+        with self.assertRaisesRegex(Failure, "limpid is not on PATH"):
             find_tool()
 
     def test_looks_by_the_verb_else_of_the_folder(self):
@@ -203,7 +206,7 @@ class Tools(InAFolder):
         bad = self.program("bad", "echo 'limpid ERROR: wave.exr: no depth' >&2; exit 1\n")
         with self.assertRaisesRegex(Failure, "^wave.exr: no depth$"):
             run_tool([bad], log.append)
-        with self.assertRaisesRegex(Failure, "ended with status 3 and said nothing"):
+        with self.assertRaisesRegex(Failure, "ended with status 3 and no message"):
             run_tool([self.program("mute", "exit 3\n")], log.append)
         self.assertEqual(last_sentence("one\nlimpid: two\n\n"), "two")
 
@@ -226,7 +229,7 @@ class Runs(InAFolder):
         self.assertEqual(run.failure(), "no sun")
         run = self.run_of("exit 7\n")
         run.wait()
-        self.assertRegex(run.failure(), "ended with status 7: what it said is in .*log")
+        self.assertRegex(run.failure(), "the second Blender ended with status 7; see .*log")
         run = self.run_of("kill -SEGV $$\n")
         run.wait()
         self.assertIn(f"was ended by signal {int(signal.SIGSEGV)}", run.failure())

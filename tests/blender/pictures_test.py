@@ -100,6 +100,22 @@ class Pictures(InBlender):
         ball = picture[18:24, 38:45].mean((0, 1))
         self.assertGreater(ball[0], 4 * ball[2])
 
+    def test_motion_vectors_of_a_lake(self):
+        settings = SMALL + """settings.water_kind, settings.aovs, settings.look = 'HEIGHT', False, 'pool'
+settings.below = settings.shadow = settings.surroundings = False
+settings.motion = 'NEXT'
+"""
+        folder = self.wet("lake", settings, frames="2-3")
+        self.assertFalse((folder / "scene.0004.toml").exists())  # of which camera and water were enough
+        self.assertEqual(sorted(path.name for path in folder.glob("scenes_*")), [])
+        for frame in (2, 3):
+            wet = Plate(folder / f"wet.{frame:04d}.exr")
+            (right,), (up,) = (wet.channels(f"motion_forward.{c}").reshape(1, -1) for c in "uv")
+            # The camera goes to the right, and all that is near goes to the left.
+            self.assertLess(np.median(right[-160 * 10:]), -.5)
+            self.assertLess(abs(np.median(up[-160 * 10:])), 1)
+            self.assertIn("motion_reflected_forward.u", wet.spec.channelnames)
+
     def test_a_lake_in_three_frames(self):
         folder = self.wet("lake", SMALL + "settings.water_kind, settings.aovs = 'HEIGHT', False\n"
                           "settings.below = settings.shadow = False\n", frames="1-3")

@@ -72,5 +72,29 @@ TEST(Basin, LessOfTheLightReachesWallsThatAreFarther) {
   EXPECT_LT(before, 0.01);
 }
 
+/// Share of the sunlight around the middle of a bottom of 4 below the water, lit where lit(x, y).
+template <class Lit>
+double sunlit(Lit&& lit, double depth = 0) {
+  test::Tray tray(kSize);
+  tray.buffers.fill(PlaneId::kDepth, kWater + 4);
+  tray.buffers.set(PlaneId::kShadow, [&](int column, int row) {
+    return static_cast<float>(lit(column - 40, row - 40));
+  });
+  const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
+  return Basin(tray.buffers.frame, pass)
+      .sunlit_around(40, 40, tray.buffers.frame.plane(PlaneId::kShadow), depth, 1.333);
+}
+
+TEST(Basin, ShadeCountsWhereTheSurfaceReflectsItsLightFrom) {
+  EXPECT_EQ(sunlit([](int, int) { return 1; }), 1);
+  EXPECT_EQ(sunlit([](int, int) { return 0; }), 0);
+  EXPECT_NEAR(sunlit([](int x, int) { return x < 0; }), 0.5, 0.05);
+  // Light that the surface reflects totally comes down two depths away and farther; in water that
+  // absorbs, not much farther.
+  EXPECT_EQ(sunlit([](int x, int y) { return std::hypot(x, y) > 6; }), 1);
+  const auto near = [](int x, int y) { return std::hypot(x, y) < 14; };
+  EXPECT_GT(sunlit(near, 1), sunlit(near) + 0.1);
+}
+
 }  // namespace
 }  // namespace limpid

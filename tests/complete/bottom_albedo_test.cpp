@@ -50,5 +50,50 @@ TEST(BottomAlbedo, ChangesWithoutAStepWhereAViewGoesUnderTheWater) {
   }
 }
 
+/// The albedo in green in the middle of an endless floor that is 1 deep, seen from 8 above; lit
+/// where lit(x, y).
+template <class Lit>
+double albedo_of_floor(const WaterOver& water, Lit&& lit) {
+  constexpr Size kWide{320, 320};
+  constexpr double kAlbedo = 0.6, kSky = 0.1;
+  Scene scene = test::simple_scene(kWide);
+  const glm::dvec3 eye(0, 8, 0);
+  scene.camera->view = glm::lookAt(eye, glm::dvec3(0, 0, 0), {0, 0, -1});
+  test::Buffers b(rect_of(kWide));
+  b.fill(PlaneId::kDepth, 9);
+  b.set(PlaneId::kShadow, lit);
+  const double sun = scene.sun->direction.y;
+  for (int c = 0; c < 3; ++c) {
+    const double full = sun * (c == 0   ? scene.sun->color.r
+                               : c == 1 ? scene.sun->color.g
+                                        : scene.sun->color.b);
+    b.set(plane_after(PlaneId::kColorR, c),
+          [&](int x, int y) { return static_cast<float>(kAlbedo * (full * lit(x, y) + kSky)); });
+  }
+  const Pass pass(scene, b.frame, 1.333, {});
+  BottomAlbedo albedo;
+  albedo.make(b.frame, pass, {kSky, kSky, kSky}, water, *make_executor(1));
+  return albedo.channel(1).view().at(160, 160);
+}
+
+// Half of the floor is in the shade of something above, and the surface throws back half as much of
+// the sun's light: the albedo is that of a floor in full light that the water makes as bright.
+TEST(BottomAlbedo, FloorInTheShadeThrowsBackLess) {
+  ScatteredLightMaker maker;
+  const WaterOver water{
+      maker.make({.absorption = {0.05, 0.05, 0.05}, .beam = 0.8}), {0.05, 0.05, 0.05}, 0.8};
+  EXPECT_NEAR(albedo_of_floor(water, [](int, int) { return 1.0f; }), 0.6, 1e-3);
+  const double half =
+      albedo_of_floor(water, [](int x, int y) { return (x / 16 + y / 16) % 2 == 0 ? 1.0f : 0.0f; });
+  const ScatteredLight& light = water.light[1];
+  const double back = light.back_at_once + layer_power(light.back, layer_variable(0.05));
+  const Scene scene = test::simple_scene(kSize);
+  const double full = scene.sun->direction.y * scene.sun->color.g;
+  const double lit = (0.5 * full + 0.1) / (full + 0.1);
+  const double had = 1;  // without scattering
+  EXPECT_NEAR(half * (1 / (1 - half * back) - had), lit * 0.36 * back / (1 - 0.6 * back), 0.01);
+  EXPECT_LT(half, 0.5);
+}
+
 }  // namespace
 }  // namespace limpid

@@ -297,7 +297,7 @@ TEST(DisplacedSurface, IsNotMadeWhereThePlateKnowsBetter) {
 
 TEST(DisplacedSurface, IsToldByThePlan) {
   const Plan plan = make_plan(sines(), test::inputs_of(bare().frame, scene_at(1, 0.3)));
-  EXPECT_EQ(plan.of<WaveNormals>().reason, "displaced_surface is made");
+  EXPECT_EQ(plan.of<WaveNormals>().reason, "displaced_surface is computed");
   EXPECT_EQ(plan.of<WaveNormals>().rule, "complete_planes");
 }
 

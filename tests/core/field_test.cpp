@@ -120,7 +120,7 @@ TEST(Field, RefusesWithOneSentence) {
   EXPECT_EQ(refusal(0, "rond"),
             "thing.shape = rond: expected one of round, flat; did you mean 'round'?");
   EXPECT_EQ(refusal(0, 1.0), "thing.shape = 1: expected one of round, flat");
-  EXPECT_EQ(refusal(3, 1.0), "thing.file = 1: expected a text");
+  EXPECT_EQ(refusal(3, 1.0), "thing.file = 1: expected a string");
   EXPECT_EQ(refusal(4, 2.5),
             "thing.steps = 2.5: expected a whole number 0 ... 64, or march or none");
   EXPECT_EQ(refusal(4, -1.0),

@@ -51,10 +51,10 @@ TEST(DeskRequestTest, RefusesWhatIsWrongInASentence) {
   EXPECT_EQ(refused("[1]"), "request: expected a JSON object");
   EXPECT_EQ(refused(R"({"look": "a")"), "request: expected a JSON object");
   EXPECT_EQ(refused(std::string(100000, '[')), "request: expected a JSON object");
-  EXPECT_EQ(refused("{}"), "request: look: expected a text");
-  EXPECT_EQ(refused(R"({"look": 1})"), "request: look: expected a text");
+  EXPECT_EQ(refused("{}"), "request: look: expected a string");
+  EXPECT_EQ(refused(R"({"look": 1})"), "request: look: expected a string");
   EXPECT_EQ(refused(R"({"look": "a", "half": 1})"), "request: half: expected true or false");
-  EXPECT_EQ(refused(R"({"look": "a", "show": 1})"), "request: show: expected a text");
+  EXPECT_EQ(refused(R"({"look": "a", "show": 1})"), "request: show: expected a string");
   EXPECT_EQ(refused(R"({"look": "a", "exposure": "1"})"), "request: exposure: expected a number");
   EXPECT_EQ(refused(R"({"look": "a", "frame": 1.5})"), "request: frame: expected a whole number");
   EXPECT_EQ(refused(R"({"look": "a", "frame": 3000000000})"),
@@ -64,13 +64,13 @@ TEST(DeskRequestTest, RefusesWhatIsWrongInASentence) {
   EXPECT_EQ(refused(R"({"look": "a", "set": []})"), "request: set: expected an object of settings");
   EXPECT_EQ(
       refused(R"({"look": "a", "set": {"a.b": true}})"),
-      "request: set: a.b: expected a number, a text, or a list of numbers or of rows of them");
+      "request: set: a.b: expected a number, a string, or a list of numbers or of rows of numbers");
   EXPECT_EQ(refused(R"({"look": "a", "hlf": true})"),
             "request: unknown key 'hlf': expected some of look, set, frame, time, half, show, "
             "exposure, display, instead; did you mean 'half'?");
   EXPECT_EQ(refusal([] { pixel_request(R"({"look": "a", "x": 1})"); }),
             "request: y: expected a whole number");
-  EXPECT_EQ(refusal([] { save_request(R"({"look": "a"})"); }), "request: name: expected a text");
+  EXPECT_EQ(refusal([] { save_request(R"({"look": "a"})"); }), "request: name: expected a string");
   EXPECT_THAT(refusal([] { choice_request(R"({"look": "a", "half": true})"); }),
               HasSubstr("unknown key 'half'"));
 }
@@ -81,6 +81,7 @@ TEST(DeskReplyTest, HasThePixelsBehindTheirFacts) {
   picture.shown.rgba = {1, 2, 3, 255, 4, 5, 6, 255};
   picture.shown.scale = {0, 4};
   picture.milliseconds = {{"all", 3}, {"read", 1}};
+  picture.replaced = {{"wave_normals.model", "plate", "the frame has surface normals"}};
   picture.warnings = {"too much \xff water"};
   const std::string bytes = picture_bytes(picture);
   std::size_t size = 0;
@@ -90,6 +91,8 @@ TEST(DeskReplyTest, HasThePixelsBehindTheirFacts) {
   EXPECT_EQ(facts["height"], 1);
   EXPECT_EQ(facts["milliseconds"]["all"], 3);
   EXPECT_EQ(facts["scale"], nlohmann::json({0, 4}));
+  EXPECT_EQ(facts["replaced"][0]["key"], "wave_normals.model");
+  EXPECT_EQ(facts["replaced"][0]["value"], "plate");
   EXPECT_TRUE(facts["wet"].is_null());
   EXPECT_EQ(bytes.substr(4 + size), std::string("\1\2\3\xff\4\5\6\xff"));
 }

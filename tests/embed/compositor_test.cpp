@@ -23,8 +23,8 @@ using test::kSize;
 using test::Picture;
 using test::raw_frame;
 using test::same_bits;
-using test::sane_frame;
 using test::Subject;
+using test::valid_frame;
 using test::wet;
 
 TEST(Compositor, GivesTheBitsOfTheFusedRunner) {
@@ -127,7 +127,7 @@ TEST(Compositor, MakesEyeDepthOfEveryKind) {
     Scene scene = s.scene;
     scene.camera->projection = perspective(0.9, 67.0 / 41, 0.1, c.far, c.clip);
     scene.camera->clip = c.clip;
-    Buffers raw = raw_frame(kSize), trusted = sane_frame(kSize), entered = sane_frame(kSize);
+    Buffers raw = raw_frame(kSize), trusted = valid_frame(kSize), entered = valid_frame(kSize);
     for (const PlaneId id : {PlaneId::kDepth, PlaneId::kSurfaceDepth, PlaneId::kReflectionDepth,
                              PlaneId::kBelowDepth}) {
       const auto stored = [&](int x, int y) {
@@ -228,7 +228,7 @@ TEST(Compositor, WorksInPlace) {
 /// Meaningless values are replaced in a copy, counted, and make no NaN; the host's planes stay.
 TEST(Compositor, ReplacesWhatMeansNothing) {
   const Scene scene = test::simple_scene(kSize);
-  Buffers dirty = raw_frame(kSize), clean = sane_frame(kSize);
+  Buffers dirty = raw_frame(kSize), clean = valid_frame(kSize);
   const auto spoil = [&](PlaneId id, int x, int y, float bad, float good) {
     const Buffers before = raw_frame(kSize);
     const auto with = [&](float v) {
@@ -263,13 +263,13 @@ TEST(Compositor, ReplacesWhatMeansNothing) {
 
 TEST(Compositor, ADepthOfZeroIsNothingWhereThatIsSaid) {
   const Scene scene = test::simple_scene(kSize);
-  Buffers zeros = raw_frame(kSize), clean = sane_frame(kSize);
+  Buffers zeros = raw_frame(kSize), clean = valid_frame(kSize);
   const auto with = [](float nothing, const Buffers& of) {
     return [=, &of](int x, int y) {
       return x > 20 && x < 30 && y > 20 ? nothing : of.frame.plane(PlaneId::kDepth).at(x, y);
     };
   };
-  const Buffers raw = raw_frame(kSize), trusted = sane_frame(kSize);
+  const Buffers raw = raw_frame(kSize), trusted = valid_frame(kSize);
   zeros.set(PlaneId::kDepth, with(0, raw));
   clean.set(PlaneId::kDepth, with(test::kInf, trusted));
   const std::vector<float> expected = test::judged(busy_look(), clean.frame, scene);

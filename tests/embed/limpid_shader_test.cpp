@@ -165,7 +165,7 @@ TEST_F(LimpidCShader, RefusesWhatIsNone) {
   expect_no_shader("limpid_shader_options.stage = 3: expected 0 ... 2");
   options.stage = 0;
   options.function = "2d";
-  expect_no_shader("'2d' is no name for a function");
+  expect_no_shader("'2d' is not a function name");
   options.function = nullptr;
   options.set = -1;
   expect_no_shader("descriptor set -1 is out of 0 ... 31");
@@ -177,7 +177,7 @@ TEST_F(LimpidCShader, RefusesWhatIsNone) {
   expect_no_shader("limpid_shader_options.aovs is NULL");
   int32_t aovs[2] = {LIMPID_OUT_PATH, LIMPID_OUT_PATH};
   options.aovs = aovs;
-  expect_no_shader("limpid_shader_options.aovs[1] = 22: it is there already");
+  expect_no_shader("limpid_shader_options.aovs[1] = 22: it is given twice");
   for (const int32_t none : {LIMPID_OUT_PATH + 1, int32_t{LIMPID_OUT_R}, LIMPID_OUT_SKY + 3, -2}) {
     aovs[1] = none;
     expect_no_shader("expected the first channel of an AOV");
@@ -204,7 +204,7 @@ TEST_F(LimpidCShader, RefusesWhatIsNone) {
 }
 
 /// Without `trusted` a frame may hold NaN: the shader does not depend on replaced values.
-TEST_F(LimpidCShader, TakesFramesThatAreNotSane) {
+TEST_F(LimpidCShader, TakesFramesWithNan) {
   limpid_destroy(water);
   ASSERT_EQ(limpid_create(nullptr, nullptr, &water, nullptr, 0), LIMPID_OK);
   buffers.set(PlaneId::kColorB, [](int x, int) { return x == 3 ? NAN : 0.5f; });

@@ -31,7 +31,7 @@ inline Buffers raw_frame(Size size) {
 }
 
 /// The same noise after entry.
-inline Buffers sane_frame(Size size) {
+inline Buffers valid_frame(Size size) {
   Buffers b = raw_frame(size);
   std::array<Plane, 3> normal;
   for (int c = 0; c < 3; ++c) {
@@ -49,7 +49,7 @@ inline Buffers sane_frame(Size size) {
 /// A frame, its scene, and the fused runner's picture of them.
 struct Subject {
   explicit Subject(Size size = kSize)
-      : buffers(sane_frame(size)),
+      : buffers(valid_frame(size)),
         scene(simple_scene(size)),
         expected(judged(busy_look(), buffers.frame, scene)) {}
   Buffers buffers;

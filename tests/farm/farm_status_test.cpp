@@ -120,8 +120,8 @@ TEST_F(FarmStatusTest, TasksThatTheQueueHasForgottenHaveEnded) {
 
 TEST_F(FarmStatusTest, WithoutAnAnswerTheFramesAloneAreToldOf) {
   make(1);
-  const FarmStatus now = status({{}, std::nullopt, "The scheduler cannot be asked"});
-  EXPECT_EQ(to_text(now), "3 of 8 frames are done\nThe scheduler cannot be asked\n");
+  const FarmStatus now = status({{}, std::nullopt, "Slurm does not answer"});
+  EXPECT_EQ(to_text(now), "3 of 8 frames are done\nSlurm does not answer\n");
 }
 
 TEST_F(FarmStatusTest, TasksHereHaveNotEndedWhileTheFarmIsAtWork) {
@@ -165,16 +165,16 @@ TEST(FarmStatusText, HasRateAndTimeLeftWhileThereIsWork) {
 
 TEST(FarmSummaryTest, NamesEveryFrameThatIsNotWhole) {
   const FarmVerdict verdict{
-      5, {2, 3, 4}, {{2, "wet.2.exr has changed"}, {3, "wet.3.exr was made otherwise (look)"}}};
+      5, {2, 3, 4}, {{2, "wet.2.exr has changed"}, {3, "wet.3.exr was made differently (look)"}}};
   FarmStatus status;
   status.failed = {{{3}, "no depth"}};
   EXPECT_EQ(summary_text(verdict, status),
-            "2 of 5 frames are there and whole, by the hashes that they carry\n"
+            "2 of 5 frames are complete, by the hashes in their headers\n"
             "frame 2: wet.2.exr has changed\n"
             "frame 3: no depth\n"
-            "frame 4: is not there\n");
+            "frame 4: is missing\n");
   EXPECT_EQ(summary_text({5, {}, {}}, {}),
-            "5 of 5 frames are there and whole, by the hashes that they carry\n");
+            "5 of 5 frames are complete, by the hashes in their headers\n");
 }
 
 }  // namespace

@@ -136,8 +136,8 @@ TEST(AtomicFile, NamesTheFolderThatCannotBeWritten) {
 TEST(AtomicFile, ReplacesFilesOnly) {
   const fs::path here = folder();
   fs::create_directory(here / "a.exr");
-  EXPECT_THAT(error_of(here / "a.exr"), StartsWith((here / "a.exr").string() + ": is there and"));
-  EXPECT_THAT(error_of("/dev/null"), StartsWith("/dev/null: is there and"));
+  EXPECT_THAT(error_of(here / "a.exr"), StartsWith((here / "a.exr").string() + ": exists and"));
+  EXPECT_THAT(error_of("/dev/null"), StartsWith("/dev/null: exists and"));
 }
 
 TEST(AtomicFile, ReplacesWhatALinkLeadsTo) {
@@ -178,7 +178,7 @@ TEST(AtomicFile, RefusesLinksThatTheSystemDoesNotFollow) {
               StartsWith((here / "a.exr").string() + ": is a link that cannot be followed ("));
   fs::create_directory(here / "folder");
   fs::create_symlink("folder", here / "c.exr");
-  EXPECT_THAT(error_of(here / "c.exr"), StartsWith((here / "c.exr").string() + ": is there and"));
+  EXPECT_THAT(error_of(here / "c.exr"), StartsWith((here / "c.exr").string() + ": exists and"));
 }
 
 TEST(RemoveUnfinishedFiles, LeavesNothingButWholeFiles) {

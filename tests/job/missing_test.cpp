@@ -150,7 +150,7 @@ TEST_F(MissingTest, NothingAtAllIsAnError) {
       ADD_FAILURE();
     } catch (const Error& error) {
       EXPECT_EQ(std::string(error.what()),
-                plate(7).string() + ": no such file, for this frame or any other");
+                plate(7).string() + ": no such file, and no other frame has its plates");
       EXPECT_EQ(error.fault(), Fault::kJob);
     }
   }

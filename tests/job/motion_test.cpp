@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include "limpid/core/error.h"
@@ -14,6 +17,9 @@
 #include "limpid/files/exr/exr_writer.h"
 #include "limpid/files/text/look_file.h"
 #include "limpid/job/composite.h"
+
+#include "job/parallax.h"
+#include "job/screen.h"
 
 /// Motion vectors of the bottom behind the water, and of objects that the water mirrors.
 
@@ -346,7 +352,7 @@ TEST_F(SpotTest, LeadsToWhereTheSecondFrameShowsIt) {
       camera_.view = glm::translate(start.view, -step);
       write("then.exr", spot, {});
       const CompositeJob then_job = job("then.exr", "wet_then.exr");
-      now_job.second = {then_job.plate, then_job.scene, previous};
+      now_job.second = {then_job.plate, then_job.scene, {}, previous};
       composite(now_job, *executor);
       CompositeJob unmoved = then_job;
       composite(unmoved, *executor);
@@ -364,12 +370,191 @@ TEST_F(SpotTest, LeadsToWhereTheSecondFrameShowsIt) {
   }
 }
 
+/// The same over waves, judged at each pixel by what the second frame's own lookups and normals
+/// show in the place that the vectors lead to.
+class WavesTest : public SpotTest {
+ protected:
+  /// Mean distances, in pixels, on the second picture: between the points of the bottom that are
+  /// seen through the water at both ends of the vectors, and between the directions of the sky
+  /// that are mirrored there.
+  struct Off {
+    double seen = 0, mirrored = 0;
+  };
+  struct Judged {
+    Off with_waves, calm;
+  };
+
+  Judged judged(const std::vector<SineWave>& waves, const glm::dvec3& step, double seconds) {
+    const Camera start = camera_;
+    write("now.exr", {0, kBottom, -4}, {});
+    CompositeJob now = job_over(waves, "now.exr", "wet_now.exr", 0);
+    camera_.view = glm::translate(start.view, -step);
+    write("then.exr", {0, kBottom, -4}, {});
+    const CompositeJob then = job_over(waves, "then.exr", "wet_then.exr", seconds);
+    now.second = {then.plate, then.scene};
+    const auto executor = make_executor(2);
+    composite(now, *executor);
+    composite(then, *executor);
+    const WaterView first(scene(start), kPicture), second(scene(camera_), kPicture);
+    const Shown shows(*this, "wet_now.exr", first), shows_then(*this, "wet_then.exr", second);
+    const std::vector<Plane> made =
+        read("wet_now.exr", {"motion_forward.u", "motion_forward.v", "motion_reflected_forward.u",
+                             "motion_reflected_forward.v"});
+    std::vector<Plane> calm;
+    for (int i = 0; i < 4; ++i) calm.emplace_back(kPicture);
+    const Parallax parallax(first, second, now.look.water.ior);
+    const Plane depth = std::move(read("now.exr", {"depth.Z"}).front());
+    const auto& of = shows.planes;
+    parallax.seen({of[0].view(), of[1].view(), of[2].view(), kPicture}, depth.view(),
+                  calm[0].view(), calm[1].view(), *executor);
+    parallax.reflected(
+        {of[2].view(), of[3].view(), of[4].view(), of[5].view(), of[6].view(), depth.view(), first},
+        calm[2].view(), calm[3].view(), *executor);
+    return {off(shows, shows_then, made), off(shows, shows_then, calm)};
+  }
+
+ private:
+  CompositeJob job_over(const std::vector<SineWave>& waves, const std::string& plate,
+                        const std::string& output, double seconds) const {
+    CompositeJob job = this->job(plate, output);
+    job.scene.scene.water->waves = waves;
+    job.scene.scene.time = seconds;
+    job.scene.time = seconds;
+    apply_setting(job.look, "wave_normals.model=sines");
+    apply_setting(job.look, "wave_normals.strength=1");
+    apply_setting(job.look, "wave_normals.filter=none");
+    job.output.aovs = {Aov::kStmapG, Aov::kSurfaceDepth, Aov::kNormal, Aov::kReflectionDepth};
+    job.output.motion_reflected = true;
+    return job;
+  }
+  static Scene scene(const Camera& camera) {
+    Scene scene;
+    scene.camera = camera;
+    scene.water = WaterPlane{{0, 1, 0}, 0};
+    return scene;
+  }
+
+  /// What a wet picture shows.
+  struct Shown {
+    Shown(const WavesTest& test, const std::string& file, const WaterView& of_view)
+        : planes(test.read(file, {"stmap.g.U", "stmap.g.V", "surface_depth.Z", "normal.X",
+                                  "normal.Y", "normal.Z", "reflection_depth.Z"})),
+          view(of_view) {}
+
+    /// Bilinear, in place of pixels; NaN beyond the water.
+    double at(std::size_t plane, glm::dvec2 place) const {
+      const int x = static_cast<int>(std::floor(place.x - 0.5));
+      const int y = static_cast<int>(std::floor(place.y - 0.5));
+      if (!kPicture.contains({x, y, x + 2, y + 2})) return NAN;
+      const double right = place.x - 0.5 - x, below = place.y - 0.5 - y;
+      double sum = 0;
+      for (const int j : {0, 1}) {
+        for (const int i : {0, 1}) {
+          if (!std::isfinite(planes[2].view().at(x + i, y + j))) return NAN;
+          sum += (i ? right : 1 - right) * (j ? below : 1 - below) *
+                 planes[plane].view().at(x + i, y + j);
+        }
+      }
+      return sum;
+    }
+    /// Whether the place looks up what the picture shows: beyond it the bottom is a guess.
+    bool looks_within(glm::dvec2 place) const {
+      const double u = at(0, place) * kPicture.width(), v = at(1, place) * kPicture.height();
+      return u > 1 && v > 1 && u < kPicture.width() - 1 && v < kPicture.height() - 1;
+    }
+    /// The point of the bottom that the place looks up.
+    glm::dvec3 bottom(glm::dvec2 place) const {
+      const glm::dvec3 ray =
+          view.rays.ray_at(at(0, place) * kPicture.width(), (1 - at(1, place)) * kPicture.height());
+      return view.eye + (kBottom - view.eye.y) / ray.y * ray;
+    }
+    /// The direction from which its mirrored light comes.
+    glm::dvec3 sky(glm::dvec2 place) const {
+      const glm::dvec3 normal =
+          glm::normalize(glm::dvec3(at(3, place), at(4, place), at(5, place)));
+      return glm::reflect(view.rays.ray_at(place.x, place.y), normal);
+    }
+
+    std::vector<Plane> planes;
+    const WaterView& view;
+  };
+
+  static Off off(const Shown& now, const Shown& then, const std::vector<Plane>& vectors) {
+    const Screen screen(then.view);
+    Off mean;
+    int seen = 0, mirrored = 0;
+    // Away from the sides of the picture and from the horizon.
+    for (int y = kPicture.y1 / 2; y < kPicture.y1 - 10; ++y) {
+      for (int x = 10; x < kPicture.x1 - 10; ++x) {
+        const glm::dvec2 here(x + 0.5, y + 0.5);
+        const auto to = [&](std::size_t u) {
+          return here + glm::dvec2(vectors[u].view().at(x, y), -vectors[u + 1].view().at(x, y));
+        };
+        const auto bottom = screen.place_of(now.bottom(here) - then.view.eye);
+        const auto shown = screen.place_of(then.bottom(to(0)) - then.view.eye);
+        if (bottom && shown && now.looks_within(here) && then.looks_within(to(0))) {
+          mean.seen += std::hypot(shown->x - bottom->x, shown->y - bottom->y);
+          ++seen;
+        }
+        const auto calm = [&](const glm::dvec3& sky) {
+          return screen.place_of_direction({sky.x, -sky.y, sky.z});
+        };
+        const auto sky = calm(now.sky(here)), there = calm(then.sky(to(2)));
+        if (sky && there && std::isfinite(there->x)) {
+          mean.mirrored += std::hypot(there->x - sky->x, there->y - sky->y);
+          ++mirrored;
+        }
+      }
+    }
+    EXPECT_GT(seen, 2000);
+    EXPECT_GT(mirrored, 2000);
+    return {mean.seen / seen, mean.mirrored / mirrored};
+  }
+};
+
+TEST_F(WavesTest, LeadsToTheSamePointThroughGentleWaves) {
+  const std::vector<SineWave> waves{{0.008, 3, 1, 0.4, 5}, {0.005, -1, 4, 1.9, 6}};
+  for (const glm::dvec3 step : {glm::dvec3(0), glm::dvec3(0.1, 0, -0.05)}) {
+    const Judged off = judged(waves, step, 0.25);
+    EXPECT_GT(off.calm.seen, 0.3) << "there is something to tell";
+    EXPECT_GT(off.calm.mirrored, 3);
+    EXPECT_LT(off.with_waves.seen, 0.02 * off.calm.seen);
+    EXPECT_LT(off.with_waves.mirrored, 0.05 * off.calm.mirrored);
+    RecordProperty("pixels", std::to_string(off.with_waves.seen) + " of " +
+                                 std::to_string(off.calm.seen) + ", mirrored " +
+                                 std::to_string(off.with_waves.mirrored) + " of " +
+                                 std::to_string(off.calm.mirrored));
+  }
+}
+
+/// Waves that focus what is below them show it at several places.
+TEST_F(WavesTest, IsBetterThanOfCalmWaterThroughSteepWaves) {
+  const std::vector<SineWave> waves{{0.02, 9, 3, 0.4, 9}, {0.01, -4, 12, 1.9, 11}};
+  const Judged off = judged(waves, {0.1, 0, -0.05}, 1.0 / 24);
+  EXPECT_LT(off.with_waves.seen, 0.5 * off.calm.seen);
+  EXPECT_LT(off.with_waves.mirrored, 0.5 * off.calm.mirrored);
+  RecordProperty("pixels", std::to_string(off.with_waves.seen) + " of " +
+                               std::to_string(off.calm.seen) + ", mirrored " +
+                               std::to_string(off.with_waves.mirrored) + " of " +
+                               std::to_string(off.calm.mirrored));
+}
+
+TEST_F(WavesTest, IsZeroWhereNothingMoves) {
+  judged({{0.02, 9, 3, 0.4, 9}, {0.01, -4, 12, 1.9, 11}}, {0, 0, 0}, 0);
+  for (const Plane& plane : read(
+           "wet_now.exr", {"motion_forward.u", "motion_forward.v", "motion_reflected_forward.u"})) {
+    for (int y = 0; y < kPicture.y1; ++y) {
+      for (int x = 0; x < kPicture.x1; ++x) EXPECT_NEAR(plane.view().at(x, y), 0, 1e-9);
+    }
+  }
+}
+
 TEST_F(SpotTest, LeadsToNoFrameUnderWater) {
   write("now.exr", {0, kBottom, -4}, {});
   CompositeJob job = this->job("now.exr", "wet.exr");
   SceneFile below = job.scene;
   below.camera->view = glm::translate(camera_.view, glm::dvec3(0, 3, 0));
-  job.second = {job.plate, below, false};
+  job.second = {job.plate, below};
   const auto executor = make_executor(1);
   try {
     composite(job, *executor);

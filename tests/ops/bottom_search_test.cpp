@@ -93,7 +93,7 @@ BottomSearch<double, FlatBottom>::Found march(View& view, const FlatBottom& tap)
       .march();
 }
 
-TEST(BottomSearch, KnownHeightsSaveLooksAndChangeNothing) {
+TEST(BottomSearch, KnownHeightsSaveLookupsAndChangeNothing) {
   View view(kDown);
   int each_looks = 0, known_looks = 0;
   const auto each = march(view, {view.pass, view.pixel, 1, each_looks});

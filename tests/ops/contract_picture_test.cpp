@@ -65,7 +65,7 @@ TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
                            {"wave_normals", "prism_split", "water_shadow", "sun_highlight"}));
 }
 
-TEST(Contract, SaneInputMakesNoNan) {
+TEST(Contract, ValidInputMakesNoNan) {
   for (bool plate_normals : {false, true}) {
     const World world(plate_normals);
     Kernels::for_each([&]<class Op, int>() {

@@ -88,7 +88,7 @@ TEST(FittedWater, GrayWaterStaysGray) {
   EXPECT_EQ(fitted_rates(weights, {}), (Rgb<double>{0, 0, 0}));
   const FittedWater none = fitted_water(space("ACEScg"), {WaterType::kCustom});
   EXPECT_EQ(none.type.absorption, (Rgb<double>{0, 0, 0}));
-  EXPECT_EQ(none.besides.absorption, (Rgb<double>{0, 0, 0}));
+  EXPECT_EQ(none.additions.absorption, (Rgb<double>{0, 0, 0}));
   // Nearly gray: each rate lies between the least and the largest.
   for (std::size_t i = 0; i < kSpectrumSize; ++i) gray[i] = .25 + 1e-6 * static_cast<double>(i);
   const Rgb<double> near = fitted_rates(weights, gray);
@@ -173,12 +173,12 @@ TEST(FittedWater, MixedInIsAddedTo) {
   const FittedWater clear = fitted_water(acescg, {WaterType::kCase1, .3});
   const FittedWater murky = fitted_water(acescg, {WaterType::kCase1, .3, 20, .5});
   EXPECT_EQ(murky.type.absorption, clear.type.absorption);
-  EXPECT_EQ(murky.besides.scattering, (Rgb<double>{10, 10, 10}));
-  EXPECT_EQ(clear.besides.scattering, (Rgb<double>{0, 0, 0}));
+  EXPECT_EQ(murky.additions.scattering, (Rgb<double>{10, 10, 10}));
+  EXPECT_EQ(clear.additions.scattering, (Rgb<double>{0, 0, 0}));
   // Humus and grains absorb blue most.
-  EXPECT_GT(murky.besides.absorption.b, murky.besides.absorption.g);
-  EXPECT_GT(murky.besides.absorption.g, murky.besides.absorption.r);
-  EXPECT_GT(murky.besides.absorption.r, 0);
+  EXPECT_GT(murky.additions.absorption.b, murky.additions.absorption.g);
+  EXPECT_GT(murky.additions.absorption.g, murky.additions.absorption.r);
+  EXPECT_GT(murky.additions.absorption.r, 0);
 }
 
 }  // namespace

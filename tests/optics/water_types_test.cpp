@@ -37,7 +37,7 @@ TEST(WaterTypes, OceanWatersAreEvenSteps) {
 }
 
 TEST(WaterTypes, MurkinessHandWorked) {
-  const ClearAndMurky ocean = case_1_water(0), pond = case_1_water(1);  // .03 and 30 mg/m^3
+  const WaterCoefficients ocean = case_1_water(0), pond = case_1_water(1);  // .03 and 30 mg/m^3
   EXPECT_NEAR(ocean.absorption.b, 0.01763, 2e-5);  // (.00922 + .06 .944 .03^.65) (1 + .2 e^-.14)
   EXPECT_NEAR(ocean.scattering.g, 0.03602, 2e-5);  // .3 .03^.62 + .00758 (400 / 550)^4.32
   EXPECT_NEAR(pond.absorption.r, 0.5406, 1e-4);    // (.34 + .06 .356 30^.65) (1 + .2 e^-2.94)
@@ -48,7 +48,7 @@ TEST(WaterTypes, MurkinessHandWorked) {
   EXPECT_NEAR(pond.scattering.b, 3.0251, 5e-4);
   // Murkier water lets less light through and sends more back; blue ocean, green pond.
   for (double m = 0; m < 0.95; m += 0.1) {
-    const ClearAndMurky less = case_1_water(m), more = case_1_water(m + 0.1);
+    const WaterCoefficients less = case_1_water(m), more = case_1_water(m + 0.1);
     EXPECT_LT(less.absorption.b, more.absorption.b);
     EXPECT_LT(less.scattering.b, more.scattering.b);
   }
@@ -57,7 +57,7 @@ TEST(WaterTypes, MurkinessHandWorked) {
 }
 
 TEST(WaterTypes, SedimentAndHumusHandWorked) {
-  const ClearAndMurky sediment = sediment_water(10);  // g/m^3
+  const WaterCoefficients sediment = sediment_water(10);  // g/m^3
   EXPECT_EQ(sediment.scattering, (Rgb<double>{5, 5, 5}));
   EXPECT_NEAR(sediment.absorption.r, 0.03214, 1e-5);  // .41 e^-2.5461
   EXPECT_NEAR(sediment.absorption.b, 0.37618, 1e-5);  // .41 e^-.0861

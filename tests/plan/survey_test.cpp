@@ -221,7 +221,7 @@ TEST(Survey, WhatIsWrittenIsNotSkipped) {
   EXPECT_EQ(survey_of(murky(), b.frame, 0, {StatePart::kPosition}).summary().opaque.cells, 0);
   const Survey light = survey_of(murky(), b.frame, 0, kOutputTerms);
   EXPECT_EQ(light.summary().opaque.cells, 15);
-  EXPECT_EQ(light.summary().spared[Chain::index_of<WaterShadow>()].cells, 15);
+  EXPECT_EQ(light.summary().skipped[Chain::index_of<WaterShadow>()].cells, 15);
 }
 
 TEST(Survey, WavesThatNothingReadsInACellAreNotMade) {
@@ -242,11 +242,11 @@ TEST(Survey, WavesThatNothingReadsInACellAreNotMade) {
 TEST(Survey, ShadowIsSkippedWhereAllIsLitAndTheGlintWhereNothingIs) {
   Buffers b = tray(rect_of(kSize));
   const Survey all = survey_of(short_look(), b.frame);
-  EXPECT_EQ(all.summary().spared[Chain::index_of<WaterShadow>()].cells, 15);
+  EXPECT_EQ(all.summary().skipped[Chain::index_of<WaterShadow>()].cells, 15);
   EXPECT_EQ(all.summary().runs[kHighlight].cells, 15);
   put(b, PlaneId::kShadow, 159, 40, 0.99f);
   const Survey survey = survey_of(short_look(), b.frame);
-  EXPECT_EQ(survey.summary().spared[Chain::index_of<WaterShadow>()].cells, 15 - 6)
+  EXPECT_EQ(survey.summary().skipped[Chain::index_of<WaterShadow>()].cells, 15 - 6)
       << "in reach of two columns and three rows";
   EXPECT_TRUE(survey.at(0, 40).needs(kShadow));
   EXPECT_FALSE(survey.at(0, 0).needs(kShadow));
@@ -357,8 +357,8 @@ TEST(Survey, IsToldAsText) {
   b.set(PlaneId::kSurfaceDepth, [](int x, int y) { return x < 128 && y < 32 ? test::kInf : 4.0f; });
   const Plan plan = plan_of(murky(), b.frame);
   const std::string text = to_text(plan, surveyed(plan, b.frame, scene_of(b.frame)));
-  EXPECT_THAT(text, HasSubstr("refraction          dropped: invisible, fog hides all that it could "
-                              "show, it changes no bit of the picture [skip_hidden]\n"));
+  EXPECT_THAT(text, HasSubstr("refraction          dropped: invisible, fog hides its effect, "
+                              "it changes no bit of the picture [skip_hidden]\n"));
   EXPECT_THAT(text, HasSubstr("water_shadow        dropped: invisible, it changes no bit of the "
                               "picture [skip_invisible]\n"));
   EXPECT_THAT(text, HasSubstr("sun_highlight       kept\n"));

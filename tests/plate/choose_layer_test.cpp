@@ -73,9 +73,10 @@ TEST(ChooseLayer, AWholeFile) {
 }
 
 TEST(ChooseLayer, AWholeFileWithNothingForTheRole) {
-  EXPECT_EQ(chosen("surface_normal", "", {source(0, "a.exr", {"Z", "left.A", "mask.A"})}),
-            "surface_normal=a.exr: no layer there is known to be world normal of the water "
-            "surface; name its channels, there is Z, left (A), mask (A)");
+  EXPECT_EQ(
+      chosen("surface_normal", "", {source(0, "a.exr", {"Z", "left.A", "mask.A"})}),
+      "surface_normal=a.exr: no layer has a known name for surface_normal; name its channels; "
+      "there is Z, left (A), mask (A)");
 }
 
 TEST(ChooseLayer, AMisspeltNameGetsTheNearest) {
@@ -106,9 +107,10 @@ TEST(ChooseLayer, AWrongCountSaysHowManyAreNeeded) {
 }
 
 TEST(ChooseLayer, AnUnclearNameListsWhatItMayMean) {
-  EXPECT_THAT(chosen("depth", "Z", kBlender),
-              HasSubstr("depth=Z: 4 choices fit equally well: ViewLayer.Depth.Z, ViewLayer.Mist.Z, "
-                        "ViewLayer.Normal.Z, ViewLayer.Position.Z; say which"));
+  EXPECT_THAT(
+      chosen("depth", "Z", kBlender),
+      HasSubstr("depth=Z: 4 candidates fit equally well: ViewLayer.Depth.Z, ViewLayer.Mist.Z, "
+                "ViewLayer.Normal.Z, ViewLayer.Position.Z; choose one"));
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ TEST(Environment, TheSmallestOnes) {
   EXPECT_EQ(texel(flat, 1, 0).x, 0);
 }
 
-TEST(Environment, WindowsMayLieAnywhereAndValuesAreSane) {
+TEST(Environment, WindowsMayLieAnywhereAndValuesAreFinite) {
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   const auto path = write_picture(
       {4, 2}, [&](int x, int) { return glm::dvec3(x == 0 ? nan : 5, x == 1 ? -inf : 6, -7); },
@@ -249,11 +249,10 @@ TEST(Environment, RefusesOtherShapesAndWhatContradictsItself) {
       "other";
   EXPECT_THAT(refusal({8, 5}, {}), EndsWith(std::string("8x5 pixels: ") + expected));
   EXPECT_THAT(refusal({6, 1}, {}), EndsWith(expected));
-  EXPECT_THAT(
-      refusal({8, 4}, {.envmap = std::string(1, '\1')}),
-      EndsWith(std::string("an attribute envmap that says cube and 8x4 pixels: ") + expected));
+  EXPECT_THAT(refusal({8, 4}, {.envmap = std::string(1, '\1')}),
+              EndsWith(std::string("the attribute envmap says cube and 8x4 pixels: ") + expected));
   EXPECT_THAT(refusal({2, 12}, {.envmap = std::string(1, '\0')}),
-              HasSubstr("an attribute envmap that says lat-long and 2x12 pixels"));
+              HasSubstr("the attribute envmap says lat-long and 2x12 pixels"));
   EXPECT_THAT(refusal({8, 4}, {.channels = {"R", "G"}}),
               EndsWith("an environment needs the channels R, G and B"));
   EXPECT_THAT(refusal({10, 60}, {}, {.max_pixels = 600}),

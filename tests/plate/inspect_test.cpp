@@ -50,7 +50,7 @@ found
   depth   ViewLayer.Depth.Z           (dry_multilayer_blender_half_zip.exr)  - layer 'ViewLayer.Depth' (Blender, Nuke, Natron)
   shadow  ViewLayer.Shadow.R          (dry_multilayer_blender_half_zip.exr)  - layer 'ViewLayer.Shadow' (Blender)
 not found
-  reflection        what a flat mirror in the water plane shows at each pixel
+  reflection        the picture of a flat mirror in the water plane
   surface_depth     depth of the water surface
   surface_normal    world normal of the water surface
   reflection_valid  1 where the reflection is valid, 0 inside of clipped objects
@@ -97,7 +97,7 @@ found
   depth  Z        (stereo.exr, part 0)  - part 'beauty' (beside the color)
 not found
   shadow            visibility of the sun: 1 lit, 0 in shadow
-  reflection        what a flat mirror in the water plane shows at each pixel
+  reflection        the picture of a flat mirror in the water plane
   surface_depth     depth of the water surface
   surface_normal    world normal of the water surface
   reflection_valid  1 where the reflection is valid, 0 inside of clipped objects
@@ -119,12 +119,12 @@ TEST(Inspect, ViewsAndPartsThatAreUsed) {
   const ExrPart depth = part({4, 4}, {}, {"Z"});
   const std::vector parts = {color, depth};
   LayerChoices choices;
-  choices["color"] = {{{0, 0, "R"}, {0, 0, "G"}, {0, 1, "Z"}}, "as asked for", "left"};
+  choices["color"] = {{{0, 0, "R"}, {0, 0, "G"}, {0, 1, "Z"}}, "named for the buffer", "left"};
   const std::string text = inspect_text(std::vector<InspectedFile>{{"s.exr", parts}}, choices, {},
                                         {{"left", "right"}, "Left"});
   EXPECT_THAT(text, HasSubstr("part 0: 4x4, zip, scan lines, views left right\n"));
   EXPECT_THAT(text, HasSubstr("\nviews\n  left (used), right\nfound\n"
-                              "  color  R G Z  (s.exr, parts 0, 1)  - as asked for\n"));
+                              "  color  R G Z  (s.exr, parts 0, 1)  - named for the buffer\n"));
   EXPECT_THAT(inspect_text(std::vector<InspectedFile>{{"s.exr", parts}}, {}, {}, {{"right"}, ""}),
               HasSubstr("\nviews\n  default (used), right\n"));
 }
@@ -132,8 +132,8 @@ TEST(Inspect, ViewsAndPartsThatAreUsed) {
 TEST(Inspect, ARoleThatCouldNotBeDecidedShowsWhy) {
   const std::vector parts = {part({4, 4}, {"B", "G", "R"}, {})};
   const std::vector<InspectedFile> files = {{"a.exr", parts}};
-  EXPECT_THAT(inspect_text(files, {}, {{"color", "color: 2 choices fit equally well"}}),
-              HasSubstr("not found\n  color             color: 2 choices fit equally well\n"
+  EXPECT_THAT(inspect_text(files, {}, {{"color", "color: 2 candidates fit equally well"}}),
+              HasSubstr("not found\n  color             color: 2 candidates fit equally well\n"
                         "  depth             depth of the dry scene\n"));
 }
 

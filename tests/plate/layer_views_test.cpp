@@ -103,10 +103,11 @@ TEST(LayerViews, WithoutTheAttributeTheColorWithoutAViewIsTheDefault) {
 }
 
 TEST(LayerViews, TwoChoicesOfOneViewStayAmbiguous) {
-  EXPECT_THAT(found({source(0, "s.exr", kRgb, "rgba.left", 0, "left"),
-                     source(0, "s.exr", kRgb, "beauty.left", 1, "left"),
-                     source(0, "s.exr", kRgb, "rgba.right", 2, "right")}),
-              HasSubstr("color: 2 choices fit equally well: rgba.left, beauty.left; say which"));
+  EXPECT_THAT(
+      found({source(0, "s.exr", kRgb, "rgba.left", 0, "left"),
+             source(0, "s.exr", kRgb, "beauty.left", 1, "left"),
+             source(0, "s.exr", kRgb, "rgba.right", 2, "right")}),
+      HasSubstr("color: 2 candidates fit equally well: rgba.left, beauty.left; choose one"));
 }
 
 TEST(LayerViews, OnlyKnownLayersAreViews) {

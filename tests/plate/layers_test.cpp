@@ -236,7 +236,7 @@ TEST(FindLayers, TheOnlyPartWithAPictureMayBeCalledAnything) {
   EXPECT_EQ(found_in({source(0, "a.exr", kRgb, "shot010"), source(0, "a.exr", {"Z"}, "mist", 1)}),
             "color: R G B\n");
   EXPECT_EQ(found_in({source(0, "a.exr", rgbaz, "one"), source(0, "a.exr", kRgb, "two", 1)}),
-            "color: 2 choices fit equally well: one, two; say which, as in --layer color=one");
+            "color: 2 candidates fit equally well: one, two; choose one, as in --layer color=one");
 }
 
 TEST(FindLayers, FlatPixelsWinOverDeepSamples) {
@@ -409,20 +409,20 @@ TEST(FindLayers, ReasonsAreTold) {
 TEST(FindLayers, SeveralViewLayersAreAmbiguous) {
   EXPECT_EQ(found({"Near.Combined.B", "Near.Combined.G", "Near.Combined.R", "Far.Combined.B",
                    "Far.Combined.G", "Far.Combined.R"}),
-            "color: 2 choices fit equally well: Near.Combined, Far.Combined; say which, as in "
+            "color: 2 candidates fit equally well: Near.Combined, Far.Combined; choose one, as in "
             "--layer color=Near.Combined");
 }
 
 TEST(FindLayers, SeveralFilesAreAmbiguous) {
   EXPECT_EQ(found_in({source(0, "a.exr", {"Z"}), source(1, "b.exr", {"Z"})}),
-            "depth: 2 choices fit equally well: a.exr:Z, b.exr:Z; say which, as in --layer "
+            "depth: 2 candidates fit equally well: a.exr:Z, b.exr:Z; choose one, as in --layer "
             "depth=a.exr:Z");
 }
 
 TEST(FindLayers, ALongListIsCutShort) {
   Names channels;
   for (int i = 0; i < 100; ++i) channels.push_back("layer" + std::to_string(i) + ".Depth.Z");
-  EXPECT_THAT(found(channels), HasSubstr("layer22.Depth.Z, layer23.Depth.Z, 76 more; say which"));
+  EXPECT_THAT(found(channels), HasSubstr("layer22.Depth.Z, layer23.Depth.Z, 76 more; choose one"));
   EXPECT_THAT(chosen("depth", "nothing like it", {source(0, "a.exr", channels)}),
               HasSubstr("layer23.Depth (Z), 76 more"));
 }
@@ -438,13 +438,13 @@ TEST(FindLayers, EveryCandidateOfAnAmbiguityCanBeChosenByItsText) {
   const Names channels = {"A.Depth.Z", "View.rgba.B", "View.rgba.G", "View.rgba.R"};
   const std::vector<LayerSource> sources = {source(0, "s.exr", channels, "near", 0),
                                             source(0, "s.exr", channels, "far", 1)};
-  EXPECT_THAT(found_in(sources), HasSubstr(": near.View.rgba, far.View.rgba; say which"));
+  EXPECT_THAT(found_in(sources), HasSubstr(": near.View.rgba, far.View.rgba; choose one"));
   EXPECT_EQ(chosen("color", "near.View.rgba", sources),
             "color: View.rgba.R View.rgba.G View.rgba.B\n");
   EXPECT_EQ(chosen("color", "far.View.rgba", sources),
             "color: #1:View.rgba.R #1:View.rgba.G #1:View.rgba.B\n");
   EXPECT_THAT(chosen("depth", "", sources),
-              HasSubstr(": near.A.Depth.Z, far.A.Depth.Z; say which"));
+              HasSubstr(": near.A.Depth.Z, far.A.Depth.Z; choose one"));
   EXPECT_EQ(chosen("depth", "near.A.Depth.Z", sources), "depth: A.Depth.Z\n");
   EXPECT_EQ(chosen("depth", "far.A.Depth.Z", sources), "depth: #1:A.Depth.Z\n");
   EXPECT_THAT(chosen("depth", "mist", sources),

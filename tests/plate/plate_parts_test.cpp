@@ -144,7 +144,7 @@ TEST_F(PlateParts, ChannelsOfOneRoleMayLieInSeveralParts) {
                                     "\\[\"R\"\\]\\}, \\{file = .*part = 1.*part = 2, "));
   request_.layers["color"] = "R";
   EXPECT_EQ(test::error_of([&] { Plate::open(request_); }),
-            "color=R: 3 choices fit equally well: a.R, b.R, c.R; say which, as in --layer "
+            "color=R: 3 candidates fit equally well: a.R, b.R, c.R; choose one, as in --layer "
             "color=a.R");
 }
 

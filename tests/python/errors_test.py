@@ -51,7 +51,7 @@ class Errors(unittest.TestCase):
         self.refused("shares bytes with AOV ", aovs={"path": one, "fresnel": one})
 
     def test_aovs(self):
-        self.refused("'pth' is no AOV", aovs=["pth"])
+        self.refused("'pth' is not an AOV", aovs=["pth"])
         self.refused("did you mean 'path'?", aovs=["pth"])
         self.refused("expected a list of names", aovs="path")
         self.refused("AOV normal has the shape (35, 61), expected (35, 61, 3)", aovs={"normal": FLOATS})

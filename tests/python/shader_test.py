@@ -102,7 +102,7 @@ class Shaders(unittest.TestCase):
             self.assertIn(sentence, str(caught.exception))
         refused("stage: unknown 'vertex', expected one of function, compute, fragment", stage="vertex")
         refused("stage is a int", stage=1)
-        refused("'2d' is no name for a function", function="2d")
+        refused("'2d' is not a function name", function="2d")
         refused("descriptor set 32 is out of 0 ... 31", set=32)
         refused("set is 0.5, expected a whole number", set=0.5)
         refused("set is nan, expected a whole number", set=float("nan"))

@@ -137,7 +137,7 @@ TEST(Clip, UserPlaneKeepsItsPositiveSide) {
   EXPECT_GT(cut, 300);
 }
 
-TEST(Clip, EdgeOnAndPastTheEyeTrianglesGiveSaneDepth) {
+TEST(Clip, EdgeOnAndPastTheEyeTrianglesGiveDepthInRange) {
   Random random(6);
   for (int round = 0; round < 500; ++round) {
     // Planes through or nearly through the eye at the origin.

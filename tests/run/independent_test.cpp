@@ -10,8 +10,8 @@
 
 #include "support.h"
 
-// Both runners against the look `realistic` as tests/tools/realistic_numpy.py reads it: written
-// from the descriptions of the models, not from this code. That script describes the file.
+// Both runners against the look `realistic` as tests/tools/realistic_numpy.py computes it, from the
+// descriptions of the models, not from this code. That script documents the format of the file.
 
 namespace limpid {
 namespace {

@@ -119,7 +119,8 @@ TEST_P(Leaps, ChangeNotABitWhereNumbersAreLargeOrSmall) {
   }
 }
 
-/// The plane of eye depths at which the heights `height_of(x, y)` over the calm surface are seen.
+/// Sets a plane to the eye depths of a surface with the heights `height_of(x, y)` over the calm
+/// surface.
 template <class HeightOf>
 void set_heights(Buffers& b, const Scene& scene, PlaneId plane, Rect window, HeightOf&& height_of) {
   const Pass pass(scene, b.frame, 1.333, {});
@@ -135,8 +136,8 @@ void set_heights(Buffers& b, const Scene& scene, PlaneId plane, Rect window, Hei
       window);
 }
 
-/// Low tide: the calm level, which stands for the surface ashore, lies over all water that is
-/// drawn.
+/// Low tide: all rendered water is below the calm level, which counts as the surface where no water
+/// is rendered.
 TEST_P(Leaps, ChangeNotABitWhereWaterIsLowerThanCalm) {
   const Size size{200, 120};
   const Scene scene = test::simple_scene(size);

@@ -2,7 +2,7 @@
 
 #include "complete/shore.h"
 
-// The AOVs of a mirror: which mirror was made, and where its light came from.
+// The AOVs of a reflection: its planes, and the sources of its light.
 
 namespace limpid {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "support.h"
 
-// Nothing behind the water in the fused pass, with the looks as they are shipped.
+// Water without a bottom in the fused pass, with the bundled looks.
 
 namespace limpid {
 namespace {

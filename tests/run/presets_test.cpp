@@ -11,8 +11,8 @@
 #include "ops/depth_fog_kernel.h"
 #include "support.h"
 
-// The presets as they are shipped. The base look's tests check the laws of all looks; here are the
-// results of the presets' own numbers.
+// The bundled presets. Tests of the base look check the laws of all looks; these tests check the
+// effects of the presets' numbers.
 
 namespace limpid {
 namespace {
@@ -82,7 +82,7 @@ TEST(Presets, AreEachAnotherWater) {
   }
 }
 
-/// How light from above fades, which Jerlov measured, is about a + b_b.
+/// The attenuation of daylight with depth, as Jerlov measured it, is about a + b_b.
 TEST(Presets, HarbourIsJerlovs7C) {
   const DepthFog::Params fog = preset("harbour").of<DepthFog>();
   const Rgb<double> a = Kernel<DepthFog>::absorption(fog), b = Kernel<DepthFog>::scattering(fog);

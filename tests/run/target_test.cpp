@@ -23,7 +23,7 @@ TEST(Aovs, AnUnknownNameIsRefusedWithAllThatThereAre) {
     FAIL();
   } catch (const Error& error) {
     const std::string said = error.what();
-    EXPECT_EQ(said.rfind("'transmited' is no AOV: expected one of ", 0), 0u) << said;
+    EXPECT_EQ(said.rfind("'transmited' is not an AOV: expected one of ", 0), 0u) << said;
     for (const AovInfo& aov : aovs()) EXPECT_NE(said.find(aov.name), std::string::npos) << said;
     EXPECT_NE(said.find("'transmitted'"), std::string::npos) << said;
   }

@@ -201,7 +201,7 @@ TEST_P(Underwater, PixelsInTheAirDoNotKnowThatOthersAreInTheWater) {
   const Scene half = scene_at(0.05, 0, {kWave}), above = scene_at(0.05);
   Look look;
   look.of<Refraction>().rejection = Refraction::Rejection::kSnap;
-  look.of<Caustics>().strength = 0;  // light enters the two waters in other places
+  look.of<Caustics>().strength = 0;  // the entry points of light differ between the two
   const Picture p = run(look, b, half), q = run(look, b, above);
   int in_air = 0, differ = 0;
   for_each_pixel([&](int x, int y) {
@@ -255,7 +255,8 @@ TEST_P(Underwater, BeyondTheCriticalAngleTheSurfaceIsAMirror) {
   EXPECT_GT(through, 500);
 }
 
-// In even water that glows evenly a path that the surface bends is as bright as a straight path.
+// In uniform water with uniform in-scatter a path that the surface bends is as bright as a straight
+// path.
 TEST_P(Underwater, WhatTheSurfaceMirrorsIsSeenThroughTheWaterToo) {
   constexpr double kDeep = 3, kAmbient = 0.2, kRate = 0.3;  // half of it scattered
   constexpr float kLight = 0.8f;
@@ -342,7 +343,7 @@ Buffers noise_with_an_end() {
   return b;
 }
 
-/// How many values of the two runners differ by more than rounding does.
+/// The number of values that differ between the two runners by more than rounding.
 std::size_t differences(const Frame& frame, const Scene& scene, std::size_t& values) {
   const std::vector<float> judge = test::reference({}, frame, scene).values();
   const std::vector<float> got = test::fused({}, frame, scene).values();
@@ -376,7 +377,7 @@ TEST(UnderwaterSweep, NoNanAndTheRunnersAgreeThroughTheSurface) {
     // So low over the water a ray crosses many texels of the noise in a short path: floats are off
     // by 1e-4 there, and at the edge of two texels or at the waterline either side may be taken.
     EXPECT_LE(far_ending, values / 2000) << height;
-    // A third of this noise has hit nothing: half of a texel's weight decides, too, whether a ray
+    // A third of this noise has no surface: half of a texel's weight decides, too, whether a ray
     // has an end and whether an object hides the end; all values of the pixel follow.
     EXPECT_LE(far, values / 90) << height;
     EXPECT_LE(far_bare, values / 90) << height;

@@ -115,7 +115,7 @@ double apart(const Picture& a, const Picture& b) {
   return sum;
 }
 
-/// The waves of now lie a little farther downwind a moment later.
+/// A moment later the waves lie a little farther downwind.
 TEST(WindOnMaps, WavesRunWithTheWind) {
   constexpr double kMoment = 0.05, kWind = 5;
   for (const Model model : kMapModels) {
@@ -149,7 +149,7 @@ TEST(WindOnMaps, WavesRunAsFastAsTheirLength) {
       const Vec2<double> ahead = towards(60);
       double aside_of_all = 0, ahead_of_all = 0;
       for (int i = 0; i < 4; ++i) {
-        // A lookup that moves back shows waves that move forward.
+        // Coordinates of a lookup that move backwards show waves that move forwards.
         const Vec2<double> moved = tile / 2 * (begin.of[i] - later.of[i]);
         const double along = moved.x * ahead.x + moved.y * ahead.y - skin_drift(wind);
         const double across = moved.y * ahead.x - moved.x * ahead.y;
@@ -157,7 +157,7 @@ TEST(WindOnMaps, WavesRunAsFastAsTheirLength) {
         EXPECT_NEAR(std::hypot(along, across), phase_speed(length), 1e-4 * phase_speed(length));
         EXPECT_GT(along, std::abs(across)) << "within 45 degrees";
         aside_of_all += across, ahead_of_all += along;
-        for (int j = 0; j < i; ++j) {  // no two begin together
+        for (int j = 0; j < i; ++j) {  // no two have the same offset
           const Vec2<double> d = begin.of[i] - begin.of[j];
           EXPECT_GT(std::hypot(std::remainder(d.x, 1), std::remainder(d.y, 1)), 0.2);
         }

@@ -116,6 +116,47 @@ TEST_F(GlslTest, IfsStayTwoWhereWhatStandsBetweenNeedsTheFirst) {
   EXPECT_EQ(count(text, "if ("), 2) << text;
 }
 
+/// Where places follow from the index, the lookups of four steps are made together; where they
+/// follow from what the step before found, each step makes its own.
+TEST_F(GlslTest, LookupsOfALoopAreMadeBeforeTheirSteps) {
+  const auto looked_up = [&](const Symbol& x) {
+    return Symbol::of(recorder_.add(NodeOp::kNearest, NodeType::kNumber,
+                                    {x.node(), Symbol(0).node(), -1}, index_of(PlaneId::kDepth)));
+  };
+  const auto is_open = [](const Symbol& sum) { return sum < Symbol(9); };
+  Symbol ahead = own(PlaneId::kDepth), behind = own(PlaneId::kSurfaceDepth);
+  const Symbol width = sqrt(ahead);
+  steps<Symbol>(1, 17, [&](auto i) {
+    ahead = ahead + looked_up(width * Loop<Symbol>::ratio(i, 16));
+    return is_open(ahead);
+  });
+  steps<Symbol>(1, 17, [&](auto i) {
+    behind = behind + looked_up(behind * Loop<Symbol>::ratio(i, 16));
+    return is_open(behind);
+  });
+  const std::string text = GlslBody(recording_of(ahead + behind)).text();
+  EXPECT_EQ(count(text, "for (int "), 2) << text;
+  EXPECT_EQ(count(text, " - 1) % 4 == 0) {"), 1) << text;
+  EXPECT_EQ(count(text, "limpid_nearest_depth("), 4 + 1) << text;
+  EXPECT_EQ(count(text, " + 3) / 16.0"), 1) << text;
+}
+
+TEST_F(GlslTest, SlopesOfOnePlaceAreOneLookup) {
+  const Symbol x = own(PlaneId::kDepth);
+  const auto lookup = [&](NodeOp op, NodeType type, const Symbol& at) {
+    const int node = recorder_.add(op, type, {at.node(), at.node(), x.node()});
+    return Symbol::of(recorder_.part(node, 0));
+  };
+  const Symbol far = x + Symbol(1);
+  const Symbol mean = lookup(NodeOp::kSlopeMean, NodeType::kTwo, x);
+  const Symbol square = lookup(NodeOp::kSlopeSquare, NodeType::kThree, x);
+  const Symbol other = lookup(NodeOp::kSlopeSquare, NodeType::kThree, far);
+  const std::string text = GlslBody(recording_of(mean + square + other)).text();
+  EXPECT_EQ(count(text, "limpid_slope_moments("), 1) << text;
+  EXPECT_EQ(count(text, "limpid_slope_mean("), 0) << text;
+  EXPECT_EQ(count(text, "limpid_slope_square("), 1) << text;
+}
+
 /// As for the texts for hosts: a pipeline lasts for a sequence.
 TEST(ProgramOfARunner, IsTheSameForAnyTimeAndStrength) {
   const test::World world(false);

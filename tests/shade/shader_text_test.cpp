@@ -129,9 +129,9 @@ TEST(ShaderText, ReadsOnlyWhatTheLookNeeds) {
 
 TEST(ShaderText, LongProgramsHaveLargeGroupsWhereTheDeviceHasThem) {
   const test::World world(false);
-  const auto group_of = [&](const char* look, int most_threads) {
+  const auto group_of = [&](const char* look, int max_threads) {
     ShaderOptions options{.stage = Stage::kCompute};
-    options.most_threads = most_threads;
+    options.max_threads = max_threads;
     const ShaderText made = text_of(test::shipped_look(look), world, options);
     EXPECT_NE(made.text().find("local_size_x = " + std::to_string(made.group().width) +
                                ", local_size_y = " + std::to_string(made.group().height)),
@@ -139,7 +139,8 @@ TEST(ShaderText, LongProgramsHaveLargeGroupsWhereTheDeviceHasThem) {
     return made.group();
   };
   EXPECT_EQ(group_of("physical", 1024), (Size{32, 32}));
-  EXPECT_EQ(group_of("physical", 1023), (Size{16, 8}));
+  EXPECT_EQ(group_of("physical", 1023), (Size{16, 16}));
+  EXPECT_EQ(group_of("physical", 255), (Size{16, 8}));
   EXPECT_EQ(group_of("realistic", 1024), (Size{16, 8}));
 }
 
@@ -154,14 +155,14 @@ TEST(ShaderText, RefusesWhatItCannotPrint) {
     return "";
   };
   EXPECT_EQ(refusal({.function = "2d"}),
-            "'2d' is no name for a function: expected letters, digits and _");
+            "'2d' is not a function name: expected letters, digits and _");
   EXPECT_EQ(refusal({.function = "gl_water"}),
-            "'gl_water' is no name for a function: expected letters, digits and _");
+            "'gl_water' is not a function name: expected letters, digits and _");
   EXPECT_EQ(refusal({.function = "a__b"}),
-            "'a__b' is no name for a function: expected letters, digits and _");
+            "'a__b' is not a function name: expected letters, digits and _");
   EXPECT_EQ(refusal({.set = 32}), "descriptor set 32 is out of 0 ... 31");
   EXPECT_EQ(refusal({.first_binding = -1}), "first binding -1 is out of 0 ... 1000");
-  EXPECT_EQ(refusal({.most_threads = 127}), "most threads of a group = 127: expected 128 at least");
+  EXPECT_EQ(refusal({.max_threads = 127}), "most threads of a group = 127: expected 128 at least");
   EXPECT_EQ(refusal({.aovs = {Aov::kSky}}),
             "the AOV sky shows a buffer of the frame: a shader has none to make");
 }

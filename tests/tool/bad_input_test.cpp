@@ -74,8 +74,8 @@ TEST_F(BadInputTest, TwoCandidatesAreListed) {
   const Ran made = oiiotool(
       {"plate.exr", "--ch", "R,G,B,A,near.Depth.Z=depth.Z,far.Depth.Z=depth.Z", "-o", "two.exr"});
   ASSERT_EQ(made.code, 0) << made.err;
-  expect_bad_plate(
-      "two.exr", {"2 choices fit equally well: ", "near.Depth.Z", "far.Depth.Z", "--layer depth="});
+  expect_bad_plate("two.exr", {"2 candidates fit equally well: ", "near.Depth.Z", "far.Depth.Z",
+                               "--layer depth="});
   EXPECT_EQ(limpid({"composite", "two.exr", "--scene", "scene.toml", "--look", "look.toml",
                     "--layer", "depth=near.Depth.Z", "-o", "wet.exr"})
                 .code,
@@ -165,7 +165,7 @@ TEST_F(BadInputTest, UnwritableOutput) {
                  {"absent/wet.exr: the folder 'absent' cannot be written to (no such file"});
   EXPECT_EQ(files(), before);
   fs::create_directory(folder_ / "wet.exr");
-  expect_refused(composite("wet.exr"), {"wet.exr: is there and not a file"});
+  expect_refused(composite("wet.exr"), {"wet.exr: exists and is not a file"});
   EXPECT_TRUE(fs::is_empty(folder_ / "wet.exr"));
   if (::geteuid() != 0) {  // root can write to every folder
     fs::create_directory(folder_ / "locked");

@@ -90,8 +90,8 @@ TEST_F(ColorsTest, OtherPrimariesAreToldByThePlateTheSceneOrTheCommandLine) {
 TEST_F(ColorsTest, TheCommandLineWinsAndSaysSo) {
   const Ran ran = wet("toldap1.exr", "wet.exr", {"--colorspace", "rec2020"});
   EXPECT_EQ(ran.code, 0);
-  EXPECT_THAT(ran.err, HasSubstr("limpid: warning: the colorspace is named Rec.2020, and the "
-                                 "plate says that it is ACEScg\n"));
+  EXPECT_THAT(ran.err, HasSubstr("limpid: warning: the color space is given as Rec.2020, and the "
+                                 "plate names ACEScg\n"));
   EXPECT_THAT(space_of("wet.exr"), HasSubstr("wet.exr: Rec.2020\n"));
 }
 
@@ -107,7 +107,7 @@ TEST_F(ColorsTest, RefusesUnknownNames) {
   tell("none.exr", "0,0,0,0,0,0,0,0");
   expect_refused(
       wet("none.exr", "wet.exr"),
-      {"none.exr: chromaticities 0.0 0.0", "expected x and y", "or another colorspace named"}, 1);
+      {"none.exr: chromaticities 0.0 0.0", "expected x and y", "or another [scene] colorspace"}, 1);
   EXPECT_EQ(wet("none.exr", "wet.exr", {"--colorspace", "ACEScg"}).code, 0);
 }
 
@@ -145,7 +145,8 @@ TEST_F(ColorsTest, MetricsOfColorSeePicturesAsTheirChromaticitiesSay) {
   expect_refused(
       limpid(
           {"compare", "encoded.png", "encoded.png", "--metrics", "flip", "--colorspace", "ACEScg"}),
-      {"--colorspace: is for linear pictures; encoded.png and encoded.png are encoded as sRGB"}, 2);
+      {"--colorspace is for linear pictures, and encoded.png and encoded.png are encoded as sRGB"},
+      2);
 }
 
 /// The same plate in ACEScg and in Rec.709 under the same named water type: the two pictures,

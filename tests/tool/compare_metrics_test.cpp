@@ -225,7 +225,7 @@ TEST_F(CompareMetricsTest, RefusesWhatCannotBeMeasured) {
   expect_refused(compare("aovs.exr", "wet.exr", with(kColor, {"--metrics", "offset"})),
                  {"wet.exr has no channel 'visible.R': expected a ray-traced truth"});
   expect_refused(compare("wet.exr", "wet.exr", {"--metrics", "flip", "--channels", "R"}),
-                 {"wet.exr: metrics of color need the channels R, G, B", "which are R"});
+                 {"wet.exr: metrics of color need the channels R, G and B", "channels are R"});
   expect_refused(compare("wet.exr", "wet.exr", {"--metrics", "flpi"}),
                  {"--metrics flpi: expected some of ssim, ", "did you mean 'flip'?"}, 2);
   expect_refused(compare("wet.exr", "wet.exr", {"--ppd", "50"}),

@@ -145,15 +145,14 @@ TEST_F(DisplayTest, Refuses) {
   };
   refused({"--exposure", "101"}, {"--exposure", "101", "-100 ... 100"}, 2);
   refused({"--display", "screen/half"},
-          {"--display screen/half: expected sRGB, or a config of OpenColorIO by --ocio or $OCIO"},
-          2);
+          {"--display screen/half: expected sRGB, or an OpenColorIO config by --ocio or $OCIO"}, 2);
   refused({"--ocio", "tiny.ocio", "--display", "sRGB"}, {"--ocio tiny.ocio: expected a view"}, 2);
   refused({"--ocio", "tiny.ocio", "--display", "wal/half"},
           {"view 'wal/half' of tiny.ocio: expected sRGB or one of screen/half, screen/swapped, "
            "wall/half; did you mean 'wall/half'?"},
           2);
-  refused({"--ocio", "absent.ocio"}, {"absent.ocio", "--display sRGB does without"}, 1);
-  refused({"--ocio", "scene.toml"}, {"scene.toml", "--display sRGB does without"}, 1);
+  refused({"--ocio", "absent.ocio"}, {"absent.ocio", "--display sRGB needs no"}, 1);
+  refused({"--ocio", "scene.toml"}, {"scene.toml", "--display sRGB needs no"}, 1);
 }
 
 TEST_F(DisplayTest, ResumeMakesAnewWhatWouldBeShownOtherwise) {
@@ -168,9 +167,10 @@ TEST_F(DisplayTest, ResumeMakesAnewWhatWouldBeShownOtherwise) {
     return ran.out + ran.err;
   };
   resumed({});
-  EXPECT_THAT(resumed({}), HasSubstr("1 of 1 frames are there already"));
-  EXPECT_THAT(resumed({"--exposure", "1"}), HasSubstr("wet.0001.exr was made otherwise (options)"));
-  EXPECT_THAT(resumed({"--exposure", "1"}), HasSubstr("1 of 1 frames are there already"));
+  EXPECT_THAT(resumed({}), HasSubstr("1 of 1 frames are kept"));
+  EXPECT_THAT(resumed({"--exposure", "1"}),
+              HasSubstr("wet.0001.exr was made differently (options)"));
+  EXPECT_THAT(resumed({"--exposure", "1"}), HasSubstr("1 of 1 frames are kept"));
 }
 
 }  // namespace

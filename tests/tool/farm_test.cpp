@@ -25,7 +25,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr const char* kWhole = " frames are there and whole, by the hashes that they carry\n";
+constexpr const char* kWhole = " frames are complete, by the hashes in their headers\n";
 
 class FarmTest : public ToolTest {
  protected:
@@ -113,7 +113,7 @@ TEST_F(FarmTest, TasksHereGiveTheBytesOfOneProcess) {
   EXPECT_EQ(status.code, 0);
   EXPECT_EQ(status.out, "4 of 4 frames are done\n");
   EXPECT_EQ(farm({"--local", "2", "--chunk", "3"}, "1-7x2").err,
-            "limpid: 4 of 4 frames are there already\n");
+            "limpid: 4 of 4 frames are kept\n");
 }
 
 TEST_F(FarmTest, AFrameIsMadeFirstToSeeHowLongATaskIs) {
@@ -160,7 +160,7 @@ TEST_F(FarmTest, NothingIsSubmittedWhenAnInputIsWrong) {
   fs::remove(folder_ / "plate.3.exr");
   expect_refused(farm({}, "1-4"), {"frame 3: plate.3.exr: cannot be opened"});
   fs::remove(folder_ / "plate.4.exr");
-  expect_refused(farm({}, "1-4"), {"frame 3: ", "(and something is wrong with 1 more: 4)"});
+  expect_refused(farm({}, "1-4"), {"frame 3: ", "(and errors in 1 more frame: 4)"});
   expect_refused(farm({}, "1-2", {"--set", "depth_fog.nothing=1"}), {"nothing"}, 2);
   expect_refused(farm({}, "1-2", {"--layer", "depth=nothing.Z"}), {"frame 1: ", "nothing.Z"});
   write_plates(4);
@@ -172,7 +172,7 @@ TEST_F(FarmTest, NothingIsSubmittedWhenAnInputIsWrong) {
 
 TEST_F(FarmTest, CommandsThatCannotBeCutAreRefused) {
   write_plates(2);
-  expect_refused(farm({}), {"expected -- and a command behind it"}, 2);
+  expect_refused(farm({}), {"expected -- and a command after it"}, 2);
   expect_refused(farm({"--", "inspect", "plate.1.exr"}), {"expected composite, water or truth"}, 2);
   expect_refused(farm({"--", "composite", "plate.1.exr", "-o", "wet.exr"}), {"expected --frames"},
                  2);
@@ -233,7 +233,7 @@ TEST_F(FarmTest, ThatOfAJobWhichIsAtWorkIsNotSubmittedAgain) {
   EXPECT_EQ(status.code, 0);
   EXPECT_EQ(status.out, "0 of 4 frames are done\n1 tasks run, 1 wait (Resources)\n");
   write_text("down", "");
-  expect_refused(farm({"--chunk", "2"}, "1-4"), {"whether its job 11 has ended is not known"}, 75);
+  expect_refused(farm({"--chunk", "2"}, "1-4"), {"the state of its job 11 is unknown"}, 75);
   EXPECT_EQ(farm({"status", "it's wet/wet.farm"}).code, 75);
   fs::remove(folder_ / "down");
   const Ran cancelled = farm({"cancel", "it's wet/wet.farm"});
@@ -264,7 +264,7 @@ TEST_F(FarmTest, WithoutASlurmNothingIsBegun) {
         "echo 'slurm_load_ctl_conf error: Unable to contact slurm controller (connect "
         "failure)' >&2; exit 1");
   expect_refused(farm({}, "1-2"),
-                 {"no Slurm answers: scontrol: slurm_load_ctl_conf error", "--local N"}, 75);
+                 {"Slurm does not answer: scontrol: slurm_load_ctl_conf error", "--local N"}, 75);
   EXPECT_THAT(outputs("it's wet"), IsEmpty());
   EXPECT_FALSE(fs::exists(folder_ / "it's wet/wet.farm"));
 }

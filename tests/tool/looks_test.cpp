@@ -67,7 +67,7 @@ TEST_F(LooksTest, RefusesInASentence) {
   }
   expect_refused(limpid({"looks", "--pictures", "x.png", "plate.exr", "--scene", "scene.toml",
                          "--view", "left,right"}),
-                 {"--view: expected one view, for looks shows one at a time"}, 2);
+                 {"--view: expected one view, since looks shows one at a time"}, 2);
   expect_refused(limpid({"looks", "--pictures", "looks.exr"}), {"looks.exr"}, 2);
   expect_refused(limpid({"looks", "--pictures", "no/looks.png"}), {"no/looks.png"});
   expect_refused(limpid({"looks", "--pictures", "x.png", "absent.exr"}), {"absent.exr"});

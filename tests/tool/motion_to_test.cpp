@@ -50,8 +50,11 @@ class MotionToTest : public ToolTest {
 };
 
 TEST_F(MotionToTest, LeadsThereAndBack) {
-  const Ran next = limpid(words("1", {"--aov", "motion,motion_reflected", "--motion-to", "next"}));
-  const Ran previous = limpid(words("2", {"--aov", "motion", "--motion-to", "previous"}));
+  const std::string calm = "wave_normals.strength=0";
+  const Ran next = limpid(
+      words("1", {"--aov", "motion,motion_reflected", "--motion-to", "next", "--set", calm}));
+  const Ran previous =
+      limpid(words("2", {"--aov", "motion", "--motion-to", "previous", "--set", calm}));
   ASSERT_EQ(next.code, 0) << next.err;
   ASSERT_EQ(previous.code, 0) << previous.err;
   const auto forward = vector("wet.1.exr", "motion_forward");
@@ -61,6 +64,36 @@ TEST_F(MotionToTest, LeadsThereAndBack) {
   EXPECT_GT(backward[0], 1);
   EXPECT_NEAR(forward[1], 0, 0.1);
   EXPECT_LE(mirrored[0], 0);
+}
+
+TEST_F(MotionToTest, IsRefusedBeforeTheFirstFrameIfTheLastHasNoNeighbor) {
+  for (const int frame : {1, 2}) {
+    write_plate(folder_ / name_of_frame("with_camera.%d.exr", frame), {.camera = true});
+  }
+  write_text("water.toml", "[water]\nup = [0, 1, 0]\nheight = 0\n");
+  const auto words = [](const std::string& frames) {
+    return Words{"composite",   "with_camera.%d.exr",
+                 "--scene",     "water.toml",
+                 "--look",      "look.toml",
+                 "-o",          "wet.%d.exr",
+                 "--aov",       "motion",
+                 "--frames",    frames,
+                 "--motion-to", "next"};
+  };
+  expect_refused(limpid(words("1-2")),
+                 {"frame 2: the next frame, for motion vectors: ", "with_camera.3.exr"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "wet.1.exr"));
+  // Its neighbor is there, and is not one of the frames.
+  const Ran ran = limpid(words("1"));
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "wet.1.exr"));
+}
+
+TEST_F(MotionToTest, NeedsNoPlateWhereTheSceneHasCameraAndWater) {
+  std::filesystem::remove(folder_ / "plate.2.exr");
+  const Ran next = limpid(words("1", {"--aov", "motion", "--motion-to", "next"}));
+  ASSERT_EQ(next.code, 0) << next.err;
+  EXPECT_LT(vector("wet.1.exr", "motion_forward")[0], -1);
 }
 
 TEST_F(MotionToTest, WantsAFrameToLeadTo) {

@@ -182,13 +182,13 @@ TEST_F(PassThroughTest, SequencesResumeByIt) {
   };
   EXPECT_THAT(resumed("Normal"), HasSubstr("0 of 1 frame"));
   EXPECT_THAT(resumed("Normal"), HasSubstr("1 of 1 frame"));
-  EXPECT_THAT(resumed("Normal,Vector"), HasSubstr("was made otherwise (options)"));
+  EXPECT_THAT(resumed("Normal,Vector"), HasSubstr("was made differently (options)"));
   EXPECT_THAT(resumed("Normal,Vector"), HasSubstr("1 of 1 frame"));
   // Layers of several parts are copied like layers of one part.
   WrittenPart main = plate();
   main.name = "main";
   write("full.1.exr", {main, exr_test::part_of("ids", kPicture, {"Y"})});
-  EXPECT_THAT(resumed("ids"), HasSubstr("was made otherwise"));
+  EXPECT_THAT(resumed("ids"), HasSubstr("was made differently"));
   EXPECT_THAT(resumed("ids"), HasSubstr("1 of 1 frame"));
   std::fstream file(folder_ / "wet.1.exr", std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(-3, std::ios::end);
@@ -207,9 +207,9 @@ TEST_F(PassThroughTest, WhatCannotBeIsRefused) {
     expect_no_composite(words, parts, code);
   };
   refused({"--pass-through", "normal", "--aov", "normal"},
-          {"full.exr: its channel 'normal.X'", "that of the AOV normal have one name"});
+          {"full.exr: its channel 'normal.X'", "that of the AOV normal have the same name"});
   refused({"--pass-through", "R", "--layer", "color=R,G,B"},
-          {"its channel 'R'", "that of the picture have one name"});
+          {"its channel 'R'", "that of the picture have the same name"});
   refused({"--pass-through", "Speed"}, {"no layer or channel 'Speed' to pass through"});
   refused({"--pass-through", "none,all"}, {"--pass-through none,all: expected none alone"});
   refused({"--pass-through", "all", "--compression", "dwaa"},
@@ -226,7 +226,7 @@ TEST_F(PassThroughTest, ManifestsInFilesAreWarnedOf) {
   const Ran ran = limpid({"composite", "full.exr", "--scene", "scene.toml", "--look", "look.toml",
                           "-o", "out/wet.exr", "--pass-through", "CryptoObject"});
   EXPECT_EQ(ran.code, 0);
-  EXPECT_THAT(ran.err, HasSubstr("the manifest crypto.json of a cryptomatte"));
+  EXPECT_THAT(ran.err, HasSubstr("the manifest crypto.json of a passed-through cryptomatte"));
 }
 
 }  // namespace

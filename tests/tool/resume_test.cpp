@@ -73,7 +73,7 @@ TEST_F(ResumeTest, WholeFramesAreLeftAloneAndTheOthersMade) {
   fs::remove(folder_ / "deep.3.exr");
   const ino_t first = file_number("wet.1.exr"), deep = file_number("deep.4.exr");
   write_text(".limpid-4194305-0.exr", "half of a frame");  // larger than any process number
-  EXPECT_EQ(resumed(preview), "limpid: 2 of 4 frames are there already\n");
+  EXPECT_EQ(resumed(preview), "limpid: 2 of 4 frames are kept\n");
   EXPECT_TRUE(outputs() == all);
   EXPECT_EQ(file_number("wet.1.exr"), first);
   EXPECT_EQ(file_number("deep.4.exr"), deep);
@@ -82,7 +82,7 @@ TEST_F(ResumeTest, WholeFramesAreLeftAloneAndTheOthersMade) {
   EXPECT_FALSE(fs::exists(folder_ / ".limpid-4194305-0.exr"));
   write_text(".limpid-4194305-0.png", "half of a frame");
   const ino_t second = file_number("wet.2.exr");
-  EXPECT_EQ(resumed(preview), "limpid: 4 of 4 frames are there already\n");
+  EXPECT_EQ(resumed(preview), "limpid: 4 of 4 frames are kept\n");
   EXPECT_EQ(file_number("wet.2.exr"), second);
   EXPECT_FALSE(fs::exists(folder_ / ".limpid-4194305-0.png"));
   EXPECT_EQ(resumed({"-q", "--preview", "wet.%d.png"}), "");
@@ -102,7 +102,7 @@ TEST_F(ResumeTest, WhereFilesLieAndWhenTheyWereMadeDoesNotMatter) {
   }
   Words moved = words({"--resume", "--threads", "1"});
   moved[1] = "moved/plate.%d.exr";
-  EXPECT_EQ(said_by(moved), "limpid: 4 of 4 frames are there already\n");
+  EXPECT_EQ(said_by(moved), "limpid: 4 of 4 frames are kept\n");
 }
 
 /// An OpenColorIO config is unchanged, but a lookup table that the config names has changed.
@@ -128,11 +128,11 @@ colorspaces:
   write_table("1.0");
   said_by(words(shown));
   const std::string bright = text_of("wet.2.png");
-  EXPECT_EQ(resumed(shown), "limpid: 4 of 4 frames are there already\n");
+  EXPECT_EQ(resumed(shown), "limpid: 4 of 4 frames are kept\n");
   write_table("0.5");
-  EXPECT_THAT(resumed(shown), HasSubstr("limpid: 0 of 4 frames are there already\n"));
+  EXPECT_THAT(resumed(shown), HasSubstr("limpid: 0 of 4 frames are kept\n"));
   EXPECT_NE(text_of("wet.2.png"), bright);
-  EXPECT_EQ(resumed(shown), "limpid: 4 of 4 frames are there already\n");
+  EXPECT_EQ(resumed(shown), "limpid: 4 of 4 frames are kept\n");
 }
 
 TEST_F(ResumeTest, WhatWasMadeOtherwiseIsMadeAgainAndSaid) {
@@ -140,9 +140,9 @@ TEST_F(ResumeTest, WhatWasMadeOtherwiseIsMadeAgainAndSaid) {
   said_by(words({}));
   const auto all = outputs();
   const std::string none =
-      "limpid: 0 of 4 frames are there already\n"
-      "limpid: 4 that are there are made again; frame 1: wet.1.exr was made "
-      "otherwise ";
+      "limpid: 0 of 4 frames are kept\n"
+      "limpid: 4 existing frames are made again; frame 1: wet.1.exr was made "
+      "differently ";
   EXPECT_EQ(resumed({"--set", "depth_fog.density=0.3"}), none + "(look)\n");
   EXPECT_EQ(resumed({"--set", "depth_fog.density=0.3", "--float"}), none + "(options)\n");
   EXPECT_EQ(resumed({"--set", "depth_fog.density=0.3", "--float", "--layer", "shadow=none"}),
@@ -150,7 +150,8 @@ TEST_F(ResumeTest, WhatWasMadeOtherwiseIsMadeAgainAndSaid) {
   EXPECT_EQ(resumed(), none + "(inputs, look, options, plan, scene_hash)\n");
   EXPECT_TRUE(outputs() == all);
   EXPECT_EQ(resumed({"--time", "1"}), none + "(scene, scene_hash)\n");
-  EXPECT_THAT(resumed({"-v"}), HasSubstr("\nlimpid: frame 4: wet.4.exr was made otherwise (scene"));
+  EXPECT_THAT(resumed({"-v"}),
+              HasSubstr("\nlimpid: frame 4: wet.4.exr was made differently (scene"));
   EXPECT_TRUE(outputs() == all);
 }
 
@@ -161,8 +162,8 @@ TEST_F(ResumeTest, WhatIsNotWholeOrNotOursIsMadeAgain) {
   const auto all = outputs();
   const auto expect_again = [&](const std::string& why) {
     EXPECT_EQ(resumed(),
-              "limpid: 3 of 4 frames are there already\n"
-              "limpid: 1 that are there are made again; frame 2: " +
+              "limpid: 3 of 4 frames are kept\n"
+              "limpid: 1 existing frame is made again; frame 2: " +
                   why + "\n");
     EXPECT_TRUE(outputs() == all) << why;
   };
@@ -176,12 +177,12 @@ TEST_F(ResumeTest, WhatIsNotWholeOrNotOursIsMadeAgain) {
                 fs::copy_options::overwrite_existing);
   expect_again("wet.2.exr does not record how it was made");
   fs::remove(folder_ / "deep.2.exr");
-  expect_again("deep.2.exr is not there");
+  expect_again("deep.2.exr is missing");
   std::string older = text_of("wet.2.exr");
   const std::size_t version = older.find(kVersion, older.find("limpid/version"));
   older[version] += 1;
   write_text("wet.2.exr", older);
-  expect_again("wet.2.exr was made otherwise (version)");
+  expect_again("wet.2.exr was made differently (version)");
 }
 
 /// Changes one byte of frame 2: in its pixels, in the hash, in an attribute copied from the plate.
@@ -190,9 +191,9 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
   write_plates({1, 2, 3, 4});
   said_by(words(preview));
   const auto all = outputs();
-  const std::string head = "limpid: 3 of 4 frames are there already\n";
+  const std::string head = "limpid: 3 of 4 frames are kept\n";
   const auto verified = [&] { return resumed({"--verify", "--preview", "wet.%d.png"}); };
-  EXPECT_EQ(verified(), "limpid: 4 of 4 frames are there already\n");
+  EXPECT_EQ(verified(), "limpid: 4 of 4 frames are kept\n");
   for (const std::string name : {"wet.2.exr", "deep.2.exr"}) {
     const std::string whole = text_of(name);
     const std::size_t digits = whole.find("limpid_file_hash") + 30;
@@ -201,8 +202,8 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
       std::string other = whole;
       other[at] = static_cast<char>(other[at] ^ 1);
       write_text(name, other);
-      EXPECT_EQ(verified(), head + "limpid: 1 that are there are made again; frame 2: " + name +
-                                " has changed since it was written (its hash is another)\n")
+      EXPECT_EQ(verified(), head + "limpid: 1 existing frame is made again; frame 2: " + name +
+                                " has changed since it was written (its hash differs)\n")
           << at;
       EXPECT_TRUE(outputs() == all) << name << " " << at;
     }
@@ -210,7 +211,7 @@ TEST_F(ResumeTest, VerifySeesAnyByteThatChanges) {
     std::string other = whole;
     other.back() = static_cast<char>(other.back() ^ 1);
     write_text(name, other);
-    EXPECT_EQ(resumed(preview), "limpid: 4 of 4 frames are there already\n");
+    EXPECT_EQ(resumed(preview), "limpid: 4 of 4 frames are kept\n");
     write_text(name, whole);
     fs::resize_file(folder_ / name, whole.size() - 1);
     EXPECT_THAT(verified(), HasSubstr("frame 2: " + name + ": is incomplete\n"));
@@ -243,7 +244,7 @@ TEST_F(ResumeTest, PreviewsSayHowTheyWereMade) {
   EXPECT_TRUE(outputs() == all);
   fs::copy_file(folder_ / "wet.1.png", folder_ / "wet.2.png", fs::copy_options::overwrite_existing);
   EXPECT_THAT(run({"--resume"}),
-              HasSubstr("frame 2: wet.2.png was made otherwise (inputs, scene, scene_hash)"));
+              HasSubstr("frame 2: wet.2.png was made differently (inputs, scene, scene_hash)"));
   EXPECT_TRUE(outputs() == all);
 }
 
@@ -251,14 +252,14 @@ TEST_F(ResumeTest, OtherPixelsAreOtherInputs) {
   write_plates({1, 2, 3, 4});
   said_by(words({}));
   write_plate(folder_ / "plate.3.exr", {.broken = true});
-  EXPECT_THAT(resumed(), HasSubstr("3 of 4 frames are there already\nlimpid: 1 that are there are "
-                                   "made again; frame 3: wet.3.exr was made otherwise (inputs, "
+  EXPECT_THAT(resumed(), HasSubstr("3 of 4 frames are kept\nlimpid: 1 existing frame is "
+                                   "made again; frame 3: wet.3.exr was made differently (inputs, "
                                    "scene_hash)\n"));
   write_waves(folder_ / "waves.exr");
   EXPECT_THAT(resumed(), StartsWith("limpid: 4 of 4"));
   fs::copy_file(folder_ / "plate.exr", folder_ / "waves.exr", fs::copy_options::overwrite_existing);
-  EXPECT_THAT(resumed(), HasSubstr("0 of 4 frames are there already\nlimpid: 4 that are there are "
-                                   "made again; frame 1: wet.1.exr was made otherwise (inputs, "
+  EXPECT_THAT(resumed(), HasSubstr("0 of 4 frames are kept\nlimpid: 4 existing frames are "
+                                   "made again; frame 1: wet.1.exr was made differently (inputs, "
                                    "scene_hash)\n"));
 }
 
@@ -271,7 +272,7 @@ TEST_F(ResumeTest, AFrameWithoutItsInputIsNotKept) {
                  {"frame 3: plate.3.exr: cannot be opened", "use --missing skip or hold"});
   EXPECT_EQ(resumed({"--missing", "skip"}),
             "limpid: 1 of 4 frames have no plate and are left out: 3\n"
-            "limpid: 3 of 3 frames are there already\n");
+            "limpid: 3 of 3 frames are kept\n");
 }
 
 TEST_F(ResumeTest, RendersWatersAndTruthsResumeToo) {
@@ -290,7 +291,7 @@ TEST_F(ResumeTest, RendersWatersAndTruthsResumeToo) {
     const std::string second = text_of(verb + ".2.exr");
     fs::remove(folder_ / (verb + ".2.exr"));
     const ino_t first = file_number(verb + ".1.exr");
-    EXPECT_EQ(with({"--resume"}), "limpid: 2 of 3 frames are there already\n");
+    EXPECT_EQ(with({"--resume"}), "limpid: 2 of 3 frames are kept\n");
     EXPECT_TRUE(text_of(verb + ".2.exr") == second);
     std::string other = second;
     other.back() = static_cast<char>(other.back() ^ 1);
@@ -299,16 +300,16 @@ TEST_F(ResumeTest, RendersWatersAndTruthsResumeToo) {
                 HasSubstr("frame 2: " + verb + ".2.exr has changed"));
     EXPECT_TRUE(text_of(verb + ".2.exr") == second);
     EXPECT_EQ(file_number(verb + ".1.exr"), first);
-    EXPECT_EQ(with({"--resume"}), "limpid: 3 of 3 frames are there already\n");
-    EXPECT_THAT(with({"--resume"}, "32x16"), HasSubstr(" otherwise (inputs, scene"));
-    EXPECT_THAT(with({"--resume", "--fps", "12"}), HasSubstr(" otherwise ("));
+    EXPECT_EQ(with({"--resume"}), "limpid: 3 of 3 frames are kept\n");
+    EXPECT_THAT(with({"--resume"}, "32x16"), HasSubstr(" differently (inputs, scene"));
+    EXPECT_THAT(with({"--resume", "--fps", "12"}), HasSubstr(" differently ("));
   }
   std::string vertices = text_of("pool/pool.bin");
   vertices[0] ^= 4;  // in the mantissa of a coordinate
   write_text("pool/pool.bin", vertices);
   EXPECT_THAT(said_by({"water", "pool/pool.toml", "--size", "32x18", "-o", "water.%d.exr",
                        "--frames", "1-3", "--fps", "12", "--resume"}),
-              HasSubstr("water.1.exr was made otherwise (inputs, scene_hash)\n"));
+              HasSubstr("water.1.exr was made differently (inputs, scene_hash)\n"));
 }
 
 TEST_F(ResumeTest, SkippedFramesHaveNoOutput) {
@@ -318,16 +319,16 @@ TEST_F(ResumeTest, SkippedFramesHaveNoOutput) {
   EXPECT_EQ(outputs().size(), 4u);
   EXPECT_EQ(text_of("wet.1.exr"), "");
   EXPECT_THAT(said_by(words({"--missing", "skip", "-v"})),
-              HasSubstr("\nlimpid: frame 3: plate.3.exr is not there\n"));
+              HasSubstr("\nlimpid: frame 3: plate.3.exr is missing\n"));
 }
 
 TEST_F(ResumeTest, HeldFramesHaveTheirOwnTime) {
   write_plates({2, 3});
   EXPECT_EQ(said_by(words({"--missing", "hold"})),
-            "limpid: 2 of 4 frames have no plate and are made from others: 1, 4\n");
+            "limpid: 2 of 4 frames have no plate and are made from other plates: 1, 4\n");
   EXPECT_THAT(said_by(words({"--missing", "hold", "-v"})),
-              HasSubstr("\nlimpid: frame 1: plate.1.exr is not there: frame 2 stands in\n"
-                        "limpid: frame 4: plate.4.exr is not there: frame 3 stands in\n"));
+              HasSubstr("\nlimpid: frame 1: plate.1.exr is missing: made from frame 2\n"
+                        "limpid: frame 4: plate.4.exr is missing: made from frame 3\n"));
   const Words alone{"composite", "plate.3.exr",         "--scene", "scene.toml",
                     "--look",    "look.toml",           "-o",      "one.exr",
                     "--time",    "0.16666666666666666", "-q"};

@@ -99,14 +99,13 @@ TEST_F(ShaderTest, PrintsTheTextWithoutAFile) {
 TEST_F(ShaderTest, RefusesInASentence) {
   expect_refused(limpid({"shader", "--look", "nix"}), {"no look is named 'nix'"});
   expect_refused(limpid({"shader", "--lang", "hsl"}),
-                 {"'hsl' is no shader language", "did you mean 'hlsl'?"}, 2);
-  expect_refused(limpid({"shader", "--planes", "shade"}), {"'shade' is no buffer"}, 2);
+                 {"'hsl' is not a shader language", "did you mean 'hlsl'?"}, 2);
+  expect_refused(limpid({"shader", "--planes", "shade"}), {"'shade' is not a buffer"}, 2);
   expect_refused(limpid({"shader", "--main", "vertex"}), {"expected none, compute or fragment"}, 2);
-  expect_refused(limpid({"shader", "--function", "a b"}), {"'a b' is no name for a function"}, 2);
+  expect_refused(limpid({"shader", "--function", "a b"}), {"'a b' is not a function name"}, 2);
   expect_refused(limpid({"shader", "--descriptor-set", "32"}), {"--descriptor-set"}, 2);
   expect_refused(limpid({"shader", "--aov", "sky"}), {"the AOV sky shows a buffer"}, 2);
-  expect_refused(limpid({"shader", "--lang", "spirv"}), {"spirv is no text: name a file with -o"},
-                 2);
+  expect_refused(limpid({"shader", "--lang", "spirv"}), {"spirv is binary: expected -o FILE"}, 2);
   expect_refused(limpid({"shader", "-o", "absent/a.glsl"}), {"absent"});
 }
 

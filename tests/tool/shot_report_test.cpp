@@ -221,7 +221,7 @@ TEST_F(ShotReportTest, RefusesATruthOfAnotherSizeOrWithoutColor) {
   };
   refused("small.exr", {"small.exr: is 32x18: expected the plate's 64x36 pixels"});
   refused("part.exr", {"part.exr: is 64x36 and lacks a part of it"});
-  refused("depth.exr", {"depth.exr", "R, G, B"});
+  refused("depth.exr", {"depth.exr", "R, G and B"});
 }
 
 TEST_F(ShotReportTest, RefusesAFolderThatCannotBeWrittenTo) {

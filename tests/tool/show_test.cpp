@@ -146,9 +146,9 @@ TEST_F(ShowTest, TheContactSheetGoesWithItsFrame) {
   Words again = words;
   again.emplace_back("--resume");
   const Ran kept = limpid(again);
-  EXPECT_THAT(kept.err, HasSubstr("2 of 2 frames are there already"));
+  EXPECT_THAT(kept.err, HasSubstr("2 of 2 frames are kept"));
   std::filesystem::remove(folder_ / "sheet.0002.png");
-  EXPECT_THAT(limpid(again).err, HasSubstr("1 of 2 frames are there already"));
+  EXPECT_THAT(limpid(again).err, HasSubstr("1 of 2 frames are kept"));
   EXPECT_THAT(files(), ::testing::Contains("sheet.0002.png"));
 }
 

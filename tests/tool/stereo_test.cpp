@@ -121,12 +121,12 @@ TEST_F(StereoTest, SequencesAndTheirRest) {
   const Words frames = {"--view", "left,right", "--frames", "1-2", "--resume"};
   wetted("%V.%d.exr", "%V.toml", "both.%d.exr", frames);
   EXPECT_THAT(wet("%V.%d.exr", "%V.toml", "both.%d.exr", frames).err,
-              HasSubstr("2 of 2 frames are there already"));
+              HasSubstr("2 of 2 frames are kept"));
   // Another camera for the right eye gives another picture.
   write_plate(folder_ / "right.2.exr");
   EXPECT_THAT(
       wet("%V.%d.exr", "%V.toml", "both.%d.exr", frames).err,
-      HasSubstr("both.2.exr was made otherwise (view/right/inputs, view/right/scene_hash)"));
+      HasSubstr("both.2.exr was made differently (view/right/inputs, view/right/scene_hash)"));
   std::filesystem::remove(folder_ / "right.1.exr");
   expect_refused(
       wet("%V.%d.exr", "%V.toml", "new.%d.exr", {"--view", "left,right", "--frames", "1"}),
@@ -138,11 +138,12 @@ TEST_F(StereoTest, WhatCannotBeIsRefused) {
                            const Words& parts, int code) {
     expect_refused(wet(plate, scene, "wrong.exr", more), parts, code);
   };
-  refused("%V.exr", "%V.toml", {}, {"%V.toml: expected --view with the names", "%V stands for"}, 2);
+  refused("%V.exr", "%V.toml", {}, {"%V.toml: expected --view with the names", "that replace %V"},
+          2);
   refused("%V.exr", "left.toml", {"--view", "left,left"},
           {"views left and left: expected each once"}, 2);
   refused("%V.exr", "%V.toml", {"--view", "left,right", "--deep", "deep.exr"},
-          {"deep.exr: a deep file holds one view, and there are 2"}, 2);
+          {"deep.exr: a deep file holds one view, and --view names 2"}, 2);
   refused("left.exr", "left.toml", {"--view", "all"}, {"no plate has any"}, 2);
   refused("%V.exr", "%V.toml", {"--view", "left,"}, {"--view left,: expected names"}, 2);
   refused("%V.exr", "%V.toml", {"--view", "left,right", "-n"}, {"--view: expected one view"}, 2);

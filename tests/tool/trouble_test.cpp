@@ -212,7 +212,8 @@ TEST_F(TroubleTest, AFolderThatGoes) {
 
 TEST_F(TroubleTest, AFolderUnderThePicturesName) {
   const Error error = error_after_third([&] { fs::create_directory(folder_ / "out/wet.5.exr"); });
-  EXPECT_THAT(error.what(), HasSubstr("wet.5.exr: is there and not a file, so it is not replaced"));
+  EXPECT_THAT(error.what(),
+              HasSubstr("wet.5.exr: exists and is not a file: expected a file to replace"));
   fs::remove(folder_ / "out/wet.5.exr");
   expect_whole("out", 4);
   EXPECT_EQ(in("out").size(), 8u);
@@ -293,7 +294,7 @@ TEST_P(TroubleKill, LeavesWholeFramesAndResumes) {
   EXPECT_LT(whole, 2 * kFrames);
   const Ran ran = run(folder_, words(kLong, {"--resume"}));
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.err, ::testing::MatchesRegex("limpid: [0-5] of 6 frames are there already\n"));
+  EXPECT_THAT(ran.err, ::testing::MatchesRegex("limpid: [0-5] of 6 frames are kept\n"));
   EXPECT_TRUE(in(kLong) == good);
 }
 

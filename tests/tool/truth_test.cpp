@@ -98,10 +98,10 @@ TEST_F(TruthTest, RefusesInOneSentence) {
     expect_refused(limpid(words), parts, code);
   };
   refused({"--aov", "confidence"}, {"confidence", "visible"}, 2);
-  refused({"--aov", "visibl"}, {"'visibl' is no AOV"}, 2);
-  refused({"--aov", "all,visibl"}, {"'visibl' is no AOV", "did you mean 'visible'?"}, 2);
-  refused({"--aov", "all,confidence"}, {"'confidence' is no AOV"}, 2);
-  refused({"--aov", "mirror_sources"}, {"'mirror_sources' is no AOV", "visible"}, 2);
+  refused({"--aov", "visibl"}, {"'visibl' is not an AOV"}, 2);
+  refused({"--aov", "all,visibl"}, {"'visibl' is not an AOV", "did you mean 'visible'?"}, 2);
+  refused({"--aov", "all,confidence"}, {"'confidence' is not an AOV"}, 2);
+  refused({"--aov", "mirror_sources"}, {"'mirror_sources' is not an AOV", "visible"}, 2);
   refused({"--samples", "17"}, {"--samples 17", "1 ... 16"}, 2);
   refused({"--paths", "0"}, {"--paths 0", "1 ... 65536"}, 2);
   refused({"--light", "twice"}, {"--light twice", "paths or once"}, 2);

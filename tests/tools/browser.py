@@ -26,7 +26,7 @@ class PageError(Exception):
 class Browser:
     def __init__(self, chromium, width=1280, height=800, dark=False):
         self._profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        # Away from 3 and 4, onto which the browser's ends are put.
+        # Moved away from the descriptors 3 and 4, which the browser's ends of the pipes will have.
         theirs_in, ours_out = (fcntl.fcntl(fd, fcntl.F_DUPFD_CLOEXEC, 10) for fd in os.pipe())
         ours_in, theirs_out = (fcntl.fcntl(fd, fcntl.F_DUPFD_CLOEXEC, 10) for fd in os.pipe())
         log = os.open(os.path.join(self._profile.name, "log"), os.O_WRONLY | os.O_CREAT)
@@ -43,7 +43,7 @@ class Browser:
             os.close(fd)
         self._out, self._in = os.fdopen(ours_out, "wb"), os.fdopen(ours_in, "rb")
         self._last, self._rest, self._session = 0, b"", None
-        self.errors = []  # what the page's script threw, and what it logged as an error
+        self.errors = []  # exceptions of the page's script, and errors that it logged
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime"):
@@ -105,7 +105,7 @@ class Browser:
             pass
 
     def run(self, script):
-        """The value of the expression; of a promise, its result."""
+        """The value of the expression; the result if it is a promise."""
         answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             raise PageError(f"{script}: {answer['exceptionDetails']['exception'].get('description')}")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Drives the page of `limpid view` in a browser without a window: by mouse and keys, like a user.
-Whatever comes of it is compared with what the tool makes on the command line, byte by byte.
+"""Drives the page of `limpid view` in a headless browser, by mouse and keys, like a user. Pictures and files of the page
+are compared with those of the command line, byte by byte.
 
   desk_page.py LIMPID DATA CHROMIUM
 """
@@ -37,7 +37,7 @@ window.choose = (id, value) => {
   node.dispatchEvent(new Event("change", {bubbles: true}));
   return desk.idle();
 };
-// The next that is said there; what is only wiped away does not count.
+// The next message in the element; clearing the old message does not count.
 window.told = (id) => new Promise((done) =>
     new MutationObserver((_, observer) => {
       if (textOf(id) === "") return;
@@ -102,7 +102,7 @@ class Desk:
         self.run(f"window.{name} = desk.pixels(); 0")
 
     def differing(self, name):
-        """The number of values of the picture that differ from those kept under that name."""
+        """The number of values of the picture that differ from the picture kept under this name."""
         return self.run(f"differing(desk.pixels(), {name})")
 
     def center(self, selector, across=0.5):
@@ -121,7 +121,7 @@ class Desk:
         self.run("desk.idle()")
 
     def tools_picture(self, command, *options):
-        """The preview that a command line and options of the preview make, as the page's `tools`."""
+        """Makes the preview of a command line with these options, and keeps it in the page as `tools`."""
         preview = self.folder / "preview.png"
         words = shlex.split(command)
         words[words.index("-o") + 1] = str(self.folder / "wet.exr")
@@ -202,13 +202,20 @@ def presets(desk):
     desk.run("choose('look', 'physical')")
 
 
+def parameters_without_effect(desk):
+    """The plate has normals of its own, which no parameter of the look's waves changes."""
+    why = "document.getElementById('first:wave_normals.strength').closest('.field').querySelector('.why').textContent"
+    expect(desk.run(why), "no effect: model plate: the frame has surface normals", "a parameter that the plate overrules says so")
+    expect(desk.run(why.replace("wave_normals.strength", "caustics.strength")), "", "others say nothing")
+
+
 def wipe(desk):
     desk.run("choose('show', 'dry')")
     desk.keep("dry")
     desk.run("choose('show', 'picture')")
     desk.run("choose('against', 'dry')")
     desk.run("document.activeElement.blur()")
-    desk.browser.key("1", 49)  # a pixel on each of the screen
+    desk.browser.key("1", 49)  # one pixel of the picture per pixel of the screen
     x, y = desk.center("#wipe_line")
     desk.browser.mouse("Pressed", x, y)
     desk.browser.mouse("Moved", x - 61, y)
@@ -217,7 +224,7 @@ def wipe(desk):
     expect(abs(line - (x - 61)) < 1, True, "the line of a wipe is dragged")
     shot = desk.browser.call("Page.captureScreenshot", format="png")["data"]
     desk.run(f"bytesOf('{shot}').then((bytes) => {{ window.shot = bytes; }})")
-    # Below the words beside the line, above the zoom's end of the stage, and not where the line itself is.
+    # The tested pixels lie below the labels beside the line, above the lower end of the stage, and not on the line.
     counts = desk.run("""(() => {
       const stage = boxOf("#stage"), sheet = document.getElementById("picture").getBoundingClientRect();
       const line = boxOf("#wipe_line"), middle = line.left + line.width / 2;
@@ -253,7 +260,7 @@ def pinch(desk):
         points = [{"x": x + dx, "y": y + dy, "id": id} for id, (dx, dy) in enumerate(places)]
         desk.browser.call("Input.dispatchTouchEvent", type="touch" + kind, touchPoints=points)
 
-    # What lies between the fingers, as a place on the picture.
+    # The point between the fingers, in coordinates of the picture.
     between = desk.run(f"[({x} + 20 - {sheet}.left), ({y} - {sheet}.top)]")
     touch("Start", (-30, 0), (70, 0))
     touch("Move", (-80, 0), (120, 0))
@@ -277,7 +284,7 @@ def aov_and_numbers(desk):
     desk.run("document.getElementById('numbers').click()")
     desk.run("window.numbers = told('pixel_box'); 0")
     desk.browser.mouse("Moved", *desk.center("#stage", 0.3))
-    # Of the row of the table, as short numbers; a share is shown as it is, from 0 to 255.
+    # The numbers in the table's row, rounded; a share of 0 ... 1 is shown as 0 ... 255.
     found = desk.run("""numbers.then(() => {
       const cells = [...document.querySelectorAll("#pixel_box tr")].find((row) =>
           row.cells[0].textContent === "transmittance").cells;
@@ -286,7 +293,7 @@ def aov_and_numbers(desk):
       return {numbers: [1, 2, 3].map((i) => Number(cells[i].textContent)), bytes: [...pixels.data.slice(at, at + 3)]};
     })""")
     off = [abs(255 * number - byte) for number, byte in zip(found["numbers"], found["bytes"])]
-    if max(off) > 0.6 or max(found["numbers"]) in (0, 1):  # half a step, and what the numbers leave out
+    if max(off) > 0.6 or max(found["numbers"]) in (0, 1):  # half a step, and the rounding of the numbers
         sys.exit(f"transmittance at a wet pixel: {found}")
     print("ok: an AOV shows the numbers that are told of its pixel")
     desk.run("document.getElementById('numbers').click()")
@@ -351,7 +358,7 @@ def large_plate(desk):
 
 
 def broken_off(desk):
-    """A change while the full-size picture is computed: a half-size one comes first, never the old picture."""
+    """Changes a parameter while the full-size picture is computed: a half-size picture follows, never the old one."""
     shown = desk.run("""(async () => {
       const before = desk.broken;
       desk.set('depth_fog.murkiness', 0.7);
@@ -386,7 +393,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, Browser(chromium) as browser:
         with contextlib.closing(Desk(limpid, browser, folder, "--scene", f"{data}/plates/lagoon/lagoon.toml")) as desk:
             expect(desk.run("document.getElementById('display').offsetWidth"), 0, "without a config there is no view")
-            for check in (slider_by_the_mouse, undo_and_redo, presets, wipe, pinch, aov_and_numbers, bad_values, saving, server_gone):
+            for check in (slider_by_the_mouse, undo_and_redo, presets, parameters_without_effect, wipe, pinch, aov_and_numbers, bad_values, saving, server_gone):
                 check(desk)
         config = f"{folder}/tiny.ocio"
         pathlib.Path(config).write_text(OCIO_CONFIG)

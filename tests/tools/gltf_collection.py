@@ -3,9 +3,9 @@
 
     gltf_collection.py FOLDER
 
-NAME.gltf, whole by itself, in the order of FILES, and beside it NAME.toml, a scene with the same camera
-for all. TWINS says which two shall be drawn alike: the second of them by plain triangles alone. The same
-on every run. Needs numpy.
+Writes NAME.gltf, with all its data, for each NAME of FILES in order, and beside it NAME.toml, a scene with the
+same camera for all. TWINS lists pairs of files with equal pictures: the second of a pair has plain triangles only.
+Every run writes the same bytes. Needs numpy.
 """
 import base64
 import json
@@ -38,8 +38,8 @@ height = -0.8
 direction = [0.5, 1, 0.8]
 """
 
-FILES = {}  # name: function of a File
-TWINS = {}  # name: name of the file that shows the same without it
+FILES = {}  # name -> function of a File
+TWINS = {}  # name -> name of the file with the same picture without the feature
 
 
 def file(twin=None):
@@ -72,7 +72,7 @@ class File:
         return self.add("bufferViews", {"buffer": 0, "byteOffset": offset, "byteLength": len(data), **more})
 
     def accessor(self, values, kind=FLOAT, normalized=False):
-        """Elements of less than four bytes in one another's place are put four bytes apart."""
+        """Adds an accessor. Elements whose size is no multiple of four bytes are padded to one."""
         values = np.asarray(values)
         values = values.reshape(len(values), -1).astype(TYPES[kind])
         count, components = values.shape
@@ -91,7 +91,7 @@ class File:
         return self.add("accessors", {"componentType": FLOAT, "count": count, "type": KINDS[components]})
 
     def sparse(self, values, base):
-        """Only what differs from `base`; from zeros without a buffer view where that is None."""
+        """Adds a sparse accessor with the elements that differ from `base`; None: from zeros, without a buffer view."""
         values = np.asarray(values, "<f4")
         other = np.zeros_like(values) if base is None else np.asarray(base, "<f4")
         which = np.flatnonzero((values != other).any(axis=1))
@@ -148,10 +148,10 @@ class File:
         return json.dumps(self.gltf, allow_nan=False) + "\n"
 
 
-# --- what is shown ---
+# --- pictures and meshes ---
 
 def png(picture):
-    """RGB or RGBA of 8 bits."""
+    """A PNG of RGB or RGBA with 8 bits."""
     picture = np.asarray(picture, np.uint8)
     height, width, channels = picture.shape
 
@@ -164,7 +164,7 @@ def png(picture):
 
 
 def picture(alpha=False):
-    """A different field in each corner, so that every rotation is visible."""
+    """A picture with a different field in each corner, so that every rotation is visible."""
     y, x = np.mgrid[0:32, 0:32]
     cells = (x // 4 + y // 4) % 2
     colors = np.stack([255 - 5 * x, 60 + 6 * y, 80 + 100 * cells], -1)
@@ -205,7 +205,7 @@ def post(rings=12):
 
 
 def strip_of_sheet(cells=6):
-    """Row by row, joined by triangles without area; and the list of its triangles."""
+    """A sheet as one strip: rows joined by triangles without area. Also the list of its triangles."""
     columns, corners = cells + 1, []
     for row in range(cells):
         line = [index for i in range(columns) for index in (row * columns + i, (row + 1) * columns + i)]
@@ -226,7 +226,7 @@ def without_normals(shape):
     return shapes.Shape(shape.positions, shape.triangles, None, shape.uvs)
 
 
-# --- lists, strips, fans; how the numbers are kept ---
+# --- lists, strips, fans; storage of numbers ---
 
 @file()
 def triangles(f):
@@ -438,7 +438,7 @@ BEND, ELBOW = 60, np.array([0, 0.1, 0])  # degrees about Z at the elbow
 
 
 def share_above(shape):
-    """How much a vertex follows the upper joint."""
+    """The weight of the upper joint at a vertex."""
     return np.clip(shape.positions[:, 1] / 0.6 + 0.4, 0, 1)
 
 
@@ -448,7 +448,7 @@ def turn_z(degrees):
 
 
 def bent(shape):
-    """By linear blending of two joints: one that stays, one that turns about the elbow."""
+    """The post, bent by linear blending of two joints: one that stays, and one that turns about the elbow."""
     above = share_above(shape)[:, None, None]
     linear = (1 - above) * np.eye(3) + above * turn_z(BEND)
     moved = (1 - above[:, 0]) * shape.positions + above[:, 0] * (
@@ -458,7 +458,7 @@ def bent(shape):
 
 
 def joints(f, matrices=True):
-    """The lower joint hangs below a node that moves it; inverse bind matrices take that back."""
+    """Joints whose lower one is below a node that moves it; inverse bind matrices undo this motion."""
     half = np.radians(BEND) / 2
     upper = f.node(root=False, translation=list(ELBOW), rotation=[0, 0, np.sin(half), np.cos(half)])
     lower = f.node(root=False, children=[upper])
@@ -488,7 +488,7 @@ def skin_twin(f):
 def skin(f):
     part = f.primitive(post())
     part["attributes"].update(bound(f, post()))
-    f.show(part, skin=joints(f), translation=[9, 9, 9])  # where the node stands counts for nothing
+    f.show(part, skin=joints(f), translation=[9, 9, 9])  # the position of the node has no effect
 
 
 @file(twin="skin_twin")
@@ -511,7 +511,7 @@ def skin_two_sets(f):
 
 @file(twin="skin_twin")
 def skin_without_matrices(f):
-    """Rigid: each half lies in the space of its joint."""
+    """A rigid skin: each half lies in the space of its joint."""
     shape = post()
     f.gltf["nodes"] = [{"translation": [0, 0, 0]}]
     f.gltf["scenes"][0]["nodes"] = [0]
@@ -634,7 +634,7 @@ def draco_beside_plain(f):
 
 
 def transformed(uvs, offset=(0, 0), turn=0.0, scale=(1, 1)):
-    """As KHR_texture_transform has it: counter-clockwise where v runs down."""
+    """Transforms as KHR_texture_transform: counter-clockwise with v down."""
     u, v = uvs[:, 0] * scale[0], uvs[:, 1] * scale[1]
     c, s = np.cos(turn), np.sin(turn)
     return np.stack([c * u + s * v + offset[0], -s * u + c * v + offset[1]], -1)
@@ -659,7 +659,7 @@ def transform(f):
 
 @file(twin="transform_twin")
 def transform_of_second_set(f):
-    """The extension's texCoord wins; the first set is of no use."""
+    """The extension's texCoord takes precedence; the first set would give another picture."""
     f.extension("KHR_texture_transform")
     shape = sheet()
     info = {"texCoord": 0, "extensions": {"KHR_texture_transform": {**TRANSFORM, "texCoord": 1}}}
@@ -680,7 +680,7 @@ def second_set(f):
 
 @file()
 def two_sets(f):
-    """The base by the second set, the glow by the first, turned and smaller."""
+    """Base color by the second set, emission by the first, rotated and scaled down."""
     f.extension("KHR_texture_transform")
     shape = sheet()
     texture = f.texture(picture())

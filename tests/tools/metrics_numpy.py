@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""SSIM, FLIP and HDR-FLIP in numpy float64: a second implementation from the papers, which judges limpid's.
+"""SSIM, FLIP and HDR-FLIP in numpy float64: a second implementation, which checks limpid's.
 
-Written from the papers alone, never from the C++ code, and as plainly as they are: whole
-two-dimensional kernels where ours are separable, one picture at a time, nothing fast.
+Written from the papers only, never from the C++ code, and as plainly as possible: with whole
+two-dimensional kernels where the C++ code has separable ones, one picture at a time.
 
-    metrics_numpy.py fixture OUT.bin     two made-up pictures and the maps expected of them
-    metrics_numpy.py facts               numbers that the tests hold by hand
+    metrics_numpy.py fixture OUT.bin     two synthetic pictures and their expected maps
+    metrics_numpy.py facts               numbers that the tests have as constants
 
 SSIM: Wang, Bovik, Sheikh & Simoncelli 2004 "Image Quality Assessment: From Error Visibility to
 Structural Similarity". FLIP: Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom & Fairchild 2020
@@ -30,7 +30,7 @@ WHITE = RGB_TO_XYZ @ np.ones(3)
 
 
 def convolved(image, kernel):
-    """Correlation with a whole kernel; the picture goes on as its edge."""
+    """Correlation with a whole kernel; the edge of the picture is repeated."""
     radius = kernel.shape[0] // 2
     padded = np.pad(image, radius, mode="edge")
     out = np.zeros_like(image)
@@ -117,7 +117,7 @@ def seen(opponent, ppd):
 
 
 def features(opponent, ppd):
-    """The strength of edges and of points."""
+    """The strength of edges and of points at each pixel."""
     gray = (opponent[..., 0] + 16) / 116
     sigma = 0.5 * 0.082 * ppd
     x, y = grid(int(np.ceil(3 * sigma)))
@@ -140,7 +140,7 @@ def redistributed(error):
 
 
 def flip_map(a, b, ppd=PIXELS_PER_DEGREE):
-    """Of two linear pictures, 0 ... 1."""
+    """The FLIP of two linear pictures, 0 ... 1."""
     a, b = ycxcz_of(np.clip(a, 0, 1)), ycxcz_of(np.clip(b, 0, 1))
     color = redistributed(hyab(hunt_lab_of(seen(a, ppd)), hunt_lab_of(seen(b, ppd))))
     edge, point = (np.abs(u - v) for u, v in zip(features(a, ppd), features(b, ppd)))
@@ -150,7 +150,7 @@ def flip_map(a, b, ppd=PIXELS_PER_DEGREE):
 
 # --- HDR-FLIP -----------------------------------------------------------------------------------
 
-# Narkowicz 2015 "ACES Filmic Tone Mapping Curve", of 0.6 x.
+# Narkowicz 2015 "ACES Filmic Tone Mapping Curve", at 0.6 x.
 TONE = (0.6 * 0.6 * 2.51, 0.6 * 0.03, 0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14)
 
 
@@ -168,13 +168,13 @@ def exposures_of(reference):
 
 
 def hdr_flip_map(a, b, ppd=PIXELS_PER_DEGREE):
-    """Of two linear pictures without negative values, b the reference."""
+    """The HDR-FLIP of two linear pictures without negative values; b is the reference."""
     start, stop, count = exposures_of(b)
     return np.max([flip_map(toned(2**e * a), toned(2**e * b), ppd)
                    for e in np.linspace(start, stop, count)], axis=0)
 
 
-# --- what the tests read ------------------------------------------------------------------------
+# --- the fixture of the tests -------------------------------------------------------------------
 
 
 def made_pictures(width, height):

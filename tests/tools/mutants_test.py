@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Tries tools/mutants on a project of a header and a test program: what a test looks at must be noticed, what it only
-runs must be listed, and so must what it never runs.
+"""Tries tools/mutants on a project with a header and a test program: it must notice changes of checked results, and list
+changes of code that tests run without a check, and of code that no test runs.
 
   mutants_test.py
 """
@@ -111,7 +111,7 @@ def check_run(root):
     project = mutants.Project(root=root, folders=["src/optics"], programs=["test_tiny"], programs_folder="", cmake=[],
                               support="src/core/mutant.cpp", checked=re.compile("^src/optics/"), rewritten={}, known="docs/known.md")
     options = {"paths": [], "limit": 100, "seed": 1, "again": False, "rest": False, "minutes": None, "seconds": None, "jobs": 2, "verbose": False}
-    trial.LEAST_SECONDS = 1  # the unchanged program takes none
+    trial.LEAST_SECONDS = 1  # the unchanged program takes far less
 
     def run(**changed):
         said = []

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The look `realistic` in numpy float64: a second implementation of its formulas, which judges limpid's.
+"""The look `realistic` in numpy float64: a second implementation of its formulas, which checks limpid's.
 
-Written from the descriptions of the models alone, never from the C++ code, so that a wrong formula
-cannot hide behind one text that all runners share.
+Written from the descriptions of the models only, never from the C++ code, so that it finds a wrong
+formula in the source that all runners share.
 
-    realistic_numpy.py fixture OUT.bin        a made-up plate and the picture expected of it
+    realistic_numpy.py fixture OUT.bin        a synthetic plate and its expected picture
     realistic_numpy.py lagoon FOLDER OUT.npy  a folder of plates (oiiotool decodes the files)
 
 The fixture is little-endian: the magic text "limpid-1", int32 width and height, float64 view[16],
@@ -89,8 +89,8 @@ def seen(channel, depth, u, v):
 
 
 def depth_seen(depth, u, v, surface):
-    """Of the nearest texel; where nothing was hit there, of those beside it that lie behind the
-    surface; +inf where half of the weight or more has hit nothing."""
+    """The depth of the nearest texel; if no surface was hit there, of the texels beside it that lie behind the
+    surface; +inf if half of the weight or more has no surface."""
     values, weights = taps(depth, u, v)
     lost = np.where(np.isfinite(values), 0, weights).sum(0)
     behind = np.where(np.isfinite(values) & (values > surface), weights, 0)
@@ -214,8 +214,8 @@ def made_up_plate(width=64, height=36):
     down = direction[..., 2]
     with np.errstate(divide="ignore"):
         surface = np.where(down < 0, -eye[2] / down, np.inf)
-        bottom = np.where(down < -0.02, (-1.5 - eye[2]) / down, np.inf)  # inf: no bottom in sight
-    # A beach rises on the left, out of the water; the rest are things in front of the lake.
+        bottom = np.where(down < -0.02, (-1.5 - eye[2]) / down, np.inf)  # inf: no visible bottom
+    # A beach rises out of the water on the left; the other surfaces are objects in front of the lake.
     beach = normalized(np.array([0.3, 0.1, 1.0]))
     toward = direction @ beach
     z = np.where(toward < 0, ((np.array([-1.2, 0.0, 0.0]) - eye) @ beach) / toward, np.inf)
@@ -250,7 +250,7 @@ PLANES = ("color", "depth", "shadow", "reflection", "surface_depth", "surface_no
 
 def write_fixture(path):
     plate = made_up_plate()
-    for key in PLANES:  # what the file holds is what is computed from
+    for key in PLANES:  # computed from the rounded values of the file
         plate[key] = plate[key].astype("<f4").astype(np.float64)
     beauty = realistic(plate)
     height, width = plate["depth"].shape
@@ -266,7 +266,7 @@ def write_fixture(path):
 
 
 def read_exr(path, channels):
-    """Planes of an EXR file by way of oiiotool and the plainest EXR there is: float, uncompressed."""
+    """Planes of an EXR file, which oiiotool first converts to an uncompressed EXR of floats."""
     with tempfile.TemporaryDirectory() as folder:
         plain = pathlib.Path(folder) / "plain.exr"
         subprocess.run(["oiiotool", str(path), "--ch", ",".join(channels), "-d", "float",

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Opens the page that `limpid report PLATE...` writes in a browser without a window, from its file, and uses it as one who
-judges a shot does: by its wipe, its choices and its keys. What is seen is compared with the pictures beside the page.
+"""Opens the page that `limpid report PLATE...` writes in a headless browser, from its file, and uses it like a user, by
+wipe, choices and keys. The screen is compared with the pictures beside the page.
 
   shot_page.py LIMPID DATA CHROMIUM
 """
@@ -103,7 +103,7 @@ def pictures(page):
 
 
 def wipe(page, left, right):
-    """At one pixel of the picture on each of the screen, the line dragged by the mouse."""
+    """Shows one pixel of the picture per pixel of the screen, and drags the line by the mouse."""
     page.run(f"choose('left', '{left}').then(() => choose('right', '{right}'))")
     page.keep_file("leftBytes", left)
     page.keep_file("rightBytes", right)

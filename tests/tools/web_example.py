@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the web example's page in a browser without a window, and compares its picture with the tool's.
+"""Runs the page of the web example in a headless browser, and compares its picture with the tool's.
 
   web_example.py PYTHON MAKE_PAGE LIMPID SCENE CHROMIUM
 """
@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-MOST_MEAN, MOST_FAR = 2e-6, 1e-3  # of a difference, and the share of values that are off by more than .001
+MOST_MEAN, MOST_FAR = 2e-6, 1e-3  # limits on a difference, and on the share of values that are off by more than .001
 
 
 def main():

@@ -77,7 +77,7 @@ class Bench {
     if (!plan.reads_environment) pass.environment = {};
     ShaderOptions options;
     options.stage = ShaderOptions::Stage::kCompute;
-    options.most_threads = device_->most_threads();
+    options.max_threads = device_->max_threads();
     OnDevice ours(device_, program_of(plan, plate_.frame, frame, pass, options, Gathered::kAll),
                   *executor_);
     std::optional<OnDevice> rival;

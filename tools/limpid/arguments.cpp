@@ -40,16 +40,17 @@ std::string unexpected(const CLI::App& app) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   if (parsed.empty() && !is_option) {
     const std::vector<std::string> verbs = verbs_of(app);
-    return "'" + word + "' is no verb: expected one of " + join(verbs) + did_you_mean(word, verbs);
+    return "'" + word + "' is not a verb: expected one of " + join(verbs) +
+           did_you_mean(word, verbs);
   }
   const std::string verb = parsed.empty() ? "" : " " + parsed.front()->get_name();
-  if (!is_option) return "limpid" + verb + ": '" + word + "' is one argument too many";
+  if (!is_option) return "limpid" + verb + ": unexpected argument '" + word + "'";
   std::vector<std::string> known = options_of(app);
   if (!parsed.empty()) {
     for (const std::string& name : options_of(*parsed.front())) known.push_back(name);
   }
   return "limpid" + verb + " has no option '" + word + "': limpid help" + verb +
-         " lists what there is" + did_you_mean(word, known);
+         " lists its options" + did_you_mean(word, known);
 }
 
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
@@ -109,7 +110,7 @@ Parsed parse(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.fallthrough();
   app.set_help_all_flag("--help-all", "Help of all verbs");
-  app.add_option("--threads", a.common.threads, "Threads; 0, the default, is one per core")
+  app.add_option("--threads", a.common.threads, "Threads (default: 0, one per core)")
       ->option_text("N")
       ->check(whole_number_in(0, 1024));
   app.add_option("--max-memory", a.common.max_memory,
@@ -125,8 +126,8 @@ Parsed parse(int argc, char** argv) {
   for (int i = own_words + 1; i < argc; ++i) a.farm.command.emplace_back(argv[i]);
 
   std::string shell;
-  CLI::App& completion = *app.add_subcommand(
-      "completion", "Print the script with which a shell completes verbs and options");
+  CLI::App& completion =
+      *app.add_subcommand("completion", "Print the completion script of a shell");
   completion.add_option("shell", shell, "bash, zsh or fish")
       ->option_text("bash|zsh|fish")
       ->required();

@@ -69,7 +69,7 @@ struct LooksArguments {
 struct RenderArguments {
   std::string scene, size = "1920x1080";
   int overscan = 0, samples = 1, shadow_map = 2048;
-  bool draw_what_you_can = false;
+  bool skip_unsupported = false;
   FrameOptions frames;
   WaterOptions water;
 };
@@ -81,7 +81,7 @@ struct TruthArguments {
   std::optional<int> paths;
   int photons = 0;
   std::uint64_t seed = 0;
-  bool draw_what_you_can = false;
+  bool skip_unsupported = false;
   FrameOptions frames;
   WaterOptions water;
 };

@@ -191,7 +191,7 @@ std::vector<ComparedChannel> channels_of(const ComparedPicture& a, const Compare
   std::sort(b_names.begin(), b_names.end());
   if (a_names != b_names) {
     throw Error(a.path + " has the channels " + join(a.names) + " and " + b.path + " has " +
-                join(b.names) + ": name those to compare with --channels");
+                join(b.names) + ": expected --channels with the channels to compare");
   }
   std::vector<ComparedChannel> channels;
   for (std::size_t i = 0; i < a.names.size(); ++i) {
@@ -230,10 +230,10 @@ LinearColor::LinearColor(const ComparedPicture& picture, const std::optional<dou
   for (std::size_t c = 0; c < 3; ++c) {
     const Plane* plane = color_plane(picture, names[c]);
     if (plane == nullptr) {
-      throw Error(picture.path +
-                  ": metrics of color need the channels R, G, B among those that are "
-                  "compared, which are " +
-                  join(picture.names));
+      throw Error(
+          picture.path +
+          ": metrics of color need the channels R, G and B, and the compared channels are " +
+          join(picture.names));
     }
     const Rect window = plane->view().window;
     planes_[c] = Plane(window);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "limpid/core/error.h"
 #include "limpid/files/text/frame_range.h"
 
 #include "frame_options.h"
+#include "job/composite_view.h"
 #include "memory_limit.h"
 #include "water_options.h"
 
@@ -65,7 +67,7 @@ bool has_view_mark(const std::string& name) { return name.find(kViewMark) != std
 std::string name_of_view(std::string name, const std::string& view) {
   for (std::size_t at = name.find(kViewMark); at != std::string::npos; at = name.find(kViewMark)) {
     if (view.empty()) {
-      throw Error(name + ": expected --view with the names that %V stands for", Fault::kUsage);
+      throw Error(name + ": expected --view with the names that replace %V", Fault::kUsage);
     }
     name.replace(at, kViewMark.size(), view);
   }
@@ -136,12 +138,23 @@ std::vector<std::string> views_named(const CompositeArguments& a, const std::opt
   return views;
 }
 
+/// The time of a frame whose own scene is `scene`.
+JobTime time_of(const CompositeArguments& a, const SceneFile& scene, const std::string& view,
+                int frame) {
+  const bool scene_of_frame = has_frame_number(name_of_view(a.scene, view));
+  return time_of_frame(a.frames, a.water, scene, scene_of_frame, frame);
+}
+
 /// The neighbor of a frame that its motion vectors lead to.
+int neighbor_of(const CompositeArguments& a, int frame) {
+  return a.motion_to == kPrevious ? frame - 1 : frame + 1;
+}
 CompositeJob::SecondFrame second_of(const CompositeArguments& a, int frame, const std::string& view,
                                     const PlateRequest& plate, const SceneFile& scene) {
-  CompositeJob::SecondFrame second{plate, scene, a.motion_to == kPrevious};
+  CompositeJob::SecondFrame second{plate, scene, {}, a.motion_to == kPrevious};
   try {
-    set_frame(a, second.is_previous ? frame - 1 : frame + 1, view, second.plate, second.scene);
+    set_frame(a, neighbor_of(a, frame), view, second.plate, second.scene);
+    second.time = time_of(a, second.scene, view, neighbor_of(a, frame));
   } catch (const Error& error) {
     throw Error("the " + a.motion_to + " frame, for motion vectors: " + error.what(),
                 error.fault());
@@ -162,7 +175,7 @@ void expect_second(const CompositeArguments& a, bool frames, bool vectors) {
     refuse("--frames, and plates or a scene with the number of the frame in their names");
   }
   if (a.frames.missing != "error")
-    refuse("--missing error, since it leads to a frame that is there");
+    refuse("--missing error, since motion vectors need the other frame");
 }
 
 }  // namespace
@@ -181,7 +194,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   job.scene = std::move(job.other_views.front().scene);
   job.other_views.erase(job.other_views.begin());
   if (a.plates.empty() && job.plate.named.empty() && job.plate.layers.empty()) {
-    throw Error("nothing to put water into: give plates, or a scene that names some",
+    throw Error("nothing to put water into: expected plates, or a scene with [plates]",
                 Fault::kUsage);
   }
   if (has_view_mark(a.water.output)) {
@@ -218,15 +231,31 @@ CompositeJob job_of_frame(CompositeJob job, const CompositeArguments& a, int fra
   };
   set(job.view_name, job);
   for (CompositeJob::View& view : job.other_views) set(view.name, view);
-  const bool scene_of_frame = has_frame_number(name_of_view(a.scene, job.view_name));
-  job.time = time_of_frame(a.frames, a.water, job.scene, scene_of_frame, frame);
+  job.time = time_of(a, job.scene, job.view_name, frame);
   job.output = output_of_frame(job.output, frame);
   return job;
 }
 
+void expect_second_frames(const CompositeArguments& a, const Sequence& sequence,
+                          const JobOfFrame<CompositeJob>& job_of) {
+  if (a.motion_to.empty()) return;
+  const std::set<int> made(sequence.frames.begin(), sequence.frames.end());
+  for (const int frame : sequence.frames) {
+    if (made.contains(neighbor_of(a, frame))) continue;
+    try {
+      const CompositeJob job = job_of(frame);
+      for (std::size_t view = 0; view <= job.other_views.size(); ++view) {
+        plan_composite(job_of_view(job, view));
+      }
+    } catch (const Error& error) {
+      throw Error("frame " + std::to_string(frame) + ": " + error.what(), error.fault());
+    }
+  }
+}
+
 void expect_one_view(const CompositeJob& job, const std::string& verb) {
   if (job.other_views.empty()) return;
-  throw Error("--view: expected one view, for " + verb + " shows one at a time", Fault::kUsage);
+  throw Error("--view: expected one view, since " + verb + " shows one at a time", Fault::kUsage);
 }
 
 }  // namespace limpid::tool

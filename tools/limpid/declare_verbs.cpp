@@ -29,7 +29,8 @@ void add_shader(CLI::App& app, ShaderArguments& a) {
   verb.add_option("--set", a.water.settings, "One parameter: operator.parameter=value (repeatable)")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
-  verb.add_option("--lang", a.language, "glsl glsl-es hlsl msl spirv (default: glsl)")
+  verb.add_option("--lang", a.language,
+                  "Language: glsl, glsl-es, hlsl, msl or spirv (default: glsl)")
       ->option_text("NAME");
   verb.add_option("--planes", a.planes,
                   "Buffers of the host besides color and depth, such as shadow,surface_depth")
@@ -37,11 +38,12 @@ void add_shader(CLI::App& app, ShaderArguments& a) {
       ->delimiter(',')
       ->allow_extra_args(false);
   verb.add_option("--scene", a.scene,
-                  "Scene file with water, waves, sun, sky and environment; without --planes also "
-                  "the frame of its plates, whose buffers are then written, too")
+                  "Scene file with water, waves, sun, sky and environment. Without --planes its "
+                  "plates are read and their buffers written, too")
       ->option_text("FILE.toml");
-  verb.add_option("--main", a.main,
-                  "Add a main(): none, compute or fragment (default: none, the function alone)")
+  verb.add_option(
+          "--main", a.main,
+          "Entry point to add: none, compute or fragment (default: none, the function alone)")
       ->option_text("STAGE");
   verb.add_option("--function", a.function, "Name of the function (default: limpid_water)")
       ->option_text("NAME");
@@ -75,16 +77,17 @@ void add_plate_options(CLI::App& verb, CompositeArguments& a) {
   verb.add_option("--colorspace", a.colorspace,
                   "Color space of the plate: " + join(color_space_names()) +
                       ", or eight numbers, x and y of red, green, blue and white (default: the "
-                      "scene's, else as the plate's chromaticities say, else Rec.709)")
+                      "scene's, else that of the plate's chromaticities, else Rec.709)")
       ->option_text("NAME");
 }
 
 void add_composite(CLI::App& verb, CompositeArguments& a) {
   add_plate_options(verb, a);
-  add_frames(verb, a.frames,
-             "Frames, as in 1-100x2: their numbers replace %04d or #### in the names of plates, "
-             "layers, scene and outputs. Frame F is at --time + F / --fps, or at the time in its "
-             "plate if neither is given");
+  add_frames(
+      verb, a.frames,
+      "Frames, as in 1-100x2: their numbers replace %04d or #### in the names of plates, "
+      "layers, scene and outputs. The time of frame F is --time + F / --fps, or without both "
+      "the time in its plate");
   add_look(verb, a.water);
 }
 
@@ -101,7 +104,7 @@ void add_view(CLI::App& app, ViewArguments& a) {
   add_gpu(verb, a.composite.water);
   add_display(verb, a.composite.water);
   verb.add_option("--reference", a.reference,
-                  "Picture of the same size to compare with, such as a path-traced one")
+                  "Picture to compare with, of the same size, such as a path-traced picture")
       ->option_text("FILE");
   verb.add_option("--folder", a.folder, "Folder for saved looks (default: the current folder)")
       ->option_text("DIR");
@@ -119,31 +122,32 @@ void add_looks(CLI::App& app, LooksArguments& a) {
   add_simd(verb, a.composite.water);
   add_runner(verb, a.composite.water);
   add_gpu(verb, a.composite.water);
-  verb.add_option("--pictures", a.pictures,
-                  "Write a picture of all looks side by side, in the order of the list, on the "
-                  "plate (default: the bundled lagoon) at half its size: .png, .jpg or .tif")
+  verb.add_option(
+          "--pictures", a.pictures,
+          "Write one picture with all looks on the plate (default: the bundled lagoon), side "
+          "by side in the order of the list, at half size: .png, .jpg or .tif")
       ->option_text("FILE");
 }
 
 constexpr const char* kRenderedFrames =
-    "Frames, as in 1-100x2: frame F is at --time + F / --fps, and its number replaces %04d or #### "
-    "in names";
+    "Frames, as in 1-100x2: their numbers replace %04d or #### in names, and the time of frame F "
+    "is --time + F / --fps";
 
-void add_scene(CLI::App& verb, std::string& scene, std::string& size, bool& draw_what_you_can) {
+void add_scene(CLI::App& verb, std::string& scene, std::string& size, bool& skip_unsupported) {
   verb.add_option("scene", scene, "Scene file with [geometry]")
       ->required()
       ->option_text("SCENE.toml");
-  verb.add_option("--size", size, "Pixels (default: 1920x1080)")->option_text("WxH");
-  verb.add_flag("--draw-what-you-can", draw_what_you_can,
+  verb.add_option("--size", size, "Size in pixels (default: 1920x1080)")->option_text("WxH");
+  verb.add_flag("--skip-unsupported", skip_unsupported,
                 "Leave out unsupported nodes of the glTF file, and list them");
 }
 
 void add_render(CLI::App& verb, RenderArguments& a) {
-  add_scene(verb, a.scene, a.size, a.draw_what_you_can);
+  add_scene(verb, a.scene, a.size, a.skip_unsupported);
   verb.add_option("--overscan", a.overscan, "Pixels beyond each side of the picture (default: 0)")
       ->option_text("N")
       ->check(whole_number_in(0, kMaxRenderedSide / 2));
-  verb.add_option("--shadow-map", a.shadow_map, "Texels per side (default: 2048)")
+  verb.add_option("--shadow-map", a.shadow_map, "Texels per side of the shadow map (default: 2048)")
       ->option_text("N")
       ->check(whole_number_in(1, kMaxShadowMap));
   add_frames(verb, a.frames, kRenderedFrames);
@@ -152,20 +156,20 @@ void add_render(CLI::App& verb, RenderArguments& a) {
 CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
   CLI::App& verb = *app.add_subcommand(
       "truth", "Path-trace a scene, to judge pictures by: SCENE.toml -o OUT.exr");
-  add_scene(verb, a.scene, a.size, a.draw_what_you_can);
+  add_scene(verb, a.scene, a.size, a.skip_unsupported);
   verb.add_option("--samples", a.samples,
                   "N x N samples per pixel; 1 is the pixel centre (default: 1)")
       ->option_text("N")
       ->check(whole_number_in(1, kMaxTruthSamples));
   verb.add_option("--light", a.light,
-                  "paths: multiple scattering and reflection; once: single scattering, in closed "
-                  "form (default: paths)")
+                  "Light in the water: paths (multiple scattering and reflection) or once (single "
+                  "scattering, in closed form) (default: paths)")
       ->option_text("NAME");
   verb.add_option("--paths", a.paths, "Random light paths per sample (default: 16)")
       ->option_text("N")
       ->check(whole_number_in(1, kMaxTruthPaths));
   verb.add_option("--photons", a.photons,
-                  "Photons of the sun through the waves, for caustics (default: 0, sunlight enters "
+                  "Photons of the sun through the waves, for caustics (default: 0: sunlight enters "
                   "through the calm plane)")
       ->option_text("N")
       ->check(whole_number_in(0, kMaxTruthPhotons));
@@ -174,10 +178,11 @@ CLI::App& add_truth(CLI::App& app, TruthArguments& a) {
       ->check(whole_number_in(0, std::numeric_limits<std::uint64_t>::max()));
   add_frame_numbers(verb, a.frames, kRenderedFrames);
   add_settings(verb, a.water);
-  verb.add_option("--aov", a.water.aovs,
-                  "Also write these AOVs: all, or a list of the AOVs of water except confidence "
-                  "and buffers, of visible (1 where the dry picture shows the end of the refracted "
-                  "ray) and visible_below (1 where the layer below shows it)")
+  verb.add_option(
+          "--aov", a.water.aovs,
+          "Also write AOVs: all, or names: the AOVs of water except confidence and buffers; "
+          "visible (1 where the dry picture shows the end of the refracted ray); "
+          "visible_below (1 where the layer below shows it)")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -192,13 +197,14 @@ void add_compare(CLI::App& app, CompareArguments& a) {
   verb.add_option("a", a.a, "Picture")->required()->option_text("A");
   verb.add_option("b", a.b, "Picture to compare with")->required()->option_text("B");
   verb.add_option("--channels", a.channels,
-                  "Only these channels and layers; A=B compares channel or layer A of the first "
-                  "picture with B of the second (default: all channels of the first part; "
-                  "PART.CHANNEL names those of other parts)")
+                  "Channels and layers to compare; A=B compares channel or layer A of the first "
+                  "picture with B of the second, PART.CHANNEL names a channel of another part "
+                  "(default: all channels of the first part)")
       ->option_text("NAME|A=B,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verb.add_option("--tolerance", a.tolerance, "Largest difference of a pixel (default: 1e-6)")
+  verb.add_option("--tolerance", a.tolerance,
+                  "Largest allowed difference of a pixel (default: 1e-6)")
       ->option_text("D")
       ->check(number_in(0, kInfinity));
   verb.add_option("--allowed-percent", a.allowed_percent,
@@ -212,7 +218,7 @@ void add_compare(CLI::App& app, CompareArguments& a) {
                   "Epsilon of relMSE = mean((a-b)^2 / (b^2 + epsilon)) (default: 0.01)")
       ->option_text("E")
       ->check(number_above_zero());
-  verb.add_option("--clip", a.clip, "Clamp larger values to MAX")
+  verb.add_option("--clip", a.clip, "Clamp both pictures to values up to MAX")
       ->option_text("MAX")
       ->check(number_in(-kInfinity, kInfinity));
   verb.add_option("--metrics", a.metrics,
@@ -226,9 +232,10 @@ void add_compare(CLI::App& app, CompareArguments& a) {
   verb.add_option("--ppd", a.ppd, "Pixels per degree, for flip and hdrflip (default: 67.02)")
       ->option_text("N")
       ->check(number_in(1, 1000));
-  verb.add_option("--colorspace", a.colorspace,
-                  "Color space of linear pictures, for ssim, flip and hdrflip, which need Rec.709: "
-                  "as for composite (default: as their chromaticities say, else Rec.709)")
+  verb.add_option(
+          "--colorspace", a.colorspace,
+          "Color space of linear pictures, as for composite; ssim, flip and hdrflip convert "
+          "it to Rec.709 (default: that of their chromaticities, else Rec.709)")
       ->option_text("NAME");
   verb.add_option("--diff", a.diff, "Write a heat map of the differences")->option_text("OUT.png");
   verb.add_option("--flip-map", a.flip_map,
@@ -236,8 +243,8 @@ void add_compare(CLI::App& app, CompareArguments& a) {
       ->option_text("OUT.png");
   verb.add_option(
           "--frames", a.frames,
-          "Frames, as in 1-100x2: their numbers replace %04d or #### in all names. Prints a line "
-          "per frame, with its change since the frame before beyond the change in B (flicker)")
+          "Frames, as in 1-100x2: their numbers replace %04d or #### in all names. Each frame has "
+          "a line, with its flicker: its change since the frame before, beyond the change in B")
       ->option_text("RANGE");
 }
 
@@ -260,19 +267,19 @@ void add_report(CLI::App& app, ReportArguments& a) {
           "For a shot: one more look to compare with, besides physical and fast (repeatable)")
       ->option_text("NAME|FILE")
       ->allow_extra_args(false);
-  verb.add_option("--size", a.size, "Pixels of rendered scenes (default: 480x270; quick: 160x90)")
+  verb.add_option("--size", a.size,
+                  "Size of rendered scenes in pixels (default: 480x270; quick: 160x90)")
       ->option_text("WxH");
-  verb.add_option("--rounds", a.rounds,
-                  "Timed runs, of which the best counts (default: 5; quick: 2)")
+  verb.add_option("--rounds", a.rounds, "Timed runs; the fastest counts (default: 5; quick: 2)")
       ->option_text("N")
       ->check(whole_number_in(1, kMaxRounds));
   verb.add_flag("--quick", a.quick, "Small pictures and few rounds, as a test");
   verb.add_option("--gpu", a.gpu,
-                  "Also measure a GPU: part of its name (default: a hardware device)")
+                  "Also measure the GPU with this part of its name (default: a hardware device)")
       ->option_text("NAME");
-  verb.add_flag(
-      "--hard", a.hard,
-      "Run the hard cases with their bounds instead, print them and write hard.html and hard.json");
+  verb.add_flag("--hard", a.hard,
+                "Run the hard cases instead, print them with their bounds, and write hard.html and "
+                "hard.json");
 }
 
 void add_farm(CLI::App& app, FarmArguments& a) {
@@ -300,7 +307,7 @@ void add_farm(CLI::App& app, FarmArguments& a) {
                   "One more option of sbatch, as in --sbatch=--partition=render (repeatable)")
       ->option_text("OPTION")
       ->allow_extra_args(false);
-  verb.add_flag("--dry-run", a.dry_run, "Check the inputs and print the scripts, submit nothing");
+  verb.add_flag("--dry-run", a.dry_run, "Check the inputs and print the scripts; submit nothing");
 }
 
 }  // namespace
@@ -312,8 +319,8 @@ void declare_verbs(CLI::App& app, Arguments& a) {
   add_resume(composite, a.composite.frames);
   composite
       .add_option("--missing", a.composite.frames.missing,
-                  "Frames without a plate: error (default), skip (no output), or hold (use the "
-                  "nearest earlier plate)")
+                  "Frames without a plate: error (default), skip (no output) or hold (use the "
+                  "nearest earlier plate, else the first)")
       ->option_text("error|skip|hold");
   add_picture(composite, a.composite.water);
   add_wave_samples(composite, a.composite);
@@ -328,7 +335,7 @@ void declare_verbs(CLI::App& app, Arguments& a) {
       .add_option(
           "--motion-to", a.composite.motion_to,
           "Compute --aov motion and motion_reflected by camera and water of the next or the "
-          "previous frame, for a scene that stands still (default: by the plate's vectors)")
+          "previous frame, for a static scene (default: by the plate's vectors)")
       ->option_text("next|previous")
       ->check(CLI::IsMember({"next", "previous"}));
   composite
@@ -365,8 +372,7 @@ void declare_verbs(CLI::App& app, Arguments& a) {
       *app.add_subcommand("plan", "Print which operators run for a plate and a look, and why");
   add_composite(plan, a.composite);
   add_runner(plan, a.composite.water);
-  plan.add_flag("--measure", a.composite.measure,
-                "Also run the plan and time each operator; writes nothing");
+  plan.add_flag("--measure", a.composite.measure, "Also run the plan and time each operator");
 
   add_view(app, a.view);
 
@@ -380,16 +386,15 @@ void declare_verbs(CLI::App& app, Arguments& a) {
   CLI::Option* look = operators.add_option("--look", a.operators.look, "Show the values of a look")
                           ->option_text("NAME|FILE");
   CLI::Option* scene =
-      operators.add_flag("--scene", a.operators.scene, "Print the keys of scene files instead")
+      operators.add_flag("--scene", a.operators.scene, "Print the keys of scene files")
           ->excludes(name)
           ->excludes(look);
   CLI::Option* layers =
-      operators
-          .add_flag("--layers", a.operators.layers, "Print the rules for names of layers instead")
+      operators.add_flag("--layers", a.operators.layers, "Print the rules for names of layers")
           ->excludes(name)
           ->excludes(look)
           ->excludes(scene);
-  operators.add_flag("--aovs", a.operators.aovs, "Print the AOVs instead")
+  operators.add_flag("--aovs", a.operators.aovs, "Print the AOVs")
       ->excludes(name)
       ->excludes(look)
       ->excludes(scene)

@@ -17,8 +17,8 @@ namespace {
 
 void expect_cuttable(const FrameOptions& frames, const WaterOptions& water) {
   const auto refuse = [](const std::string& sentence) { throw Error(sentence, Fault::kUsage); };
-  if (water.dry_run) refuse("-n makes no frame: expected limpid farm --dry-run before the --");
-  if (frames.range.empty()) refuse("farm: expected --frames RANGE in the command behind --");
+  if (water.dry_run) refuse("-n makes no frame: expected --dry-run before the --");
+  if (frames.range.empty()) refuse("farm: expected --frames RANGE in the command after --");
   if (frames.verify)
     refuse("--verify: expected none, since the farm's last job verifies every byte");
   if (missing_named(frames.missing) == Missing::kHold) {
@@ -78,7 +78,7 @@ FarmWork water_work(const RenderArguments& a, const CommonArguments& common) {
   const WaterJob job = water_job(a, common);
   if (job.output.runner == Runner::kReference) work.simd.clear();
   const auto model =
-      std::make_shared<const Model>(model_to_render(job.scene, a.draw_what_you_can, common));
+      std::make_shared<const Model>(model_to_render(job.scene, a.skip_unsupported, common));
   const JobOfFrame<WaterJob> job_of = [=](int frame) { return water_job_of_frame(job, a, frame); };
   work.faults = [=, sequence = work.sequence](Executor& executor) {
     return faults_of_water(*model, sequence, job_of, executor);
@@ -95,7 +95,7 @@ FarmWork truth_work(const TruthArguments& a, const CommonArguments& common) {
   work.simd.clear();
   work.sequence.in_flight = 1;
   const auto model =
-      std::make_shared<const Model>(model_to_render(job.scene, a.draw_what_you_can, common));
+      std::make_shared<const Model>(model_to_render(job.scene, a.skip_unsupported, common));
   const JobOfFrame<TruthJob> job_of = [=](int frame) { return truth_job_of_frame(job, a, frame); };
   work.faults = [=, sequence = work.sequence](Executor& executor) {
     return faults_of_truth(*model, sequence, job_of, executor);
@@ -111,12 +111,12 @@ FarmWork truth_work(const TruthArguments& a, const CommonArguments& common) {
 Parsed command_of(std::vector<std::string> words) {
   if (words.empty()) {
     throw Error(
-        "farm: expected -- and a command behind it, as in limpid farm -- composite "
+        "farm: expected -- and a command after it, as in limpid farm -- composite "
         "plate.####.exr -o wet.####.exr --frames 1-240",
         Fault::kUsage);
   }
   if (std::find(words.begin(), words.end(), "--") != words.end()) {
-    throw Error("farm: expected no second -- in the command behind the first", Fault::kUsage);
+    throw Error("farm: expected no second -- in the command after the first", Fault::kUsage);
   }
   words.insert(words.begin(), "limpid");
   std::vector<char*> argv;
@@ -131,7 +131,7 @@ FarmWork farm_work(const Arguments& command) {
   }
   if (command.verb == Verb::kWater) return water_work(command.render, command.common);
   if (command.verb == Verb::kTruth) return truth_work(command.truth, command.common);
-  throw Error("farm: expected composite, water or truth behind --", Fault::kUsage);
+  throw Error("farm: expected composite, water or truth after --", Fault::kUsage);
 }
 
 std::vector<std::string> task_words(const std::vector<std::string>& command, const FarmWork& work,

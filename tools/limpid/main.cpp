@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
       return 1;
     }
     if (is_memory_limited()) end_out_of_memory(limpid::no_memory().what());
-    print_error(std::string("cannot make a thread (") + error.what() + ")");
+    print_error(std::string("cannot start a thread (") + error.what() + ")");
     return exit_code_of(limpid::Fault::kRetry);
   } catch (const std::exception& error) {
     print_error(error.what());

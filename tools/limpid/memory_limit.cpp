@@ -69,6 +69,8 @@ void make_threads_small() {
   if (addresses.rlim_cur != RLIM_INFINITY) ::mallopt(M_ARENA_MAX, 1);
 }
 
+void share_heap() { ::mallopt(M_ARENA_MAX, 1); }
+
 void limit_process(const CommonArguments& common) {
   if (!common.max_memory) return;
   const std::int64_t wanted = memory_named(*common.max_memory);

@@ -21,6 +21,10 @@ Limits limits_of(const CommonArguments& common);
 /// Makes threads use little memory. Only under a limit, and before there are threads.
 void make_threads_small();
 
+/// One heap for all threads: for a server whose threads make one picture after the other. With a
+/// heap for each, which is the default, glibc keeps twice the memory that a picture needs.
+void share_heap();
+
 /// Makes the system limit this process to --max-memory, thread stacks included, beyond its present
 /// memory: allocations beyond that fail, and the verb with them. To be called before there are
 /// threads.

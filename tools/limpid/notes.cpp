@@ -30,11 +30,12 @@ void tell_warnings(const std::vector<std::string>& sentences, bool quiet) {
 void tell_rest(const Rest& rest, const CommonArguments& common) {
   if (common.quiet) return;
   const std::size_t of = rest.frames.size() + static_cast<std::size_t>(rest.kept);
-  note(std::to_string(rest.kept) + " of " + std::to_string(of) + " frames are there already");
+  note(std::to_string(rest.kept) + " of " + std::to_string(of) + " frames are kept");
   if (rest.others.empty()) return;
   const Rest::Other& first = rest.others.front();
-  note(std::to_string(rest.others.size()) + " that are there are made again; frame " +
-       std::to_string(first.frame) + ": " + first.why);
+  const std::size_t again = rest.others.size();
+  note(std::to_string(again) + " existing " + (again == 1 ? "frame is" : "frames are") +
+       " made again; frame " + std::to_string(first.frame) + ": " + first.why);
   if (!common.verbose) return;
   for (std::size_t i = 1; i < rest.others.size(); ++i) {
     note("frame " + std::to_string(rest.others[i].frame) + ": " + rest.others[i].why);
@@ -48,11 +49,11 @@ void tell_missing(const FilledSequence& filled, std::size_t of, const CommonArgu
   std::sort(numbers.begin(), numbers.end());
   const bool held = filled.missing.front().stand_in.has_value();
   note(std::to_string(numbers.size()) + " of " + std::to_string(of) + " frames have no plate and " +
-       (held ? "are made from others" : "are left out") + ": " + ranges_text(numbers));
+       (held ? "are made from other plates" : "are left out") + ": " + ranges_text(numbers));
   if (!common.verbose) return;
   for (const MissingPlate& plate : filled.missing) {
-    note("frame " + std::to_string(plate.frame) + ": " + plate.file.string() + " is not there" +
-         (plate.stand_in ? ": frame " + std::to_string(*plate.stand_in) + " stands in" : ""));
+    note("frame " + std::to_string(plate.frame) + ": " + plate.file.string() + " is missing" +
+         (plate.stand_in ? ": made from frame " + std::to_string(*plate.stand_in) : ""));
   }
 }
 

@@ -18,7 +18,7 @@ std::string one_line(std::string sentence);
 /// One line each.
 void tell_warnings(const std::vector<std::string>& sentences, bool quiet);
 
-/// "12 of 240 frames are there already", and the frames that are made again with the reason: the
+/// "12 of 240 frames are kept", and the frames that are made again with the reason: the
 /// first, or with -v each.
 void tell_rest(const Rest& rest, const CommonArguments& common);
 /// The frames without a plate and their replacement; with -v each file.

@@ -65,8 +65,7 @@ OffsetComparison measure_offset(const std::string& a, const std::string& b,
       read_picture(b, with({visible + ".R", visible + ".G", visible + ".B"}, kMaps), limits);
   if (chain.display != truth.display) {
     throw Error(a + " and " + b +
-                " are not of the same display window: their lookups cannot be "
-                "compared");
+                " have different display windows: expected one, to compare lookups");
   }
   const auto of = [](const ComparedPicture& picture, const std::string& name) {
     return picture.find(name)->view();
@@ -133,7 +132,7 @@ PictureMetrics measure(const WantedMetrics& wanted, const ComparedPicture& a,
   }
   if (!wanted.of_color()) return metrics;
   if (wanted.primaries && !is_linear(a.path) && !is_linear(b.path)) {
-    throw Error("--colorspace: is for linear pictures; " + a.path + " and " + b.path +
+    throw Error("--colorspace is for linear pictures, and " + a.path + " and " + b.path +
                     " are encoded as sRGB",
                 Fault::kUsage);
   }

@@ -37,7 +37,7 @@ struct PictureMetrics {
   std::string no_offset;  ///< why it was not measured, if all metrics are requested
 
   /// False if a lookup is NaN or infinite.
-  bool sane() const { return !offset || offset->overall.mismatches == 0; }
+  bool is_finite() const { return !offset || offset->overall.mismatches == 0; }
 };
 
 /// Throws Error for pictures that lack channels of a metric.

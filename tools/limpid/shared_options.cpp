@@ -30,9 +30,10 @@ void add_plates(CLI::App& verb, std::vector<std::string>& plates, std::string& s
                   "(repeatable)")
       ->option_text("ROLE=LAYER")
       ->allow_extra_args(false);
-  verb.add_option("--view", view,
-                  "View of a stereo plate, such as left or right (default: the first); composite "
-                  "also takes left,right or all, and replaces %V in names of inputs by the view")
+  verb.add_option(
+          "--view", view,
+          "View of a stereo plate, such as left or right (default: the first); for composite "
+          "also left,right or all, and the view replaces %V in names of inputs")
       ->option_text("NAME");
 }
 
@@ -81,9 +82,9 @@ void add_look(CLI::App& verb, WaterOptions& a) {
   std::vector<std::string> known;
   for (const AovInfo& info : aovs()) known.emplace_back(info.name);
   verb.add_option("--aov", a.aovs,
-                  "Also write these AOVs: all, or a list of " + join(known) +
-                      ", and motion and motion_reflected (composite only), for plates with motion "
-                      "vectors or with --motion-to")
+                  "Also write AOVs: all, or some of " + join(known) +
+                      ", and for composite of motion and motion_reflected, with motion vectors in "
+                      "the plate or with --motion-to")
       ->option_text("all|NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -92,28 +93,31 @@ void add_look(CLI::App& verb, WaterOptions& a) {
                   "all, white = 1 (default: 0, exact)")
       ->option_text("E")
       ->check(number_in(0, kInfinity, "white = 1"));
-  verb.add_flag("--strict", a.strict, "Fail instead of warning, before anything is written");
+  verb.add_flag("--strict", a.strict, "Turn warnings into errors, before anything is written");
 }
 
 void add_file(CLI::App& verb, WaterOptions& a) {
-  verb.add_option("-o", a.output, "EXR to write")->option_text("OUT.exr");
-  verb.add_option("--compression", a.compression,
-                  "none rle zips zip piz pxr24 b44 b44a dwaa dwab (default: piz)")
+  verb.add_option("-o", a.output, "EXR file to write")->option_text("OUT.exr");
+  verb.add_option(
+          "--compression", a.compression,
+          "Compression: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab (default: "
+          "piz)")
       ->option_text("NAME[:LEVEL]");
   verb.add_flag("--float", a.store_float, "Write float instead of half");
 }
 
 void add_simd(CLI::App& verb, WaterOptions& a) {
-  verb.add_option("--simd", a.simd, "Instruction set (default: the best)")->option_text("NAME");
+  verb.add_option("--simd", a.simd, "Instruction set (default: the best of this machine)")
+      ->option_text("NAME");
 }
 
 void add_display(CLI::App& verb, WaterOptions& a) {
   verb.add_option(
           "--display", a.display,
-          "How light is shown: sRGB, or DISPLAY/VIEW of an OpenColorIO config, or a view of "
-          "its default display (default: the config's default, or sRGB without a config)")
+          "View transform: sRGB, DISPLAY/VIEW of an OpenColorIO config, or a view of its default "
+          "display (default: the config's default, or sRGB without a config)")
       ->option_text("sRGB|DISPLAY/VIEW");
-  verb.add_option("--ocio", a.ocio, "Config of OpenColorIO (default: $OCIO)")->option_text("FILE");
+  verb.add_option("--ocio", a.ocio, "OpenColorIO config (default: $OCIO)")->option_text("FILE");
 }
 
 void add_preview(CLI::App& verb, WaterOptions& a) {
@@ -128,7 +132,7 @@ void add_preview(CLI::App& verb, WaterOptions& a) {
 
 void add_runner(CLI::App& verb, WaterOptions& a) {
   verb.add_option("--runner", a.runner,
-                  "fused (SIMD, the default), gpu (Vulkan) or reference (double)")
+                  "Runner: fused (SIMD), gpu (Vulkan) or reference (double) (default: fused)")
       ->option_text("NAME");
 }
 
@@ -154,7 +158,7 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
   add_simd(verb, a);
   add_preview(verb, a);
   verb.add_option("--contact-sheet", a.contact_sheet,
-                  "Also write the picture and every AOV, small and with their names, on one sheet")
+                  "Also write one sheet with the picture and every AOV, small, with their names")
       ->option_text("OUT.png");
   verb.add_flag("--show{auto}", a.show,
                 "Show the preview in the terminal, if it can show pictures; --show=kitty, "
@@ -163,7 +167,7 @@ void add_picture(CLI::App& verb, WaterOptions& a) {
       ->option_text("OUT.exr");
   add_runner(verb, a);
   add_gpu(verb, a);
-  verb.add_flag("-n", a.dry_run, "Print the plan, write nothing");
+  verb.add_flag("-n", a.dry_run, "Print the plan; write nothing");
 }
 
 }  // namespace limpid::tool

@@ -58,8 +58,8 @@ Measured measure(const std::vector<std::string>& words, const std::vector<int>& 
     if (run.code == 75) throw Error(sentence, Fault::kRetry);
     if (said.empty()) said = sentence;
   }
-  throw Error(said + "; it was made first, to be measured, and " +
-              (frames.size() == 1 ? "no other is left" : "those after it went no better") +
+  throw Error(said + "; this frame was timed first, and " +
+              (frames.size() == 1 ? "no other frame is left" : "the next frames failed, too") +
               ": expected a frame that can be made, or --chunk N");
 }
 
@@ -108,8 +108,8 @@ void expect_sound(const FarmWork& work, Executor& executor) {
     std::vector<int> frames;
     for (std::size_t i = 1; i < faults.size(); ++i) frames.push_back(faults[i].frame);
     std::sort(frames.begin(), frames.end());
-    more = " (and something is wrong with " + std::to_string(frames.size()) +
-           " more: " + ranges_text(frames) + ")";
+    more = " (and errors in " + std::to_string(frames.size()) +
+           (frames.size() == 1 ? " more frame: " : " more frames: ") + ranges_text(frames) + ")";
   }
   throw Error("frame " + std::to_string(faults.front().frame) + ": " + faults.front().sentence +
               more);

@@ -48,7 +48,7 @@ struct Pair {
   Comparison result;
   PictureMetrics metrics;
 
-  bool passes() const { return within(result) && metrics.sane(); }
+  bool passes() const { return within(result) && metrics.is_finite(); }
 };
 
 /// Reads, compares, and writes the maps.

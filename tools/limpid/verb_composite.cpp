@@ -68,6 +68,7 @@ int composite_verb(const CompositeArguments& a, const CommonArguments& common) {
     return rest_of_composite(all, filled.job_of, *executor, level);
   });
   if (sequence.frames.empty()) return 0;
+  expect_second_frames(a, sequence, filled.job_of);
   if (common.verbose) {
     std::printf("%s", Plate::inspect(filled.job_of(sequence.frames.front()).plate).c_str());
   }
@@ -101,7 +102,7 @@ int inspect_verb(const InspectArguments& a, const CommonArguments& common) {
   request.view = a.view;
   if (!a.scene.empty()) request.named = load_scene(a.scene).plates;
   if (request.files.empty() && request.named.empty() && request.layers.empty()) {
-    throw Error("nothing to inspect: give plates, or a scene that names some", Fault::kUsage);
+    throw Error("nothing to inspect: expected plates, or a scene with [plates]", Fault::kUsage);
   }
   std::printf("%s", Plate::inspect(request).c_str());
   return 0;

@@ -72,8 +72,8 @@ int cancel_verb(const FarmFolder& folder) {
   const FarmRecord record = folder.record();
   if (record.jobs.empty()) {
     const std::string holder = FarmLock::holder(folder);
-    throw Error(folder.path().string() + ": no scheduler has this farm" +
-                (holder.empty() ? "" : "; end " + holder + ", which runs it"));
+    throw Error(folder.path().string() + ": the farm has no Slurm job to cancel" +
+                (holder.empty() ? "" : "; end " + holder + " to stop it"));
   }
   cancel(record.jobs);
   std::printf("%s", to_text(status_of(folder)).c_str());
@@ -118,12 +118,13 @@ void expect_over(const FarmFolder& folder) {
   if (queue.at_work == false) return;
   const std::string job = "job " + std::to_string(record.jobs.front());
   if (!queue.at_work) {
-    throw Error(folder.path().string() + ": whether its " + job + " has ended is not known: " +
-                    queue.note + "; where it has, remove " + folder.file("farm.json").string(),
+    throw Error(folder.path().string() + ": the state of its " + job +
+                    " is unknown: " + queue.note + "; if the job has ended, remove " +
+                    folder.file("farm.json").string(),
                 Fault::kRetry);
   }
   throw Error(folder.path().string() + ": its " + job +
-              " makes these frames; wait until it ends, or " + "say limpid farm cancel " +
+              " makes these frames; wait until it ends, or run limpid farm cancel " +
               shell_line({folder.path().string()}));
 }
 
@@ -197,7 +198,7 @@ int farm_verb(const FarmArguments& a, const CommonArguments& common) {
     throw Error("limpid farm " + what + ": expected no other option", Fault::kUsage);
   }
   if (!is("verify") && !a.command.empty()) {
-    throw Error("limpid farm " + what + ": expected no command behind it", Fault::kUsage);
+    throw Error("limpid farm " + what + ": expected no command after it", Fault::kUsage);
   }
   const FarmFolder folder(a.words[1]);
   if (is("status")) return status_verb(folder);

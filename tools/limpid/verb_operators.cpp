@@ -73,7 +73,7 @@ void print_table(const std::vector<Parameter>& all, std::string_view table) {
 int print_scene_tables() {
   const char* separator = "";
   for (const SceneTable& table : scene_tables()) {
-    std::printf("%s### [%s]\n\n%s\n\n| key | unset | values | what it is |\n|---|---|---|---|\n",
+    std::printf("%s### [%s]\n\n%s\n\n| key | default | values | meaning |\n|---|---|---|---|\n",
                 separator, std::string(table.name).c_str(), std::string(table.about).c_str());
     for (const SceneKey& key : table.keys) {
       std::printf("| `%s` | %s | %s | %s |\n", std::string(key.name).c_str(), key.unset.c_str(),
@@ -95,7 +95,7 @@ constexpr std::string_view by_name_of(LayerRank rank) {
     case LayerRank::kBare:
       return "no layer";
     case LayerRank::kPart:
-      return "channels without a layer in a part of another name";
+      return "channels without a layer, in a part with another name";
     case LayerRank::kGiven:
       return "a file given for the buffer";
   }
@@ -110,7 +110,7 @@ std::string alternatives_text(std::string_view text) {
 }
 
 int print_layer_rules() {
-  std::printf("| buffer | found by | names | channels | as written by |\n|---|---|---|---|---|\n");
+  std::printf("| buffer | found by | names | channels | source |\n|---|---|---|---|---|\n");
   for (const LayerRule& rule : layer_rules()) {
     std::printf("| %s | %s | %s | %s | %s |\n",
                 rule.role.empty() ? "none" : alternatives_text(rule.role).c_str(),
@@ -121,12 +121,12 @@ int print_layer_rules() {
 }
 
 int print_aovs() {
-  std::printf("| AOV | channels | stored as | of several samples | what it is |\n");
+  std::printf("| AOV | channels | stored as | several samples | meaning |\n");
   std::printf("|---|---|---|---|---|\n");
   for (const AovInfo& aov : aovs()) {
     std::printf("| `%s` | %s | %s | %s | %s |\n", std::string(aov.name).c_str(),
                 std::string(aov.suffixes).c_str(), aov.storage == Storage::kHalf ? "half" : "float",
-                aov.filter == Filter::kMean ? "mean" : "the middle one",
+                aov.filter == Filter::kMean ? "mean" : "middle sample",
                 std::string(aov.about).c_str());
   }
   return 0;
@@ -159,7 +159,8 @@ int operators_verb(const OperatorsArguments& a) {
     return 0;
   }
   if (std::find(names.begin(), names.end(), a.name) == names.end()) {
-    const char* what = a.verbs.empty() ? "' is no operator" : "' is neither a verb nor an operator";
+    const char* what =
+        a.verbs.empty() ? "' is not an operator" : "' is neither a verb nor an operator";
     names.insert(names.begin(), a.verbs.begin(), a.verbs.end());
     throw Error(
         "'" + a.name + what + ": expected one of " + join(names) + did_you_mean(a.name, names),

@@ -20,7 +20,7 @@ int render_verb(const RenderArguments& a, const CommonArguments& common) {
                       render_options(a),
                       {choice.picture, choice.compression, choice.store_float}};
   const auto executor = executor_of(common);
-  const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
+  const Model model = model_to_render(job.scene, a.skip_unsupported, common);
   if (sequence.frames.empty()) {
     render(model, job, *executor);
     if (!common.quiet) std::printf("%s\n", a.water.output.c_str());
@@ -49,7 +49,7 @@ int water_verb(const RenderArguments& a, const CommonArguments& common) {
   const auto shown_by = chosen_protocol(a.water);
   const WaterJob job = water_job(a, common);
   const auto executor = executor_of(common);
-  const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
+  const Model model = model_to_render(job.scene, a.skip_unsupported, common);
   const auto job_of_frame = [&](int frame) { return water_job_of_frame(job, a, frame); };
   if (a.water.dry_run) {
     const Plan plan =

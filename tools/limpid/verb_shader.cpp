@@ -127,7 +127,7 @@ int shader_verb(const ShaderArguments& a, const CommonArguments& common) {
       as_usage([&] { return ShaderText(plan, frame, subject.scene, options); });
   if (a.output.empty()) {
     if (language == ShaderLanguage::kSpirv) {
-      throw Error("spirv is no text: name a file with -o", Fault::kUsage);
+      throw Error("spirv is binary: expected -o FILE", Fault::kUsage);
     }
     std::fputs(in_language(shader, language).c_str(), stdout);
     return 0;

@@ -39,7 +39,7 @@ int truth_verb(const TruthArguments& a, const CommonArguments& common) {
   const TruthJob job = truth_job(a, common);
   const auto executor = executor_of(common);
   tell_warnings(unread_settings(job.look), common.quiet);
-  const Model model = model_to_render(job.scene, a.draw_what_you_can, common);
+  const Model model = model_to_render(job.scene, a.skip_unsupported, common);
   if (sequence.frames.empty()) {
     const TruthReport report = truth(model, job, *executor);
     if (!common.quiet) std::printf("%s", text_of(report, job).c_str());

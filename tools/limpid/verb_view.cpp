@@ -95,6 +95,7 @@ void warm(Desk& desk, const CommonArguments& common) {
 }  // namespace
 
 int view_verb(const ViewArguments& a, const CommonArguments& common) {
+  share_heap();
   const auto executor = executor_of(common);
   Desk desk(desk_options(a, common), *executor);
   tell_warnings(desk.facts().warnings, common.quiet);

@@ -74,7 +74,7 @@ std::vector<std::string> aov_names(const std::vector<std::string>& names,
   std::vector<std::string> list;
   for (const std::string& name : names) {
     if (name != "all" && !among(known, name)) {
-      throw Error("--aov: '" + name + "' is no AOV: expected all or some of " + join(known) +
+      throw Error("--aov: '" + name + "' is not an AOV: expected all or some of " + join(known) +
                       did_you_mean(name, known),
                   Fault::kUsage);
     }
@@ -119,12 +119,12 @@ SceneFile scene_to_render(const std::string& path) {
   return scene;
 }
 
-Model model_to_render(const SceneFile& scene, bool draw_what_you_can,
+Model model_to_render(const SceneFile& scene, bool skip_unsupported,
                       const CommonArguments& common) {
-  const Undrawable undrawable = draw_what_you_can ? Undrawable::kLeaveOut : Undrawable::kRefuse;
+  const Undrawable undrawable = skip_unsupported ? Undrawable::kLeaveOut : Undrawable::kRefuse;
   Model model = load_gltf(scene.geometry, limits_of(common), undrawable);
   if (model.skipped_triangles > 0 && !common.quiet) {
-    std::printf("%s: %lld triangles of no area left out\n", scene.geometry.c_str(),
+    std::printf("%s: %lld triangles without area are left out\n", scene.geometry.c_str(),
                 static_cast<long long>(model.skipped_triangles));
   }
   tell_warnings(model, scene.geometry.string(), common);
@@ -141,7 +141,7 @@ DisplayChoice display_of(const WaterOptions& a, bool shows) {
     throw Error(given + ": expected " + expected, Fault::kUsage);
   };
   if (!shows) {
-    const std::string beside = "--preview, --contact-sheet or --show beside it, as the verb has it";
+    const std::string beside = "--preview, --contact-sheet or --show beside it";
     if (a.exposure) refuse("--exposure", beside);
     if (!a.display.empty()) refuse("--display " + a.display, beside);
     if (!a.ocio.empty()) refuse("--ocio " + a.ocio, beside);
@@ -155,7 +155,7 @@ DisplayChoice display_of(const WaterOptions& a, bool shows) {
   const char* const environment = std::getenv("OCIO");
   display.config = !a.ocio.empty() ? a.ocio : environment ? environment : "";
   if (display.config.empty() && !a.display.empty()) {
-    refuse("--display " + a.display, "sRGB, or a config of OpenColorIO by --ocio or $OCIO");
+    refuse("--display " + a.display, "sRGB, or an OpenColorIO config by --ocio or $OCIO");
   }
   // Its full name, for records and pages.
   if (!display.config.empty()) display.view = display_view(display.config, a.display);

@@ -41,8 +41,7 @@ Look look_of(const WaterOptions& options);
 /// Throws the Error for a scene file without geometry.
 SceneFile scene_to_render(const std::string& path);
 /// Its geometry. Warns of triangles without area, and of parts that are not drawn.
-Model model_to_render(const SceneFile& scene, bool draw_what_you_can,
-                      const CommonArguments& common);
+Model model_to_render(const SceneFile& scene, bool skip_unsupported, const CommonArguments& common);
 
 /// Throws the usage Error for a missing name, or one without an EXR extension.
 void expect_output(const std::string& path);

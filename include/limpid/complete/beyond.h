@@ -3,19 +3,19 @@
 
 namespace limpid {
 
-/// Where water makes one look beyond the picture: with the normals that the frame has, else calm.
+/// The refracted lookups that leave the picture, with the normals of the frame, or else for calm
+/// water.
 struct Beyond {
-  double share = 0;  ///< of the wet pixels
-  /// Pixels of overscan, from the sides of the display window, that would show it; 0 on a side at
-  /// which the planes go far enough.
+  double share = 0;  ///< share of the wet pixels with such a lookup, 0 ... 1
+  /// Pixels of overscan beyond each side of the display window that would show the ends of these
+  /// lookups; 0 on a side with enough overscan in the planes.
   int left = 0, top = 0, right = 0, bottom = 0;
 
   bool any() const { return left > 0 || top > 0 || right > 0 || bottom > 0; }
 };
 
-/// "5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 pixels on the
-/// left, 2 on the right, 0 at the top and 24 at the bottom would show what is there", or that none
-/// does.
+/// A sentence with the share and the pixels of overscan, or the sentence that no lookup leaves the
+/// picture.
 std::string to_text(const Beyond& beyond);
 
 }  // namespace limpid

@@ -11,8 +11,8 @@ enum class ClipSpace { kGl, kD3d, kReversed };
 
 /// A camera by its two matrices, for column vectors: `view` = view-from-world (rigid; view space
 /// looks down -Z, +Y up), `projection` = clip-from-view, perspective or orthographic, lens shift
-/// and non-square pixels included, near and far finite or far infinite. `clip` says what its z row
-/// was made for.
+/// and non-square pixels included, near finite, far finite or infinite. `clip` is the range of clip
+/// z of the projection.
 struct Camera {
   glm::dmat4 view{1.0};
   glm::dmat4 projection{1.0};
@@ -26,23 +26,23 @@ struct Camera {
   glm::dvec3 right() const;  ///< unit, world
   glm::dvec3 up() const;     ///< unit, world
 
-  /// Where an eye-space z (negative in front) lands in clip space after the division.
+  /// Clip z after the division, for an eye depth (positive in front).
   double device_from_eye_depth(double eye_depth) const;
   /// Device depth at infinity or at the far plane, whichever the projection has.
   double far_device_depth() const { return clip == ClipSpace::kReversed ? 0.0 : 1.0; }
-  /// Eye depth of the near plane, and of the far one, +inf where there is none.
+  /// Eye depth of the near plane and of the far plane, +inf for an infinite projection.
   double near_depth() const;
   double far_depth() const;
 };
 
 /// A right-handed perspective projection for the clip space, `fov_y` in radians; `far` may be +inf.
-/// `shift` moves the picture by that many picture halves (lens shift). Throws Error unless
-/// 0 < fov_y < pi, aspect > 0, 0 < near < far.
+/// `shift` moves the picture by this number of half widths and half heights (lens shift). Throws
+/// Error unless 0 < fov_y < pi, aspect > 0, 0 < near < far.
 glm::dmat4 perspective(double fov_y, double aspect, double near, double far, ClipSpace clip,
                        glm::dvec2 shift = {0, 0});
 
-/// A right-handed orthographic projection, `width` x `height` scene units. Throws Error unless both
-/// are > 0 and near < far, both finite.
+/// A right-handed orthographic projection, `width` x `height` scene units. Throws Error unless
+/// width and height are above 0 and near < far are finite.
 glm::dmat4 orthographic(double width, double height, double near, double far, ClipSpace clip);
 
 /// The eye ray of every pixel. With pixel coordinates x, y (centres at +0.5, display window at

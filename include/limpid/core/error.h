@@ -6,17 +6,17 @@
 
 namespace limpid {
 
-/// What the caller can do about an error; the tool turns it into its exit code.
+/// The kind of an error, which tells the caller how to react; the tool makes its exit code from it.
 enum class Fault {
-  kJob,     ///< the input or the request is wrong: exit 1
-  kUsage,   ///< the command line is wrong: exit 2
-  kRetry,   ///< trying again may work (disk full, file vanished): exit 75
-  kMemory,  ///< memory ended: exit 1 where a limit says how much there may be, else 75
+  kJob,     ///< the input or the request is invalid: exit 1
+  kUsage,   ///< the command line is invalid: exit 2
+  kRetry,   ///< another attempt may succeed (disk full, file vanished): exit 75
+  kMemory,  ///< out of memory: exit 1 if the process has a memory limit, else 75
 };
 
-/// The one exception of the library. what() is one sentence that names the thing, the value and
-/// what was expected, as in `depth_fog.density = -1: expected 0 ... 1000 (1/unit)`. The library
-/// never prints.
+/// The exception of the library; besides it the library throws only std::bad_alloc. what() is one
+/// sentence that names the input, its value and the expected value, as in `depth_fog.density = -1:
+/// expected 0 ... 1000 (1/unit)`. The library never prints.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& sentence, Fault fault = Fault::kJob)
@@ -27,20 +27,20 @@ class Error : public std::runtime_error {
   Fault fault_;
 };
 
-/// How the sentence of each Error of Fault::kMemory ends.
+/// The end of the sentence of each Error of Fault::kMemory.
 inline constexpr std::string_view kNeedsMemory = "needs more memory than there is";
 
-/// The Error of Fault::kMemory: "NAME: needs more memory than there is", or without a name.
+/// An Error of Fault::kMemory: "NAME: needs more memory than there is", or the same without a name.
 Error no_memory(const std::string& name = "");
 
-/// The name of `known` that is closest to `word` by edit distance, or "" when none is near enough
-/// to be a slip of the hand (more than a third of the letters differ).
+/// The name of `known` that is closest to `word` by edit distance; "" if more than a third of the
+/// letters differ, too many for a typing error.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
 
-/// "; did you mean 'x'?" for the nearest known name, or "" when nothing is near.
+/// "; did you mean 'x'?" with the nearest known name, or "" if nearest_name() finds none.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
-/// "a, b, c" for error texts that list what there is.
+/// "a, b, c", for messages that list known names.
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 }  // namespace limpid

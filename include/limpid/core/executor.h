@@ -6,14 +6,14 @@
 
 namespace limpid {
 
-/// Runs the tiles: the library's own pool, or a host's. Tasks do not throw.
+/// Runs tasks on threads: the library's own pool, or a host's. Tasks do not throw.
 class Executor {
  public:
   using Task = void (*)(void* context, int index);
   virtual ~Executor() = default;
 
   /// Calls task(context, i) once for each i in 0 ... count - 1, on any threads, in any order, and
-  /// returns when all are done. Several threads may call it at once, if they share the executor.
+  /// returns when all calls have returned. Threads that share the executor may call run() at once.
   virtual void run(int count, Task task, void* context) = 0;
 
   /// Takes the items 0 ... count - 1 through all steps, and returns when all are done. The first
@@ -23,9 +23,9 @@ class Executor {
   virtual void pipeline(int count, int in_flight, std::span<const Task> steps, void* context);
 };
 
-/// Calls work(i) once for each i in 0 ... count - 1, as Executor::run() does. An exception in work,
-/// usually for want of memory, does not harm the executor: the first exception is thrown again here
-/// after all started work is done, and work that has not started by then is left out.
+/// Calls work(i) once for each i in 0 ... count - 1, as Executor::run() does. If a call throws
+/// (usually std::bad_alloc), calls that have not begun are skipped, and the first exception is
+/// rethrown after the others have returned.
 template <class Work>
 void run_each(Executor& executor, int count, const Work& work) {
   struct Tasks {
@@ -46,9 +46,9 @@ void run_each(Executor& executor, int count, const Work& work) {
   if (tasks.failure) std::rethrow_exception(tasks.failure);
 }
 
-/// oneTBB with that many threads, but no more than the machine has; 0 means all of them. If the
-/// system lets the process start fewer (`ulimit -u`, or no memory for their stacks), it has fewer.
-/// Throws Error for a negative number.
+/// An executor of oneTBB with this number of threads, at most one per core of the machine; 0 means
+/// one per core. It has fewer threads if the system does not let the process start more (`ulimit
+/// -u`, or no memory for their stacks). Throws Error for a negative number.
 std::unique_ptr<Executor> make_executor(int threads);
 
 }  // namespace limpid

@@ -18,10 +18,9 @@
 #include "limpid/core/vec.h"
 
 /// @file
-/// Parameters declared once, as data. A struct of parameters holds its defaults as initialisers; a
-/// table of Field says, for each, its name, unit, range and one sentence. Validation, `--set`,
-/// scene and look files, `limpid operators` and the contract tests all read that table and nothing
-/// else.
+/// Parameters, declared once as data. A struct of parameters has its defaults as initialisers; a
+/// table of Field has the name, unit, range and description of each parameter. Validation, `--set`,
+/// scene and look files, `limpid operators` and the contract tests all read this table.
 ///
 ///     enum class Model { kPhong, kBlinnPhong };
 ///     struct Params { Model model = Model::kBlinnPhong; double power = 200; };
@@ -36,8 +35,8 @@ namespace limpid {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// What a field holds, as text files and the command line see it: a number, a word, three numbers
-/// (a color or a direction), or rows of numbers (a table or a matrix).
+/// The value of a field in text files and on the command line: a number, a word, three numbers (a
+/// color or a direction), or rows of numbers (a table or a matrix).
 using Value = std::variant<double, std::string, Rgb<double>, Rows>;
 
 std::string to_string(const Value& value);
@@ -47,20 +46,22 @@ struct Range {
   double min, max;
 };
 
-/// Of a number that may be any but NaN and the infinities.
+/// The range of all finite numbers.
 inline constexpr Range kFinite{std::numeric_limits<double>::lowest(),
                                std::numeric_limits<double>::max()};
 
-/// When a parameter matters: where another one of the same struct holds one of some words. (That
-/// one may be a number, too: one that no word can be, or one whose text is among the words.)
+/// The condition under which a parameter has an effect: another parameter of the same struct,
+/// `key`, has one of these words. If `key` is a number (or a count or word), its text is compared.
 struct Condition {
   static constexpr std::size_t kMost = 12;
-  std::string_view key;  ///< "" for none
+  std::string_view key;  ///< the other parameter; "" for no condition
   std::array<std::string_view, kMost> words{};
-  bool follows = false;  ///< where it is none of the words, it becomes the first with the parameter
-  std::string_view or_above_zero{};  ///< or where this number is above 0; "" for none
+  /// setting the parameter sets `key` to the first word, if it has none of them
+  bool follows = false;
+  /// a number above 0 in this parameter suffices, too; "" for none
+  std::string_view or_above_zero{};
 
-  /// `number`: that of or_above_zero.
+  /// `value` is that of `key`, `number` that of or_above_zero.
   bool holds(std::string_view value, double number = 0) const;
 };
 /// "model = four_maps or slopes", "model = two_flows or wind above 0".
@@ -73,34 +74,35 @@ enum class FieldKind {
   kText,
   kCountOrWord,
   kTable,
-  kDirection,  ///< three finite numbers, not all zero; the member is made unit
+  kDirection,  ///< three finite numbers, not all zero; stored as a unit vector
   kMatrix,     ///< four rows of four finite numbers, for column vectors
   kFile,       ///< the name of a file, not empty
 };
 
-/// What is declared of a parameter, whatever struct it is a member of.
+/// The declaration of a parameter, without the type of its struct.
 struct FieldInfo {
   std::string_view name;
   std::string_view unit;  ///< "" for a pure number
   FieldKind kind;
-  Range range;                                ///< of every number
+  Range range;                                ///< of each number
   std::span<const std::string_view> choices;  ///< kChoice, in the order of the enum; kCountOrWord
-  std::span<const std::string_view> columns;  ///< kTable: what the numbers of a row are
-  std::size_t least_columns;                  ///< kTable: the rest may be left out
+  std::span<const std::string_view> columns;  ///< kTable: names of the numbers of a row
+  std::size_t least_columns;                  ///< kTable: the number of required columns
   std::string_view about;                     ///< one sentence
-  std::array<Condition, 2> used_when{};       ///< all must hold, else nothing reads the parameter
+  std::array<Condition, 2> used_when{};       ///< unless both hold, the parameter is not read
 };
 
-/// The numbers of a row as an example of one, each column by its name: "[a, b] or [a, b, c]".
+/// The columns of a row by their names: "[a, b] or [a, b, c]".
 std::string columns_text(const FieldInfo& field);
 
 template <class P>
 struct Field : FieldInfo {
   Value (*get)(const P&);
-  void (*set)(P&, const Value&);  ///< unchecked: go through assign()
-  const void* (*home)(const P&);  ///< where the member lies
+  void (*set)(P&, const Value&);  ///< without a check: call assign() instead
+  const void* (*home)(const P&);  ///< address of the member
 
-  /// The same, but read only where the parameter `key` is one of these words; once or twice.
+  /// The same field, but read only if the parameter `key` has one of these words. At most two
+  /// conditions.
   constexpr Field when(std::string_view key, std::initializer_list<std::string_view> words) const {
     Field field = *this;
     Condition& free = field.used_when[field.used_when[0].key.empty() ? 0 : 1];
@@ -109,13 +111,13 @@ struct Field : FieldInfo {
     for (const std::string_view word : words) free.words[next++] = word;
     return field;
   }
-  /// The same, but the last condition holds as well where the number `key` is above 0.
+  /// The same field, but its last condition also holds if the number `key` is above 0.
   constexpr Field or_above_zero(std::string_view key) const {
     Field field = *this;
     field.used_when[field.used_when[1].key.empty() ? 0 : 1].or_above_zero = key;
     return field;
   }
-  /// The same; setting the parameter sets the other one to that word, too.
+  /// The same field; setting this parameter sets the parameter `key` to `word`, too.
   constexpr Field brings(std::string_view key, std::string_view word) const {
     Field field = when(key, {word});
     for (Condition& condition : field.used_when) condition.follows |= condition.key == key;
@@ -135,13 +137,13 @@ using ParamsOf = typename MemberOf<decltype(M)>::Params;
 
 std::string range_text(const Range& range, std::string_view unit);
 
-/// `v` at length 1. What is unit to rounding stays as it is: a direction that was written out reads
-/// back the same.
+/// `v` at length 1. A vector that is unit to rounding stays unchanged, so that a direction that was
+/// written to a file reads back the same.
 glm::dvec3 unit_direction(const Rgb<double>& v);
 glm::dmat4 matrix_of_rows(const Rows& rows);
 Rows rows_of_matrix(const glm::dmat4& matrix);
 
-/// Throws Error, beginning with "owner.name", unless `value` fits the declaration.
+/// Throws Error, with a message that begins with "owner.name", unless `value` fits the declaration.
 void check(std::string_view owner, const FieldInfo& field, const Value& value);
 }  // namespace detail
 
@@ -175,7 +177,7 @@ constexpr Field<detail::ParamsOf<M>> text(std::string_view name, std::string_vie
 }
 
 /// For an enum that counts from 0; `Words[i]` is the word for the value i. `Words` is a static
-/// array. A value without a word reads as its number, which no check lets pass.
+/// array. A value without a word reads as its number, which detail::check() refuses.
 template <auto M, const auto& Words>
 constexpr Field<detail::ParamsOf<M>> choice(std::string_view name, std::string_view about) {
   using P = detail::ParamsOf<M>;
@@ -195,8 +197,8 @@ constexpr Field<detail::ParamsOf<M>> choice(std::string_view name, std::string_v
           [](const P& p) -> const void* { return &(p.*M); }};
 }
 
-/// An int that counts, or -1 - i for the word `Words[i]`: `steps = 4` or `steps = "march"`. `Words`
-/// is a static array, the range begins at 0 or above.
+/// An int: a count, or -1 - i for the word `Words[i]`, as in `steps = 4` or `steps = "march"`.
+/// `Words` is a static array; the range begins at 0 or above.
 template <auto M, const auto& Words>
 constexpr Field<detail::ParamsOf<M>> count_or_word(std::string_view name, std::string_view unit,
                                                    Range range, std::string_view about) {
@@ -271,8 +273,8 @@ constexpr Field<detail::ParamsOf<M>> file(std::string_view name, std::string_vie
           [](const P& p) -> const void* { return &(p.*M); }};
 }
 
-/// Sets one parameter after checking kind, range and NaN. Throws Error that names `owner.field`,
-/// the value and what was expected; `params` is unchanged then.
+/// Sets one parameter after checking kind, range and NaN. Throws Error with `owner.field`, the
+/// value and the expected value in its message, and then leaves `params` unchanged.
 template <class P>
 void assign(std::string_view owner, const Field<P>& field, P& params, const Value& value) {
   detail::check(owner, field, value);

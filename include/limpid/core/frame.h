@@ -13,7 +13,7 @@
 
 namespace limpid {
 
-/// The input channels of a frame. Meaning and conventions of each: Role, below.
+/// The input channels of a frame. roles() lists their meaning and conventions.
 enum class PlaneId : std::uint8_t {
   kColorR,
   kColorG,
@@ -60,25 +60,26 @@ enum class Sanitise : std::uint8_t {
   kDepth,   ///< NaN, and values for "no surface hit" -> +inf
   kShadow,  ///< NaN, inf -> 1, then clamped to 0 ... 1
   kNormal,  ///< made unit; NaN, inf or zero length -> up
-  kMask,    ///< NaN -> 0, then clamped to 0 ... 1
+  kMask,    ///< NaN, inf -> 0, then clamped to 0 ... 1
 };
 
-/// The type of numbers in files, unless all is stored as float.
+/// The sample type in files, unless a whole file is written as float.
 enum class Storage : std::uint8_t {
   kHalf,
-  kFloat,  ///< half is too coarse for lengths and for positions in the picture
+  kFloat,  ///< for lengths and for positions in the picture, for which half is too coarse
 };
 
-/// A group of planes that belong together, by the name that files and the command line use.
+/// A group of planes that belong together, with its name in files and on the command line.
 struct Role {
   std::string_view name;
   PlaneId first;
   int count;
   float missing;  ///< the value outside of the plane's data window
   Sanitise sanitise;
-  /// The layer that holds it in a plate of our own, or "" for a role that no file has.
+  /// The layer of the role in plates that limpid writes, or "" for a role without a layer in files.
   std::string_view layer;
-  /// Of that layer, one for each plane, as they are written: "R G B". After '|' what is read, too.
+  /// The channels of that layer, one for each plane, as limpid writes them: "R G B". Names after
+  /// '|' are accepted on reading, too.
   std::string_view channels;
   Storage storage;
   std::string_view about;
@@ -92,11 +93,11 @@ struct Role {
 
 /// All roles, in the order of PlaneId.
 std::span<const Role> roles();
-/// Throws Error with the nearest name when there is no such role.
+/// Throws Error with the nearest name for an unknown role.
 const Role& role_named(std::string_view name);
 /// "color, depth": the roles that have a plane in the set; "-" for none.
 std::string roles_text(PlaneSet planes);
-/// "below.R": the channel that holds the i-th plane of the role in a plate of our own; "" for none.
+/// "below.R": the channel of the i-th plane of the role in plates that limpid writes; "" for none.
 std::string channel_name(const Role& role, int i);
 
 inline constexpr PlaneSet kColorPlanes{PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB};
@@ -123,70 +124,71 @@ struct ScatteredLight;
 struct SlopeLevels;
 struct TextureLevels;
 
-/// A picture outside the screen (a map that tiles, an environment), three float channels r g b in
-/// memory that somebody else owns.
+/// A picture that is not in screen space (a tiling map, an environment): three float channels r g
+/// b, in memory that another object owns.
 struct Texture {
   std::array<View<const float>, 3> channels;
-  /// The same again as r | g << 8 | b << 16 where every value is k / 255, as pack_bytes() makes it;
-  /// or null. A third of the fetches for maps that tile.
+  /// The same texels as r | g << 8 | b << 16 if every value is k / 255, as pack_bytes() makes them,
+  /// or null. Lookups of tiling maps then fetch a third of the memory words.
   const std::uint32_t* bytes = nullptr;
-  /// Of a tiling normal map, what LevelMaker makes of it, or null: a run whose waves ask for them
-  /// then makes them anew for each frame.
+  /// The mip levels of a tiling normal map, made by LevelMaker. If null, a run that needs levels
+  /// makes them anew for each frame.
   const TextureLevels* levels = nullptr;
   explicit operator bool() const { return static_cast<bool>(channels[0]); }
 
-  /// Throws Error, which begins with `name`, for channels of several sizes, NaN and infinity.
+  /// Throws Error, with a message that begins with `name`, for channels of different sizes, NaN and
+  /// infinity.
   void validate(const std::string& name) const;
 };
 
-/// What Texture::bytes points to: width + 1 texels in each of height + 1 rows, the first column and
-/// row once more at the end. Empty for a texture with any value but k / 255, k = 0 ... 255, to
-/// within 1e-6: pictures of 8 bits have no others.
+/// The texels for Texture::bytes: height + 1 rows of width + 1 texels, with the first column and
+/// row repeated at the end. Empty if a value of the texture differs from all k / 255, k = 0 ...
+/// 255, by more than 1e-6; pictures of 8 bits have only such values.
 std::vector<std::uint32_t> pack_bytes(const Texture& texture);
 
-/// The buffers of one picture, as views. Everything is already in the conventions of the chain:
-/// linear eye depth (+inf where nothing was hit), scene-linear premultiplied color, shadow 1 = lit,
-/// unit world normals, no NaN (see sanitise.h). Each plane may have its own data window; taps are
-/// clamped to it. Every plane that is there must cover `work()`.
+/// The buffers of one picture, as views, in the conventions of the chain: linear eye depth (+inf
+/// where no surface was hit), scene-linear premultiplied color, shadow 1 = lit, unit world normals,
+/// no NaN (see sanitise.h). Each plane may have its own data window; lookups are clamped to it.
+/// Every plane that is present must cover `work()`.
 struct Frame {
-  Rect display;  ///< the picture that uv 0..1 and the camera's projection belong to
+  Rect display;  ///< the rectangle that uv 0 ... 1 and the camera's projection cover, in pixels
   std::array<View<const float>, kPlaneCount> planes;
   Texture wave_map;  ///< tiling normal map, values 0 ... 1, blue is up
   /// The surroundings as a lat-long map of radiance: row 0 is straight up (the water's up), the
-  /// middle column looks along PlaneAxes::x, columns run towards PlaneAxes::y.
+  /// middle column is the direction PlaneAxes::x, and columns run towards PlaneAxes::y.
   Texture environment;
-  /// Of wave_map's waves at the time of the frame; null, or made by complete/.
+  /// Mip levels of the slopes of wave_map at the time of the frame; null, or made by complete/.
   const SlopeLevels* wave_slopes = nullptr;
-  /// How much those waves lean, for a wind that scales them: the covariance of their slopes, along
-  /// the map's axes. 0 where nobody has made it: the waves then stay as the map has them.
+  /// The covariance of those slopes along the map's axes, by which a wind scales them. If 0, the
+  /// wind does not scale the waves of the map.
   Sym2<double> wave_variance{0, 0, 0};
-  /// What the water makes of light that it scatters more than once: of red, green, blue; null, or
-  /// made by complete/.
+  /// Multiple scattering in the water, for red, green and blue; null, or made by complete/.
   const ScatteredLight* scattered_light = nullptr;
-  /// The mean radiance of the environment above, by the cosine with the water's up, where it is
-  /// asked for.
+  /// The mean radiance of the environment above the horizon, weighted by the cosine with the
+  /// water's up; absent if no operator needs it.
   std::optional<Rgb<double>> sky_radiance;
-  /// Of the bottom beyond the picture; null, or made by complete/.
+  /// The bottom beyond the picture; null, or made by complete/.
   const Continuation* continuation = nullptr;
-  /// Of the bottom behind what stands before it; null, or made by complete/.
+  /// The bottom behind the objects in front of it; null, or made by complete/.
   const BottomLayer* bottom_layer = nullptr;
-  /// The sun's light on the bottom, as waves focus it; null, or made by complete/.
+  /// Sunlight on the bottom, focused by the waves; null, or made by complete/.
   const CausticsTable* caustics = nullptr;
-  /// What stands before the water, of deep samples: red, green, blue, premultiplied, and alpha, its
-  /// share of the pixel. None or all are there, and cover work(); `color` then shows it, too.
+  /// The objects in front of the water, from deep samples: red, green, blue, premultiplied, and
+  /// alpha, their share of the pixel. Either none or all four are present and cover work(); `color`
+  /// still includes the objects.
   std::array<View<const float>, 4> foreground;
-  /// Pixels that something before the water covers in part; null, or made by complete/. Color and
-  /// depth are then those of what is behind it.
+  /// Pixels that objects in front of the water cover in part; null, or made by complete/. Color and
+  /// depth are then those of the scene behind the objects.
   const EdgeCover* edges = nullptr;
-  /// So many pixels beyond each side of the display window are computed, too, as far as all planes
-  /// have them.
+  /// The number of pixels beyond each side of the display window that are computed, too, as far as
+  /// all planes reach.
   int overscan = 0;
 
   const View<const float>& plane(PlaneId id) const { return planes[index_of(id)]; }
   PlaneSet present() const;
-  /// The pixels that are computed: the display window as far as there is color, and `overscan`.
+  /// The pixels that are computed: the display window as far as color reaches, and `overscan`.
   Rect work() const;
-  /// Throws Error when color is absent, the picture is empty, or a plane does not cover work().
+  /// Throws Error if color is absent, the picture is empty, or a plane does not cover work().
   void validate() const;
 };
 

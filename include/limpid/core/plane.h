@@ -7,14 +7,14 @@
 
 namespace limpid {
 
-/// One channel of a picture in memory that somebody else owns. `data` points at the texel
-/// (window.x0, window.y0); strides count elements and may be anything, also negative or, for
-/// interleaved pixels, 3 or 4.
+/// A view of one channel of a picture, in memory that another object owns. `data` points at the
+/// texel (window.x0, window.y0). Strides count elements of type T and may have any value: for
+/// interleaved pixels 3 or 4, and also negative values.
 template <class T>
 struct View {
   T* data = nullptr;
   std::ptrdiff_t x_stride = 1, y_stride = 0;
-  Rect window;  ///< the pixels that are there, in the coordinates of the display window
+  Rect window;  ///< the data window, in the pixel coordinates of the display window
 
   explicit operator bool() const { return data != nullptr; }
   T& at(int x, int y) const { return row(y)[std::ptrdiff_t{x - window.x0} * x_stride]; }
@@ -24,12 +24,12 @@ struct View {
   }
 };
 
-/// One channel that owns its memory: float32, rows 64-byte aligned and padded to whole 64 bytes,
-/// padding and pixels zero at first.
+/// One channel that owns its memory: float32, with rows that are 64-byte aligned and padded to
+/// multiples of 64 bytes. Pixels and padding are 0 at first.
 class Plane {
  public:
   Plane() = default;
-  /// Throws Error for an empty window, std::bad_alloc where memory ends.
+  /// Throws Error for an empty window, std::bad_alloc if memory runs out.
   explicit Plane(Rect window);
 
   View<float> view() { return {data_.get(), 1, y_stride_, window_}; }
@@ -38,7 +38,7 @@ class Plane {
 
  private:
   struct Free {
-    void* block;  ///< what was allocated; the first row is aligned within
+    void* block;  ///< the allocated memory; the first row is aligned within it
     void operator()(float*) const;
   };
   std::unique_ptr<float[], Free> data_;

@@ -4,12 +4,12 @@
 
 namespace limpid {
 
-/// The instruction sets that this library was built for and this machine has, best first: of
-/// avx512 avx2 sse4 neon scalar.
+/// The instruction sets that this library was built for and this machine has, best first; a subset
+/// of avx512 avx2 sse4 neon scalar.
 std::vector<std::string> simd_targets();
 
-/// Where `name` stands in the list of all sets that the library was built for; "" is the best that
-/// this machine has. Throws Error for an unknown name or one that the machine lacks.
+/// The index of `name` in the list of all sets that the library was built for; "" means the best
+/// set of this machine. Throws Error for an unknown name, or a set that the machine lacks.
 int simd_index(const std::string& name);
 
 }  // namespace limpid

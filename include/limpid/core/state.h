@@ -7,10 +7,11 @@
 
 namespace limpid {
 
-/// The parts of a pixel's state. Operators declare which they use and which they make.
+/// The parts of a pixel's state. Operators declare the parts that they use and the parts that they
+/// make.
 enum class StatePart : std::uint8_t {
   kNormal,         ///< wave normal and its tilt
-  kSlopeVariance,  ///< of the waves that the pixel does not resolve
+  kSlopeVariance,  ///< slope variance of the waves that the pixel does not resolve
   kPrism,          ///< offset of each color channel from the common ray
   kPosition,       ///< ends of the refracted rays in the dry picture
   kPath,           ///< length of the refracted ray in the water
@@ -27,7 +28,7 @@ enum class StatePart : std::uint8_t {
 
 using StateSet = EnumSet<StatePart>;
 
-/// In the order of StatePart.
+/// Names in the order of StatePart.
 inline constexpr std::string_view kStatePartNames[] = {
     "normal",        "slope_variance", "prism",      "position",    "path",
     "transmittance", "transmitted",    "in_scatter", "sun_scatter", "fresnel",

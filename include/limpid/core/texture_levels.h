@@ -7,14 +7,15 @@
 
 namespace limpid {
 
-/// Pictures that repeat, each half as wide and half as high as the one before (rounded down, at
-/// least 1), down to a single texel, one after the other in memory. Of each, the first column and
-/// row are there once more at the end: width + 1 texels in each of height + 1 rows.
+/// The layout of the mip levels of a tiling picture: each level is half as wide and half as high as
+/// the level before (rounded down, at least 1), down to a single texel, one level after the other
+/// in memory. Each level repeats its first column and row at the end: height + 1 rows of width + 1
+/// texels.
 struct LevelSizes {
   static constexpr int kMost = 32;
   int count = 0;
   std::int32_t width[kMost] = {}, height[kMost] = {};
-  std::int32_t first[kMost] = {};  ///< texel with which the level begins
+  std::int32_t first[kMost] = {};  ///< index of the first texel of each level
   std::int64_t texels = 0;         ///< of all
 
   Size size(int level) const { return {width[level], height[level]}; }
@@ -23,35 +24,35 @@ struct LevelSizes {
   }
 };
 
-/// From a picture of this size, at least 1x1, on.
+/// The levels of a picture of this size, at least 1x1, with the picture itself as the first level.
 LevelSizes levels_from(Size size);
-/// Half as wide and half as high, rounded down, at least 1.
+/// Half the width and half the height, rounded down, at least 1.
 Size halved(Size size);
 
-/// What lookups of a tiling normal map read where a pixel is wider than a texel. Made once a map,
-/// by LevelMaker.
+/// The mip levels of a tiling normal map, for pixels that are wider than a texel. Made once per
+/// map, by LevelMaker.
 struct TextureLevels {
-  /// Means of the map's colors, from half the map's size on, as
-  /// r | g << 11 | b << 22: red and green in 2047ths, blue in 511ths, each kept to 0 ... 1.
+  /// Means of the map's colors, from half the map's size on, as r | g << 11 | b << 22: red and
+  /// green in 2047ths, blue in 511ths, each clamped to 0 ... 1.
   LevelSizes sizes;
   const std::uint32_t* texels = nullptr;
 
-  /// Of the map's slopes (-n_x, -n_y) / n_z, n_z at least .05, over the texels of `base`: the mean
-  /// along x and y, and the moments xx, xy and yy, one plane after the other. The map's size,
-  /// halved until it is at most 512x512.
+  /// Moments of the map's slopes (-n_x, -n_y) / n_z, n_z at least .05, over the texels of `base`:
+  /// planes of the means along x and y, and of the second moments xx, xy and yy. `base` is the
+  /// map's size, halved until it is at most 512x512.
   static constexpr int kMaxBase = 512;
   static constexpr int kMoments = 5;
   Size base{0, 0};
-  int halvings = 0;  ///< from the map's size to that of base
+  int halvings = 0;  ///< number of halvings from the map's size to base
   const float* moments = nullptr;
 };
 
-/// Makes the levels of a map and owns them. Makes no allocation after the first map of a size.
+/// Makes the levels of a map and owns them. Allocates no memory after the first map of a size.
 class LevelMaker {
  public:
-  /// The map is as Frame::wave_map. What is not a number counts as 0.
+  /// `map` is as Frame::wave_map. NaN counts as 0.
   void make(const Texture& map);
-  /// Of the last make(), until the next one.
+  /// The levels of the last make(), valid until the next one.
   const TextureLevels& levels() const { return levels_; }
 
  private:
@@ -60,21 +61,21 @@ class LevelMaker {
   std::vector<float> moments_;
 };
 
-/// How far each of four lookups of a tiling map has gone along its x and y, in periods.
+/// The shift of each of four lookups of a tiling map along its x and y, in periods.
 struct FourShifts {
   Vec2<double> of[4];
 };
 
-/// How much the mean of four such lookups varies over a period: the covariance of its slopes. To
-/// within what bilinear lookups between texels flatten; what is not a number moves nothing.
+/// The covariance, over a period of the map, of the slopes of the mean of four lookups. Ignores the
+/// smoothing by bilinear lookups between texels. A shift of NaN counts as 0.
 Sym2<double> slope_variance(const TextureLevels& map, const FourShifts& shifts);
 
 /// Moments of the slopes of all waves of a map at one time, from TextureLevels::base on, in planes
-/// of sizes.texels floats: the mean along x and y, then xx, xy, yy.
+/// of sizes.texels floats: the means along x and y, then xx, xy, yy.
 struct SlopeLevels {
   LevelSizes sizes;
   const float* planes[TextureLevels::kMoments] = {};
-  double map_texels = 1;  ///< texels of the map along a texel of the first level
+  double map_texels = 1;  ///< width of a texel of the first level, in texels of the map
 };
 
 }  // namespace limpid

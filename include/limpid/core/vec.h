@@ -2,8 +2,8 @@
 #include "limpid/core/number.h"
 
 /// @file
-/// Small vectors over any number type. (GLM keeps the matrices and the `double` geometry; its
-/// vectors are unions, which SIMD lanes cannot be members of.)
+/// Small vectors over any number type. GLM has the matrices and the geometry in `double`; its
+/// vectors are unions, which cannot have SIMD lanes as members.
 
 namespace limpid {
 
@@ -33,7 +33,7 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// A symmetric matrix of two rows, as of a covariance.
+/// A symmetric 2x2 matrix, such as a covariance.
 template <class F>
 struct Sym2 {
   F xx, xy, yy;
@@ -43,13 +43,14 @@ struct Sym2 {
   friend LIMPID_INLINE Sym2 operator*(F s, Sym2 a) { return {s * a.xx, s * a.xy, s * a.yy}; }
 };
 
-/// a' C a: the variance along a, of its length squared.
+/// a' C a: the variance along a unit vector a.
 template <class F>
 LIMPID_INLINE F along(Sym2<F> c, Vec2<F> a) {
   return a.x * a.x * c.xx + F(2) * a.x * a.y * c.xy + a.y * a.y * c.yy;
 }
 
-/// Means over waves: of their slope, and of its products with itself.
+/// First and second moments of wave slopes: the mean slope, and the mean of its products with
+/// itself.
 template <class F>
 struct SlopeMoments {
   Vec2<F> mean;
@@ -62,15 +63,15 @@ struct SlopeMoments {
   }
 };
 
-/// One number for each of the four texels that bilinear filtering mixes: upper left, upper right,
-/// lower left, lower right.
+/// One number for each of the four texels of a bilinear lookup: upper left, upper right, lower
+/// left, lower right.
 template <class F>
 struct Four {
   F at[4];
   LIMPID_INLINE F operator[](int k) const { return at[k]; }
 };
 
-/// Three numbers for each of nine pixels, row after row: [4] is the middle one.
+/// Three numbers for each pixel of a 3x3 neighbourhood, row after row: [4] is the centre.
 template <class F>
 struct Around {
   Vec3<F> at[9];

@@ -13,11 +13,11 @@
 namespace limpid {
 
 struct GpuOptions {
-  /// Part of the name of the device, in any letter case; "" for the first of the fastest kind:
-  /// discrete, integrated, virtual, software.
+  /// Part of the name of the device; letter case is ignored. "" for the first device of the fastest
+  /// kind: discrete, integrated, virtual, software.
   std::string device = {};
-  /// A folder that caches compiled shaders, "" for none; it is created if missing. If nothing can
-  /// be written there, the next start takes longer.
+  /// A folder that caches compiled shaders, "" for none; it is created if missing. If it cannot be
+  /// written, shaders are compiled again at the next start.
   std::filesystem::path cache = {};
   /// Instruction set of the work on the CPU, as in FusedOptions.
   std::string simd = {};
@@ -36,8 +36,7 @@ struct GpuOptions {
 /// shaders of others. One run at a time.
 class GpuRunner {
  public:
-  /// Throws Error if there is no such device, or none with Vulkan 1.2 that preserves infinity in
-  /// floats.
+  /// Throws Error if there is no such device with Vulkan 1.2 that preserves infinity in floats.
   explicit GpuRunner(const GpuOptions& options = {});
   GpuRunner(GpuRunner&&) noexcept;
   GpuRunner& operator=(GpuRunner&&) noexcept;

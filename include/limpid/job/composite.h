@@ -19,93 +19,95 @@
 
 namespace limpid {
 
-/// From files to files: what `limpid composite` does.
+/// The job of `limpid composite`, from files to files.
 struct CompositeJob {
   PlateRequest plate;
   SceneFile scene;
   std::optional<DepthKind> depth_kind;  ///< instead of the scene's
   std::optional<double> depth_nothing;  ///< instead of the scene's
-  /// The working space, instead of what the scene says, else the plate, else Rec.709. The picture's
-  /// file says so, too.
+  /// The working space, instead of that of the scene, else of the plate, else Rec.709. The output
+  /// file records it.
   std::optional<Primaries> primaries = {};
   JobTime time;
   Look look;
 
-  /// The next frame or the previous one: where its camera and its water plane are is what the
-  /// vectors of OutputChoice::motion and motion_reflected are computed by, as of a scene that
-  /// stands still, instead of by vectors of the plate. Its plate has the display window of this
-  /// frame's. Camera and calm water of both frames lie apart: the camera above the water.
+  /// The next or the previous frame. Its camera, water plane and waves give the vectors of
+  /// OutputChoice::motion and motion_reflected, as for a static scene, instead of the vectors of
+  /// the plate. Its plate has the display window of this frame's plate, and may be missing if
+  /// `scene` has the camera and the water. Both cameras must be above the calm water.
   struct SecondFrame {
     PlateRequest plate;
     SceneFile scene;
+    JobTime time = {};
     bool is_previous = false;
   };
   std::optional<SecondFrame> second = {};
 
-  /// Of stereo: the views besides that of `plate`, each with its own camera. All are put into one
-  /// file, a part each that is called after its view, `plate`'s the first.
+  /// The views of stereo plates besides that of `plate`, each with its own camera. All views are
+  /// written into one file, each as a part with the name of the view; the view of `plate` is the
+  /// first.
   struct View {
     std::string name;
     PlateRequest plate;
     SceneFile scene;
     std::optional<SecondFrame> second = {};
   };
-  std::string view_name = {};  ///< of `plate`; where there are others
+  std::string view_name = {};  ///< of `plate`, if there are other views
   std::vector<View> other_views = {};
 
   OutputChoice output;
 };
 
-/// What a preview shows, in memory.
+/// The pixels of a preview, in memory.
 struct PreviewPixels {
   Size size;
   std::vector<std::uint8_t> rgb;  ///< rows from the top
 };
 
-/// What was done, for the report line.
+/// The results of a job, for the line that the tool prints.
 struct CompositeReport {
   Plan plan;  ///< of the first view
   Size size;
-  /// Layers of the plates that feed no role, where OutputChoice::pass_through is empty: they are
-  /// not in the picture's file.
+  /// Layers of the plates that feed no role and, since OutputChoice::pass_through is empty, are not
+  /// in the output file.
   std::vector<std::string> left_out = {};
   SanitiseCounts replaced;
-  /// What the picture does not show though it was asked for, a sentence each: Plan::warnings,
-  /// primaries that the plate contradicts, layers that are named and not read, and a picture
-  /// without a wet pixel or a dry one.
+  /// Sentences on requests without an effect on the picture: Plan::warnings, primaries that the
+  /// plate contradicts, layers that are named but not read, and a picture without a wet pixel or
+  /// without a dry one.
   std::vector<std::string> warnings;
-  /// `read` is what it took to get the planes: from files, or by drawing them.
+  /// `read_seconds` is the time to read the planes from files, or to render them.
   double read_seconds = 0, run_seconds = 0, write_seconds = 0;
-  /// Of OutputChoice::preview_across: the preview's very bytes where that is no wider, else it is
-  /// made smaller by a whole factor.
+  /// The preview for OutputChoice::preview_across: with the bytes of the preview file if the
+  /// picture is not wider, else reduced by a whole factor.
   PreviewPixels preview = {};
 };
 
-/// Plans without reading a pixel: what would run, and why. This and the next two look at the first
-/// view alone.
+/// Plans without reading pixels: the operators that would run, and the reasons. This function and
+/// the next two plan the first view only.
 Plan plan_composite(const CompositeJob& job);
 
-/// Plans and looks at the pixels: what would run where. Nothing is computed.
+/// Plans and surveys the pixels: the operators that would run in each cell. Computes no picture.
 struct SurveyedPlan {
   Plan plan;
   Survey survey;
   Beyond beyond;
   std::vector<std::string> warnings;  ///< as CompositeReport's
-  /// Of Runner::kGpu, lines: what is asked of the GPU, and of the CPU beside it. No GPU is opened.
+  /// For Runner::kGpu, lines on the work of the GPU and of the CPU. No GPU is opened.
   std::string gpu = {};
 };
 SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor);
 
-/// The same, and then runs it twice, by the fused runner. Nothing is written.
+/// The same, and then runs the plan twice, by the fused runner. Writes nothing.
 struct MeasuredPlan {
   SurveyedPlan surveyed;
   RunTimes times;  ///< of the second run, whose buffers are warm
 };
 MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor);
 
-/// Loads, plans, runs, writes. Throws Error, of several views for two that have one camera, one
-/// name or other display windows, also for an output that is one of the inputs or another output
-/// (job/job_files.h); nothing is left under the output's name then but what was there before.
+/// Loads, plans, runs, writes. Throws Error as the steps do; for two views with the same camera,
+/// the same name or different display windows; and for an output that is also an input or another
+/// output (job/job_files.h). After an Error the files under the names of the outputs are unchanged.
 CompositeReport composite(const CompositeJob& job, Executor& executor);
 
 }  // namespace limpid

@@ -5,13 +5,13 @@
 
 namespace limpid {
 
-/// When a frame is, in seconds: drifting waves are where they are at that time.
+/// The time of a frame, in seconds, at which waves have drifted.
 struct JobTime {
-  std::optional<double> asked = {};  ///< counts before what scene and plate say
-  double otherwise = 0;              ///< where none of them says a time
-  double after_plate = 0;            ///< added to the plate's own time where that counts
+  std::optional<double> asked = {};  ///< takes precedence over the times of scene and plate
+  double otherwise = 0;              ///< if none of them has a time
+  double after_plate = 0;            ///< added to the plate's time, if that is used
 
-  /// The time that is asked for, else the scene file's, else the plate's own, else `otherwise`.
+  /// `asked`, else the time of the scene file, else that of the plate, else `otherwise`.
   double of(const SceneFile& scene, std::optional<double> plate = {}) const {
     if (asked) return *asked;
     if (scene.time) return *scene.time;

@@ -11,8 +11,8 @@
 namespace limpid {
 
 enum class Missing {
-  kError,  ///< such a frame is an error when its turn comes
-  kSkip,   ///< it is left out
+  kError,  ///< the frame is an error when its turn comes
+  kSkip,   ///< the frame is left out
   /// The inputs (plate, scene, kind of depth) of the nearest earlier frame with a plate are used,
   /// or if there is none, those of the first later one; outputs, look and time are the frame's own.
   /// If the plate has its own time, that is shifted by the difference of the two frames'
@@ -28,7 +28,7 @@ struct MissingPlate {
 };
 
 struct FilledSequence {
-  std::vector<int> frames;          ///< to be made, in the order of the sequence
+  std::vector<int> frames;          ///< frames to make, in the order of the sequence
   JobOfFrame<CompositeJob> job_of;  ///< of these frames
   std::vector<MissingPlate> missing;
 };
@@ -36,12 +36,11 @@ struct FilledSequence {
 /// The first missing file of the job's plate.
 std::optional<std::filesystem::path> missing_file(const CompositeJob& job);
 
-/// Checks once which files of all frames exist (files_of() of their plates; nothing is opened)
-/// and decides about frames with missing ones. A file that exists but cannot be read is not
-/// missing: it stays an error, like any other fault of a frame, when its turn comes. A file that
-/// has disappeared by then is an Error of Fault::kRetry. With kError nothing is checked.
-/// `job_of` may be asked for the same frame more than once. Throws Error when no frame has a
-/// plate.
+/// Checks once which files of all frames exist (files_of() of their plates; nothing is opened) and
+/// decides about frames with missing ones. A file that exists but cannot be read is not missing: it
+/// stays an error, like any other fault of a frame, when its turn comes. A file that has
+/// disappeared by then is an Error of Fault::kRetry. With kError nothing is checked. `job_of` may
+/// be called for the same frame more than once. Throws Error if no frame has a plate.
 FilledSequence fill_missing(const std::vector<int>& frames, const JobOfFrame<CompositeJob>& job_of,
                             Missing missing);
 

@@ -5,40 +5,40 @@
 #include "limpid/job/sequence.h"
 
 /// @file
-/// Resuming a sequence after another run of it stopped: finds the frames that exist
-/// already.
+/// Resuming a sequence that was interrupted: finds the frames that exist already.
 
 namespace limpid {
 
 /// The rest of a sequence.
 struct Rest {
-  std::vector<int> frames;  ///< to be made, in the order of the sequence
-  int kept = 0;             ///< how many others are there and are left alone
+  std::vector<int> frames;  ///< frames to make, in the order of the sequence
+  int kept = 0;             ///< number of the other frames, which exist and are kept
 
   struct Other {
     int frame;
-    std::string why;  ///< "wet.0007.exr was made otherwise (look)"
+    std::string why;  ///< "wet.0007.exr was made differently (look)"
   };
-  std::vector<Other> others;  ///< those of `frames` whose picture is there, but cannot be kept
+  std::vector<Other> others;  ///< those of `frames` whose picture exists, but cannot be kept
 };
 
 /// The check of the files of a frame.
 enum class VerifyLevel {
-  /// Headers, and that all pixels are there: finds a truncated or replaced file, but not a changed
-  /// byte among the pixels of an EXR. PNGs have checksums, which are checked.
+  /// Headers and completeness: finds a truncated or replaced file, but not a changed byte among the
+  /// pixels of an EXR. The checksums of PNGs are checked.
   kWhole,
   /// Also all bytes, by the hash in each EXR (ExrFile::is_as_written): finds any byte that has
   /// changed since the file was written. Reads all existing files.
   kContents,
 };
 
-/// A frame is kept when all of its files exist, are complete, and record (job/output.h) exactly
-/// what they would record if made now: this version, inputs of the same contents, the same look,
-/// plan and options. A preview other than a PNG has no record, so its frame is never kept. Inputs
-/// are checked only for frames with an existing picture: headers are read, bytes hashed, no pixel
-/// is decoded. A fault of a frame's inputs is no error here, but when its turn comes. Removes
-/// abandoned temporary files (files/unfinished.h) from the folders of all outputs. Throws Error as
-/// the sequences do, first of all for outputs that are inputs or other outputs.
+/// A frame is kept if all of its files exist, are complete, and have the same records
+/// (job/output.h) as if they were made now: this version, inputs with the same contents, the same
+/// look, plan and options. A preview other than a PNG has no record, so its frame is never kept.
+/// Inputs are checked only for frames with an existing picture: headers are read, bytes hashed, no
+/// pixel is decoded. A fault of a frame's inputs is no error here, but an error when its turn
+/// comes. Removes leftover temporary files (files/unfinished.h) from the folders of all outputs.
+/// Throws Error as the sequences do, first of all for outputs that are also inputs or other
+/// outputs.
 Rest rest_of_composite(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                        Executor& executor, VerifyLevel level = VerifyLevel::kWhole);
 Rest rest_of_render(const Model& model, const Sequence& sequence,

@@ -16,10 +16,10 @@ namespace limpid {
 
 inline constexpr int kMaxInFlight = 64;
 
-/// The frames, and the number of them in the pipeline.
+/// The frames of a sequence, and the number of frames in the pipeline.
 struct Sequence {
-  std::vector<int> frames;  ///< their numbers, in the order of the work
-  int in_flight = 3;        ///< 1 ... kMaxInFlight; each of these holds the buffers of one frame
+  std::vector<int> frames;  ///< frame numbers, in the order in which they are made
+  int in_flight = 3;        ///< 1 ... kMaxInFlight; each frame in flight has its buffers in memory
 };
 /// The check with which all functions below begin: throws Error of Fault::kUsage for an `in_flight`
 /// out of range.
@@ -35,21 +35,21 @@ struct SequenceProgress {
   double seconds_left() const { return seconds / done * (of - done); }
 };
 
-/// Asked for the jobs of all frames before the first is made, to check that no frame writes a file
-/// that a frame reads or writes (job/job_files.h), and then again for each frame, in order, from
-/// any thread, one at a time.
+/// Returns the job of a frame. Called for all frames before the first is made, to check that no
+/// frame writes a file of another job (job/job_files.h), and then again for each frame, in order,
+/// from any thread, one call at a time.
 template <class Job>
 using JobOfFrame = std::function<Job(int frame)>;
-/// Called likewise, for frames that are done. An exception from it stops the sequence.
+/// Called for each finished frame, in order, from any thread, one call at a time. An exception from
+/// it stops the sequence.
 template <class Report>
 using OnFrameOf = std::function<void(const SequenceProgress&, const Report&)>;
 using OnFrame = OnFrameOf<CompositeReport>;
 
-/// Throws Error before any frame is made if two outputs, or an input and an output, are one
-/// file. Throws Error, which names the frame, for the first frame (in the order of `frames`)
-/// that fails. All frames before it are done and reported; no frame after it starts any more,
-/// and the few that had started are complete or absent. Textures, which do not change, are
-/// loaded once.
+/// Throws Error before any frame is made if two outputs, or an input and an output, are one file.
+/// Throws Error, which names the frame, for the first frame (in the order of `frames`) that fails.
+/// All frames before it are finished and reported; frames that had not started are skipped, and the
+/// output of those that had started is complete or absent. Textures are loaded once.
 void composite_sequence(const Sequence& sequence, const JobOfFrame<CompositeJob>& job_of,
                         const OnFrame& on_frame, Executor& executor);
 void render_sequence(const Model& model, const Sequence& sequence,
@@ -59,9 +59,9 @@ void water_sequence(const Model& model, const Sequence& sequence,
                     const JobOfFrame<WaterJob>& job_of, const OnFrame& on_frame,
                     Executor& executor);
 
-/// A place in the pipeline for one frame at a time: the code that gets a frame, works on it and
-/// passes it on. begin() and done() are called in order, one slot at a time; the three steps
-/// between overlap those of other slots. All of them may throw.
+/// A slot of the pipeline, which takes one frame at a time through its steps. begin() and done()
+/// are called in the order of frames, one slot at a time; the three steps between overlap those of
+/// other slots. All steps may throw.
 class FrameSlot {
  public:
   virtual ~FrameSlot() = default;
@@ -72,8 +72,8 @@ class FrameSlot {
   virtual void done(const SequenceProgress& progress) = 0;
 };
 
-/// The basis of the sequences above. `make_slot` is called once for each frame in flight, but no
-/// more often than there are frames.
+/// The pipeline of the sequences above. `make_slot` is called once for each frame in flight, at
+/// most once per frame.
 void run_sequence(const Sequence& sequence,
                   const std::function<std::unique_ptr<FrameSlot>()>& make_slot, Executor& executor);
 

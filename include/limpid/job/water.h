@@ -9,18 +9,18 @@ namespace limpid {
 
 /// The common part of all jobs with a model: its scene.
 struct SceneJob {
-  SceneFile scene;  ///< camera and sun come from the model where it has none
+  SceneFile scene;  ///< camera and sun, if it has none, come from the model
   JobTime time;
-  Limits limits;  ///< of the files of wave map and environment
+  Limits limits;  ///< for the files of wave map and environment
 };
 
 /// `limpid render`: all buffers of the model as one plate with limpid's layer names (color, depth,
-/// shadow, reflection, below, surface) and camera, water and sun as attributes, so that composite()
-/// needs only the environment besides, if the look reads one.
+/// shadow, reflection, below, surface) and camera, water and sun as attributes. composite() needs
+/// no other input, except an environment if the look reads one.
 struct PlateOutput {
   std::filesystem::path plate;
   std::string compression = "piz";
-  bool store_float = false;  ///< half otherwise; depths are float always
+  bool store_float = false;  ///< else half; depths are always float
 };
 struct RenderJob : SceneJob {
   RenderOptions render;
@@ -30,8 +30,8 @@ void render(const Model& model, const RenderJob& job, Executor& executor);
 
 inline constexpr int kMaxSamples = 16;
 
-/// `limpid water`: renders and composites without a file between. With samples = N the picture is
-/// rendered N times as wide and high and the composited picture filtered down last, so that no
+/// `limpid water`: renders and composites without an intermediate file. With samples = N the plate
+/// is rendered N times as wide and high, and the composited picture is filtered down, so that no
 /// pixel mixes depths.
 struct WaterJob : SceneJob {
   RenderOptions render;
@@ -40,7 +40,7 @@ struct WaterJob : SceneJob {
   OutputChoice output;
 };
 
-/// Plans without rendering a pixel.
+/// Plans without rendering pixels.
 Plan plan_water(const Model& model, const WaterJob& job);
 
 /// Renders only the buffers that the plan reads. Throws Error as composite() does.

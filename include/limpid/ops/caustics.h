@@ -6,25 +6,26 @@
 
 namespace limpid {
 
-/// The net of light on the bottom: sunlight that the waves focus there.
+/// The net of light on the bottom: sunlight that the waves focus.
 ///
-/// Sunlight on the bottom is multiplied by 1 + strength (E - 1), per channel. E is the sun's light
-/// on the bottom over that under calm water, by light that is followed from the waves down
-/// (complete/caustics.h), looked up at the point where the refracted view ray ends, each channel
-/// with its own index of refraction. How much of the bottom's light comes straight from the sun,
-/// frames with sun_color say; else, of a level bottom as the shadow, the sun and the sky's radiance
-/// tell; else `sun_share` where the sun shines.
+/// The sun's part of the bottom's light is multiplied by 1 + strength (E - 1), per channel. E is
+/// the irradiance of the bottom by the sun, divided by that under calm water. It comes from a table
+/// of light that is traced from the waves down (complete/caustics.h), looked up for the end of the
+/// refracted view ray, per channel with its own index of refraction. The sun's part is the plane
+/// sun_color if the frame has it; else that of a level bottom under the shadow, the sun and the
+/// radiance of the sky; without a sky `sun_share` of the light, where the sun is visible.
 ///
-/// The dry picture has the sun's shadows where straight light casts them. `refracted` moves them to
-/// where the water bends them, of frames with sun_color, shadow and surface_shadow: out goes the
-/// straight shadow, with what the bottom's other light and the sunlit bottoms around tell of the
-/// sun's light there; in comes the shadow on the surface where calm water lets that light in. What
-/// is cast below the surface stays: that is the shadow on the bottom over that on the surface along
-/// the straight way. Near the picture's edge shadows pass into the straight ones.
+/// The dry picture has the sun's shadows as cast by unrefracted light. `shadows` = `refracted`
+/// moves them to their refracted positions, in frames with sun_color, shadow and surface_shadow:
+/// the unrefracted shadow is removed, by an estimate of the sun's light from the bottom's other
+/// light and from sunlit bottom nearby, and the shadow on the surface at the entry point of calm
+/// water is applied. Shadows of objects below the surface stay: they are the shadow on the bottom
+/// divided by the shadow on the surface along the unrefracted ray. Near the picture's edge the
+/// moved shadows fade into the unrefracted ones.
 ///
-/// Where the bottom is seen from the air, from within the water, or there in the surface, of frames
-/// with a reflection and its depth. The light of waves that are not known, beyond what was made of
-/// them, and of what is wider in a pixel than the waves are long, is that of calm water.
+/// Acts on bottom that is seen from the air, from within the water, and from there as the mirror
+/// image in the surface if the frame has a reflection with a depth. Outside of the table, and in
+/// pixels that are wider than the waves are long, the light is that of calm water.
 struct Caustics {
   enum class Shadows { kStraight, kRefracted };
   struct Params {

@@ -14,19 +14,19 @@
 #include "limpid/ops/wave_normals.h"
 
 /// @file
-/// THE list of operators, in the order in which they run.
+/// The list of operators, in the order in which they run.
 ///
-/// An operator is four files: its header here (what it models, its parameters), its kernel (the
-/// formula) and its source (table of parameters, bound) in src/ops, its test in tests/ops.
-/// `tools/dev new-op NAME` makes them. To add it: its include above and its name in Chain below,
-/// its kernel's include in src/ops/kernels.h. Look keys, `limpid operators`, plan entry, reference
-/// and fused passes and contract tests then come by themselves.
+/// An operator has four files: its header beside this one (models and parameters), its kernel (the
+/// formula) and its source (table of parameters, bound) in src/ops, and its test in tests/ops.
+/// `tools/dev new-op NAME` makes them. To add the operator to the chain, add its include above, its
+/// name in Chain below, and its kernel's include in src/ops/kernels.h. Look keys, `limpid
+/// operators`, plan entry, runners and contract tests follow automatically.
 ///
-/// To add a model to an operator: a value in its enum and the word for it in its table (same place
-/// in both), its branch in apply(), its formula in optics/ when it has one, new parameters as
-/// members and table rows, and what it reads in reads() and needs(). Nothing outside the operator's
-/// files changes, unless the model needs an input that no frame has had before: that is a role in
-/// core/frame.h. What the planner asks of an operator is in src/op/operator.h.
+/// To add a model to an operator, add a value to its enum and the word for it in its table (at the
+/// same index), its branch in apply(), its formula in optics/ if it has one, new parameters as
+/// members and table rows, and its inputs in reads() and needs(). No other file changes, unless the
+/// model needs a new input plane: that is a role in core/frame.h. src/op/operator.h has the
+/// interface of operators to the planner.
 
 namespace limpid {
 
@@ -35,7 +35,7 @@ struct OperatorList {
   static constexpr int kCount = sizeof...(Ops);
   using AllParams = std::tuple<typename Ops::Params...>;
 
-  /// Where an operator stands.
+  /// The index of an operator in the list.
   template <class Op>
   static constexpr int index_of() {
     constexpr bool kIs[] = {std::is_same_v<Op, Ops>...};

@@ -19,8 +19,8 @@ namespace limpid {
 /// to the surface or to the object in front of it, whatever `distance` is.
 ///
 /// `linear` ("Realistic Water"): f = 1 - sat(density d - offset), c = lerp(color, u, f), out =
-/// lerp(u, c, alpha). So transmitted keeps the share 1 - alpha (1 - f), and alpha (1 - f) color
-/// comes in. Not physical: no light, one number for all channels.
+/// lerp(u, c, alpha). So transmitted light keeps the share 1 - alpha (1 - f), and in-scatter is
+/// alpha (1 - f) color. Not physical: independent of sun and sky, and the same for all channels.
 ///
 /// `beer_lambert`: with a `absorption`, b `scattering`, p Henyey-Greenstein's phase function, z the
 /// depth under the calm surface, E the sun's irradiance of a surface that faces it (pi times its
@@ -30,20 +30,20 @@ namespace limpid {
 ///     in_scatter = b ambient integral of exp(-(a + b) s)
 ///                + b p E' integral of exp(-(a + b) s) exp(-K z(s) / cos_sun), s = 0 ... d
 ///
-/// `absorption` is that of the `water_type` custom; setting it selects that type, and a type that
-/// is set afterwards has its own. Likewise `murkiness` belongs to case_1, which has its own
-/// scattering, too (optics/water_types.h). `sediment` and `cdom` add to any type: sediment scatters
-/// light back and makes the water bright, cdom absorbs blue and makes it brown and dark. K is the
-/// attenuation of light on its path down: that of the `water_type` if it has one, else a + b (1 -
-/// g), since most scattered light goes on forwards.
-/// `sunlight` leaves this attenuation out (`none`: K = 0, E' = E), or takes the sun's unrefracted
-/// ray (E' = E) or its refracted ray: E' = (1 - F) E cos_i / cos_t, the light that the surface
-/// transmits into a wider beam. `crossing` applies the change of radiance at the surface or not: (1
+/// `absorption` belongs to the `water_type` custom; setting it selects that type. All other types
+/// have their own absorption. Likewise `murkiness` belongs to case_1, which has its own scattering,
+/// too (optics/water_types.h). `sediment` and `cdom` add to any type: sediment scatters light back
+/// and makes the water bright, cdom absorbs blue and makes it brown and dark. K is the attenuation
+/// of light on its path down: that of the `water_type` if it has one, else a + b (1 - g), since
+/// most light is scattered forwards. `sunlight` leaves this attenuation out (`none`: K = 0, E' =
+/// E), or takes the sun's unrefracted ray (E' = E) or its refracted ray: E' = (1 - F) E cos_i /
+/// cos_t, the light that the surface transmits into a wider beam. `crossing` applies the change of
+/// radiance at the surface or not: (1
 /// - F_sun) / n^2 for the bottom (0.0664 for F_sun when the sky alone lights it), 1 / n^2 for the
-/// sun's in-scatter; (1 - F) of the view belongs to fresnel_reflection. `ambient` is radiance as
-/// seen from the air, without loss. A view from under water crosses no surface, and objects that it
-/// sees through the surface get no attenuated light. A sun at or below the horizon counts as none.
-/// This is single scattering: murky water is too dark.
+///   sun's in-scatter; (1 - F) of the view belongs to fresnel_reflection. `ambient` is radiance as
+///   seen from the air, without loss. A view from under water crosses no surface, and objects that
+///   it sees through the surface get no attenuated light. A sun at or below the horizon gives no
+///   light. The model has single scattering only, so murky water is too dark.
 ///
 /// `radiative_transfer`: multiple scattering, with reflection at bottom and surface. Of the
 /// scattering b the narrow forward peak of p counts as unscattered (narrow_share()), for the path
@@ -57,7 +57,8 @@ namespace limpid {
 ///
 /// With `crossing` radiance the surface reflects from below by Fresnel's equations. The sky's
 /// radiance is that of the environment, else the scene's, else `ambient`. Views from under water
-/// have the light of infinitely deep water, and a bottom that is lit as that of the level layer.
+/// have the light of water over one level floor, as deep and bright as the visible bottom in the
+/// mean, and a bottom that is lit as that of the level layer.
 /// Without the tables of complete/ for a frame there is single scattering only.
 struct DepthFog {
   enum class Model { kLinear, kBeerLambert, kRadiativeTransfer };
@@ -77,17 +78,17 @@ struct DepthFog {
     double murkiness = 0.5;
     double sediment = 0;
     double cdom = 0;
-    double anisotropy = 0.92;  // 1.8 % is thrown back, as by Petzold's ocean water
+    double anisotropy = 0.92;  // scatters 1.8 % backwards, as Petzold's ocean water does
     Rgb<double> ambient{0.1, 0.1, 0.1};
     Sunlight sunlight = Sunlight::kRefracted;
     Crossing crossing = Crossing::kRadiance;
-    /// No parameter: where red, green and blue are not those of Rec.709, what water_type,
-    /// murkiness, sediment and cdom are for them. The planner makes it.
+    /// Not a parameter: the coefficients of water_type, murkiness, sediment and cdom for primaries
+    /// other than Rec.709, set by the planner.
     std::optional<FittedWater> fitted = {};
   };
 
   static constexpr std::string_view kName = "depth_fog";
-  static constexpr std::string_view kAbout = "Dims and tints by the path through the water.";
+  static constexpr std::string_view kAbout = "Dims and tints light by its path in the water.";
   static std::span<const Field<Params>> fields();
 };
 

@@ -16,10 +16,11 @@ namespace limpid {
 /// underside of the surface always has the exact reflectance, total beyond the critical angle: the
 /// other models are for views from above. From below, the water is in front of the surface: its
 /// in-scatter is not dimmed, and the mirrored light is multiplied by `transmittance`. Before that
-/// it comes through the water from what is mirrored: depth_fog (unless `linear`) attenuates it and
-/// adds in-scatter by the length of that path, as for a view that begins at the surface
-/// (op/water_medium.h). Light of the source `constant`, of a reflection without a depth, and of the
-/// lookup `offset` stays as it is; the `color` of `auto` counts as infinitely far.
+/// the mirrored light passes through the water from the mirrored point to the surface: depth_fog
+/// (unless `linear`) attenuates it and adds in-scatter by the length of that path, as for a view
+/// that begins at the surface (op/water_medium.h). Light of the source `constant`, of a reflection
+/// without a depth, and of the lookup `offset` stays as it is; the `color` of `auto` counts as
+/// infinitely far.
 ///
 /// Source `planar`: the frame's reflection planes, the view of a flat mirror at the calm surface.
 /// `environment`: the frame's map of the infinitely far surroundings, along the mirrored ray.
@@ -30,10 +31,10 @@ namespace limpid {
 /// have no data; else the dry picture along the mirrored ray, marched over its depth
 /// (op/mirror_search.h), and beyond that the environment, the sky planes, or `color`. Its `ray`
 /// marches over the depth of the reflection, which is computed if the plate has none
-/// (complete/mirror_depth.h). A ray without a hit there ends infinitely far; if a near object is at
-/// that position, 4 pixels or more from where the ray passes it, the lookup goes back to the last
-/// empty position. From below rays go down, to what is under water; one without a hit ends at the
-/// level of the bottom that is visible next to its end.
+/// (complete/mirror_depth.h). A ray without a hit in that depth ends infinitely far; if the planes
+/// show a near object at that position, 4 pixels or more from the point at which the ray passes the
+/// object, the lookup goes back to the last empty position. From below, rays go down to the bottom;
+/// a ray without a hit ends at the level of the bottom that is visible next to its end.
 ///
 /// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel does
 /// not resolve (slope_variance), by three facets along the view (optics/facets.h); on a raised

@@ -18,7 +18,7 @@ struct Water {
   Edges edges = Edges::kMixed;
 
   static constexpr std::string_view kName = "water";
-  static constexpr std::string_view kAbout = "The water itself.";
+  static constexpr std::string_view kAbout = "Index of refraction, and edges of objects.";
   static std::span<const Field<Water>> fields();
 };
 

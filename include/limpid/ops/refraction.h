@@ -6,7 +6,7 @@
 
 namespace limpid {
 
-/// The end of the view ray under the water, and the light that comes from there.
+/// Finds the end of the refracted view ray under the water, and looks up the light from this point.
 ///
 /// `normal_offset` ("Realistic Water"): uv' = uv + strength * tilt. No depth, no index of
 /// refraction: calm water does not shift at all.
@@ -29,33 +29,32 @@ namespace limpid {
 /// the ray is refracted outwards; where it is totally reflected the surface transmits nothing and
 /// the lookup stays at the pixel.
 ///
-/// Objects above the surface must not be seen through it. `rejection` `none` takes every lookup.
+/// A lookup must not show objects above the surface. `rejection` `none` accepts every lookup.
 /// `snap` ("Realistic Water"): where the dry depth nearest to uv' is in front of this pixel's
-/// surface, uv' goes back to uv and the prism is switched off. Its faults are kept: only the
-/// centre of the three prism taps is tested, the color tap is bilinear but the depth tap nearest,
-/// and the choice is hard (a halo). `shorten`: each texel of each channel is tested against the
-/// surface in front of it (op/valid_lookup.h); along snell's rays an object under water far in
-/// front of their end hides that end, too, and is rejected; rejected texels are replaced by the
-/// layer of the bottom if that is deep enough, else by the last accepted texel along the ray. If
-/// the frame has a layer below, that is looked up instead of the dry scene. It reaches the highest
-/// crest: `shorten` rejects parts of it above the surface, `snap`, which tests this pixel's
-/// surface only, takes all of it. No layer below is used where the view may start under water and
-/// look up into the air.
+/// surface, uv' goes back to uv and the prism is switched off. Its faults are kept: only the centre
+/// of the three prism taps is tested, the color tap is bilinear but the depth tap nearest, and the
+/// choice is hard (a halo). `shorten`: each texel of each channel is tested against the surface in
+/// front of it (op/valid_lookup.h); along snell's rays an object under water far in front of their
+/// end hides that end, too, and is rejected; rejected texels are replaced by the layer of the
+/// bottom if that is deep enough, else by the last accepted texel along the ray. If the frame has a
+/// layer below, that is looked up instead of the dry scene. It reaches the highest crest: `shorten`
+/// rejects parts of it above the surface, `snap`, which tests this pixel's surface only, takes all
+/// of it. No layer below is used where the view may start under water and look up into the air.
 ///
-/// Where no surface was hit (a depth of +inf) no light comes back: the water has no end there, and
-/// the pixel shows the fog of an infinite path, never the sky. Such a texel does not count when
-/// four are mixed; where half of the weight is such, the lookup is empty, for all channels. For an
-/// empty texel of the layer below this holds if the dry scene is empty, too; else an object is in
-/// front of it, and `snap` goes back to the pixel itself, `shorten` back along the ray. Views from
-/// under water see the sky above them as it is.
+/// Where no surface was hit (a depth of +inf) no light comes back: the path is infinite, and the
+/// pixel shows fog only, never the sky. A bilinear lookup ignores such empty texels; if they have
+/// half of the weight, the lookup is empty, for all channels. For an empty texel of the layer below
+/// this holds if the dry scene is empty, too; else an object is in front of it, and `snap` goes
+/// back to the pixel itself, `shorten` back along the ray. Views from under water see the sky above
+/// them as it is.
 ///
 /// A ray that leaves the data window of the planes (overscan included) shows, by `off_frame`:
 /// `clamp` the nearest texel of the edge, `shorten` the last texel along the ray, `fog` infinitely
 /// deep water, faded in over a twentieth of the picture. `continue` extends the picture, for
 /// snell's rays from the air: the bottom continues as a plane that the ray meets; the edge's color
 /// continues along the perspective lines of the bottom, and fades into the mean color of the bottom
-/// near there (op/continuation.h). In frames without such a plane, and with other models, it is
-/// `shorten`.
+/// near that edge (op/continuation.h). In frames without such a plane, and with other models,
+/// `continue` works as `shorten`.
 ///
 /// `confidence` is the share of the lookup that is known: 0 where it was rejected, off frame or
 /// empty. `path` is the length of the refracted ray in the water: with snell the ray's own length,
@@ -74,10 +73,12 @@ struct Refraction {
     double thickness = 0;
 
     bool marches() const { return model == Model::kSnell && steps == kMarch; }
-    /// Whether rays that end behind something see Frame::bottom_layer.
-    bool looks_behind() const { return marches() && rejection == Rejection::kShorten; }
-    /// Whether rays that leave the picture see Frame::continuation.
-    bool goes_on() const { return model == Model::kSnell && off_frame == OffFrame::kContinue; }
+    /// Whether rays that end behind an object look up Frame::bottom_layer.
+    bool uses_bottom_layer() const { return marches() && rejection == Rejection::kShorten; }
+    /// Whether rays that leave the picture look up Frame::continuation.
+    bool continues_bottom() const {
+      return model == Model::kSnell && off_frame == OffFrame::kContinue;
+    }
   };
 
   static constexpr std::string_view kName = "refraction";

@@ -31,31 +31,31 @@ namespace limpid {
 /// model, clamped to -1 ... 1.
 ///
 /// `sines`: the exact normals of a sum of sine waves: `waves`, or the scene's if `waves` is empty.
-/// Calm when neither has any. These waves have height, too, times `strength`: if the frame has no
-/// depth of the surface, that is computed (complete/displaced_surface.h), and all operators
-/// intersect the water there. With all other models the water of such a frame is flat, whatever its
-/// normals.
-/// `slopes`: the lookups of four_maps, but slopes are added: with h the mean of (-n_x, -n_y) / n_z
-/// times strength, n = normalize(-h_x, -h_y, 1). n_z below 0.05 counts as 0.05, so no slope passes
+/// Calm if neither has waves. These waves have height, too, times `strength`: if the frame has no
+/// surface_depth, limpid computes it (complete/displaced_surface.h), and all operators use that
+/// intersection of ray and water. With all other models the water of such a frame is flat, whatever
+/// its normals. `slopes`: the lookups of four_maps, but slopes are added: with h the mean of (-n_x,
+/// -n_y) / n_z times strength, n = normalize(-h_x, -h_y, 1). n_z below 0.05 counts as 0.05, so no
+/// slope passes
 /// 20. Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework".
 ///
 /// `wind`, in m/s, 12.5 m over the water, replaces `speed` for all models with a map, and blows
-/// towards `direction`: 0 is map x, 90 map y. A scene unit is then a metre.
-///  - Lookups run with the wind, each as fast as deep-water waves of its own length do (Lamb 1932,
-///    "Hydrodynamics"), on water whose skin the wind drags along (Wu 1975, "Wind-Induced Drift
-///    Currents"). An eighth of a tile counts as the length of the map's waves. The four lookups of
-///    four_maps and slopes stand for waves of 2, 1.4, 1 and 0.7 times that length, which run 15,
-///    -25, 40 and -40 degrees off the wind, and begin apart. The first of two_flows runs straight,
-///    the second, of waves twice as long, at 15 degrees; the second of dudv straight.
-///  - Slopes are scaled along the wind and across it, until the mean square of each over the map,
-///    at this time, is that of a clean sea (Cox & Munk 1954; optics/wind.h), times strength
-///    squared. That is so to 2 % of it for `slopes`, at strength 1 to 4 % for four_maps and dudv
-///    and to 10 % for two_flows, whose lookups count as two maps. The tilt of dudv knows no
-///    direction of the world: it has the root mean square of both factors. A map flatter than the
-///    rounding of its bytes stays as it is. Cox & Munk's slopes are those of all waves down to
-///    ripples: roughness elsewhere adds to them.
-/// Without wind the first lookup of two_flows moves along `direction`, as in the article: its waves
-/// move the opposite way.
+/// towards `direction`: 0 is map x, 90 map y. Scene units must then be metres. - Lookups move with
+/// the wind, each at the speed of deep-water waves of its length (Lamb 1932, "Hydrodynamics"), plus
+/// the drift of the water's skin (Wu 1975, "Wind-Induced Drift Currents"). An eighth of a tile
+/// counts as the length of the map's waves. The four lookups of four_maps and slopes stand for
+/// waves of 2, 1.4, 1 and 0.7 times that length, which run 15, -25, 40 and -40 degrees off the
+/// wind, with different offsets in the map. The first lookup of two_flows runs along the wind, the
+/// second, of waves twice as long, at 15 degrees; the second lookup of dudv runs along the wind. -
+/// Slopes are scaled along the wind and across it, so that the mean square of each over the map, at
+/// this time, is that of a clean sea (Cox & Munk 1954; optics/wind.h), times strength squared. The
+/// error of this mean square is at most 2 % for `slopes`, at strength 1 4 % for four_maps and dudv
+/// and 10 % for two_flows, whose lookups count as two maps. The tilt of dudv has no direction in
+/// the world: its factor is the root mean square of both. A map flatter than the rounding of its
+/// bytes is not scaled. Cox & Munk's slopes include all waves down to ripples, so the roughness of
+/// other operators comes on top of them. Without wind the coordinates of the first lookup of
+/// two_flows move along `direction`, as in the article, so its waves move in the opposite
+/// direction.
 ///
 /// `filter` treats waves that are too small for a pixel (op/footprint.h). `none`: each pixel takes
 /// the normal at its centre. `variance`: the normal is that of the mean slope in the pixel, and

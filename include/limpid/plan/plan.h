@@ -12,74 +12,76 @@
 
 namespace limpid {
 
-/// What the planner knows of a job before any pixel is read.
+/// The properties of a job that the planner knows before pixels are read.
 struct Inputs {
-  PlaneSet planes;        ///< that the plate has
-  bool wave_map = false;  ///< a tiling normal map is at hand
+  PlaneSet planes;        ///< planes of the plate
+  bool wave_map = false;  ///< there is a tiling normal map
   bool sun = false;
-  bool environment = false;       ///< a picture of the surroundings is at hand
-  bool waves = false;             ///< the scene has waves of its own
+  bool environment = false;       ///< there is a picture of the surroundings
+  bool waves = false;             ///< Scene::has_waves()
   Primaries primaries = kRec709;  ///< Scene::primaries
 };
 
-/// Why an operator runs or does not.
+/// Whether an operator runs, or the reason why it does not.
 enum class Verdict {
   kKept,
-  kNeutral,    ///< its parameters make it the identity
-  kAbsent,     ///< an input that it cannot do without is not there
-  kUnread,     ///< nothing reads what it makes
-  kInvisible,  ///< no cell of a frame needs it (plan/survey.h); never in a Plan, made before pixels
+  kNeutral,  ///< does not run: its parameters make it the identity
+  kAbsent,   ///< does not run: a required input is absent
+  kUnread,   ///< does not run: no other operator or output reads its results
+  /// no cell of a frame needs it (plan/survey.h); never in a Plan, which knows no pixels
+  kInvisible,
 };
 
 struct PlannedOperator {
   std::string_view name;
   Verdict verdict = Verdict::kKept;
   std::string reason;          ///< one phrase, "" for a plain kKept
-  std::string_view rule = {};  ///< that decided, "" for a plain kKept
+  std::string_view rule = {};  ///< name of the deciding rule, "" for a plain kKept
 };
 
-/// An operator of the chain, as it is declared.
+/// The declaration of an operator of the chain.
 struct OperatorInfo {
   std::string_view name, about;
   StateSet uses, makes;
-  PlaneSet (*reads)(const Look& look);  ///< every plane that it may look up
+  PlaneSet (*reads)(const Look& look);  ///< all planes that it may look up
 };
-/// In chain order.
+/// All operators, in chain order.
 std::span<const OperatorInfo> operators();
 
-/// A rule of the planner: what it is called and what it does.
+/// The name and description of a rule of the planner.
 struct RuleInfo {
   std::string_view name, about;
 };
-/// In the order in which they look at a plan. The last ones look at each cell of a frame, after
-/// which the plan is not another, but runs less (plan/survey.h).
+/// All rules, in the order in which they edit a plan. The last rules do not change the plan: they
+/// skip operators in the cells of a frame (plan/survey.h).
 std::span<const RuleInfo> rules();
 
-/// What of the chain will run for a job, and why the rest will not. A value: it can be printed,
-/// compared and tested without pixels.
+/// The operators that will run for a job, and the reasons why others will not. A value, which can
+/// be printed, compared and tested without pixels.
 struct Plan {
-  /// As it will run: models replaced where a rule says so, named waters fitted to the primaries.
+  /// The look as it will run: rules may have replaced models, and named water types are fitted to
+  /// the primaries.
   Look look;
-  /// Inputs::primaries: a run in a scene of others is refused, for its colors would be wrong.
+  /// Inputs::primaries. Runners refuse the plan for a scene with other primaries, since its colors
+  /// would be wrong.
   Primaries primaries = kRec709;
-  std::vector<PlannedOperator> operators;  ///< one an operator, in chain order
-  StateSet made;                           ///< by the operators that are kept
-  PlaneSet planes;                         ///< that must be read from the plate
-  PlaneSet completed;                      ///< that are made from those, where they can be
-  StateSet outputs;                        ///< that is written besides the picture
-  /// What may be left out together changes no channel of a pixel by more than this (white = 1).
+  std::vector<PlannedOperator> operators;  ///< all operators, in chain order
+  StateSet made;                           ///< results of the operators that run
+  PlaneSet planes;                         ///< planes that must be read from the plate
+  PlaneSet completed;  ///< planes that completers make from these, if their inputs are present
+  StateSet outputs;    ///< state that is written besides the picture
+  /// Limit on the change of each channel of a pixel by all skipped operators together (white = 1).
   double max_error = 0;
-  /// What was asked for and does nothing, a sentence each: parameters that another one switches
-  /// off.
+  /// Sentences on settings without an effect, such as a parameter that another one switches off.
   std::vector<std::string> warnings;
 
-  /// Whether an operator that is kept looks up the tiling normal map.
+  /// Whether an operator that runs looks up the tiling normal map.
   bool reads_wave_map = false;
-  /// Whether one looks up the surroundings.
+  /// Whether one looks up the environment.
   bool reads_environment = false;
-  /// Whether one needs to know where the sun stands.
+  /// Whether one needs the direction of the sun.
   bool needs_sun = false;
-  /// Whether one is lit by the sky: the environment's, else that of the scene.
+  /// Whether one uses the light of the sky: the environment, else SkyLight of the scene.
   bool lit_by_sky = false;
 
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }
@@ -93,12 +95,12 @@ struct Plan {
   }
 };
 
-/// `outputs`: the state that is written besides the picture itself (AOVs). Throws Error for a look
-/// outside its ranges, when color or depth is absent (there is nothing to put water into), and for
-/// a max_error that is negative or not finite.
+/// `outputs`: the state that is written besides the picture (AOVs). Throws Error for a look outside
+/// its ranges, if color or depth is absent, and for a max_error that is negative or not finite.
 Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs = {}, double max_error = 0);
 
-/// A line an operator: name, kept or dropped, reason; and one of max_error, if there is any.
+/// One line per operator: name, kept or dropped, reason; and a line with max_error if it is above
+/// 0.
 std::string to_text(const Plan& plan);
 /// "kept, model plate: the frame has surface normals".
 std::string to_text(const PlannedOperator& op);

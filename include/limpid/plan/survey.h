@@ -12,26 +12,27 @@
 
 namespace limpid {
 
-struct Pass;  // what all pixels of a run have in common: the runners make it
+struct Pass;  // the data that all pixels of a run share, made by the runners
 
-/// The part of the plan that the wet pixels of a cell of the picture need.
+/// The part of the plan that the wet pixels of a cell need.
 ///
-/// Skipped work changes no channel of these pixels by more than `bound` in all, except for rounding
-/// (a few 1e-7 of the pixel's own value). With Plan::max_error 0 only work that changes no bit is
-/// skipped.
+/// All skipped work together changes no channel of these pixels by more than `bound`, except for
+/// rounding (a few 1e-7 of the pixel's value). With Plan::max_error 0 only work that changes no bit
+/// is skipped.
 struct CellNeeds {
   std::uint16_t skips = 0;  ///< bit i: operator i of the chain need not run here
-  bool dry = false;         ///< no pixel is wet: all are copied
-  /// No foreground: refraction's test for objects above the surface cannot fire. With `snap` the
-  /// depth nearest to every position that it may look up lies behind every surface of the cell;
-  /// with `shorten` every texel that it may tap is accepted. (The test may be left out. All other
-  /// reads and mixes of the model must stay.) Never for snell's rays with `shorten`, which need
-  /// more tests.
+  bool dry = false;         ///< no pixel is wet: all pixels are copied
+  /// No foreground: refraction's test for objects above the surface would accept every lookup. With
+  /// `snap` the depth nearest to every position that it may look up lies behind every surface of
+  /// the cell; with `shorten` every texel that it may read is accepted. Only the test may be
+  /// skipped; all other reads and mixes of the model must stay. Never true for snell's rays with
+  /// `shorten`, which need more tests.
   bool open = false;
-  /// The end of the path in the water is invisible. The operators that find the position are
-  /// skipped: hit_depth and path must be +inf instead when depth_fog begins.
+  /// The end of the path in the water is invisible, and the operators that find the position are
+  /// skipped. hit_depth and path must be +inf instead when depth_fog begins.
   bool opaque = false;
-  /// A surface was hit wherever refraction may look: its test for none cannot fire.
+  /// A surface was hit at every position that refraction may look up, so its test for empty texels
+  /// may be skipped.
   bool grounded = false;
   float bound = 0;
 
@@ -39,87 +40,88 @@ struct CellNeeds {
   friend bool operator==(const CellNeeds&, const CellNeeds&) = default;
 };
 
-/// Operators that cells skip for their bounds, and the largest of each. (Others are skipped because
-/// no operator reads their results.)
-struct Weighed {
+/// The operators that cells skip for their bounds, and the largest bound of each. Other operators
+/// are skipped because no operator reads their results.
+struct SkippedByBound {
   std::uint16_t operators = 0;
   std::array<float, Chain::kCount> bounds{};
 };
 
-/// Cells of a kind, and how many pixels they hold.
+/// The number of cells of a kind, and of their pixels.
 struct CellCount {
   int cells = 0;
   std::int64_t pixels = 0;
 };
 
-/// The picture in cells of 128 x 16 pixels, with the part of a plan that each cell's pixels need:
-/// found in one pass over depths (shadow and color only if a rule asks for them), from least and
-/// greatest values of the cell and of all blocks in reach of its lookups. Cells begin at the corner
-/// of Frame::work() whatever the tiles of a run, so that the result depends on plan, frame and
-/// scene alone. Where views may start under water (Pass::submersible) every cell needs everything.
+/// The picture in cells of 128 x 16 pixels, with the part of a plan that the pixels of each cell
+/// need. One pass over the depths (over shadow and color only if a rule needs them) finds the least
+/// and greatest values of each cell and of all blocks in reach of its lookups. Cells begin at the
+/// corner of Frame::work(), independent of the tiles of a run, so the result depends on plan, frame
+/// and scene alone. If views may start under water (Pass::submersible), every cell needs the whole
+/// plan.
 class Survey {
  public:
   static constexpr Size kCell{128, 16};
 
-  /// Looks at a frame that has been checked (the runners do that), with the Pass that the plan
-  /// runs with. `simd` as in FusedOptions. Makes no allocation after the first frame of a size.
+  /// Surveys a frame that the runner has validated, with the Pass of the run. `simd` as in
+  /// FusedOptions. Allocates no memory after the first frame of a size.
   void make(const Plan& plan, const Frame& frame, const Pass& pass, Executor& executor,
             const std::string& simd = {});
 
-  /// Of the cell that holds this pixel of Frame::work().
+  /// The needs of the cell with this pixel of Frame::work().
   const CellNeeds& at(int x, int y) const {
     return cell((y - work_.y0) / kCell.height * cells_.width + (x - work_.x0) / kCell.width);
   }
 
-  /// Cells in rows from the upper left, and their pixels.
+  /// The number of cells; they are numbered row by row from the upper left.
   int count() const { return cells_.width * cells_.height; }
   const CellNeeds& cell(int index) const { return needs_[static_cast<std::size_t>(index)]; }
   int across() const { return cells_.width; }  ///< cells in a row
   Rect pixels(int index) const;
 
-  /// Of all cells together. Dry ones are of no other kind, and run nothing.
+  /// Sums over all cells. Dry cells run no operator and count as no other kind.
   struct Summary {
     CellCount all, dry, opaque, open;
-    CellCount full;                               ///< skips nothing, and is not open
-    std::array<CellCount, Chain::kCount> runs;    ///< where an operator of the plan runs
-    std::array<CellCount, Chain::kCount> spared;  ///< where it need not, and cells are not dry
-    Weighed weighed;
-    double bound = 0;      ///< the largest of all that a cell skips
-    std::int64_t wet = 0;  ///< pixels, at most
+    CellCount full;                                ///< cells that skip no operator and are not open
+    std::array<CellCount, Chain::kCount> runs;     ///< cells that run the operator of the plan
+    std::array<CellCount, Chain::kCount> skipped;  ///< wet cells that skip it
+    SkippedByBound by_bound;
+    double bound = 0;      ///< the largest CellNeeds::bound
+    std::int64_t wet = 0;  ///< upper limit on the number of wet pixels
   };
   const Summary& summary() const { return summary_; }
 
  private:
-  struct Scan;  // one look at one frame
-  /// Of the pixels of a cell themselves.
+  struct Scan;  // the arguments of one make()
+  /// Values of the pixels of a cell.
   struct Own {
-    int wet = 0;  ///< where the rest is of
+    int wet = 0;  ///< number of wet pixels, of which the other members are
     float surface_near = HUGE_VALF, surface_far = 0, near = HUGE_VALF, far = 0;
     float shadow_low = HUGE_VALF, shadow_high = 0;
   };
-  /// Greatest values of what lookups may find, least ones with their sign turned.
+  /// Greatest values that lookups may find, and least values with the opposite sign.
   using Extremes = std::array<float, 12>;
 
   void sum_up(const Plan& plan);
 
   Rect work_;
-  Size cells_, blocks_;             ///< of work_; and of all that is looked at, four a cell
-  int left_ = 0, up_ = 0;           ///< blocks before those of work_
-  std::vector<Own> own_;            ///< a cell
-  std::vector<Extremes> extremes_;  ///< a block
-  std::vector<Extremes> across_;    ///< of blocks beside a cell, for each row of blocks
-  std::vector<CellNeeds> needs_;    ///< a cell
-  std::vector<Weighed> weighed_;    ///< a row of cells
+  Size cells_, blocks_;    ///< cells of work_; blocks of all surveyed pixels, four per cell
+  int left_ = 0, up_ = 0;  ///< blocks to the left of work_ and above it
+  std::vector<Own> own_;   ///< per cell
+  std::vector<Extremes> extremes_;        ///< per block
+  std::vector<Extremes> across_;          ///< of the blocks beside a cell, per row of blocks
+  std::vector<CellNeeds> needs_;          ///< per cell
+  std::vector<SkippedByBound> by_bound_;  ///< per row of cells
   Summary summary_;
 };
 
-/// The plan as it runs on a frame: an operator of the plan that runs in no cell is kInvisible here.
-/// For reports only; runners take the plan.
+/// The operators of a plan with their verdicts on a frame: an operator that runs in no cell is
+/// kInvisible. For reports only; runners take the plan.
 std::vector<PlannedOperator> operators_seen(const Plan& plan, const Survey& survey);
 
-/// All of it as text: each operator with its rule, the kinds of cells, and the time of each
-/// operator as predicted for one thread (plan/predict.h) and, where they are given, as measured:
-/// `seconds` of each operator in chain order, and of all else last.
+/// Plan and survey as text: each operator with its rule, the kinds of cells, and the time of each
+/// operator, predicted for one thread (plan/predict.h) and, if `seconds` is not empty, measured.
+/// `seconds` has the time of each operator in chain order, and last the time of all other work.
 std::string to_text(const Plan& plan, const Survey& survey, std::span<const double> seconds = {});
 
 }  // namespace limpid

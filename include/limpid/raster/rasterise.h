@@ -18,50 +18,49 @@ namespace limpid {
 
 struct ShadowMap;
 
-enum class RasterSubject : std::uint8_t { kDry, kWater };  ///< all but the water, the water alone
+enum class RasterSubject : std::uint8_t { kDry, kWater };  ///< all but the water; only the water
 
-/// What a pass looks at. `display` is what the projection covers; `window`, the pixels that are
-/// made, may be larger (overscan) or smaller.
+/// The view of a pass. `display` is the rectangle that the projection covers; `window`, the pixels
+/// that are drawn, may be larger (overscan) or smaller.
 struct RasterView {
   Camera camera;
   Rect display;
   Rect window;
   RasterSubject subject = RasterSubject::kDry;
   std::optional<glm::dvec4> clip_plane = {};  ///< world; keeps points with dot(plane, (p, 1)) >= 0
-  bool flip_winding = false;                  ///< for a camera whose view matrix mirrors the world
-  bool cull = true;  ///< leave out back faces, but those of double-sided materials
+  bool flip_winding = false;                  ///< for a view matrix that mirrors the world
+  bool cull = true;  ///< cull back faces, except those of double-sided materials
 };
 
 struct RasterLighting {
   Sun sun;
-  const ShadowMap* shadow = nullptr;  ///< without it nothing casts a shadow
-  bool sun_alone = false;  ///< no ambient light, nothing that emits or is unlit, no background
+  const ShadowMap* shadow = nullptr;  ///< null: no shadows
+  bool sun_alone = false;  ///< without ambient light, emission, unlit surfaces and background
 };
 
-/// Which planes a pass makes.
+/// The planes that a pass draws.
 struct RasterWanted {
   bool color = false, depth = false, coverage = false, shadow = false, normal = false;
 };
 
-/// The planes that were wanted, over the view's window; the others are empty.
+/// The requested planes, over the view's window; the others are empty.
 struct RasterImage {
-  std::array<Plane, 3> color;   ///< scene-linear; the model's background where nothing is
-  Plane depth;                  ///< linear eye depth, +inf where nothing is
-  Plane coverage;               ///< 1 where something is, else 0
-  Plane shadow;                 ///< the sun's visibility: 0 on what faces away, 1 where nothing is
-  std::array<Plane, 3> normal;  ///< unit, world, towards the viewer's side; 0 where nothing is
+  std::array<Plane, 3> color;  ///< scene-linear; the model's background where no surface is
+  Plane depth;                 ///< linear eye depth, +inf where no surface is
+  Plane coverage;              ///< 1 where a surface is, else 0
+  Plane shadow;  ///< the sun's visibility: 0 on surfaces that face away, 1 where no surface is
+  std::array<Plane, 3> normal;  ///< unit, world, towards the viewer's side; 0 where no surface is
 };
 
-/// Draws a model by software: visibility first, then shading once a pixel, and once for each
-/// surface that blends over it (AlphaMode). Pixels are sampled at
-/// their centres, corners snapped to 1/256 pixel, edges shared by two triangles belong to one of
-/// them (top-left rule). Depth is that of the triangle's plane, worked out in double. Textures are
-/// bilinear in the mip level nearest to the pixel's footprint. Without normals faces are flat;
-/// zero-area triangles are left out. Clips at the near and far plane of the projection and at
-/// `clip_plane`.
+/// Draws a model on the CPU: visibility first, then shading once per pixel, and once for each
+/// surface that is blended over it (AlphaMode). Pixels are sampled at their centres, corners
+/// snapped to 1/256 pixel, edges shared by two triangles belong to one of them (top-left rule).
+/// Depth is that of the triangle's plane, computed in double. Textures are bilinear in the mip
+/// level nearest to the pixel's footprint. Without normals faces are flat; triangles without area
+/// are left out. Clips at the near and far plane of the projection and at `clip_plane`.
 ///
-/// Keeps a reference to the model, which must not change, and its buffers from one draw to the
-/// next. One draw at a time.
+/// Keeps a reference to the model, which must not change, and keeps its buffers from one draw to
+/// the next. One draw at a time.
 class Rasteriser {
  public:
   /// Throws Error for a model without materials, an index out of range, or more than 2^28 vertices.
@@ -69,12 +68,12 @@ class Rasteriser {
   ~Rasteriser();
 
   /// The bits of the picture depend on the arguments and the instruction set, not on threads or the
-  /// order of tiles. `simd` as in simd.h. The planes of `image` are taken again where they fit.
-  /// Throws Error for a bad camera, an empty window, or one wider or higher than 32000 pixels.
+  /// order of tiles. `simd` as in simd.h. Planes of `image` with the right window are reused.
+  /// Throws Error for an invalid camera, an empty window, or one wider or higher than 32000 pixels.
   void draw(const RasterView& view, const RasterLighting& lighting, RasterWanted wanted,
             Executor& executor, RasterImage& image, const std::string& simd = "");
 
-  /// Zero-area triangles of the model, which are left out.
+  /// The number of triangles without area, which are left out.
   std::int64_t degenerate_triangles() const;
 
  private:

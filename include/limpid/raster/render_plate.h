@@ -9,15 +9,15 @@
 
 namespace limpid {
 
-/// Of a picture with its overscan.
+/// Largest width and height of a picture with its overscan, in pixels.
 inline constexpr int kMaxRenderedSide = 32000;
 inline constexpr int kMaxShadowMap = 16384;
 
 struct RenderOptions {
-  Size size{1920, 1080};       ///< 1 ... kMaxRenderedSide a side
+  Size size{1920, 1080};       ///< width and height, 1 ... kMaxRenderedSide
   int overscan = 0;            ///< pixels beyond each side of the display window
-  int shadow_map_size = 2048;  ///< texels a side, 1 ... kMaxShadowMap
-  std::string simd = {};       ///< "" for the best
+  int shadow_map_size = 2048;  ///< texels along each side, 1 ... kMaxShadowMap
+  std::string simd = {};       ///< instruction set; "" for the best
 };
 
 /// The planes of a rendered plate, over the display window and the overscan.
@@ -39,15 +39,14 @@ struct RenderedPlate {
 /// either side, and the sun's visibility there; without a water mesh depth and normals stay empty,
 /// as the chain derives them from the calm plane, and the shadow is that on the calm plane. Without
 /// a sun there is ambient light only, and neither direct sunlight nor a surface shadow.
-/// share nor a surface shadow.
 ///
-/// Throws Error when the scene lacks camera or water, the sun is below the horizon, or a size is
-/// out of bounds.
+/// Throws Error if the scene lacks camera or water, if the sun is below the horizon, or if a size
+/// is out of bounds.
 RenderedPlate render_plate(const Model& model, const Scene& scene, const RenderOptions& options,
                            PlaneSet wanted, Executor& executor);
 
-/// The planes that render_plate() can render from this model in this scene. Throws Error when the
-/// scene lacks water, or if waves move a missing mesh.
+/// The planes that render_plate() can render from this model in this scene. Throws Error if the
+/// scene lacks water, or if it has waves but the model has no water mesh.
 PlaneSet renderable(const Model& model, const Scene& scene);
 
 /// The scene of a model: `scene`, with the model's camera (with the aspect of `size`) and sun if it

@@ -15,8 +15,8 @@
 
 namespace limpid {
 
-/// A run was broken off because it was asked to. The target then holds no picture: some tiles of
-/// it may be written, others not.
+/// Thrown by a run that was interrupted by FusedOptions::stop. The target is then incomplete: some
+/// tiles may be written, others not.
 struct Stopped : Error {
   Stopped() : Error("stopped: the picture is no longer wanted") {}
 };
@@ -26,23 +26,24 @@ inline void expect_wanted(const std::stop_token& stop) {
   if (stop.stop_requested()) throw Stopped();
 }
 
-/// The time of a run, in seconds, of all threads together. Reading the clock takes time, too: a
-/// timed run is some percent slower.
+/// The time of a run in seconds, summed over all threads. Reading the clock makes a timed run some
+/// percent slower.
 struct RunTimes {
   std::array<double, Chain::kCount> operators{};  ///< in chain order
   double rest = 0;                                ///< loading, starting and storing pixels
 };
 
 struct FusedOptions {
-  /// Instruction set by name, "" for the best this machine has: scalar sse4 avx2 avx512 neon. An
-  /// unknown name or one that the machine lacks is refused.
+  /// The instruction set by name: scalar sse4 avx2 avx512 neon, or "" for the best of this machine.
+  /// An unknown name, or a set that the machine lacks, is refused.
   std::string simd = {};
-  Size tile = {1024, 32};
-  RunTimes* times = nullptr;  ///< filled when it is there
-  /// Whether marches (of refraction, mirrored rays, the skyline, shadows) skip lookups that Heights
-  /// proves to change nothing. The bits are the same without; a test compares them.
+  Size tile = {1024, 32};     ///< pixels
+  RunTimes* times = nullptr;  ///< receives the times, if not null
+  /// Whether ray marches (of refraction, mirrored rays, the skyline, shadows) skip lookups that
+  /// cannot change the result, by the depth bounds of Heights. Does not change the bits; false is
+  /// for tests.
   bool leaps = true;
-  /// Once a stop is requested no tile begins any more, and the run throws Stopped.
+  /// After a stop request no further tile begins, and the run throws Stopped.
   std::stop_token stop = {};
 };
 
@@ -60,12 +61,12 @@ class FusedRunner {
   FusedRunner& operator=(FusedRunner&&) noexcept;
   ~FusedRunner();
 
-  /// Throws Error as run_reference does, and for an instruction set that is not there; Stopped
-  /// where that was requested. A plane may span at most 2^31 floats.
+  /// Throws Error as run_reference() does, and for an instruction set that is not available;
+  /// Stopped after a stop request. A plane may span at most 2^31 floats.
   void run(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
            Executor& executor, const FusedOptions& options = {});
 
-  /// Of the last frame.
+  /// The survey of the last frame.
   const Survey& survey() const;
 
  private:
@@ -73,7 +74,7 @@ class FusedRunner {
   std::unique_ptr<Kept> kept_;
 };
 
-/// The same for one frame alone.
+/// The same for a single frame.
 void run_fused(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target,
                Executor& executor, const FusedOptions& options = {});
 

@@ -6,10 +6,11 @@
 
 namespace limpid {
 
-/// The obviously correct runner, which checks all others: `double` throughout, a row of the picture
-/// at a time, one operator after the other, std:: functions, no approximation, one thread. Dry
-/// pixels are copied bit for bit. Throws Error when frame, scene or target do not fit
-/// (Frame::validate, Scene::validate).
+/// The reference runner, which checks all others and is as simple as possible: it computes in
+/// `double`, one row of the picture after another, one operator after another, by functions of
+/// std:: without approximations, on one thread. Dry pixels are copied bit for bit. Throws Error for
+/// an invalid frame or scene (Frame::validate(), Scene::validate()), for a plan that does not fit
+/// them, and for a target that does not cover the frame.
 void run_reference(const Plan& plan, const Frame& frame, const Scene& scene, const Target& target);
 
 }  // namespace limpid

@@ -33,44 +33,45 @@ enum class Aov {
 };
 constexpr int kAovCount = 17;
 
-/// The value of a pixel with several samples.
+/// The way to combine several samples of a pixel.
 enum class Filter : std::uint8_t {
-  kMean,    ///< their mean: lights and shares
-  kMiddle,  ///< the sample nearest to the middle: lengths, positions and directions have no mean
+  kMean,    ///< their mean, for light and shares
+  kMiddle,  ///< the sample nearest to the middle, for lengths, positions and directions
 };
 
 struct AovInfo {
   std::string_view name;      ///< of the layer
-  std::string_view suffixes;  ///< a letter a channel: "RGB", "XYZ", "UV", "Y", "Z"
-  StateSet parts;             ///< state that it shows
-  /// The value on dry pixels. There `transmitted` has the dry color instead, and the maps have the
+  std::string_view suffixes;  ///< one letter per channel: "RGB", "XYZ", "UV", "Y", "Z"
+  StateSet parts;             ///< the parts of the state that it outputs
+  /// The value on dry pixels. Exceptions: `transmitted` has the dry color, and the maps have the
   /// pixel's own position.
   float dry;
-  Storage storage;  ///< in files, unless all is stored as float
+  Storage storage;  ///< in files, unless the whole file is written as float
   Filter filter;
   std::string_view about;
-  /// A plane of the frame, as operators read it, from the plate or from a completer
-  /// (complete/completer.h), on all pixels; Role::missing if there is none.
+  /// For an AOV that outputs a plane of the frame, from the plate or from a completer
+  /// (complete/completer.h), on all pixels: this plane. Its value is Role::missing if the frame
+  /// lacks it.
   PlaneSet planes = {};
-  /// Whether it shows buffers or guesses, which the path-traced truth lacks.
+  /// Whether the AOV depends on buffers or guesses, which the path-traced truth lacks.
   bool of_buffers = false;
 };
-/// In the order of Aov. The first four sum to the picture on every pixel.
+/// All AOVs, in the order of Aov. The first four sum to the picture on every pixel.
 std::span<const AovInfo> aovs();
 /// Throws Error with the nearest name.
 Aov aov_named(std::string_view name);
-/// The state that a run must make for these AOVs.
+/// The state that a run must compute for these AOVs.
 StateSet state_shown_by(std::span<const Aov> list);
 
-/// The outputs of a run. The picture must be there; each AOV may be. All views must cover the
-/// frame's work(); pixels of a view outside of it are left alone. No view may share memory with the
-/// frame, where lookups would read results.
+/// The outputs of a run. The color must be present; each AOV may be. All views must cover the
+/// frame's work(); pixels of a view outside of it stay unchanged. No view may share memory with the
+/// frame, whose lookups would read results.
 struct Target {
   std::array<View<float>, 3> color;
   View<float> alpha;  ///< may be absent
   /// Share of each pixel that no object in front of the water covers: 1 except at edges
-  /// (Frame::edges), and above 0; may be absent. The AOVs that sum to the picture are of that
-  /// share, the others of the water alone.
+  /// (Frame::edges), and above 0; may be absent. The AOVs that sum to the picture include that
+  /// share; the others are those of the water alone.
   View<float> uncovered;
   std::array<std::array<View<float>, 3>, kAovCount> aovs;
 

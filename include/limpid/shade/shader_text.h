@@ -12,71 +12,69 @@
 
 /// @file
 /// A look as a shader, for engines that put water into a picture themselves. The operators of the
-/// plan are recorded (no formula is written twice) and printed as one function; the values of a
-/// frame are numbers in a uniform block and textures. After OpenColorIO's GpuShaderDesc: text,
-/// declarations, values and names through one object.
+/// plan are recorded from their C++ templates and printed as one function; the values of a frame
+/// are numbers in a uniform block and textures. Modelled on OpenColorIO's GpuShaderDesc: one object
+/// has the text, its declarations, values and names.
 
 namespace limpid {
 
 /// Options of a shader text.
 struct ShaderOptions {
   enum class Stage {
-    kFunction,  ///< declarations and the function alone, for a shader of the host
-    kCompute,   ///< and a main() for groups of pixels (group()), that writes images
-    kFragment,  ///< and a main() for a pixel of a full-screen triangle
+    kFunction,  ///< only declarations and the function, for a shader of the host
+    kCompute,   ///< also a main() for groups of pixels (group()), which writes images
+    kFragment,  ///< also a main() for the pixels of a full-screen triangle
   };
   Stage stage = Stage::kFunction;
   std::string function = "limpid_water";  ///< a word of letters, digits and _
   int set = 0;                            ///< descriptor set of all declarations, 0 ... 31
   int first_binding = 0;                  ///< first binding, 0 ... 1000
   std::vector<Aov> aovs = {};             ///< returned by the function besides the picture
-  int most_threads = 128;  ///< threads per group of a compute main() on the device, at least 128
-  bool half = false;       ///< images that a compute main() writes hold halves (rgba16f)
+  int max_threads = 128;                  ///< the device's limit on threads per group, at least 128
+  bool half = false;  ///< whether images that a compute main() writes hold halves (rgba16f)
 };
 
 /// A number of the uniform block, in float.
 struct ShaderNumber {
-  std::string name;    ///< "refraction.strength"; in the text with _ for . and [
+  std::string name;    ///< "refraction.strength"; the text has _ for . and [
   std::size_t offset;  ///< in bytes
   float value;         ///< of the frame
-  /// For a parameter of the look that the shader uses unchanged: its range. Others are computed for
-  /// each frame, see numbers().
+  /// The range, for a parameter of the look that the shader uses unchanged. Other numbers are
+  /// computed for each frame.
   std::optional<Range> range;
 };
 
-/// A sampler2D of the text, read by texelFetch alone, without a filter.
+/// A sampler2D of the text, which reads it only by texelFetch, without a filter.
 struct ShaderTexture {
   enum class Source {
-    kPlanes,  ///< of the frame: channels r g b a are those of `role`, windows are in the block
-    kRows,    ///< rows(): numbers of each row of the picture
-    kMade,    ///< a map of the look, or computed for the frame, planes included: see texels
+    kPlanes,  ///< planes of the frame: r g b a are those of `role`; their windows are in the block
+    kRows,    ///< numbers of each row of the picture
+    kMade,    ///< `texels`: a map of the look, or data computed for the frame, also planes
   };
   std::string name;  ///< "limpid_depth"
   int binding;
   Source source;
-  std::string role;  ///< of planes, computed ones included: "depth", "color"
-  int channels;      ///< read, 1 ... 4
+  std::string role;  ///< of planes, also computed ones: "depth", "color"
+  int channels;      ///< number of channels that are read, 1 ... 4
   int width = 0, height = 0;
-  /// kMade: `channels` floats a texel, row after row.
+  /// For kMade: `channels` floats per texel, row after row.
   std::vector<float> texels = {};
 };
 
-/// An image (compute) or output (fragment) that main() writes: in the order of the binding or
-/// location. The first is the picture.
+/// An image (compute) or output (fragment) that main() writes. The first is the picture.
 struct ShaderOutput {
-  std::string name;  ///< "color", "path": of the AOV
+  std::string name;  ///< "color", or the AOV, such as "path"
   int channels;
-  int binding;  ///< or location
+  int binding;  ///< of an image; the location of a fragment output
 };
 
 /// One shader for one look, and the values of a frame.
 class ShaderText {
  public:
-  /// Records the plan for a frame before its completers; those that the plan asks for run here.
-  /// The text is the same for any size, time and position of the camera, as long as the frame has
-  /// the same planes and textures, the scene has the same number of waves, and the camera does not
-  /// pass between air and water. Throws Error for options out of range, and where run_reference()
-  /// would.
+  /// Records the plan for a frame. Runs the completers of the plan. The text is the same for any
+  /// size, time and position of the camera, as long as the frame has the same planes and textures,
+  /// the scene has the same number of waves, and the camera does not pass between air and water.
+  /// Throws Error for options out of range, and as run_reference().
   ShaderText(const Plan& plan, const Frame& frame, const Scene& scene,
              const ShaderOptions& options = {});
 
@@ -84,7 +82,7 @@ class ShaderText {
   /// returns a struct with `color` and the AOVs.
   const std::string& text() const { return text_; }
   const ShaderOptions& options() const { return options_; }
-  /// 16 hexadecimal digits of the text: equal for equal texts.
+  /// A hash of the text, 16 hexadecimal digits.
   const std::string& id() const { return id_; }
   /// The uniform block, std140: `block_size` bytes at `block_binding`.
   int block_binding() const { return block_binding_; }
@@ -92,10 +90,10 @@ class ShaderText {
   const std::vector<ShaderNumber>& numbers() const { return numbers_; }
   const std::vector<ShaderTexture>& textures() const { return textures_; }
   const std::vector<ShaderOutput>& outputs() const { return outputs_; }
-  /// Pixels of a group of a compute main(), a thread each: 16x8, or for long programs 32x32 if the
-  /// device has so many.
+  /// The pixels of a group of a compute main(), with one thread each: 16x8, or for long programs
+  /// 32x32 if `max_threads` permits.
   const Size& group() const { return group_; }
-  /// Pixels that the shader makes: Frame::work().
+  /// The pixels that the shader computes: Frame::work().
   const Rect& work() const { return work_; }
 
  private:

@@ -32,7 +32,7 @@ export class SaveDialog {
     const typed = this.#name.value.trim(), name = typed.endsWith(".toml") ? typed : typed + ".toml";
     try {
       const {saved} = await api.save({...this.#request(), name, replace});
-      this.#tell(`Saved: ${saved}`);
+      this.#tell(`Saved: ${saved}. Use it by --look.`);
     } catch (error) {
       this.#tell(error.message, error.status === 409);
     }

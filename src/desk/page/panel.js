@@ -26,6 +26,8 @@ export class Panel {
   #search = byId("search");
   #changedOnly = byId("changed_only");
   #hint = byId("hint");
+  #replaced = [];  // {key, value, why}: choices that run as others on this plate
+  #shown = null;
 
   // `on`: change(key, value, isLive), back(key), bad(sentence).
   constructor({operators}, looks, on) {
@@ -43,24 +45,39 @@ export class Panel {
     for (const event of ["pointerover", "focusin"]) list.addEventListener(event, ({target}) => this.#tell(target));
   }
 
+  set replaced(choices) {
+    if (same(choices, this.#replaced)) return;
+    this.#replaced = choices;
+    if (this.#shown) this.show(this.#shown);
+  }
+
   show({look, set}) {
+    this.#shown = {look, set};
     const values = this.#looks.values({look, set});
+    const running = new Map([...values, ...this.#replaced.map(({key, value}) => [key, value])]);
     for (const row of this.#rows) {
       const {key} = row, value = values.get(key), own = this.#looks.own(look, key);
       const isChanged = Object.hasOwn(set, key) || !same(value, own);
       const unused = this.#looks.unused(key, values), brings = this.#looks.brings(key, values);
+      const lost = unused || !this.#looks.unused(key, running) ? "" : this.#whyReplaced(key);
       row.control.show(value, own);
       // Unchanged rows are skipped: a drag updates all rows many times per second.
-      const told = JSON.stringify([look, isChanged, unused, brings]);
+      const told = JSON.stringify([look, isChanged, unused, brings, lost]);
       if (told === row.told) continue;
       row.told = told;
       row.node.classList.toggle("changed", isChanged);
-      row.node.classList.toggle("unused", unused !== "");
+      row.node.classList.toggle("unused", unused !== "" || lost !== "");
       row.back.hidden = !isChanged;
       row.back.title = `Back to ${JSON.stringify(own)}, as in ${look}`;
-      row.why.textContent = row.why.title = unused ? `only with ${unused}` : brings ? `sets ${brings}` : "";
+      row.why.textContent = row.why.title = unused ? `only with ${unused}` : lost ? `no effect: ${lost}` : brings ? `sets ${brings}` : "";
     }
     if (this.#changedOnly.checked) this.#filter();
+  }
+
+  // Why a choice of that parameter's operator runs as another one.
+  #whyReplaced(key) {
+    const operator = key.slice(0, key.indexOf("."));
+    return this.#replaced.filter((choice) => choice.key.startsWith(operator + ".")).map(({why}) => why).join("; ");
   }
 
   // After a refusal: replaces the typed values by the current ones.
@@ -120,6 +137,6 @@ export class Panel {
     const {about, unit, least, most} = this.#looks.fields.get(key);
     const ends = least === null && most === null ? "" : ` ${least ?? "any"} … ${most ?? "any"}${unit && " " + unit}.`;
     const why = this.#rows.find((row) => row.key === key).why.textContent;
-    this.#hint.replaceChildren(element("code", {}, key), ` ${about}${ends}${why && ` It ${why.replace(/^only/, "is read only")}.`}`);
+    this.#hint.replaceChildren(element("code", {}, key), ` ${about}${ends}${why && ` It ${why.replace(/^only/, "is read only").replace(/^no/, "has no")}.`}`);
   }
 }

@@ -61,7 +61,7 @@ std::optional<Sample> sample_at(const DeepWater& water, std::optional<double> re
   if (back >= kInfiniteDepth) {
     if (!reach) {
       throw Error("back depth is infinite" + at(x, y) +
-                  " and no channel has extinction: expected some, which says where to end");
+                  ": expected extinction in a channel, to end the volume");
     }
     const double end = std::min<double>(front + *reach, kLargestDepth);
     sample[kBack] = std::max(static_cast<float>(end), std::nextafter(front, kInfiniteDepth));

@@ -42,7 +42,7 @@ void check_place(FileStream& stream, const ExrHeader& header, bool multi_part, i
     right_place = read_i32(stream) == window.y0;
   }
   if (!right_part || !right_place) {
-    throw damaged(name_of(header, window) + " is another one's");
+    throw damaged(name_of(header, window) + " is stored in another chunk's place");
   }
 }
 
@@ -53,7 +53,7 @@ std::int64_t samples_at(FileStream& stream, const ExrHeader& header, const Rect&
   const std::uint64_t unpacked = read_number(stream, 8);
   const std::uint64_t room = stream.remaining();
   if (counts > room || packed > room - counts) {
-    throw damaged(name_of(header, window) + " reaches behind the end of the file");
+    throw damaged(name_of(header, window) + " reaches beyond the end of the file");
   }
   const std::int64_t most = std::min<std::int64_t>(
       most_unpacked(header, static_cast<std::int64_t>(packed)), std::numeric_limits<int>::max());

@@ -144,7 +144,7 @@ void check_same(const Imf::MultiPartInputFile& image, const std::vector<ExrHeade
     const Imath::Box2i& data = image.header(i).dataWindow();
     same = headers[i].part.data == Rect{data.min.x, data.min.y, data.max.x + 1, data.max.y + 1};
   }
-  if (!same) throw Error("damaged header (it can be read in two ways)");
+  if (!same) throw Error("damaged header (it is ambiguous)");
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void check_buffers(const JsonPlace& root, std::optional<std::int64_t> binary_byt
     if (!(buffer == buffers.front()) || !binary_bytes) {
       throw Error(buffer.path() +
                   ": expected a uri; only the first buffer of a .glb with a chunk "
-                  "BIN goes without");
+                  "BIN needs none");
     }
     if (bytes > *binary_bytes) {
       length.refuse("at most the " + std::to_string(*binary_bytes) + " bytes of the chunk BIN");

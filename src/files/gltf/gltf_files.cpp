@@ -87,7 +87,7 @@ std::string percent_decoded(const JsonPlace& uri) {
   const std::string& text = uri.text();
   const auto digit = [&](std::size_t i) {
     const bool good = i < text.size() && std::isxdigit(static_cast<unsigned char>(text[i])) != 0;
-    if (!good) uri.refuse("two hexadecimal digits behind every '%'");
+    if (!good) uri.refuse("two hexadecimal digits after every '%'");
     return std::stoi(text.substr(i, 1), nullptr, 16);
   };
   std::string decoded;

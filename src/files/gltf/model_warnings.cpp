@@ -32,7 +32,7 @@ std::vector<std::string> ModelWarnings::lines() const {
     if (line.count > kPlaces) text += " and " + std::to_string(line.count - kPlaces) + " more";
     lines.push_back(text);
   }
-  if (beyond_ > 0) lines.push_back("and " + std::to_string(beyond_) + " warnings more");
+  if (beyond_ > 0) lines.push_back("and " + std::to_string(beyond_) + " more warnings");
   return lines;
 }
 

@@ -18,7 +18,7 @@ namespace limpid {
 namespace {
 
 constexpr const char* kOcio = "OpenColorIO needs";
-constexpr const char* kWithout = "; --display sRGB does without OpenColorIO";
+constexpr const char* kWithout = "; --display sRGB needs no OpenColorIO";
 
 /// Throws the text in `error` of a format module's function as an Error.
 [[noreturn]] void refuse(const std::filesystem::path& config, int code, const char* error) {
@@ -59,7 +59,7 @@ Config config_of(const std::filesystem::path& path) {
 std::string view_named(const std::string& name, const std::vector<std::string>& views,
                        const std::filesystem::path& config) {
   if (views.empty()) {
-    throw Error(config.string() + ": expected a config of OpenColorIO with views" + kWithout);
+    throw Error(config.string() + ": expected an OpenColorIO config with views" + kWithout);
   }
   if (name.empty()) return views.front();
   const std::string first = views.front().substr(0, views.front().find('/') + 1);
@@ -94,8 +94,8 @@ Entry entry_of(const Config& config, const Primaries& primaries,
     if (!other) other = {name, *known};
   }
   if (other) return *other;
-  throw Error(path.string() + ": expected a color space that is called as one of " +
-              join(color_space_names()) + " is" + kWithout);
+  throw Error(path.string() + ": expected a linear color space with a known name of one of " +
+              join(color_space_names()) + kWithout);
 }
 
 /// Clamped to finite values, because a matrix would make NaN of infinities.

@@ -24,7 +24,8 @@ void expect_room(const std::string& wanted_for, const std::string& needs) {
     throw no_memory(wanted_for);
   }
   if (threads_to_be_had(kThreads, stack) < kThreads) {
-    throw Error(wanted_for + ": " + needs + " four threads more than can be made", Fault::kRetry);
+    throw Error(wanted_for + ": " + needs + " four more threads than the system can start",
+                Fault::kRetry);
   }
 }
 

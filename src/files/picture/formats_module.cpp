@@ -198,7 +198,7 @@ const OIIO::ColorConfig& config_at(const std::string& path) {
     stay_on_this_thread();
     check(OIIO::ColorConfig::supportsOpenColorIO(), "this OpenImageIO has no OpenColorIO");
     auto read = std::make_unique<OIIO::ColorConfig>(path);
-    check(!read->has_error(), message(read->geterror(), "is no config of OpenColorIO"));
+    check(!read->has_error(), message(read->geterror(), "is not an OpenColorIO config"));
     config = std::move(read);
   }
   return *config;

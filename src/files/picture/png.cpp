@@ -21,7 +21,7 @@ using namespace std::string_view_literals;
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n"sv;
 constexpr std::size_t kMaxKey = 79, kMaxTexts = 1 << 20;
 constexpr std::string_view kPrefix = "limpid/";  ///< of keys that are read
-constexpr const char* kTooMuch = "texts of how it was made: expected at most 1 MiB of them";
+constexpr const char* kTooMuch = "records of how it was made: expected at most 1 MiB of text";
 /// After the keyword: its end, not compressed, no method, no language, no translation.
 constexpr std::string_view kBetween = "\0\0\0\0\0"sv;
 
@@ -97,7 +97,7 @@ class Reader : public Session {
       png_set_interlace_handling(r.png_);
       png_read_update_info(r.png_, r.info_);
       if (png_get_rowbytes(r.png_, r.info_) * r.rows_.size() != r.samples_.bytes.size())
-        png_error(r.png_, "its rows have another size than its header says");
+        png_error(r.png_, "the size of its rows is not that of its header");
       png_read_image(r.png_, r.rows_.data());
       png_read_end(r.png_, nullptr);
     });

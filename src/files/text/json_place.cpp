@@ -121,7 +121,7 @@ bool JsonPlace::boolean() const {
 }
 
 const std::string& JsonPlace::text() const {
-  if (!value_->is_string()) refuse("a text");
+  if (!value_->is_string()) refuse("a string");
   return value_->get_ref<const std::string&>();
 }
 

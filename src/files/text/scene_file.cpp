@@ -150,7 +150,7 @@ void expect_pair(const TomlNode& table, const TomlNode* lens) {
   const TomlNode* view = table.find("view");
   const TomlNode* clip = table.find("clip");
   if (!view && !lens && clip) {
-    throw Error(clip->key_place + "camera.clip without a projection that it could be of");
+    throw Error(clip->key_place + "camera.clip: expected a projection beside it");
   }
   if (view && !lens) {
     throw Error(view->key_place + "camera.view: expected one of " + kLensNames + " beside it");

@@ -59,7 +59,7 @@ inline constexpr Field<PlateKeys> kPlateKeys[] = {
     real<&PlateKeys::environment_rotation>(
         "environment_rotation", "degrees", kFinite,
         "Angle from the water plane's x axis to the direction of the middle of the environment, "
-        "counter-clockwise from above."),
+        "counter-clockwise as seen from above."),
 };
 inline constexpr FieldTable<PlateKeys> kPlatesTable{
     "plates",
@@ -120,8 +120,9 @@ inline constexpr FieldTable<WaterPlane> kWaterTable{
 inline constexpr Field<Sun> kSunKeys[] = {
     direction<&Sun::direction>("direction", "Direction towards the sun, of any length."),
     color<&Sun::color>("color", "", {0, Sun::kBrightest},
-                       "Red, green and blue factors of its radiance."),
-    real<&Sun::diameter>("diameter", "degrees", {Sun::kNarrowest, Sun::kWidest}, "Of its disc."),
+                       "Radiance of a white surface that faces the sun."),
+    real<&Sun::diameter>("diameter", "degrees", {Sun::kNarrowest, Sun::kWidest},
+                         "Diameter of its disc."),
 };
 inline constexpr FieldTable<Sun> kSunTable{"sun", "The light of the sun.", kSunKeys, "direction",
                                            "a direction towards the sun"};
@@ -160,6 +161,6 @@ inline constexpr Field<Scene> kSceneKeys[] = {
                        "Time of the picture, for the waves; --time overrides it."),
     kColorSpaceKey,
 };
-inline constexpr FieldTable<Scene> kSceneTable{"scene", "Keys of the whole scene.", kSceneKeys};
+inline constexpr FieldTable<Scene> kSceneTable{"scene", "Time and color space.", kSceneKeys};
 
 }  // namespace limpid

@@ -234,7 +234,7 @@ double TomlNode::finite_number() const {
 }
 
 const std::string& TomlNode::word() const {
-  if (kind != Kind::kText) refuse("a text");
+  if (kind != Kind::kText) refuse("a string");
   return text;
 }
 

@@ -22,7 +22,7 @@ std::string expected_of(const FieldInfo& field) {
     case FieldKind::kChoice:
       return "one of " + words_of(field);
     case FieldKind::kText:
-      return "a text";
+      return "a string";
     case FieldKind::kCountOrWord:
       return "a whole number or one of " + words_of(field);
     case FieldKind::kTable:

@@ -190,8 +190,8 @@ Model fine_model(const Measuring& m, const std::filesystem::path& scene_file,
       with_finer_water(std::move(model), {.shortest_wave = shortest, .eye = scene.camera->eye()});
   if (std::isfinite(parted.reach)) {
     m.say(scene_file.stem().string() + ": beyond " + short_number(parted.reach) +
-          " scene units the traced water is calmer than its waves, for it has " +
-          std::to_string(parted.triangles) + " triangles, the most that it may have");
+          " scene units the traced water is calmer than its waves: it has " +
+          std::to_string(parted.triangles) + " triangles, the maximum");
   }
   return std::move(parted.model);
 }

@@ -38,7 +38,7 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
     const AovInfo& info = aovs()[static_cast<std::size_t>(aov)];
     if (!info.of_buffers) continue;
     throw Error("'" + std::string(info.name) +
-                    "' is no AOV of the truth, which guesses nothing and has no buffers: expected "
+                    "' is not an AOV of the truth, which has no guesses and no buffers: expected "
                     "visible",
                 Fault::kUsage);
   }
@@ -46,8 +46,7 @@ void check(const Model& model, const Scene& scene, const Look& look, const Truth
   const bool bends = look.of<DepthFog>().sunlight == DepthFog::Sunlight::kRefracted;
   if (options.photons > 0 && (options.light == TruthOptions::Light::kOnce || !bends)) {
     throw Error("photons = " + std::to_string(options.photons) +
-                    ": expected 0 with single scattering, and if the sunlight of depth_fog is not "
-                    "refracted",
+                    ": expected 0 unless light = paths and depth_fog.sunlight = refracted",
                 Fault::kUsage);
   }
   const double above = glm::dot(scene.camera->eye(), scene.water->up) - scene.water->height;

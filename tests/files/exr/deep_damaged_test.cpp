@@ -64,7 +64,7 @@ TEST(DeepDamaged, TruncatedFilesAreRefusedAtEveryLength) {
       EXPECT_THAT(failure_of(path), StartsWith(path + ": ")) << size << " of " << whole.size();
     }
     write_bytes(path, {whole.begin(), whole.end() - 1});
-    EXPECT_THAT(failure_of(path), HasSubstr("reaches behind the end of the file"));
+    EXPECT_THAT(failure_of(path), HasSubstr("reaches beyond the end of the file"));
     write_bytes(path, whole);
     EXPECT_EQ(failure_of(path), "");
   }
@@ -126,11 +126,11 @@ TEST(DeepDamaged, ChunksThatClaimMoreThanTheyHoldAreRefusedBeforeAnythingIsAlloc
     EXPECT_EQ(failure(kUnpackedSize, bomb),
               path + ": truncated or damaged (line 2 cannot hold the samples it claims)");
     EXPECT_EQ(failure(kPackedSize, bomb),
-              path + ": truncated or damaged (line 2 reaches behind the end of the file)");
+              path + ": truncated or damaged (line 2 reaches beyond the end of the file)");
     EXPECT_EQ(failure(kCountsSize, bomb),
-              path + ": truncated or damaged (line 2 reaches behind the end of the file)");
+              path + ": truncated or damaged (line 2 reaches beyond the end of the file)");
   }
-  EXPECT_THAT(failure(0, 77), HasSubstr("line 2 is another one's"));
+  EXPECT_THAT(failure(0, 77), HasSubstr("line 2 is stored in another chunk's place"));
 }
 
 TEST(DeepDamaged, CountsThatDoNotFitTheStoredSamplesAreRefused) {

@@ -384,7 +384,7 @@ TEST(DeepWriter, RefusesWhatItCannotWrite) {
   EXPECT_THAT(error([](DeepWater&, Pool& p) { p.back.view().at(0, 2) = 6; }),
               HasSubstr("back depth 6.000000 at pixel (0, 2): expected at least the front, 7"));
   EXPECT_THAT(error([](DeepWater&, Pool& p) { p.back.view().at(0, 2) = kInf; }),
-              HasSubstr("back depth is infinite at pixel (0, 2) and no channel has extinction"));
+              HasSubstr("back depth is infinite at pixel (0, 2): expected extinction"));
   EXPECT_THAT(error([](DeepWater&, Pool& p) { p.transmittance[1].view().at(0, 2) = kNan; }),
               HasSubstr("transmittance is nan at pixel (0, 2)"));
   EXPECT_THAT(error([](DeepWater&, Pool& p) { p.in_scatter[1].view().at(0, 2) = kInf; }),

@@ -111,7 +111,7 @@ const Damage kDamages[] = {
     {"uri_scheme_encoded", [](json& g) { g["buffers"][0]["uri"] = "file%3A///etc/passwd"; },
      "not a scheme"},
     {"uri_empty", [](json& g) { g["buffers"][0]["uri"] = ""; }, "expected the name of a file"},
-    {"uri_number", [](json& g) { g["buffers"][0]["uri"] = 7; }, "uri = 7: expected a text"},
+    {"uri_number", [](json& g) { g["buffers"][0]["uri"] = 7; }, "uri = 7: expected a string"},
     {"data_not_base64",
      [](json& g) { g["buffers"][0]["uri"] = "data:application/octet-stream;base64,~~~~"; },
      "expected letters of base64"},

@@ -45,7 +45,7 @@ TEST(GltfWarnings, AreNotWithoutEnd) {
   gltf["materials"].push_back({{"extensions", extensions}});
   const std::vector<std::string> warnings = warnings_of(gltf);
   EXPECT_EQ(warnings.size(), 100u);
-  EXPECT_EQ(warnings.back(), "and 51 warnings more");
+  EXPECT_EQ(warnings.back(), "and 51 more warnings");
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST(Display, Refuses) {
   const auto absent = test::own_folder() / "absent.ocio";
   EXPECT_THAT(refusal({0, absent, ""}), HasSubstr("absent.ocio: "));
   const auto text = test::written("text.ocio", "no config\n");
-  EXPECT_THAT(refusal({0, text, ""}), HasSubstr("--display sRGB does without OpenColorIO"));
+  EXPECT_THAT(refusal({0, text, ""}), HasSubstr("--display sRGB needs no OpenColorIO"));
 }
 
 }  // namespace

@@ -242,7 +242,7 @@ TEST(ImageFile, TextsOfMoreThanAMegabyteAreRefused) {
   write_bytes(folder / "b.png", whole.substr(0, first + size) + whole.substr(first));
   EXPECT_EQ(
       refusal([&] { read_image_texts(folder / "b.png"); }),
-      (folder / "b.png").string() + ": texts of how it was made: expected at most 1 MiB of them");
+      (folder / "b.png").string() + ": records of how it was made: expected at most 1 MiB of text");
   texts["limpid/c"] = texts["limpid/b"];
   EXPECT_THAT(refusal([&] { write_image8(folder / "c.png", views(planes), texts); }),
               HasSubstr("expected at most 1 MiB"));

@@ -160,7 +160,7 @@ TEST(LookFile, ErrorsGivePlaceAndWhatWasExpected) {
       {"[depth_fog]\ncolor = [1, 2, nan]\n", ":2:9: ", "= [1, 2, nan]: expected three numbers"},
       {"[depth_fog]\ncolor = [1, 2, -3]\n", ":2:9: ", "= [1, 2, -3]: expected three numbers, each"},
       {"[depth_fog]\ncolor = [1, 2, \"x\"]\n", ":2:9: ", "expected three numbers [r, g, b]"},
-      {"[wave_normals]\nmap = 3\n", ":2:7: ", "wave_normals.map = 3: expected a text"},
+      {"[wave_normals]\nmap = 3\n", ":2:7: ", "wave_normals.map = 3: expected a string"},
       {"[wave_normals]\nwaves = 3\n", ":2:9: ", "= 3: expected a list of [amplitude, k_x, k_y,"},
       {"[wave_normals]\nwaves = [1, 2, 3, 4]\n", ":2:9: ", "expected a list of [amplitude,"},
       {"[wave_normals]\nwaves = [[1, 2, 3, \"4\"]]\n", ":2:9: ", "expected a list of [amplitude"},

@@ -84,7 +84,7 @@ TEST(Caustics, AreNoneUnderCalmWater) {
 TEST(Caustics, AreThoseOfTheLensOfAWave) {
   constexpr double kAmplitude = 0.01, kWave = 2 * kPi, kDepth = 1;  // the wavelength is 1
   const Scene scene = from_above({0, 1, 0});
-  // Its crests at x = 0, along PlaneAxes.
+  // The crests are at x = 0, along PlaneAxes.
   const std::vector<SineWave> waves = {{kAmplitude, kWave, 0, kPi / 2, 0}};
   const Model model = model_of({level(-kDepth)}, dark());
   const double calm = green(traced(model, scene, clear(), with_photons(0)));

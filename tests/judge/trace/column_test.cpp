@@ -168,8 +168,8 @@ TEST(Column, LosesToABlackBottomWhatDiffusionSays) {
   expect_within(trace_column(column, 20000), out * (1 - lost) * Rgb<double>{1, 1, 1}, 0.004);
 }
 
-/// With little scattering, single scattering is all: sunlight that is scattered once in the water
-/// or at the bottom.
+/// With little scattering the light is that of single scattering: sunlight that is scattered once,
+/// in the water or at the bottom.
 TEST(Column, SendsWhatTheClosedFormsOfOneScatteringSay) {
   constexpr double kHeight = 35, kIor = 1.333, kDepth = 0.8, kRate = 0.9, kAlbedo = 1e-3;
   const double air = std::sin(kHeight * kPi / 180), inside = refracted_cosine(air, 1 / kIor);

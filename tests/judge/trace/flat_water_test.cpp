@@ -216,7 +216,7 @@ TEST(FlatWater, MirrorsTheEnvironmentThatTheLookAsksFor) {
   });
 }
 
-/// Murky water with no in-scatter but the sun's; sunlight travels straight down from any point
+/// Murky water with in-scatter of sunlight only; sunlight travels straight down from any point
 /// under the calm plane.
 Look murky_look(const Rgb<double>& rate) {
   Look look = calm_look();

@@ -117,5 +117,22 @@ TEST(InsideWater, ABottomIsLitAsPathTraced) {
   expect_near(clear, 0.15);
 }
 
+// The floor's own light is scattered into the view; a dark floor takes light away.
+TEST(InsideWater, BetweenSurfaceAndBottomIsAsBrightAsPathTraced) {
+  for (const double albedo : {0.0, 0.3, 0.8}) {
+    for (const double scatters : {0.3, 2.0}) {
+      for (const double down : {10.0, 50.0}) {
+        Inside view{.eye = 0.8, .floor = 2, .down = down, .sky = {.1, .2, .3}};
+        view.albedo = {albedo, albedo, albedo};
+        view.absorption = {.05, .2, .6};
+        view.scattering = {scatters, scatters, scatters};
+        expect_near(view, 0.06);
+        view.anisotropy = 0.85;
+        expect_near(view, 0.1);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace limpid::test

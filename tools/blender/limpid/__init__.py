@@ -1,8 +1,8 @@
-"""limpid for Blender: renders a scene without its water, and puts the water in."""
+"""limpid for Blender: renders a scene without its water, and composites the water."""
 
 bl_info = {
     "name": "limpid",
-    "description": "Renders the scene without its water, and lets limpid put the water in",
+    "description": "Renders the scene without its water, and composites the water with limpid",
     "author": "The authors of limpid",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),

@@ -1,4 +1,4 @@
-"""The job of the scene's settings, checked before anything is rendered, and its start."""
+"""The job of the scene's settings, checked before rendering, and its start."""
 import pathlib
 import shlex
 import shutil
@@ -20,7 +20,7 @@ from .words import Failure
 def folder_of(settings):
     """The folder of all outputs."""
     if settings.folder.startswith("//") and not bpy.data.filepath:
-        raise Failure("this file was never saved, so that '//' means no folder: save it, or give another folder")
+        raise Failure("this file was never saved, so '//' names no folder: save the file, or give another folder")
     return pathlib.Path(bpy.path.abspath(settings.folder)).resolve()
 
 
@@ -40,9 +40,9 @@ def _water(settings, view_layer):
         return ""
     water = settings.water
     if water is None:
-        raise Failure("no water: pick the object that is the water, or give its height")
+        raise Failure("no water: pick the water object, or give the height of the water")
     if water.name not in view_layer.objects or view_layer.objects[water.name] != water:
-        raise Failure(f"water '{water.name}' is not in the view layer '{view_layer.name}': expected an object of it")
+        raise Failure(f"water '{water.name}' is not in the view layer '{view_layer.name}': expected an object of that layer")
     return water.name
 
 
@@ -52,7 +52,7 @@ def _sun(settings, scene, view_layer):
     sun = brightest_sun(view_layer)
     if sun is None:
         raise Failure("no sun: expected a light of the type Sun in the scene, or the setting Sun turned off")
-    sun_color(sun.data, scene.cycles.film_exposure)  # refuses what cannot be told as a color
+    sun_color(sun.data, scene.cycles.film_exposure)  # refuses a sun of unknown brightness
     return sun.name
 
 
@@ -73,11 +73,12 @@ def job_of(scene, view_layer, frames=""):
         waves=settings.waves if settings.water_kind == "OBJECT" else "LIMPID", sun=_sun(settings, scene, view_layer),
         reflection=settings.reflection, below=settings.below, shadow=settings.shadow,
         surroundings=settings.surroundings, aovs=settings.aovs,
+        motion="" if settings.motion == "NONE" else settings.motion.lower(),
         overscan=settings.overscan if settings.overscan_kind == "FIXED" else -1, samples=settings.samples)
 
 
 def _copy_into(folder):
-    """Saves the file with its unsaved changes, beside the caches that are found by the file's name."""
+    """Saves the file with its unsaved changes, beside a link to the caches with the file's name."""
     own = pathlib.Path(bpy.data.filepath)
     copy = folder / (own.name or "untitled.blend")
     bpy.ops.wm.save_as_mainfile(filepath=str(copy), copy=True, check_existing=False)
@@ -92,7 +93,7 @@ class Started:
 
     def __init__(self, job):
         if not bpy.app.binary_path:
-            raise Failure("this is Python with Blender as a module: expected Blender itself, which renders a copy")
+            raise Failure("Blender runs as a Python module: expected the program Blender, which renders a copy of the file")
         self.job, folder = job, pathlib.Path(job.folder)
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -110,7 +111,7 @@ class Started:
                            folder / "limpid.log")
         except (OSError, RuntimeError) as fault:
             self.finish()
-            raise Failure(f"the copy that is to be rendered cannot be made: {str(fault).strip()}") from fault
+            raise Failure(f"the copy for rendering cannot be saved: {str(fault).strip()}") from fault
 
     def finish(self):
         shutil.rmtree(self._copies, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""Settings of one pass, restored after it."""
+"""Settings of one pass, restored after the pass."""
 
 
 class Changes:

@@ -1,8 +1,8 @@
 """Writes the place of a picture in its overscan into the EXR that Blender rendered.
 
-Blender renders a larger picture and cannot say that its middle is the picture. The windows of an EXR can:
-the data window begins left of and above the display window. No pixel is decoded for that; only the number of the
-first row changes in each block of rows."""
+Blender renders a larger picture and cannot name its middle as the display window. Here the data window of the EXR
+begins left of and above the display window. No pixel is decoded; only the number of the first row changes in each
+block of rows."""
 import os
 import struct
 

@@ -15,9 +15,9 @@ def frames_of(text):
             raise Failure(f"frames '{text}': expected numbers and ranges, as in 1-48 or 1-48x2,60")
         first, last, step = int(found[1]), int(found[2] or found[1]), int(found[3] or 1)
         if last < first or step < 1:
-            raise Failure(f"frames '{text}': expected ranges that go up, by steps of 1 or more")
+            raise Failure(f"frames '{text}': expected ascending ranges, with steps of 1 or more")
         if len(range(first, last + 1, step)) > MOST:
-            raise Failure(f"frames '{text}': expected at most {MOST}")
+            raise Failure(f"frames '{text}': expected at most {MOST} frames")
         frames.update(dict.fromkeys(range(first, last + 1, step)))
     if min(frames) < 0:
         raise Failure(f"frames '{text}': expected no frame below 0")
@@ -27,6 +27,11 @@ def frames_of(text):
 def numbered(name, frame):
     """`dry` at frame 7 is `dry.0007`, the name that limpid's `dry.####` has."""
     return f"{name}.{frame:04d}"
+
+
+def neighbor_of(frame, motion):
+    """The frame that motion vectors lead to: the `next` or the `previous` one."""
+    return frame + 1 if motion == "next" else frame - 1
 
 
 def camera_at(frame, bound):

@@ -12,22 +12,23 @@ MARK = "limpid job "
 class Job:
     tool: str             # the program limpid
     look: str             # name, or look file
-    folder: str           # what it writes all into
+    folder: str           # of all outputs
     scene: str
     view_layer: str
     frames: list
     settings: list = field(default_factory=list)  # operator.parameter=value
     water: str = ""       # an object, or "" for a level plane everywhere
     height: float = 0.0   # of that plane
-    waves: str = "LIMPID"  # or OBJECT: as the object's mesh has them
+    waves: str = "LIMPID"  # or OBJECT: the waves of the object's mesh
     sun: str = ""         # a lamp, or "" for none
     reflection: bool = True
     below: bool = True
     shadow: bool = True
     surroundings: bool = True
     aovs: bool = True
-    overscan: int = -1    # pixels on each side, or -1: as many as the plan asks for
-    samples: int = 0      # of each pixel, or 0: as many as the scene has
+    motion: str = ""      # vectors to the "next" or the "previous" frame, or none
+    overscan: int = -1    # pixels on each side, or -1: the overscan of the plan
+    samples: int = 0      # per pixel, or 0: the scene's sample count
 
     def write(self, path):
         pathlib.Path(path).write_text(json.dumps(dataclasses.asdict(self), indent=1))

@@ -17,8 +17,8 @@ def _emission(lamp):
         return 0.0, 0.0, 0.0
     color, strength = node.inputs.get("Color"), node.inputs.get("Strength")
     if node.type != "EMISSION" or color.is_linked or strength.is_linked:
-        raise Failure(f"sun '{lamp.name}': its nodes are more than one Emission of one color, "
-                      "so that its brightness is not known: expected that, or no nodes")
+        raise Failure(f"sun '{lamp.name}': its brightness is unknown: expected one Emission node "
+                      "of one color, or no nodes")
     return tuple(strength.default_value * channel for channel in color.default_value[:3])
 
 

@@ -38,8 +38,8 @@ def _mix(tree, blend, first, second):
 
 
 def make_group(image, frames):
-    """A group whose output Wet is the picture, composed of its terms if it has them, each times a factor. The
-    other layers of the file are outputs, too. The group of an earlier run is refilled, so that nodes keep it."""
+    """A group whose output Wet is the picture: the sum of its terms, each times a factor, if the file has the terms.
+    The other layers of the file are outputs, too. The group of an earlier run is refilled, so that nodes keep it."""
     tree = bpy.data.node_groups.get(NAME) or bpy.data.node_groups.new(NAME, "CompositorNodeTree")
     tree.nodes.clear()
     picture = tree.nodes.new("CompositorNodeImage")

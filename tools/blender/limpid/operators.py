@@ -20,10 +20,10 @@ def _redraw(context):
 class LIMPID_OT_wet(bpy.types.Operator):
     """Renders the scene without its water in a second Blender, and composites the water with limpid"""
     bl_idname = "limpid.wet"
-    bl_label = "Make it wet"
+    bl_label = "Add water"
     bl_options = {"UNDO"}
 
-    frames: bpy.props.StringProperty(name="Frames", description="As in 1-48x2; empty: the frames of the panel",
+    frames: bpy.props.StringProperty(name="Frames", description="Frames, as in 1-48x2; empty: the frames of the panel",
                                      options={"SKIP_SAVE"})
     load: bpy.props.BoolProperty(name="Load", default=True, options={"SKIP_SAVE"},
                                  description="Load the result as an image and a node group")
@@ -83,7 +83,7 @@ class LIMPID_OT_wet(bpy.types.Operator):
         return self._finish()
 
     def cancel(self, _context):
-        """Called by Blender when it opens another file, or ends."""
+        """Blender calls this when it opens another file, or ends."""
         if state.started:
             state.started.run.cancel()
             state.started.finish()

@@ -6,7 +6,7 @@ from .lens import Overscan
 
 TEST_SIZE = 240    # pixels, of the longer side of a test render
 MOST = 0.5         # of the picture's longer side, on each side
-SPARE = 1.1        # a test render's edges are coarse, and waves move what is seen
+SPARE = 1.1        # a test render's edges are coarse, and waves move the refracted picture
 SENTENCE = re.compile(r"overscan of color and depth by (\d+) pixels? on the left, (\d+) on the right, "
                       r"(\d+) at the top and (\d+) at the bottom")
 

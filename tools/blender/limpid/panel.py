@@ -37,6 +37,7 @@ class LIMPID_PT_panel(bpy.types.Panel):
         column = layout.column(heading="Render", align=True)
         for name in ("use_sun", "shadow", "reflection", "below", "surroundings", "aovs"):
             column.prop(settings, name)
+        layout.prop(settings, "motion")
         layout.prop(settings, "samples")
         layout.prop(settings, "overscan_kind")
         if settings.overscan_kind == "FIXED":

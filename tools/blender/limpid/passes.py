@@ -9,7 +9,7 @@ from .changes import Changes
 from .lens import Overscan
 from .sight import seen_through, set_numbers
 
-FEW = 16  # samples of what is nearly without noise
+FEW = 16  # samples of passes with little noise
 CLEAR = 256  # surfaces that a camera may see through, one behind the other
 LEAST_AROUND, MOST_AROUND = 256, 2048  # pixels around the horizon
 
@@ -70,8 +70,8 @@ def mirror(studio, path, overscan):
 
 def below(studio, path, overscan):
     """The dry scene without the objects above the water, lit and shaded as before. A strip of two pixels of
-    these objects remains, so that lookups next to the waterline find the object that stands in the water, and not
-    the scene behind it."""
+    these objects remains, so that lookups next to the waterline find the object in the water, and not the scene
+    behind the object."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
@@ -151,7 +151,7 @@ def surroundings(studio, path):
             scene.collection.objects.link(camera)
             camera.rotation_euler = (math.pi / 2, 0, -math.pi / 2)
             camera.data.type = "PANO"
-            # Since 4.5 the camera has the kind of panorama, before Cycles' settings had it.
+            # Blender 4.5 moved the kind of panorama from Cycles' settings to the camera.
             kind = camera.data if hasattr(camera.data, "panorama_type") else camera.data.cycles
             kind.panorama_type = "EQUIRECTANGULAR"
             scene.camera = camera

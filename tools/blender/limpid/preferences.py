@@ -1,4 +1,4 @@
-"""The path of the program limpid, if it is not on PATH."""
+"""The path of the program limpid, for a program that is not on PATH."""
 import bpy
 
 
@@ -7,7 +7,7 @@ class LimpidPreferences(bpy.types.AddonPreferences):
 
     tool: bpy.props.StringProperty(
         name="limpid", subtype="FILE_PATH",
-        description="The program limpid; empty: limpid on PATH")
+        description="Path of the program limpid; empty: limpid on PATH")
 
     def draw(self, _):
         self.layout.prop(self, "tool")

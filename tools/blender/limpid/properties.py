@@ -1,4 +1,4 @@
-"""The settings of a scene: its water, its look, its passes."""
+"""The settings of a scene: water, look, passes."""
 import bpy
 
 from . import preferences
@@ -24,34 +24,40 @@ def _flag(name, description):
 
 class LimpidSettings(bpy.types.PropertyGroup):
     water_kind: bpy.props.EnumProperty(name="Water", items=(
-        ("OBJECT", "Object", "Water at the level of an object, which is not rendered itself"),
-        ("HEIGHT", "Height", "Water below a height")))
+        ("OBJECT", "Object", "Water at the level of an object; the object itself is not rendered"),
+        ("HEIGHT", "Height", "Water everywhere below a height")))
     water: bpy.props.PointerProperty(name="Object", type=bpy.types.Object, poll=lambda _, thing: thing.type == "MESH",
                                      description="The water mesh")
     height: bpy.props.FloatProperty(name="Height", unit="LENGTH", description="Height of the water along z")
     waves: bpy.props.EnumProperty(name="Waves", items=(
-        ("LIMPID", "The look's", "The waves of the look, on a level surface"),
-        ("OBJECT", "The object's", "The waves of the mesh, for example of an Ocean modifier")))
+        ("LIMPID", "Of the look", "The waves of the look, on a level surface"),
+        ("OBJECT", "Of the object", "The waves of the mesh, for example of an Ocean modifier")))
     look: bpy.props.StringProperty(name="Look", default="physical", search=_known_looks,
                                    search_options={"SORT", "SUGGESTION"},
                                    description="Name of a look or preset, or a look file")
-    settings: bpy.props.StringProperty(name="Set", description="Changed parameters of the look, as in "
+    settings: bpy.props.StringProperty(name="Set", description="Parameters of the look to change, as in "
                                        "depth_fog.water_type=3C wave_normals.strength=0.3")
     frames_kind: bpy.props.EnumProperty(name="Frames", items=(
-        ("CURRENT", "This one", "The current frame"), ("SCENE", "The scene's", "From start to end, by its step"),
-        ("LIST", "These", "Numbers and ranges")))
-    frames: bpy.props.StringProperty(name="Frames", default="1-48", description="As in 1-48 or 1-48x2,60")
-    use_sun: _flag("Sun", "The brightest sun lamp lights the water")
+        ("CURRENT", "Current", "The current frame"),
+        ("SCENE", "Scene", "The scene's frames, from start to end by its step"),
+        ("LIST", "List", "Numbers and ranges of frames")))
+    frames: bpy.props.StringProperty(name="Frames", default="1-48", description="Frames, as in 1-48 or 1-48x2,60")
+    use_sun: _flag("Sun", "Light the water by the brightest sun lamp")
     reflection: _flag("Reflection", "Render the reflection: the view of the mirrored camera")
     below: _flag("Below", "Render the scene without the objects above the water")
     shadow: _flag("Shadow", "Render the sun's visibility at the bottom and at the water surface")
-    surroundings: _flag("Surroundings", "Light the water by the world; a world with more than one color is rendered")
+    surroundings: _flag("Surroundings", "Light the water by the world; a world of more than one color is rendered")
     aovs: _flag("AOVs", "Also write the AOVs")
+    motion: bpy.props.EnumProperty(name="Motion", items=(
+        ("NONE", "None", "No motion vectors"),
+        ("NEXT", "To the next frame", "Motion vectors of what is seen through the water and of what it mirrors, by the "
+         "camera and the waves of the next frame, for a scene that stands still"),
+        ("PREVIOUS", "To the previous one", "The same to the previous frame")))
     overscan_kind: bpy.props.EnumProperty(name="Overscan", items=(
-        ("PLAN", "As asked for", "The overscan that limpid computes from a small test render"),
+        ("PLAN", "Automatic", "The overscan that limpid computes from a small test render"),
         ("FIXED", "Fixed", "A fixed number of pixels on each side")))
     overscan: bpy.props.IntProperty(name="Pixels", min=0, max=4000, description="Pixels rendered beyond each side")
     samples: bpy.props.IntProperty(name="Samples", min=0, max=100000,
-                                   description="Samples per pixel of a render; 0: those of the scene")
+                                   description="Samples per pixel of a render; 0: the scene's sample count")
     folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="//limpid/",
                                      description="Folder for plates, scene files and wet pictures")

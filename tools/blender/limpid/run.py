@@ -1,4 +1,4 @@
-"""A second process, its output and its end. Independent of Blender."""
+"""A second process, its output and its end. Needs no Blender."""
 import os
 import re
 import signal
@@ -71,4 +71,4 @@ class Run:
         if self.error:
             return self.error
         how = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
-        return f"the Blender that renders {how}: what it said is in {self.log}"
+        return f"the second Blender {how}; see {self.log}"

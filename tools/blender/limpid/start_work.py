@@ -1,6 +1,6 @@
 """The start of the second Blender: blender -b COPY.blend --python start_work.py -- JOB.json
 
-It ends with the Blender that started it, which closes its standard input."""
+This process ends when its standard input closes, and so with the Blender that started it."""
 import importlib
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""State of the panel outside of the .blend: the running job, and the result of the last one."""
+"""State of the panel outside of the .blend: the running job, and the result of the last job."""
 
 
 class State:

@@ -1,4 +1,4 @@
-"""The copy of the scene, prepared for its passes. It is never saved, so changes are not restored."""
+"""The copy of the scene, prepared for its passes. The copy is never saved, so changes are not restored."""
 import math
 
 import bpy
@@ -17,11 +17,11 @@ SHOWN = {"MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VO
 
 
 def expect_camera(camera):
-    """Returns the camera. Throws Failure for none, and for a kind that limpid does not support."""
+    """Returns the camera. Throws Failure without a camera, and for a kind that limpid does not support."""
     if camera is None:
-        raise Failure("no camera: expected one in the scene")
+        raise Failure("no camera: expected a perspective or orthographic camera in the scene")
     if camera.data.type not in ("PERSP", "ORTHO"):
-        raise Failure(f"camera '{camera.name}' is panoramic: expected a perspective or an orthographic one")
+        raise Failure(f"camera '{camera.name}' is panoramic: expected a perspective or orthographic camera")
     return camera
 
 
@@ -48,7 +48,7 @@ class Studio:
     # ---- once
 
     def _make_local(self):
-        """Makes linked library data local: it is read-only, but needs other visibility and shaders here."""
+        """Makes linked library data local: linked data is read-only, and passes change visibility and shaders."""
         for things in (bpy.data.objects, bpy.data.materials, bpy.data.lights, bpy.data.worlds, bpy.data.collections):
             for thing in list(things):
                 if thing.library:
@@ -169,7 +169,7 @@ class Studio:
             return self.job.height, self.job.height
         level = level_of(self.sheet, depsgraph)
         if level is None:
-            raise Failure(f"water '{self.sheet.name}' has no face that lies level: expected a mesh with a surface")
+            raise Failure(f"water '{self.sheet.name}' has no level face: expected a mesh with a level surface")
         return level if self.job.waves == "OBJECT" else (level[0], level[0])
 
     def _mark_crossing(self, depsgraph):
@@ -213,5 +213,5 @@ class Studio:
         except RuntimeError as fault:
             raise Failure(f"Blender could not render {path}: {str(fault).strip().removeprefix('Error: ')}") from fault
         if "FINISHED" not in result:
-            raise Failure(f"Blender ended the render of {path}: expected it to finish")
+            raise Failure(f"Blender stopped the render of {path}")
         place(path, overscan)

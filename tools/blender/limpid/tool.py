@@ -12,11 +12,11 @@ def find_tool(path=""):
     """The program: the path in the preferences, else limpid on PATH."""
     if path:
         if not os.path.isfile(path) or not os.access(path, os.X_OK):
-            raise Failure(f"limpid is not at '{path}': expected a program there (Preferences > Add-ons > limpid)")
+            raise Failure(f"no program at '{path}': expected limpid (Preferences > Add-ons > limpid)")
         return os.path.abspath(path)
     found = shutil.which("limpid")
     if not found:
-        raise Failure("limpid is not found on PATH: install it, or give its path in Preferences > Add-ons > limpid")
+        raise Failure("limpid is not on PATH: install limpid, or give its path in Preferences > Add-ons > limpid")
     return found
 
 
@@ -60,5 +60,5 @@ def run_tool(words, log):
         raise Failure(f"{words[0]}: {fault.strerror}") from fault
     log(f"{' '.join(words)}\n{ran.stdout}{ran.stderr}")
     if ran.returncode != 0:
-        raise Failure(last_sentence(ran.stderr) or f"limpid ended with status {ran.returncode} and said nothing")
+        raise Failure(last_sentence(ran.stderr) or f"limpid ended with status {ran.returncode} and no message")
     return ran.stdout, [line.partition("warning: ")[2] for line in ran.stderr.splitlines() if "warning: " in line]

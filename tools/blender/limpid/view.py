@@ -10,17 +10,17 @@ from .words import Failure
 
 
 class Page:
-    """The tool that serves the page, until it is closed."""
+    """The tool, which serves the page until close()."""
 
     def __init__(self, words, log):
         with open(log, "w", encoding="utf-8") as errors:
             self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=errors, text=True,
                                              stdin=subprocess.DEVNULL, start_new_session=True)
-        self.address = self._process.stdout.readline().strip()  # it comes when the page is there
+        self.address = self._process.stdout.readline().strip()  # printed when the page is ready
         if not self.address:
             self._process.wait()
             with open(log, encoding="utf-8") as errors:
-                raise Failure(last_sentence(errors.read()) or "limpid view ended and said nothing")
+                raise Failure(last_sentence(errors.read()) or "limpid view ended without a message")
 
     def close(self):
         if self._process.poll() is None:
@@ -29,11 +29,11 @@ class Page:
 
 
 def view(scene, frames="", before=None):
-    """Opens the page, and closes the one opened before. Throws Failure if there are no plates yet."""
+    """Opens the page, and closes the page `before`. Throws Failure without plates."""
     folder, wanted = folder_of(scene.limpid), frames_wanted(scene, frames)
     there = [frame for frame in wanted if os.path.isfile(folder / f"{numbered('scene', frame)}.toml")]
     if not there:
-        raise Failure(f"no plates of frame {wanted[0]} in {folder}: expected them rendered before")
+        raise Failure(f"no plates of frame {wanted[0]} in {folder}: render the frame first")
     words = [find_tool(preferences.tool_path()), "view", "--scene", str(folder / "scene.####.toml"),
              "--frames", ",".join(map(str, there)), "--look", scene.limpid.look or "physical",
              "--folder", str(folder)]

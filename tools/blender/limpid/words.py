@@ -1,5 +1,5 @@
-"""The exception for all errors that the add-on reports: a sentence."""
+"""The exception for all errors that the add-on reports."""
 
 
 class Failure(Exception):
-    """What was found, and what was expected: a sentence for the panel, and for a farm's log."""
+    """A sentence for the panel and for a farm's log: the found value, and the expected value."""

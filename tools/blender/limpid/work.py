@@ -1,17 +1,19 @@
 """The work of the second process: renders the plates of a job and runs limpid on them."""
+import dataclasses
 import pathlib
 import sys
 import tempfile
 
 from . import overscan as over
 from . import passes
-from .frames import numbered
+from .frames import neighbor_of, numbered
 from .job import MARK, Job
 from .lens import Overscan
 from .scene_file import files_of, plates_of, scene_text
 from .studio import Studio
 from .tool import run_tool
 from .words import Failure
+
 
 def say(kind, text):
     print(f"{MARK}{kind}: {' '.join(text.split())}", flush=True)
@@ -35,7 +37,7 @@ def passes_of(job, is_under_water):
         names += ["shadow", "surface_shadow"]
     if job.water:
         names += ["surface"] + ["waves"] * (job.waves == "OBJECT")
-    if not is_under_water:  # from there one sees neither a mirror nor a layer below
+    if not is_under_water:  # under water there is no reflection and no layer below
         names += ["mirror"] * job.reflection + ["below"] * job.below
     return names
 
@@ -50,6 +52,7 @@ class Work:
         self.folder.mkdir(parents=True, exist_ok=True)
         self.studio = Studio(job)
         self.warned = set()
+        self.facts, self.under_water = {}, set()  # of the frames whose plates are there
 
     def warn(self, text):
         if text not in self.warned:
@@ -90,12 +93,13 @@ class Work:
 
     # ---- frames
 
-    def frame(self, frame, overscan, steps):
+    def plates(self, frame, overscan, steps):
         studio = self.studio
         facts = studio.at(frame)
         under = studio.is_under_water()
         if under:
-            self.warn("the camera is under water, where there is neither a mirror nor a layer below: not rendered")
+            self.under_water.add(frame)
+            self.warn("the camera is under water: reflection and layer below are not rendered")
         names = passes_of(self.job, under)
         plates = self.folder / "plates"
         plates.mkdir(exist_ok=True)
@@ -110,11 +114,41 @@ class Work:
         facts.plates = plates_of(names, lambda name: f"plates/{numbered(name, frame)}.exr", environment)
         if not self.job.surroundings:
             facts.sky = None
-        scene = self.folder / f"{numbered('scene', frame)}.toml"
-        scene.write_text(scene_text(facts, f"Frame {frame} of {studio.scene.name}"))
+        self._write_scene(self.folder, frame, facts)
+        self.facts[frame] = facts
+
+    def _write_scene(self, folder, frame, facts):
+        about = f"Frame {frame} of {self.studio.scene.name}"
+        (folder / f"{numbered('scene', frame)}.toml").write_text(scene_text(facts, about))
+
+    def _pair(self, folder, frame):
+        """Writes the scenes of the frame and of the one that its motion vectors lead to, of which a frame without plates
+        has camera and water alone. Returns whether there can be vectors."""
+        neighbor = neighbor_of(frame, self.job.motion)
+        other = self.facts.get(neighbor)
+        under = {frame, neighbor} & self.under_water
+        if other is None and neighbor >= 0:
+            other = self.studio.at(neighbor)
+            under = under or self.studio.is_under_water()
+        if other is None or under:
+            self.warn(f"no motion vectors of frame {frame}: " + ("the camera is under water, in it or in the "
+                      f"{self.job.motion} one" if under else "there is no frame before it"))
+            return False
+        for number, facts in ((frame, self.facts[frame]), (neighbor, other)):
+            plates = {role: f"../{name}" for role, name in facts.plates.items()}
+            self._write_scene(folder, number, dataclasses.replace(facts, plates=plates))
+        return True
+
+    def water(self, frame, steps):
         steps.next(f"frame {frame}: water")
-        _, warnings = self.limpid("composite", "--scene", scene, *self.look(), *["--aov=all"] * self.job.aovs,
-                                  "-o", self.folder / f"{numbered('wet', frame)}.exr")
+        aovs = ["all"] * self.job.aovs
+        with tempfile.TemporaryDirectory(prefix="scenes_", dir=self.folder) as folder:
+            words = ["--scene", self.folder / f"{numbered('scene', frame)}.toml"]
+            if self.job.motion and self._pair(pathlib.Path(folder), frame):
+                words = ["--scene", f"{folder}/scene.####.toml", "--frames", frame, "--motion-to", self.job.motion]
+                aovs += ["motion", "motion_reflected"]
+            _, warnings = self.limpid("composite", *words, *self.look(), *(word for aov in aovs for word in ("--aov", aov)),
+                                      "-o", self.folder / f"{numbered('wet', frame)}.exr")
         for warning in warnings:
             self.warn(warning)
         say("wet", f"{frame}")
@@ -124,10 +158,17 @@ class Work:
         each = len(files_of(passes_of(job, False))) + 1 + int(job.surroundings)
         steps = Steps(len(self.tested()) + each * len(job.frames))
         overscan = self.overscan(steps)
-        say("note", f"overscan {overscan.left} left, {overscan.right} right, {overscan.top} top, "
+        say("note", f"overscan in pixels: {overscan.left} left, {overscan.right} right, {overscan.top} top, "
                     f"{overscan.bottom} bottom")
-        for frame in job.frames:
-            self.frame(frame, overscan, steps)
+        waiting = []
+        for frame, after in zip(job.frames, [*job.frames[1:], None]):
+            self.plates(frame, overscan, steps)
+            waiting.append(frame)
+            # The water of a frame waits for the plates of the one that its motion vectors lead to.
+            is_early = job.motion and after == neighbor_of(frame, job.motion)
+            for ready in waiting[:-1] if is_early else waiting:
+                self.water(ready, steps)
+            waiting = waiting[-1:] if is_early else []
         say("done", f"{len(job.frames)} frames in {job.folder}")
 
 

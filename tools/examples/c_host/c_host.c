@@ -46,8 +46,8 @@ static void run_tasks(void* host, int count, limpid_task task, void* context) {
   for (int i = 0; i < count; ++i) task(context, i);
 }
 
-static limpid_channel channel(int32_t what, float* data) {
-  const limpid_channel all = {.what = what,
+static limpid_channel channel(int32_t id, float* data) {
+  const limpid_channel all = {.id = id,
                               .sample = LIMPID_FLOAT,
                               .data = data,
                               .x_stride = sizeof(float),

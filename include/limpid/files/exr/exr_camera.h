@@ -14,12 +14,12 @@
 
 namespace limpid {
 
-/// The camera that these attributes of a part describe, or nothing when one of them is absent. They
-/// do not say near and far: clip depth is GL with near 0.001 and infinite far. Throws Error when
-/// the two contradict each other.
+/// The camera in these attributes of a part, or nothing if one of them is absent. They have no near
+/// and far: clip depth is GL with near 0.001 and infinite far. Throws Error if the two contradict
+/// each other.
 std::optional<Camera> camera_of(const ExrFile& file, int part);
 
-/// The attributes, by name, from which camera_of() makes this camera again, but for near and far.
+/// The attributes, by name, from which camera_of() makes this camera again, except near and far.
 std::map<std::string, std::array<float, 16>> camera_attributes(const Camera& camera);
 
 }  // namespace limpid

@@ -8,14 +8,14 @@
 
 namespace limpid {
 
-/// What the header of a file to be written says besides its channels and their compression.
+/// The header of a file to write, without its channels and their compression.
 struct ExrHeading {
   Rect data, display;
   double pixel_aspect = 1;
-  /// Attributes of the input, passed on byte for byte; those that describe the storage of pixels,
-  /// and those that `text` or `matrices` name too, are left out.
+  /// Attributes of the input, copied byte for byte, except those that describe the storage of
+  /// pixels, and those that `text` or `matrices` have, too.
   std::map<std::string, ExrFile::Attribute> inherited;
-  std::map<std::string, std::string> text;  ///< our own, as string attributes
+  std::map<std::string, std::string> text;  ///< string attributes to add
   std::map<std::string, std::array<float, 16>> matrices;
 };
 

@@ -12,42 +12,44 @@
 #include "limpid/core/plane.h"
 
 /// @file
-/// What a screen shows of light.
+/// The conversion of scene-linear light to the colors of a screen.
 
 namespace limpid {
 
-/// How it shows it.
+/// Exposure and color transform of that conversion.
 struct DisplayChoice {
   double exposure = 0;                ///< stops, -100 ... 100
   std::filesystem::path config = {};  ///< of OpenColorIO; empty for sRGB
-  /// Of the config: "DISPLAY/VIEW", or a view of its default display; "" for its default.
+  /// "DISPLAY/VIEW" of the config, or a view of its default display; "" for its default.
   std::string view = {};
 };
 
-/// What a config of OpenColorIO offers, as "DISPLAY/VIEW": its default first. Throws Error for what
-/// is no config, and without the format module, through which OpenColorIO is reached.
+/// The views of a config of OpenColorIO, as "DISPLAY/VIEW", the default first. Throws Error for an
+/// invalid config, and without the format module, which has OpenColorIO.
 std::vector<std::string> display_views(const std::filesystem::path& config);
 
-/// The one of these that a name means, as DisplayChoice::view. Throws Error with all of them.
+/// The view that a name means, as in DisplayChoice::view. Throws Error with all views for an
+/// unknown name.
 std::string display_view(const std::filesystem::path& config, const std::string& name);
 
-/// From light to what is encoded for a screen, 0 ... 1. It multiplies by 2^exposure; then either
-/// goes to the primaries of Rec.709, clamps and encodes as sRGB, or takes the view of a config,
-/// from the space of it that has the light's primaries, else from another linear one that is known.
-/// NaN is black; of sRGB +inf is as bright as can be. Any threads may use one.
+/// Converts scene-linear light to encoded values of a screen, 0 ... 1. Multiplies by 2^exposure;
+/// then either converts to the primaries of Rec.709, clamps and encodes as sRGB, or applies a view
+/// of a config, from the config's linear space with the light's primaries, else from another known
+/// linear space of the config. NaN becomes black; for sRGB +inf becomes white. Several threads may
+/// use one object.
 class DisplayTransform {
  public:
-  /// Of light of these primaries. Throws Error for an exposure out of range, and for a config, a
-  /// display or a view that is not there. A config is read once a program.
+  /// For light of these primaries. Throws Error for an exposure out of range, and for a missing
+  /// config, display or view. A config is read once per process.
   explicit DisplayTransform(const DisplayChoice& choice = {}, const Primaries& primaries = kRec709);
 
-  /// Of red, green and blue of one window.
+  /// Converts red, green and blue, which must have one window.
   std::array<Plane, 3> displayed(const std::array<View<const float>, 3>& light) const;
 
  private:
   struct Ocio;
   double exposure_;
-  std::optional<glm::mat3> matrix_;  ///< none where the primaries stay
+  std::optional<glm::mat3> matrix_;  ///< empty if the primaries stay
   std::shared_ptr<const Ocio> ocio_;
 };
 

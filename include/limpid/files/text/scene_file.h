@@ -14,10 +14,10 @@
 
 namespace limpid {
 
-/// A camera as a scene file gives it: complete but for the shape of the picture.
+/// The camera of a scene file, complete except for the aspect of the picture.
 struct CameraSpec {
   enum class Lens {
-    kProjection,    ///< `projection` as it stands
+    kProjection,    ///< `projection`, unchanged
     kFovX,          ///< horizontal field of view
     kFovY,          ///< vertical field of view
     kOrthographic,  ///< width of the picture
@@ -31,54 +31,54 @@ struct CameraSpec {
   ClipSpace clip = ClipSpace::kGl;
 };
 
-/// The camera for a picture of that size with pixels `pixel_aspect` times as wide as high. Throws
-/// Error for what Camera::validate, perspective and orthographic refuse, and for a projection whose
-/// device depth runs the other way than `clip` says.
+/// The camera for a picture of size `display` with pixels `pixel_aspect` times as wide as high.
+/// Throws Error as Camera::validate(), perspective() and orthographic() do, and for a projection
+/// whose device depth runs against `clip`.
 Camera camera_for(const CameraSpec& spec, Size display, double pixel_aspect = 1);
 
-/// What a scene file (TOML) says. The page docs/files.md lists its tables and keys, which
-/// scene_keys.h has as data. Each table may be absent. Directions need not be unit.
+/// The contents of a scene file (TOML). The page docs/files.md lists its tables and keys, which
+/// scene_keys.h has as data. Each table may be absent. Directions in the file need not be unit.
 struct SceneFile {
   Scene scene;                       ///< water and sun; its camera comes from camera_for()
-  std::optional<CameraSpec> camera;  ///< when there is a view
+  std::optional<CameraSpec> camera;  ///< if the file has a `view`
   DepthKind depth = DepthKind::kEye;
-  std::optional<double> near, far;            ///< as given; far may be +inf
-  std::optional<double> depth_nothing, time;  ///< as given
-  std::optional<Primaries> primaries;         ///< as given
+  std::optional<double> near, far;            ///< if the file has them; far may be +inf
+  std::optional<double> depth_nothing, time;  ///< if the file has them
+  std::optional<Primaries> primaries;         ///< if the file has them
   /// Role -> absolute "FILE" or "FILE:CHANNELS", for split_plate().
   std::map<std::string, std::string> plates;
   std::filesystem::path geometry;     ///< glTF file, absolute, or empty
   std::filesystem::path environment;  ///< picture file, absolute, or empty
   double environment_rotation = 0;    ///< rad
-  std::filesystem::path file;         ///< that it was read from, absolute, or empty
+  std::filesystem::path file;         ///< the scene file, absolute, or empty
 };
 
-/// The most waves of a scene: every output carries them as text, which must be small enough to be
-/// read again.
+/// The largest number of waves of a scene: every output records them as text, which must be small
+/// enough to be read again.
 inline constexpr std::size_t kMaxWaves = 1024;
 
-/// Throws Error, with "file:line:column: " in front, for what is not TOML, an unknown table or key
+/// Throws Error, with "file:line:column: " in front, for invalid TOML, an unknown table or key
 /// (with the nearest known name), a value of the wrong type or length, more than kMaxWaves, NaN,
-/// and infinity but for far.
+/// and infinities other than for `far`.
 SceneFile load_scene(const std::filesystem::path& path);
 
-/// The same from a text, as the attribute `limpid/scene` of a rendered plate holds it; `name`
-/// stands for the file in errors.
+/// The same from a text, such as the attribute `limpid/scene` of a rendered plate; `name` stands
+/// for the file in errors.
 SceneFile scene_from_toml(const std::string& text, const std::string& name);
 
 /// Camera, water, sun, time, and primaries other than Rec.709 as a text that scene_from_toml()
 /// reads back to the bit. Throws Error for more than kMaxWaves.
 std::string to_toml(const Scene& scene);
 
-/// "FILE:CHANNELS" in its two parts: cut at the last ':' unless a '/' follows it; channels are ""
-/// where there are none.
+/// The two parts of "FILE:CHANNELS", which is cut at the last ':' that no '/' follows; without such
+/// a ':' `channels` is "".
 struct PlateName {
   std::string file, channels;
 };
 PlateName split_plate(std::string_view text);
 
-/// The kind called eye, ray, inverse, normalised or device on the command line. Throws Error of
-/// Fault::kUsage with the nearest name.
+/// The kind with the name eye, ray, inverse, normalised or device. Throws Error of Fault::kUsage
+/// with the nearest name for another word.
 DepthKind depth_kind_named(std::string_view word);
 std::string_view depth_kind_name(DepthKind kind);
 

@@ -9,8 +9,7 @@ namespace limpid {
 
 /// A key of a table of a scene file.
 struct SceneKey : FieldInfo {
-  std::string
-      unset;  ///< what holds where the file lacks it: a value, "required", or "" for nothing
+  std::string unset;  ///< default if the file lacks the key: a value, "required", or "" for none
 };
 
 struct SceneTable {
@@ -18,8 +17,8 @@ struct SceneTable {
   std::vector<SceneKey> keys;
 };
 
-/// All that a scene file may say, in the order of docs/files.md: load_scene() and to_toml()
-/// go by the same declaration.
+/// All tables and keys of a scene file, in the order of docs/files.md. load_scene() and to_toml()
+/// use the same declaration.
 std::vector<SceneTable> scene_tables();
 
 }  // namespace limpid

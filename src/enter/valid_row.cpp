@@ -1,4 +1,4 @@
-#include "enter/sane_row.h"
+#include "enter/valid_row.h"
 
 #include <cfloat>
 #include <cmath>
@@ -10,19 +10,19 @@ namespace {
 /// Without a branch, and in integers as wide as floats: compilers vectorise it, and it runs at the
 /// speed of memory.
 template <class At>
-bool all_sane(const SaneRange& range, int count, At&& at) {
-  const SaneRange r = range;
-  int insane = 0;
+bool all_valid(const ValidRange& range, int count, At&& at) {
+  const ValidRange r = range;
+  int invalid = 0;
   for (int i = 0; i < count; ++i) {
     const float v = at(i);
-    insane |= static_cast<int>(!(((v >= r.least) & (v <= r.most)) | (v == r.besides)));
+    invalid |= static_cast<int>(!(((v >= r.least) & (v <= r.most)) | (v == r.besides)));
   }
-  return insane == 0;
+  return invalid == 0;
 }
 
 }  // namespace
 
-SaneRange sane_range(Sanitise kind, float nothing_hit) {
+ValidRange valid_range(Sanitise kind, float nothing_hit) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   switch (kind) {
@@ -39,9 +39,9 @@ SaneRange sane_range(Sanitise kind, float nothing_hit) {
   return {1, -1, kNone};
 }
 
-bool row_is_sane(const SaneRange& range, const float* row, std::ptrdiff_t stride, int count) {
-  if (stride == 1) return all_sane(range, count, [=](int i) { return row[i]; });
-  return all_sane(range, count, [=](int i) { return row[i * stride]; });
+bool row_is_valid(const ValidRange& range, const float* row, std::ptrdiff_t stride, int count) {
+  if (stride == 1) return all_valid(range, count, [=](int i) { return row[i]; });
+  return all_valid(range, count, [=](int i) { return row[i * stride]; });
 }
 
 }  // namespace limpid
