@@ -61,8 +61,9 @@ class ApartTest : public ToolTest {
 TEST_F(ApartTest, APlateIsNotWrittenOverByAnyName) {
   const std::string sentence = ": is an input, too";
   expect_composite_refused({"plate.exr", "-o", "plate.exr"}, {"plate.exr" + sentence});
-  expect_composite_refused({"plate.exr", "-o", "./plate.exr"},
-                           {"./plate.exr" + sentence + ", named plate.exr: expected an output"});
+  expect_composite_refused(
+      {"plate.exr", "-o", "./plate.exr"},
+      {"./plate.exr" + sentence + ", named plate.exr: expected a separate file"});
   expect_composite_refused({"plate.exr", "-o", (folder_ / "plate.exr").string()}, {sentence});
   fs::create_symlink("plate.exr", folder_ / "soft.exr");
   expect_composite_refused({"plate.exr", "-o", "soft.exr"}, {"soft.exr" + sentence});

@@ -106,9 +106,9 @@ TEST_F(TruthTest, RefusesInOneSentence) {
   refused({"--paths", "0"}, {"--paths 0", "1 ... 65536"}, 2);
   refused({"--light", "twice"}, {"--light twice", "paths or once"}, 2);
   refused({"--light", "once", "--paths", "9"}, {"--paths 9", "single scattering"}, 2);
-  refused({"--light", "once", "--photons", "9"}, {"photons = 9", "single scattering"}, 2);
+  refused({"--light", "once", "--photons", "9"}, {"photons = 9", "light = paths"}, 2);
   refused({"--set", "depth_fog.sunlight=straight", "--photons", "9"},
-          {"photons = 9", "not refracted"}, 2);
+          {"photons = 9", "depth_fog.sunlight = refracted"}, 2);
   refused({"--overscan", "4"}, {"has no option '--overscan'"}, 2);
   refused({"--preview", "no/such/folder/x.png"}, {"no/such/folder"}, 1);
   expect_refused(limpid({"truth", scene("pool.toml"), "--size", "32000x32000", "-o", "x.exr"}),
