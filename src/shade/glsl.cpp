@@ -11,6 +11,8 @@
 
 #include "limpid/core/error.h"
 
+#include "shade/look_ahead.h"
+
 namespace limpid {
 namespace {
 
@@ -557,81 +559,20 @@ class Printer {
     line(indent, "}");
   }
 
-  /// Lookups of a loop's block whose places follow from its index: those of kAhead steps are on
-  /// their way together, where each step would wait for its own. (NVIDIA H100: `fast` takes .81 of
-  /// the time, `physical` .96; 2, 3 and 6 steps are slower.)
-  struct Ahead {
-    std::vector<int> lookups;
-    std::vector<int> places;                         ///< the nodes that they need, in order
-    std::vector<std::array<std::string, 4>> texels;  ///< of each lookup, of this and the next steps
-  };
-  static constexpr std::size_t kAhead = 4;
-  static constexpr int kMostNumbers = 4;  ///< that the lookups of a step may hold in registers
-
-  /// Numbers that a lookup gives, or 0 for other nodes.
-  static int numbers_of(const Node& node) {
-    if (node.op < NodeOp::kNearest || node.op == NodeOp::kQuad || node.op == NodeOp::kPlace) {
-      return 0;
-    }
-    constexpr int kNumbers[] = {1, 1, 2, 3, 4};
-    return kNumbers[static_cast<int>(node.type)];
-  }
-
-  Ahead ahead_of(const Flow& flow) const {
-    Ahead made;
-    if (flow.end - flow.begin < static_cast<int>(kAhead)) return made;
-    std::unordered_map<int, bool> known{{flow.index, true}};  // and whether the index changes it
-    int numbers = 0;
-    for (const Statement& s : r_.blocks[static_cast<std::size_t>(flow.block)].statements) {
-      if (s.kind != Statement::Kind::kNode || !r_.live[static_cast<std::size_t>(s.what)]) continue;
-      const Node& node = at(s.what);
-      bool changes = false, is_known = true;
-      for (const int arg : node.args) {
-        if (arg < 0) continue;
-        const auto found = known.find(arg);
-        is_known = is_known && (found != known.end() || is_before(arg, flow));
-        changes = changes || (found != known.end() && found->second);
-      }
-      const int size = numbers_of(node);
-      if (!is_known || (size == 0 && node.op >= NodeOp::kOwn && node.op < NodeOp::kQuad)) continue;
-      if (size == 0) {
-        known[s.what] = changes;
-        if (!is_of_frame(s.what) && !is_idle(s.what)) made.places.push_back(s.what);
-      } else if (changes && numbers + size <= kMostNumbers) {
-        made.lookups.push_back(s.what);
-        numbers += size;
-      }
-    }
-    // Of the places, those that the lookups need.
-    std::vector<bool> needed(r_.nodes.size());
-    const auto need = [&](int id) {
-      for (const int arg : at(id).args) {
-        if (arg >= 0) needed[static_cast<std::size_t>(arg)] = true;
-      }
-    };
-    for (const int id : made.lookups) need(id);
-    for (std::size_t i = made.places.size(); i-- > 0;) {
-      if (needed[static_cast<std::size_t>(made.places[i])]) need(made.places[i]);
-    }
-    std::erase_if(made.places, [&](int id) { return !needed[static_cast<std::size_t>(id)]; });
-    return made;
-  }
-  /// Whether a node is known before a loop's block begins.
-  bool is_before(int id, const Flow& flow) const {
-    const bool carried = std::any_of(flow.merges.begin(), flow.merges.end(),
-                                     [&](const Flow::Merge& m) { return m.merged == id; });
-    return !carried && (at(id).block != flow.block || at(id).op <= NodeOp::kGiven);
-  }
+  /// Names of the results of a lookup, of this step of a loop and of the next ones.
+  using Texels = std::array<std::string, LookAhead::kSteps>;
 
   /// At the begin of the loop's block; `i` is the index.
-  void look_ahead(const Flow& flow, const Ahead& ahead, const std::string& i, int indent) {
+  void look_ahead(const Flow& flow, const LookAhead& ahead, const std::vector<Texels>& results,
+                  const std::string& i, int indent) {
+    constexpr std::size_t kAhead = LookAhead::kSteps;
     line(indent, "if ((" + i + " - " + std::to_string(flow.begin) + ") % " +
                      std::to_string(kAhead) + " == 0) {");
     for (std::size_t k = 0; k < kAhead; ++k) {
       names_[flow.index] = "float(" + i + (k > 0 ? " + " + std::to_string(k) : "") + ")";
       for (const int id : ahead.places) define_once(id, indent + 1);
       for (std::size_t l = 0; l < ahead.lookups.size(); ++l) {
-        line(indent + 1, ahead.texels[l][k] + " = " + expression(ahead.lookups[l]) + ";");
+        line(indent + 1, results[l][k] + " = " + expression(ahead.lookups[l]) + ";");
       }
       for (const int id : ahead.places) {  // the next step has its own
         names_.erase(id);
@@ -639,20 +580,20 @@ class Printer {
       }
     }
     line(indent, "} else {");
-    for (const auto& texels : ahead.texels) {
+    for (const Texels& texels : results) {
       for (std::size_t k = 1; k < kAhead; ++k)
         line(indent + 1, texels[k - 1] + " = " + texels[k] + ";");
     }
     line(indent, "}");
     names_[flow.index] = "float(" + i + ")";
-    // What nothing but those lookups needs is not written again.
+    // Nodes that only these lookups need are not written again.
     std::unordered_map<int, int> gone;
     const auto leave_out = [&](int id) {
       defined_[static_cast<std::size_t>(id)] = true;
       for (const int arg : at(id).args) ++gone[arg];
     };
     for (std::size_t l = 0; l < ahead.lookups.size(); ++l) {
-      names_[ahead.lookups[l]] = ahead.texels[l][0];
+      names_[ahead.lookups[l]] = results[l][0];
       leave_out(ahead.lookups[l]);
     }
     for (std::size_t p = ahead.places.size(); p-- > 0;) {
@@ -667,10 +608,11 @@ class Printer {
       const std::string begin = m.before < 0 ? "" : " = " + value(m.before);
       line(indent, declare(m) + begin + ";");
     }
-    Ahead ahead = ahead_of(flow);
+    const LookAhead ahead(r_, flow, [&](int id) { return is_of_frame(id) || is_idle(id); });
+    std::vector<Texels> results;
     for (const int id : ahead.lookups) {
       std::string words = type_word(at(id).type);
-      for (std::string& texel : ahead.texels.emplace_back()) {
+      for (std::string& texel : results.emplace_back()) {
         texel = fresh('a');
         words += (words.find(' ') == std::string::npos ? " " : ", ") + texel;
       }
@@ -682,7 +624,7 @@ class Printer {
     // Unrolled, a march's lookups overflow a device's instruction cache and registers.
     line(indent, "[[dont_unroll]] for (int " + i + " = " + std::to_string(flow.begin) + "; " + i +
                      " < " + std::to_string(flow.end) + "; ++" + i + ") {");
-    if (!ahead.lookups.empty()) look_ahead(flow, ahead, i, indent + 1);
+    if (!ahead.lookups.empty()) look_ahead(flow, ahead, results, i, indent + 1);
     block(flow.block, indent + 1);
     std::string goes_on;
     if (flow.condition >= 0) {
