@@ -32,9 +32,9 @@ class Basin {
   /// without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
   static double thrown_on(const Walls& walls, double depth, double ior);
 
-  /// Share of the sunlight on the bottom around that the `shadow` of the dry picture leaves, each
-  /// place by the light that the surface reflects from there to this point: from two depths away
-  /// and more. 1 where the picture shows no bottom around. `depth`, `ior` as in thrown_on().
+  /// Lit fraction of the bottom around, by the `shadow` of the dry picture: the mean, weighted by
+  /// the light that the surface reflects from each place to this point (from two depths away and
+  /// more). 1 where the picture shows no bottom around. `depth`, `ior` as in thrown_on().
   double sunlit_around(int x, int y, const View<const float>& shadow, double depth,
                        double ior) const;
 
@@ -46,7 +46,7 @@ class Basin {
     double z;  ///< eye depth
   };
   enum class Shown { kWater, kDry, kUnknown, kOutside };
-  /// What the picture shows where a point lies, `by` from a place.
+  /// The surface that the picture shows in the direction of a point.
   struct Sight {
     int x, y;        ///< pixel
     double z;        ///< eye depth of the point

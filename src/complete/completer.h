@@ -54,7 +54,7 @@ class Completer {
                         const std::string* simd, Frame& frame);
   void complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass, const Frame& frame);
   void complete_waves(const Plan& plan, const Pass& pass, Executor& executor, Frame& frame);
-  /// `pixels`: whether the frame has any here.
+  /// `pixels`: whether the values of the frame's planes can be read, beside their windows.
   void complete_water(const Plan& plan, PlaneSet made, bool pixels, const Pass& pass,
                       Executor& executor, Frame& frame);
 

@@ -13,8 +13,8 @@ class LeastSquares {
  public:
   using Row = std::array<double, N>;
 
-  /// `least`: of a function's own square, as if each component were also measured as 0. More keeps
-  /// components smaller that cancel each other.
+  /// `least`: weight of a measurement of 0 for each coefficient, over the function's own square. A
+  /// larger weight keeps coefficients small whose functions cancel each other (Tikhonov).
   explicit LeastSquares(double least = 1e-13) : least_(least) {}
 
   /// One equation: the functions' values, and the value of their combination.

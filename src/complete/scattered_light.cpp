@@ -22,8 +22,9 @@ constexpr int kCount = SlabDirections::kCount, kModes = 4;
 /// at least kApart times the slowest, the fastest is kFast times the beam's, and the one between is
 /// at least kSlow of the beam's.
 constexpr double kDark = 1e-6, kDeepest = 128, kApart = 1.3, kFast = 4, kSlow = 0.05;
-/// Of light from a floor: water optically less deep has none; rates at which the light fades, over
-/// that of extinction, and cosines of views with the vertical at which it is fitted.
+/// For light from a floor: water of a smaller optical depth counts as having none; the rates at
+/// which the light fades, over the rate of extinction; the cosines to the vertical of the fitted
+/// views.
 constexpr double kThinnest = 1e-4;
 constexpr std::array kFloorFades{0.3, 1.2, 5.0, 0.6};
 constexpr std::array kCosines{-0.95, -0.75, -0.5, -0.25, -0.08, 0.08, 0.25, 0.5, 0.75, 0.95};
@@ -350,9 +351,9 @@ void put_floor(const SlabDirections& directions, const ChannelWater& water, cons
         const double weight = 1 / std::max(value, kDark);
         std::array<double, kInside * kFloored> row;
         for (std::size_t f = 0; f < kFloored; ++f) {
-          const double way = f < ScatteredLight::kRising ? below.depth - lit.depth : lit.depth;
+          const double distance = f < ScatteredLight::kRising ? below.depth - lit.depth : lit.depth;
           for (std::size_t n = 0; n < kInside; ++n) {
-            row[f * kInside + n] = weight * std::exp(-kFloorFades[f] * way) * shapes[n];
+            row[f * kInside + n] = weight * std::exp(-kFloorFades[f] * distance) * shapes[n];
           }
         }
         fit.add(row, weight * change);

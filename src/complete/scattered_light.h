@@ -16,7 +16,7 @@ namespace limpid {
 /// Radiative Intensity Calculations in Moderately Thick Atmospheres").
 class ScatteredLightMaker {
  public:
-  /// Red, green, blue; until the next call. `floor`: for views in the water.
+  /// Red, green, blue; until the next call. `floor`: the bottom, for views from within the water.
   const ScatteredLights& make(const ScatteringWater& water, const WaterFloor& floor = {});
 
  private:

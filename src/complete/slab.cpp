@@ -153,7 +153,7 @@ struct Layer {
   void make_twice_as_deep(double beam) { put_on(*this, beam); }
 };
 
-/// Whatever lies below some depth: its response to light from above, and to the beam.
+/// The response of all water and floor below some depth to light from above, and to the beam.
 struct Lower {
   Matrix back;
   Radiance up;
@@ -235,7 +235,7 @@ SlabLayers solve_slab(const SlabDirections& directions, const SlabWater& water,
 
 namespace {
 
-/// Light at the lower end of a layer under the surface, over what lies below.
+/// Light at the lower end of a layer under the surface, over `lower`.
 InsideLight light_at(const Layer& layer, const Lower& lower, const Radiance& reflects,
                      const Radiance& entering, double beam) {
   Matrix under = layer.back;

@@ -78,8 +78,8 @@ struct Wavy {
   const Screen& screen;
   const WaterSurface& surface;
 
-  /// Where the surface lies at a place, and how it leans: bilinear. None beyond its window, and
-  /// where a pixel around has no water.
+  /// The point of the surface at a place, and its normal there: bilinear. None beyond its window,
+  /// and where a pixel around has no water.
   struct Hit {
     glm::dvec3 point, normal, ray;
   };
@@ -114,7 +114,8 @@ struct Wavy {
     return found;
   }
 
-  /// How far from a point below the water, on the screen, the refracted ray of a place passes.
+  /// The distance on the screen at which the refracted ray of a place passes a point below the
+  /// water.
   std::optional<Place> refracted_off(const Place& place, const glm::dvec3& point,
                                      double ior) const {
     const auto at = hit(place);
@@ -123,20 +124,20 @@ struct Wavy {
     const glm::dvec3 bent = glm::refract(at->ray, at->normal, 1 / ior);
     const double down = glm::dot(up, bent);
     if (!(down < 0)) return {};
-    const double way = glm::dot(up, point - at->point) / down;
-    return difference(screen.place_of(at->point + way * bent), screen.place_of(point));
+    const double distance = glm::dot(up, point - at->point) / down;
+    return difference(screen.place_of(at->point + distance * bent), screen.place_of(point));
   }
-  /// The same of the mirrored ray, by the images in calm water.
+  /// The same for the mirrored ray, by the images in calm water.
   std::optional<Place> mirrored_off(const Place& place, const glm::dvec3& point) const {
     const auto at = hit(place);
     if (!at) return {};
     const glm::dvec3 bounced = across(at->ray, at->normal);
-    const double way = glm::dot(bounced, point - at->point);
+    const double distance = glm::dot(bounced, point - at->point);
     const WaterView& view = screen.view();
-    return difference(screen.place_of(calm_image(view, at->point + way * bounced)),
+    return difference(screen.place_of(calm_image(view, at->point + distance * bounced)),
                       screen.place_of(calm_image(view, point)));
   }
-  /// The same of a direction, infinitely far away.
+  /// The same for a direction, infinitely far away.
   std::optional<Place> mirrored_off_sky(const Place& place, const glm::dvec3& direction) const {
     const auto at = hit(place);
     if (!at) return {};
@@ -146,8 +147,8 @@ struct Wavy {
   }
 };
 
-/// A place with off(place) = `wanted`, by Broyden's method from `begin` on; none if it does not
-/// end.
+/// A place with off(place) = `wanted`, by Broyden's method from `begin` on; none if the method does
+/// not converge.
 template <class Off>
 std::optional<Place> place_with(const Off& off, const Place& wanted, const Place& begin) {
   constexpr double kNear = 1e-3;   // pixels

@@ -11,9 +11,9 @@
 
 namespace limpid {
 
-/// Where a camera sees a point below a calm surface: the point is `down` below the surface, the eye
-/// `up` above the surface, and `across` lies between them horizontally. The horizontal distance
-/// from the eye to the place where the ray meets the surface, by the law of refraction. All
+/// For the ray from a point below a calm surface to an eye, the horizontal distance from the eye to
+/// the intersection with the surface, by the law of refraction. The point is `down` below the
+/// surface, the eye `up` above it, and the horizontal distance between them is `across`. All
 /// numbers are finite; up > 0, down >= 0, across >= 0, ior >= 1.
 double refracted_reach(double up, double down, double across, double ior);
 
@@ -23,17 +23,17 @@ struct WaterSurface {
   View<const float> depth, normal_x, normal_y, normal_z;
 };
 
-/// Motion vectors of a scene that stands still, by the camera and the water of a second frame: from
+/// Motion vectors of a static scene, by the camera and the water of a second frame: from
 /// the place where the water of this frame shows a point to the place where the water of the second
 /// frame shows the same point. In pixels, x to the right, y up.
 ///
 /// Exact over calm water. With waves a point has an image where the ray of a place, refracted or
 /// mirrored at that frame's own surface, passes through the point. A wavy surface shows some points
-/// at several places: the one found is where an iteration (Broyden 1965, "A Class of Methods for
-/// Solving Nonlinear Simultaneous Equations") ends that begins at the pixel plus the vector of calm
-/// water. Where it does not end within kSteps steps, the vector is that of calm water. The error of
-/// this frame's own lookup (of looks that do not refract by Snell's law) counts for both frames, so
-/// that the vectors of water and camera that stand still are 0.
+/// at several places: the vector leads to the place to which an iteration (Broyden 1965, "A Class
+/// of Methods for Solving Nonlinear Simultaneous Equations") converges from the pixel plus the
+/// vector of calm water. If it does not converge within kSteps steps, the vector is that of calm
+/// water. The error of this frame's own lookup (of looks that do not refract by Snell's law) counts
+/// for both frames, so that the vectors are 0 if water and camera do not move.
 class Parallax {
  public:
   struct Waves {
@@ -46,13 +46,13 @@ class Parallax {
   Parallax(const WaterView& now, const WaterView& second, double ior,
            const std::optional<Waves>& waves = {});
 
-  /// Of what is seen through the water: the point that the pixel looks up, at the depth of the dry
-  /// picture (+inf for none), on dry pixels the point that the pixel shows. 0 where the second
-  /// frame has the point behind its camera.
+  /// Vectors of the bottom as seen through the water: of the point that the pixel looks up, at the
+  /// depth of the dry picture (+inf for none), on dry pixels of the point that the pixel shows. 0
+  /// where the second frame has the point behind its camera.
   void seen(const LookedUp& looked_up, View<const float> depth, View<float> to_x, View<float> to_y,
             Executor& executor) const;
-  /// Of what the surface mirrors, by Aov::kReflectionDepth: also the sky, infinitely far away, and
-  /// what the picture does not show. 0 on dry pixels.
+  /// Vectors of the mirror image, by Aov::kReflectionDepth: also of the sky, infinitely far away,
+  /// and of objects that the picture does not show. 0 on dry pixels.
   void reflected(const Mirrored& mirrored, View<float> to_x, View<float> to_y,
                  Executor& executor) const;
 

@@ -16,8 +16,8 @@ namespace limpid {
 namespace {
 
 constexpr PlaneSet kSurfacePlanes = kSurfaceNormalPlanes | PlaneSet{PlaneId::kSurfaceDepth};
-/// What is computed beyond each side of the picture, of its longer side: the image of a point moves
-/// into the picture from there.
+/// The longer side of the picture, over the width of the margin in which the surface is computed,
+/// too: the image of a point may move into the picture from there.
 constexpr int kBeyond = 8;
 
 bool has_plate(const CompositeJob& job) {

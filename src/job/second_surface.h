@@ -19,8 +19,8 @@ struct PreparedSecond {
   Scene scene;
   DepthMeaning depth;
   Plan plan;                   ///< of the waves alone
-  std::optional<Plate> plate;  ///< none where the scene is enough
-  /// Of the water's surface, of both frames: which of them the plate gives.
+  std::optional<Plate> plate;  ///< none if the scene file has camera and water
+  /// The planes of the surface that this frame's plan reads and the second plate has.
   PlaneSet surface;
   /// Whether this frame's water has normals from its plate, and the second frame's has none.
   bool lacks_normals = false;
@@ -35,8 +35,8 @@ struct PreparedSecond {
 PreparedSecond prepare_second(const CompositeJob& job, const Plate& plate, const Scene& scene,
                               const Plan& plan);
 
-/// The surface of the second frame's water, also where something hides it, and beyond the picture
-/// as far as its waves may move what is seen. Reuses its memory for the next frame.
+/// The surface of the second frame's water, also behind objects, and beyond the picture as far as
+/// its waves may move an image. Reuses its memory for the next frame.
 class SecondSurface {
  public:
   /// Reads the plate's planes.
