@@ -31,7 +31,7 @@ double square_at(double distance) {
 
 /// Share of the light leaving a level bottom evenly that the surface reflects and that comes down
 /// between the middle of a ring and that of the next.
-double thrown_from(std::size_t ring, double depth, double ior) {
+double reflected_to_ring(std::size_t ring, double depth, double ior) {
   const double whole = 1 / (ior * ior);  // beyond it, total reflection
   const double from = std::max(square_at(middle_of(ring)), whole);
   const double to = ring + 1 < Basin::kRings ? std::max(square_at(middle_of(ring + 1)), whole) : 1;
@@ -127,7 +127,8 @@ double Basin::sunlit_around(int x, int y, const View<const float>& shadow, doubl
   if (!bottom) return 1;
   const double drop = drop_of(bottom->at, c_);
   std::array<double, kRings> light;
-  for (std::size_t ring = 0; ring < kRings; ++ring) light[ring] = thrown_from(ring, depth, ior);
+  for (std::size_t ring = 0; ring < kRings; ++ring)
+    light[ring] = reflected_to_ring(ring, depth, ior);
   double sunlit = 0, all = 0;
   for (int k = 0; k < kDirections; ++k) {
     const glm::dvec3 along = direction(k, c_);
@@ -145,10 +146,10 @@ double Basin::sunlit_around(int x, int y, const View<const float>& shadow, doubl
   return all > 0 ? sunlit / all : 1;
 }
 
-double Basin::thrown_on(const Walls& walls, double depth, double ior) {
+double Basin::reflected_onto(const Walls& walls, double depth, double ior) {
   double beyond = 0, sum = 0;
   for (std::size_t ring = kRings; ring-- > 0;) {
-    beyond += thrown_from(ring, depth, ior);
+    beyond += reflected_to_ring(ring, depth, ior);
     sum += walls[ring] * beyond;
   }
   return sum;

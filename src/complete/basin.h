@@ -30,11 +30,11 @@ class Basin {
 
   /// Share of the diffuse light of a level bottom that the surface reflects onto these walls,
   /// without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
-  static double thrown_on(const Walls& walls, double depth, double ior);
+  static double reflected_onto(const Walls& walls, double depth, double ior);
 
   /// Lit fraction of the bottom around, by the `shadow` of the dry picture: the mean, weighted by
   /// the light that the surface reflects from each place to this point (from two depths away and
-  /// more). 1 where the picture shows no bottom around. `depth`, `ior` as in thrown_on().
+  /// more). 1 where the picture shows no bottom around. `depth`, `ior` as in reflected_onto().
   double sunlit_around(int x, int y, const View<const float>& shadow, double depth,
                        double ior) const;
 

@@ -95,7 +95,7 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
     const std::array<double, 3> rates{water.rate.r, water.rate.g, water.rate.b};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto thrown =
-          static_cast<float>(share * Basin::thrown_on(walls, rates[i] * drop, c.ior));
+          static_cast<float>(share * Basin::reflected_onto(walls, rates[i] * drop, c.ior));
       const auto shade =
           static_cast<float>(share * (1 - basin.sunlit_around(x, y, frame.plane(PlaneId::kShadow),
                                                               rates[i] * drop, c.ior)));

@@ -13,8 +13,8 @@
 
 #include "limpid/ops/look.h"
 
+#include "complete/off_frame_sides.h"
 #include "complete/row_heights.h"
-#include "complete/sides_beyond.h"
 #include "op/pixel_start.h"
 #include "op/screen_ray.h"
 #include "op/seen_planes.h"
@@ -190,20 +190,21 @@ std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& c,
   return BottomPlane{normal, plane.z / length, drop, shallow, slack};
 }
 
-Beyond sides_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& c, int step) {
+OffFrameLookups off_frame_sides(const BottomPlane& bottom, const Frame& frame, const Pass& c,
+                                int step) {
   const Rect work = frame.work(), there = looked_up(frame, c);
   const Rect& d = frame.display;
-  Beyond beyond;
+  OffFrameLookups off_frame;
   const auto pixels = [](double past, double from_side) {
     return past > kRounding ? static_cast<int>(std::ceil(std::min(from_side - kRounding, 1e6))) : 0;
   };
   const auto look = [&](int x, int y) {
     const auto at = looks_at(bottom, frame, c, x, y);
     if (!at) return;
-    beyond.left = std::max(beyond.left, pixels(there.x0 - at->x, d.x0 - at->x));
-    beyond.top = std::max(beyond.top, pixels(there.y0 - at->y, d.y0 - at->y));
-    beyond.right = std::max(beyond.right, pixels(at->x - there.x1 + 1, at->x - d.x1 + 1));
-    beyond.bottom = std::max(beyond.bottom, pixels(at->y - there.y1 + 1, at->y - d.y1 + 1));
+    off_frame.left = std::max(off_frame.left, pixels(there.x0 - at->x, d.x0 - at->x));
+    off_frame.top = std::max(off_frame.top, pixels(there.y0 - at->y, d.y0 - at->y));
+    off_frame.right = std::max(off_frame.right, pixels(at->x - there.x1 + 1, at->x - d.x1 + 1));
+    off_frame.bottom = std::max(off_frame.bottom, pixels(at->y - there.y1 + 1, at->y - d.y1 + 1));
   };
   for (const int y : {work.y0, work.y1 - 1}) {
     for (int x = work.x0; x < work.x1; x += step) look(x, y);
@@ -211,12 +212,12 @@ Beyond sides_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& c
   for (const int x : {work.x0, work.x1 - 1}) {
     for (int y = work.y0; y < work.y1; y += step) look(x, y);
   }
-  return beyond;
+  return off_frame;
 }
 
-Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& c) {
-  Beyond beyond = sides_beyond(bottom, frame, c, 1);
-  if (!beyond.any()) return beyond;
+OffFrameLookups off_frame_lookups(const BottomPlane& bottom, const Frame& frame, const Pass& c) {
+  OffFrameLookups off_frame = off_frame_sides(bottom, frame, c, 1);
+  if (!off_frame.any()) return off_frame;
   const Rect work = frame.work(), there = looked_up(frame, c);
   const int step = step_for(work, kShareSamples);
   int wet = 0, off = 0;
@@ -230,19 +231,32 @@ Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& c)
       off += inside ? 0 : 1;
     }
   }
-  beyond.share = wet > 0 ? static_cast<double>(off) / wet : 0;
-  return beyond;
+  off_frame.share = wet > 0 ? static_cast<double>(off) / wet : 0;
+  return off_frame;
 }
 
-std::string to_text(const Beyond& beyond) {
-  if (!beyond.any()) return "no wet pixel looks beyond the picture";
-  char text[256];
-  std::snprintf(
-      text, sizeof text,
-      "%.1f %% of the wet pixels look beyond the picture; overscan of color and depth by %d pixels "
-      "on the left, %d on the right, %d at the top and %d at the bottom would cover them",
-      100 * beyond.share, beyond.left, beyond.right, beyond.top, beyond.bottom);
-  return text;
+std::string to_text(const OffFrameLookups& off_frame) {
+  if (!off_frame.any()) return "no refracted ray leaves the picture";
+  struct Side {
+    int pixels;
+    const char* place;
+  };
+  std::vector<std::string> sides;
+  for (const Side& side : {Side{off_frame.left, " on the left"},
+                           {off_frame.right, " on the right"},
+                           {off_frame.top, " at the top"},
+                           {off_frame.bottom, " at the bottom"}}) {
+    if (side.pixels == 0) continue;
+    const char* unit = !sides.empty() ? "" : side.pixels == 1 ? " pixel" : " pixels";
+    sides.push_back(std::to_string(side.pixels) + unit + side.place);
+  }
+  const std::string last = sides.back();
+  sides.pop_back();
+  char share[16];
+  std::snprintf(share, sizeof share, "%.1f %%", 100 * off_frame.share);
+  return std::string("the refracted rays of ") + share +
+         " of the wet pixels leave the picture; overscan of color and depth by " +
+         (sides.empty() ? "" : join(sides) + " and ") + last + " would show where they end";
 }
 
 }  // namespace limpid

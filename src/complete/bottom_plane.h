@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "limpid/complete/beyond.h"
+#include "limpid/complete/off_frame.h"
 #include "limpid/core/frame.h"
 
 #include "op/pass.h"
@@ -48,6 +48,6 @@ inline std::optional<BottomPlane> fit_bottom(const Frame& frame, const Pass& pas
 
 /// The refracted lookups that leave the picture, by the intersections of refracted rays with this
 /// plane: the overscan from each wet pixel at an edge, the share from a few thousand wet pixels.
-Beyond look_beyond(const BottomPlane& bottom, const Frame& frame, const Pass& pass);
+OffFrameLookups off_frame_lookups(const BottomPlane& bottom, const Frame& frame, const Pass& pass);
 
 }  // namespace limpid

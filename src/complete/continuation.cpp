@@ -11,8 +11,8 @@
 
 #include "limpid/ops/look.h"
 
+#include "complete/off_frame_sides.h"
 #include "complete/row_heights.h"
-#include "complete/sides_beyond.h"
 
 namespace limpid {
 namespace {
@@ -118,7 +118,7 @@ std::optional<glm::dvec2> slope_at(const Bottom& bottom, const BottomPlane& plan
 }
 
 /// At irregular places, because lines may be regular.
-void gather_slopes(const Bottom& bottom, const BottomPlane& plane, const Beyond& beyond,
+void gather_slopes(const Bottom& bottom, const BottomPlane& plane, const OffFrameLookups& off_frame,
                    std::vector<glm::dvec2>& slopes) {
   const Rect& w = bottom.window;
   const int deep = std::max(2, static_cast<int>(kLinesDeep * w.height()));
@@ -133,8 +133,8 @@ void gather_slopes(const Bottom& bottom, const BottomPlane& plane, const Beyond&
   for (int i = 0; i < kLineSamples; ++i) {
     const int x = any(w.x0 + 1, w.x1 - 1), y = any(w.y0 + 1, w.y1 - 1);
     const bool near =
-        (beyond.left > 0 && x < w.x0 + deep) || (beyond.right > 0 && x >= w.x1 - deep) ||
-        (beyond.top > 0 && y < w.y0 + deep) || (beyond.bottom > 0 && y >= w.y1 - deep);
+        (off_frame.left > 0 && x < w.x0 + deep) || (off_frame.right > 0 && x >= w.x1 - deep) ||
+        (off_frame.top > 0 && y < w.y0 + deep) || (off_frame.bottom > 0 && y >= w.y1 - deep);
     if (!near) continue;
     if (const auto slope = slope_at(bottom, plane, x, y)) slopes.push_back(*slope);
   }
@@ -280,9 +280,9 @@ void ContinuationMaker::paint_edge(const Frame& frame, const Pass& pass, const B
 const Continuation* ContinuationMaker::make(const Frame& frame, const Pass& c) {
   const auto plane = fit_bottom(frame, c, samples_);
   if (!plane) return nullptr;
-  const Beyond beyond = sides_beyond(*plane, frame, c, kEdgeStep);
-  if (!beyond.any()) return nullptr;
-  gather_slopes(Bottom(frame, c), *plane, beyond, slopes_);
+  const OffFrameLookups off_frame = off_frame_sides(*plane, frame, c, kEdgeStep);
+  if (!off_frame.any()) return nullptr;
+  gather_slopes(Bottom(frame, c), *plane, off_frame, slopes_);
   const Lines lines = lines_of(slopes_);
   const glm::dvec3 level = lines.direction.x * c.t + lines.direction.y * c.b;
   const double rise = -glm::dot(plane->normal, level) / glm::dot(plane->normal, c.up);

@@ -185,7 +185,7 @@ DeskFrame& Desk::frame_at(std::optional<int> number) {
 CompositeJob Desk::job_for(const DeskFrame& frame, const DeskChoice& choice) const {
   CompositeJob job = frame.job();
   job.look = look_of(choice);
-  if (choice.time) job.time.asked = choice.time;
+  if (choice.time) job.time.explicit_time = choice.time;
   return job;
 }
 
@@ -229,8 +229,8 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
   painted.warnings = warnings_of(job, held.plate(), plan);
   if (!half) {
     warn_of_pixels(plan, painted.frame, scene, held.transparent(), painted.warnings);
-    const Beyond beyond = beyond_of(plan, painted.frame, scene);
-    if (beyond.any()) painted.advice.push_back(to_text(beyond));
+    const OffFrameLookups off_frame = off_frame_lookups_of(plan, painted.frame, scene);
+    if (off_frame.any()) painted.advice.push_back(to_text(off_frame));
   }
   painted.read_seconds = watch.lap();
 

@@ -90,7 +90,7 @@ class CompositeKind {
     }
     CompositeReport& report() { return report_; }
     const Survey& survey() const { return views_.front().survey(); }
-    const Beyond& beyond() const { return views_.front().beyond(); }
+    const OffFrameLookups& off_frame() const { return views_.front().off_frame(); }
 
    private:
     CompositeKind& kind_;
@@ -135,10 +135,10 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
                    Gathered::kAll);
     surveyed.gpu = gpu_load_text(plan, program);
   }
-  surveyed.beyond = beyond_of(plan, frame, scene);
+  surveyed.off_frame = off_frame_lookups_of(plan, frame, scene);
   surveyed.warnings = warnings_of(job, prepared.plate, plan);
   warn_of_pixels(plan, frame, scene, loaded.transparent, surveyed.warnings);
-  warn_of_beyond(surveyed.beyond, surveyed.warnings);
+  warn_of_off_frame(surveyed.off_frame, surveyed.warnings);
   refuse_warnings(job.output.strict, surveyed.warnings);
   return surveyed;
 }
@@ -155,7 +155,7 @@ MeasuredPlan measure_composite(const CompositeJob& job, Executor& executor) {
   RunTimes times;
   for (int i = 0; i < 2; ++i) frame.run(job, executor, &times);
   const CompositeReport& report = frame.report();
-  return {{report.plan, frame.survey(), frame.beyond(), report.warnings}, times};
+  return {{report.plan, frame.survey(), frame.off_frame(), report.warnings}, times};
 }
 
 CompositeReport composite(const CompositeJob& job, Executor& executor) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "limpid/complete/beyond.h"
+#include "limpid/complete/off_frame.h"
 #include "limpid/job/composite.h"
 
 #include "job/canvas.h"
@@ -54,12 +54,12 @@ class CompositeView {
   void forget();
 
   const Survey& survey() const { return canvas_->survey(); }
-  const Beyond& beyond() const { return beyond_; }
+  const OffFrameLookups& off_frame() const { return off_frame_; }
 
  private:
   void run_motion(const OutputChoice& choice, const Plan& plan, Executor& executor);
 
-  Beyond beyond_;
+  OffFrameLookups off_frame_;
   Scene scene_;
   std::optional<SecondSurface> second_;
   LoadedPlate loaded_;

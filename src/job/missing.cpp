@@ -38,7 +38,7 @@ CompositeJob held_job(const JobOfFrame<CompositeJob>& job_of, int frame, int sta
   job.scene = std::move(held.scene);
   job.other_views = std::move(held.other_views);
   job.depth_kind = held.depth_kind;
-  job.time.after_plate += job.time.otherwise - held.time.otherwise;
+  job.time.plate_offset += job.time.fallback - held.time.fallback;
   return job;
 }
 

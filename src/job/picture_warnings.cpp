@@ -278,16 +278,16 @@ void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {
   warnings.push_back(glass_text(share, "the wet pixels show objects under water that are"));
 }
 
-Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene) {
+OffFrameLookups off_frame_lookups_of(const Plan& plan, const Frame& frame, const Scene& scene) {
   const bool rays = plan.look.of<Refraction>().model == Refraction::Model::kSnell;
   if (!plan.made.has(StatePart::kPosition) || !rays) return {};
   const Pass pass = pass_of(plan, scene, frame);
   const auto bottom = fit_bottom(frame, pass);
-  return bottom ? look_beyond(*bottom, frame, pass) : Beyond{};
+  return bottom ? off_frame_lookups(*bottom, frame, pass) : OffFrameLookups{};
 }
 
-void warn_of_beyond(const Beyond& beyond, std::vector<std::string>& warnings) {
-  if (beyond.share >= 0.01) warnings.push_back(to_text(beyond));
+void warn_of_off_frame(const OffFrameLookups& off_frame, std::vector<std::string>& warnings) {
+  if (off_frame.share >= 0.01) warnings.push_back(to_text(off_frame));
 }
 
 void refuse_warnings(bool strict, const std::vector<std::string>& warnings) {

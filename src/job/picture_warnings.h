@@ -32,11 +32,11 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
 /// Adds a sentence if a thousandth of the wet pixels or more is LoadedPlate::transparent.
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings);
 
-/// Where the plan's refraction looks beyond the picture; empty if it traces no rays.
-Beyond beyond_of(const Plan& plan, const Frame& frame, const Scene& scene);
+/// The lookups of the plan's refraction that leave the picture; none if it traces no rays.
+OffFrameLookups off_frame_lookups_of(const Plan& plan, const Frame& frame, const Scene& scene);
 
-/// Adds to_text(beyond) if a hundredth of the wet pixels or more look beyond the picture.
-void warn_of_beyond(const Beyond& beyond, std::vector<std::string>& warnings);
+/// Adds to_text(off_frame) if it is true of a hundredth of the wet pixels or more.
+void warn_of_off_frame(const OffFrameLookups& off_frame, std::vector<std::string>& warnings);
 
 /// Throws the first warning as an Error, if `strict`.
 void refuse_warnings(bool strict, const std::vector<std::string>& warnings);

@@ -18,7 +18,7 @@ namespace {
 constexpr PlaneSet kSurfacePlanes = kSurfaceNormalPlanes | PlaneSet{PlaneId::kSurfaceDepth};
 /// The longer side of the picture, over the width of the margin in which the surface is computed,
 /// too: the image of a point may move into the picture from there.
-constexpr int kBeyond = 8;
+constexpr int kMarginShare = 8;
 
 bool has_plate(const CompositeJob& job) {
   return !files_of(job.plate).empty() && !missing_file(job);
@@ -103,15 +103,15 @@ bool SecondSurface::has_waves(const Plan& plan) const {
 
 WaterSurface SecondSurface::paint(const HeldTextures& textures, const Rect& display,
                                   const OutputChoice& choice, Executor& executor) {
-  const int beyond = std::max(display.width(), display.height()) / kBeyond;
-  const Rect window{display.x0 - beyond, display.y0 - beyond, display.x1 + beyond,
-                    display.y1 + beyond};
+  const int margin = std::max(display.width(), display.height()) / kMarginShare;
+  const Rect window{display.x0 - margin, display.y0 - margin, display.x1 + margin,
+                    display.y1 + margin};
   fill(dry_, window, 0);
   fill(depth_, window, HUGE_VALF);
   Frame frame;
   if (!second_.surface.empty()) frame = loaded_.frame;
   frame.display = display;
-  frame.overscan = beyond;
+  frame.overscan = margin;
   for (const PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB}) {
     frame.planes[index_of(id)] = std::as_const(dry_).view();
   }

@@ -28,7 +28,7 @@ void run_sequence(const Sequence& sequence,
     return *slots[static_cast<std::size_t>(place)];
   };
   Stopwatch watch;
-  SequenceProgress progress{.of = static_cast<int>(sequence.frames.size())};
+  SequenceProgress progress{.total = static_cast<int>(sequence.frames.size())};
   const FrameStep steps[] = {
       [&](int place, int frame) { slot(place).begin(frame); },
       [&](int place, int) { slot(place).read(executor); },

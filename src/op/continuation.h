@@ -31,7 +31,7 @@ struct Continuation {
 /// The ray of one pixel, or of one vector of pixels, beyond the picture. `falls` as in a
 /// BottomSearch, per unit along `direction`.
 template <class F, class Tap>
-class BeyondPicture {
+class OffFrameRay {
  public:
   struct Seen {
     F distance;     ///< distance along the ray
@@ -39,8 +39,8 @@ class BeyondPicture {
     Rgb<F> color;
   };
 
-  BeyondPicture(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel, const Tap& taps,
-                const ScreenRay<F>& distance, Vec3<F> direction, F falls)
+  OffFrameRay(const Pass& pass, const SeenPlanes& seen, const Pixel<F>& pixel, const Tap& taps,
+              const ScreenRay<F>& distance, Vec3<F> direction, F falls)
       : c_(pass),
         on_(*pass.continuation),
         planes_(seen),

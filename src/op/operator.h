@@ -190,7 +190,7 @@ concept Operator = requires(const typename T::Params& params, StateSet made, con
   { T::kMakes } -> std::convertible_to<StateSet>;          // state it writes, each part whole
   { T::fields() } -> std::same_as<std::span<const Field<typename T::Params>>>;
   { T::reads(params) } -> std::same_as<PlaneSet>;  // every plane it may tap
-  { T::needs(params) } -> std::same_as<Needs>;     // without these it is dropped
+  { T::needs(params) } -> std::same_as<Needs>;     // without these it is skipped
   { T::reach(params) } -> std::same_as<double>;    // how far its taps go, in uv; tilts are below 1
   // The parameters make it the identity on all state but kPath, given the state that the operators
   // before it make.

@@ -215,8 +215,8 @@ struct Kernel<Refraction> : Refraction {
     const auto off =
         ends && p.confidence <= F(0) && reach_in(planes.bounds, p.uv, ray.shift_at(p.path)) < F(1);
     if_any(off, [&] {
-      const BeyondPicture<F, Tap> beyond(c, planes, p, tap, ray, bent.direction, bent.fall);
-      const auto seen = beyond.look(select(off, p.path, F(1)));
+      const OffFrameRay<F, Tap> end(c, planes, p, tap, ray, bent.direction, bent.fall);
+      const auto seen = end.look(select(off, p.path, F(1)));
       p.path = select(off, seen.distance, p.path);
       p.hit_depth = select(off, ray.depth_at(seen.distance), p.hit_depth);
       p.transmitted = select(off, seen.color, p.transmitted);

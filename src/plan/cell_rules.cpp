@@ -102,7 +102,7 @@ void CellRules::skip_invisible(CellState& cell) const {
   }
 }
 
-/// Backwards from the outputs, like the rule drop_unread for a whole plan.
+/// Backwards from the outputs, like skip_unread_operator() for a whole plan.
 void CellRules::skip_unread(CellState& cell) const {
   if (cell.needs.dry) return;
   StateSet live = kOutputTerms | plan_.outputs;

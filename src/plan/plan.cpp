@@ -103,7 +103,7 @@ Pass pass_of(const Plan& plan, const Scene& scene, const Frame& frame) {
 
 std::string to_text(const PlannedOperator& op) {
   constexpr std::array<const char*, 5> kWords = {
-      "kept", "dropped: neutral", "dropped: input absent", "dropped: unread", "dropped: invisible"};
+      "kept", "skipped: neutral", "skipped: input absent", "skipped: unread", "skipped: invisible"};
   const std::string word = kWords[static_cast<std::size_t>(op.verdict)];
   return op.reason.empty() ? word : word + ", " + op.reason;
 }

@@ -10,7 +10,7 @@
 namespace limpid {
 namespace {
 
-void drop(PlannedOperator& op, Verdict verdict, std::string reason) {
+void skip(PlannedOperator& op, Verdict verdict, std::string reason) {
   op.verdict = verdict;
   op.reason = std::move(reason);
 }
@@ -40,7 +40,7 @@ void take_better_input(Plan& plan, const Inputs& inputs) {
   });
 }
 
-void drop_absent_input(Plan& plan, const Inputs& inputs) {
+void skip_absent_input(Plan& plan, const Inputs& inputs) {
   for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
     const Needs needs = entry.needs(plan.look);
     std::vector<std::string> absent;
@@ -51,18 +51,18 @@ void drop_absent_input(Plan& plan, const Inputs& inputs) {
     if (needs.sun && !inputs.sun) absent.emplace_back("sun");
     if (needs.wave_map && !inputs.wave_map) absent.emplace_back("normal map");
     if (needs.environment && !inputs.environment) absent.emplace_back("environment");
-    if (!absent.empty()) drop(op, Verdict::kAbsent, "no " + join(absent, ", no "));
+    if (!absent.empty()) skip(op, Verdict::kAbsent, "no " + join(absent, ", no "));
   });
 }
 
 /// In chain order, because leaving out an operator can make a later one neutral. Neutral refers to
 /// the picture: an operator that makes the path stays if the path is an output.
-void drop_neutral(Plan& plan, const Inputs&) {
+void skip_neutral(Plan& plan, const Inputs&) {
   StateSet made;
   for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
     const bool measured = entry.makes.has(StatePart::kPath) && plan.outputs.has(StatePart::kPath);
     if (entry.neutral(plan.look, made) && !measured) {
-      drop(op, Verdict::kNeutral, "its parameters change nothing here");
+      skip(op, Verdict::kNeutral, "its parameters change nothing here");
     } else {
       made = made | entry.makes;
     }
@@ -70,7 +70,7 @@ void drop_neutral(Plan& plan, const Inputs&) {
 }
 
 /// Backwards from the outputs.
-void drop_unread(Plan& plan, const Inputs&) {
+void skip_unread_operator(Plan& plan, const Inputs&) {
   StateSet live = kOutputTerms | plan.outputs;
   for (int i = Chain::kCount - 1; i >= 0; --i) {
     if (!plan.keeps(i)) continue;
@@ -79,7 +79,7 @@ void drop_unread(Plan& plan, const Inputs&) {
     if (entry.makes.meets(live)) {
       live = live | entry.uses;
     } else {
-      drop(plan.operators[index], Verdict::kUnread, "no operator reads its results");
+      skip(plan.operators[index], Verdict::kUnread, "no operator reads its results");
     }
   }
 }
@@ -127,10 +127,11 @@ void complete_planes(Plan& plan, const Inputs& inputs) {
 
 constexpr Rule kRules[] = {
     {"take_better_input", "Buffers of the plate replace computed ones.", take_better_input},
-    {"drop_absent_input", "An operator without a required input does not run.", drop_absent_input},
-    {"drop_neutral", "An operator whose parameters make it the identity does not run.",
-     drop_neutral},
-    {"drop_unread", "An operator whose results no other operator reads does not run.", drop_unread},
+    {"skip_absent_input", "An operator without a required input does not run.", skip_absent_input},
+    {"skip_neutral", "An operator whose parameters make it the identity does not run.",
+     skip_neutral},
+    {"skip_unread_operator", "An operator whose results no other operator reads does not run.",
+     skip_unread_operator},
     {"use_environment",
      "The environment is mirrored where no other source shows the mirrored objects.",
      use_environment},

@@ -102,10 +102,10 @@ void NameTable::add_look(const Look& look) {
   Chain::for_each([&]<class Op, int I>() {
     const auto& params = look.of<Op>();
     for (const auto& field : Op::fields()) {
-      const void* home = field.home(params);
+      const void* address = field.address(params);
       const std::string name = std::string(Op::kName) + "." + std::string(field.name);
       if (field.kind == FieldKind::kColor) {
-        const auto& color = *static_cast<const Rgb<double>*>(home);
+        const auto& color = *static_cast<const Rgb<double>*>(address);
         add(name + ".r", color.r), add(name + ".g", color.g), add(name + ".b", color.b);
       } else if (field.kind == FieldKind::kTable) {
         if constexpr (requires { params.waves; }) {
@@ -115,7 +115,7 @@ void NameTable::add_look(const Look& look) {
           }
         }
       } else if (field.kind == FieldKind::kReal) {
-        names_.emplace(home, name);
+        names_.emplace(address, name);
       }
     }
   });

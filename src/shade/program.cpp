@@ -32,8 +32,7 @@ void check(const ShaderOptions& options) {
     throw Error("descriptor set " + std::to_string(options.set) + " is out of 0 ... 31");
   }
   if (options.max_threads < 128) {
-    throw Error("most threads of a group = " + std::to_string(options.max_threads) +
-                ": expected 128 at least");
+    throw Error("max_threads = " + std::to_string(options.max_threads) + ": expected 128 at least");
   }
   if (options.first_binding < 0 || options.first_binding > 1000) {
     throw Error("first binding " + std::to_string(options.first_binding) + " is out of 0 ... 1000");

@@ -56,8 +56,8 @@ int Recorder::mask(bool value) {
   return keep({NodeOp::kLiteral, NodeType::kMask, {-1, -1, -1}, value ? 1.0 : 0.0});
 }
 
-int Recorder::given(double value, const void* home) {
-  const std::string* name = names_.name_of(home);
+int Recorder::given(double value, const void* address) {
+  const std::string* name = names_.name_of(address);
   if (!name) throw Error("a number of the frame lies where no name is known: given() needs one");
   return given(value, name->c_str(), -1);
 }

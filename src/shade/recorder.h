@@ -41,7 +41,7 @@ class Recorder {
   int literal(double value);
   int mask(bool value);
   /// A number of the frame, by its address. Throws Error if the address has no name.
-  int given(double value, const void* home);
+  int given(double value, const void* address);
   /// A number by its name, and its index in a list. Throws Error if the name already has another
   /// value.
   int given(double value, const char* name, int place);

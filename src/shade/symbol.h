@@ -142,8 +142,8 @@ struct Loop<Symbol> {
 
 template <>
 struct Given<Symbol> {
-  static Symbol known(double x, const void* home) {
-    return Symbol::of(Recorder::current().given(x, home));
+  static Symbol known(double x, const void* address) {
+    return Symbol::of(Recorder::current().given(x, address));
   }
   static Symbol named(double x, const char* name, int place) {
     return Symbol::of(Recorder::current().given(x, name, place));

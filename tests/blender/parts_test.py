@@ -157,15 +157,15 @@ class SceneFiles(unittest.TestCase):
 
 
 class Overscans(unittest.TestCase):
-    PLAN = ("reads color, depth\n5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 pixels "
-            "on the left, 2 on the right, 0 at the top and 24 at the bottom would cover them\n")
+    PLAN = ("reads color, depth\nthe refracted rays of 5.8 % of the wet pixels leave the picture; overscan of color and "
+            "depth by 4 pixels on the left, 2 on the right and 24 at the bottom would show where they end\n")
 
     def test_the_plan_of_a_small_picture_is_scaled(self):
         self.assertEqual(small((1920, 1080)), (240, 135))
         self.assertEqual(small((100, 50)), (100, 50))
         self.assertEqual(asked_for(self.PLAN, (240, 135), (1920, 1080)), Overscan(36, 18, 0, 212))
         self.assertEqual(asked_for(self.PLAN, (40, 20), (40, 20)).bottom, 20)  # half of the picture at most
-        self.assertEqual(asked_for("no wet pixel looks beyond the picture\n", (240, 135), (480, 270)), Overscan())
+        self.assertEqual(asked_for("no refracted ray leaves the picture\n", (240, 135), (480, 270)), Overscan())
 
     def test_several_frames(self):
         self.assertEqual(largest([Overscan(1, 5, 0, 2), Overscan(3, 1, 0, 9)]), Overscan(3, 5, 0, 9))

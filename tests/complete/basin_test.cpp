@@ -53,11 +53,11 @@ TEST(Basin, WallsRightBesideAPlaceTakeAllThatIsThrownBackWhole) {
   Basin::Walls walls{};
   walls[0] = 1;
   const double whole = 1 - 1 / (1.333 * 1.333);
-  EXPECT_NEAR(Basin::thrown_on(walls, 0, 1.333), whole, 1e-9);
+  EXPECT_NEAR(Basin::reflected_onto(walls, 0, 1.333), whole, 1e-9);
   walls[0] = 0.5;
-  EXPECT_NEAR(Basin::thrown_on(walls, 0, 1.333), whole / 2, 1e-9);
+  EXPECT_NEAR(Basin::reflected_onto(walls, 0, 1.333), whole / 2, 1e-9);
   // Light to the surface and back at 49 degrees and flatter.
-  EXPECT_LT(Basin::thrown_on(walls, 1, 1.333), whole / 2 * std::exp(-2 / 0.661));
+  EXPECT_LT(Basin::reflected_onto(walls, 1, 1.333), whole / 2 * std::exp(-2 / 0.661));
 }
 
 TEST(Basin, LessOfTheLightReachesWallsThatAreFarther) {
@@ -65,7 +65,7 @@ TEST(Basin, LessOfTheLightReachesWallsThatAreFarther) {
   for (std::size_t ring = 0; ring < Basin::kRings; ++ring) {
     Basin::Walls walls{};
     walls[ring] = 1;
-    const double thrown = Basin::thrown_on(walls, 0.1, 1.333);
+    const double thrown = Basin::reflected_onto(walls, 0.1, 1.333);
     EXPECT_LE(thrown, before) << ring;
     before = thrown;
   }

@@ -51,12 +51,12 @@ TEST(BottomPlane, IsNoneWhereNothingLiesUnderTheWater) {
   EXPECT_FALSE(fit_bottom(pool.buffers.frame, pool.pass()));
 }
 
-Beyond beyond_of(const Pool& pool) {
+OffFrameLookups off_frame_lookups_of(const Pool& pool) {
   const auto plane = fit_bottom(pool.buffers.frame, pool.pass());
-  return plane ? look_beyond(*plane, pool.buffers.frame, pool.pass()) : Beyond{};
+  return plane ? off_frame_lookups(*plane, pool.buffers.frame, pool.pass()) : OffFrameLookups{};
 }
 
-TEST(Beyond, SaysWhichOverscanWouldShowWhatIsLookedAt) {
+TEST(OffFrameLookups, SaysWhichOverscanWouldShowWhatIsLookedAt) {
   Pool pool;
   pool.draw(grey);
   double below = 0;
@@ -69,42 +69,46 @@ TEST(Beyond, SaysWhichOverscanWouldShowWhatIsLookedAt) {
       below = std::max(below, pool.end(x, y).y - (Pool::kSize.height - 1));
     }
   }
-  const Beyond beyond = beyond_of(pool);
+  const OffFrameLookups off_frame = off_frame_lookups_of(pool);
   EXPECT_GT(below, 5);
-  EXPECT_EQ(beyond.bottom, static_cast<int>(std::ceil(below)));
-  EXPECT_EQ(beyond.top, 0);
-  EXPECT_EQ(beyond.left, 0) << "calm water bends rays towards the middle of a view from above";
-  EXPECT_EQ(beyond.right, 0);
-  EXPECT_NEAR(beyond.share, double(off) / wet, 0.02);
+  EXPECT_EQ(off_frame.bottom, static_cast<int>(std::ceil(below)));
+  EXPECT_EQ(off_frame.top, 0);
+  EXPECT_EQ(off_frame.left, 0) << "calm water bends rays towards the middle of a view from above";
+  EXPECT_EQ(off_frame.right, 0);
+  EXPECT_NEAR(off_frame.share, double(off) / wet, 0.02);
 }
 
-TEST(Beyond, OverscanThatIsThereCounts) {
+TEST(OffFrameLookups, OverscanThatIsThereCounts) {
   Pool pool;
   pool.draw(grey);
-  const int needed = beyond_of(pool).bottom;
+  const int needed = off_frame_lookups_of(pool).bottom;
   pool.window = {-3, -3, Pool::kSize.width + 3, Pool::kSize.height + needed};
   pool.draw(grey);
-  EXPECT_FALSE(beyond_of(pool).any());
+  EXPECT_FALSE(off_frame_lookups_of(pool).any());
   pool.window.y1 -= 1;
   pool.draw(grey);
-  EXPECT_EQ(beyond_of(pool).bottom, needed) << "told from the side of the picture";
+  EXPECT_EQ(off_frame_lookups_of(pool).bottom, needed) << "told from the side of the picture";
 }
 
-TEST(Beyond, NormalsOfTheWaterCount) {
+TEST(OffFrameLookups, NormalsOfTheWaterCount) {
   Pool pool;
   pool.draw(grey);
   pool.buffers.normal(normalize_or<double>({-0.6, 1, 0}, {0, 1, 0}));
-  const Beyond beyond = beyond_of(pool);
-  EXPECT_GT(beyond.right, 0);
-  EXPECT_EQ(beyond.left, 0);
+  const OffFrameLookups off_frame = off_frame_lookups_of(pool);
+  EXPECT_GT(off_frame.right, 0);
+  EXPECT_EQ(off_frame.left, 0);
 }
 
-TEST(Beyond, IsSaidInOneSentence) {
-  EXPECT_EQ(to_text(Beyond{}), "no wet pixel looks beyond the picture");
-  EXPECT_EQ(
-      to_text(Beyond{0.0583, 4, 0, 2, 24}),
-      "5.8 % of the wet pixels look beyond the picture; overscan of color and depth by 4 "
-      "pixels on the left, 2 on the right, 0 at the top and 24 at the bottom would cover them");
+TEST(OffFrameLookups, SentenceNamesTheSidesThatLackOverscan) {
+  EXPECT_EQ(to_text(OffFrameLookups{}), "no refracted ray leaves the picture");
+  const auto sentence = [](const char* share, const char* overscan) {
+    return std::string("the refracted rays of ") + share +
+           " of the wet pixels leave the picture; overscan of color and depth by " + overscan +
+           " would show where they end";
+  };
+  EXPECT_EQ(to_text(OffFrameLookups{0.0583, 4, 0, 2, 24}),
+            sentence("5.8 %", "4 pixels on the left, 2 on the right and 24 at the bottom"));
+  EXPECT_EQ(to_text(OffFrameLookups{0.2, 0, 1, 0, 0}), sentence("20.0 %", "1 pixel at the top"));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(Continuation, TheRowOfColorsGoesRoundThePicture) {
   const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, bounds, false};
   const auto seen = [&](Vec3<double> direction) {
     const ScreenRay<double> ray(pass, p, direction);
-    return BeyondPicture<double, RowAlone>(pass, planes, p, RowAlone{}, ray, direction, 0.5)
+    return OffFrameRay<double, RowAlone>(pass, planes, p, RowAlone{}, ray, direction, 0.5)
         .look(1e6);
   };
   const double right = seen({1, 0, 0}).shift.x, left = seen({-1, 0, 0}).shift.x;

@@ -327,7 +327,7 @@ DeskOptions two_frames(DeskOptions options, const fs::path& folder) {
     CompositeJob job = first({});
     if (frame == 2) {
       job.plate.files = {folder / "plate.2.exr"};
-      job.time.asked = 5;
+      job.time.explicit_time = 5;
     }
     return job;
   };

@@ -51,7 +51,7 @@ std::vector<std::uint8_t> PondDesk::previewed(const DeskOptions& options, const 
                                               std::optional<double> time) const {
   CompositeJob job = options.job_of(frame);
   job.look = look;
-  if (time) job.time.asked = time;
+  if (time) job.time.explicit_time = time;
   job.output.picture = folder_ / "wet.exr";
   job.output.preview = folder_ / "wet.png";
   composite(job, *executor_);

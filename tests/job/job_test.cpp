@@ -70,12 +70,12 @@ class JobTest : public ::testing::Test {
 
 TEST(JobTime, IsAskedForThenOfTheSceneThenOfThePlate) {
   SceneFile scene;
-  JobTime time{.otherwise = 1, .after_plate = 2};
+  JobTime time{.fallback = 1, .plate_offset = 2};
   EXPECT_EQ(time.of(scene), 1);
   EXPECT_EQ(time.of(scene, 10), 12);
   scene.time = 5;
   EXPECT_EQ(time.of(scene, 10), 5);
-  time.asked = 7;
+  time.explicit_time = 7;
   EXPECT_EQ(time.of(scene, 10), 7);
 }
 
@@ -93,7 +93,7 @@ TEST_F(JobTest, TheTimeOfASceneFileCountsInEveryKind) {
   EXPECT_EQ(time_in(at("composite", 0)), 3);
 
   RenderJob asked = render_job();
-  asked.time.asked = 0;
+  asked.time.explicit_time = 0;
   render(model_, asked, *executor_);
   EXPECT_EQ(time_in(at("plate", 0)), 0);
 }

@@ -38,7 +38,7 @@ class MissingTest : public ::testing::Test {
       job.scene.scene.time = 100 + frame;  // tells the frame of the scene
       job.look.name = std::to_string(frame);
       job.output.picture = folder_ / (std::to_string(frame) + ".exr");
-      job.time.otherwise = frame / 4.0;
+      job.time.fallback = frame / 4.0;
       return job;
     };
   }
@@ -85,10 +85,10 @@ TEST_F(MissingTest, TheNearestBeforeStandsInElseTheFirstAfter) {
   EXPECT_EQ(held.scene.scene.time, 104) << "the camera belongs to the plate";
   EXPECT_EQ(held.look.name, "7");
   EXPECT_EQ(held.output.picture, folder_ / "7.exr");
-  EXPECT_EQ(held.time.otherwise, 7 / 4.0);
-  EXPECT_EQ(held.time.after_plate, 3 / 4.0);
-  EXPECT_EQ(filled.job_of(1).time.after_plate, -2 / 4.0);
-  EXPECT_EQ(filled.job_of(4).time.after_plate, 0);
+  EXPECT_EQ(held.time.fallback, 7 / 4.0);
+  EXPECT_EQ(held.time.plate_offset, 3 / 4.0);
+  EXPECT_EQ(filled.job_of(1).time.plate_offset, -2 / 4.0);
+  EXPECT_EQ(filled.job_of(4).time.plate_offset, 0);
 }
 
 TEST_F(MissingTest, AnyFileOfThePlateCounts) {

@@ -90,7 +90,7 @@ TEST_P(SequenceThreads, TellsOfEachFrameInOrder) {
     const SequenceProgress& at = story.told[static_cast<std::size_t>(i)];
     EXPECT_EQ(at.frame, 100 - 2 * i);
     EXPECT_EQ(at.done, i + 1);
-    EXPECT_EQ(at.of, 25);
+    EXPECT_EQ(at.total, 25);
     if (i > 0) {
       EXPECT_GE(at.seconds, story.told[static_cast<std::size_t>(i) - 1].seconds);
     }

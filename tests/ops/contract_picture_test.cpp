@@ -43,8 +43,8 @@ Picture run(const Plan& plan, const World& world) {
   return picture;
 }
 
-TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
-  std::set<std::string_view> dropped;
+TEST(Contract, SkippingWhatIsNeutralChangesNoPictureAndNoAov) {
+  std::set<std::string_view> skipped;
   for (bool plate_normals : {false, true}) {
     const World world(plate_normals);
     Kernels::for_each([&]<class Op, int I>() {
@@ -55,13 +55,13 @@ TEST(Contract, DroppingWhatIsNeutralChangesNoPictureAndNoAov) {
         const Plan plan =
             make_plan(look, test::inputs_of(world.buffers.frame, world.scene), test::all_state());
         if (plan.keeps(I)) return;
-        dropped.insert(Op::kName);
+        skipped.insert(Op::kName);
         ASSERT_TRUE(same_bits(run(plan, world), run(eager_plan(look, world), world))) << what;
       });
     });
   }
   // Refraction and fog stay, because they make the path.
-  EXPECT_THAT(dropped, testing::IsSupersetOf(
+  EXPECT_THAT(skipped, testing::IsSupersetOf(
                            {"wave_normals", "prism_split", "water_shadow", "sun_highlight"}));
 }
 

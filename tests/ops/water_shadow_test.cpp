@@ -266,7 +266,7 @@ TEST(WaterShadow, ScatterNeverGoesBelowBlack) {
   for (int c = 0; c < 3; ++c) EXPECT_GE(got.aov(Aov::kInScatter, 2, 1, c), 0);
 }
 
-TEST(WaterShadow, ScatterIsDroppedWhereNoSunScatters) {
+TEST(WaterShadow, ScatterIsSkippedWhereNoSunScatters) {
   Tray tray = half_shaded_murk();
   tray.look.of<DepthFog>().scattering = {0, 0, 0};
   const Inputs inputs = test::inputs_of(tray.buffers.frame, tray.scene);

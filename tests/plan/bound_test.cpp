@@ -106,13 +106,13 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
     const Frame& frame = buffers.frame;
     const Plan whole = make_plan(test::patchy_look(seed), test::inputs_of(frame, scene));
     Plan plan = whole;
-    const auto drop = [](Plan& from, int op) { from.operators[op].verdict = Verdict::kInvisible; };
+    const auto skip = [](Plan& from, int op) { from.operators[op].verdict = Verdict::kInvisible; };
     // The operator that finds the path for others stays. Draws go by name, whatever else is in the
     // chain.
     Kernels::for_each([&]<class Op, int I>() {
       int draw = 0;
       for (const char letter : Op::kName) draw += letter;
-      if (I != kFinder && plan.keeps(I) && test::noise(seed, draw, 5) < 0.3f) drop(plan, I);
+      if (I != kFinder && plan.keeps(I) && test::noise(seed, draw, 5) < 0.3f) skip(plan, I);
     });
     Pass pass(scene, frame, plan.look.water.ior, plan.made);
     Completer completer;
@@ -142,7 +142,7 @@ TEST(Bound, NoOperatorMattersMoreThanItSays) {
       ASSERT_GE(bound, 0) << Op::kName;
       if (!std::isfinite(bound)) return;
       Plan without = plan;
-      drop(without, I);
+      skip(without, I);
       const double change =
           farthest(all, test::picture_of(without, frame, scene, test::by_reference), frame.work());
       EXPECT_LE(change, bound * (1 + 1e-6)) << Op::kName << ", seed " << seed;

@@ -103,7 +103,7 @@ inline Buffers patchy_frame(Rect display, int seed) {
 
 inline Scene patchy_scene(Rect display) { return simple_scene(display.size()); }
 
-/// A look in which the planner can drop operators: any models, murky water, short and long reaches.
+/// A look in which the planner can skip operators: any models, murky water, short and long reaches.
 inline Look patchy_look(int seed) {
   int next = 0;
   const auto any = [&] { return static_cast<double>(noise(seed, next++, 77)); };

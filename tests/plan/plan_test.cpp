@@ -47,7 +47,7 @@ TEST(Plan, KeepsEverythingWhenAllIsThere) {
             "water_shadow        kept\n"
             "fresnel_reflection  kept\n"
             "sun_highlight       kept\n"
-            "penetration         dropped: neutral, its parameters change nothing here\n");
+            "penetration         skipped: neutral, its parameters change nothing here\n");
 }
 
 TEST(Plan, SaysWhichInputIsAbsent) {
@@ -56,10 +56,10 @@ TEST(Plan, SaysWhichInputIsAbsent) {
             "prism_split         kept\n"
             "refraction          kept\n"
             "depth_fog           kept\n"
-            "water_shadow        dropped: input absent, no shadow\n"
-            "fresnel_reflection  dropped: input absent, no reflection\n"
-            "sun_highlight       dropped: input absent, no sun\n"
-            "penetration         dropped: neutral, its parameters change nothing here\n");
+            "water_shadow        skipped: input absent, no shadow\n"
+            "fresnel_reflection  skipped: input absent, no reflection\n"
+            "sun_highlight       skipped: input absent, no sun\n"
+            "penetration         skipped: neutral, its parameters change nothing here\n");
 }
 
 TEST(Plan, MirrorsTheEnvironmentWithoutAReflection) {
@@ -92,23 +92,23 @@ TEST(Plan, ReadsTheEnvironmentBesideAReflectionOnlyToFillIt) {
 // Without normals the surface is not tilted, so light is not refracted or split.
 TEST(Plan, WithoutWavesThereIsNothingToRefract) {
   EXPECT_EQ(text(busy_look(), {kBare | kShadow, false, true}),
-            "wave_normals        dropped: input absent, no normal map\n"
-            "prism_split         dropped: neutral, its parameters change nothing here\n"
-            "refraction          dropped: neutral, its parameters change nothing here\n"
+            "wave_normals        skipped: input absent, no normal map\n"
+            "prism_split         skipped: neutral, its parameters change nothing here\n"
+            "refraction          skipped: neutral, its parameters change nothing here\n"
             "depth_fog           kept\n"
             "water_shadow        kept\n"
-            "fresnel_reflection  dropped: input absent, no reflection\n"
+            "fresnel_reflection  skipped: input absent, no reflection\n"
             "sun_highlight       kept\n"
-            "penetration         dropped: neutral, its parameters change nothing here\n");
+            "penetration         skipped: neutral, its parameters change nothing here\n");
 }
 
 TEST(Plan, HasOnlyWhatItIsToldOf) {
   const std::string told = text(busy_look(), {.planes = kBare});
-  EXPECT_THAT(told, HasSubstr("wave_normals        dropped: input absent, no normal map\n"));
-  EXPECT_THAT(told, HasSubstr("sun_highlight       dropped: input absent, no sun\n"));
+  EXPECT_THAT(told, HasSubstr("wave_normals        skipped: input absent, no normal map\n"));
+  EXPECT_THAT(told, HasSubstr("sun_highlight       skipped: input absent, no sun\n"));
 }
 
-TEST(Plan, DropsWhatItsParametersMakeNeutral) {
+TEST(Plan, SkipsWhatItsParametersMakeNeutral) {
   Look look = test::article_look();
   look.of<Refraction>().strength = 0;
   look.of<DepthFog>().alpha = 0;
@@ -116,35 +116,35 @@ TEST(Plan, DropsWhatItsParametersMakeNeutral) {
   look.of<SunHighlight>().strength = 0;
   EXPECT_EQ(text(look, {kAll, false, true}),
             "wave_normals        kept, model plate: the frame has surface normals\n"
-            "prism_split         dropped: neutral, its parameters change nothing here\n"
-            "refraction          dropped: neutral, its parameters change nothing here\n"
-            "depth_fog           dropped: neutral, its parameters change nothing here\n"
-            "water_shadow        dropped: neutral, its parameters change nothing here\n"
+            "prism_split         skipped: neutral, its parameters change nothing here\n"
+            "refraction          skipped: neutral, its parameters change nothing here\n"
+            "depth_fog           skipped: neutral, its parameters change nothing here\n"
+            "water_shadow        skipped: neutral, its parameters change nothing here\n"
             "fresnel_reflection  kept\n"
-            "sun_highlight       dropped: neutral, its parameters change nothing here\n"
-            "penetration         dropped: neutral, its parameters change nothing here\n");
+            "sun_highlight       skipped: neutral, its parameters change nothing here\n"
+            "penetration         skipped: neutral, its parameters change nothing here\n");
 }
 
-TEST(Plan, DropsWavesThatNothingReads) {
+TEST(Plan, SkipsWavesThatNothingReads) {
   Look look = test::article_look();
   look.of<Refraction>().strength = 0;
   const Inputs no_mirror_no_sun{kAll - kReflectionPlanes, false, false};
   EXPECT_EQ(text(look, no_mirror_no_sun),
-            "wave_normals        dropped: unread, no operator reads its results\n"
-            "prism_split         dropped: neutral, its parameters change nothing here\n"
-            "refraction          dropped: neutral, its parameters change nothing here\n"
+            "wave_normals        skipped: unread, no operator reads its results\n"
+            "prism_split         skipped: neutral, its parameters change nothing here\n"
+            "refraction          skipped: neutral, its parameters change nothing here\n"
             "depth_fog           kept\n"
             "water_shadow        kept\n"
-            "fresnel_reflection  dropped: input absent, no reflection\n"
-            "sun_highlight       dropped: input absent, no sun\n"
-            "penetration         dropped: neutral, its parameters change nothing here\n");
+            "fresnel_reflection  skipped: input absent, no reflection\n"
+            "sun_highlight       skipped: input absent, no sun\n"
+            "penetration         skipped: neutral, its parameters change nothing here\n");
   // Where the normal is an output, its planes are read.
   const Plan plan = make_plan(look, no_mirror_no_sun, {StatePart::kNormal});
   EXPECT_EQ(plan.of<WaveNormals>().verdict, Verdict::kKept);
   EXPECT_TRUE(plan.planes.covers(kSurfaceNormalPlanes));
 }
 
-TEST(Plan, DropsThePrismWhenNothingIsRefractedAndKeepsItsLookupOtherwise) {
+TEST(Plan, SkipsThePrismWhenNothingIsRefractedAndKeepsItsLookupOtherwise) {
   Look look = busy_look();
   look.of<Refraction>().strength = 0;
   const Plan plan = make_plan(look, {kAll, false, true}, {});
@@ -171,7 +171,7 @@ TEST(Plan, PlateNormalsThatAreAskedForMustBeThere) {
   Look look = test::article_look();
   look.of<WaveNormals>().model = WaveNormals::Model::kPlate;
   EXPECT_THAT(text(look, {kBare, true, true}),
-              HasSubstr("wave_normals        dropped: input absent, no surface_normal\n"));
+              HasSubstr("wave_normals        skipped: input absent, no surface_normal\n"));
 }
 
 TEST(Plan, ReadsOnlyWhatTheKeptOperatorsRead) {
@@ -199,30 +199,30 @@ TEST(Plan, KeepsANeutralFogWhosePathIsWritten) {
   Look look = test::article_look();
   look.of<DepthFog>().alpha = 0;
   const Inputs inputs{kAll, false, true};
-  EXPECT_THAT(text(look, inputs), HasSubstr("depth_fog           dropped: neutral"));
+  EXPECT_THAT(text(look, inputs), HasSubstr("depth_fog           skipped: neutral"));
   EXPECT_THAT(text(look, inputs, {StatePart::kPath}), HasSubstr("depth_fog           kept"));
 }
 
 TEST(Plan, SaysWhichRuleDecided) {
   const Plan plan = make_plan(test::article_look(), {kAll - kReflectionPlanes, false, true});
   EXPECT_EQ(plan.of<WaveNormals>().rule, "take_better_input");
-  EXPECT_EQ(plan.of<PrismSplit>().rule, "drop_neutral");
+  EXPECT_EQ(plan.of<PrismSplit>().rule, "skip_neutral");
   EXPECT_EQ(plan.of<Refraction>().rule, "");
-  EXPECT_EQ(plan.of<FresnelReflection>().rule, "drop_absent_input");
+  EXPECT_EQ(plan.of<FresnelReflection>().rule, "skip_absent_input");
   std::set<std::string_view> names;
   for (const RuleInfo& rule : rules()) {
     EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
     EXPECT_TRUE(rule.about.ends_with(".")) << rule.name;
   }
-  EXPECT_THAT(names, testing::IsSupersetOf({"take_better_input", "drop_neutral", "copy_dry",
+  EXPECT_THAT(names, testing::IsSupersetOf({"take_better_input", "skip_neutral", "copy_dry",
                                             "skip_hidden", "skip_invisible"}));
 }
 
 TEST(Plan, LeavesOutWhatItIsAskedToAndWhatOnlyThatNeeds) {
   const Inputs inputs{.planes = kBare | kShadow, .wave_map = true, .sun = true};
   const Plan plan = make_plan_without({"wave_normals", "depth_fog"}, busy_look(), inputs);
-  EXPECT_EQ(to_text(plan.of<WaveNormals>()), "dropped: unread, it is left out");
-  EXPECT_EQ(to_text(plan.of<DepthFog>()), "dropped: unread, it is left out");
+  EXPECT_EQ(to_text(plan.of<WaveNormals>()), "skipped: unread, it is left out");
+  EXPECT_EQ(to_text(plan.of<DepthFog>()), "skipped: unread, it is left out");
   EXPECT_EQ(plan.of<Refraction>().verdict, Verdict::kNeutral);
   EXPECT_TRUE(plan.keeps<WaterShadow>());
   EXPECT_FALSE(plan.reads_wave_map);

@@ -357,9 +357,9 @@ TEST(Survey, IsToldAsText) {
   b.set(PlaneId::kSurfaceDepth, [](int x, int y) { return x < 128 && y < 32 ? test::kInf : 4.0f; });
   const Plan plan = plan_of(murky(), b.frame);
   const std::string text = to_text(plan, surveyed(plan, b.frame, scene_of(b.frame)));
-  EXPECT_THAT(text, HasSubstr("refraction          dropped: invisible, fog hides its effect, "
+  EXPECT_THAT(text, HasSubstr("refraction          skipped: invisible, fog hides its effect, "
                               "it changes no bit of the picture [skip_hidden]\n"));
-  EXPECT_THAT(text, HasSubstr("water_shadow        dropped: invisible, it changes no bit of the "
+  EXPECT_THAT(text, HasSubstr("water_shadow        skipped: invisible, it changes no bit of the "
                               "picture [skip_invisible]\n"));
   EXPECT_THAT(text, HasSubstr("sun_highlight       kept\n"));
   EXPECT_THAT(text, HasSubstr("cells of 128x16 pixels, 86.7 % of them wet\n"));

@@ -162,7 +162,7 @@ TEST(ShaderText, RefusesWhatItCannotPrint) {
             "'a__b' is not a function name: expected letters, digits and _");
   EXPECT_EQ(refusal({.set = 32}), "descriptor set 32 is out of 0 ... 31");
   EXPECT_EQ(refusal({.first_binding = -1}), "first binding -1 is out of 0 ... 1000");
-  EXPECT_EQ(refusal({.max_threads = 127}), "most threads of a group = 127: expected 128 at least");
+  EXPECT_EQ(refusal({.max_threads = 127}), "max_threads = 127: expected 128 at least");
   EXPECT_EQ(refusal({.aovs = {Aov::kSky}}),
             "the AOV sky shows a buffer of the frame: a shader has none to make");
 }

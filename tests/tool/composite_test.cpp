@@ -148,7 +148,7 @@ TEST_F(CompositeTest, KeepsTheAttributesAndAddsItsOwn) {
   EXPECT_THAT(info, HasSubstr("shot/take: \"12b\""));
   EXPECT_THAT(info, ContainsRegex("limpid/version: \"[0-9]+\\.[0-9]+\\.[0-9]+\""));
   EXPECT_THAT(info, ContainsRegex("limpid/plan: \"wave_normals +kept"));
-  EXPECT_THAT(info, ContainsRegex("water_shadow +dropped: neutral"));
+  EXPECT_THAT(info, ContainsRegex("water_shadow +skipped: neutral"));
   EXPECT_THAT(info, HasSubstr("limpid/look: \""));
   EXPECT_THAT(info, HasSubstr("[refraction]"));
 }
@@ -191,7 +191,7 @@ TEST_F(CompositeTest, PlanTellsTheKindsOfCells) {
   EXPECT_THAT(exact.out, Not(HasSubstr("max_error")));
   const Ran lost = limpid(
       {"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml", "--max-error", "1e6"});
-  EXPECT_THAT(lost.out, ContainsRegex("depth_fog +dropped: invisible, no channel of a pixel "
+  EXPECT_THAT(lost.out, ContainsRegex("depth_fog +skipped: invisible, no channel of a pixel "
                                       "changes by more than .* \\[skip_invisible\\]"));
   EXPECT_THAT(lost.out, HasSubstr("max_error 1e+06: no pixel has an error above "));
   EXPECT_EQ(files(), before) << "nothing is written";
@@ -286,8 +286,8 @@ TEST_F(CompositeTest, PlanAndDryRunWriteNothing) {
   EXPECT_EQ(dry.code, 0) << dry.err;
   EXPECT_EQ(plan.code, 0) << plan.err;
   EXPECT_THAT(dry.out, ContainsRegex("fresnel_reflection +kept"));
-  EXPECT_THAT(plan.out, ContainsRegex("fresnel_reflection +dropped: input absent, no reflection"));
-  EXPECT_THAT(plan.out, ContainsRegex("water_shadow +dropped: neutral"));
+  EXPECT_THAT(plan.out, ContainsRegex("fresnel_reflection +skipped: input absent, no reflection"));
+  EXPECT_THAT(plan.out, ContainsRegex("water_shadow +skipped: neutral"));
 }
 
 TEST_F(CompositeTest, SaysWhatDoesNotRunForWantOfInput) {

@@ -124,7 +124,7 @@ TEST_F(ShotReportTest, LeavesOutEachOperatorAsAParameterDoes) {
   EXPECT_EQ(shot["operators"].size(), Chain::kCount);
   for (const json& op : shot["operators"]) {
     if (op["runs"]) continue;
-    EXPECT_THAT(std::string(op["planned"]), HasSubstr("dropped")) << op;
+    EXPECT_THAT(std::string(op["planned"]), HasSubstr("skipped")) << op;
     EXPECT_FALSE(op.contains("milliseconds"));
   }
   EXPECT_TRUE(shot["truth"].is_null());
@@ -173,7 +173,7 @@ TEST_F(ShotReportTest, HasAllPicturesAndFacts) {
   EXPECT_DOUBLE_EQ(shot["confidence"]["guessed_share_of_wet"], guessed / wet);
   const Ran plan = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml",
                            "--set", "refraction.strength=0.2"});
-  EXPECT_THAT(plan.out, HasSubstr(std::string(shot["beyond_frame"]["advice"])));
+  EXPECT_THAT(plan.out, HasSubstr(std::string(shot["off_frame"]["advice"])));
 }
 
 TEST_F(ShotReportTest, TheSameLookIsToldOnce) {

@@ -100,7 +100,7 @@ class TroubleTest : public ToolTest {
     job.scene = load_scene(folder_ / "scene.toml");
     job.plate.files = {folder_ / name_of_frame("plate.%d.exr", frame)};
     job.look = load_look(folder_ / "look.toml");
-    job.time.otherwise = frame / 24.0;
+    job.time.fallback = frame / 24.0;
     job.output.picture = folder_ / name_of_frame("out/wet.%d.exr", frame);
     job.output.deep = folder_ / name_of_frame("out/deep.%d.exr", frame);
     job.output.compression = "none";

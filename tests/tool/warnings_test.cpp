@@ -134,14 +134,15 @@ TEST_F(WarningsTest, AreToldOnceOfASequence) {
   EXPECT_EQ(lines(ran.err), 1) << ran.err;
 }
 
-TEST_F(WarningsTest, WaterThatLooksBeyondThePicture) {
+TEST_F(WarningsTest, RaysThatLeaveThePicture) {
   const Words refracts{"--set", "refraction.model=snell"};
   const Ran ran = composite("wet.exr", refracts);
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(lines(ran.err), 1) << ran.err;
-  EXPECT_THAT(ran.err, ::testing::ContainsRegex(
-                           "limpid: warning: [0-9.]+ % of the wet pixels look beyond the picture; "
-                           "overscan of color and depth by [0-9]+ pixels on the left"));
+  EXPECT_THAT(ran.err,
+              ::testing::ContainsRegex(
+                  "limpid: warning: the refracted rays of [0-9.]+ % of the wet pixels leave "
+                  "the picture; overscan of color and depth by [0-9]+ pixels? (on|at) the "));
   const Ran plan = limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml",
                            "--set", "refraction.model=snell"});
   EXPECT_EQ(plan.err, ran.err);
@@ -153,11 +154,11 @@ TEST_F(WarningsTest, WaterThatLooksBeyondThePicture) {
   write_plate(folder_ / "plate.exr", wide);
   EXPECT_EQ(composite("wet.exr", refracts).err, "");
   EXPECT_THAT(limpid({"plan", "plate.exr", "--scene", "scene.toml", "--look", "look.toml"}).out,
-              HasSubstr("no wet pixel looks beyond the picture\n"));
+              HasSubstr("no refracted ray leaves the picture\n"));
 }
 
 /// The numbers differ between frames, the sentence does not.
-TEST_F(WarningsTest, WaterThatLooksBeyondThePictureIsToldOnceOfASequence) {
+TEST_F(WarningsTest, RaysThatLeaveThePictureAreReportedOnceForASequence) {
   for (int frame = 1; frame <= 3; ++frame) {
     PlateOptions wide;
     wide.data = {0, 0, 64, 35 + frame};

@@ -85,7 +85,7 @@ TEST_F(WaterTest, OnlyWhatTheLookNeedsIsRendered) {
   const Ran ran = limpid({"water", scene("pool.toml"), "-n", "--look", "realistic", "--set",
                           "refraction.strength=0", "--set", "prism_split.strength=0"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, ContainsRegex("refraction +dropped: neutral"));
+  EXPECT_THAT(ran.out, ContainsRegex("refraction +skipped: neutral"));
 }
 
 TEST_F(WaterTest, SequencesNumberTheirFiles) {

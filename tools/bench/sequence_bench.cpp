@@ -104,7 +104,7 @@ struct Bench {
   CompositeJob job_of(int frame) const {
     CompositeJob job = common;
     job.plate.files = {name_of_frame(plates, frame)};
-    job.time.otherwise = frame / 24.0;
+    job.time.fallback = frame / 24.0;
     job.output.picture = name_of_frame(wet, frame);
     return job;
   }

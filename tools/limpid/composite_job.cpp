@@ -208,7 +208,7 @@ CompositeJob common_job(const CompositeArguments& a, const Sequence& sequence,
   }
   if (a.depth_nothing) job.depth_nothing = finite_nothing(*a.depth_nothing);
   job.look = look_of(a.water);
-  job.time.asked = a.water.time;
+  job.time.explicit_time = a.water.time;
   WaterOptions water = a.water;
   const bool motion = std::erase(water.aovs, kMotion) > 0;
   const bool motion_reflected = std::erase(water.aovs, kMotionReflected) > 0;

@@ -81,11 +81,11 @@ Missing missing_named(const std::string& name) {
 
 JobTime time_of_frame(const FrameOptions& options, const WaterOptions& water,
                       const SceneFile& scene, bool scene_of_frame, int frame) {
-  JobTime time{.asked = water.time};
+  JobTime time{.explicit_time = water.time};
   const double begin = time.of(scene);
-  time.otherwise = begin + frame / options.fps.value_or(kUsualFps);
+  time.fallback = begin + frame / options.fps.value_or(kUsualFps);
   const bool of_scene = scene.time && !scene_of_frame;
-  if (water.time || options.fps || of_scene) time.asked = time.otherwise;
+  if (water.time || options.fps || of_scene) time.explicit_time = time.fallback;
   return time;
 }
 

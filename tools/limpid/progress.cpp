@@ -24,8 +24,9 @@ std::string clock_text(double seconds) {
   return text;
 }
 
-/// The sentence without numbers, which differ from frame to frame.
-std::string without_numbers(std::string sentence) {
+/// The sentence without its numbers and its advice (after ";"), which differ from frame to frame.
+std::string kind_of(std::string sentence) {
+  sentence.resize(std::min(sentence.find(';'), sentence.size()));
   std::erase_if(sentence, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
   return sentence;
 }
@@ -35,10 +36,10 @@ std::string without_numbers(std::string sentence) {
 std::string progress_text(const SequenceProgress& progress) {
   char rate[48];
   std::snprintf(rate, sizeof rate, "%.3g", progress.frames_per_second());
-  std::string text = std::to_string(progress.done) + "/" + std::to_string(progress.of) +
+  std::string text = std::to_string(progress.done) + "/" + std::to_string(progress.total) +
                      " frames, " + rate + " a second, ";
-  return text + (progress.done < progress.of ? clock_text(progress.seconds_left()) + " left"
-                                             : clock_text(progress.seconds) + " in all");
+  return text + (progress.done < progress.total ? clock_text(progress.seconds_left()) + " left"
+                                                : clock_text(progress.seconds) + " in all");
 }
 
 Progress::Progress(const CommonArguments& common)
@@ -52,7 +53,7 @@ Progress::~Progress() {
 
 void Progress::warn(const std::vector<std::string>& sentences) {
   for (const std::string& sentence : sentences) {
-    const std::string kind = without_numbers(sentence);
+    const std::string kind = kind_of(sentence);
     if (std::find(warned_.begin(), warned_.end(), kind) != warned_.end()) continue;
     warned_.push_back(kind);
     if (drawn_) std::fputs("\r\033[K", stderr);

@@ -38,7 +38,7 @@ TruthOptions::Light light_named(const TruthArguments& a) {
 }  // namespace
 
 SceneJob scene_job(const RenderArguments& a, const CommonArguments& common) {
-  return {scene_to_render(a.scene), {.asked = a.water.time}, limits_of(common)};
+  return {scene_to_render(a.scene), {.explicit_time = a.water.time}, limits_of(common)};
 }
 
 RenderOptions render_options(const RenderArguments& a) {
@@ -57,7 +57,7 @@ TruthJob truth_job(const TruthArguments& a, const CommonArguments& common) {
   TruthJob job;
   job.scene = scene_to_render(a.scene);
   job.size = size_named(a.size);
-  job.time.asked = a.water.time;
+  job.time.explicit_time = a.water.time;
   job.limits = limits_of(common);
   job.look = look_of(a.water);
   job.samples = a.samples;

@@ -40,7 +40,7 @@ void print_plan(const SurveyedPlan& surveyed, std::span<const double> seconds,
                 const CommonArguments& common) {
   tell_warnings(surveyed.warnings, common.quiet);
   std::printf("%sreads %s\n%s\n%s", to_text(surveyed.plan, surveyed.survey, seconds).c_str(),
-              roles_text(surveyed.plan.planes).c_str(), to_text(surveyed.beyond).c_str(),
+              roles_text(surveyed.plan.planes).c_str(), to_text(surveyed.off_frame).c_str(),
               surveyed.gpu.c_str());
 }
 

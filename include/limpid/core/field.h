@@ -98,8 +98,8 @@ std::string columns_text(const FieldInfo& field);
 template <class P>
 struct Field : FieldInfo {
   Value (*get)(const P&);
-  void (*set)(P&, const Value&);  ///< without a check: call assign() instead
-  const void* (*home)(const P&);  ///< address of the member
+  void (*set)(P&, const Value&);     ///< without a check: call assign() instead
+  const void* (*address)(const P&);  ///< of the member
 
   /// The same field, but read only if the parameter `key` has one of these words. At most two
   /// conditions.

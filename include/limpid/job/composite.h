@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "limpid/complete/beyond.h"
+#include "limpid/complete/off_frame.h"
 #include "limpid/core/color_space.h"
 #include "limpid/core/executor.h"
 #include "limpid/files/text/scene_file.h"
@@ -91,7 +91,7 @@ Plan plan_composite(const CompositeJob& job);
 struct SurveyedPlan {
   Plan plan;
   Survey survey;
-  Beyond beyond;
+  OffFrameLookups off_frame;
   std::vector<std::string> warnings;  ///< as CompositeReport's
   /// For Runner::kGpu, lines on the work of the GPU and of the CPU. No GPU is opened.
   std::string gpu = {};

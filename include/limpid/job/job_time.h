@@ -7,15 +7,15 @@ namespace limpid {
 
 /// The time of a frame, in seconds, at which waves have drifted.
 struct JobTime {
-  std::optional<double> asked = {};  ///< takes precedence over the times of scene and plate
-  double otherwise = 0;              ///< if none of them has a time
-  double after_plate = 0;            ///< added to the plate's time, if that is used
+  std::optional<double> explicit_time = {};  ///< takes precedence over the times of scene and plate
+  double fallback = 0;                       ///< used if none of these has a time
+  double plate_offset = 0;                   ///< added to the plate's time, if that is used
 
-  /// `asked`, else the time of the scene file, else that of the plate, else `otherwise`.
+  /// `explicit_time`, else the time of the scene file, else that of the plate, else `fallback`.
   double of(const SceneFile& scene, std::optional<double> plate = {}) const {
-    if (asked) return *asked;
+    if (explicit_time) return *explicit_time;
     if (scene.time) return *scene.time;
-    return plate ? *plate + after_plate : otherwise;
+    return plate ? *plate + plate_offset : fallback;
   }
 };
 

@@ -27,12 +27,12 @@ void check(const Sequence& sequence);
 
 /// The progress of a sequence; reported after each frame, in order.
 struct SequenceProgress {
-  int frame = 0;  ///< the number of the finished frame
-  int done = 0, of = 0;
-  double seconds = 0;  ///< since the sequence began
+  int frame = 0;            ///< the number of the finished frame
+  int done = 0, total = 0;  ///< frames
+  double seconds = 0;       ///< since the sequence began
 
   double frames_per_second() const { return seconds > 0 ? done / seconds : 0; }
-  double seconds_left() const { return seconds / done * (of - done); }
+  double seconds_left() const { return seconds / done * (total - done); }
 };
 
 /// Returns the job of a frame. Called for all frames before the first is made, to check that no

@@ -99,7 +99,7 @@ struct Plan {
 /// its ranges, if color or depth is absent, and for a max_error that is negative or not finite.
 Plan make_plan(const Look& look, const Inputs& inputs, StateSet outputs = {}, double max_error = 0);
 
-/// One line per operator: name, kept or dropped, reason; and a line with max_error if it is above
+/// One line per operator: name, kept or skipped, reason; and a line with max_error if it is above
 /// 0.
 std::string to_text(const Plan& plan);
 /// "kept, model plate: the frame has surface normals".

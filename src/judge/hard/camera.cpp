@@ -21,7 +21,7 @@ struct Waterline {
     frame.fill(PlaneId::kDepth, 3);
     for (const PlaneId id : {PlaneId::kSurfaceDepth, PlaneId::kBelowDepth, PlaneId::kBelowR,
                              PlaneId::kBelowG, PlaneId::kBelowB}) {
-      frame.drop(id);
+      frame.remove(id);
     }
   }
 };

@@ -80,7 +80,8 @@ Worst brightness(const HardWorld& world) {
   const Scene scene = noisy_scene(kSize);
   HardFrame frame = noisy_frame(kSize), bright = noisy_frame(kSize);
   for (HardFrame* made : {&frame, &bright}) {
-    made->drop(PlaneId::kReflectionValid);  // the surroundings would replace it, as bright as ever
+    // The surroundings would replace it, as bright as ever.
+    made->remove(PlaneId::kReflectionValid);
   }
   for (const PlaneId first :
        {PlaneId::kColorR, PlaneId::kReflectionR, PlaneId::kBelowR, PlaneId::kSunColorR}) {

@@ -32,7 +32,7 @@ HardFrame scaled_noise(Size size, float scale) {
   HardFrame frame = noisy_frame(size);
   for (const PlaneId id :
        {PlaneId::kSurfaceNormalX, PlaneId::kSurfaceNormalY, PlaneId::kSurfaceNormalZ}) {
-    frame.drop(id);  // waves come from the map, whose tile size is a length, too
+    frame.remove(id);  // waves come from the map, whose tile size is a length, too
   }
   for (const PlaneId id :
        {PlaneId::kDepth, PlaneId::kSurfaceDepth, PlaneId::kBelowDepth, PlaneId::kReflectionDepth}) {

@@ -22,7 +22,7 @@ Worst sound(const HardWorld& world) {
   Worst worst;
   Abyss abyss;
   worst.add_counts(unsound_values(world, abyss.frame, abyss.scene));
-  abyss.frame.drop(PlaneId::kSurfaceDepth);  // waves, and a surface to the horizon
+  abyss.frame.remove(PlaneId::kSurfaceDepth);  // waves, and a surface to the horizon
   worst.add_counts(unsound_values(world, abyss.frame, abyss.scene));
   return worst;
 }

@@ -87,7 +87,7 @@ Worst drift(const HardWorld& world) {
   HardFrame frame = noisy_frame(size);
   for (const PlaneId id :
        {PlaneId::kSurfaceNormalX, PlaneId::kSurfaceNormalY, PlaneId::kSurfaceNormalZ}) {
-    frame.drop(id);
+    frame.remove(id);
   }
   Scene scene = noisy_scene(size);
   for (Look look : world.looks()) {
@@ -118,9 +118,9 @@ Worst drift(const HardWorld& world) {
 Worst sound(const HardWorld& world) {
   const Size size{31, 17};
   HardFrame frame = noisy_frame(size);
-  frame.drop(PlaneId::kSurfaceNormalX);
-  frame.drop(PlaneId::kSurfaceNormalY);
-  frame.drop(PlaneId::kSurfaceNormalZ);
+  frame.remove(PlaneId::kSurfaceNormalX);
+  frame.remove(PlaneId::kSurfaceNormalY);
+  frame.remove(PlaneId::kSurfaceNormalZ);
   Worst worst;
   for (const double time : {kLate, -kLate, 1e15, 1e300}) {
     Scene scene = noisy_scene(size);

@@ -40,7 +40,7 @@ class HardFrame {
     fill(PlaneId::kSurfaceNormalY, n.y);
     fill(PlaneId::kSurfaceNormalZ, n.z);
   }
-  void drop(PlaneId id) {
+  void remove(PlaneId id) {
     planes_[index_of(id)] = {};
     frame_.planes[index_of(id)] = {};
   }

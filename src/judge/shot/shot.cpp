@@ -193,7 +193,7 @@ void ShotMeasurement::Parts::describe(const ShotVariant& own) {
   shot.simd = own.job.output.simd.empty() ? simd_targets().front() : own.job.output.simd;
   shot.warnings = warnings_of(own.job, variants.plate(), own.plan);
   warn_of_pixels(own.plan, own.frame, variants.scene(), variants.transparent(), shot.warnings);
-  shot.beyond = beyond_of(own.plan, own.frame, variants.scene());
+  shot.off_frame = off_frame_lookups_of(own.plan, own.frame, variants.scene());
 }
 
 /// One AOV at a time, because all AOVs of a large picture would need much memory. Finds the wet

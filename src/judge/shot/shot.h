@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "limpid/complete/beyond.h"
+#include "limpid/complete/off_frame.h"
 #include "limpid/core/executor.h"
 #include "limpid/job/composite.h"
 
@@ -94,7 +94,7 @@ struct Shot {
   /// Confirmed share of the lookups of wet pixels: its mean, and the share of pixels with less than
   /// half.
   double confidence_mean = 0, guessed_share = 0;
-  Beyond beyond;
+  OffFrameLookups off_frame;
   std::vector<std::string> warnings;
   double rest_milliseconds = 0;  ///< sum over all threads: loading, starting and storing pixels
   ShotLook dry;

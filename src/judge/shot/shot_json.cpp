@@ -51,7 +51,7 @@ Json json_of(const ShotPicture& p) {
           {"scale", p.scale ? Json(*p.scale) : Json()}};
 }
 
-Json json_of(const Beyond& b) {
+Json json_of(const OffFrameLookups& b) {
   return {
       {"share_of_wet", b.share},
       {"overscan", {{"left", b.left}, {"right", b.right}, {"top", b.top}, {"bottom", b.bottom}}},
@@ -94,7 +94,7 @@ std::string to_json(const Shot& shot) {
                       {"confidence",
                        {{"mean_of_wet", number(shot.confidence_mean)},
                         {"guessed_share_of_wet", number(shot.guessed_share)}}},
-                      {"beyond_frame", json_of(shot.beyond)},
+                      {"off_frame", json_of(shot.off_frame)},
                       {"warnings", shot.warnings},
                       {"dry", json_of(shot.dry)},
                       {"looks", rows(shot.looks)},

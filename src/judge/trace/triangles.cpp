@@ -23,7 +23,7 @@ const Query& query_of(const RTCFilterFunctionNArguments* arguments) {
 }
 
 /// Embree calls this for every triangle that a ray meets.
-void drop_hidden_side(const RTCFilterFunctionNArguments* arguments) {
+void ignore_hidden_side(const RTCFilterFunctionNArguments* arguments) {
   const Query& query = query_of(arguments);
   const std::uint32_t part = RTCHitN_geomID(arguments->hit, arguments->N, 0);
   const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
@@ -33,7 +33,7 @@ void drop_hidden_side(const RTCFilterFunctionNArguments* arguments) {
 }
 
 /// And this for every tested triangle.
-void drop_holes(const RTCFilterFunctionNArguments* arguments) {
+void ignore_holes(const RTCFilterFunctionNArguments* arguments) {
   const Query& query = query_of(arguments);
   if (!query.test) return;
   const unsigned n = arguments->N;
@@ -43,9 +43,9 @@ void drop_holes(const RTCFilterFunctionNArguments* arguments) {
   if (!there) arguments->valid[0] = 0;
 }
 
-void drop_hidden_side_and_holes(const RTCFilterFunctionNArguments* arguments) {
-  drop_hidden_side(arguments);
-  if (arguments->valid[0] != 0) drop_holes(arguments);
+void ignore_hidden_side_and_holes(const RTCFilterFunctionNArguments* arguments) {
+  ignore_hidden_side(arguments);
+  if (arguments->valid[0] != 0) ignore_holes(arguments);
 }
 
 RTCRay ray_of(const Ray& ray) {
@@ -96,8 +96,8 @@ struct Triangles::State {
       }
       std::copy(part.indices.begin(), part.indices.end(), indices);
       rtcSetGeometryIntersectFilterFunction(
-          geometry, part.tested ? drop_hidden_side_and_holes : drop_hidden_side);
-      if (part.tested) rtcSetGeometryOccludedFilterFunction(geometry, drop_holes);
+          geometry, part.tested ? ignore_hidden_side_and_holes : ignore_hidden_side);
+      if (part.tested) rtcSetGeometryOccludedFilterFunction(geometry, ignore_holes);
       rtcCommitGeometry(geometry);
       rtcAttachGeometry(scene, geometry);
     }

@@ -7,8 +7,8 @@ from .lens import Overscan
 TEST_SIZE = 240    # pixels, of the longer side of a test render
 MOST = 0.5         # of the picture's longer side, on each side
 SPARE = 1.1        # a test render's edges are coarse, and waves move the refracted picture
-SENTENCE = re.compile(r"overscan of color and depth by (\d+) pixels? on the left, (\d+) on the right, "
-                      r"(\d+) at the top and (\d+) at the bottom")
+SENTENCE = re.compile(r"overscan of color and depth by (.*) would show")
+SIDE = re.compile(r"(\d+)(?: pixels?)? (?:on|at) the (left|right|top|bottom)")
 
 
 def small(size):
@@ -24,7 +24,7 @@ def asked_for(plan, test_size, size):
         return Overscan()
     scale = max(size) / max(test_size)
     most = round(MOST * max(size))
-    return Overscan(*(min(most, math.ceil(int(pixels) * scale * SPARE)) for pixels in found.groups()))
+    return Overscan(**{side: min(most, math.ceil(int(pixels) * scale * SPARE)) for pixels, side in SIDE.findall(found[1])})
 
 
 def largest(overscans):

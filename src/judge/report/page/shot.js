@@ -131,7 +131,7 @@ function facts(entries) {
 // ---- the most important numbers
 
 function summary() {
-  const {looks: [own], fast, settings: {threads}, beyond_frame, confidence} = report, items = [];
+  const {looks: [own], fast, settings: {threads}, off_frame, confidence} = report, items = [];
   const item = (...children) => items.push(element("li", {}, ...children));
   item("The look ", code(own.look), " takes ", element("b", {}, shortNumber(own.milliseconds) + " ms"),
       ` on ${threads} ${threads === 1 ? "thread" : "threads"} (${report.width}x${report.height}, ` +
@@ -147,15 +147,15 @@ function summary() {
         element("b", {}, percent(own.beside_truth.relative_error_wet, 1).text), ".");
   }
   item(`${percent(confidence.guessed_share_of_wet ?? NaN, 1).text} of the wet pixels show a guess through the water; ` +
-      beyond_frame.advice + ".");
+      off_frame.advice + ".");
   for (const warning of report.warnings) item(element("b", {}, "Warning: "), warning + ".");
   return items;
 }
 
-function beyondFacts() {
-  const {beyond_frame: {share_of_wet, overscan: {left, right, top, bottom}}, confidence} = report;
+function offFrameFacts() {
+  const {off_frame: {share_of_wet, overscan: {left, right, top, bottom}}, confidence} = report;
   return facts([
-    ["lookups beyond the frame", `${percent(share_of_wet, 1).text} of the wet pixels`],
+    ["off-frame lookups", `${percent(share_of_wet, 1).text} of the wet pixels`],
     ["overscan that would show them", `${left} pixels on the left, ${right} on the right, ${top} at the top, ${bottom} at the bottom`],
     ["confidence, mean of the wet", shortNumber(confidence.mean_of_wet)],
     ["guessed (confidence below 0.5)", `${percent(confidence.guessed_share_of_wet ?? NaN, 1).text} of the wet pixels`],
@@ -175,7 +175,7 @@ fillSides();
 startStage();
 put("heat_legend", () => heatLegend(report.heat_scale));
 gallery("aovs", report.pictures.filter(({group}) => group === "aovs").map(({file}) => file));
-fill("beyond", ...beyondFacts());
+fill("off_frame", ...offFrameFacts());
 put("look_table", lookTable);
 fill("differs", ...facts(report.looks.filter(({differs}) => differs.length > 0).map(({look, differs}) =>
     [look, differs.join("; ")])));
