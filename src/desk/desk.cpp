@@ -12,6 +12,7 @@
 #include "job/picture_warnings.h"
 #include "job/stopwatch.h"
 #include "judge/compare/shown_difference.h"
+#include "ops/depth_fog_kernel.h"
 
 namespace limpid {
 namespace {
@@ -82,6 +83,16 @@ std::vector<ReplacedChoice> replaced_choices(const Look& asked, const Plan& plan
   return replaced;
 }
 
+std::vector<UnreadParameter> unread_parameters(const Plan& plan, const Frame& frame,
+                                               const Scene& scene) {
+  const bool environment = plan.reads_environment && frame.environment;
+  const bool of_sky =
+      plan.keeps<DepthFog>() && Kernel<DepthFog>::wants_scattered_light(plan.look.of<DepthFog>());
+  if (!of_sky || (!environment && !scene.sky)) return {};
+  return {{"depth_fog.ambient",
+           environment ? "the environment lights the water" : "the scene's sky lights the water"}};
+}
+
 }  // namespace
 
 /// The result of a run; valid until the next one.
@@ -98,6 +109,7 @@ struct Desk::Painted {
   RunTimes times;
   double read_seconds = 0;
   std::vector<ReplacedChoice> replaced;
+  std::vector<UnreadParameter> unread;
   std::vector<std::string> warnings, advice;
 };
 
@@ -226,6 +238,7 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
   painted.window = painted.frame.work();
   painted.primaries = scene.primaries;
   painted.replaced = replaced_choices(job.look, plan);
+  painted.unread = unread_parameters(plan, painted.frame, scene);
   painted.warnings = warnings_of(job, held.plate(), plan);
   if (!half) {
     warn_of_pixels(plan, painted.frame, scene, held.transparent(), painted.warnings);
@@ -307,6 +320,7 @@ DeskPicture Desk::paint(const PictureRequest& request) {
   picture.shown = show(request, painted);
   picture.half = request.half;
   picture.replaced = std::move(painted.replaced);
+  picture.unread = std::move(painted.unread);
   picture.warnings = std::move(painted.warnings);
   picture.advice = std::move(painted.advice);
   auto& times = picture.milliseconds;

@@ -86,10 +86,17 @@ struct ReplacedChoice {
   std::string why;    ///< the reason in the plan
 };
 
+/// A parameter without effect, because the plate or its scene gives the quantity.
+struct UnreadParameter {
+  std::string key;  ///< "depth_fog.ambient"
+  std::string why;
+};
+
 struct DeskPicture {
   Shown shown;
   bool half = false;
   std::vector<ReplacedChoice> replaced;
+  std::vector<UnreadParameter> unread = {};
   /// Times in milliseconds, in the order of the work: "all" is wall-clock time, "read", each
   /// operator and "rest" are sums over all threads.
   std::vector<std::pair<std::string, double>> milliseconds;

@@ -319,12 +319,15 @@ std::string picture_bytes(const DeskPicture& picture) {
   for (const auto& [key, value, why] : picture.replaced) {
     replaced.push_back({{"key", key}, {"value", value}, {"why", why}});
   }
+  Json unread = Json::array();
+  for (const auto& [key, why] : picture.unread) unread.push_back({{"key", key}, {"why", why}});
   const Shown& shown = picture.shown;
   const std::string facts = dumped({{"width", shown.size.width},
                                     {"height", shown.size.height},
                                     {"half", picture.half},
                                     {"milliseconds", std::move(milliseconds)},
                                     {"replaced", std::move(replaced)},
+                                    {"unread", std::move(unread)},
                                     {"warnings", picture.warnings},
                                     {"advice", picture.advice},
                                     {"wet", picture.wet ? Json(*picture.wet) : Json(nullptr)},

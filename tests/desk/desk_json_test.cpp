@@ -81,6 +81,7 @@ TEST(DeskReplyTest, HasThePixelsBehindTheirFacts) {
   picture.shown.rgba = {1, 2, 3, 255, 4, 5, 6, 255};
   picture.shown.scale = {0, 4};
   picture.milliseconds = {{"all", 3}, {"read", 1}};
+  picture.unread = {{"depth_fog.ambient", "the environment lights the water"}};
   picture.replaced = {{"wave_normals.model", "plate", "the frame has surface normals"}};
   picture.warnings = {"too much \xff water"};
   const std::string bytes = picture_bytes(picture);
@@ -91,6 +92,8 @@ TEST(DeskReplyTest, HasThePixelsBehindTheirFacts) {
   EXPECT_EQ(facts["height"], 1);
   EXPECT_EQ(facts["milliseconds"]["all"], 3);
   EXPECT_EQ(facts["scale"], nlohmann::json({0, 4}));
+  EXPECT_EQ(facts["unread"][0]["key"], "depth_fog.ambient");
+  EXPECT_EQ(facts["unread"][0]["why"], "the environment lights the water");
   EXPECT_EQ(facts["replaced"][0]["key"], "wave_normals.model");
   EXPECT_EQ(facts["replaced"][0]["value"], "plate");
   EXPECT_TRUE(facts["wet"].is_null());

@@ -317,6 +317,27 @@ TEST_F(DeskTest, SaysWhatTheTimeWentInto) {
   EXPECT_LE(*painted.wet, 1);
 }
 
+TEST_F(DeskTest, NamesTheParameterWhoseLightTheSceneGives) {
+  DeskOptions options = this->options();
+  const PictureRequest murky =
+      picture({"depth_fog.model=radiative_transfer", "depth_fog.scattering=0.1,0.1,0.1"});
+  EXPECT_TRUE(Desk(options, *executor_).paint(murky).unread.empty());
+  options.job_of = [first = options.job_of](std::optional<int> frame) {
+    CompositeJob job = first(frame);
+    job.scene.scene.sky = SkyLight{{0.2, 0.3, 0.4}};
+    return job;
+  };
+  Desk desk(options, *executor_);
+  EXPECT_TRUE(desk.paint(picture()).unread.empty()) << "linear fog has a color of its own";
+  const DeskPicture lit = desk.paint(murky);
+  ASSERT_EQ(lit.unread.size(), 1u);
+  EXPECT_EQ(lit.unread[0].key, "depth_fog.ambient");
+  EXPECT_EQ(lit.unread[0].why, "the scene's sky lights the water");
+  PictureRequest brighter = murky;
+  brighter.settings.push_back("depth_fog.ambient=0.9,0.9,0.9");
+  EXPECT_EQ(desk.paint(brighter).shown.rgba, lit.shown.rgba);
+}
+
 /// Two frames; the second frame has another window, at another place.
 DeskOptions two_frames(DeskOptions options, const fs::path& folder) {
   PlateOptions second;

@@ -110,7 +110,7 @@ function pictureJob(request, key, half) {
         notes.notes = [...desk.warnings, ...picture.warnings, ...picture.advice];
         numbers.again();
       }
-      panel.replaced = picture.replaced;
+      panel.planned(picture);
       tellCost(picture);
       tellShown(request.show, picture.scale);
       for (const tell of watching.splice(0)) tell({half, asked: begun});

@@ -27,6 +27,7 @@ export class Panel {
   #changedOnly = byId("changed_only");
   #hint = byId("hint");
   #replaced = [];  // {key, value, why}: choices that run as others on this plate
+  #unread = [];    // {key, why}: parameters whose quantity this plate or its scene gives
   #shown = null;
 
   // `on`: change(key, value, isLive), back(key), bad(sentence).
@@ -45,9 +46,11 @@ export class Panel {
     for (const event of ["pointerover", "focusin"]) list.addEventListener(event, ({target}) => this.#tell(target));
   }
 
-  set replaced(choices) {
-    if (same(choices, this.#replaced)) return;
-    this.#replaced = choices;
+  // What the plan of the last picture says of the look's parameters.
+  planned({replaced, unread}) {
+    if (same([replaced, unread], [this.#replaced, this.#unread])) return;
+    this.#replaced = replaced;
+    this.#unread = unread;
     if (this.#shown) this.show(this.#shown);
   }
 
@@ -59,7 +62,8 @@ export class Panel {
       const {key} = row, value = values.get(key), own = this.#looks.own(look, key);
       const isChanged = Object.hasOwn(set, key) || !same(value, own);
       const unused = this.#looks.unused(key, values), brings = this.#looks.brings(key, values);
-      const lost = unused || !this.#looks.unused(key, running) ? "" : this.#whyReplaced(key);
+      const lost = unused ? "" : this.#looks.unused(key, running) ? this.#whyReplaced(key) :
+          this.#unread.find((other) => other.key === key)?.why ?? "";
       row.control.show(value, own);
       // Unchanged rows are skipped: a drag updates all rows many times per second.
       const told = JSON.stringify([look, isChanged, unused, brings, lost]);
