@@ -5,6 +5,7 @@
 #include "limpid/files/text/look_file.h"
 
 #include "ops/tray.h"
+#include "paths.h"
 
 /// The common code of the articles' tests. The comments work each article's formulas out by hand,
 /// at pixels of the tray (ops/tray.h), with the numbers of the article's look.

@@ -8,6 +8,7 @@
 #include "limpid/files/text/look_file.h"
 
 #include "desk/pond_desk.h"
+#include "paths.h"
 
 namespace limpid::test {
 namespace {

@@ -9,6 +9,7 @@
 #include "desk/desk.h"
 #include "desk/pond_desk.h"
 #include "desk/saved_look.h"
+#include "paths.h"
 
 namespace limpid::test {
 namespace {

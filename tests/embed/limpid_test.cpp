@@ -15,6 +15,7 @@
 
 #include "embed/host.h"
 #include "embed/limpid_c.h"
+#include "paths.h"
 
 /// The C functions, called as C calls them.
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/harness.h"
+#include "paths.h"
 
 /// Every seed of a harness, and every file that once broke a harness, is refused or read.
 

@@ -13,6 +13,7 @@
 #include "fuzz/memory_file.h"
 #include "fuzz/probe.h"
 #include "fuzz/read_exr.h"
+#include "paths.h"
 
 namespace limpid::fuzz {
 namespace {

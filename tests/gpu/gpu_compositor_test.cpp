@@ -12,6 +12,7 @@
 
 #include "gpu/gpu.h"
 #include "gpu/passage.h"
+#include "paths.h"
 #include "plan/landscape.h"
 #include "shade/bundled.h"
 

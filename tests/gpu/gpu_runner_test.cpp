@@ -14,6 +14,7 @@
 
 #include "complete/post.h"
 #include "gpu/gpu.h"
+#include "paths.h"
 #include "plan/landscape.h"
 #include "shade/bundled.h"
 

@@ -12,6 +12,8 @@
 #include "limpid/job/sequence.h"
 #include "limpid/job/water.h"
 
+#include "paths.h"
+
 /// The laws that all kinds of jobs obey, on the pool of data/scenes.
 
 namespace limpid {

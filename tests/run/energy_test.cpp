@@ -10,6 +10,7 @@
 
 #include "optics/fresnel.h"
 #include "optics/highlight.h"
+#include "paths.h"
 #include "support.h"
 
 // The energy of the light that the water returns, by the whole chain in both runners.

@@ -8,6 +8,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "paths.h"
 #include "support.h"
 
 // Both runners against the look `realistic` as tests/tools/realistic_numpy.py computes it, from the

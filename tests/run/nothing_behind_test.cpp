@@ -7,6 +7,7 @@
 
 #include "limpid/files/text/look_file.h"
 
+#include "paths.h"
 #include "support.h"
 
 // Water without a bottom in the fused pass, with the bundled looks.

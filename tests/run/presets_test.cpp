@@ -9,6 +9,7 @@
 #include "limpid/files/text/look_file.h"
 
 #include "ops/depth_fog_kernel.h"
+#include "paths.h"
 #include "support.h"
 
 // The bundled presets. Tests of the base look check the laws of all looks; these tests check the

@@ -7,6 +7,7 @@
 #include "limpid/plate/texture.h"
 
 #include "op/pass.h"
+#include "paths.h"
 #include "support.h"
 
 namespace limpid {

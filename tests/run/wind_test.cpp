@@ -8,6 +8,7 @@
 
 #include "ops/tray.h"
 #include "ops/wave_normals_kernel.h"
+#include "paths.h"
 
 // The effect of a wind on the looks' map.
 

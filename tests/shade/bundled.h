@@ -6,6 +6,7 @@
 #include "limpid/files/text/look_file.h"
 
 #include "judge/report/subject.h"
+#include "paths.h"
 
 namespace limpid::test {
 

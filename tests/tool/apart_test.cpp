@@ -10,6 +10,7 @@
 #include "limpid/job/job_files.h"
 #include "limpid/job/sequence.h"
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

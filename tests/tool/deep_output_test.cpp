@@ -5,6 +5,7 @@
 
 #include "limpid/files/exr/exr_file.h"
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -8,6 +8,7 @@
 #include "limpid/files/picture/preview.h"
 
 #include "files/picture/tiny_ocio.h"
+#include "paths.h"
 #include "show/decoded.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "job/shared_textures.h"
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

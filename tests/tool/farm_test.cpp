@@ -7,6 +7,7 @@
 
 #include "limpid/files/text/frame_range.h"
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/running.h"
 #include "tool/tool.h"

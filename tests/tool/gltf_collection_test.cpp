@@ -8,6 +8,7 @@
 #include "limpid/files/text/scene_file.h"
 #include "limpid/raster/render_plate.h"
 
+#include "paths.h"
 #include "tool/tool.h"
 
 /// The collection of tests/tools/gltf_collection.py: 60 files with features that exporters write.

@@ -4,6 +4,7 @@
 #include "limpid/files/exr/exr_file.h"
 #include "limpid/gpu/gpu_runner.h"
 
+#include "paths.h"
 #include "sanitized.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"

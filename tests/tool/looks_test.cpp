@@ -6,6 +6,7 @@
 
 #include "limpid/files/text/look_file.h"
 
+#include "paths.h"
 #include "tool/tool.h"
 
 /// The looks and presets that are installed with the tool.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "files/exr/deep_files.h"
+#include "paths.h"
 #include "sanitized.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"

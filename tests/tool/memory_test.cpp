@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "paths.h"
 #include "sanitized.h"
 #include "tool/tool.h"
 

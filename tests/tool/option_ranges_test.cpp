@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "paths.h"
 #include "tool/tool.h"
 
 /// Every option that takes a number refuses a value out of its range as wrong usage, in a sentence

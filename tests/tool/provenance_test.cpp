@@ -10,6 +10,7 @@
 #include "limpid/version.h"
 
 #include "files/content_hash.h"
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -8,6 +8,7 @@
 #include "limpid/core/simd.h"
 #include "limpid/files/picture/image_file.h"
 
+#include "paths.h"
 #include "tool/tool.h"
 
 /// `limpid report` as a whole: one quick run, its rows read back, its page judged by an XML parser

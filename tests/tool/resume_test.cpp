@@ -8,6 +8,7 @@
 #include "limpid/files/text/scene_file.h"
 #include "limpid/version.h"
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -10,6 +10,7 @@
 #include "limpid/files/text/frame_range.h"
 #include "limpid/files/text/scene_file.h"
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "paths.h"
 #include "tool/tool.h"
 
 /// The verb shader: looks as shaders in other languages.

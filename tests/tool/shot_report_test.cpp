@@ -9,6 +9,7 @@
 #include "limpid/ops/chain.h"
 #include "limpid/run/target.h"
 
+#include "paths.h"
 #include "tool/tool.h"
 
 namespace limpid::test {

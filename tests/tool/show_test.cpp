@@ -1,6 +1,7 @@
 // --contact-sheet and --show: what they write beside the preview.
 #include <gmock/gmock.h>
 
+#include "paths.h"
 #include "show/decoded.h"
 #include "tool/tool.h"
 

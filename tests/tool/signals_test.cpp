@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "files/atomic_file.h"
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

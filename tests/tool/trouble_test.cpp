@@ -9,6 +9,7 @@
 #include "limpid/files/text/scene_file.h"
 #include "limpid/job/sequence.h"
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/new_files.h"
 #include "tool/own_mounts.h"

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "paths.h"
 #include "tool/tool.h"
 
 /// The verb truth, on the scenes of data/scenes.

@@ -10,6 +10,7 @@
 #include "limpid/ops/chain.h"
 #include "limpid/run/target.h"
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "paths.h"
 #include "tool/running.h"
 #include "tool/tool.h"
 

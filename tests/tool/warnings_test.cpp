@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "paths.h"
 #include "tool/made_plate.h"
 #include "tool/tool.h"
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "files/exr/exr_files.h"
+#include "paths.h"
 
 namespace limpid {
 namespace {

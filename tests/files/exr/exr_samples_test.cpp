@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "files/exr/exr_files.h"
+#include "paths.h"
 
 /// Files of other programs; what each shows is in its name and in tests/data/README.md.
 namespace limpid {

@@ -14,6 +14,7 @@
 
 #include "files/exr/written.h"
 #include "files/gltf/made_gltf.h"
+#include "paths.h"
 
 namespace limpid {
 namespace {

@@ -14,6 +14,7 @@
 #include "limpid/core/error.h"
 
 #include "memory_end.h"
+#include "paths.h"
 #include "sanitized.h"
 
 namespace limpid {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "files/exr/written.h"
+#include "paths.h"
 
 namespace limpid {
 namespace {

@@ -12,6 +12,7 @@
 #include "limpid/files/text/scene_keys.h"
 
 #include "files/exr/written.h"
+#include "paths.h"
 
 namespace limpid {
 namespace {

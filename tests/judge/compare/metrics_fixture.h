@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/compare/flip.h"
+#include "paths.h"
 
 /// Two synthetic pictures and the numbers of tests/tools/metrics_numpy.py for them.
 

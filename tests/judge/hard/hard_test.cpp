@@ -9,6 +9,8 @@
 
 #include "limpid/core/error.h"
 
+#include "paths.h"
+
 namespace limpid {
 namespace {
 

@@ -17,6 +17,7 @@
 
 #include "judge/report/finer_water.h"
 #include "judge/report/measure.h"
+#include "paths.h"
 
 /// The rows of the report for buffers that a host brings: where they are judged, and that each
 /// buffer reduces the error.

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "paths.h"
+
 namespace limpid::test {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "gpu/gpu.h"
 #include "judge/report/measure.h"
+#include "paths.h"
 
 namespace limpid {
 namespace {

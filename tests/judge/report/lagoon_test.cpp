@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/report/picture.h"
+#include "paths.h"
 
 /// Water on the plate lagoon, by the fused runner, beside a path-traced picture of the same water.
 

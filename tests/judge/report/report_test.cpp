@@ -17,6 +17,7 @@
 #include "judge/report/page.h"
 #include "judge/report/report_json.h"
 #include "judge/report/rounds.h"
+#include "paths.h"
 #include "show/encoded.h"
 
 namespace limpid {
