@@ -31,7 +31,7 @@ class Lagoon(unittest.TestCase):
         for name in ("physical", "realistic", "rito"):
             look = limpid.load_look(name)
             wet = limpid.composite(**self.frame, look=look, wave_map=read_float(look["wave_normals"]["map"]),
-                                   environment=read_float(DATA.parent / "maps/sky.hdr"))
+                                   environment=read_float(DATA.parent / "maps/sky.exr"))
             np.testing.assert_array_equal(wet, self.tools(name), err_msg=name)
 
     def test_shader(self):
@@ -40,7 +40,7 @@ class Lagoon(unittest.TestCase):
                         "compute", "--aov", "path", "-o", path], check=True, capture_output=True)
         told = json.loads(pathlib.Path(f"{path}.json").read_text())
         water = limpid.Compositor(look=limpid.load_look("physical"),
-                                  environment=read_float(DATA.parent / "maps/sky.hdr"))
+                                  environment=read_float(DATA.parent / "maps/sky.exr"))
         shader = water.shader(**self.frame, stage="compute", aovs=["path"])
         self.assertEqual(shader.text, path.read_text())
         self.assertEqual(shader.id, told["id"])
@@ -58,7 +58,7 @@ class Lagoon(unittest.TestCase):
         frame = {name: value for name, value in self.frame.items() if name != "surface_normal"}
         look = limpid.load_look("fast")
         wet = limpid.composite(**frame, look=look, wave_map=read_float(look["wave_normals"]["map"]),
-                               environment=read_float(DATA.parent / "maps/sky.hdr"), time=2.5)
+                               environment=read_float(DATA.parent / "maps/sky.exr"), time=2.5)
         expected = self.tools("fast", "--layer", "surface_normal=none", "--time", "2.5")
         np.testing.assert_array_equal(wet, expected)
 

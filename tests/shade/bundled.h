@@ -30,7 +30,7 @@ void for_each_bundled(Size size, Fn&& fn) {
   std::sort(scenes.begin(), scenes.end());
   const auto executor = make_executor(1);
   for (const std::filesystem::path& scene : scenes) {
-    Subject subject = Subject::of_scene(scene, size, data / "maps/sky.hdr", *executor);
+    Subject subject = Subject::of_scene(scene, size, data / "maps/sky.exr", *executor);
     fn(scene.stem().string(), subject);
   }
   Subject lagoon = Subject::of_plate(data / "plates/lagoon/lagoon.toml", size);

@@ -70,7 +70,7 @@ void measure(const Measuring& m) {
   }
   for (const fs::path& file : files_in(options.data / "scenes", false)) {
     Subject subject =
-        Subject::of_scene(file, options.size, options.data / "maps" / "sky.hdr", m.many);
+        Subject::of_scene(file, options.size, options.data / "maps" / "sky.exr", m.many);
     measure_looks(m, subject, false);
     measure_budgets(m, subject);
   }

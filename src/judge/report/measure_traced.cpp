@@ -54,7 +54,7 @@ struct Moment {
   TruthPicture truth;
 
   Moment(const Measuring& m, const std::filesystem::path& file, const Model& model, double time)
-      : subject(Subject::of_scene(file, m.options.size, m.options.data / "maps" / "sky.hdr", m.many,
+      : subject(Subject::of_scene(file, m.options.size, m.options.data / "maps" / "sky.exr", m.many,
                                   time)) {
     const Frame frame = subject.frame_for(subject.plan(m.physical));
     TruthOptions options;
