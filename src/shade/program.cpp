@@ -291,6 +291,23 @@ class Writer {
     return {level.width, level.height, 2.0 / texture.width, (2.0 + top) / texture.height};
   }
 
+  /// With a texel of its other side at both ends of each row.
+  void add_around(TextureId id, const Texture& texture) {
+    const Size size = texture.channels[0].window.size(), wide{size.width + 2, size.height};
+    const std::ptrdiff_t width = size.width;
+    declare(texture_sampler(static_cast<int>(id)), ShaderTexture::Source::kMade, 3, wide,
+            [rows = rows_of({texture.channels.begin(), texture.channels.end()}), width](
+                int y, float* row, int step) {
+              rows(y, row + step, step);
+              std::copy_n(row + width * step, step, row);
+              std::copy_n(row + step, step, row + (width + 1) * step);
+            });
+    const std::string name = "lat_long_" + std::to_string(static_cast<int>(id));
+    block_.add("level_" + name,
+               glm::vec4(size.width, size.height, 2.0 / wide.width, 1.0 / wide.height));
+    add_texel_size(name, wide);
+  }
+
   void add_packed_map() {
     const Size map = pass_.wave_map.channels[0].window.size();
     const Size size{map.width + 2, map.height + 2};
@@ -306,17 +323,20 @@ class Writer {
     if (looks_up(NodeOp::kTiled) || looks_up(NodeOp::kTiledWide)) {
       packs_map() ? add_packed_map() : add_texture(TextureId::kWaveMap, pass_.wave_map);
     }
+    const auto lat_long = [&](TextureId id, const Texture& texture) {
+      gathers_made() ? add_around(id, texture) : add_texture(id, texture);
+    };
     if (looks_up(NodeOp::kLatLong, TextureId::kEnvironment)) {
-      add_texture(TextureId::kEnvironment, pass_.environment);
+      lat_long(TextureId::kEnvironment, pass_.environment);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kContinuation)) {
-      add_texture(TextureId::kContinuation, pass_.continuation->colors);
+      lat_long(TextureId::kContinuation, pass_.continuation->colors);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kBottomColors)) {
-      add_texture(TextureId::kBottomColors, pass_.bottom_layer->colors);
+      lat_long(TextureId::kBottomColors, pass_.bottom_layer->colors);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kBottomShape)) {
-      add_texture(TextureId::kBottomShape, pass_.bottom_layer->shape);
+      lat_long(TextureId::kBottomShape, pass_.bottom_layer->shape);
     }
   }
 

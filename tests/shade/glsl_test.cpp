@@ -141,6 +141,39 @@ TEST_F(GlslTest, LookupsOfALoopAreMadeBeforeTheirSteps) {
   EXPECT_EQ(count(text, " + 3) / 16.0"), 1) << text;
 }
 
+/// A nearest texel, and the four texels at the same place or, where it is refused, at `elsewhere`.
+class NearestTexelTest : public GlslTest {
+ protected:
+  std::string text_with(const Symbol& elsewhere) {
+    const Symbol x = own(PlaneId::kColorR), y = own(PlaneId::kColorG);
+    const auto lookup = [&](NodeOp op, NodeType type, int a, int b) {
+      return recorder_.add(op, type, {a, b, -1}, index_of(PlaneId::kDepth));
+    };
+    const Symbol nearest =
+        Symbol::of(lookup(NodeOp::kNearest, NodeType::kNumber, x.node(), y.node()));
+    const SymbolMask refused = nearest < own(PlaneId::kSurfaceDepth);
+    const Symbol u = select(refused, elsewhere, x), v = select(refused, Symbol(0), y);
+    const int quad = recorder_.add(NodeOp::kQuad, NodeType::kFour, {u.node(), v.node(), -1});
+    const int four = lookup(NodeOp::kRead, NodeType::kFour, quad, -1);
+    return GlslBody(recording_of(nearest + Symbol::of(recorder_.part(four, 2)))).text();
+  }
+};
+
+TEST_F(NearestTexelTest, IsOneOfTheFourThatAreReadUnlessItIsRefused) {
+  const std::string text = text_with(Symbol(0));
+  EXPECT_EQ(count(text, "limpid_nearest_depth("), 0) << text;
+  EXPECT_EQ(count(text, "limpid_nearest_of("), 1) << text;
+  EXPECT_EQ(count(text, "limpid_read_depth_r("), 1) << text;
+  EXPECT_EQ(count(text, " ? vec4(limpid_texel_depth(limpid_pixel).r) : "), 1) << text;
+}
+
+TEST_F(NearestTexelTest, IsLookedUpWhereTheFourAreElsewhere) {
+  const std::string text = text_with(Symbol(1));
+  EXPECT_EQ(count(text, "limpid_nearest_depth("), 1) << text;
+  EXPECT_EQ(count(text, "limpid_nearest_of("), 0) << text;
+  EXPECT_EQ(count(text, "limpid_read_depth_r("), 1) << text;
+}
+
 TEST_F(GlslTest, SlopesOfOnePlaceAreOneLookup) {
   const Symbol x = own(PlaneId::kDepth);
   const auto lookup = [&](NodeOp op, NodeType type, const Symbol& at) {
