@@ -576,8 +576,9 @@ class Printer {
     constexpr std::size_t kAhead = LookAhead::kSteps;
     line(indent, "if ((" + i + " - " + std::to_string(flow.begin) + ") % " +
                      std::to_string(kAhead) + " == 0) {");
+    const std::string index = names_.at(flow.index);
     for (std::size_t k = 0; k < kAhead; ++k) {
-      names_[flow.index] = "float(" + i + (k > 0 ? " + " + std::to_string(k) : "") + ")";
+      if (k > 0) names_[flow.index] = "(" + index + " + " + std::to_string(k) + ".0)";
       for (const int id : ahead.places) define_once(id, indent + 1);
       for (std::size_t l = 0; l < ahead.lookups.size(); ++l) {
         line(indent + 1, results[l][k] + " = " + expression(ahead.lookups[l]) + ";");
@@ -593,7 +594,7 @@ class Printer {
         line(indent + 1, texels[k - 1] + " = " + texels[k] + ";");
     }
     line(indent, "}");
-    names_[flow.index] = "float(" + i + ")";
+    names_[flow.index] = index;
     // Nodes that only these lookups need are not written again.
     std::unordered_map<int, int> gone;
     const auto leave_out = [&](int id) {
@@ -626,12 +627,13 @@ class Printer {
       }
       line(indent, words + ";");
     }
-    const std::string i = fresh('i');
-    names_[flow.index] = "float(" + i + ")";
+    // Counted in float, too: devices convert slowly.
+    const std::string i = fresh('i'), real = names_[flow.index] = fresh('f');
+    line(indent, "float " + real + " = " + std::to_string(flow.begin) + ".0;");
     needs_.loops = true;
     // Unrolled, a march's lookups overflow a device's instruction cache and registers.
     line(indent, "[[dont_unroll]] for (int " + i + " = " + std::to_string(flow.begin) + "; " + i +
-                     " < " + std::to_string(flow.end) + "; ++" + i + ") {");
+                     " < " + std::to_string(flow.end) + "; ++" + i + ", " + real + " += 1.0) {");
     if (!ahead.lookups.empty()) look_ahead(flow, ahead, results, i, indent + 1);
     block(flow.block, indent + 1);
     std::string goes_on;

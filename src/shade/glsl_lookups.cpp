@@ -39,9 +39,22 @@ vec2 limpid_pixel_size() { return 1.0 / limpid_size(); }
 ivec2 limpid_at(vec2 texels) {
   return limpid_pixel + ivec2(clamp(texels, vec2(-4e6), vec2(4e6)));
 }
-vec4 limpid_quad(vec2 shift) {
+)";
+
+constexpr const char* kQuad = R"(vec4 limpid_quad(vec2 shift) {
   vec2 place = shift * limpid_size();
   vec2 corner = floor(place);
+  return vec4(corner, place - corner);
+}
+)";
+/// The same up to 2^22 texels from the pixel, by sums whose last bit is a whole number.
+constexpr const char* kSummedQuad = R"(float limpid_floor(float x) {
+  precise float sum = x + 12582912.0, nearest = sum - 12582912.0;
+  return nearest > x ? nearest - 1.0 : nearest;
+}
+vec4 limpid_quad(vec2 shift) {
+  vec2 place = shift * limpid_size();
+  vec2 corner = vec2(limpid_floor(place.x), limpid_floor(place.y));
   return vec4(corner, place - corner);
 }
 )";
@@ -381,12 +394,14 @@ std::string texture_sampler(int texture) {
   }
 }
 
-std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map) {
+std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map,
+                         bool summed_quads) {
   const bool planes = gathered == Gathered::kAll, made = gathered != Gathered::kNothing;
   std::string text;
   const auto op = [&](NodeOp which) { return needs.ops.count(which) > 0; };
   if (needs.infinity) text += "#define limpid_infinity uintBitsToFloat(0x7f800000u)\n";
   text += kPlaces;
+  text += summed_quads ? kSummedQuad : kQuad;
   if (made && op(NodeOp::kSqrt)) text += kSqrt;
   if (op(NodeOp::kRow)) text += made ? kPackedRow : kRow;
   std::set<std::string> done;

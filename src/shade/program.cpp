@@ -88,24 +88,37 @@ class Writer {
     return "set = " + std::to_string(options_.set) + ", binding = " + std::to_string(binding);
   }
 
-  /// A program as long as a march waits for its lookups more than it computes: more threads per
-  /// register file are faster, even if some registers spill. (NVIDIA H100, beside kShort: with
-  /// kLong `physical` takes .8 of the time, `fast` 1.1, shorter looks 1.1 to 1.2; with kMiddle
-  /// `fast` takes .96, shorter looks 1.05.)
-  Size group() const {
-    constexpr Size kShort{16, 8}, kMiddle{16, 16}, kLong{32, 32};
+  /// Of the program, by its live nodes.
+  enum class Length : std::uint8_t { kShort, kMiddle, kLong };
+  Length length() const {
     constexpr std::ptrdiff_t kMiddleNodes = 1500, kLongNodes = 5000;
     const auto nodes = std::count(recording_.live.begin(), recording_.live.end(), true);
+    return nodes > kLongNodes     ? Length::kLong
+           : nodes > kMiddleNodes ? Length::kMiddle
+                                  : Length::kShort;
+  }
+  /// A program as long as a march waits for its lookups more than it computes: more threads per
+  /// register file are faster, even if some registers spill. (NVIDIA H100, beside kShort: with
+  /// kLong `physical` takes .8 of the time, shorter looks 1.1 to 1.2; with kMiddle `fast` takes
+  /// .95, shorter looks 1.05.)
+  Size group() const {
+    constexpr Size kShort{16, 8}, kMiddle{16, 16}, kLong{16, 64};
     const auto fits = [&](Size group) {
       return group.width * group.height <= options_.max_threads;
     };
-    if (nodes > kLongNodes && fits(kLong)) return kLong;
-    return nodes > kMiddleNodes && fits(kMiddle) ? kMiddle : kShort;
+    if (length() == Length::kLong && fits(kLong)) return kLong;
+    return length() != Length::kShort && fits(kMiddle) ? kMiddle : kShort;
   }
 
   bool gathers_made() const { return gathered_ != Gathered::kNothing; }
   bool packs_map() const { return gathers_made() && pass_.wave_map.bytes; }
-  std::string lookups() const { return glsl_lookups(body_.needs(), gathered_, packs_map()); }
+  /// Whether corners of quads come from sums. (NVIDIA H100: then `fast` takes .91 of the time,
+  /// `physical` 1.10, shorter looks 1.00: the driver gives `fast` 64 registers, not 80, so that a
+  /// third more threads run at once.)
+  bool sums_quads() const { return gathers_made() && length() == Length::kMiddle; }
+  std::string lookups() const {
+    return glsl_lookups(body_.needs(), gathered_, packs_map(), sums_quads());
+  }
 
   void add_outputs() {
     const auto add = [&](std::string name, int channels) {

@@ -138,7 +138,7 @@ TEST_F(GlslTest, LookupsOfALoopAreMadeBeforeTheirSteps) {
   EXPECT_EQ(count(text, "for (int "), 2) << text;
   EXPECT_EQ(count(text, " - 1) % 4 == 0) {"), 1) << text;
   EXPECT_EQ(count(text, "limpid_nearest_depth("), 4 + 1) << text;
-  EXPECT_EQ(count(text, " + 3) / 16.0"), 1) << text;
+  EXPECT_EQ(count(text, " + 3.0) / 16.0"), 1) << text;
 }
 
 /// A nearest texel, and the four texels at the same place or, where it is refused, at `elsewhere`.
@@ -188,6 +188,22 @@ TEST_F(GlslTest, SlopesOfOnePlaceAreOneLookup) {
   EXPECT_EQ(count(text, "limpid_slope_moments("), 1) << text;
   EXPECT_EQ(count(text, "limpid_slope_mean("), 0) << text;
   EXPECT_EQ(count(text, "limpid_slope_square("), 1) << text;
+}
+
+/// Where a device is faster with them; a compiler that may reorder sums must not see them.
+TEST(ProgramOfARunner, SumsCornersInProgramsOfMiddleLengthAlone) {
+  const test::World world(false);
+  const Frame& frame = world.buffers.frame;
+  const auto sums = [&](const char* look, Gathered gathered) {
+    const Plan plan = make_plan(test::shipped_look(look), test::inputs_of(frame, world.scene));
+    const Pass pass = pass_of(plan, world.scene, frame);
+    const std::string text = program_of(plan, frame, frame, pass, {}, gathered).text;
+    return text.find("limpid_floor(") != std::string::npos;
+  };
+  EXPECT_TRUE(sums("fast", Gathered::kAll));
+  EXPECT_FALSE(sums("fast", Gathered::kNothing));
+  EXPECT_FALSE(sums("realistic", Gathered::kAll));
+  EXPECT_FALSE(sums("physical", Gathered::kAll));
 }
 
 /// As for the texts for hosts: a pipeline lasts for a sequence.
