@@ -9,19 +9,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "limpid/core/error.h"
-
 #include "shade/look_ahead.h"
+#include "shade/shared_quad.h"
 
 namespace limpid {
 namespace {
-
-const Role& role_of(PlaneId plane) {
-  for (const Role& role : roles()) {
-    if (role.planes().has(plane)) return role;
-  }
-  throw Error("a plane without a role");
-}
 
 const char* type_word(NodeType type) {
   switch (type) {
@@ -39,28 +31,6 @@ const char* type_word(NodeType type) {
   return "";
 }
 
-/// For each node, its value where it follows from numbers of the frame alone.
-std::vector<std::optional<double>> values_of_frame(const Recording& r) {
-  std::vector<std::optional<double>> values(r.nodes.size());
-  for (std::size_t i = 0; i < r.nodes.size(); ++i) {
-    const Node& node = r.nodes[i];
-    if (node.op == NodeOp::kLiteral) values[i] = node.number;
-    if (node.op == NodeOp::kGiven && r.live[i]) {
-      values[i] = r.given[static_cast<std::size_t>(node.what)].value;
-    }
-    if (!is_arithmetic(node.op) || !r.live[i]) continue;
-    double args[3] = {0, 0, 0};
-    bool known = true;
-    for (std::size_t k = 0; k < 3 && node.args[k] >= 0; ++k) {
-      const std::optional<double>& value = values[static_cast<std::size_t>(node.args[k])];
-      known = known && value;
-      args[k] = value.value_or(0);
-    }
-    if (known) values[i] = computed(node.op, args[0], args[1], args[2]);
-  }
-  return values;
-}
-
 class Printer {
  public:
   Printer(const Recording& recording, bool computes_frame, std::string& text, GlslNeeds& needs,
@@ -76,6 +46,7 @@ class Printer {
         printed_(r_.flows.size()) {
     if (computes_frame) of_frame_ = values_of_frame(r_);
     count_uses();
+    for (const SharedQuad& quad : shared_quads(r_)) shared_.push_back({quad, {}, {}});
   }
 
   void block(int index, int indent) {
@@ -274,7 +245,8 @@ class Printer {
       case NodeOp::kRow:
         return "limpid_row(" + std::to_string(node.what) + ")";
       case NodeOp::kOwn:
-        return of_plane("texel") + "(limpid_pixel)" + channel();
+        lookup();
+        return own(node.what);
       case NodeOp::kBeside: {
         const int k = static_cast<int>(node.number);
         return of_plane("texel") + "(limpid_pixel + ivec2(" + std::to_string(k % 3 - 1) + ", " +
@@ -291,7 +263,7 @@ class Printer {
         return "limpid_quad(vec2(" + arg(0) + ", " + arg(1) + "))";
       case NodeOp::kRead:
         lookup();
-        return "limpid_read_" + role_word(plane) + "_" + channel_letter(plane) + "(" + arg(0) + ")";
+        return read(node.what, arg(0));
       case NodeOp::kPlace: {
         constexpr const char* kCorners[] = {"0.0, 0.0", "1.0, 0.0", "0.0, 1.0", "1.0, 1.0"};
         const auto k = static_cast<std::size_t>(node.number);
@@ -457,7 +429,8 @@ class Printer {
     const Node& node = at(id);
     if (node.op == NodeOp::kPart) return;  // its vector has a name
     if (is_of_frame(id) || is_idle(id)) return;
-    std::string words = expression(id);
+    std::string words = shared(id, indent);
+    if (words.empty()) words = expression(id);
     if (node.op == NodeOp::kRow || is_otherwise(id)) {  // read where it is needed alone
       names_[id] = std::move(words);
       return;
@@ -473,6 +446,41 @@ class Printer {
     names_[id] = fresh('t');
     line(indent,
          std::string("const ") + type_word(node.type) + " " + names_[id] + " = " + words + ";");
+  }
+
+  struct Shared {
+    SharedQuad nodes;
+    std::string quad, texels;  ///< names; empty before the nearest texel is written
+  };
+  /// The expression of a node that shares texels with another one, or nothing.
+  std::string shared(int id, int indent) {
+    for (Shared& s : shared_) {
+      const auto unless_refused = [&](const std::string& own, const std::string& read) {
+        return "(" + value(s.nodes.refused) + " ? vec4(" + own + ") : " + read + ")";
+      };
+      if (id == s.nodes.nearest) {
+        const Node& node = at(id);
+        s.quad = fresh('q'), s.texels = fresh('q');
+        needs_.nearest_of = true;
+        needs_.lookups.insert({NodeOp::kRead, node.what});
+        line(indent, "const vec4 " + s.quad + " = limpid_quad(vec2(" + value(node.args[0]) + ", " +
+                         value(node.args[1]) + "));");
+        line(indent, "const vec4 " + s.texels + " = " + read(node.what, s.quad) + ";");
+        return "limpid_nearest_of(" + s.texels + ", " + s.quad + ")";
+      }
+      if (s.quad.empty()) continue;
+      if (id == s.nodes.quad) return unless_refused("0.0", s.quad);
+      if (id == s.nodes.read) return unless_refused(own(at(id).what), s.texels);
+    }
+    return "";
+  }
+  static std::string read(int plane, const std::string& quad) {
+    const auto id = static_cast<PlaneId>(plane);
+    return "limpid_read_" + role_word(id) + "_" + channel_letter(id) + "(" + quad + ")";
+  }
+  static std::string own(int plane) {
+    const auto id = static_cast<PlaneId>(plane);
+    return "limpid_texel_" + role_word(id) + "(limpid_pixel)." + channel_letter(id);
   }
 
   /// Whether the first parenthesis closes at the end of the text.
@@ -568,8 +576,9 @@ class Printer {
     constexpr std::size_t kAhead = LookAhead::kSteps;
     line(indent, "if ((" + i + " - " + std::to_string(flow.begin) + ") % " +
                      std::to_string(kAhead) + " == 0) {");
+    const std::string index = names_.at(flow.index);
     for (std::size_t k = 0; k < kAhead; ++k) {
-      names_[flow.index] = "float(" + i + (k > 0 ? " + " + std::to_string(k) : "") + ")";
+      if (k > 0) names_[flow.index] = "(" + index + " + " + std::to_string(k) + ".0)";
       for (const int id : ahead.places) define_once(id, indent + 1);
       for (std::size_t l = 0; l < ahead.lookups.size(); ++l) {
         line(indent + 1, results[l][k] + " = " + expression(ahead.lookups[l]) + ";");
@@ -585,7 +594,7 @@ class Printer {
         line(indent + 1, texels[k - 1] + " = " + texels[k] + ";");
     }
     line(indent, "}");
-    names_[flow.index] = "float(" + i + ")";
+    names_[flow.index] = index;
     // Nodes that only these lookups need are not written again.
     std::unordered_map<int, int> gone;
     const auto leave_out = [&](int id) {
@@ -618,12 +627,13 @@ class Printer {
       }
       line(indent, words + ";");
     }
-    const std::string i = fresh('i');
-    names_[flow.index] = "float(" + i + ")";
+    // Counted in float, too: devices convert slowly.
+    const std::string i = fresh('i'), real = names_[flow.index] = fresh('f');
+    line(indent, "float " + real + " = " + std::to_string(flow.begin) + ".0;");
     needs_.loops = true;
     // Unrolled, a march's lookups overflow a device's instruction cache and registers.
     line(indent, "[[dont_unroll]] for (int " + i + " = " + std::to_string(flow.begin) + "; " + i +
-                     " < " + std::to_string(flow.end) + "; ++" + i + ") {");
+                     " < " + std::to_string(flow.end) + "; ++" + i + ", " + real + " += 1.0) {");
     if (!ahead.lookups.empty()) look_ahead(flow, ahead, results, i, indent + 1);
     block(flow.block, indent + 1);
     std::string goes_on;
@@ -669,6 +679,7 @@ class Printer {
   std::vector<int> chosen_;  ///< how often an if leaves it as it is
   std::vector<bool> defined_;
   std::vector<bool> printed_;  ///< of the flows
+  std::vector<Shared> shared_;
   std::unordered_map<int, std::string> names_;
   std::string title_;
   int next_ = 0;
@@ -680,21 +691,6 @@ GlslBody::GlslBody(const Recording& recording, bool computes_frame) {
   Printer printer(recording, computes_frame, text_, needs_, frame_numbers_);
   printer.block(0, 1);
   for (const Output& output : recording.outputs) outputs_.push_back(printer.value(output.node));
-}
-
-std::string glsl_name(const std::string& name) {
-  std::string word;
-  for (const char c : name) {
-    if (c == ']') continue;
-    word += c == '.' || c == '[' ? '_' : c;
-  }
-  return word;
-}
-
-std::string role_word(PlaneId plane) { return std::string(role_of(plane).name); }
-
-char channel_letter(PlaneId plane) {
-  return "rgba"[index_of(plane) - index_of(role_of(plane).first)];
 }
 
 }  // namespace limpid

@@ -16,6 +16,7 @@ struct GlslNeeds {
   bool infinity = false;
   bool loops = false;
   bool slope_moments = false;  ///< mean and square of one place
+  bool nearest_of = false;     ///< of four texels
 };
 
 /// A recording as the statements of a GLSL function body. Numbers of the frame are `limpid.NAME`,

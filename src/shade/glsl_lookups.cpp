@@ -39,9 +39,22 @@ vec2 limpid_pixel_size() { return 1.0 / limpid_size(); }
 ivec2 limpid_at(vec2 texels) {
   return limpid_pixel + ivec2(clamp(texels, vec2(-4e6), vec2(4e6)));
 }
-vec4 limpid_quad(vec2 shift) {
+)";
+
+constexpr const char* kQuad = R"(vec4 limpid_quad(vec2 shift) {
   vec2 place = shift * limpid_size();
   vec2 corner = floor(place);
+  return vec4(corner, place - corner);
+}
+)";
+/// The same up to 2^22 texels from the pixel, by sums whose last bit is a whole number.
+constexpr const char* kSummedQuad = R"(float limpid_floor(float x) {
+  precise float sum = x + 12582912.0, nearest = sum - 12582912.0;
+  return nearest > x ? nearest - 1.0 : nearest;
+}
+vec4 limpid_quad(vec2 shift) {
+  vec2 place = shift * limpid_size();
+  vec2 corner = vec2(limpid_floor(place.x), limpid_floor(place.y));
   return vec4(corner, place - corner);
 }
 )";
@@ -91,6 +104,12 @@ constexpr const char* kPlace = R"(vec2 limpid_place_#(vec4 quad, vec2 k) {
 }
 )";
 
+/// The nearest of the four texels of a quad.
+constexpr const char* kNearestOf = R"(float limpid_nearest_of(vec4 four, vec4 quad) {
+  vec2 row = quad.w < 0.5 ? four.xy : four.zw;
+  return quad.z < 0.5 ? row.x : row.y;
+}
+)";
 constexpr const char* kRead = R"(vec4 limpid_read_#_@(vec4 quad) {
   ivec2 corner = limpid_at(quad.xy);
   return vec4(limpid_texel_#(corner).@, limpid_texel_#(corner + ivec2(1, 0)).@,
@@ -115,12 +134,6 @@ vec2 limpid_meet_#(vec2 texels) {
 }
 )";
 /// Half a texel before that is the middle of one: the sampler takes the nearest.
-constexpr const char* kSampledPlane = R"(
-vec4 limpid_texel_#(ivec2 place) {
-  vec4 texel = limpid.texel_#;
-  return textureLod(limpid_#, (vec2(place) + (texel.zw - 0.5)) * texel.xy, 0.0);
-}
-)";
 constexpr const char* kSampledNearest = R"(vec4 limpid_nearest_#(vec2 shift) {
   return textureLod(limpid_#, limpid_meet_#(floor(shift * limpid_size() + 0.5) - 0.5), 0.0);
 }
@@ -196,6 +209,19 @@ vec3 limpid_level_slope_means(vec4 level, vec2 periods) {
 vec3 limpid_level_slope_squares(vec4 level, vec2 periods) {
   vec2 w, meet = limpid_meet_tiled(level, limpid.texel_slopes.xy, periods, w);
   return vec3(limpid_slope(meet, 2.0, w), limpid_slope(meet, 3.0, w), limpid_slope(meet, 4.0, w));
+}
+)";
+
+/// A picture that repeats in x alone, with a texel of its other side at both ends of a row; # is
+/// the lookup's number, $ its sampler.
+constexpr const char* kGatheredLatLong = R"(vec3 limpid_lat_long_#(vec2 place) {
+  vec4 level = limpid.level_lat_long_#;
+  vec2 texels = vec2(max(place.x - floor(place.x), 0.0), place.y) * level.xy - 0.5;
+  vec2 corner = floor(texels), w = texels - corner;
+  vec2 meet = corner * limpid.texel_lat_long_#.xy + level.zw;
+  return vec3(limpid_mixed(textureGather($, meet, 0), w),
+              limpid_mixed(textureGather($, meet, 1), w),
+              limpid_mixed(textureGather($, meet, 2), w));
 }
 )";
 
@@ -368,12 +394,14 @@ std::string texture_sampler(int texture) {
   }
 }
 
-std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map) {
+std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map,
+                         bool summed_quads) {
   const bool planes = gathered == Gathered::kAll, made = gathered != Gathered::kNothing;
   std::string text;
   const auto op = [&](NodeOp which) { return needs.ops.count(which) > 0; };
   if (needs.infinity) text += "#define limpid_infinity uintBitsToFloat(0x7f800000u)\n";
   text += kPlaces;
+  text += summed_quads ? kSummedQuad : kQuad;
   if (made && op(NodeOp::kSqrt)) text += kSqrt;
   if (op(NodeOp::kRow)) text += made ? kPackedRow : kRow;
   std::set<std::string> done;
@@ -384,7 +412,7 @@ std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_
   for (const auto& [verb, what] : needs.lookups) {
     if (verb < NodeOp::kOwn || verb > NodeOp::kPlace) continue;
     const std::string role = role_word(static_cast<PlaneId>(what));
-    once(with(planes ? kSampledPlane : kPlane, role));
+    once(with(kPlane, role));
     const bool sampled = verb == NodeOp::kNearest || verb == NodeOp::kBilinear ||
                          verb == NodeOp::kBilinear3 || verb == NodeOp::kRead;
     if (planes && sampled) once(with(kMeet, role));
@@ -451,6 +479,10 @@ std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_
         once(kSlopeSquare);
         break;
       case NodeOp::kLatLong:
+        if (made) {
+          once(with(with(kGatheredLatLong, std::to_string(what)), texture_sampler(what), '$'));
+          break;
+        }
         once(kWrapped);
         once(with("vec3 limpid_lat_long_" + std::to_string(what) + "(vec2 place) {\n" +
                       "  return limpid_wrapped(#, textureSize(#, 0), 0, place, false);\n}\n",
@@ -466,6 +498,7 @@ std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_
         break;
     }
   }
+  if (needs.nearest_of) text += kNearestOf;
   if (needs.slope_moments) {
     once(kLevelOf);
     once(with(with(kSlopeMoments, made ? "slopes" : "slope_means", '&'),

@@ -12,7 +12,9 @@ namespace limpid {
 /// uniform block), samplers limpid_ROLE and those of textures. For gathered textures,
 /// limpid.texel_NAME has the size of a texel, and for planes 1 less the corner of their window;
 /// the table of rows has four values per texel. `packed_map`: the wave map has bytes.
-std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map);
+/// `summed_quads`: the corners of four texels come from sums, not from floor().
+std::string glsl_lookups(const GlslNeeds& needs, Gathered gathered, bool packed_map,
+                         bool summed_quads);
 
 /// Names of samplers.
 std::string plane_sampler(PlaneId plane);

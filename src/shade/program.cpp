@@ -87,24 +87,37 @@ class Writer {
     return "set = " + std::to_string(options_.set) + ", binding = " + std::to_string(binding);
   }
 
-  /// A program as long as a march waits for its lookups more than it computes: more threads per
-  /// register file are faster, even if some registers spill. (NVIDIA H100, beside kShort: with
-  /// kLong `physical` takes .8 of the time, `fast` 1.1, shorter looks 1.1 to 1.2; with kMiddle
-  /// `fast` takes .96, shorter looks 1.05.)
-  Size group() const {
-    constexpr Size kShort{16, 8}, kMiddle{16, 16}, kLong{32, 32};
+  /// Of the program, by its live nodes.
+  enum class Length : std::uint8_t { kShort, kMiddle, kLong };
+  Length length() const {
     constexpr std::ptrdiff_t kMiddleNodes = 1500, kLongNodes = 5000;
     const auto nodes = std::count(recording_.live.begin(), recording_.live.end(), true);
+    return nodes > kLongNodes     ? Length::kLong
+           : nodes > kMiddleNodes ? Length::kMiddle
+                                  : Length::kShort;
+  }
+  /// A program as long as a march waits for its lookups more than it computes: more threads per
+  /// register file are faster, even if some registers spill. (NVIDIA H100, beside kShort: with
+  /// kLong `physical` takes .8 of the time, shorter looks 1.1 to 1.2; with kMiddle `fast` takes
+  /// .95, shorter looks 1.05.)
+  Size group() const {
+    constexpr Size kShort{16, 8}, kMiddle{16, 16}, kLong{16, 64};
     const auto fits = [&](Size group) {
       return group.width * group.height <= options_.max_threads;
     };
-    if (nodes > kLongNodes && fits(kLong)) return kLong;
-    return nodes > kMiddleNodes && fits(kMiddle) ? kMiddle : kShort;
+    if (length() == Length::kLong && fits(kLong)) return kLong;
+    return length() != Length::kShort && fits(kMiddle) ? kMiddle : kShort;
   }
 
   bool gathers_made() const { return gathered_ != Gathered::kNothing; }
   bool packs_map() const { return gathers_made() && pass_.wave_map.bytes; }
-  std::string lookups() const { return glsl_lookups(body_.needs(), gathered_, packs_map()); }
+  /// Whether corners of quads come from sums. (NVIDIA H100: then `fast` takes .91 of the time,
+  /// `physical` 1.10, shorter looks 1.00: the driver gives `fast` 64 registers, not 80, so that a
+  /// third more threads run at once.)
+  bool sums_quads() const { return gathers_made() && length() == Length::kMiddle; }
+  std::string lookups() const {
+    return glsl_lookups(body_.needs(), gathered_, packs_map(), sums_quads());
+  }
 
   void add_outputs() {
     const auto add = [&](std::string name, int channels) {
@@ -290,6 +303,23 @@ class Writer {
     return {level.width, level.height, 2.0 / texture.width, (2.0 + top) / texture.height};
   }
 
+  /// With a texel of its other side at both ends of each row.
+  void add_around(TextureId id, const Texture& texture) {
+    const Size size = texture.channels[0].window.size(), wide{size.width + 2, size.height};
+    const std::ptrdiff_t width = size.width;
+    declare(texture_sampler(static_cast<int>(id)), ShaderTexture::Source::kMade, 3, wide,
+            [rows = rows_of({texture.channels.begin(), texture.channels.end()}), width](
+                int y, float* row, int step) {
+              rows(y, row + step, step);
+              std::copy_n(row + width * step, step, row);
+              std::copy_n(row + step, step, row + (width + 1) * step);
+            });
+    const std::string name = "lat_long_" + std::to_string(static_cast<int>(id));
+    block_.add("level_" + name,
+               glm::vec4(size.width, size.height, 2.0 / wide.width, 1.0 / wide.height));
+    add_texel_size(name, wide);
+  }
+
   void add_packed_map() {
     const Size map = pass_.wave_map.channels[0].window.size();
     const Size size{map.width + 2, map.height + 2};
@@ -305,17 +335,20 @@ class Writer {
     if (looks_up(NodeOp::kTiled) || looks_up(NodeOp::kTiledWide)) {
       packs_map() ? add_packed_map() : add_texture(TextureId::kWaveMap, pass_.wave_map);
     }
+    const auto lat_long = [&](TextureId id, const Texture& texture) {
+      gathers_made() ? add_around(id, texture) : add_texture(id, texture);
+    };
     if (looks_up(NodeOp::kLatLong, TextureId::kEnvironment)) {
-      add_texture(TextureId::kEnvironment, pass_.environment);
+      lat_long(TextureId::kEnvironment, pass_.environment);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kContinuation)) {
-      add_texture(TextureId::kContinuation, pass_.continuation->colors);
+      lat_long(TextureId::kContinuation, pass_.continuation->colors);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kBottomColors)) {
-      add_texture(TextureId::kBottomColors, pass_.bottom_layer->colors);
+      lat_long(TextureId::kBottomColors, pass_.bottom_layer->colors);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kBottomShape)) {
-      add_texture(TextureId::kBottomShape, pass_.bottom_layer->shape);
+      lat_long(TextureId::kBottomShape, pass_.bottom_layer->shape);
     }
   }
 

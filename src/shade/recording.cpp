@@ -82,4 +82,25 @@ PlaneSet Recording::planes() const {
   return set;
 }
 
+std::vector<std::optional<double>> values_of_frame(const Recording& r) {
+  std::vector<std::optional<double>> values(r.nodes.size());
+  for (std::size_t i = 0; i < r.nodes.size(); ++i) {
+    const Node& node = r.nodes[i];
+    if (node.op == NodeOp::kLiteral) values[i] = node.number;
+    if (node.op == NodeOp::kGiven && r.live[i]) {
+      values[i] = r.given[static_cast<std::size_t>(node.what)].value;
+    }
+    if (!is_arithmetic(node.op) || !r.live[i]) continue;
+    double args[3] = {0, 0, 0};
+    bool known = true;
+    for (std::size_t k = 0; k < 3 && node.args[k] >= 0; ++k) {
+      const std::optional<double>& value = values[static_cast<std::size_t>(node.args[k])];
+      known = known && value;
+      args[k] = value.value_or(0);
+    }
+    if (known) values[i] = computed(node.op, args[0], args[1], args[2]);
+  }
+  return values;
+}
+
 }  // namespace limpid

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -157,5 +158,8 @@ struct Recording {
   /// Planes that live nodes look up.
   PlaneSet planes() const;
 };
+
+/// For each node, its value where it follows from numbers of the frame alone.
+std::vector<std::optional<double>> values_of_frame(const Recording& recording);
 
 }  // namespace limpid

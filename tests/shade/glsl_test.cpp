@@ -138,7 +138,40 @@ TEST_F(GlslTest, LookupsOfALoopAreMadeBeforeTheirSteps) {
   EXPECT_EQ(count(text, "for (int "), 2) << text;
   EXPECT_EQ(count(text, " - 1) % 4 == 0) {"), 1) << text;
   EXPECT_EQ(count(text, "limpid_nearest_depth("), 4 + 1) << text;
-  EXPECT_EQ(count(text, " + 3) / 16.0"), 1) << text;
+  EXPECT_EQ(count(text, " + 3.0) / 16.0"), 1) << text;
+}
+
+/// A nearest texel, and the four texels at the same place or, where it is refused, at `elsewhere`.
+class NearestTexelTest : public GlslTest {
+ protected:
+  std::string text_with(const Symbol& elsewhere) {
+    const Symbol x = own(PlaneId::kColorR), y = own(PlaneId::kColorG);
+    const auto lookup = [&](NodeOp op, NodeType type, int a, int b) {
+      return recorder_.add(op, type, {a, b, -1}, index_of(PlaneId::kDepth));
+    };
+    const Symbol nearest =
+        Symbol::of(lookup(NodeOp::kNearest, NodeType::kNumber, x.node(), y.node()));
+    const SymbolMask refused = nearest < own(PlaneId::kSurfaceDepth);
+    const Symbol u = select(refused, elsewhere, x), v = select(refused, Symbol(0), y);
+    const int quad = recorder_.add(NodeOp::kQuad, NodeType::kFour, {u.node(), v.node(), -1});
+    const int four = lookup(NodeOp::kRead, NodeType::kFour, quad, -1);
+    return GlslBody(recording_of(nearest + Symbol::of(recorder_.part(four, 2)))).text();
+  }
+};
+
+TEST_F(NearestTexelTest, IsOneOfTheFourThatAreReadUnlessItIsRefused) {
+  const std::string text = text_with(Symbol(0));
+  EXPECT_EQ(count(text, "limpid_nearest_depth("), 0) << text;
+  EXPECT_EQ(count(text, "limpid_nearest_of("), 1) << text;
+  EXPECT_EQ(count(text, "limpid_read_depth_r("), 1) << text;
+  EXPECT_EQ(count(text, " ? vec4(limpid_texel_depth(limpid_pixel).r) : "), 1) << text;
+}
+
+TEST_F(NearestTexelTest, IsLookedUpWhereTheFourAreElsewhere) {
+  const std::string text = text_with(Symbol(1));
+  EXPECT_EQ(count(text, "limpid_nearest_depth("), 1) << text;
+  EXPECT_EQ(count(text, "limpid_nearest_of("), 0) << text;
+  EXPECT_EQ(count(text, "limpid_read_depth_r("), 1) << text;
 }
 
 TEST_F(GlslTest, SlopesOfOnePlaceAreOneLookup) {
@@ -155,6 +188,22 @@ TEST_F(GlslTest, SlopesOfOnePlaceAreOneLookup) {
   EXPECT_EQ(count(text, "limpid_slope_moments("), 1) << text;
   EXPECT_EQ(count(text, "limpid_slope_mean("), 0) << text;
   EXPECT_EQ(count(text, "limpid_slope_square("), 1) << text;
+}
+
+/// Where a device is faster with them; a compiler that may reorder sums must not see them.
+TEST(ProgramOfARunner, SumsCornersInProgramsOfMiddleLengthAlone) {
+  const test::World world(false);
+  const Frame& frame = world.buffers.frame;
+  const auto sums = [&](const char* look, Gathered gathered) {
+    const Plan plan = make_plan(test::shipped_look(look), test::inputs_of(frame, world.scene));
+    const Pass pass = pass_of(plan, world.scene, frame);
+    const std::string text = program_of(plan, frame, frame, pass, {}, gathered).text;
+    return text.find("limpid_floor(") != std::string::npos;
+  };
+  EXPECT_TRUE(sums("fast", Gathered::kAll));
+  EXPECT_FALSE(sums("fast", Gathered::kNothing));
+  EXPECT_FALSE(sums("realistic", Gathered::kAll));
+  EXPECT_FALSE(sums("physical", Gathered::kAll));
 }
 
 /// As for the texts for hosts: a pipeline lasts for a sequence.

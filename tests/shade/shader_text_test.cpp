@@ -138,7 +138,7 @@ TEST(ShaderText, LongProgramsHaveLargeGroupsWhereTheDeviceHasThem) {
               std::string::npos);
     return made.group();
   };
-  EXPECT_EQ(group_of("physical", 1024), (Size{32, 32}));
+  EXPECT_EQ(group_of("physical", 1024), (Size{16, 64}));
   EXPECT_EQ(group_of("physical", 1023), (Size{16, 16}));
   EXPECT_EQ(group_of("physical", 255), (Size{16, 8}));
   EXPECT_EQ(group_of("realistic", 1024), (Size{16, 8}));

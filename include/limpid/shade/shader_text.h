@@ -91,7 +91,7 @@ class ShaderText {
   const std::vector<ShaderTexture>& textures() const { return textures_; }
   const std::vector<ShaderOutput>& outputs() const { return outputs_; }
   /// The pixels of a group of a compute main(), with one thread each: 16x8, or for long programs
-  /// 32x32 if `max_threads` permits.
+  /// 16x64 if `max_threads` permits.
   const Size& group() const { return group_; }
   /// The pixels that the shader computes: Frame::work().
   const Rect& work() const { return work_; }
