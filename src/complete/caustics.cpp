@@ -211,6 +211,8 @@ void CausticsMaker::look(const Frame& frame, const Pass& c, const Sunlight& sun,
   };
   take_in(dry, false, 0);
   if (mirrors) take_in(image, true, looks_at(dry));
+  // Each level searches all bottoms.
+  std::erase_if(bottoms_, [](const CausticsBottom& b) { return !(b.depth > 0); });
   std::erase_if(sights_, [](const CausticsSight& s) { return !(s.depth > 0); });
 }
 
