@@ -183,20 +183,35 @@ struct Kernel<Caustics> : Caustics {
   static LIMPID_INLINE F moved(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> entry,
                                Vec2<F> level, F lit, Mask hidden) {
     const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
-    const auto shift_to = [&](Vec2<F> at) {
-      const Vec3<F> point = at.x * map_x + at.y * map_y - given<F>(c.eye_above) * up;
-      return ScreenRay<F>(c, p, point - p.surface_point).shift_at(F(1));
+    const Vec2<F> apart = entry - level;
+    const F moves = sqrt(apart.x * apart.x + apart.y * apart.y);
+    // The share of sunlight that passes the surface at a place, and whether it is known.
+    struct Entry {
+      F passes, known;
     };
-    const Vec2<F> enters = shift_to(entry), would = shift_to(level);
-    F above = mixed(tap, PlaneId::kSurfaceShadow, enters);
-    if (c.planes.has(PlaneId::kSurfaceDepth)) {  // no light enters where there is no water
-      above = select(nothing(tap.nearest(PlaneId::kSurfaceDepth, enters)), F(0), above);
-    }
-    const F straight = mixed(tap, PlaneId::kSurfaceShadow, would);
+    const auto entry_at = [&](Vec2<F> at) {
+      const Vec3<F> point = at.x * map_x + at.y * map_y - given<F>(c.eye_above) * up;
+      const ScreenRay<F> ray(c, p, point - p.surface_point);
+      const Vec2<F> shift = ray.shift_at(F(1));
+      Entry found{mixed(tap, PlaneId::kSurfaceShadow, shift), known_at(c, p, shift)};
+      if (c.planes.has(PlaneId::kSurfaceDepth)) {
+        // No light enters where there is no water. Over a low camera, a wave in front hides the
+        // place: the plane shows the shadow on that wave, which must be much nearer to the place
+        // than shadows move.
+        const F seen = tap.nearest(PlaneId::kSurfaceDepth, shift);
+        const F off = abs(min(seen, F(1e30)) - ray.depth_at(F(1)));
+        const F near = saturate(F(1.5) - F(2) * off / max(moves, F(1e-6)));
+        found.passes = select(nothing(seen), F(0), found.passes);
+        found.known = found.known * select(nothing(seen), F(1), near);
+      }
+      return found;
+    };
+    const Entry enters = entry_at(entry), would = entry_at(level);
     // A shadow that the surface's shadow does not explain is cast under water.
-    const F cast = select(straight > F(0.05), min(lit / max(straight, F(0.05)), F(1)), F(1));
-    const F below = select(hidden, F(1), F(1) + known_at(c, p, would) * (cast - F(1)));
-    return lit + known_at(c, p, enters) * (above * below - lit);
+    const F cast =
+        select(would.passes > F(0.05), min(lit / max(would.passes, F(0.05)), F(1)), F(1));
+    const F below = select(hidden, F(1), F(1) + would.known * (cast - F(1)));
+    return lit + enters.known * (enters.passes * below - lit);
   }
 
   /// 1 in the picture, 0 beyond it, a ramp near its edge.

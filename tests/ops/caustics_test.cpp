@@ -245,6 +245,25 @@ TEST(Caustics, LeaveShadowsThatAreCastInTheWater) {
   EXPECT_NEAR(wet.color(14, 2).r, 0.5, 1e-6);
 }
 
+// On land beside the water the sun shines, but no light enters there.
+TEST(Caustics, MoveShadowsOfTheShore) {
+  Tray tray = under_a_board();
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 1);
+  tray.buffers.set(PlaneId::kSurfaceDepth,
+                   [](int x, int) { return x >= 12 && x < 16 ? test::kInf : 10.0f; });
+  const test::Picture wet = tray.wet();
+  for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
+  for (const int x : {4, 5, 7}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
+}
+
+// A crest in front hides the entry points from column 10 on, and shows its own shadow.
+TEST(Caustics, LeaveShadowsWhoseEntryPointAWaveHides) {
+  Tray tray = under_a_board();
+  tray.buffers.set(PlaneId::kSurfaceDepth, [](int x, int) { return x >= 10 ? 7.0f : 10.0f; });
+  const test::Picture wet = tray.wet();
+  for (const int x : {7, 8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
+}
+
 // The whole visible surface lies in shadow. At the right edge light enters beyond the picture,
 // where shadows are unknown; the light between the two has no step.
 TEST(Caustics, LoseShadowsTowardsTheEdgeOfThePicture) {
