@@ -40,8 +40,7 @@ class BottomSearch {
   /// k fixed-point steps: each takes the depth of the bottom from the end of the ray that the step
   /// before found; the first takes the depth at the pixel itself.
   Found iterate(int steps) const {
-    F distance = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_;
-    repeat<F>(steps, [&] { distance = to_level(distance); });
+    const F distance = iterate(drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_, steps);
     const auto meets = distance < F(1e20);
     // From below, an endless ray meets the sky, which is visible.
     return {select(meets, distance, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
@@ -131,7 +130,12 @@ class BottomSearch {
       const auto hides = unseen && (meets || hidden > F(0.5));
       const auto known = hides && (c_.bottom_layer ? p_.side > F(0) : F(0) > F(0));
       F ends = F(0);
-      if_any(unseen && !known, [&] { ends = iterate(kGuesses).distance; });
+      // A ray that leaves the picture in front of all surfaces ends beyond the picture, at the
+      // level of the bottom that is visible at its edge.
+      if_any(unseen && !known, [&] {
+        const F least = select(hides, F(0), most);
+        ends = max(iterate(select(hides, own_drop / fall_, most), kGuesses), least);
+      });
       if_any(known, [&] { ends = select(known, end_behind(known, most), ends); });
       distance = select(unseen, ends, distance);
     });
@@ -144,6 +148,12 @@ class BottomSearch {
   static constexpr double kHiding = 0.25;      ///< see past()
   static constexpr double kLeastFall = 0.021;  ///< below it `fall` may exceed the true fall
   static constexpr int kStepsBehind = 12, kSecants = 3;
+
+  /// The fixed-point steps from a distance.
+  F iterate(F distance, int steps) const {
+    repeat<F>(steps, [&] { distance = to_level(distance); });
+    return distance;
+  }
 
   /// Step i, or a later step if no lookup from i up to it would be a hit, because by Pass::heights
   /// the rays stay above all surfaces on their path. Leaps up to the step `goal` become shorter and
@@ -277,16 +287,22 @@ class BottomSearch {
     const F level = max(end + room_after / fall_, F(0));
     const F distance = select(found > F(0.5), met, level);
     const F behind = max(distance, F(0));
-    // An object in the water may hide parts of itself: there its level continues. An object above
-    // the water just beyond, apart from the first, hides the bottom.
+    // An object in the water may hide parts of itself: there its level continues, unless the
+    // picture shows bottom in that place. An object above the water just beyond, apart from the
+    // first, hides the bottom.
     const Vec2<F> here{F(0), F(0)};
-    const auto stands = !layer.is_bottom(here, F(0) - height_at(c_, p_, here, p_.dry_depth));
+    const auto stands_at = [&](Vec2<F> shift, F depth) {
+      return !layer.is_bottom(shift, F(0) - height_at(c_, p_, shift, depth));
+    };
+    const auto stands = stands_at(here, p_.dry_depth);
     F ends = select(layer.is_bottomless(ray_.shift_at(behind)), F(HUGE_VAL), behind);
     if_any(lanes && stands, [&] {
-      const F beyond = F(1.05) * behind;
+      const F beyond = F(1.05) * behind, level_there = drop_to(here, p_.dry_depth) / fall_;
+      const Vec2<F> there = ray_.shift_at(level_there);
+      const auto goes_on = stands_at(there, tap_.nearest(planes_.depth, there));
       const auto itself =
           look(beyond).drop > F(0) || !layer.is_apart(c_, planes_.depth, ray_.shift_at(beyond));
-      ends = select(stands && itself, drop_to(here, p_.dry_depth) / fall_, ends);
+      ends = select(stands && goes_on && itself, level_there, ends);
     });
     return ends;
   }

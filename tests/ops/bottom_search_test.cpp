@@ -174,5 +174,43 @@ TEST(BottomSearch, ACliffIsMetBetweenTwoLooks) {
   }
 }
 
+/// A bottom in front of whose pixel hangs a hull, always half as far below the water again as the
+/// ray, which so never meets it, up to some pixels away.
+struct Hull : FlatBottom {
+  const ScreenRay<double>& ray;
+  double pixels;
+
+  bool hangs(Vec2<double> shift) const {
+    return std::hypot(kSize.width * shift.x, kSize.height * shift.y) < pixels;
+  }
+  double depth_of(Vec2<double> shift) const {
+    const double along = ray.s_at(shift.y / ray.across.y);
+    return depth_at(hangs(shift) ? 1.5 * 0.5 * along + 0.01 : drop, shift);
+  }
+  double nearest(PlaneId, Vec2<double> shift) const { return depth_of(shift); }
+  Four<double> read(PlaneId, const Quad& q) const {
+    const double depth = depth_of(q.shift);
+    return {depth, depth, depth, depth};
+  }
+};
+
+// The ray passes the hull and leaves the picture before it meets the bottom: its end is not on the
+// hull, of which the level at the pixel tells.
+TEST(BottomSearch, RaysThatLeaveThePictureEndBeyondIt) {
+  View view(kAside);
+  int looks = 0;
+  constexpr double kDrop = 2000;
+  ASSERT_LT(0.5 * view.most, kDrop);
+  const Hull tap{{view.pass, view.pixel, kDrop, looks}, *view.ray, 40};
+  view.pixel.dry_depth = tap.depth_at(0.01, {0, 0});
+  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, view.pass.dry, false};
+  int expected = 0;
+  const auto found =
+      BottomSearch<double, Hull>{view.pass, planes, view.pixel, tap, *view.ray, 0.5, 0, expected}
+          .march();
+  EXPECT_EQ(found.sure, 0);
+  EXPECT_NEAR(found.distance, 2 * kDrop, 1e-6 * kDrop);
+}
+
 }  // namespace
 }  // namespace limpid
