@@ -67,7 +67,7 @@ class MirrorSearch {
   static Found march(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
                      const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray,
                      const MirrorSteps& how, Accept&& accept) {
-    const F most = min(ray.s_at(reach_in(bounds, p.uv, ray.across)), F(1e30));
+    const F most = min(ray.s_at(reach_ahead(c, bounds, p.uv, ray.across)), F(1e30));
     const Vec2<F> end = ray.shift_at(most);
     // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend);
     // comparisons with other depths need no division.

@@ -92,6 +92,14 @@ LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
              along(uv.y, given<F>(b.low.y), given<F>(b.high.y), across.y));
 }
 
+/// The same for the two edges to which `across` mainly leads: a ray up the picture does not end at
+/// the side to which it leans. Lookups beyond that side take the texels at the edge.
+template <class F>
+LIMPID_INLINE F reach_ahead(const WaterView& c, const Bounds& b, Vec2<F> uv, Vec2<F> across) {
+  const auto upright = given<F>(c.size.x) * abs(across.x) < given<F>(c.size.y) * abs(across.y);
+  return reach_in(b, uv, Vec2<F>{select(upright, F(0), across.x), select(upright, across.y, F(0))});
+}
+
 /// Eye depth at which the view ray at `shift` from the pixel is `drop` below the calm surface, +inf
 /// if it never is.
 template <class F>

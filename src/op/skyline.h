@@ -14,7 +14,7 @@ template <class F, class Tap, class Mask>
 F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
           const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray, Vec3<F> ahead,
           int count) {
-  const Vec2<F> end = ray.shift_at(ray.s_at(reach_in(bounds, p.uv, ray.across)));
+  const Vec2<F> end = ray.shift_at(ray.s_at(reach_ahead(c, bounds, p.uv, ray.across)));
   const auto sine_at = [&](F t) {
     const Vec2<F> shift = t * end;
     const F seen = min(tap.nearest(plane, shift), F(1e30));

@@ -170,5 +170,17 @@ TEST(ScreenRay, ReachEndsAtTheEdgeThatTheWayLeadsTo) {
       << "from outside";
 }
 
+TEST(ScreenRay, ReachAheadEndsAtTheEdgeThatTheWayMainlyLeadsTo) {
+  const test::Buffers buffers(rect_of({400, 200}));
+  const Pass view(test::simple_scene({400, 200}), buffers.frame, 1.333, {});
+  const Bounds bounds{{0.125, 0.25}, {0.875, 1}};
+  const auto reach = [&](double x, double y) {
+    return reach_ahead(view, bounds, Vec2<double>{0.875, 0.75}, Vec2<double>{x, y});
+  };
+  EXPECT_NEAR(reach(0.1, -0.25), 2, 1e-4) << "up, although a side is nearer";
+  EXPECT_NEAR(reach(0.1, -0.19), 0, 1e-4) << "40 pixels to the right, 38 up";
+  EXPECT_NEAR(reach(-0.25, 0.125), 3, 1e-4);
+}
+
 }  // namespace
 }  // namespace limpid
