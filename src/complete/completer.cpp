@@ -40,10 +40,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     take(made, PlaneId::kReflectionDepth, mirror_depth_.depth(), whole);
     take(made, PlaneId::kReflectionValid, mirror_depth_.valid(), whole);
   }
-  if (const PlaneSet made = made_by("sky", plan, frame);
-      !made.empty() && sky_.make(whole, executor)) {
-    for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i), whole);
-  }
+  complete_sky(made_by("sky", plan, frame), plan, pass, executor, whole);
   complete_plate_waves(plan, frame.present() & plan.planes, pass, whole);
   complete_waves(plan, pass, executor, whole);
   complete_water(plan, made_by("bottom_albedo", plan, frame), true, pass, executor, whole);
@@ -133,6 +130,17 @@ void Completer::complete_surface(PlaneSet made, const Pass& pass, Executor& exec
   plate_waves_.raised = 1;
   displaced_surface_.make(frame, pass, executor, simd);
   take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth(), frame);
+}
+
+void Completer::complete_sky(PlaneSet made, const Plan& plan, const Pass& pass, Executor& executor,
+                             Frame& frame) {
+  if (made.empty()) return;
+  if (!sky_.make(frame, executor)) {
+    const Rgb<double>& chosen = plan.look.of<FresnelReflection>().color;
+    if (chosen.r > 0 || chosen.g > 0 || chosen.b > 0) return;
+    sky_.make_even(frame, pass.has_sky ? pass.sky : guessed_sky(frame), executor);
+  }
+  for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i), frame);
 }
 
 void Completer::complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass,

@@ -52,6 +52,8 @@ class Completer {
  private:
   void complete_surface(PlaneSet made, const Pass& pass, Executor& executor,
                         const std::string* simd, Frame& frame);
+  void complete_sky(PlaneSet made, const Plan& plan, const Pass& pass, Executor& executor,
+                    Frame& frame);
   void complete_plate_waves(const Plan& plan, PlaneSet own, const Pass& pass, const Frame& frame);
   void complete_waves(const Plan& plan, const Pass& pass, Executor& executor, Frame& frame);
   /// `pixels`: whether the values of the frame's planes can be read, beside their windows.

@@ -15,12 +15,25 @@ class Sky {
  public:
   /// Reads color and depth. False, without a result, if the frame shows no sky.
   bool make(const Frame& frame, Executor& executor);
+  /// A sky of one color, finite and >= 0, for a frame that shows none.
+  void make_even(const Frame& frame, const Rgb<double>& color, Executor& executor);
 
   const Plane& color(int channel) const { return color_[static_cast<std::size_t>(channel)]; }
 
  private:
+  void resize(const Rect& window);
+
   std::array<Plane, 3> color_;
   PullPush<3> sky_;
 };
+
+/// Whether the frame shows sky, by color and depth.
+bool shows_sky(const Frame& frame);
+
+/// The radiance of the sky over a frame that shows none, as a guess: a grey of twice the brightness
+/// of its surfaces, whose mean is that of the roots of their colors, so that a few lamps do not
+/// count. Clear and overcast skies are 1 to 10 times as bright as the ground under them. Samples
+/// some hundred rows and columns of color and depth; 0 if no surface is visible.
+Rgb<double> guessed_sky(const Frame& frame);
 
 }  // namespace limpid

@@ -114,7 +114,8 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
     warnings.push_back("wave_samples = " + std::to_string(job.output.wave_samples) +
                        " sample no waves: the frame has normals, one per pixel");
   }
-  if (job.scene.scene.sky && !plan.lit_by_sky) unread("[sky]");
+  const bool may_mirror_sky = plan.completed.covers(kSkyPlanes);
+  if (job.scene.scene.sky && !plan.lit_by_sky && !may_mirror_sky) unread("[sky]");
   if (job.scene.scene.sky && plan.lit_by_sky && plan.reads_environment) {
     warnings.push_back("[sky] has no effect: the environment lights the water");
   }

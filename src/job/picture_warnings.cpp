@@ -10,6 +10,7 @@
 
 #include "limpid/core/error.h"
 
+#include "complete/sky.h"
 #include "core/toml_text.h"
 #include "op/raised_water.h"
 #include "optics/refract.h"
@@ -258,6 +259,18 @@ void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
       "and has no caustics; expected overscan, or waves in the scene");
 }
 
+/// Whether the sky that the water mirrors is a guess, because the picture shows none.
+void warn_of_sky(const Plan& plan, const Frame& frame, const Pass& pass,
+                 std::vector<std::string>& warnings) {
+  const Rgb<double>& chosen = plan.look.of<FresnelReflection>().color;
+  const bool guesses = plan.completed.covers(kSkyPlanes) && !frame.present().covers(kSkyPlanes) &&
+                       !pass.has_sky && !(chosen.r > 0 || chosen.g > 0 || chosen.b > 0);
+  if (!guesses || shows_sky(frame)) return;
+  warnings.push_back(
+      "the picture shows no sky: the water mirrors a grey of twice the picture's brightness; "
+      "expected a reflection, an environment, or [sky] radiance");
+}
+
 }  // namespace
 
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
@@ -271,6 +284,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_glint(plan, frame, pass, warnings);
   warn_of_scale(plan, frame, pass, warnings);
   warn_of_light(plan, frame, pass, warnings);
+  warn_of_sky(plan, frame, pass, warnings);
 }
 
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {

@@ -3,6 +3,7 @@
 #include "limpid/ops/fresnel_reflection.h"
 
 #include "complete/shore.h"
+#include "complete/sky.h"
 
 // The picture of a mirror from plates that lack buffers.
 
@@ -95,6 +96,17 @@ TEST(AutoMirror, ShowsTheColorOfTheLookWhereThereIsNoSky) {
   Mirror mirror;
   mirror.buffers.fill(PlaneId::kColorA, 0);
   EXPECT_GT(mirror.check(mirror.pictures(), 0.25f), 100);
+}
+
+TEST(AutoMirror, ShowsTheSkyOfTheSceneOrAGuessWhereThereIsNoSky) {
+  Mirror mirror;
+  mirror.buffers.fill(PlaneId::kColorA, 0);
+  mirror.look.of<FresnelReflection>().color = {0, 0, 0};
+  const Rgb<double> guess = guessed_sky(mirror.buffers.frame);
+  EXPECT_GT(guess.r, 1);
+  EXPECT_GT(mirror.check(mirror.pictures(), static_cast<float>(guess.r)), 100);
+  mirror.scene.sky = SkyLight{.radiance = {0.75, 0.75, 0.75}};
+  EXPECT_GT(mirror.check(mirror.pictures(), 0.75f), 100);
 }
 
 TEST(AutoMirror, ShowsTheReflectionAndNeverItsInsides) {

@@ -1,5 +1,8 @@
 #include "complete/sky.h"
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "support.h"
@@ -79,6 +82,42 @@ TEST(Sky, ThreadsDoNotMatter) {
   for (int y = kWindow.y0; y < kWindow.y1; ++y) {
     for (int x = kWindow.x0; x < kWindow.x1; ++x) EXPECT_EQ(alone.at(1, x, y), crowd.at(1, x, y));
   }
+}
+
+TEST(Sky, OfOneColorReplacesASkyThatIsNotSeen) {
+  Horizon horizon(kWindow);
+  const auto executor = make_executor(2);
+  horizon.sky.make_even(horizon.buffers.frame, {0.25, 0.5, 1}, *executor);
+  EXPECT_EQ(horizon.sky.color(0).view().window, kWindow);
+  for (const auto& [x, y] : {std::pair{-3, 2}, {29, 24}}) {
+    EXPECT_EQ(horizon.at(0, x, y), 0.25f);
+    EXPECT_EQ(horizon.at(1, x, y), 0.5f);
+    EXPECT_EQ(horizon.at(2, x, y), 1.0f);
+  }
+}
+
+TEST(Sky, IsGuessedFromTheBrightnessOfTheGround) {
+  Horizon horizon({-3, 10, 30, 25});
+  const auto set = [&](float r, float g, float b) {
+    horizon.buffers.fill(PlaneId::kColorR, r).fill(PlaneId::kColorG, g).fill(PlaneId::kColorB, b);
+  };
+  set(0.1f, 0.2f, 0.3f);
+  const Rgb<double> sky = guessed_sky(horizon.buffers.frame);
+  EXPECT_NEAR(sky.r, 0.4, 1e-6);
+  EXPECT_EQ(sky.r, sky.g);
+  EXPECT_EQ(sky.r, sky.b);
+  // Neither the sky above nor what is no number counts, and a lamp only by its root.
+  horizon.buffers.set(PlaneId::kColorR, [](int x, int y) {
+    return y < 10 ? 50.0f : x == 0 ? std::nanf("") : x == 1 && y == 12 ? 1e4f : 0.1f;
+  });
+  EXPECT_NEAR(guessed_sky(horizon.buffers.frame).r, 0.5, 0.15);
+  set(-1, -1, -1);
+  EXPECT_EQ(guessed_sky(horizon.buffers.frame).r, 0);
+}
+
+TEST(Sky, IsBlackOverNothing) {
+  Horizon horizon({0, 0, 0, 0});
+  EXPECT_EQ(guessed_sky(horizon.buffers.frame).g, 0);
 }
 
 }  // namespace

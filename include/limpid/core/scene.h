@@ -59,7 +59,8 @@ struct Sun {
   double radius() const { return diameter * (std::numbers::pi / 360); }  ///< of the disc, in rad
 };
 
-/// A uniform sky, which lights the water besides the sun.
+/// A uniform sky, which lights the water besides the sun; the water mirrors it in frames without a
+/// reflection, an environment and a visible sky.
 struct SkyLight {
   Rgb<double> radiance{0, 0, 0};  ///< 0 ... Sun::kBrightest
 };

@@ -132,8 +132,10 @@ inline constexpr Field<SkyLight> kSkyKeys[] = {
                                "Radiance in red, green and blue, equal in all directions."),
 };
 inline constexpr FieldTable<SkyLight> kSkyTable{
-    "sky", "A uniform sky, which lights the water if there is no environment.", kSkyKeys,
-    "radiance", "its radiance, three numbers"};
+    "sky",
+    "A uniform sky, which lights the water if there is no environment, and which the water mirrors "
+    "if the picture shows no sky.",
+    kSkyKeys, "radiance", "its radiance, three numbers"};
 
 /// Primaries by name or as numbers, a text.
 inline constexpr Field<Scene> kColorSpaceKey = {
