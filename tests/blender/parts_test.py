@@ -23,6 +23,7 @@ from limpid.exr_window import place  # noqa: E402
 from limpid.frames import camera_at, frames_of, neighbor_of, numbered  # noqa: E402
 from limpid.job import Job  # noqa: E402
 from limpid.lens import Lens, Overscan, widened  # noqa: E402
+from limpid.lines import lines_of  # noqa: E402
 from limpid.overscan import asked_for, largest, sampled, small  # noqa: E402
 from limpid.run import Run  # noqa: E402
 from limpid.scene_file import SceneFacts, files_of, plates_of, scene_text  # noqa: E402
@@ -173,6 +174,14 @@ class Overscans(unittest.TestCase):
         self.assertEqual(sampled([4, 8]), [4, 8])
 
 
+class Lines(unittest.TestCase):
+    def test_no_line_is_wider_than_the_panel_and_no_letter_is_lost(self):
+        self.assertEqual(lines_of("", 9, len), [""])
+        self.assertEqual(lines_of("no sun: expected one", 9, len), ["no sun:", "expected", "one"])
+        self.assertEqual(lines_of("in /a/long/folder now", 9, len), ["in", "/a/long/f", "older now"])
+        self.assertEqual(lines_of("abc", 0, len), ["a", "b", "c"])
+
+
 class Tools(InAFolder):
     def test_where_it_is(self):
         tool = self.program("bin/limpid", "exit 0\n")
@@ -241,7 +250,7 @@ class Runs(InAFolder):
             self.assertTrue(run.is_running())
         run.cancel()
         run.wait()  # the log's end comes when the last of them has ended
-        self.assertEqual(run.failure(), "cancelled: 1 frames were finished")
+        self.assertEqual(run.failure(), "cancelled: 1 frame finished")
 
 
 class Jobs(InAFolder):

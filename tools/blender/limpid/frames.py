@@ -29,6 +29,10 @@ def numbered(name, frame):
     return f"{name}.{frame:04d}"
 
 
+def counted(frames):
+    return "1 frame" if frames == 1 else f"{frames} frames"
+
+
 def neighbor_of(frame, motion):
     """The frame that motion vectors lead to: the `next` or the `previous` one."""
     return frame + 1 if motion == "next" else frame - 1

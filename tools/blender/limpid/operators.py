@@ -2,7 +2,7 @@
 import bpy
 
 from . import begin
-from .load import load
+from .load import NAME, load
 from .state import state
 from .view import view
 from .words import Failure
@@ -52,8 +52,8 @@ class LIMPID_OT_wet(bpy.types.Operator):
         failure = run.failure()
         if failure:
             return self._fail(failure, "INFO" if run.cancelled else "ERROR")
-        if self.load:
-            load(started.job.folder, started.job.frames)
+        if self.load and load(started.job.folder, started.job.frames):
+            state.said += (f"the picture is the image '{NAME}' of the Image Editor",)
         return {"FINISHED"}
 
     def execute(self, context):

@@ -1,16 +1,24 @@
 """The panel in the sidebar of the 3D view."""
-import textwrap
-
+import blf
 import bpy
 
+from .lines import lines_of
 from .state import state
 
-COLUMNS = 44
+MARGINS = 84  # of the sidebar, in unscaled pixels: its tabs, the panel's borders, and the icon before the text
 
 
 def _words(layout, text, icon="NONE"):
+    """The text in lines as wide as the panel: Blender cuts the middle out of longer labels."""
+    context = bpy.context
+    style, scale = context.preferences.ui_styles[0].widget, context.preferences.system.ui_scale
+    if bpy.app.version < (4, 0, 0):
+        blf.size(0, style.points * scale, 72)
+    else:
+        blf.size(0, style.points * scale)
+    width = context.region.width - MARGINS * scale
     column = layout.column(align=True)
-    for row, line in enumerate(textwrap.wrap(text, COLUMNS) or [""]):
+    for row, line in enumerate(lines_of(text, width, lambda words: blf.dimensions(0, words)[0])):
         column.label(text=line, icon=icon if row == 0 else "BLANK1" if icon != "NONE" else "NONE")
 
 

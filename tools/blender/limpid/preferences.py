@@ -6,7 +6,7 @@ class LimpidPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
     tool: bpy.props.StringProperty(
-        name="limpid", subtype="FILE_PATH",
+        name="Program limpid", subtype="FILE_PATH",
         description="Path of the program limpid; empty: limpid on PATH")
 
     def draw(self, _):

@@ -8,14 +8,15 @@ from .words import Failure
 _looks = {}  # by tool: asked for once
 
 
-def _known_looks(_settings, _context, typed):
+def _known_looks(settings, _context, typed):
+    """The names with the typed text in them; all names while the field still has the present look."""
     try:
         tool = find_tool(preferences.tool_path())
     except Failure:
         return []
     if tool not in _looks:
         _looks[tool] = look_names(tool)
-    return [name for name in _looks[tool] if typed in name]
+    return [name for name in _looks[tool] if typed in name or typed == settings.look]
 
 
 def _flag(name, description):

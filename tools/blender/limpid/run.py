@@ -5,6 +5,7 @@ import signal
 import subprocess
 import threading
 
+from .frames import counted
 from .job import MARK
 
 LINE = re.compile(MARK + r"(step|note|warning|wet|done|error): (.*)")
@@ -64,7 +65,7 @@ class Run:
     def failure(self):
         """After its end: a sentence about its error, or None."""
         if self.cancelled:
-            return f"cancelled: {len(self.wet)} frames were finished"
+            return f"cancelled: {counted(len(self.wet))} finished"
         status = self._process.returncode
         if status == 0:
             return None

@@ -33,7 +33,7 @@ def view(scene, frames="", before=None):
     folder, wanted = folder_of(scene.limpid), frames_wanted(scene, frames)
     there = [frame for frame in wanted if os.path.isfile(folder / f"{numbered('scene', frame)}.toml")]
     if not there:
-        raise Failure(f"no plates of frame {wanted[0]} in {folder}: render the frame first")
+        raise Failure(f"no plates of frame {wanted[0]} in {folder}: press Add water first")
     words = [find_tool(preferences.tool_path()), "view", "--scene", str(folder / "scene.####.toml"),
              "--frames", ",".join(map(str, there)), "--look", scene.limpid.look or "physical",
              "--folder", str(folder)]

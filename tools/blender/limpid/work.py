@@ -6,7 +6,7 @@ import tempfile
 
 from . import overscan as over
 from . import passes
-from .frames import neighbor_of, numbered
+from .frames import counted, neighbor_of, numbered
 from .job import MARK, Job
 from .lens import Overscan
 from .scene_file import files_of, plates_of, scene_text
@@ -169,7 +169,7 @@ class Work:
             for ready in waiting[:-1] if is_early else waiting:
                 self.water(ready, steps)
             waiting = waiting[-1:] if is_early else []
-        say("done", f"{len(job.frames)} frames in {job.folder}")
+        say("done", f"{counted(len(job.frames))} in {job.folder}")
 
 
 def main():
