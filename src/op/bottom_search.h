@@ -40,7 +40,7 @@ class BottomSearch {
   /// k fixed-point steps: each takes the depth of the bottom from the end of the ray that the step
   /// before found; the first takes the depth at the pixel itself.
   Found iterate(int steps) const {
-    const F distance = iterate(drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_, steps);
+    const F distance = iterated(drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_, steps);
     const auto meets = distance < F(1e20);
     // From below, an endless ray meets the sky, which is visible.
     return {select(meets, distance, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
@@ -133,8 +133,8 @@ class BottomSearch {
       // A ray that leaves the picture in front of all surfaces ends beyond the picture, at the
       // level of the bottom that is visible at its edge.
       if_any(unseen && !known, [&] {
-        const F least = select(hides, F(0), most);
-        ends = max(iterate(select(hides, own_drop / fall_, most), kGuesses), least);
+        const F begin = select(hides, own_drop / fall_, most);
+        ends = max(iterated(begin, kGuesses), select(hides, F(0), most));
       });
       if_any(known, [&] { ends = select(known, end_behind(known, most), ends); });
       distance = select(unseen, ends, distance);
@@ -150,7 +150,7 @@ class BottomSearch {
   static constexpr int kStepsBehind = 12, kSecants = 3;
 
   /// The fixed-point steps from a distance.
-  F iterate(F distance, int steps) const {
+  F iterated(F distance, int steps) const {
     repeat<F>(steps, [&] { distance = to_level(distance); });
     return distance;
   }
@@ -297,12 +297,12 @@ class BottomSearch {
     const auto stands = stands_at(here, p_.dry_depth);
     F ends = select(layer.is_bottomless(ray_.shift_at(behind)), F(HUGE_VAL), behind);
     if_any(lanes && stands, [&] {
-      const F beyond = F(1.05) * behind, level_there = drop_to(here, p_.dry_depth) / fall_;
-      const Vec2<F> there = ray_.shift_at(level_there);
+      const F beyond = F(1.05) * behind, own_level = drop_to(here, p_.dry_depth) / fall_;
+      const Vec2<F> there = ray_.shift_at(own_level);
       const auto goes_on = stands_at(there, tap_.nearest(planes_.depth, there));
       const auto itself =
           look(beyond).drop > F(0) || !layer.is_apart(c_, planes_.depth, ray_.shift_at(beyond));
-      ends = select(stands && goes_on && itself, level_there, ends);
+      ends = select(stands && goes_on && itself, own_level, ends);
     });
     return ends;
   }
