@@ -184,7 +184,7 @@ struct Kernel<Caustics> : Caustics {
                                Vec2<F> level, F lit, Mask hidden) {
     const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
     const Vec2<F> apart = entry - level;
-    const F moves = sqrt(apart.x * apart.x + apart.y * apart.y);
+    const F moved_by = sqrt(apart.x * apart.x + apart.y * apart.y);
     // The share of sunlight that passes the surface at a place, and whether it is known.
     struct Entry {
       F passes, known;
@@ -200,18 +200,18 @@ struct Kernel<Caustics> : Caustics {
         // than shadows move.
         const F seen = tap.nearest(PlaneId::kSurfaceDepth, shift);
         const F off = abs(min(seen, F(1e30)) - ray.depth_at(F(1)));
-        const F near = saturate(F(1.5) - F(2) * off / max(moves, F(1e-6)));
+        const F shown = saturate(F(1.5) - F(2) * off / max(moved_by, F(1e-6)));
         found.passes = select(nothing(seen), F(0), found.passes);
-        found.known = found.known * select(nothing(seen), F(1), near);
+        found.known = found.known * select(nothing(seen), F(1), shown);
       }
       return found;
     };
-    const Entry enters = entry_at(entry), would = entry_at(level);
+    const Entry refracted = entry_at(entry), straight = entry_at(level);
     // A shadow that the surface's shadow does not explain is cast under water.
     const F cast =
-        select(would.passes > F(0.05), min(lit / max(would.passes, F(0.05)), F(1)), F(1));
-    const F below = select(hidden, F(1), F(1) + would.known * (cast - F(1)));
-    return lit + enters.known * (enters.passes * below - lit);
+        select(straight.passes > F(0.05), min(lit / max(straight.passes, F(0.05)), F(1)), F(1));
+    const F below = select(hidden, F(1), F(1) + straight.known * (cast - F(1)));
+    return lit + refracted.known * (refracted.passes * below - lit);
   }
 
   /// 1 in the picture, 0 beyond it, a ramp near its edge.
