@@ -136,9 +136,8 @@ void Completer::complete_sky(PlaneSet made, const Plan& plan, const Pass& pass, 
                              Frame& frame) {
   if (made.empty()) return;
   if (!sky_.make(frame, executor)) {
-    const Rgb<double>& chosen = plan.look.of<FresnelReflection>().color;
-    if (chosen.r > 0 || chosen.g > 0 || chosen.b > 0) return;
-    sky_.make_even(frame, pass.has_sky ? pass.sky : guessed_sky(frame), executor);
+    const auto known = known_sky(plan.look.of<FresnelReflection>(), pass);
+    sky_.make_even(frame, known ? *known : guessed_sky(frame), executor);
   }
   for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i), frame);
 }

@@ -104,8 +104,8 @@ Rgb<double> guessed_sky(const Frame& frame) {
     }
   }
   const double root = count > 0 ? sum / count : 0;
-  const double grey = kOverGround * root * root;
-  return {grey, grey, grey};
+  const double gray = kOverGround * root * root;
+  return {gray, gray, gray};
 }
 
 }  // namespace limpid

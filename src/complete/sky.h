@@ -1,11 +1,14 @@
 #pragma once
 #include <array>
+#include <optional>
 
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
+#include "limpid/ops/fresnel_reflection.h"
 
 #include "complete/pull_push.h"
+#include "op/pass.h"
 
 namespace limpid {
 
@@ -30,7 +33,15 @@ class Sky {
 /// Whether the frame shows sky, by color and depth.
 bool shows_sky(const Frame& frame);
 
-/// The radiance of the sky over a frame that shows none, as a guess: a grey of twice the brightness
+/// The sky of a frame that shows none: the color of the look, unless it is 0, or the sky of the
+/// scene.
+inline std::optional<Rgb<double>> known_sky(const FresnelReflection::Params& look,
+                                            const Pass& pass) {
+  if (look.color != Rgb<double>{0, 0, 0}) return look.color;
+  return pass.has_sky ? std::optional(pass.sky) : std::nullopt;
+}
+
+/// The radiance of the sky over a frame that shows none, as a guess: a gray of twice the brightness
 /// of its surfaces, whose mean is that of the roots of their colors, so that a few lamps do not
 /// count. Clear and overcast skies are 1 to 10 times as bright as the ground under them. Samples
 /// some hundred rows and columns of color and depth; 0 if no surface is visible.

@@ -259,15 +259,14 @@ void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
       "and has no caustics; expected overscan, or waves in the scene");
 }
 
-/// Whether the sky that the water mirrors is a guess, because the picture shows none.
+/// Whether the sky that the water mirrors is a guess, because the picture shows no sky.
 void warn_of_sky(const Plan& plan, const Frame& frame, const Pass& pass,
                  std::vector<std::string>& warnings) {
-  const Rgb<double>& chosen = plan.look.of<FresnelReflection>().color;
-  const bool guesses = plan.completed.covers(kSkyPlanes) && !frame.present().covers(kSkyPlanes) &&
-                       !pass.has_sky && !(chosen.r > 0 || chosen.g > 0 || chosen.b > 0);
-  if (!guesses || shows_sky(frame)) return;
+  const bool mirrors_sky = plan.completed.covers(kSkyPlanes) && !frame.present().covers(kSkyPlanes);
+  if (!mirrors_sky || shows_sky(frame) || known_sky(plan.look.of<FresnelReflection>(), pass))
+    return;
   warnings.push_back(
-      "the picture shows no sky: the water mirrors a grey of twice the picture's brightness; "
+      "the picture shows no sky: the water mirrors a gray of twice the picture's brightness; "
       "expected a reflection, an environment, or [sky] radiance");
 }
 

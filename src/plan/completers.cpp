@@ -30,8 +30,8 @@ constexpr CompleterInfo kCompleters[] = {
      kSkyPlanes,
      {},
      {},
-     "The sky of the frame, continued behind the objects that hide it; without a visible sky that "
-     "of the scene, or a grey of twice the frame's brightness."},
+     "The sky of the frame, continued behind the objects that hide it; without a visible sky the "
+     "sky of the scene, or a gray of twice the frame's brightness."},
 };
 
 }  // namespace

@@ -105,6 +105,23 @@ TEST_F(WarningsTest, ASkyThatLightsNothing) {
             "limpid: warning: [sky] is named, and no running operator of the look look reads it\n");
 }
 
+TEST_F(WarningsTest, AGuessedSky) {
+  const Words mirrors = {"--layer", "reflection=none", "--set", "fresnel_reflection.source=auto"};
+  const auto said = [&](const std::string& more) {
+    Words words = mirrors;
+    if (!more.empty()) words.insert(words.end(), {"--set", more});
+    return composite("wet.exr", words).err;
+  };
+  const auto guessed = HasSubstr("the picture shows no sky: the water mirrors a gray of twice");
+  EXPECT_THAT(said(""), Not(guessed));
+  close_plate("plate.exr");
+  EXPECT_THAT(said(""), guessed);
+  EXPECT_THAT(said("fresnel_reflection.color=0.2,0.3,0.4"), Not(guessed));
+  write_text("scene.toml", scene_toml() + "[sky]\nradiance = [0.3, 0.3, 0.4]\n");
+  EXPECT_THAT(said(""), Not(guessed));
+  EXPECT_THAT(said("depth_fog.model=beer_lambert"), Not(HasSubstr("[sky]")));
+}
+
 TEST_F(WarningsTest, APictureWithoutAWetPixelOrADryOne) {
   close_plate("plate.exr");
   raise_water("-500");
