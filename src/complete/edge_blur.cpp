@@ -95,6 +95,8 @@ bool EdgeBlur::Growth::grows_at(int rung) const {
   return next[i] > kGrows * own[i] || (i < after.size() && after[i] > kGrows * own[i]);
 }
 
+bool EdgeBlur::Growth::is_speckled() const { return steps > 0 && speckled >= kSpeckled * steps; }
+
 int EdgeBlur::Growth::full_at() const {
   for (int rung = 0; rung < kWidths; ++rung) {
     const auto i = static_cast<std::size_t>(rung);
@@ -104,7 +106,7 @@ int EdgeBlur::Growth::full_at() const {
     // An object thinner than its blur changes beside the step, too, but the water behind it does
     // not.
     const bool beside = std::min(dry[i], wet[i]) > kBeside * own[i];
-    return beside && speckled < kSpeckled * steps ? 0 : rung;
+    return beside && !is_speckled() ? 0 : rung;
   }
   return 0;
 }
@@ -180,7 +182,7 @@ bool EdgeBlur::any(std::vector<std::uint8_t>& sides, std::vector<Step>& steps) c
   const int apart = std::max(w.height() / 64, 1);
   sides.resize(2 * static_cast<std::size_t>(w.width()));
   std::uint8_t *upper = sides.data(), *lower = upper + w.width();
-  Growth growth;
+  Growth all, resolved;
   for (int i = 0; i * apart < w.height(); ++i) {
     // At uneven distances, because a model's edges may be evenly spaced.
     const int y = w.y0 + i * apart + i * 5 % apart;
@@ -190,9 +192,13 @@ bool EdgeBlur::any(std::vector<std::uint8_t>& sides, std::vector<Step>& steps) c
     if (!last) picture_.sides(y + 1, w.x0, w.x1, lower);
     steps.clear();
     find(y, upper, last ? nullptr : lower, steps);
-    for (const Step& step : steps) growth.add(growth_of(step, 1));
+    for (const Step& step : steps) {
+      const Growth growth = growth_of(step, 1);
+      all.add(growth);
+      if (!step.speckle) resolved.add(growth);
+    }
   }
-  return growth.grows_at(0);
+  return all.grows_at(0) || resolved.grows_at(0);
 }
 
 }  // namespace limpid

@@ -28,6 +28,9 @@ class EdgeBlur {
     int steps = 0, speckled = 0;  ///< number of steps, and of those with Step::speckle
     void add(const Growth& other);
     bool grows_at(int rung) const;
+    /// Whether many sides are one pixel wide: objects thinner than a pixel, or sides that alternate
+    /// at random.
+    bool is_speckled() const;
     /// The first distance on the ladder with full difference. 0: a hard edge or none, and where
     /// color changes as much beside the edge as across it, like a change of light; but not for
     /// sides that alternate from pixel to pixel, as in depth taken from one sample of many.

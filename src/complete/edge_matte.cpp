@@ -32,6 +32,9 @@ glm::dvec3 solved(const Square& s, double ridge, const glm::dvec3& b) {
 /// Assumed noise of colors, as a share of the contrast.
 constexpr double kNoise = 0.01;
 
+/// Assumed error of a share by regression.
+constexpr double kCoverError = 0.1;
+
 /// A side of which only a corner is visible does not count.
 bool is_side(const EdgeAround& around, EdgeKind kind) {
   double all = 0;
@@ -89,7 +92,17 @@ std::optional<Matte> matte_by_regression(const EdgeAround& around) {
   const double explained = glm::dot(slope, with) / (share * (1 - share));
   if (!(explained > 0.25)) return std::nullopt;
   const double cover = std::clamp(share - glm::dot(slope, mean), 0.0, 1.0);
-  return Matte{cover, around.of(EdgeKind::kSureWet).mean()};
+  const EdgeMoments& sure = around.of(EdgeKind::kSureWet);
+  const glm::dvec3 object = mean + (1 - share) / glm::dot(slope, with) * with;
+  const glm::dvec3 open = vector_of(sure.mean()), apart = object - open;
+  // Of the light that neither side explains, the part behind has its texture's (Wiener 1949,
+  // "Extrapolation, Interpolation, and Smoothing of Stationary Time Series").
+  const glm::dvec3 rest = -cover * object - (1 - cover) * open;
+  const Square texture = scatter_of(sure);
+  const double seen = (1 - cover) * (texture[0] + texture[3] + texture[5]) / sure.weight;
+  const double error = kCoverError * kCoverError * glm::dot(apart, apart);
+  const glm::dvec3 behind = open + seen / std::max((1 - cover) * seen + error, 1e-30) * rest;
+  return Matte{cover, {behind.x, behind.y, behind.z}};
 }
 
 double EdgePlane::here() const {

@@ -76,7 +76,8 @@ struct Matte {
 std::optional<Matte> matte_between(const EdgeAround& around);
 
 /// The same for an object without sure pixels, thinner than its blur: the linear regression of
-/// "dry" on color over all pixels. Nothing if that explains less than a quarter of the variance.
+/// "dry" on color over all pixels, which also gives the object's color. Nothing if that explains
+/// less than a quarter of the variance.
 std::optional<Matte> matte_by_regression(const EdgeAround& around);
 /// Whether the regression can succeed, by the weights alone.
 bool may_regress(const EdgeAround& around);

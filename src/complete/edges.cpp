@@ -79,7 +79,8 @@ struct __attribute__((visibility("hidden"))) Edges::State {
   std::vector<EdgePicture::Row> rows;                   ///< likewise
   std::vector<Steps> steps;                             ///< of each row of tiles
   std::array<std::vector<EdgeBlur::Growth>, 2> growth;  ///< of each tile, to the right and down
-  std::array<std::vector<int>, 2> rungs;                ///< of EdgeBlur::kLadder, likewise
+  std::vector<EdgeBlur::Growth> resolved;               ///< of each row of tiles, no speckles
+  std::array<std::vector<int>, 2> rungs;                ///< of EdgeBlur::kLadder, of each tile
 
   /// Copies color and depth into planes of this object.
   void take_over(Frame& frame, Executor& executor) {
@@ -140,6 +141,20 @@ struct __attribute__((visibility("hidden"))) Edges::State {
                                 const Kernel*& kernel) const;
   void part(const EdgePicture& picture, const Place& place, const Band& band);
 
+  Side side_at(const EdgePicture& picture, int x, int y) const {
+    return static_cast<Side>(sides[index(picture, x, y)]);
+  }
+  /// Whether a pixel is dry between two wet ones.
+  bool is_thin(const EdgePicture& picture, int x, int y) const {
+    const Rect& w = picture.window;
+    const auto wet = [&](int column, int row) {
+      return side_at(picture, column, row) == Side::kWet;
+    };
+    return side_at(picture, x, y) == Side::kDry &&
+           ((x > w.x0 && x + 1 < w.x1 && wet(x - 1, y) && wet(x + 1, y)) ||
+            (y > w.y0 && y + 1 < w.y1 && wet(x, y - 1) && wet(x, y + 1)));
+  }
+
   static std::size_t index(const EdgePicture& picture, int x, int y) {
     const Rect& w = picture.window;
     return static_cast<std::size_t>(y - w.y0) * static_cast<std::size_t>(w.width()) +
@@ -193,6 +208,7 @@ bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
                                     (step.x - w.x0) / kTile);
   };
   for (auto& list : growth) list.assign(static_cast<std::size_t>(tiles.area()), {});
+  resolved.assign(static_cast<std::size_t>(tiles.height()), {});
   each_row(executor, tiles, [&](int row) {
     Steps& found = steps[static_cast<std::size_t>(row)];
     found.clear();
@@ -201,14 +217,23 @@ bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
       blur.find(y, sides_of(y), y + 1 < w.y1 ? sides_of(y + 1) : nullptr, found);
     }
     for (const EdgeBlur::Step& step : found) {
-      growth[step.down][tile_of(step)].add(blur.growth_of(step, EdgeBlur::kWidths));
+      const EdgeBlur::Growth grown = blur.growth_of(step, EdgeBlur::kWidths);
+      growth[step.down][tile_of(step)].add(grown);
+      if (!step.speckle) resolved[static_cast<std::size_t>(row)].add(grown);
     }
   });
 
+  // A filter covers the whole picture, also objects thinner than a pixel, whose own steps do not
+  // show it.
+  EdgeBlur::Growth whole;
+  for (const EdgeBlur::Growth& of_row : resolved) whole.add(of_row);
+  const int filter = whole.grows_at(0) ? 1 : 0;
   for (std::size_t down = 0; down < 2; ++down) {
     rungs[down].resize(growth[down].size());
     for (int tile = 0; tile < static_cast<int>(tiles.area()); ++tile) {
-      rungs[down][static_cast<std::size_t>(tile)] = growth_around(down, tile, tiles).full_at();
+      const EdgeBlur::Growth around = growth_around(down, tile, tiles);
+      rungs[down][static_cast<std::size_t>(tile)] =
+          std::max(around.full_at(), around.is_speckled() ? filter : 0);
     }
   }
   bands.assign(sides.size(), {});
@@ -364,7 +389,10 @@ std::optional<Matte> Edges::State::matte_at(const EdgePicture& picture, const Pl
     add_band(picture, place, *kernel, seen[i]);
     if (const std::optional<Matte> matte = matte_by_regression(seen[i])) return matte;
   }
-  return std::nullopt;
+  // An object that color does not show, where all around is known, covers little of the pixel: only
+  // the one sample of depth hit it.
+  const bool unseen = is_thin(picture, place.x, place.y) && may_regress(seen.back());
+  return unseen ? std::optional(Matte{0, {0, 0, 0}}) : std::nullopt;
 }
 
 void Edges::State::part(const EdgePicture& picture, const Place& place, const Band& band) {
@@ -372,7 +400,7 @@ void Edges::State::part(const EdgePicture& picture, const Place& place, const Ba
   const Kernel* kernel = nullptr;
   const std::optional<Matte> matte = matte_at(picture, place, band, kernel);
   if (!matte) return;
-  const bool is_wet = static_cast<Side>(sides[index(picture, x, y)]) == Side::kWet;
+  const bool is_wet = side_at(picture, x, y) == Side::kWet;
   if (is_wet ? matte->cover < kLeast : matte->cover > 1 - kLeast) return;
   if (matte->cover > 1 - kLeast) {
     const double before = inverse_depth_around(picture, place, *kernel, Side::kDry);

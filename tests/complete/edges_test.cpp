@@ -1,5 +1,7 @@
 #include "complete/edges.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "complete/post.h"
@@ -96,6 +98,66 @@ TEST(Edges, OfWhatIsThinnerThanItsBlur) {
   }
   EXPECT_NEAR(sum, truth, 0.2 * truth);
   EXPECT_LT(off, 0.25);
+}
+
+/// Reeds left and right of a post, each .3 of a pixel wide. The depth's sample hits every third row
+/// of them.
+constexpr double kReed = 0.3;
+bool has_reed(int x) { return (x > 4 && x < 36 && x % 5 == 0) || (x > 92 && x % 5 == 0); }
+Post among_reeds(double blur, const Rgb<float>& reed) {
+  Post post;
+  post.blur = blur;
+  post.make();
+  const auto change = [&](PlaneId id, const auto& changed) {
+    const View<const float>& plane = post.buffers.frame.plane(id);
+    std::vector<float> before;
+    for (int y = 0; y < Post::kSize.height; ++y) {
+      for (int x = 0; x < Post::kSize.width; ++x) before.push_back(plane.at(x, y));
+    }
+    post.buffers.set(id, [&](int x, int y) {
+      const float was = before[static_cast<std::size_t>(y * Post::kSize.width + x)];
+      return has_reed(x) ? changed(x, y, was) : was;
+    });
+  };
+  for (int c = 0; c < 3; ++c) {
+    change(plane_after(PlaneId::kColorR, c), [&](int, int, float behind) {
+      return behind + static_cast<float>(kReed) * (Post::channel(reed, c) - behind);
+    });
+  }
+  change(PlaneId::kDepth, [](int x, int y, float behind) {
+    return (x + y) % 3 == 0 ? static_cast<float>(Post::kPostDepth) : behind;
+  });
+  return post;
+}
+
+// The post shows that the picture is filtered, and so the reeds are.
+TEST(Edges, OfWhatIsThinnerThanAPixel) {
+  const Post post = among_reeds(1.3, {0.1f, 0.06f, 0.03f});
+  const Parted parted(post);
+  ASSERT_TRUE(parted.frame.edges);
+  double sum = 0, count = 0;
+  for (int x = 8; x < 120; ++x) {
+    if (!has_reed(x)) continue;
+    sum += parted.cover(x, post), count += 1;
+    EXPECT_LT(parted.cover(x, post), 0.6) << x;
+  }
+  EXPECT_NEAR(sum / count, kReed, 0.1);
+}
+
+TEST(Edges, OfWhatIsThinnerThanAPixelAndOfTheColorBehindAreNone) {
+  const Post post = among_reeds(1.3, Post{}.light);
+  const Parted parted(post);
+  ASSERT_TRUE(parted.frame.edges);
+  for (int x = 8; x < 120; ++x) {
+    if (has_reed(x)) {
+      EXPECT_EQ(parted.cover(x, post), 0) << x;
+    }
+  }
+}
+
+// Without a filter the sample that hits an object is all of its pixel.
+TEST(Edges, OfWhatIsThinAndUnfilteredStayHard) {
+  EXPECT_FALSE(Parted(among_reeds(0, {0.1f, 0.06f, 0.03f})).frame.edges);
 }
 
 TEST(Edges, TextureOfBothSidesDoesNotCount) {
