@@ -61,12 +61,12 @@ class MirrorSearch {
     F hit;       ///< 1 or 0
   };
 
-  /// `accept(shift, depth)`: whether the ray may hit this visible surface. Lanes other than `lanes`
-  /// have no hit.
+  /// `accept(shift, depth)`: whether the ray may hit this visible surface. `thicker`: by how much
+  /// all surfaces are thicker than `how` says. Lanes other than `lanes` have no hit.
   template <class Mask, class Accept>
   static Found march(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
                      const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray,
-                     const MirrorSteps& how, Accept&& accept) {
+                     const MirrorSteps& how, Accept&& accept, F thicker = F(1)) {
     const F most = min(ray.s_at(reach_ahead(c, bounds, p.uv, ray.across)), F(1e30));
     const Vec2<F> end = ray.shift_at(most);
     // The ray's depth at a share t of its length on screen is ray.depth + t gain / (1 - t bend);
@@ -87,7 +87,7 @@ class MirrorSearch {
     // Whether the ray lies between front and back of the visible surface.
     const F thin = F(how.thin) * abs(given<F>(c.eye_above));
     const auto back_of = [&](F seen) {
-      const F thick = F(how.thick) * seen;
+      const F thick = F(how.thick) * thicker * seen;
       return seen + (thick + min(thin, thick));
     };
     const auto within = [&](F t, F seen) {

@@ -195,11 +195,24 @@ struct Kernel<FresnelReflection> : MirroredLight {
       const Vec3<F> facet = leaned(lean), n = bent(c, p, facet);
       const F fresnel = share * reflectance(params, c, p, n);
       const Vec2<F> tilt{dot(facet, vec3_of<F>(c.t)), F(0) - dot(facet, vec3_of<F>(c.b))};
-      Mirrored<F> one;
+      Mirrored<F> one{black, black};
       if (looks) {
         const F part = pick<F>(i, outlook.parts.x, outlook.parts.y, outlook.parts.z);
         const F low = select(part < F(1), min(lean, outlook.lean), lean);
-        one = seen_on_march(params, c, p, tap, n, part, bent(c, p, leaned(low)));
+        // A ray below the skyline that meets nothing has passed behind a visible object, like a
+        // tree's crown, and ends where the picture shows nothing. If it passes not far behind, it
+        // sees that object.
+        F open(1);
+        steps<F>(0, reads_planes(params, c) ? 1 : 2, [&](auto k) {
+          const F thicker = pick<F>(k, F(1), F(kThicker), F(kThicker));
+          const Mirrored<F> seen =
+              seen_on_march(params, c, p, tap, n, part, bent(c, p, leaned(low)), thicker);
+          const auto take = open > F(0.5);
+          one = {select(take, seen.light, one.light), select(take, seen.sources, one.sources)};
+          const auto lost = take && rough && part >= F(1) && seen.sources.g < F(0.5);
+          open = select(lost, F(1), F(0));
+          return lost;
+        });
       } else {
         one = mirrored(params, c, p, tap, n, tilt);
       }
@@ -239,7 +252,7 @@ struct Kernel<FresnelReflection> : MirroredLight {
     });
     return facets;
   }
-  static constexpr double kLeastVariance = 1e-4;
+  static constexpr double kLeastVariance = 1e-4, kThicker = 4;
 
   /// The skyline as a pixel that cannot resolve its waves mirrors it. Three rays meet a bank or
   /// pass over it, all or none of a third of the facets, and would draw dashes at its foot: so the

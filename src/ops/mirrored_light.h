@@ -81,12 +81,14 @@ struct MirroredLight : FresnelReflection {
   }
 
   /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
-  /// on the ray of the facet `low`.
+  /// on the ray of the facet `low`. `thicker`: by how much what the picture shows is thicker than
+  /// usual.
   template <class F, class Tap>
   static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
-                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low,
+                                   F thicker = F(1)) {
     return reads_planes(params, c) ? seen_in_image(c, p, tap, n, part, low)
-                                   : seen_in_picture(params, c, p, tap, n, part, low);
+                                   : seen_in_picture(params, c, p, tap, n, part, low, thicker);
   }
 
   /// The mirrored ray, unit, on the viewer's side of the surface.
@@ -326,7 +328,8 @@ struct MirroredLight : FresnelReflection {
   /// the facets n those beyond the share `part`, whose ray is that of the facet `low`.
   template <class F, class Tap>
   static Mirrored<F> seen_in_picture(const Params& params, const Pass& c, const Pixel<F>& p,
-                                     const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+                                     const Tap& tap, Vec3<F> n, F part, Vec3<F> low,
+                                     F thicker = F(1)) {
     const ScreenRay<F> own(c, p, mirrored_ray(c, p, n));
     const Rgb<F> beyond = far_away(params, c, p, tap, n, own);
     const auto below = p.side < F(0);
@@ -340,7 +343,8 @@ struct MirroredLight : FresnelReflection {
         return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
       };
       const auto found = MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kDepth,
-                                                     c.dry, p, ray, kPictureSteps, on_side);
+                                                     c.dry, p, ray, kPictureSteps, on_side,
+                                                     thicker);
       const Vec2<F> shift =
           select(found.hit > F(0.5), ray.shift_at(found.distance), Vec2<F>{F(0), F(0)});
       const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
