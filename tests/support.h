@@ -199,7 +199,7 @@ inline Look article_look() {
   refraction.model = Refraction::Model::kNormalOffset;
   refraction.rejection = Refraction::Rejection::kSnap;
   refraction.off_frame = Refraction::OffFrame::kClamp;
-  look.of<Caustics>().strength = 0;
+  look.of<Caustics>() = {.strength = 0, .sunlight = Caustics::Sunlight::kStraight};
   look.of<DepthFog>() = plain_fog(DepthFog::Model::kLinear);
   look.of<WaterShadow>() = {WaterShadow::Model::kDarken, 0.5};
   look.of<FresnelReflection>().lookup = FresnelReflection::Lookup::kOffset;

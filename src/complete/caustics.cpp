@@ -1,7 +1,9 @@
 #include "complete/caustics.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -91,11 +93,25 @@ double deviation_of(const WaveRows& waves, double depth, double focus) {
 
 }  // namespace
 
+bool has_fine_depth(const Frame& frame) {
+  constexpr std::uint32_t kBeyondHalf = 0x1fff;  // of the digits of a float
+  const View<const float>& depth = frame.plane(PlaneId::kDepth);
+  const Rect& window = depth.window;
+  const int step = std::max(4, std::max(window.width(), window.height()) / kWeighed);
+  for (int y = window.y0; y < window.y1; y += step) {
+    for (int x = window.x0; x < window.x1; x += step) {
+      const float value = depth.at(x, y);
+      if (value < 1e30f && (std::bit_cast<std::uint32_t>(value) & kBeyondHalf) != 0) return true;
+    }
+  }
+  return false;
+}
+
 const CausticsTarget& caustics_target(const std::string& simd) {
   return *kTargets[simd_index(simd)];
 }
 
-const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
+const CausticsTable* CausticsMaker::make(const WaveNormals::Params* waves,
                                          const Rgb<double>& scattering, const Frame& frame,
                                          const Pass& pass, Executor& executor,
                                          const std::string* simd, double deepest) {
@@ -110,8 +126,11 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params& waves,
   sun.to_sun = {glm::dot(direction, pass.map_x), glm::dot(direction, pass.map_y),
                 glm::dot(direction, pass.up)};
   if (!pass.has_sun || !(sun.to_sun.z > 1e-3) || !(pass.ior > 1)) return &table_;
-  if (!within_water()) weigh_sun(frame, pass, executor);
-  if (!waves_.make(waves, frame, pass, executor)) return &table_;
+  if (!within_water()) {
+    weigh_sun(frame, pass, executor);
+    table_.slopes = has_fine_depth(frame) ? 1 : 0;
+  }
+  if (!waves || !waves_.make(*waves, frame, pass, executor)) return &table_;
   sun.ior = pass.ior;
   const double sink = refracted_cosine(sun.to_sun.z, 1 / sun.ior);
   sun.aside = glm::dvec2(sun.to_sun) * (-1 / (sun.ior * sink));

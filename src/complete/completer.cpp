@@ -60,10 +60,11 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     const bool scatters = plan.keeps<DepthFog>() && water.model != DepthFog::Model::kLinear;
     const Rgb<double> scattering =
         scatters ? Kernel<DepthFog>::scattering(water) : Rgb<double>{0, 0, 0};
-    const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+    const WaveNormals::Params* waves = &plan.look.of<WaveNormals>();
     light_ = {};
     if (plan.keeps<Caustics>()) {
-      light_ = *caustics_.make(waves, scattering, whole, now, executor, simd);
+      const bool focuses = plan.look.of<Caustics>().strength != 0;
+      light_ = *caustics_.make(focuses ? waves : nullptr, scattering, whole, now, executor, simd);
     }
     if (shafts) {
       light_.in_water = shafts_.make(waves, scattering, whole, now, executor, simd,

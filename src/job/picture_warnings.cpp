@@ -10,6 +10,7 @@
 
 #include "limpid/core/error.h"
 
+#include "complete/caustics.h"
 #include "complete/sky.h"
 #include "core/toml_text.h"
 #include "op/raised_water.h"
@@ -259,6 +260,15 @@ void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
       "and has no caustics; expected overscan, or waves in the scene");
 }
 
+void warn_of_slopes(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings) {
+  const bool bends =
+      plan.keeps<Caustics>() && plan.look.of<Caustics>().sunlight == Caustics::Sunlight::kRefracted;
+  if (!bends || !frame.present().covers(kSunColorPlanes) || has_fine_depth(frame)) return;
+  warnings.push_back(
+      "all depths have half precision, too coarse to tell slopes: under water they reflect the "
+      "sun as in the dry picture; expected depth of full precision");
+}
+
 /// Whether the sky that the water mirrors is a guess, because the picture shows no sky.
 void warn_of_sky(const Plan& plan, const Frame& frame, const Pass& pass,
                  std::vector<std::string>& warnings) {
@@ -283,6 +293,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_glint(plan, frame, pass, warnings);
   warn_of_scale(plan, frame, pass, warnings);
   warn_of_light(plan, frame, pass, warnings);
+  warn_of_slopes(plan, frame, warnings);
   warn_of_sky(plan, frame, pass, warnings);
 }
 

@@ -10,15 +10,17 @@ namespace {
 
 using P = Caustics::Params;
 
-constexpr std::string_view kShadows[] = {"straight", "refracted"};
+constexpr std::string_view kSunlight[] = {"straight", "refracted"};
 
 constexpr Field<P> kFields[] = {
-    real<&P::strength>("strength", "", {0, 10}, "Strength of the caustics: 0 none, 1 physical."),
+    real<&P::strength>("strength", "", {0, 10},
+                       "How much waves focus sunlight: 0 not at all, 1 physical."),
     real<&P::sun_share>("sun_share", "", {0, 1},
                         "Part of the bottom's light that is sunlight, if no sky is known."),
-    choice<&P::shadows, kShadows>("shadows",
-                                  "Position of the sun's shadows on the bottom; refracted needs "
-                                  "sun_color, shadow and surface_shadow."),
+    choice<&P::sunlight, kSunlight>("sunlight",
+                                    "Angle of sunlight in the water, for slopes and shadows; "
+                                    "refracted needs sun_color, and for shadows shadow and "
+                                    "surface_shadow."),
 };
 
 }  // namespace
@@ -26,10 +28,13 @@ constexpr Field<P> kFields[] = {
 std::span<const Field<P>> Caustics::fields() { return kFields; }
 
 std::string_view Kernel<Caustics>::prefer(P& params, const AtHand& has) {
-  const PlaneSet wanted = kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow};
-  if (params.shadows == Shadows::kStraight || has.planes.covers(wanted)) return "";
-  params.shadows = Shadows::kStraight;
-  return "shadows on the bottom stay unrefracted";
+  if (params.sunlight == Sunlight::kStraight) return "";
+  if (!has.planes.covers(kSunColorPlanes)) {
+    params.sunlight = Sunlight::kStraight;
+    return "sunlight on the bottom stays unrefracted";
+  }
+  const bool moves = has.planes.covers({PlaneId::kShadow, PlaneId::kSurfaceShadow});
+  return moves ? "" : "shadows on the bottom stay unrefracted";
 }
 
 Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& c) {
@@ -39,8 +44,11 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   light.sine = std::sqrt(std::max(1 - light.rise * light.rise, 0.0));
   light.level = {glm::dot(to_sun, c.map_x), glm::dot(to_sun, c.map_y)};
   light.known = c.planes.covers(kSunColorPlanes);
-  light.moves = params.shadows == Shadows::kRefracted && light.known && light.rise > 1e-3 &&
-                c.planes.covers(PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
+  light.bends = params.sunlight == Sunlight::kRefracted && light.known && light.rise > 1e-3;
+  light.moves = light.bends && c.planes.covers(PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
+  const Rays& rays = c.rays;
+  const glm::dvec3 away = glm::cross(rays.origin_dx + rays.ray_dx, rays.origin_dy + rays.ray_dy);
+  light.facing = glm::dot(away, c.forward) < 0 ? 1 : -1;
   if (light.known && c.caustics) {
     for (std::size_t i = 0; i < 3; ++i) {
       light.around[i] = c.caustics->sun_over_rest[i] / (1 + c.caustics->sun_over_rest[i]);
@@ -68,8 +76,8 @@ double Kernel<Caustics>::displaced(const P&, const Ranges& ranges) {
   return bound_product(ranges.transmittance, ranges.focused);
 }
 
-/// The table bounds how much brighter or darker the sun's share may become; where shadows move, all
-/// of it may appear or vanish.
+/// The table bounds how much brighter or darker the sun's share may become; where the water bends
+/// sunlight, all of it may vanish, or as much appear as slopes may gain.
 void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& ranges) {
   ranges.focused = 0;
   const Light light = light_of(params, c);
@@ -85,10 +93,12 @@ void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& 
       share = direct / std::max(direct + light.ambient[i], 1e-30);
     }
     change = std::max(change, bound_product(share, std::max(gain, loss)));
+    if (!light.bends) continue;
+    change = std::max(change, bound_product(kMostTilt, 1 + gain) - 1);
     const bool all_lit = ranges.shadow.min >= 1 && ranges.shadow_of_water.min >= 1;
     if (!light.moves || all_lit) continue;
     const double most = c.caustics ? std::max(c.caustics->sun_over_rest[i], 1.0) : HUGE_VAL;
-    change = std::max({change, 1.0, bound_product(most, 1 + gain)});
+    change = std::max({change, 1.0, bound_product(kMostTilt * most, 1 + gain)});
   }
   change *= 1.0001;
   ranges.focused = bound_product(change, ranges.brightest());
@@ -96,6 +106,7 @@ void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& 
     const double more = bound_product(change, std::max(std::abs(color.min), std::abs(color.max)));
     color = {color.min - more, color.max + more};
   }
+  ranges.light = std::max(ranges.light, ranges.brightest());
 }
 
 }  // namespace limpid

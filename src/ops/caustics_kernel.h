@@ -17,21 +17,16 @@ struct Kernel<Caustics> : Caustics {
                                   StatePart::kPath, StatePart::kTransmitted};
   static constexpr StateSet kMakes{StatePart::kTransmitted};
   static PlaneSet reads(const Params& p) {
-    if (p.strength == 0) return {};
     const PlaneSet lit = kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kDepth};
-    return p.shadows == Shadows::kRefracted
-               ? lit | PlaneSet{PlaneId::kSurfaceShadow, PlaneId::kSurfaceDepth}
-               : lit;
+    if (p.sunlight == Sunlight::kStraight) return p.strength == 0 ? PlaneSet{} : lit;
+    return lit | PlaneSet{PlaneId::kSurfaceShadow, PlaneId::kSurfaceDepth};
   }
   static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
   /// The place that refraction looked up, and the entry point of sunlight.
-  static double reach(const Params& p) {
-    return p.strength != 0 && p.shadows == Shadows::kRefracted ? HUGE_VAL : 0;
-  }
+  static double reach(const Params& p) { return p.sunlight == Sunlight::kRefracted ? HUGE_VAL : 0; }
   static bool neutral(const Params& p, StateSet made) {
-    const bool calm = !made.has(StatePart::kNormal);
-    return p.strength == 0 || !made.has(StatePart::kPosition) ||
-           (calm && p.shadows == Shadows::kStraight);
+    const bool focuses = p.strength != 0 && made.has(StatePart::kNormal);
+    return !made.has(StatePart::kPosition) || (!focuses && p.sunlight == Sunlight::kStraight);
   }
   static std::string_view prefer(Params& params, const AtHand& has);
   static double bound(const Params& params, const Pass& c, const Ranges& ranges);
@@ -41,27 +36,31 @@ struct Kernel<Caustics> : Caustics {
 
   static constexpr CellKind kSkipped{"no_caustics", "no sunlight is focused"};
   static double ns(const Params& p, const Running&) {
-    return p.shadows == Shadows::kRefracted ? 34 : 22;
+    return p.sunlight == Sunlight::kRefracted ? 34 : 22;
   }
 
   struct Light {
     std::array<double, 3> sun, ambient;  ///< on a level bottom, up to a common factor
     double rise, sine;             ///< of the angle between the sun and the horizon, the vertical
     Vec2<double> level;            ///< the direction to the sun along map_x and map_y
-    bool known, moves;             ///< the frame has the sun's light, and shadows at entry points
+    bool known;                    ///< the frame has the sun's light
+    bool bends, moves;             ///< the water bends it, and shadows at entry points are known
+    double facing;                 ///< 1 or -1: the sign of across x down towards the viewer
     std::array<double, 3> around;  ///< share of the light of sunlit bottoms, if it is known
   };
   static Light light_of(const Params& params, const Pass& c);
   /// Ratio of two depths below which the farther place counts as hidden by the nearer place.
   static constexpr double kSameDepth = 0.98;
+  /// Bound on sunlight on a slope over that on level bottom, and over the unrefracted light there.
+  static constexpr double kMostTilt = 2;
 
   template <class Strip>
   static void apply(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    if (!c.caustics || params.strength == 0) return;
+    if (!c.caustics) return;
     const CausticsTable& table = *c.caustics;
     const Light light = light_of(params, c);
-    if (table.count == 0 && !light.moves) return;
+    if (!light.bends && (table.count == 0 || params.strength == 0)) return;
     const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
     const SeenPlanes planes = SeenPlanes::of(c);
     const Vec2<F> sunwards{given<F>(light.level.x, "caustics.sunwards", 0),
@@ -102,6 +101,14 @@ struct Kernel<Caustics> : Caustics {
         const auto hidden = dry < F(kSameDepth) * p.hit_depth;
         const F of_plane = shadowed ? mixed(tap, PlaneId::kShadow, p.shift) : F(1);
         const F lit = select(hidden, F(1), of_plane);
+        Tilt<F> tilt{F(1), F(1)};
+        if (light.bends) {
+          const auto sloped = lit_bottom && given<F>(table.slopes, "caustics.slopes") > F(0);
+          if_any(sloped, [&] {
+            const Tilt<F> own = tilt_of(c, p, tap, light, sunwards);
+            tilt = {select(sloped, own.of_level, F(1)), select(sloped, own.gain, F(1))};
+          });
+        }
         F arrives(1);  // share of the sunlight that reaches the bottom, where shadows move
         if (light.moves) {
           const Vec3<F> end = end_of(aim);
@@ -148,10 +155,11 @@ struct Kernel<Caustics> : Caustics {
             sun = direct / max(direct + ambient, F(1e-30)) * transmitted;
           }
           const F rest = transmitted - sun;
-          F whole = sun;
+          F whole = tilt.gain * sun;
           if (light.moves) {
             const F over_rest = of_channel(i, table.sun_over_rest, "caustics.sun_over_rest");
-            whole = arrives * (sun + (F(1) - lit) * max(rest, F(0)) * over_rest);
+            const F removed = (F(1) - lit) * max(rest, F(0)) * over_rest * tilt.of_level;
+            whole = arrives * (whole + removed);
             // The layer's color already says whether the sun shines there.
             whole = select(hidden, sun, whole);
             focused = select(hidden, F(1) + arrives * (focused - F(1)), focused);
@@ -174,6 +182,92 @@ struct Kernel<Caustics> : Caustics {
     F sum(0);
     for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
     return sum;
+  }
+
+  /// Sunlight on a slope, refracted by calm water.
+  template <class F>
+  struct Tilt {
+    F of_level;  ///< over that on level bottom
+    F gain;      ///< over the unrefracted light there
+  };
+  /// Lambert's law: light that falls along (aside, -1) onto a slope with the normal (level, rise)
+  /// gives rise + level aside of its light on level bottom.
+  template <class F, class Tap>
+  static LIMPID_INLINE Tilt<F> tilt_of(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                       const Light& light, Vec2<F> sunwards) {
+    const Slope<F> slope = slope_at(c, p, tap, light);
+    const F level = dot(vec3_of<F>(c.map_x), slope.normal) * sunwards.x +
+                    dot(vec3_of<F>(c.map_y), slope.normal) * sunwards.y;
+    const F rise = dot(vec3_of<F>(c.up), slope.normal);
+    const F sine = given<F>(light.sine, "caustics.sine") / given<F>(c.ior);
+    const F refracted = rise + level / (given<F>(c.ior) * sqrt(F(1) - sine * sine));
+    const F straight = rise + level * given<F>(1 / light.rise, "caustics.per_rise");
+    const F of_level = min(max(refracted, F(0)), F(kMostTilt));
+    const F gain = min(of_level / max(straight, F(1e-3)), F(kMostTilt));
+    const F known = slope.known * given<F>(c.caustics->slopes, "caustics.slopes");
+    return {F(1) + known * (of_level - F(1)), F(1) + known * (gain - F(1))};
+  }
+
+  template <class F>
+  struct Slope {
+    Vec3<F> normal;  ///< unit, towards the viewer
+    F known;         ///< 0 ... 1; 0 where the dry picture does not show the bottom, and at edges
+  };
+  /// The slope of the bottom at the place that the pixel looks up: from depths kApart pixels to all
+  /// sides, where those across an edge count least, and those beyond the picture hardly. Inverse
+  /// depths are mixed, which are linear across a plane.
+  template <class F, class Tap>
+  static LIMPID_INLINE Slope<F> slope_at(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                         const Light& light) {
+    constexpr double kApart = 2;
+    const auto inverse = [&](const Four<F>& depths) {
+      return Four<F>{{F(1) / max(depths[0], F(1e-30)), F(1) / max(depths[1], F(1e-30)),
+                      F(1) / max(depths[2], F(1e-30)), F(1) / max(depths[3], F(1e-30))}};
+    };
+    const auto mix = [](const auto& quad, const Four<F>& values) {
+      F sum(0);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
+      return max(sum, F(1e-30));
+    };
+    const Vec2<F> low{given<F>(c.dry.low.x) - p.uv.x, given<F>(c.dry.low.y) - p.uv.y};
+    const Vec2<F> high{given<F>(c.dry.high.x) - p.uv.x, given<F>(c.dry.high.y) - p.uv.y};
+    const Vec2<F> at{min(max(p.shift.x, low.x), high.x), min(max(p.shift.y, low.y), high.y)};
+    const auto quad = tap.quad(at);
+    const Four<F> here = inverse(tap.read(PlaneId::kDepth, quad));
+    const F near = mix(quad, here);
+    const Vec3<F> centre = offset_to(c, p, at, F(1) / near);
+    F known = saturate(F(2) - abs(F(1) - near * p.hit_depth) / F(1 - kSameDepth));
+    // `mixed`: the change from one texel to the next as far as it is mixed here; at an edge it is
+    // as much as the change over several pixels.
+    const auto along = [&](F x, F y, F mixed) {
+      F least(1);
+      const auto offset_by = [&](F step_x, F step_y, F& edge) {
+        const Vec2<F> side{at.x + step_x, at.y + step_y};
+        const auto there = tap.quad(side);
+        const F beside = max(mix(there, inverse(tap.read(PlaneId::kDepth, there))), F(0.5) * near);
+        const F step = (beside - near) / near;
+        const auto shown = min(side.x - low.x, high.x - side.x) >= F(0) - F(0.25) * abs(x) &&
+                           min(side.y - low.y, high.y - side.y) >= F(0) - F(0.25) * abs(y);
+        edge = select(shown, step * step + F(1e-8), F(1e8));
+        least = min(least, select(shown, abs(step), F(1)));
+        return offset_to(c, p, side, F(1) / beside) - centre;
+      };
+      F edge_on(0), edge_back(0);
+      const Vec3<F> on = offset_by(x, y, edge_on), back = offset_by(F(0) - x, F(0) - y, edge_back);
+      known = known * saturate(F(2) - mixed / (near * (least + F(1e-3))));
+      return F(1) / (edge_on + edge_back) * (edge_back * on - edge_on * back);
+    };
+    const F right = quad.weight(1) + quad.weight(3), lower = quad.weight(2) + quad.weight(3);
+    const F columns =
+        F(4) * right * (F(1) - right) * max(abs(here[1] - here[0]), abs(here[3] - here[2]));
+    const F rows =
+        F(4) * lower * (F(1) - lower) * max(abs(here[2] - here[0]), abs(here[3] - here[1]));
+    const Vec3<F> across = along(given<F>(kApart / c.size.x, "caustics.columns"), F(0), columns);
+    const Vec3<F> down = along(F(0), given<F>(kApart / c.size.y, "caustics.rows"), rows);
+    const Vec3<F> normal = given<F>(light.facing, "caustics.facing") * cross(across, down);
+    const F squared = dot(normal, normal);
+    const auto sane = squared > F(1e-36) && squared < F(1e36);
+    return {(F(1) / sqrt(select(sane, squared, F(1)))) * normal, select(sane, known, F(0))};
   }
 
   /// The share of sunlight that reaches a place on the bottom by refraction. Refracted light enters

@@ -303,8 +303,8 @@ inline Beside judge(Basin& basin, const std::function<bool(double, double)>& jud
   const Pass pass(basin.scene, basin.buffers.frame, kIor, kWholeState, basin.swell());
   CausticsMaker maker;
   const auto executor = make_executor(1);
-  const CausticsTable* table =
-      maker.make(basin.params(), {0, 0, 0}, basin.buffers.frame, pass, *executor);
+  const WaveNormals::Params params = basin.params();
+  const CausticsTable* table = maker.make(&params, {0, 0, 0}, basin.buffers.frame, pass, *executor);
   EXPECT_GT(table->count, 0);
   return beside(followed(basin), of_table(basin, *table), judged);
 }
@@ -314,7 +314,8 @@ inline CausticsTable table_of(Basin& basin, CausticsMaker& maker, int threads = 
   if (!basin.deep) basin.deep = [](double, double) { return 1.0; };
   basin.make();
   const Pass pass(basin.scene, basin.buffers.frame, kIor, kWholeState, basin.swell());
-  return *maker.make(basin.params(), {0, 0, 0}, basin.buffers.frame, pass, *make_executor(threads));
+  const WaveNormals::Params params = basin.params();
+  return *maker.make(&params, {0, 0, 0}, basin.buffers.frame, pass, *make_executor(threads));
 }
 
 }  // namespace limpid::test

@@ -29,8 +29,9 @@ TEST(MirroredCaustics, AreLightThatIsFollowedToABottomThatNothingElseShows) {
   for (const double deep : {0.5, 1.5}) {
     const Basin basin = from_below(deep);
     CausticsMaker maker;
-    const CausticsTable& table = *maker.make(basin.params(), {0, 0, 0}, basin.buffers.frame,
-                                             pass_of(basin), *make_executor(1));
+    const WaveNormals::Params params = basin.params();
+    const CausticsTable& table =
+        *maker.make(&params, {0, 0, 0}, basin.buffers.frame, pass_of(basin), *make_executor(1));
     ASSERT_GT(table.count, 0);
     const Beside b =
         beside(followed(basin), of_table(basin, table), [](double, double) { return true; });

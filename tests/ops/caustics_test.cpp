@@ -191,7 +191,7 @@ TEST(Caustics, SunColorTellsTheSunsLight) {
   for (int c = 0; c < 3; ++c) basin.tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
   test::expect_rgb(basin.lit(4, 2), {0.65, 0.65, 0.65});
   basin.tray.buffers.fill(PlaneId::kShadow, 0.5f);  // the plane includes the shadow already
-  basin.params.shadows = Caustics::Shadows::kStraight;
+  basin.params.sunlight = Caustics::Sunlight::kStraight;
   test::expect_rgb(basin.lit(4, 2), {0.65, 0.65, 0.65});
   basin.tray.buffers.fill(PlaneId::kSunColorG, 9);  // the share is at most all of the light
   test::expect_rgb(basin.lit(4, 2), {0.65, 0.75, 0.65});
@@ -226,7 +226,7 @@ TEST(Caustics, MoveShadowsToWhereTheWaterBendsThem) {
   Tray tray = under_a_board();
   const test::Picture dry = [&] {
     Tray straight = under_a_board();
-    straight.look.of<Caustics>().shadows = Caustics::Shadows::kStraight;
+    straight.look.of<Caustics>().sunlight = Caustics::Sunlight::kStraight;
     return straight.wet();
   }();
   const test::Picture wet = tray.wet();
@@ -254,6 +254,58 @@ TEST(Caustics, MoveShadowsOfTheShore) {
   const test::Picture wet = tray.wet();
   for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
   for (const int x : {4, 5, 7}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
+}
+
+/// A bottom that rises to the right, without the board.
+Tray on_a_slope(double rise, double deepest = 14.003) {
+  Tray tray = under_a_board();
+  tray.buffers.fill(PlaneId::kShadow, 1).fill(PlaneId::kSurfaceShadow, 1);
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
+    tray.buffers.fill(plane_after(PlaneId::kColorR, c), 0.5f);
+  }
+  tray.buffers.set(PlaneId::kDepth,
+                   [=](int x, int) { return static_cast<float>(deepest - rise * (x - 12)); });
+  return tray;
+}
+
+// Straight light goes 4 / 3 to the left per unit of depth, refracted light 3 / 4.
+TEST(Caustics, LightSlopesAsTheWaterBendsTheSun) {
+  for (const double rise : {-0.25, 0.0, 0.25}) {
+    const double expected = 0.2 + 0.3 * (1 - 0.75 * rise) / (1 - 4.0 / 3 * rise);
+    const test::Picture wet = on_a_slope(rise).wet();
+    for (int x = 0; x < 24; ++x) {
+      EXPECT_NEAR(wet.color(x, 2).r, expected, 3e-4) << rise << " at " << x;
+    }
+    Tray straight = on_a_slope(rise);
+    straight.look.of<Caustics>().sunlight = Caustics::Sunlight::kStraight;
+    EXPECT_NEAR(straight.wet().color(12, 2).r, 0.5, 1e-6);
+  }
+}
+
+TEST(Caustics, LightSlopesWithoutFocusingToo) {
+  Tray tray = on_a_slope(0.25);
+  tray.look.of<Caustics>().strength = 0;
+  EXPECT_NEAR(tray.wet().color(12, 2).r, 0.2 + 0.3 * 0.8125 * 1.5, 3e-4);
+}
+
+// At most twice the light; none on a slope that refracted light cannot reach.
+TEST(Caustics, LightSteepSlopesWithinBounds) {
+  EXPECT_NEAR(on_a_slope(0.7).wet().color(12, 2).r, 0.2 + 0.3 * 2, 1e-6);
+  EXPECT_NEAR(on_a_slope(1.5).wet().color(12, 2).r, 0.2, 1e-6);
+}
+
+// A step is no slope, on whichever side of it a pixel lies.
+TEST(Caustics, SeeNoSlopeAcrossAnEdge) {
+  Tray tray = on_a_slope(0);
+  tray.buffers.set(PlaneId::kDepth, [](int x, int) { return x < 12 ? 14.003f : 11.7f; });
+  const test::Picture wet = tray.wet();
+  for (int x = 0; x < 24; ++x) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-4) << x;
+}
+
+// Steps of half precision would look like slopes.
+TEST(Caustics, SeeNoSlopeInDepthsOfHalfPrecision) {
+  EXPECT_NEAR(on_a_slope(0.25, 14).wet().color(12, 2).r, 0.5, 1e-6);
 }
 
 // A crest in front hides the entry points from column 10 on, and shows its own shadow.

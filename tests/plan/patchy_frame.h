@@ -145,7 +145,8 @@ inline Look patchy_look(int seed) {
   Penetration::Params& through = look.of<Penetration>();
   through.model = static_cast<Penetration::Model>(one_of(2));
   through.amount = any() < 0.5 ? 0.01 * any() : any();
-  look.of<Caustics>() = {any() < 0.5 ? 0 : any(), any(), static_cast<Caustics::Shadows>(one_of(2))};
+  look.of<Caustics>() = {any() < 0.5 ? 0 : any(), any(),
+                         static_cast<Caustics::Sunlight>(one_of(2))};
   look.of<WaterShadow>().shafts = any() < 0.5 ? 0 : any();
   return look;
 }

@@ -98,7 +98,7 @@ class Fixture {
 Look realistic_look() {
   Look look;
   look.water.edges = Water::Edges::kHard;
-  look.of<Caustics>().strength = 0;
+  look.of<Caustics>() = {.strength = 0, .sunlight = Caustics::Sunlight::kStraight};
   look.of<Refraction>() = {Refraction::Model::kNormalOffset, 0.03, Refraction::Rejection::kSnap, 0,
                            Refraction::OffFrame::kClamp};
   look.of<PrismSplit>() = {PrismSplit::Model::kAxis, 0.004};

@@ -96,7 +96,7 @@ Look calm_look(Rgb<double> mirrored = {0, 0, 0}) {
   look.of<FresnelReflection>().source = FresnelReflection::Source::kConstant;
   look.of<FresnelReflection>().color = mirrored;
   look.of<PrismSplit>().gain = 0;
-  look.of<Caustics>().strength = 0;
+  look.of<Caustics>() = {.strength = 0, .sunlight = Caustics::Sunlight::kStraight};
   return look;
 }
 
@@ -201,7 +201,10 @@ TEST_P(Underwater, PixelsInTheAirDoNotKnowThatOthersAreInTheWater) {
   const Scene half = scene_at(0.05, 0, {kWave}), above = scene_at(0.05);
   Look look;
   look.of<Refraction>().rejection = Refraction::Rejection::kSnap;
-  look.of<Caustics>().strength = 0;  // the entry points of light differ between the two
+  look.of<Caustics>() = {
+      .strength = 0,
+      .sunlight =
+          Caustics::Sunlight::kStraight};  // the entry points of light differ between the two
   const Picture p = run(look, b, half), q = run(look, b, above);
   int in_air = 0, differ = 0;
   for_each_pixel([&](int x, int y) {

@@ -154,8 +154,21 @@ TEST(PictureWarnings, LightEntersBeyondTheFramesNormals) {
   noon.scene.water->waves = {{0.01, 1, 0, 0, 1}};
   EXPECT_THAT(noon.warnings(), testing::Not(beyond));
   noon.scene.water->waves.clear();
-  noon.look.of<Caustics>().strength = 0;
+  noon.look.of<Caustics>() = {.strength = 0, .sunlight = Caustics::Sunlight::kStraight};
   EXPECT_THAT(noon.warnings(), testing::Not(beyond));
+}
+
+TEST(PictureWarnings, DepthsOfHalfPrecisionTellNoSlopes) {
+  const auto coarse = testing::Contains(HasSubstr("too coarse to tell slopes"));
+  Noon noon;
+  EXPECT_THAT(noon.warnings(), testing::Not(coarse));  // nothing shows the sun's light
+  for (int i = 0; i < 3; ++i) noon.buffers.fill(plane_after(PlaneId::kSunColorR, i), 0.3f);
+  EXPECT_THAT(noon.warnings(), coarse);
+  noon.lie(4.01f);
+  EXPECT_THAT(noon.warnings(), testing::Not(coarse));
+  noon.lie(4);
+  noon.look.of<Caustics>().sunlight = Caustics::Sunlight::kStraight;
+  EXPECT_THAT(noon.warnings(), testing::Not(coarse));
 }
 
 }  // namespace

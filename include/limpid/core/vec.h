@@ -79,6 +79,10 @@ struct Around {
 };
 
 template <class F>
+LIMPID_INLINE Vec3<F> cross(Vec3<F> a, Vec3<F> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class F>
 LIMPID_INLINE F dot(Vec3<F> a, Vec3<F> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -15,24 +15,27 @@ namespace limpid {
 /// sun_color if the frame has it; else that of a level bottom under the shadow, the sun and the
 /// radiance of the sky; without a sky `sun_share` of the light, where the sun is visible.
 ///
-/// The dry picture has the sun's shadows as cast by unrefracted light. `shadows` = `refracted`
-/// moves them to their refracted positions, in frames with sun_color, shadow and surface_shadow:
-/// the unrefracted shadow is removed, by an estimate of the sun's light from the bottom's other
-/// light and from sunlit bottom nearby, and the shadow on the surface at the entry point of calm
-/// water is applied. Shadows of objects below the surface stay: they are the shadow on the bottom
-/// divided by the shadow on the surface along the unrefracted ray. Near the picture's edge the
-/// moved shadows fade into the unrefracted ones, and where a wave hides the entry point from a low
-/// camera. Where surface_depth shows no water, no light enters.
+/// The sun lights the dry picture straight. `sunlight` = `refracted` refracts its light, in frames
+/// with sun_color, also if strength is 0. Slopes and walls then reflect the sun at the angle at
+/// which light meets them under calm water: a wall that faces the sun becomes darker. The slope
+/// comes from the depth, unless all depths are of half precision, which is too coarse. Shadows move
+/// to their refracted positions, in frames with shadow and surface_shadow, too: the unrefracted
+/// shadow is removed, by an estimate of the sun's light from the bottom's other light and from
+/// sunlit bottom nearby, and the shadow on the surface at the entry point of calm water is applied.
+/// Shadows of objects below the surface stay: they are the shadow on the bottom divided by the
+/// shadow on the surface along the unrefracted ray. Near the picture's edge the moved shadows fade
+/// into the unrefracted ones, and where a wave hides the entry point from a low camera. Where
+/// surface_depth shows no water, no light enters.
 ///
 /// Acts on bottom that is seen from the air, from within the water, and from there as the mirror
 /// image in the surface if the frame has a reflection with a depth. Outside of the table, and in
 /// pixels that are wider than the waves are long, the light is that of calm water.
 struct Caustics {
-  enum class Shadows { kStraight, kRefracted };
+  enum class Sunlight { kStraight, kRefracted };
   struct Params {
     double strength = 1;
     double sun_share = 0.8;
-    Shadows shadows = Shadows::kRefracted;
+    Sunlight sunlight = Sunlight::kRefracted;
   };
 
   static constexpr std::string_view kName = "caustics";

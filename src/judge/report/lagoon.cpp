@@ -52,7 +52,8 @@ Look Lagoon::with_its_water(Look look) {
   fog.scattering = fog.ambient = {0, 0, 0};
   fog.sunlight = DepthFog::Sunlight::kStraight;
   fog.crossing = DepthFog::Crossing::kNone;
-  look.of<Caustics>().strength = 0;       // Cycles' water transmits sunlight straight
+  look.of<Caustics>().strength = 0;  // Cycles' water transmits sunlight straight
+  look.of<Caustics>().sunlight = Caustics::Sunlight::kStraight;
   look.of<SunHighlight>().roughness = 0;  // the sea mirrors the sun's disc
   return look;
 }
