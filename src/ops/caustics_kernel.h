@@ -36,7 +36,7 @@ struct Kernel<Caustics> : Caustics {
 
   static constexpr CellKind kSkipped{"no_caustics", "no sunlight is focused"};
   static double ns(const Params& p, const Running&) {
-    return p.sunlight == Sunlight::kRefracted ? 34 : 22;
+    return p.sunlight == Sunlight::kRefracted ? 36 : 22;
   }
 
   struct Light {

@@ -342,9 +342,9 @@ struct MirroredLight : FresnelReflection {
         const F height = height_at(c, p, shift, depth);
         return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
       };
-      const auto found = MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kDepth,
-                                                     c.dry, p, ray, kPictureSteps, on_side,
-                                                     thicker);
+      const auto found =
+          MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kDepth, c.dry, p, ray,
+                                      kPictureSteps, on_side, thicker);
       const Vec2<F> shift =
           select(found.hit > F(0.5), ray.shift_at(found.distance), Vec2<F>{F(0), F(0)});
       const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
