@@ -126,10 +126,7 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params* waves,
   sun.to_sun = {glm::dot(direction, pass.map_x), glm::dot(direction, pass.map_y),
                 glm::dot(direction, pass.up)};
   if (!pass.has_sun || !(sun.to_sun.z > 1e-3) || !(pass.ior > 1)) return &table_;
-  if (!within_water()) {
-    weigh_sun(frame, pass, executor);
-    table_.slopes = has_fine_depth(frame) ? 1 : 0;
-  }
+  if (!within_water()) weigh_sun(frame, pass, executor);
   if (!waves || !waves_.make(*waves, frame, pass, executor)) return &table_;
   sun.ior = pass.ior;
   const double sink = refracted_cosine(sun.to_sun.z, 1 / sun.ior);

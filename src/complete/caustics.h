@@ -14,8 +14,9 @@
 
 namespace limpid {
 
-/// Whether the depth tells the slope of the bottom. False if all depths, of one every few pixels,
-/// are also numbers of half precision, whose steps would look like slopes.
+/// Whether the eye depth tells the slope of the bottom. False if all depths, of one every few
+/// pixels, are also numbers of half precision, whose steps would look like slopes. Depths of
+/// another kind that were converted to eye depth count as fine.
 bool has_fine_depth(const Frame& frame);
 
 /// Traces sunlight down from the waves and accumulates it on the bottom (Arvo 1986, "Backward Ray
@@ -31,10 +32,10 @@ bool has_fine_depth(const Frame& frame);
 class CausticsMaker {
  public:
   /// Valid until the next call. A table without levels if the sun is down, or if the waves change
-  /// the light by less than kLeastContrast, or null. `simd` as in FusedOptions; without it one ray
-  /// at a time. `scattering`: of the water, 1/scene unit; scattered light counts as spread evenly
-  /// over the bottom. Deeper bottom counts as being at the depth `deepest`; for views from the air
-  /// water down to twice that depth counts as visible.
+  /// the light by less than kLeastContrast, or if `waves` is null. `simd` as in FusedOptions;
+  /// without it one ray at a time. `scattering`: of the water, 1/scene unit; scattered light counts
+  /// as spread evenly over the bottom. Deeper bottom counts as being at the depth `deepest`; for
+  /// views from the air water down to twice that depth counts as visible.
   const CausticsTable* make(const WaveNormals::Params* waves, const Rgb<double>& scattering,
                             const Frame& frame, const Pass& pass, Executor& executor,
                             const std::string* simd = nullptr, double deepest = HUGE_VAL);

@@ -12,8 +12,9 @@
 namespace limpid {
 
 /// Caustics on the bottom as the surface mirrors it to a view from within the water (beyond the
-/// critical angle the surface mirrors all light). Each pixel of the reflection planes is lit as
-/// Caustics lights the bottom, at the point whose mirror image it shows.
+/// critical angle the surface mirrors all light). Each pixel of the reflection planes is lit by
+/// focused light as Caustics lights the bottom, at the point whose mirror image it shows; slopes
+/// and shadows stay as by straight sunlight.
 ///
 /// The depth of that point below the surface is the height of its image over the surface, by the
 /// reflection's depth. The sun's share in its light comes from the dry picture, if that shows the

@@ -65,6 +65,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     if (plan.keeps<Caustics>()) {
       const bool focuses = plan.look.of<Caustics>().strength != 0;
       light_ = *caustics_.make(focuses ? waves : nullptr, scattering, whole, now, executor, simd);
+      light_.slopes = has_fine_depth(frame) ? 1 : 0;  // completed depths are always fine
     }
     if (shafts) {
       light_.in_water = shafts_.make(waves, scattering, whole, now, executor, simd,

@@ -71,6 +71,15 @@ std::optional<Matte> matte_between(const EdgeAround& around) {
   return Matte{cover, wet - (1 - cover) * rest};
 }
 
+bool looks_wet(const EdgeAround& around, const Rgb<double>& color) {
+  const EdgeMoments& wet = around.of(EdgeKind::kSureWet);
+  if (!(wet.weight > 0)) return false;
+  const glm::dvec3 off = vector_of(wet.mean()), own = vector_of(color);
+  const Square texture = scatter_of(wet);
+  const double variance = std::max(texture[0] + texture[3] + texture[5], 0.0) / wet.weight;
+  return glm::dot(off, off) <= 9 * (variance + kNoise * kNoise * glm::dot(own, own));
+}
+
 bool may_regress(const EdgeAround& around) {
   const double dry = around.of(EdgeKind::kSureDry).weight + around.of(EdgeKind::kDry).weight;
   return is_side(around, EdgeKind::kSureWet) && dry > 0;
@@ -95,8 +104,9 @@ std::optional<Matte> matte_by_regression(const EdgeAround& around) {
   const EdgeMoments& sure = around.of(EdgeKind::kSureWet);
   const glm::dvec3 object = mean + (1 - share) / glm::dot(slope, with) * with;
   const glm::dvec3 open = vector_of(sure.mean()), apart = object - open;
-  // Of the light that neither side explains, the part behind has its texture's (Wiener 1949,
-  // "Extrapolation, Interpolation, and Smoothing of Stationary Time Series").
+  // The light that neither side's color explains is texture of the part behind or an error of the
+  // share: the part behind gets a share of it by their variances (Wiener 1949, "Extrapolation,
+  // Interpolation, and Smoothing of Stationary Time Series").
   const glm::dvec3 rest = -cover * object - (1 - cover) * open;
   const Square texture = scatter_of(sure);
   const double seen = (1 - cover) * (texture[0] + texture[3] + texture[5]) / sure.weight;

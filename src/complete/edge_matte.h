@@ -76,9 +76,12 @@ struct Matte {
 std::optional<Matte> matte_between(const EdgeAround& around);
 
 /// The same for an object without sure pixels, thinner than its blur: the linear regression of
-/// "dry" on color over all pixels, which also gives the object's color. Nothing if that explains
-/// less than a quarter of the variance.
+/// "dry" on color over all pixels. `behind` is the mean of the sure wet pixels, and of the light
+/// that this mean and the object's color do not explain the part that may be the bottom's texture.
+/// Nothing if the regression explains less than a quarter of the variance.
 std::optional<Matte> matte_by_regression(const EdgeAround& around);
+/// Whether the pixel's color, within three deviations, is one of the sure wet pixels'.
+bool looks_wet(const EdgeAround& around, const Rgb<double>& color);
 /// Whether the regression can succeed, by the weights alone.
 bool may_regress(const EdgeAround& around);
 

@@ -389,9 +389,10 @@ std::optional<Matte> Edges::State::matte_at(const EdgePicture& picture, const Pl
     add_band(picture, place, *kernel, seen[i]);
     if (const std::optional<Matte> matte = matte_by_regression(seen[i])) return matte;
   }
-  // An object that color does not show, where all around is known, covers little of the pixel: only
-  // the one sample of depth hit it.
-  const bool unseen = is_thin(picture, place.x, place.y) && may_regress(seen.back());
+  // An object in a pixel of the water's color covers little of it: only the one sample of depth hit
+  // the object.
+  const bool unseen = is_thin(picture, place.x, place.y) && may_regress(seen.back()) &&
+                      looks_wet(seen.back(), picture.color_at(place.x, place.y));
   return unseen ? std::optional(Matte{0, {0, 0, 0}}) : std::nullopt;
 }
 

@@ -21,10 +21,10 @@ namespace limpid {
 /// discriminant (1936, "The Use of Multiple Measurements in Taxonomic Problems"), which ignores
 /// their texture; for an object thinner than the band, by the regression of the sides that depth
 /// gives on color, because renderers take depth from one sample of many. Objects thinner than a
-/// pixel do not show the blur; there the blur of the picture's other edges counts, and objects that
-/// color does not show have no share. Where behind the water nothing was hit and alpha is 0 around,
-/// the alpha of the pixel is its share. Where colors do not distinguish the two sides, depth alone
-/// decides.
+/// pixel do not show the blur; there the blur of the picture's other edges counts, and in single
+/// dry pixels of the water's color the object has no share. Where behind the water nothing was hit
+/// and alpha is 0 around, the alpha of the pixel is its share. Where colors do not distinguish the
+/// two sides, depth alone decides.
 class Edges {
  public:
   /// Widest blur from the middle of an edge, in pixels; beyond it an edge stays hard.

@@ -24,6 +24,8 @@ namespace limpid {
 ///   that the whole picture shows a hundredth of it; or waves are higher than the camera.
 /// - Caustics use the frame's own normals: the light of a tenth of the bottom or more enters where
 ///   the frame has none.
+/// - Sunlight on slopes is to be refracted, but all eye depths have half precision.
+/// - The water mirrors a guessed sky.
 ///
 /// Samples few pixels, unless the picture is all wet or all dry.
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,

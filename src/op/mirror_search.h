@@ -61,8 +61,8 @@ class MirrorSearch {
     F hit;       ///< 1 or 0
   };
 
-  /// `accept(shift, depth)`: whether the ray may hit this visible surface. `thicker`: by how much
-  /// all surfaces are thicker than `how` says. Lanes other than `lanes` have no hit.
+  /// `accept(shift, depth)`: whether the ray may hit this visible surface. `thicker`:
+  /// factor on the thickness `how.thick`. Lanes other than `lanes` have no hit.
   template <class Mask, class Accept>
   static Found march(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
                      const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray,

@@ -160,7 +160,7 @@ struct Kernel;
 ///     // Cells in which it is skipped have this name. Default: none.
 ///     constexpr CellKind kSkipped;
 ///     // Replaces parameters by better ones for the given inputs, and returns the reason as a
-///     // phrase; "" where it changes none. Default: changes none.
+///     // phrase, or the effect that lacks its input; "" for neither. Default: changes none.
 ///     std::string_view prefer(Params&, const AtHand&);
 ///     // Why it looks up the surroundings although its parameters do not require it, as a phrase;
 ///     // "" if it does not.

@@ -18,9 +18,9 @@ constexpr Field<P> kFields[] = {
     real<&P::sun_share>("sun_share", "", {0, 1},
                         "Part of the bottom's light that is sunlight, if no sky is known."),
     choice<&P::sunlight, kSunlight>("sunlight",
-                                    "Angle of sunlight in the water, for slopes and shadows; "
-                                    "refracted needs sun_color, and for shadows shadow and "
-                                    "surface_shadow."),
+                                    "Sunlight in the water, on slopes and in shadows: straight "
+                                    "as in the dry picture, or refracted, by sun_color; shadows "
+                                    "also need the planes shadow and surface_shadow."),
 };
 
 }  // namespace
@@ -94,11 +94,14 @@ void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& 
     }
     change = std::max(change, bound_product(share, std::max(gain, loss)));
     if (!light.bends) continue;
-    change = std::max(change, bound_product(kMostTilt, 1 + gain) - 1);
+    // Focused light lies between 1 - loss, which may be below 0, and 1 + gain.
+    const double below_none = bound_product(kMostTilt, std::max(loss - 1, 0.0));
+    change = std::max({change, bound_product(kMostTilt, 1 + gain) - 1, 1 + below_none});
     const bool all_lit = ranges.shadow.min >= 1 && ranges.shadow_of_water.min >= 1;
     if (!light.moves || all_lit) continue;
     const double most = c.caustics ? std::max(c.caustics->sun_over_rest[i], 1.0) : HUGE_VAL;
-    change = std::max({change, 1.0, bound_product(kMostTilt * most, 1 + gain)});
+    change = std::max(
+        {change, bound_product(kMostTilt * most, 1 + gain), 1 + bound_product(most, below_none)});
   }
   change *= 1.0001;
   ranges.focused = bound_product(change, ranges.brightest());

@@ -139,7 +139,10 @@ struct Kernel<Caustics> : Caustics {
             const F rate = of_channel(i, scattered, "caustics.scattered");
             strength = strength * exp((F(0) - rate) * depth);
           }
-          F focused = F(1) + strength * (caustics_at(table, tap, entry, texel) - F(1));
+          F focused(1);
+          if (params.strength != 0) {
+            focused = F(1) + strength * (caustics_at(table, tap, entry, texel) - F(1));
+          }
           F sun(0);
           if (light.known) {
             F shown(0);
@@ -204,8 +207,9 @@ struct Kernel<Caustics> : Caustics {
     const F straight = rise + level * given<F>(1 / light.rise, "caustics.per_rise");
     const F of_level = min(max(refracted, F(0)), F(kMostTilt));
     const F gain = min(of_level / max(straight, F(1e-3)), F(kMostTilt));
-    const F known = slope.known * given<F>(c.caustics->slopes, "caustics.slopes");
-    return {F(1) + known * (of_level - F(1)), F(1) + known * (gain - F(1))};
+    const auto known = slope.known > F(0);
+    return {select(known, F(1) + slope.known * (of_level - F(1)), F(1)),
+            select(known, F(1) + slope.known * (gain - F(1)), F(1))};
   }
 
   template <class F>
@@ -237,9 +241,10 @@ struct Kernel<Caustics> : Caustics {
     const F near = mix(quad, here);
     const Vec3<F> centre = offset_to(c, p, at, F(1) / near);
     F known = saturate(F(2) - abs(F(1) - near * p.hit_depth) / F(1 - kSameDepth));
-    // `mixed`: the change from one texel to the next as far as it is mixed here; at an edge it is
-    // as much as the change over several pixels.
-    const auto along = [&](F x, F y, F mixed) {
+    // A centre that mixes the two sides of an edge would look like a steep slope: there `jump`, the
+    // change from one texel to the next as far as it is mixed here, is as much as the change over
+    // two pixels.
+    const auto along = [&](F x, F y, F jump) {
       F least(1);
       const auto offset_by = [&](F step_x, F step_y, F& edge) {
         const Vec2<F> side{at.x + step_x, at.y + step_y};
@@ -254,7 +259,7 @@ struct Kernel<Caustics> : Caustics {
       };
       F edge_on(0), edge_back(0);
       const Vec3<F> on = offset_by(x, y, edge_on), back = offset_by(F(0) - x, F(0) - y, edge_back);
-      known = known * saturate(F(2) - mixed / (near * (least + F(1e-3))));
+      known = known * saturate(F(2) - jump / (near * (least + F(1e-3))));
       return F(1) / (edge_on + edge_back) * (edge_back * on - edge_on * back);
     };
     const F right = quad.weight(1) + quad.weight(3), lower = quad.weight(2) + quad.weight(3);

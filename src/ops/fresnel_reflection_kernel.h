@@ -209,7 +209,8 @@ struct Kernel<FresnelReflection> : MirroredLight {
               seen_on_march(params, c, p, tap, n, part, bent(c, p, leaned(low)), thicker);
           const auto take = open > F(0.5);
           one = {select(take, seen.light, one.light), select(take, seen.sources, one.sources)};
-          const auto lost = take && rough && part >= F(1) && seen.sources.g < F(0.5);
+          const auto passed = rough && p.side > F(0) && part >= F(1);
+          const auto lost = take && passed && seen.sources.g < F(0.5);
           open = select(lost, F(1), F(0));
           return lost;
         });

@@ -155,6 +155,21 @@ TEST(Edges, OfWhatIsThinnerThanAPixelAndOfTheColorBehindAreNone) {
   }
 }
 
+// A thin object of another color is there, even where the bottom's texture hides the reeds.
+TEST(Edges, OfWhatIsThinAndOfAnotherColorAreNotWater) {
+  Post post = among_reeds(1.3, Post{}.light);
+  const View<const float> before = post.buffers.frame.plane(PlaneId::kColorR);
+  std::vector<float> red;
+  for (int y = 0; y < Post::kSize.height; ++y) {
+    for (int x = 0; x < Post::kSize.width; ++x) red.push_back(before.at(x, y));
+  }
+  post.buffers.set(PlaneId::kColorR, [&](int x, int y) {
+    return x == 15 && y == kRow ? 5 : red[static_cast<std::size_t>(y * Post::kSize.width + x)];
+  });
+  const Parted parted(post);
+  EXPECT_EQ(parted.cover(15, post), 1);
+}
+
 // Without a filter the sample that hits an object is all of its pixel.
 TEST(Edges, OfWhatIsThinAndUnfilteredStayHard) {
   EXPECT_FALSE(Parted(among_reeds(0, {0.1f, 0.06f, 0.03f})).frame.edges);

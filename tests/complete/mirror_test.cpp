@@ -205,6 +205,46 @@ TEST(AutoMirror, ShowsTheOutsideOfABankThatTheMirrorSawFromWithin) {
   EXPECT_GT(wet, 1000);
 }
 
+/// The crown of a tree over the water: a wall from a height on, in front of the sky. Waves are
+/// far shorter than a pixel.
+struct Crown : Mirror {
+  explicit Crown(double above) {
+    const auto depth = [=, this](int x, int y) {
+      const double sinks = ray(x, y).y;
+      if (2 + far * sinks > above) return 2 + far * sinks > top ? kInf : static_cast<float>(far);
+      return sinks < 0 ? static_cast<float>(-(2 + deep) / sinks) : kInf;
+    };
+    buffers.set(PlaneId::kDepth, depth);
+    for (int c = 0; c < 3; ++c) {
+      buffers.set(plane_after(PlaneId::kColorR, c), [=](int x, int y) {
+        return depth(x, y) == kInf ? kSky : depth(x, y) == 20 ? kWall : 1.0f;
+      });
+    }
+    WaveNormals::Params& waves = look.of<WaveNormals>();
+    waves.model = WaveNormals::Model::kSines;
+    waves.filter = WaveNormals::Filter::kVariance;
+    waves.strength = 1;
+    scene.water->waves = {{0.0014, 0, 100, 0, 1}};  // slopes of .1
+    look.of<FresnelReflection>().facets = FresnelReflection::Facets::kSpread;
+  }
+  /// The mean of the mirrored light in the row of water at a distance.
+  double light_at(double distance) {
+    const test::Picture picture = test::reference(look, buffers.frame, scene);
+    double sum = 0;
+    int row = kSize.height / 2;
+    while (2 / -ray(0, row).y > distance) ++row;
+    for (int x = 16; x < 48; ++x) sum += picture.color(x, row).r / 32;
+    return sum;
+  }
+};
+
+// A ray below the skyline that passes a little behind the crown is not one of the sky.
+TEST(AutoMirror, MirrorsACrownThatItsRaysPassCloseBehind) {
+  EXPECT_LT(Crown(2).light_at(17), kWall);
+  // Rays far below a bridge end in the sky behind it.
+  EXPECT_GT(Crown(4).light_at(17), 6);
+}
+
 TEST(AutoMirror, MeetsARidgeOnlyWhereItsRaysPassBelowIt) {
   for (const double top : {1.0, 1.5, 3.0}) {
     int walls = 0;

@@ -283,6 +283,42 @@ TEST(Caustics, LightSlopesAsTheWaterBendsTheSun) {
   }
 }
 
+// Down the picture is towards +z: the same slopes, turned.
+TEST(Caustics, LightSlopesDownThePictureLikeSlopesAlongIt) {
+  for (const double rise : {-0.25, 0.25}) {
+    Tray tray = on_a_slope(0);
+    tray.scene.sun = Sun{.direction = {0, 0.6, 0.8}};
+    tray.buffers.set(PlaneId::kDepth,
+                     [=](int, int y) { return static_cast<float>(14.003 - rise * (y - 2)); });
+    const double expected = 0.2 + 0.3 * (1 - 0.75 * rise) / (1 - 4.0 / 3 * rise);
+    for (int y = 0; y < 5; ++y) EXPECT_NEAR(tray.wet().color(12, y).r, expected, 3e-4) << rise;
+  }
+}
+
+TEST(Caustics, LightSlopesOfPlatesWithoutShadows) {
+  Tray tray = on_a_slope(0.25);
+  for (const PlaneId shadow : {PlaneId::kShadow, PlaneId::kSurfaceShadow}) {
+    tray.buffers.frame.planes[index_of(shadow)] = {};
+  }
+  EXPECT_NEAR(tray.wet().color(12, 2).r, 0.2 + 0.3 * 0.8125 * 1.5, 3e-4);
+}
+
+TEST(Caustics, SayWhatThePlateHasNoPlanesFor) {
+  const auto preferred = [](PlaneSet planes, Caustics::Sunlight asked) {
+    Caustics::Params params{.sunlight = asked};
+    const std::string said(Kernel<Caustics>::prefer(params, {.planes = planes}));
+    return std::pair(said, params.sunlight);
+  };
+  const PlaneSet shadows{PlaneId::kShadow, PlaneId::kSurfaceShadow};
+  using enum Caustics::Sunlight;
+  EXPECT_EQ(preferred({}, kStraight), std::pair(std::string(), kStraight));
+  EXPECT_EQ(preferred(shadows, kRefracted),
+            std::pair(std::string("sunlight on the bottom stays unrefracted"), kStraight));
+  EXPECT_EQ(preferred(kSunColorPlanes, kRefracted),
+            std::pair(std::string("shadows on the bottom stay unrefracted"), kRefracted));
+  EXPECT_EQ(preferred(kSunColorPlanes | shadows, kRefracted), std::pair(std::string(), kRefracted));
+}
+
 TEST(Caustics, LightSlopesWithoutFocusingToo) {
   Tray tray = on_a_slope(0.25);
   tray.look.of<Caustics>().strength = 0;

@@ -10,6 +10,7 @@ struct NoiseCaustics {
   NoiseCaustics() {
     table.count = 2;
     table.least = -0.1, table.most = 3;
+    table.slopes = 1;
     for (int i = 0; i < 2; ++i) {
       Plane& plane = i == 0 ? fine : coarse;
       for (int y = 0; y < 40; ++y) {

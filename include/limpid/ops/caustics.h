@@ -6,7 +6,7 @@
 
 namespace limpid {
 
-/// The net of light on the bottom: sunlight that the waves focus.
+/// Sunlight on the bottom: refracted by the water, and focused by the waves to a net of light.
 ///
 /// The sun's part of the bottom's light is multiplied by 1 + strength (E - 1), per channel. E is
 /// the irradiance of the bottom by the sun, divided by that under calm water. It comes from a table
@@ -18,17 +18,18 @@ namespace limpid {
 /// The sun lights the dry picture straight. `sunlight` = `refracted` refracts its light, in frames
 /// with sun_color, also if strength is 0. Slopes and walls then reflect the sun at the angle at
 /// which light meets them under calm water: a wall that faces the sun becomes darker. The slope
-/// comes from the depth, unless all depths are of half precision, which is too coarse. Shadows move
-/// to their refracted positions, in frames with shadow and surface_shadow, too: the unrefracted
-/// shadow is removed, by an estimate of the sun's light from the bottom's other light and from
-/// sunlit bottom nearby, and the shadow on the surface at the entry point of calm water is applied.
-/// Shadows of objects below the surface stay: they are the shadow on the bottom divided by the
-/// shadow on the surface along the unrefracted ray. Near the picture's edge the moved shadows fade
-/// into the unrefracted ones, and where a wave hides the entry point from a low camera. Where
+/// comes from the depth, unless all eye depths have half precision, which is too coarse. Shadows
+/// move to their refracted positions, in frames with shadow and surface_shadow, too: the
+/// unrefracted shadow is removed, by an estimate of the sun's light from the bottom's other light
+/// and from sunlit bottom nearby, and the shadow on the surface at the entry point of calm water is
+/// applied. Shadows of objects below the surface stay: they are the shadow on the bottom divided by
+/// the shadow on the surface along the unrefracted ray. Near the picture's edge the moved shadows
+/// fade into the unrefracted ones, and where a wave hides the entry point from a low camera. Where
 /// surface_depth shows no water, no light enters.
 ///
 /// Acts on bottom that is seen from the air, from within the water, and from there as the mirror
-/// image in the surface if the frame has a reflection with a depth. Outside of the table, and in
+/// image in the surface if the frame has a reflection with a depth; light on the mirror image is
+/// focused only, its slopes and shadows stay straight. Outside of the table, and in
 /// pixels that are wider than the waves are long, the light is that of calm water.
 struct Caustics {
   enum class Sunlight { kStraight, kRefracted };
@@ -39,7 +40,8 @@ struct Caustics {
   };
 
   static constexpr std::string_view kName = "caustics";
-  static constexpr std::string_view kAbout = "Sunlight that the waves focus on the bottom.";
+  static constexpr std::string_view kAbout =
+      "Sunlight on the bottom, refracted by water and focused by waves.";
   static std::span<const Field<Params>> fields();
 };
 

@@ -98,6 +98,7 @@ limpid::Look engine_look() {
   look.set("refraction", "rejection", "snap");
   look.set("refraction", "off_frame", "clamp");
   look.set("caustics", "strength", 0.0);
+  look.set("caustics", "sunlight", "straight");
   look.set("depth_fog", "model", "beer_lambert");
   look.set("fresnel_reflection", "source", "constant");
   return look;
