@@ -81,8 +81,8 @@ struct MirroredLight : FresnelReflection {
   }
 
   /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
-  /// on the ray of the facet `low`. `thicker`: by how much what the picture shows is thicker than
-  /// usual.
+  /// on the ray of the facet `low`. `thicker`: factor on the thickness of the picture's surfaces,
+  /// not of a reflection's.
   template <class F, class Tap>
   static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
                                    const Tap& tap, Vec3<F> n, F part, Vec3<F> low,

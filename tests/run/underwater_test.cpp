@@ -201,10 +201,8 @@ TEST_P(Underwater, PixelsInTheAirDoNotKnowThatOthersAreInTheWater) {
   const Scene half = scene_at(0.05, 0, {kWave}), above = scene_at(0.05);
   Look look;
   look.of<Refraction>().rejection = Refraction::Rejection::kSnap;
-  look.of<Caustics>() = {
-      .strength = 0,
-      .sunlight =
-          Caustics::Sunlight::kStraight};  // the entry points of light differ between the two
+  // The entry points of light differ between the two.
+  look.of<Caustics>() = {.strength = 0, .sunlight = Caustics::Sunlight::kStraight};
   const Picture p = run(look, b, half), q = run(look, b, above);
   int in_air = 0, differ = 0;
   for_each_pixel([&](int x, int y) {
