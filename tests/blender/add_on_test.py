@@ -118,6 +118,50 @@ say([name for name in os.listdir(tempfile.gettempdir()) if name.startswith("limp
         self.assertEqual((loaded, again), (["images/limpid wet", "node_groups/limpid wet"],) * 2)
         self.assertEqual(hashlib.sha256(scene.read_bytes()).hexdigest(), before)
 
+    def test_a_cancelled_job_leaves_the_files_of_the_one_before(self):
+        before, sentence, after, temporary = self.said(self.scene("pool"), f"""
+import hashlib, os, tempfile, time
+from limpid_blender import begin
+{PLAIN}
+scene.render.resolution_x, scene.render.resolution_y = 64, 36
+folder = pathlib.Path(bpy.data.filepath).parent / "cancelled"
+settings.folder = str(folder)
+def files():
+    return {{str(path.relative_to(folder)): path.is_file() and hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in folder.rglob("*") if path.name != "limpid.log"}}
+assert wet() == "FINISHED"
+say(files())
+settings.samples = 3000
+started = begin.Started(begin.job_of(scene, bpy.context.view_layer))
+while not started.run.text.endswith("mirror"):
+    assert started.run.is_running()
+    time.sleep(.02)
+started.run.cancel()
+started.finish()
+say(started.run.failure())
+say(files())
+say([name for name in os.listdir(tempfile.gettempdir()) if name.startswith("limpid_")])
+""")
+        self.assertEqual((sentence, temporary), ("cancelled: 0 frames finished", []))
+        self.assertIn("wet.0001.exr", before)
+        self.assertEqual(after, before)
+
+    def test_two_jobs_in_one_folder_have_each_its_frames(self):
+        wet, left = self.said(self.scene("pool"), f"""
+import os
+from limpid_blender import begin
+{PLAIN}
+scene.render.resolution_x, scene.render.resolution_y = 64, 36
+settings.folder = "//farm"
+jobs = [begin.Started(begin.job_of(scene, bpy.context.view_layer, frame)) for frame in "34"]
+for job in jobs:
+    job.finish()
+say([job.run.wet for job in jobs])
+say(sorted(os.listdir(bpy.path.abspath("//farm"))))
+""")
+        self.assertEqual(wet, [[3], [4]])
+        self.assertEqual(left, ["limpid.log", "plates", "scene.0003.toml", "scene.0004.toml", "wet.0003.exr", "wet.0004.exr"])
+
     def test_the_page_is_served_on_the_plates(self):
         no_plates, address, page = self.said(self.scene("lake"), """
 settings.water_kind, settings.samples, settings.overscan_kind = "HEIGHT", 1, "FIXED"

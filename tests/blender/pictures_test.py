@@ -107,7 +107,7 @@ settings.motion = 'NEXT'
 """
         folder = self.wet("lake", settings, frames="2-3")
         self.assertFalse((folder / "scene.0004.toml").exists())  # of which camera and water were enough
-        self.assertEqual(sorted(path.name for path in folder.glob("scenes_*")), [])
+        self.assertEqual(sorted(path.name for path in folder.glob("unfinished_*")), [])
         for frame in (2, 3):
             wet = Plate(folder / f"wet.{frame:04d}.exr")
             (right,), (up,) = (wet.channels(f"motion_forward.{c}").reshape(1, -1) for c in "uv")

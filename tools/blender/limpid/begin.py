@@ -1,4 +1,5 @@
 """The job of the scene's settings, checked before rendering, and its start."""
+import os
 import pathlib
 import shlex
 import shutil
@@ -89,29 +90,39 @@ def _copy_into(folder):
 
 
 class Started:
-    """A job in a second process, which works on a copy of the file."""
+    """A job in a second process, which works on a copy of the file. The copy, the job and all temporary files are in one folder, and
+    files that are not finished in another, beside the outputs. finish() removes both, after a cancelled job, too."""
 
     def __init__(self, job):
         if not bpy.app.binary_path:
             raise Failure("Blender runs as a Python module: expected the program Blender, which renders a copy of the file")
-        self.job, folder = job, pathlib.Path(job.folder)
+        self.job, folder, self.run, self._own = job, pathlib.Path(job.folder), None, []
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            self._copies = pathlib.Path(tempfile.mkdtemp(prefix="limpid_"))
-            job.write(folder / "job.json")
+            own, job.unfinished = self._make(), str(self._make("unfinished_", folder))
+            job.write(own / "job.json")  # not into the folder, which jobs on other machines may share
         except OSError as fault:
+            self.finish()
             raise Failure(f"{fault.filename}: {fault.strerror}") from fault
         try:
             scripts = "--enable-autoexec" if bpy.context.preferences.filepaths.use_scripts_auto_execute \
                 else "--disable-autoexec"
             factory = ["--factory-startup"] * ("--factory-startup" in sys.argv)
-            self.run = Run([bpy.app.binary_path, "--background", *factory, scripts, str(_copy_into(self._copies)),
+            self.run = Run([bpy.app.binary_path, "--background", *factory, scripts, str(_copy_into(own)),
                             "--python-exit-code", "1", "--python",
-                            str(pathlib.Path(__file__).with_name("start_work.py")), "--", str(folder / "job.json")],
-                           folder / "limpid.log")
+                            str(pathlib.Path(__file__).with_name("start_work.py")), "--", str(own / "job.json")],
+                           folder / "limpid.log", dict(os.environ, TMPDIR=str(own)))
         except (OSError, RuntimeError) as fault:
             self.finish()
             raise Failure(f"the copy for rendering cannot be saved: {str(fault).strip()}") from fault
 
+    def _make(self, prefix="limpid_", folder=None):
+        self._own.append(pathlib.Path(tempfile.mkdtemp(prefix=prefix, dir=folder)))
+        return self._own[-1]
+
     def finish(self):
-        shutil.rmtree(self._copies, ignore_errors=True)
+        """Waits for the end of the process, which writes into these folders."""
+        if self.run:
+            self.run.wait()
+        for folder in self._own:
+            shutil.rmtree(folder, ignore_errors=True)

@@ -29,6 +29,7 @@ class Job:
     motion: str = ""      # vectors to the "next" or the "previous" frame, or none
     overscan: int = -1    # pixels on each side, or -1: the overscan of the plan
     samples: int = 0      # per pixel, or 0: the scene's sample count
+    unfinished: str = ""  # a folder in `folder` for files that are not finished; the process that started the job removes it
 
     def write(self, path):
         pathlib.Path(path).write_text(json.dumps(dataclasses.asdict(self), indent=1))

@@ -15,14 +15,15 @@ class Run:
     """Starts a program that reports its progress on standard output, by the lines of work.say().
     All of its output goes into a log. Its standard input closes when this process ends for any reason."""
 
-    def __init__(self, words, log):
+    def __init__(self, words, log, environment=None):
         self.log = str(log)
         self.text, self.share = "starting", 0.0   # of progress: words, and 0 ... 1
         self.notes, self.warnings, self.wet = [], [], []
         self.error = None
         self.cancelled = False
         self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                         errors="replace", stdin=subprocess.PIPE, start_new_session=True)
+                                         errors="replace", stdin=subprocess.PIPE, start_new_session=True,
+                                         env=environment)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 

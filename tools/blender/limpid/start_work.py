@@ -1,9 +1,12 @@
 """The start of the second Blender: blender -b COPY.blend --python start_work.py -- JOB.json
 
-This process ends when its standard input closes, and so with the Blender that started it."""
+This process ends when its standard input closes, and so with the Blender that started it. That one removes the folders of the
+job, unless it was killed: then this process does."""
 import importlib
+import json
 import os
 import pathlib
+import shutil
 import signal
 import sys
 import threading
@@ -12,6 +15,9 @@ import threading
 def end_with_the_other():
     while os.read(0, 1):
         pass
+    job = pathlib.Path(sys.argv[-1])
+    for folder in (json.loads(job.read_text())["unfinished"], job.parent):
+        shutil.rmtree(folder, ignore_errors=True)
     os.killpg(0, signal.SIGKILL)
 
 

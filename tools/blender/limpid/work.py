@@ -1,5 +1,6 @@
 """The work of the second process: renders the plates of a job and runs limpid on them."""
 import dataclasses
+import os
 import pathlib
 import sys
 import tempfile
@@ -48,8 +49,7 @@ RENDERED = {"dry": passes.dry, "shadow": passes.shadow, "surface": passes.surfac
 
 class Work:
     def __init__(self, job):
-        self.job, self.folder = job, pathlib.Path(job.folder)
-        self.folder.mkdir(parents=True, exist_ok=True)
+        self.job, self.folder, self.unfinished = job, pathlib.Path(job.folder), pathlib.Path(job.unfinished)
         self.studio = Studio(job)
         self.warned = set()
         self.facts, self.under_water = {}, set()  # of the frames whose plates are there
@@ -94,6 +94,8 @@ class Work:
     # ---- frames
 
     def plates(self, frame, overscan, steps):
+        """Renders the plates of a frame, and replaces those of an earlier job when all of them are there: a cancelled job leaves
+        no mixture."""
         studio = self.studio
         facts = studio.at(frame)
         under = studio.is_under_water()
@@ -101,17 +103,19 @@ class Work:
             self.under_water.add(frame)
             self.warn("the camera is under water: reflection and layer below are not rendered")
         names = passes_of(self.job, under)
-        plates = self.folder / "plates"
-        plates.mkdir(exist_ok=True)
-        for name in files_of(names):
+        (self.folder / "plates").mkdir(exist_ok=True)
+        made = {name: f"plates/{numbered(name, frame)}.exr" for name in files_of(names)}
+        for name, plate in made.items():
             steps.next(f"frame {frame}: {name}")
-            RENDERED[name](studio, str(plates / f"{numbered(name, frame)}.exr"), overscan)
+            RENDERED[name](studio, str(self.unfinished / plate), overscan)
         environment = None
         if self.job.surroundings and facts.sky is None:
             steps.next(f"frame {frame}: surroundings")
-            environment = f"plates/{numbered('surroundings', frame)}.exr"
-            passes.surroundings(studio, str(self.folder / environment))
-        facts.plates = plates_of(names, lambda name: f"plates/{numbered(name, frame)}.exr", environment)
+            made["surroundings"] = environment = f"plates/{numbered('surroundings', frame)}.exr"
+            passes.surroundings(studio, str(self.unfinished / environment))
+        for plate in made.values():
+            os.replace(self.unfinished / plate, self.folder / plate)
+        facts.plates = plates_of(names, made.get, environment)
         if not self.job.surroundings:
             facts.sky = None
         self._write_scene(self.folder, frame, facts)
@@ -121,7 +125,7 @@ class Work:
         about = f"Frame {frame} of {self.studio.scene.name}"
         (folder / f"{numbered('scene', frame)}.toml").write_text(scene_text(facts, about))
 
-    def _pair(self, folder, frame):
+    def _pair(self, frame):
         """Writes the scenes of the frame and of the one that its motion vectors lead to, of which a frame without plates
         has camera and water alone. Returns whether there can be vectors."""
         neighbor = neighbor_of(frame, self.job.motion)
@@ -136,19 +140,18 @@ class Work:
             return False
         for number, facts in ((frame, self.facts[frame]), (neighbor, other)):
             plates = {role: f"../{name}" for role, name in facts.plates.items()}
-            self._write_scene(folder, number, dataclasses.replace(facts, plates=plates))
+            self._write_scene(self.unfinished, number, dataclasses.replace(facts, plates=plates))
         return True
 
     def water(self, frame, steps):
         steps.next(f"frame {frame}: water")
         aovs = ["all"] * self.job.aovs
-        with tempfile.TemporaryDirectory(prefix="scenes_", dir=self.folder) as folder:
-            words = ["--scene", self.folder / f"{numbered('scene', frame)}.toml"]
-            if self.job.motion and self._pair(pathlib.Path(folder), frame):
-                words = ["--scene", f"{folder}/scene.####.toml", "--frames", frame, "--motion-to", self.job.motion]
-                aovs += ["motion", "motion_reflected"]
-            _, warnings = self.limpid("composite", *words, *self.look(), *(word for aov in aovs for word in ("--aov", aov)),
-                                      "-o", self.folder / f"{numbered('wet', frame)}.exr")
+        words = ["--scene", self.folder / f"{numbered('scene', frame)}.toml"]
+        if self.job.motion and self._pair(frame):
+            words = ["--scene", self.unfinished / "scene.####.toml", "--frames", frame, "--motion-to", self.job.motion]
+            aovs += ["motion", "motion_reflected"]
+        _, warnings = self.limpid("composite", *words, *self.look(), *(word for aov in aovs for word in ("--aov", aov)),
+                                  "-o", self.folder / f"{numbered('wet', frame)}.exr")
         for warning in warnings:
             self.warn(warning)
         say("wet", f"{frame}")
