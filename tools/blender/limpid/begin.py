@@ -78,11 +78,29 @@ def job_of(scene, view_layer, frames=""):
         overscan=settings.overscan if settings.overscan_kind == "FIXED" else -1, samples=settings.samples)
 
 
+def _stay_changed():
+    """After a copy was saved, Blender takes the file itself for saved, and would end without the question whether to save. It does
+    so a moment later; then a step in the undo history marks the file as changed."""
+    looks = iter(range(10))
+
+    def look():
+        if bpy.data.is_dirty:
+            return 0.1 if next(looks, None) is not None else None
+        with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+            bpy.ops.ed.undo_push(message="Before Add water")
+        return None
+
+    bpy.app.timers.register(look)
+
+
 def _copy_into(folder):
     """Saves the file with its unsaved changes, beside a link to the caches with the file's name."""
     own = pathlib.Path(bpy.data.filepath)
     copy = folder / (own.name or "untitled.blend")
+    changed = bpy.data.is_dirty and not bpy.app.background
     bpy.ops.wm.save_as_mainfile(filepath=str(copy), copy=True, check_existing=False)
+    if changed:
+        _stay_changed()
     caches = own.parent / f"blendcache_{own.stem}"
     if bpy.data.filepath and caches.is_dir():
         (folder / caches.name).symlink_to(caches, target_is_directory=True)
