@@ -162,6 +162,32 @@ say(sorted(os.listdir(bpy.path.abspath("//farm"))))
         self.assertEqual(wet, [[3], [4]])
         self.assertEqual(left, ["limpid.log", "plates", "scene.0003.toml", "scene.0004.toml", "wet.0003.exr", "wet.0004.exr"])
 
+    def test_the_group_of_an_earlier_run_keeps_its_links_and_factors(self):
+        links = self.said(self.scene("pool"), f"""
+{PLAIN}
+scene.render.resolution_x, scene.render.resolution_y = 64, 36
+assert wet() == "FINISHED"
+tree = bpy.data.node_groups.new("mine", "CompositorNodeTree")
+group, end = tree.nodes.new("CompositorNodeGroup"), tree.nodes.new("CompositorNodeSetAlpha")
+group.node_tree = bpy.data.node_groups["limpid wet"]
+tree.links.new(group.outputs["Wet"], end.inputs[0])
+tree.links.new(group.outputs["Alpha"], end.inputs[1])
+group.inputs["reflected"].default_value = .5
+def state():
+    return [[link.from_socket.name for link in tree.links], [[one.name, one.default_value] for one in group.inputs],
+            len(group.outputs) == len(set(one.name for one in group.outputs)), len(group.outputs)]
+for settings.aovs in (True, False, True):
+    assert wet() == "FINISHED"
+    say(state())
+""")
+        factors = [["transmitted", 1], ["in_scatter", 1], ["reflected", .5], ["highlight", 1]]
+        self.assertEqual(links[0][:3], [["Wet", "Alpha"], factors, True])
+        self.assertEqual(links[1][:3], [["Wet", "Alpha"], [], True])
+        self.assertLess(links[1][3], links[0][3])
+        for factor in factors:  # the inputs were away for a run
+            factor[1] = 1
+        self.assertEqual(links[2], [["Wet", "Alpha"], factors, True, links[0][3]])
+
     def test_the_page_is_served_on_the_plates(self):
         no_plates, address, page = self.said(self.scene("lake"), """
 settings.water_kind, settings.samples, settings.overscan_kind = "HEIGHT", 1, "FIXED"

@@ -5,7 +5,7 @@ import pathlib
 import bpy
 
 from .frames import numbered
-from .sockets import add_socket
+from .sockets import add_socket, remove_socket, sockets_of
 
 NAME = "limpid wet"
 TERMS = ("transmitted", "in_scatter", "reflected", "highlight")  # they sum to the picture
@@ -72,17 +72,26 @@ def make_group(image, frames):
     return tree
 
 
+def _nodes_of(group):
+    """The nodes that show the group, in all compositors and groups."""
+    trees = [*bpy.data.node_groups, *filter(None, (getattr(scene, "node_tree", None) for scene in bpy.data.scenes))]
+    return [node for tree in trees for node in tree.nodes if getattr(node, "node_tree", None) == group]
+
+
 def _renew_sockets(tree, wanted):
-    if hasattr(tree, "interface"):
-        tree.interface.clear()
-    else:
-        tree.inputs.clear()
-        tree.outputs.clear()
+    """Keeps the sockets of an earlier run, and with them the links of nodes in the compositor."""
     for way, sockets in wanted.items():
+        there = dict(sockets_of(tree, way))
+        for key in there.keys() - set(sockets):
+            remove_socket(tree, way, there[key])
         for kind, name in sockets:
+            if (kind, name) in there:
+                continue
             socket = add_socket(tree, way, kind, name)
             if way == "INPUT":
                 socket.default_value = 1.0
+                for node in _nodes_of(tree):  # which got the socket before its default
+                    node.inputs[name].default_value = 1.0
 
 
 def show(image, frames):
