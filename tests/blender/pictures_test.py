@@ -155,6 +155,17 @@ settings.motion = 'NEXT'
         self.assertGreater(columns[len(columns) * 3 // 4], 2 * columns[len(columns) // 4])
         self.assertGreater(rows[len(rows) // 4], rows[len(rows) * 3 // 4])
 
+    def test_a_sea_with_the_waves_of_the_look_is_level(self):
+        folder = self.wet("sea", SMALL + "settings.water = bpy.data.objects['ocean']\n"
+                          "settings.reflection = settings.below = settings.shadow = settings.aovs = False\n")
+        facts = self.facts(folder)
+        self.assertNotIn("surface_normal", facts["plates"])
+        depth, view = Plate(folder / "plates/surface.0001.exr").depth(), np.array(facts["camera"]["view"])
+        for point in (0, 0), (2, 3), (-3, -1):
+            point = (*point, facts["water"]["height"])
+            x, y = self.pixel_of(facts, point)
+            self.assertAlmostEqual(depth[y, x], -(view @ (*point, 1))[2], delta=.1)
+
     def test_a_linked_collection_is_cut_and_mirrored_like_the_rest(self):
         library = self.scene("pool")
         folder = self.folder / "linked"

@@ -35,7 +35,8 @@ class Studio:
         self._make_local()
         # Names are unique only now, when all data is local.
         self.sun = self.scene.objects[job.sun] if job.sun else None
-        self.sheet = self.scene.objects[job.water] if job.water else self._make_sheet()
+        self.water = self.scene.objects[job.water] if job.water else None
+        self.sheet = self.water if job.waves == "OBJECT" else self._make_sheet()
         self._settle()
         self._give_plain_materials()
         self.cut, self.sunlit = cut_group(), sunlit_group()
@@ -55,7 +56,7 @@ class Studio:
                     thing.make_local()
 
     def _make_sheet(self):
-        """A level plane up to the camera's far clip, to receive the sun's shadow."""
+        """The level water: a plane up to the camera's far clip, or the outline of the object."""
         mesh = bpy.data.meshes.new("limpid water")
         mesh.from_pydata([(x, y, 0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))], [], [(0, 1, 2, 3)])
         sheet = bpy.data.objects.new("limpid water", mesh)
@@ -133,6 +134,8 @@ class Studio:
             slot.link = "OBJECT"
             slot.material = self.sunlit_material
         self.sheet.hide_render = True
+        if self.water:
+            self.water.hide_render = True
 
     # ---- each frame
 
@@ -167,10 +170,23 @@ class Studio:
             far = 4 * self.scene.camera.data.clip_end
             self.sheet.matrix_world = Matrix.LocRotScale(Vector((0, 0, self.job.height)), None, Vector((far, far, 1)))
             return self.job.height, self.job.height
-        level = level_of(self.sheet, depsgraph)
+        level = level_of(self.water, depsgraph)
         if level is None:
-            raise Failure(f"water '{self.sheet.name}' has no level face: expected a mesh with a level surface")
-        return level if self.job.waves == "OBJECT" else (level[0], level[0])
+            raise Failure(f"water '{self.water.name}' has no level face: expected a mesh with a level surface")
+        if self.sheet == self.water:
+            return level
+        self._level(depsgraph, level[0])
+        return level[0], level[0]
+
+    def _level(self, depsgraph, height):
+        """Gives the sheet the mesh of the water, all of it at the height: the water of the look has no waves of the mesh."""
+        water = self.water.evaluated_get(depsgraph)
+        mesh = bpy.data.meshes.new_from_object(water)
+        mesh.transform(Matrix.Translation((0, 0, height)) @ Matrix.Diagonal((1, 1, 0, 1)) @ water.matrix_world)
+        mesh.materials.clear()
+        mesh.materials.append(self.sunlit_material)
+        before, self.sheet.data = self.sheet.data, mesh
+        bpy.data.meshes.remove(before)
 
     def _mark_crossing(self, depsgraph):
         crossing = {instance.object.original.name for instance in depsgraph.object_instances
