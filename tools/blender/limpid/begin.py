@@ -57,19 +57,23 @@ def _sun(settings, scene, view_layer):
     return sun.name
 
 
+def settings_of(settings):
+    """The changes of the look, each operator.parameter=value."""
+    try:
+        return shlex.split(settings.settings)
+    except ValueError as fault:
+        raise Failure(f"settings '{settings.settings}': {fault}") from fault
+
+
 def job_of(scene, view_layer, frames=""):
     """Throws Failure for the first error in the settings."""
     settings = scene.limpid
     expect_camera(scene.camera)
     if scene.render.use_multiview:
         raise Failure("the scene is stereoscopic: expected one view (Output > Stereoscopy turned off)")
-    try:
-        words = shlex.split(settings.settings)
-    except ValueError as fault:
-        raise Failure(f"settings '{settings.settings}': {fault}") from fault
     return Job(
         tool=find_tool(preferences.tool_path()), look=settings.look or "physical", folder=str(folder_of(settings)),
-        scene=scene.name, view_layer=view_layer.name, frames=frames_wanted(scene, frames), settings=words,
+        scene=scene.name, view_layer=view_layer.name, frames=frames_wanted(scene, frames), settings=settings_of(settings),
         water=_water(settings, view_layer), height=settings.height,
         waves=settings.waves if settings.water_kind == "OBJECT" else "LIMPID", sun=_sun(settings, scene, view_layer),
         reflection=settings.reflection, below=settings.below, shadow=settings.shadow,

@@ -4,7 +4,7 @@ import subprocess
 
 from . import preferences
 from .frames import numbered
-from .begin import folder_of, frames_wanted
+from .begin import folder_of, frames_wanted, settings_of
 from .tool import find_tool, last_sentence
 from .words import Failure
 
@@ -36,7 +36,7 @@ def view(scene, frames="", before=None):
         raise Failure(f"no plates of frame {wanted[0]} in {folder}: press Add water first")
     words = [find_tool(preferences.tool_path()), "view", "--scene", str(folder / "scene.####.toml"),
              "--frames", ",".join(map(str, there)), "--look", scene.limpid.look or "physical",
-             "--folder", str(folder)]
+             *(word for setting in settings_of(scene.limpid) for word in ("--set", setting)), "--folder", str(folder)]
     if before:
         before.close()
     return Page(words, folder / "view.log")
