@@ -188,8 +188,22 @@ for settings.aovs in (True, False, True):
             factor[1] = 1
         self.assertEqual(links[2], [["Wet", "Alpha"], factors, True, links[0][3]])
 
+    def test_the_messages_go_with_the_button_and_with_the_file(self):
+        said = self.said(self.scene("pool"), """
+from limpid_blender.state import state
+wet()
+say(state.failure)
+bpy.ops.limpid.clear()
+say(state.failure)
+wet()
+bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+say(state.failure)
+""")
+        self.assertIn("no water", said[0])
+        self.assertEqual(said[1:], ["", ""])
+
     def test_the_page_is_served_on_the_plates(self):
-        no_plates, address, page = self.said(self.scene("lake"), """
+        no_plates, wrong, address, page = self.said(self.scene("lake"), """
 settings.water_kind, settings.samples, settings.overscan_kind = "HEIGHT", 1, "FIXED"
 scene.render.resolution_x, scene.render.resolution_y = 64, 36
 try:
@@ -199,12 +213,20 @@ except RuntimeError as failure:
 assert wet(frames="2-3") == "FINISHED"
 from limpid_blender.state import state
 import urllib.request
+settings.settings = "depth_fog.densty=1"
+try:
+    bpy.ops.limpid.view(frames="2-3")
+except RuntimeError as failure:
+    say(str(failure))
+settings.settings = "depth_fog.density=1"
 bpy.ops.limpid.view(frames="2-3")
+assert state.page.address in state.said[0]
 say(state.page.address)
 say(urllib.request.urlopen(state.page.address).read().decode()[:9])
 bpy.ops.preferences.addon_disable(module="limpid_blender")
 """)
         self.assertIn("no plates of frame 2 in ", no_plates)
+        self.assertIn("did you mean 'density'?", wrong)  # the page begins with the changes of the panel
         self.assertRegex(address, "http://127.0.0.1:")
         self.assertEqual(page.lower(), "<!doctype")
         with self.assertRaises(OSError):  # the add-on is gone, and the page with it

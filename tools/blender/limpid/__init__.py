@@ -12,11 +12,12 @@ bl_info = {
 
 
 def _classes():
-    from .operators import LIMPID_OT_cancel, LIMPID_OT_view, LIMPID_OT_wet
-    from .panel import LIMPID_PT_panel
+    from .operators import LIMPID_OT_cancel, LIMPID_OT_clear, LIMPID_OT_view, LIMPID_OT_wet
+    from .panel import LIMPID_PT_options, LIMPID_PT_panel
     from .preferences import LimpidPreferences
     from .properties import LimpidSettings
-    return LimpidPreferences, LimpidSettings, LIMPID_OT_wet, LIMPID_OT_cancel, LIMPID_OT_view, LIMPID_PT_panel
+    return (LimpidPreferences, LimpidSettings, LIMPID_OT_wet, LIMPID_OT_cancel, LIMPID_OT_view, LIMPID_OT_clear, LIMPID_PT_panel,
+            LIMPID_PT_options)
 
 
 def register():
@@ -25,11 +26,15 @@ def register():
     for one in _classes():
         bpy.utils.register_class(one)
     bpy.types.Scene.limpid = bpy.props.PointerProperty(type=LimpidSettings)
+    from .operators import forget
+    bpy.app.handlers.load_post.append(forget)
 
 
 def unregister():
     import bpy
+    from .operators import forget
     from .state import state
+    bpy.app.handlers.load_post.remove(forget)
     if state.started:
         state.started.run.cancel()
         state.started.finish()

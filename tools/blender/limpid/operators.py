@@ -17,6 +17,12 @@ def _redraw(context):
                 area.tag_redraw()
 
 
+@bpy.app.handlers.persistent
+def forget(*_):
+    """Another file was opened: the messages are about the one before."""
+    state.tell()
+
+
 class LIMPID_OT_wet(bpy.types.Operator):
     """Renders the scene without its water in a second Blender, and composites the water with limpid"""
     bl_idname = "limpid.wet"
@@ -118,5 +124,16 @@ class LIMPID_OT_view(bpy.types.Operator):
             state.tell(str(failure))
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"limpid view: {state.page.address}")
+        state.tell(said=[f"the look is tuned at {state.page.address}"])
+        return {"FINISHED"}
+
+
+class LIMPID_OT_clear(bpy.types.Operator):
+    """Removes the messages from the panel"""
+    bl_idname = "limpid.clear"
+    bl_label = "Clear"
+    bl_options = {"INTERNAL"}
+
+    def execute(self, _context):
+        state.tell()
         return {"FINISHED"}

@@ -42,15 +42,6 @@ class LIMPID_PT_panel(bpy.types.Panel):
         layout.prop(settings, "frames_kind")
         if settings.frames_kind == "LIST":
             layout.prop(settings, "frames", text=" ")
-        column = layout.column(heading="Render", align=True)
-        for name in ("use_sun", "shadow", "reflection", "below", "surroundings", "aovs"):
-            column.prop(settings, name)
-        layout.prop(settings, "motion")
-        layout.prop(settings, "samples")
-        layout.prop(settings, "overscan_kind")
-        if settings.overscan_kind == "FIXED":
-            layout.prop(settings, "overscan")
-        layout.prop(settings, "folder")
         self._draw_job(layout)
 
     def _draw_job(self, layout):
@@ -66,3 +57,28 @@ class LIMPID_PT_panel(bpy.types.Panel):
             _words(layout, state.failure, "ERROR")
         for text in state.said:
             _words(layout, text, "INFO")
+        if state.failure or state.said:
+            layout.operator("limpid.clear", icon="X")
+
+
+class LIMPID_PT_options(bpy.types.Panel):
+    """Closed at first, so that buttons and messages are in sight."""
+    bl_label = "Options"
+    bl_idname = "LIMPID_PT_options"
+    bl_parent_id = "LIMPID_PT_panel"
+    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "limpid"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.limpid
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column(heading="Render", align=True)
+        for name in ("use_sun", "shadow", "reflection", "below", "surroundings", "aovs"):
+            column.prop(settings, name)
+        layout.prop(settings, "motion")
+        layout.prop(settings, "samples")
+        layout.prop(settings, "overscan_kind")
+        if settings.overscan_kind == "FIXED":
+            layout.prop(settings, "overscan")
+        layout.prop(settings, "folder")

@@ -161,8 +161,8 @@ class Work:
         each = len(files_of(passes_of(job, False))) + 1 + int(job.surroundings)
         steps = Steps(len(self.tested()) + each * len(job.frames))
         overscan = self.overscan(steps)
-        say("note", f"overscan in pixels: {overscan.left} left, {overscan.right} right, {overscan.top} top, "
-                    f"{overscan.bottom} bottom")
+        sides = [f"{pixels} {side}" for side, pixels in vars(overscan).items() if pixels]
+        say("note", f"overscan in pixels: {', '.join(sides) or 'none'}")
         waiting = []
         for frame, after in zip(job.frames, [*job.frames[1:], None]):
             self.plates(frame, overscan, steps)
