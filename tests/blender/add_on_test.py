@@ -1,6 +1,9 @@
 """The add-on in Blender: it comes and goes, refuses in words, and leaves the file as it was."""
 import hashlib
 import os
+import re
+import signal
+import time
 import unittest
 import urllib.request
 
@@ -231,6 +234,30 @@ bpy.ops.preferences.addon_disable(module="limpid_blender")
         self.assertEqual(page.lower(), "<!doctype")
         with self.assertRaises(OSError):  # the add-on is gone, and the page with it
             urllib.request.urlopen(address)
+
+    def test_the_page_ends_with_a_blender_that_is_killed(self):
+        file = self.scene("lake")
+        script = self.folder / "killed.py"
+        script.write_text("""
+import bpy, os, signal
+settings = bpy.context.scene.limpid
+settings.water_kind, settings.samples, settings.overscan_kind, settings.folder = "HEIGHT", 1, "FIXED", "//killed"
+bpy.context.scene.render.resolution_x, bpy.context.scene.render.resolution_y = 64, 36
+bpy.ops.limpid.wet(frames="2")
+bpy.ops.limpid.view(frames="2")
+from limpid_blender.state import state
+print("address", state.page.address, flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+""")
+        said = self.blender("--addons", "limpid_blender", file, "-P", script, code=-signal.SIGKILL)
+        address = re.search(r"(?m)^address (\S+)$", said)[1]
+        for _ in range(200):
+            try:
+                urllib.request.urlopen(address)
+            except OSError:
+                return
+            time.sleep(.05)
+        self.fail(f"{address} is still served")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 """`limpid view` on the rendered plates."""
 import os
+import pathlib
 import subprocess
+import sys
 
 from . import preferences
 from .frames import numbered
@@ -10,12 +12,13 @@ from .words import Failure
 
 
 class Page:
-    """The tool, which serves the page until close()."""
+    """The tool, which serves the page until close(), or until Blender ends."""
 
     def __init__(self, words, log):
         with open(log, "w", encoding="utf-8") as errors:
-            self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=errors, text=True,
-                                             stdin=subprocess.DEVNULL, start_new_session=True)
+            watch = [sys.executable, str(pathlib.Path(__file__).with_name("until_closed.py"))]
+            self._process = subprocess.Popen([*watch, *words], stdout=subprocess.PIPE, stderr=errors, text=True,
+                                             stdin=subprocess.PIPE, start_new_session=True)
         self.address = self._process.stdout.readline().strip()  # printed when the page is ready
         if not self.address:
             self._process.wait()
@@ -23,9 +26,8 @@ class Page:
                 raise Failure(last_sentence(errors.read()) or "limpid view ended without a message")
 
     def close(self):
-        if self._process.poll() is None:
-            self._process.terminate()
-            self._process.wait()
+        self._process.stdin.close()
+        self._process.wait()
 
 
 def view(scene, frames="", before=None):
