@@ -166,6 +166,17 @@ settings.motion = 'NEXT'
             x, y = self.pixel_of(facts, point)
             self.assertAlmostEqual(depth[y, x], -(view @ (*point, 1))[2], delta=.1)
 
+    def test_the_layer_below_ends_at_the_objects_waves(self):
+        for view in "ORTHO", "PERSP":
+            folder = self.wet("sea", SMALL + "settings.water, settings.waves = bpy.data.objects['ocean'], 'OBJECT'\n"
+                              "settings.reflection = settings.shadow = settings.aovs = False\n"
+                              f"scene.camera.data.type, settings.folder = {view!r}, '//limpid'\n")
+            dry, below, water = (Plate(folder / f"plates/{name}.0001.exr").depth() for name in ("dry", "below", "surface"))
+            over = dry < water - .3  # the rock where it is above the wave in front of or behind it
+            self.assertGreater(over.sum(), 100)
+            self.assertLess((below < water - .3).sum(), .1 * over.sum())
+            np.testing.assert_allclose(below[dry > water + .3], dry[dry > water + .3], atol=.1)
+
     def test_a_linked_collection_is_cut_and_mirrored_like_the_rest(self):
         library = self.scene("pool")
         folder = self.folder / "linked"

@@ -2,6 +2,7 @@
 
 A pass is a function of the studio that renders one EXR; it restores its settings afterwards."""
 import math
+import pathlib
 
 import bpy
 
@@ -62,10 +63,28 @@ def mirror(studio, path, overscan):
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
         changes.set(studio.scene.render, "film_transparent", False)
         _without_disc(studio, changes)
-        set_numbers(studio.cut, side=-1, height=studio.height, spare=0, hold=1)
+        set_numbers(studio.cut, side=-1, height=studio.height, spare=0, spare_flat=0, hold=1, waves=0)
         seen_through(studio.cut, studio.materials, changes)
         studio.aim(studio.size, overscan, mirrored=True)
         studio.render(path, overscan)
+
+
+def _with_depth_of_waves(studio, changes, overscan):
+    """Gives the cut a picture of the waves' depth, from the camera of the pass."""
+    path = str(pathlib.Path(studio.job.unfinished) / "depth.exr")
+    with Changes() as own:
+        _few_samples(studio, own, 1)
+        own.set(studio.scene, "world", None)
+        _water_alone(studio, own)
+        for slot in studio.sheet.material_slots:
+            own.set(slot, "material", studio.depth_material)
+        studio.write_layers(False)
+        own.afterwards(studio.write_layers)
+        studio.aim(studio.size, overscan)
+        studio.render_all(path)
+    image = bpy.data.images.load(path)
+    studio.cut.nodes["depth"].image = image
+    changes.afterwards(lambda: bpy.data.images.remove(image))
 
 
 def below(studio, path, overscan):
@@ -77,7 +96,11 @@ def below(studio, path, overscan):
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
         strip = 2 * studio.pixel
         is_flat = studio.source.data.type == "ORTHO"
-        set_numbers(studio.cut, side=1, height=studio.crest + strip * is_flat, spare=strip * (not is_flat), hold=0)
+        has_waves = studio.job.waves == "OBJECT"
+        if has_waves:
+            _with_depth_of_waves(studio, changes, overscan)
+        set_numbers(studio.cut, side=1, height=studio.crest, spare=strip * (not is_flat), spare_flat=strip * is_flat, hold=0,
+                    waves=has_waves)
         seen_through(studio.cut, studio.materials, changes)
         studio.aim(studio.size, overscan)
         studio.render(path, overscan)

@@ -47,17 +47,41 @@ class _Group:
         return self.tree
 
 
+def _is_over_waves(group, here, rise):
+    """Whether a surface is in front of waves, by more height than the rise."""
+    image = group.node("ShaderNodeTexImage", group.node("ShaderNodeTexCoord")["Window"], name="depth", interpolation="Closest",
+                       extension="CLIP")["Color"]
+    gap = group.math("SUBTRACT", image, group.node("ShaderNodeCameraData")["View Z Depth"])
+    slope = group.math("ABSOLUTE", group.node("ShaderNodeSeparateXYZ", here["Incoming"])[2])
+    over = group.math("GREATER_THAN", group.math("MULTIPLY", gap, slope), rise)
+    return group.math("MULTIPLY", over, group.math("GREATER_THAN", image, 0.0))
+
+
+def depth_material():
+    """The brightness is the depth."""
+    made = bpy.data.materials.new("limpid depth")
+    made.use_nodes = True
+    nodes, links = made.node_tree.nodes, made.node_tree.links
+    nodes.clear()
+    glow = nodes.new("ShaderNodeEmission")
+    links.new(nodes.new("ShaderNodeCameraData").outputs["View Z Depth"], glow.inputs["Color"])
+    links.new(glow.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return made
+
+
 def cut_group():
-    """Surfaces on one `side` of the `height` (1 above, -1 below), which rises by `spare` per unit of distance,
-    are transparent to the camera. The exposed inside of a clipped object is transparent, too, or a holdout with
-    `hold`."""
+    """Surfaces on one `side` of the `height` (1 above, -1 below), which rises by `spare` per unit of distance and by
+    `spare_flat`, are transparent to the camera. The exposed inside of a clipped object is transparent, too, or a holdout with
+    `hold`. With `waves`, surfaces in front of the depth of the image `depth`, by more than the rise, are transparent as well."""
     group = _Group("limpid cut")
     here, path = group.node("ShaderNodeNewGeometry"), group.node("ShaderNodeLightPath")
     side, height, hold = (group.number(name) for name in ("side", "height", "hold"))
-    rise = group.math("MULTIPLY", group.number("spare"), group.node("ShaderNodeCameraData")["View Distance"])
+    rise = group.math("MULTIPLY_ADD", group.number("spare"), group.node("ShaderNodeCameraData")["View Distance"],
+                      group.number("spare_flat"))
     limit = group.math("ADD", height, rise)
     z = group.node("ShaderNodeSeparateXYZ", here["Position"])[2]
     beyond = group.math("GREATER_THAN", group.math("MULTIPLY", side, z), group.math("MULTIPLY", side, limit))
+    beyond = group.math("MAXIMUM", beyond, group.math("MULTIPLY", group.number("waves"), _is_over_waves(group, here, rise)))
     crossing = group.node("ShaderNodeAttribute", attribute_type="OBJECT", attribute_name=CROSSING)["Fac"]
     inside = group.math("MULTIPLY", here["Backfacing"], crossing)
     inside = group.math("MULTIPLY", inside, group.math("GREATER_THAN", path["Transparent Depth"], 0.5))

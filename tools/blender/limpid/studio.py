@@ -10,7 +10,7 @@ from .lens import Lens, widened
 from .level import crosses, level_of
 from .light import even_sky, sun_color
 from .scene_file import LAYER, SceneFacts
-from .sight import CROSSING, cut_group, material_of, sunlit_group
+from .sight import CROSSING, cut_group, depth_material, material_of, sunlit_group
 from .words import Failure
 
 SHOWN = {"MESH", "CURVE", "SURFACE", "FONT", "META", "CURVES", "POINTCLOUD", "VOLUME"}
@@ -42,7 +42,7 @@ class Studio:
         self.cut, self.sunlit = cut_group(), sunlit_group()
         self._dress_water()
         self.materials = [material for material in bpy.data.materials
-                          if material.node_tree and material != self.sunlit_material]
+                          if material.node_tree and material not in (self.sunlit_material, self.depth_material)]
         self.camera = bpy.data.objects.new("limpid camera", bpy.data.cameras.new("limpid camera"))
         self.scene.collection.objects.link(self.camera)
 
@@ -77,10 +77,7 @@ class Studio:
         self.size = (max(1, int(render.resolution_x * percentage)), max(1, int(render.resolution_y * percentage)))
         self.aspect = render.pixel_aspect_x, render.pixel_aspect_y
         render.resolution_percentage = 100
-        if hasattr(render.image_settings, "media_type"):  # since 5.0
-            render.image_settings.media_type = "MULTI_LAYER_IMAGE"
-        render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
-        render.image_settings.color_depth, render.image_settings.exr_codec = "32", "ZIP"
+        self.write_layers()
         self.layer.material_override = None
         self.layer.use_pass_combined = self.layer.use_pass_z = True
         self.samples = self.job.samples or scene.cycles.samples
@@ -93,6 +90,14 @@ class Studio:
                 self.layer.lightgroups.remove(group)
             self.layer.lightgroups.add(name="sun")
             self.sun.lightgroup = "sun"
+
+    def write_layers(self, many=True):
+        """Makes renders write all layers and passes, or the picture alone."""
+        settings = self.scene.render.image_settings
+        if hasattr(settings, "media_type"):  # since 5.0
+            settings.media_type = "MULTI_LAYER_IMAGE" if many else "IMAGE"
+        settings.file_format = "OPEN_EXR_MULTILAYER" if many else "OPEN_EXR"
+        settings.color_depth, settings.exr_codec = "32", "ZIP"
 
     def _give_plain_materials(self):
         """Gives Blender's default gray to objects without a material: only a material can be made transparent."""
@@ -124,7 +129,7 @@ class Studio:
                                              nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
 
     def _dress_water(self):
-        self.sunlit_material = material_of(self.sunlit)
+        self.sunlit_material, self.depth_material = material_of(self.sunlit), depth_material()
         mesh = self.sheet.data
         if mesh.library:
             mesh.make_local()
@@ -223,6 +228,11 @@ class Studio:
 
     def render(self, path, overscan):
         """Renders the current scene into an EXR of all passes, with overscan."""
+        self.render_all(path)
+        place(path, overscan)
+
+    def render_all(self, path):
+        """Renders the current scene into a file that does not tell picture and overscan apart."""
         self.scene.render.filepath = path
         try:
             result = bpy.ops.render.render(write_still=True, scene=self.scene.name)
@@ -230,4 +240,3 @@ class Studio:
             raise Failure(f"Blender could not render {path}: {str(fault).strip().removeprefix('Error: ')}") from fault
         if "FINISHED" not in result:
             raise Failure(f"Blender stopped the render of {path}")
-        place(path, overscan)
