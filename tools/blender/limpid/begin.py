@@ -112,8 +112,8 @@ def _copy_into(folder):
 
 
 class Started:
-    """A job in a second process, which works on a copy of the file. The copy, the job and all temporary files are in one folder, and
-    files that are not finished in another, beside the outputs. finish() removes both, after a cancelled job, too."""
+    """A job in a second process, which works on a copy of the file. The copy, the job and all temporary files are in one folder,
+    and files that are not finished in another, beside the outputs. finish() removes both, after a cancelled job, too."""
 
     def __init__(self, job):
         if not bpy.app.binary_path:
