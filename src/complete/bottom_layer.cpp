@@ -79,11 +79,10 @@ struct BottomLayerMaker::Scan {
   int cell, step;
   Size cells;
 
-  Scan(const Frame& frame, const Pass& pass)
-      : c(pass), depth(frame.plane(SeenPlanes::of(pass).depth)) {
+  Scan(const Frame& frame, const Pass& pass) : c(pass), depth(frame.plane(PlaneId::kDepth)) {
     window = depth.window;
     for (int i = 0; i < 3; ++i) {
-      const PlaneId plane = plane_after(SeenPlanes::of(pass).color, i);
+      const PlaneId plane = plane_after(PlaneId::kColorR, i);
       color[static_cast<std::size_t>(i)] = frame.plane(plane);
       window = intersection(window, frame.plane(plane).window);
     }
@@ -265,7 +264,6 @@ float BottomLayerMaker::thinness_at(Size size, int column, int row) const {
 const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
                                           Executor& executor) {
   if (!(pass.eye_above > 0) || pass.submersible) return nullptr;
-  if (SeenPlanes::of(pass).below) return nullptr;
   const Scan scan(frame, pass);
   survey(scan, executor);
   if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;

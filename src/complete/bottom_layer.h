@@ -22,9 +22,9 @@ namespace limpid {
 /// of objects above the water, and in the same way the share of water without a bottom.
 class BottomLayerMaker {
  public:
-  /// Null where no object stands in front of the bottom, no bottom is visible, the eye is in the
-  /// water, or the frame has a layer below the water. Valid until the next call. The same for any
-  /// number of threads.
+  /// Null where no object stands in front of the bottom, no bottom is visible, or the eye is in the
+  /// water. Made from color and depth where the frame has a layer below the water, too: that layer
+  /// is empty under land. Valid until the next call. The same for any number of threads.
   const BottomLayer* make(const Frame& frame, const Pass& pass, Executor& executor);
 
  private:

@@ -221,22 +221,38 @@ auto box(glm::dvec3 middle, glm::dvec3 half) {
 }
 
 // Where the pixel itself shows the bottom, the end of its ray is looked up in the layer, not before
-// the object that hides the end.
+// the object that hides the end; also where a layer below shows the object without the parts above
+// the water.
 TEST(BottomLayer, ARayFromBottomToBottomEndsBehindWhatStandsInTheWater) {
-  const Hidden hidden({36, 40, 56, 60}, 0.7);
-  const test::Picture wet = test::reference(rays(), hidden.pool.buffers.frame, hidden.pool.scene);
-  int behind = 0;
-  for (int y = 20; y < Pool::kSize.height; ++y) {
-    for (int x = 30; x < 62; ++x) {
-      const auto end = hidden.pool.end(x, y);
-      const bool inside = end.x > 37 && end.x < 54 && end.y > 41 && end.y < 58;
-      if (hidden.hides(x, y) || !inside || wet.aov(Aov::kConfidence, x, y) > 0) continue;
-      ++behind;
-      EXPECT_NEAR(wet.aov(Aov::kStmapG, x, y, 0) * Pool::kSize.width - 0.5, end.x, 1);
-      EXPECT_NEAR((1 - wet.aov(Aov::kStmapG, x, y, 1)) * Pool::kSize.height - 0.5, end.y, 1);
+  Hidden hidden({36, 40, 56, 60}, 0.7);
+  const auto layer_below = [&] {
+    for (int c = 0; c < 3; ++c) {
+      hidden.pool.buffers.set(plane_after(PlaneId::kBelowR, c), [&](int x, int y) {
+        return hidden.pool.buffers.frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+      });
     }
+    hidden.pool.buffers.set(PlaneId::kBelowDepth, [&](int x, int y) {
+      return hidden.pool.buffers.frame.plane(PlaneId::kDepth).at(x, y);
+    });
+  };
+  for (const bool below : {false, true}) {
+    if (below) layer_below();
+    SCOPED_TRACE(below ? "with a layer below" : "color and depth");
+    const test::Picture wet = test::reference(rays(), hidden.pool.buffers.frame, hidden.pool.scene);
+    int behind = 0;
+    for (int y = 20; y < Pool::kSize.height; ++y) {
+      for (int x = 30; x < 62; ++x) {
+        const auto end = hidden.pool.end(x, y);
+        const bool inside = end.x > 37 && end.x < 54 && end.y > 41 && end.y < 58;
+        if (hidden.hides(x, y) || !inside || wet.aov(Aov::kConfidence, x, y) > 0) continue;
+        ++behind;
+        EXPECT_LT(wet.aov(Aov::kTransmitted, x, y), 1);
+        EXPECT_NEAR(wet.aov(Aov::kStmapG, x, y, 0) * Pool::kSize.width - 0.5, end.x, 1);
+        EXPECT_NEAR((1 - wet.aov(Aov::kStmapG, x, y, 1)) * Pool::kSize.height - 0.5, end.y, 1);
+      }
+    }
+    EXPECT_GT(behind, 10);
   }
-  EXPECT_GT(behind, 10);
 }
 
 TEST(BottomLayer, NothingOfAPostIsDraggedAlong) {
