@@ -245,20 +245,27 @@ struct MirroredLight : FresnelReflection {
   template <class F, class Tap>
   static Mirrored<F> seen_in_image(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
                                    F part, Vec3<F> low) {
-    const auto all = [](Vec2<F>, F depth) { return depth > F(0); };
     Vec2<F> met{F(0), F(0)};
     F hit(0);
     const auto meets = part > F(0);
     if_any(meets, [&] {
       const ScreenRay<F> ray = image_ray(c, p, low);
+      // A ray away from the viewer meets nothing that stands before the pixel's water.
+      const auto ahead = [&](Vec2<F>, F depth) {
+        return depth > F(0) && (depth > F(kAhead) * ray.depth || ray.depth_step < F(0));
+      };
       const auto found =
           MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kReflectionDepth,
-                                      c.reflection, p, ray, kImageSteps, all);
+                                      c.reflection, p, ray, kImageSteps, ahead);
       hit = select(meets, part * found.hit, hit);
       met = select(found.hit > F(0.5), place_at(c, p, ray, found.distance), met);
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
-    const Vec2<F> far = far_landing(c, p, tap, image_ray(c, p, n), hit < F(1));
+    const ScreenRay<F> own = image_ray(c, p, n);
+    const Vec2<F> infinity = place_at(c, p, own, F(HUGE_VAL));
+    const F end_depth = tap.nearest(PlaneId::kReflectionDepth, infinity);
+    const auto strays = hit < F(1) && is_elsewhere(c, p, own, infinity, end_depth);
+    const Vec2<F> far = far_landing(c, p, tap, own, infinity, end_depth, strays);
     // Where the mirror saw into an object, the picture shows the outside at the same place.
     const auto from_outside = [&](const auto& meets_it, Mirrored<F> seen) {
       if (!c.planes.has(PlaneId::kReflectionValid) || !c.planes.covers(kColorPlanes)) return seen;
@@ -276,6 +283,21 @@ struct MirroredLight : FresnelReflection {
     };
     Mirrored<F> seen =
         from_outside(whole, seen_at(c, p, tap, n, {select(whole, met, far), F(HUGE_VAL)}));
+    if (c.environment) {
+      const auto misses = hit < F(1);
+      if_any(misses, [&] { seen = beyond_edge(c, p, tap, n, own, misses, seen); });
+    }
+    // A ray that meets nothing, although the planes show a surface where it ends, has passed behind
+    // that surface. The picture may show what it meets there.
+    if (c.planes.covers(kColorPlanes)) {
+      const auto lost = tap.wet() && hit <= F(0) && strays;
+      if_any(lost, [&] {
+        const InPicture<F> other = met_in_picture(c, p, tap, n, lost, kLostSteps);
+        const auto there = lost && other.hit > F(0.5);
+        seen.light = select(there, other.light, seen.light);
+        seen.sources = select(there, Rgb<F>{F(0), F(1), F(0)}, seen.sources);
+      });
+    }
     if_any(parted, [&] {
       const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
       const F share = select(parted, hit, F(0));
@@ -285,19 +307,41 @@ struct MirroredLight : FresnelReflection {
     return seen;
   }
 
-  /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
-  /// in its place. Else it is the nearest such place before it on the ray's line, or the pixel
-  /// itself. What stands nearer to the viewer than the pixel's water is certainly not mirrored
-  /// there: then the places beyond it count, too, which have a higher sky.
+  /// The surroundings for the rays of `lanes` that leave the planes, unless the surface that the
+  /// planes show at their edge stands behind the ray there, and may go on.
   template <class F, class Tap, class Mask>
-  static Vec2<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                             const ScreenRay<F>& ray, const Mask& lanes) {
-    const Vec2<F> far = place_at(c, p, ray, F(HUGE_VAL));
-    Vec2<F> landing = far;
-    const F seen = tap.nearest(PlaneId::kReflectionDepth, far);
+  static Mirrored<F> beyond_edge(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                                 const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> seen) {
+    const F leaves = ray.s_at(reach_in(c.reflection, p.uv, ray.across));
+    const auto off = lanes && tap.wet() && leaves < F(1e20);
+    if_any(off, [&] {
+      const F edge = tap.nearest(PlaneId::kReflectionDepth, ray.shift_at(leaves));
+      const auto beyond = off && !(edge < F(1e30) && edge > ray.depth_at(leaves));
+      seen.light = select(beyond, surroundings(c, p, tap, n), seen.light);
+      seen.sources = select(beyond, from_far<F>(), seen.sources);
+    });
+    return seen;
+  }
+
+  /// Whether the surface at the depth `seen`, which the planes show at the ray's place at infinity,
+  /// is so near that the ray reaches its depth at another place.
+  template <class F>
+  static LIMPID_INLINE auto is_elsewhere(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
+                                         Vec2<F> far, F seen) {
     const Vec2<F> off = place_at(c, p, ray, max((seen - ray.depth) / ray.depth_step, F(0))) - far;
     const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
-    const auto strays = lanes && seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
+    return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
+  }
+
+  /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
+  /// in its place. Else it is the nearest such place before it on the ray's line, or the pixel
+  /// itself. `far` is the ray's place at infinity, `seen` the depth there. What stands nearer to
+  /// the viewer than the pixel's water is certainly not mirrored there: then the places beyond it
+  /// count, too, which have a higher sky.
+  template <class F, class Tap, class Mask>
+  static Vec2<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                             const ScreenRay<F>& ray, Vec2<F> far, F seen, const Mask& strays) {
+    Vec2<F> landing = far;
     if_any(strays, [&] {
       F open = select(strays, F(1), F(0));
       const auto take = [&](const auto& wanted, Vec2<F> at) {
@@ -322,7 +366,32 @@ struct MirroredLight : FresnelReflection {
   static constexpr int kPlaces = 6;  ///< on each side
   /// Pixels. The depth that complete/mirror_depth.h makes is two pixels wider than its objects.
   static constexpr double kWrong = 4;
-  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03};
+  /// Share of the depth of a pixel's water; less than 1 because depths of surfaces are rounded.
+  static constexpr double kAhead = 0.99;
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03},
+      kLostSteps{8, 0.06, 0.03};
+
+  /// What a mirrored ray meets in the dry picture.
+  template <class F>
+  struct InPicture {
+    Rgb<F> light;
+    F hit, distance;  ///< 1 or 0; +inf where it meets nothing
+  };
+  template <class F, class Tap, class Mask>
+  static InPicture<F> met_in_picture(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                                     const Mask& lanes, const MirrorSteps& how, F thicker = F(1)) {
+    const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
+    const auto below = p.side < F(0);
+    const auto on_side = [&](Vec2<F> shift, F depth) {
+      const F height = height_at(c, p, shift, depth);
+      return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
+    };
+    const auto found = MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, ray,
+                                                   how, on_side, thicker);
+    const Vec2<F> shift =
+        select(found.hit > F(0.5), ray.shift_at(found.distance), Vec2<F>{F(0), F(0)});
+    return {bilinear_rgb<F>(tap, PlaneId::kColorR, shift), found.hit, found.distance};
+  }
 
   /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest: of
   /// the facets n those beyond the share `part`, whose ray is that of the facet `low`.
@@ -337,20 +406,11 @@ struct MirroredLight : FresnelReflection {
     F hit(0), distance(HUGE_VAL);
     const auto meets = part > F(0);
     if_any(meets, [&] {
-      const ScreenRay<F> ray(c, p, mirrored_ray(c, p, low));
-      const auto on_side = [&](Vec2<F> shift, F depth) {
-        const F height = height_at(c, p, shift, depth);
-        return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
-      };
-      const auto found =
-          MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kDepth, c.dry, p, ray,
-                                      kPictureSteps, on_side, thicker);
-      const Vec2<F> shift =
-          select(found.hit > F(0.5), ray.shift_at(found.distance), Vec2<F>{F(0), F(0)});
-      const Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kColorR, shift);
-      hit = select(meets, part * found.hit, hit);
-      distance = select(meets, found.distance, distance);
-      light = select(meets, beyond + hit * (seen - beyond), light);
+      const InPicture<F> there =
+          met_in_picture(c, p, tap, low, tap.wet() && meets, kPictureSteps, thicker);
+      hit = select(meets, part * there.hit, hit);
+      distance = select(meets, there.distance, distance);
+      light = select(meets, beyond + hit * (there.light - beyond), light);
     });
     Mirrored<F> all{light, {F(0), hit, F(1) - hit}};
     if (c.submersible) {

@@ -245,6 +245,56 @@ TEST(AutoMirror, MirrorsACrownThatItsRaysPassCloseBehind) {
   EXPECT_GT(Crown(4).light_at(17), 6);
 }
 
+// A wave that mirrors higher than the reflection reaches: the picture of the surroundings is there,
+// but a wall that leaves the reflection at its edge goes on.
+TEST(AutoMirror, ShowsTheSurroundingsBeyondTheEdgeOfTheReflection) {
+  constexpr float kSurroundings = 0.5f;
+  Plane around(rect_of({8, 4}));
+  for (int y = 0; y < 4; ++y) std::fill_n(&around.view().at(0, y), 8, kSurroundings);
+  for (const double top : {1.0, 1000.0}) {
+    Ridge ridge(top, 0.3);
+    for (View<const float>& view : ridge.buffers.frame.environment.channels) view = around.view();
+    const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+    const test::Picture fused = test::fused(ridge.look, ridge.buffers.frame, ridge.scene);
+    int wet = 0;
+    for (int y = 150; y < Ridge::kWide.height; ++y) {
+      for (int x = 20; x < Ridge::kWide.width - 20; ++x, ++wet) {
+        EXPECT_NEAR(picture.color(x, y).r, top > 1 ? kWall : kSurroundings, 1e-5) << x << ", " << y;
+        EXPECT_NEAR(fused.color(x, y).r, picture.color(x, y).r, 1e-4) << x << ", " << y;
+      }
+    }
+    EXPECT_GT(wet, 1000);
+  }
+}
+
+// The mirror's camera sees a post before the wall. A ray that a wave behind that post mirrors
+// does not meet it, but the wall, which the picture shows.
+TEST(AutoMirror, LooksUpInThePictureWhatTheReflectionHides) {
+  constexpr double kPost = 8;
+  Ridge ridge(3, 0.05);
+  const auto is_post = [](int x) { return x > 140 && x < 180; };
+  for (int c = 0; c < 3; ++c) {
+    ridge.buffers.set(plane_after(PlaneId::kReflectionR, c), [&](int x, int y) {
+      return is_post(x) ? kInside : ridge.image_depth(x, y) == kInf ? kSky : kWall;
+    });
+  }
+  ridge.buffers.set(PlaneId::kReflectionDepth, [&](int x, int y) {
+    return is_post(x) ? float{kPost} : ridge.image_depth(x, y);
+  });
+  const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+  int walls = 0;
+  for (int y = 0; y < Ridge::kWide.height; ++y) {
+    for (int x = 145; x < 175; ++x) {
+      const double water = ridge.ray(x, y).y < 0 ? -2 / ridge.ray(x, y).y : HUGE_VAL;
+      const double passes = ridge.passes_at(x, y);
+      if (water < 1.5 * kPost || water > ridge.far - 1 || passes < 0.2 || passes > 2.5) continue;
+      EXPECT_EQ(picture.color(x, y).r, kWall) << x << ", " << y;
+      ++walls;
+    }
+  }
+  EXPECT_GT(walls, 100);
+}
+
 TEST(AutoMirror, MeetsARidgeOnlyWhereItsRaysPassBelowIt) {
   for (const double top : {1.0, 1.5, 3.0}) {
     int walls = 0;
