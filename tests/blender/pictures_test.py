@@ -170,6 +170,7 @@ settings.motion = 'NEXT'
         for view in "ORTHO", "PERSP":
             folder = self.wet("sea", SMALL + "settings.water, settings.waves = bpy.data.objects['ocean'], 'OBJECT'\n"
                               "settings.reflection = settings.shadow = settings.aovs = False\n"
+                              "scene.cycles.film_exposure, scene.cycles.sample_clamp_direct = 2, 5\n"  # of colors, not of depths
                               f"scene.camera.data.type, settings.folder = {view!r}, '//limpid'\n")
             dry, below, water = (Plate(folder / f"plates/{name}.0001.exr").depth() for name in ("dry", "below", "surface"))
             over = dry < water - .3  # the rock where it is above the wave in front of or behind it

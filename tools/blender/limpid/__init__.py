@@ -34,7 +34,8 @@ def unregister():
     import bpy
     from .operators import forget
     from .state import state
-    bpy.app.handlers.load_post.remove(forget)
+    if forget in bpy.app.handlers.load_post:
+        bpy.app.handlers.load_post.remove(forget)
     if state.started:
         state.started.run.cancel()
         state.started.finish()

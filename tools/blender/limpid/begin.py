@@ -82,10 +82,13 @@ def job_of(scene, view_layer, frames=""):
         overscan=settings.overscan if settings.overscan_kind == "FIXED" else -1, samples=settings.samples)
 
 
+LOOKS = 100  # of .1 s
+
+
 def _stay_changed():
     """After a copy was saved, Blender takes the file itself for saved, and would end without the question whether to save. It does
     so a moment later; then a step in the undo history marks the file as changed."""
-    looks = iter(range(10))
+    looks = iter(range(LOOKS))
 
     def look():
         if bpy.data.is_dirty:

@@ -75,6 +75,8 @@ def _with_depth_of_waves(studio, changes, overscan):
     with Changes() as own:
         _few_samples(studio, own, 1)
         own.set(studio.scene, "world", None)
+        own.set(studio.scene.cycles, "film_exposure", 1.0)  # the brightness is a depth
+        own.set(studio.scene.cycles, "sample_clamp_direct", 0.0)
         _water_alone(studio, own)
         for slot in studio.sheet.material_slots:
             own.set(slot, "material", studio.depth_material)
@@ -88,7 +90,7 @@ def _with_depth_of_waves(studio, changes, overscan):
 
 
 def below(studio, path, overscan):
-    """The dry scene without the objects above the water, lit and shaded as before. A strip of two pixels of
+    """The dry scene without the objects above the water, or above the object's waves, lit and shaded as before. A strip of two pixels of
     these objects remains, so that lookups next to the waterline find the object in the water, and not the scene
     behind the object."""
     with Changes() as changes:

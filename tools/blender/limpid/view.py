@@ -31,7 +31,7 @@ class Page:
 
 
 def view(scene, frames="", before=None):
-    """Opens the page, and closes the page `before`. Throws Failure without plates."""
+    """Opens the page, then closes the page `before`. Throws Failure without plates, and leaves `before` open."""
     folder, wanted = folder_of(scene.limpid), frames_wanted(scene, frames)
     there = [frame for frame in wanted if os.path.isfile(folder / f"{numbered('scene', frame)}.toml")]
     if not there:
@@ -39,6 +39,7 @@ def view(scene, frames="", before=None):
     words = [find_tool(preferences.tool_path()), "view", "--scene", str(folder / "scene.####.toml"),
              "--frames", ",".join(map(str, there)), "--look", scene.limpid.look or "physical",
              *(word for setting in settings_of(scene.limpid) for word in ("--set", setting)), "--folder", str(folder)]
+    page = Page(words, folder / "view.log")
     if before:
         before.close()
-    return Page(words, folder / "view.log")
+    return page

@@ -94,8 +94,8 @@ class Work:
     # ---- frames
 
     def plates(self, frame, overscan, steps):
-        """Renders the plates of a frame, and replaces those of an earlier job when all of them are there: a cancelled job leaves
-        no mixture."""
+        """Renders the plates of a frame, and replaces those of an earlier job when all of them are there: a cancelled render leaves
+        no plates of two jobs."""
         studio = self.studio
         facts = studio.at(frame)
         under = studio.is_under_water()
