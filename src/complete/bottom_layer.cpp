@@ -9,7 +9,6 @@
 #include "limpid/ops/look.h"
 
 #include "complete/row_heights.h"
-#include "op/seen_planes.h"
 
 namespace limpid {
 namespace {

@@ -23,8 +23,9 @@ namespace limpid {
 class BottomLayerMaker {
  public:
   /// Null where no object stands in front of the bottom, no bottom is visible, or the eye is in the
-  /// water. Made from color and depth where the frame has a layer below the water, too: that layer
-  /// is empty under land. Valid until the next call. The same for any number of threads.
+  /// water. Made from color and depth even if the frame has a layer below the water: that layer is
+  /// empty under land, and shows objects in the water as the picture does. Valid until the next
+  /// call. The same for any number of threads.
   const BottomLayer* make(const Frame& frame, const Pass& pass, Executor& executor);
 
  private:

@@ -2,6 +2,7 @@
 #include "op/pass.h"
 #include "op/pixel.h"
 #include "op/screen_ray.h"
+#include "op/seen_planes.h"
 
 /// @file
 /// The bottom where no buffer shows it, because an object in the water hides it.
@@ -50,14 +51,17 @@ class BottomLayerTaps {
     return drop >= F(BottomLayer::kOfBottom) * bottom(shift);
   }
   /// Whether bottom is visible on the screen between the pixel and `shift`: then the two belong to
-  /// different objects. The sides of a hull and its inside do not. `depth` is the depth plane.
-  auto is_apart(const Pass& c, PlaneId depth, Vec2<F> shift) const {
+  /// different objects. The sides of a hull and its inside do not.
+  auto is_apart(const Pass& c, const SeenPlanes& planes, Vec2<F> shift) const {
     constexpr int kPlaces = 8;
     F apart(0);
     steps<F>(1, kPlaces, [&](auto i) {
       const Vec2<F> at = Loop<F>::ratio(i, kPlaces) * shift;
-      const F drop = F(0) - height_at(c, p_, at, tap_.nearest(depth, at));
-      apart = select(is_bottom(at, drop), F(1), apart);
+      const F depth = tap_.nearest(planes.depth, at);
+      const F drop = F(0) - height_at(c, p_, at, depth);
+      // The layer below the water is empty where an object rises out of the water.
+      const auto shown = planes.below ? depth < F(1e30) : F(0) < F(1);
+      apart = select(shown && is_bottom(at, drop), F(1), apart);
       return apart < F(0.5);
     });
     return apart > F(0.5);

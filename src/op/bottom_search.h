@@ -299,9 +299,11 @@ class BottomSearch {
     if_any(lanes && stands, [&] {
       const F beyond = F(1.05) * behind, own_level = drop_to(here, p_.dry_depth) / fall_;
       const Vec2<F> there = ray_.shift_at(own_level);
-      const auto goes_on = stands_at(there, tap_.nearest(planes_.depth, there));
+      const F shown = tap_.nearest(planes_.depth, there);
+      const auto empty = planes_.below ? !(shown < F(1e30)) : F(0) > F(0);
+      const auto goes_on = empty || stands_at(there, shown);
       const auto itself =
-          look(beyond).drop > F(0) || !layer.is_apart(c_, planes_.depth, ray_.shift_at(beyond));
+          look(beyond).drop > F(0) || !layer.is_apart(c_, planes_, ray_.shift_at(beyond));
       ends = select(stands && goes_on && itself, own_level, ends);
     });
     return ends;

@@ -60,8 +60,10 @@ std::string_view Kernel<FresnelReflection>::prefer(P& params, const AtHand& has)
 std::string_view Kernel<FresnelReflection>::looks_around(const P& params, const AtHand& has) {
   const bool planar = params.source == Source::kPlanar && has.planes.has(PlaneId::kReflectionValid);
   if (!has.environment || (!planar && params.source != Source::kAuto)) return "";
+  const bool follows = params.source == Source::kAuto && params.lookup == Lookup::kRay;
   return has.planes.covers(kReflectionPlanes)
-             ? "environment where the reflection is not valid"
+             ? follows ? "environment where the reflection is not valid, and beyond its edge"
+                       : "environment where the reflection is not valid"
              : "environment where the picture does not show the mirrored objects";
 }
 

@@ -28,6 +28,10 @@ struct MirroredLight : FresnelReflection {
     return {F(1), F(0), F(0)};
   }
   template <class F>
+  static LIMPID_INLINE Rgb<F> from_picture() {
+    return {F(0), F(1), F(0)};
+  }
+  template <class F>
   static LIMPID_INLINE Rgb<F> from_far() {
     return {F(0), F(0), F(1)};
   }
@@ -72,7 +76,7 @@ struct MirroredLight : FresnelReflection {
       if_any(other_side, [&] {
         const Mirrored<F> other = params.source == Source::kAuto
                                       ? seen_in_picture(params, c, p, tap, n, F(1), n)
-                                      : Mirrored<F>{p.transmitted, {F(0), F(1), F(0)}};
+                                      : Mirrored<F>{p.transmitted, from_picture<F>()};
         seen = {select(other_side, other.light, seen.light),
                 select(other_side, other.sources, seen.sources)};
       });
@@ -264,7 +268,7 @@ struct MirroredLight : FresnelReflection {
     const ScreenRay<F> own = image_ray(c, p, n);
     const Vec2<F> infinity = place_at(c, p, own, F(HUGE_VAL));
     const F end_depth = tap.nearest(PlaneId::kReflectionDepth, infinity);
-    const auto strays = hit < F(1) && is_elsewhere(c, p, own, infinity, end_depth);
+    const auto strays = hit < F(1) && passes_behind(c, p, own, infinity, end_depth);
     const Vec2<F> far = far_landing(c, p, tap, own, infinity, end_depth, strays);
     // Where the mirror saw into an object, the picture shows the outside at the same place.
     const auto from_outside = [&](const auto& meets_it, Mirrored<F> seen) {
@@ -277,32 +281,39 @@ struct MirroredLight : FresnelReflection {
         const Rgb<F> outside{tap.nearest(PlaneId::kColorR, met), tap.nearest(PlaneId::kColorG, met),
                              tap.nearest(PlaneId::kColorB, met)};
         seen.light = select(shown, outside, seen.light);
-        seen.sources = select(shown, Rgb<F>{F(0), F(1), F(0)}, seen.sources);
+        seen.sources = select(shown, from_picture<F>(), seen.sources);
       });
       return seen;
     };
     Mirrored<F> seen =
         from_outside(whole, seen_at(c, p, tap, n, {select(whole, met, far), F(HUGE_VAL)}));
+    const auto lacks = seen.sources.b > F(kLacks);
     if (c.environment) {
       const auto misses = hit < F(1);
       if_any(misses, [&] { seen = beyond_edge(c, p, tap, n, own, misses, seen); });
     }
-    // A ray that meets nothing, although the planes show a surface where it ends, has passed behind
-    // that surface. The picture may show what it meets there.
-    if (c.planes.covers(kColorPlanes)) {
-      const auto lost = tap.wet() && hit <= F(0) && strays;
-      if_any(lost, [&] {
-        const InPicture<F> other = met_in_picture(c, p, tap, n, lost, kLostSteps);
-        const auto there = lost && other.hit > F(0.5);
-        seen.light = select(there, other.light, seen.light);
-        seen.sources = select(there, Rgb<F>{F(0), F(1), F(0)}, seen.sources);
-      });
-    }
+    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, seen);
     if_any(parted, [&] {
       const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
       const F share = select(parted, hit, F(0));
       seen.light = seen.light + share * (there.light - seen.light);
       seen.sources = seen.sources + share * (there.sources - seen.sources);
+    });
+    return seen;
+  }
+
+  /// What the picture shows of the rays of `lanes`, which pass behind a surface of the planes, or
+  /// end where the planes have no data, as at an object's foot.
+  template <class F, class Tap, class Mask>
+  static Mirrored<F> shown_instead(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                                   const Mask& lanes, Mirrored<F> seen) {
+    if (!c.planes.covers(kColorPlanes)) return seen;
+    const auto wanted = tap.wet() && lanes;
+    if_any(wanted, [&] {
+      const InPicture<F> there = met_in_picture(c, p, tap, n, wanted, kLostSteps);
+      const auto met = wanted && there.hit > F(0.5);
+      seen.light = select(met, there.light, seen.light);
+      seen.sources = select(met, from_picture<F>(), seen.sources);
     });
     return seen;
   }
@@ -316,7 +327,9 @@ struct MirroredLight : FresnelReflection {
     const auto off = lanes && tap.wet() && leaves < F(1e20);
     if_any(off, [&] {
       const F edge = tap.nearest(PlaneId::kReflectionDepth, ray.shift_at(leaves));
-      const auto beyond = off && !(edge < F(1e30) && edge > ray.depth_at(leaves));
+      // A depth that was computed from the dry picture is infinite where it is not known, too.
+      const auto open = c.reflection_ends ? edge > F(1e30) : F(0) > F(0);
+      const auto beyond = off && (open || edge <= ray.depth_at(leaves));
       seen.light = select(beyond, surroundings(c, p, tap, n), seen.light);
       seen.sources = select(beyond, from_far<F>(), seen.sources);
     });
@@ -324,10 +337,10 @@ struct MirroredLight : FresnelReflection {
   }
 
   /// Whether the surface at the depth `seen`, which the planes show at the ray's place at infinity,
-  /// is so near that the ray reaches its depth at another place.
+  /// is so near that the ray reaches its depth at another place, and so passes behind it.
   template <class F>
-  static LIMPID_INLINE auto is_elsewhere(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
-                                         Vec2<F> far, F seen) {
+  static LIMPID_INLINE auto passes_behind(const Pass& c, const Pixel<F>& p, const ScreenRay<F>& ray,
+                                          Vec2<F> far, F seen) {
     const Vec2<F> off = place_at(c, p, ray, max((seen - ray.depth) / ray.depth_step, F(0))) - far;
     const F x = given<F>(c.size.x) * off.x, y = given<F>(c.size.y) * off.y;
     return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
@@ -335,7 +348,8 @@ struct MirroredLight : FresnelReflection {
 
   /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
   /// in its place. Else it is the nearest such place before it on the ray's line, or the pixel
-  /// itself. `far` is the ray's place at infinity, `seen` the depth there. What stands nearer to
+  /// itself. `far` is the ray's place at infinity, `seen` the depth there; `strays`: the
+  /// rays that meet nothing, and of which passes_behind() is true. What stands nearer to
   /// the viewer than the pixel's water is certainly not mirrored there: then the places beyond it
   /// count, too, which have a higher sky.
   template <class F, class Tap, class Mask>
@@ -366,6 +380,7 @@ struct MirroredLight : FresnelReflection {
   static constexpr int kPlaces = 6;  ///< on each side
   /// Pixels. The depth that complete/mirror_depth.h makes is two pixels wider than its objects.
   static constexpr double kWrong = 4;
+  static constexpr double kLacks = 0.3;  ///< share of the planes' texels
   /// Share of the depth of a pixel's water; less than 1 because depths of surfaces are rounded.
   static constexpr double kAhead = 0.99;
   static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03},

@@ -448,7 +448,7 @@ struct Kernel<Refraction> : Refraction {
               select(taps.is_bottom(here, F(0) - height_at(c, p, here, p.dry_depth)), F(1), F(0));
           if_any(lanes && clear < F(0.5), [&] {
             const auto other = height_at(c, p, shift, tap.nearest(planes.depth, shift)) >= F(0) &&
-                               taps.is_apart(c, planes.depth, shift);
+                               taps.is_apart(c, planes, shift);
             clear = select(other, F(1), clear);
           });
           const auto bottom = p.side > F(0) && clear > F(0.5);

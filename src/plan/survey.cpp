@@ -221,9 +221,10 @@ void Survey::Scan::scan_chunk(const Chunk& chunk) {
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     const PlaneId plane = plane_after(looked_up.color, c);
     keep(plane, window(plane), kColorLow + c, kColorHigh + c);
-    // Where the layer below is empty, the dry color stays.
+    // Where the layer below is empty, the dry color stays; behind objects in the water is a mean of
+    // dry colors.
     const PlaneId dry = plane_after(PlaneId::kColorR, c);
-    if (looked_up.below) keep(dry, survey.work_, kColorLow + c, kColorHigh + c);
+    if (looked_up.below) keep(dry, window(dry), kColorLow + c, kColorHigh + c);
   }
 }
 

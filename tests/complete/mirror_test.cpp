@@ -261,10 +261,17 @@ TEST(AutoMirror, ShowsTheSurroundingsBeyondTheEdgeOfTheReflection) {
       for (int x = 20; x < Ridge::kWide.width - 20; ++x, ++wet) {
         EXPECT_NEAR(picture.color(x, y).r, top > 1 ? kWall : kSurroundings, 1e-5) << x << ", " << y;
         EXPECT_NEAR(fused.color(x, y).r, picture.color(x, y).r, 1e-4) << x << ", " << y;
+        EXPECT_EQ(picture.aov(Aov::kMirrorSources, x, y, 2), top > 1 ? 0 : 1);
       }
     }
     EXPECT_GT(wet, 1000);
   }
+  // A depth that is computed from the dry picture does not know what stands above the frame.
+  Ridge ridge(1000, 0.3);
+  ridge.buffers.frame.planes[index_of(PlaneId::kReflectionDepth)] = {};
+  for (View<const float>& view : ridge.buffers.frame.environment.channels) view = around.view();
+  const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+  EXPECT_EQ(picture.color(160, 200).r, kWall);
 }
 
 // The mirror's camera sees a post before the wall. A ray that a wave behind that post mirrors
@@ -282,6 +289,7 @@ TEST(AutoMirror, LooksUpInThePictureWhatTheReflectionHides) {
     return is_post(x) ? float{kPost} : ridge.image_depth(x, y);
   });
   const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+  const test::Picture fused = test::fused(ridge.look, ridge.buffers.frame, ridge.scene);
   int walls = 0;
   for (int y = 0; y < Ridge::kWide.height; ++y) {
     for (int x = 145; x < 175; ++x) {
@@ -289,10 +297,31 @@ TEST(AutoMirror, LooksUpInThePictureWhatTheReflectionHides) {
       const double passes = ridge.passes_at(x, y);
       if (water < 1.5 * kPost || water > ridge.far - 1 || passes < 0.2 || passes > 2.5) continue;
       EXPECT_EQ(picture.color(x, y).r, kWall) << x << ", " << y;
+      EXPECT_NEAR(fused.color(x, y).r, kWall, 1e-5) << x << ", " << y;
+      EXPECT_EQ(picture.aov(Aov::kMirrorSources, x, y, 1), 1) << x << ", " << y;
       ++walls;
     }
   }
   EXPECT_GT(walls, 100);
+}
+
+// A rock just before the water hides nothing from a ray that goes away from it.
+TEST(AutoMirror, MeetsNothingNearerThanTheWater) {
+  Ridge ridge(3, 0.05);
+  const auto water = [&](int x, int y) { return -2 / std::min(ridge.ray(x, y).y, -1e-6); };
+  const auto is_rock = [&](int x, int y) { return y > 150 && y < 200 && x > 140 && x < 180; };
+  for (int c = 0; c < 3; ++c) {
+    ridge.buffers.set(plane_after(PlaneId::kReflectionR, c), [&](int x, int y) {
+      return is_rock(x, y) ? kInside : ridge.image_depth(x, y) == kInf ? kSky : kWall;
+    });
+  }
+  ridge.buffers.set(PlaneId::kReflectionDepth, [&](int x, int y) {
+    return is_rock(x, y) ? static_cast<float>(0.97 * water(x, y)) : ridge.image_depth(x, y);
+  });
+  const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+  for (int y = 170; y < 200; ++y) {
+    for (int x = 145; x < 175; ++x) EXPECT_LE(picture.color(x, y).r, kSky) << x << ", " << y;
+  }
 }
 
 TEST(AutoMirror, MeetsARidgeOnlyWhereItsRaysPassBelowIt) {

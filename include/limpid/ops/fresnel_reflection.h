@@ -51,7 +51,8 @@ namespace limpid {
 /// the end of the mirrored ray in the mirrored scene, where the planes show it. Its distance comes
 /// from the reflection's depth plane, read at the pixel and then three times at the last estimate;
 /// without that plane the mirrored scene is infinitely far. The surface counts as the mirror plane.
-/// A ray that leaves the planes shows the last texel along it.
+/// A ray that leaves the planes shows the last texel along it, unless it ends in the environment
+/// (`auto`).
 ///
 /// If the frame has reflection_valid, only texels with at least half of it count, and only their
 /// depths: geometry behind the clip at the surface is never shown. It is replaced by the last valid
