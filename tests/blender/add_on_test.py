@@ -1,9 +1,10 @@
 """The add-on in Blender: it comes and goes, refuses in words, and leaves the file as it was."""
+import contextlib
 import hashlib
 import os
 import re
 import signal
-import time
+import socket
 import unittest
 import urllib.request
 
@@ -123,8 +124,9 @@ say([name for name in os.listdir(tempfile.gettempdir()) if name.startswith("limp
 
     def test_a_cancelled_job_leaves_the_files_of_the_one_before(self):
         before, sentence, after, temporary = self.said(self.scene("pool"), f"""
-import hashlib, os, tempfile, time
+import hashlib, os, tempfile, threading
 from limpid_blender import begin
+from limpid_blender.run import Run
 {PLAIN}
 scene.render.resolution_x, scene.render.resolution_y = 64, 36
 folder = pathlib.Path(bpy.data.filepath).parent / "cancelled"
@@ -135,10 +137,14 @@ def files():
 assert wet() == "FINISHED"
 say(files())
 settings.samples = 3000
+mirror, hear = threading.Event(), Run._hear
+def heard(run, line):
+    hear(run, line)
+    if run.text.endswith("mirror"):
+        mirror.set()
+Run._hear = heard
 started = begin.Started(begin.job_of(scene, bpy.context.view_layer))
-while not started.run.text.endswith("mirror"):
-    assert started.run.is_running()
-    time.sleep(.02)
+assert mirror.wait(600)
 started.run.cancel()
 started.finish()
 say(started.run.failure())
@@ -250,14 +256,12 @@ print("address", state.page.address, flush=True)
 os.kill(os.getpid(), signal.SIGKILL)
 """)
         said = self.blender("--addons", "limpid_blender", file, "-P", script, code=-signal.SIGKILL)
-        address = re.search(r"(?m)^address (\S+)$", said)[1]
-        for _ in range(200):
-            try:
-                urllib.request.urlopen(address)
-            except OSError:
-                return
-            time.sleep(.05)
-        self.fail(f"{address} is still served")
+        port = int(re.search(r"(?m)^address http://127.0.0.1:(\d+)/", said)[1])
+        with self.assertRaises(ConnectionRefusedError):
+            while True:  # a connection ends with the server, or when the server is tired of it
+                with contextlib.suppress(ConnectionResetError), socket.create_connection(("127.0.0.1", port)) as connection:
+                    while connection.recv(1):
+                        pass
 
 
 if __name__ == "__main__":

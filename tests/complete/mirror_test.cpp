@@ -266,9 +266,12 @@ TEST(AutoMirror, ShowsTheSurroundingsBeyondTheEdgeOfTheReflection) {
     }
     EXPECT_GT(wet, 1000);
   }
-  // A depth that is computed from the dry picture does not know what stands above the frame.
+  // A depth that is computed from the dry picture does not know what that picture does not show.
   Ridge ridge(1000, 0.3);
   ridge.buffers.frame.planes[index_of(PlaneId::kReflectionDepth)] = {};
+  ridge.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return 2 + ridge.far * ridge.ray(x, y).y > 5 ? kInf : ridge.depth(x, y);
+  });
   for (View<const float>& view : ridge.buffers.frame.environment.channels) view = around.view();
   const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
   EXPECT_EQ(picture.color(160, 200).r, kWall);
@@ -303,6 +306,31 @@ TEST(AutoMirror, LooksUpInThePictureWhatTheReflectionHides) {
     }
   }
   EXPECT_GT(walls, 100);
+}
+
+// Where the reflection has no data, as at an object's foot, the picture comes before the
+// surroundings.
+TEST(AutoMirror, LooksUpInThePictureWhatTheReflectionLacks) {
+  constexpr float kSurroundings = 0.5f;
+  Plane around(rect_of({8, 4}));
+  for (int y = 0; y < 4; ++y) std::fill_n(&around.view().at(0, y), 8, kSurroundings);
+  Ridge ridge(3, 0.05);
+  ridge.deep = 0.05;  // the wall does not go on below the water
+  ridge.buffers.set(PlaneId::kDepth, [&](int x, int y) { return ridge.depth(x, y); });
+  for (View<const float>& view : ridge.buffers.frame.environment.channels) view = around.view();
+  ridge.buffers.fill(PlaneId::kReflectionValid, 0);
+  const test::Picture picture = test::reference(ridge.look, ridge.buffers.frame, ridge.scene);
+  int walls = 0, skies = 0;
+  for (int y = 0; y < Ridge::kWide.height; ++y) {
+    const int x = Ridge::kWide.width / 2;
+    const double water = ridge.ray(x, y).y < 0 ? -2 / ridge.ray(x, y).y : HUGE_VAL;
+    const double passes = ridge.passes_at(x, y);
+    if (water > ridge.far - 1 || passes < 0.2 || std::abs(passes - 3) < 0.5) continue;
+    EXPECT_EQ(picture.color(x, y).r, passes < 3 ? kWall : kSurroundings) << y;
+    (passes < 3 ? walls : skies) += 1;
+  }
+  EXPECT_GT(walls, 10);
+  EXPECT_GT(skies, 10);
 }
 
 // A rock just before the water hides nothing from a ray that goes away from it.

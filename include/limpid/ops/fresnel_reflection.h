@@ -36,10 +36,10 @@ namespace limpid {
 /// has none (complete/mirror_depth.h). A ray without a hit in that depth ends infinitely far. If
 /// the planes show a near object at that position, 4 pixels or more from the point at which the ray
 /// passes the object, the ray takes what it meets in the dry picture; if that is nothing, the
-/// lookup goes back to the last empty position. If the frame has an environment, a ray that leaves
-/// the planes ends there, unless the planes show at their edge a surface behind the ray, which may
-/// go on. From below, rays go down to the bottom; a ray without a hit ends at the level of the
-/// bottom that is visible next to its end.
+/// lookup goes back to the last empty position. With an environment and a rendered depth, a ray
+/// that leaves the planes ends in the environment, unless they show at their edge a surface behind
+/// the ray, which may go on. From below, rays go down to the bottom; a ray without a hit ends at
+/// the level of the bottom that is visible next to its end.
 ///
 /// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel does
 /// not resolve (slope_variance), by three facets along the view (optics/facets.h); on a raised
