@@ -66,6 +66,13 @@ LIMPID_INLINE F height_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, 
   return given<F>(c.eye_above) + there_over + min(depth, F(1e30)) * there_under;
 }
 
+/// The gain of the view ray, per unit of eye depth, from the pixel to `shift`.
+template <class F>
+LIMPID_INLINE Vec3<F> ray_gain(const WaterView& c, Vec2<F> shift) {
+  return shift.x * vec3_of<F>(double(c.size.x) * c.rays.ray_dx, "camera.ray_across") +
+         shift.y * vec3_of<F>(double(c.size.y) * c.rays.ray_dy, "camera.ray_down");
+}
+
 /// The vector from the pixel's surface point to the point at eye depth `depth` (+inf counts as
 /// 1e30) on the view ray at `shift`. From differences, like a ScreenRay.
 template <class F>
@@ -74,10 +81,8 @@ LIMPID_INLINE Vec3<F> offset_to(const WaterView& c, const Pixel<F>& p, Vec2<F> s
   const double width = c.size.x, height = c.size.y;
   const Vec3<F> origin = shift.x * vec3_of<F>(width * rays.origin_dx, "camera.origin_across") +
                          shift.y * vec3_of<F>(height * rays.origin_dy, "camera.origin_down");
-  const Vec3<F> ray = shift.x * vec3_of<F>(width * rays.ray_dx, "camera.ray_across") +
-                      shift.y * vec3_of<F>(height * rays.ray_dy, "camera.ray_down");
   const F far = min(depth, F(1e30));
-  return (p.ray_length * (p.surface_depth - far)) * p.to_viewer + origin + far * ray;
+  return (p.ray_length * (p.surface_depth - far)) * p.to_viewer + origin + far * ray_gain(c, shift);
 }
 
 /// Number of times that `across` fits between uv and the edge to which it leads. A ray along the

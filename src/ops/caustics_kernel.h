@@ -224,51 +224,65 @@ struct Kernel<Caustics> : Caustics {
   static LIMPID_INLINE Slope<F> slope_at(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                          const Light& light) {
     constexpr double kApart = 2;
-    const auto inverse = [&](const Four<F>& depths) {
-      return Four<F>{{F(1) / max(depths[0], F(1e-30)), F(1) / max(depths[1], F(1e-30)),
-                      F(1) / max(depths[2], F(1e-30)), F(1) / max(depths[3], F(1e-30))}};
+    // One division for two depths.
+    const auto inverse = [](const Four<F>& depths) {
+      const auto bounded = [&](int k) { return min(max(depths[k], F(1e-18)), F(1e18)); };
+      const F d[4] = {bounded(0), bounded(1), bounded(2), bounded(3)};
+      const F upper = F(1) / (d[0] * d[1]), lower = F(1) / (d[2] * d[3]);
+      return Four<F>{{d[1] * upper, d[0] * upper, d[3] * lower, d[2] * lower}};
     };
     const auto mix = [](const auto& quad, const Four<F>& values) {
       F sum(0);
       for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
-      return max(sum, F(1e-30));
+      return max(sum, F(1e-18));
     };
     const Vec2<F> low{given<F>(c.dry.low.x) - p.uv.x, given<F>(c.dry.low.y) - p.uv.y};
     const Vec2<F> high{given<F>(c.dry.high.x) - p.uv.x, given<F>(c.dry.high.y) - p.uv.y};
     const Vec2<F> at{min(max(p.shift.x, low.x), high.x), min(max(p.shift.y, low.y), high.y)};
     const auto quad = tap.quad(at);
     const Four<F> here = inverse(tap.read(PlaneId::kDepth, quad));
-    const F near = mix(quad, here);
-    const Vec3<F> centre = offset_to(c, p, at, F(1) / near);
+    const F near = mix(quad, here), depth = F(1) / near;
+    const Vec3<F> ray = ray_gain(c, at) - p.ray_length * p.to_viewer;
     F known = saturate(F(2) - abs(F(1) - near * p.hit_depth) / F(1 - kSameDepth));
     // A centre that mixes the two sides of an edge would look like a steep slope: there `jump`, the
     // change from one texel to the next as far as it is mixed here, is as much as the change over
     // two pixels.
-    const auto along = [&](F x, F y, F jump) {
+    const auto tangent = [&](F x, F y, const Vec3<F>& origin_step, const Vec3<F>& ray_step,
+                             F jump) {
       F least(1);
-      const auto offset_by = [&](F step_x, F step_y, F& edge) {
+      const auto beside = [&](F step_x, F step_y, F& edge) {
         const Vec2<F> side{at.x + step_x, at.y + step_y};
         const auto there = tap.quad(side);
-        const F beside = max(mix(there, inverse(tap.read(PlaneId::kDepth, there))), F(0.5) * near);
-        const F step = (beside - near) / near;
+        const F found = max(mix(there, inverse(tap.read(PlaneId::kDepth, there))), F(0.5) * near);
+        const F step = (found - near) * depth;
         const auto shown = min(side.x - low.x, high.x - side.x) >= F(0) - F(0.25) * abs(x) &&
                            min(side.y - low.y, high.y - side.y) >= F(0) - F(0.25) * abs(y);
         edge = select(shown, step * step + F(1e-8), F(1e8));
         least = min(least, select(shown, abs(step), F(1)));
-        return offset_to(c, p, side, F(1) / beside) - centre;
+        return found;
       };
       F edge_on(0), edge_back(0);
-      const Vec3<F> on = offset_by(x, y, edge_on), back = offset_by(F(0) - x, F(0) - y, edge_back);
+      const F on = beside(x, y, edge_on), back = beside(F(0) - x, F(0) - y, edge_back);
       known = known * saturate(F(2) - jump / (near * (least + F(1e-3))));
-      return F(1) / (edge_on + edge_back) * (edge_back * on - edge_on * back);
+      const F both = F(1) / (on * back), depth_on = back * both, depth_back = on * both;
+      const F of_all = F(1) / (edge_on + edge_back);
+      const F share_on = edge_back * of_all, share_back = edge_on * of_all;
+      const F mean = share_on * depth_on + share_back * depth_back;
+      const F rise = share_on * (depth_on - depth) - share_back * (depth_back - depth);
+      return origin_step + mean * ray_step + rise * ray;
     };
     const F right = quad.weight(1) + quad.weight(3), lower = quad.weight(2) + quad.weight(3);
     const F columns =
         F(4) * right * (F(1) - right) * max(abs(here[1] - here[0]), abs(here[3] - here[2]));
     const F rows =
         F(4) * lower * (F(1) - lower) * max(abs(here[2] - here[0]), abs(here[3] - here[1]));
-    const Vec3<F> across = along(given<F>(kApart / c.size.x, "caustics.columns"), F(0), columns);
-    const Vec3<F> down = along(F(0), given<F>(kApart / c.size.y, "caustics.rows"), rows);
+    const Vec3<F> across =
+        tangent(given<F>(kApart / c.size.x, "caustics.columns"), F(0),
+                vec3_of<F>(kApart * c.rays.origin_dx, "caustics.origin_across"),
+                vec3_of<F>(kApart * c.rays.ray_dx, "caustics.ray_across"), columns);
+    const Vec3<F> down = tangent(F(0), given<F>(kApart / c.size.y, "caustics.rows"),
+                                 vec3_of<F>(kApart * c.rays.origin_dy, "caustics.origin_down"),
+                                 vec3_of<F>(kApart * c.rays.ray_dy, "caustics.ray_down"), rows);
     const Vec3<F> normal = given<F>(light.facing, "caustics.facing") * cross(across, down);
     const F squared = dot(normal, normal);
     const auto sane = squared > F(1e-36) && squared < F(1e36);
@@ -305,11 +319,16 @@ struct Kernel<Caustics> : Caustics {
       }
       return found;
     };
-    const Entry refracted = entry_at(entry), straight = entry_at(level);
+    const Entry refracted = entry_at(entry);
     // A shadow that the surface's shadow does not explain is cast under water.
-    const F cast =
-        select(straight.passes > F(0.05), min(lit / max(straight.passes, F(0.05)), F(1)), F(1));
-    const F below = select(hidden, F(1), F(1) + straight.known * (cast - F(1)));
+    F below(1);
+    const auto shaded = lit < F(1 - 1e-6) && !hidden;
+    if_any(shaded, [&] {
+      const Entry straight = entry_at(level);
+      const F cast =
+          select(straight.passes > F(0.05), min(lit / max(straight.passes, F(0.05)), F(1)), F(1));
+      below = select(shaded, F(1) + straight.known * (cast - F(1)), F(1));
+    });
     return lit + refracted.known * (refracted.passes * below - lit);
   }
 

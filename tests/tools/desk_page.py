@@ -7,6 +7,7 @@ are compared with those of the command line, byte by byte.
 import base64
 import contextlib
 import json
+import os
 import pathlib
 import shlex
 import subprocess
@@ -83,6 +84,7 @@ class Desk:
     """A running `limpid view`, and its page in a browser."""
 
     def __init__(self, limpid, browser, folder, *arguments):
+        limpid = os.path.abspath(limpid)  # it also runs in the folder
         self.limpid, self.browser, self.folder = limpid, browser, pathlib.Path(folder)
         self.server = subprocess.Popen([limpid, "view", "--no-browser", "--folder", folder, *arguments],
                                        stdout=subprocess.PIPE, text=True)
