@@ -24,7 +24,7 @@
 namespace limpid {
 namespace {
 
-static_assert(LIMPID_SUN_COLOR_B + 1 == kPlaneCount);
+static_assert(LIMPID_BASIN + 1 == kPlaneCount);
 static_assert(LIMPID_OUT_SKY + 3 == 4 + 3 * kAovCount);
 
 /// Copies the first `size` bytes of the caller's struct; the rest is 0.

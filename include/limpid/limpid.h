@@ -90,7 +90,8 @@ typedef enum limpid_plane {
   LIMPID_ALBEDO_B = 25,
   LIMPID_SUN_COLOR_R = 26,
   LIMPID_SUN_COLOR_G = 27,
-  LIMPID_SUN_COLOR_B = 28
+  LIMPID_SUN_COLOR_B = 28,
+  LIMPID_BASIN = 29
 } limpid_plane;
 
 /** The outputs. Channel i of an AOV (x y z, r g b, u v) is its value + i. */

@@ -188,14 +188,14 @@ void BottomAlbedo::draw_row(const Rect& window, int y) {
   const int low = static_cast<int>(std::floor(at_y));
   const float part_y = at_y - static_cast<float>(low);
   const auto row = [&](int r) {
-    return cells_.data() + static_cast<std::size_t>(std::clamp(r, 0, rows_ - 1)) * columns_;
+    return drawn_.data() + static_cast<std::size_t>(std::clamp(r, 0, rows_ - 1)) * columns_;
   };
-  const Cell *above = row(low), *below = row(low + 1);
-  for (std::size_t i = 0; i < 3; ++i) {
+  const std::array<float, 4>*above = row(low), *below = row(low + 1);
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
     float* out = planes_[i].view().row(y);
     const auto middle = [&](int column) {
       const int k = std::clamp(column, 0, columns_ - 1);
-      return above[k].color[i] + part_y * (below[k].color[i] - above[k].color[i]);
+      return above[k][i] + part_y * (below[k][i] - above[k][i]);
     };
     float left = middle(-1), right = middle(0);
     for (int column = 0; column <= columns_; ++column) {
@@ -228,13 +228,18 @@ void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>&
   const std::array<double, 3> even{sky.r, sky.g, sky.b};
   const std::array<double, 3> sun{rise * pass.sun.color.r, rise * pass.sun.color.g,
                                   rise * pass.sun.color.b};
-  for (Cell& cell : cells_) {
+  drawn_.resize(cells_.size());
+  for (std::size_t n = 0; n < cells_.size(); ++n) {
+    const Cell& cell = cells_[n];
+    std::array<float, 4>& drawn = drawn_[n];
+    float of_level = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const float albedo = cell.light[i] > 0 ? cell.color[i] / cell.light[i] : 0;
-      cell.color[i] = std::clamp(albedo, 0.0f, 1.0f);
-      if (!(cell.walls[i] > 0 || cell.shade[i] > 0)) continue;
-      cell.color[i] = as_of_level(cell.color[i], cell, i, sun[i], even[i], water);
+      drawn[i] = std::clamp(albedo, 0.0f, 1.0f);
+      const bool shaded = drawn[i] > 0 && (cell.walls[i] > 0 || cell.shade[i] > 0);
+      of_level += shaded ? as_of_level(drawn[i], cell, i, sun[i], even[i], water) / drawn[i] : 1.0f;
     }
+    drawn[kBasin] = std::clamp(of_level / 3, 0.0f, 1.0f);
   }
   for (Plane& plane : planes_) {
     if (!plane || plane.view().window != window) plane = Plane(window);

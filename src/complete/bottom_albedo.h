@@ -23,11 +23,11 @@ struct WaterOver {
 /// over about two depths of water around. Ratios of sums are right in shadows and stay below 1 on
 /// walls; ratios of single pixels do not.
 ///
-/// In a narrow basin it is less: the albedo of an endless floor of the same brightness. Part of the
-/// light that the surface reflects down comes from walls there (Basin), which are darker than the
-/// floor: the sun lights only half of them, at its angle to the vertical. Views from within the
-/// water use no albedo in this way; views that begin in both use it by the share that begins in the
-/// air.
+/// In a narrow basin an endless floor of the same brightness has less: basin() is its share of the
+/// albedo. Part of the light that the surface reflects down comes from walls there (Basin), which
+/// are darker than the floor: the sun lights only half of them, at its angle to the vertical. Views
+/// from within the water use no albedo in this way; views that begin in both use it by the share
+/// that begins in the air.
 class BottomAlbedo {
  public:
   /// Reads color, depth and, if present, shadow. `sky`: radiance of an even sky. 0 where there is
@@ -36,10 +36,13 @@ class BottomAlbedo {
             Executor& executor);
 
   const Plane& channel(int i) const { return planes_[static_cast<std::size_t>(i)]; }
+  /// Of all channels, whose shares differ little; 0 ... 1.
+  const Plane& basin() const { return planes_[kBasin]; }
 
  private:
   static constexpr int kCell = 8;   ///< pixels a side
   static constexpr int kBlock = 4;  ///< cells a side that share a search of walls
+  static constexpr std::size_t kBasin = 3;
 
   /// Sums over a cell: its texels, their number, and the distance to sum around it.
   struct Cell {
@@ -54,9 +57,10 @@ class BottomAlbedo {
   void spread(int reach, Executor& executor);
   void draw_row(const Rect& window, int y);
 
-  std::array<Plane, 3> planes_;
+  std::array<Plane, 4> planes_;
   int columns_ = 0, rows_ = 0;
   std::vector<Cell> cells_, sums_;
+  std::vector<std::array<float, 4>> drawn_;  ///< albedo and basin of each cell
 };
 
 }  // namespace limpid

@@ -192,6 +192,9 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, con
     const PlaneId plane = plane_after(PlaneId::kAlbedoR, i);
     if (made.has(plane)) frame.planes[index_of(plane)] = bottom_albedo_.channel(i).view();
   }
+  if (made.has(PlaneId::kBasin)) {
+    frame.planes[index_of(PlaneId::kBasin)] = bottom_albedo_.basin().view();
+  }
 }
 
 }  // namespace limpid

@@ -41,6 +41,9 @@ constexpr Role kRoles[] = {
      "albedo of the bottom around each pixel"},
     {"sun_color", PlaneId::kSunColorR, 3, 0, Sanitise::kColor, "sun_color", "R G B", Storage::kHalf,
      "direct sunlight in the dry picture: 0 in shadow"},
+    {"basin", PlaneId::kBasin, 1, 1, Sanitise::kMask, "", "", Storage::kHalf,
+     "albedo of an endless floor as bright, over that of the bottom: below 1 by walls and in "
+     "shade"},
 };
 
 }  // namespace

@@ -39,6 +39,10 @@ struct Pixel {
   /// Begins as the dry color at this pixel; as 0 if nothing was hit and no surface lies in between:
   /// there the view shows the water itself.
   Rgb<F> transmitted;
+  Rgb<F> dry_bottom;  ///< `transmitted` as lit in the dry picture; begins like it
+  /// The share of the sunlight that reaches the bottom in the dry picture, where the shadow plane
+  /// shows another surface, and whether it is known, 0 ... 1; begins as 1, not known.
+  F dry_lit, dry_lit_known;
   Rgb<F> in_scatter;  ///< begins as 0, as do all members below
   /// Sunlit parts of in_scatter: the first in the shadow of the surface point, the second in that
   /// of the end of the ray.

@@ -73,6 +73,10 @@ LIMPID_INLINE void begin_state(StateSet parts, const WaterView& view, Rgb<F> dry
   if (parts.has(StatePart::kConfidence)) p.confidence = select(endless, F(0), F(1));
   if (parts.has(StatePart::kTransmittance)) p.transmittance = {F(1), F(1), F(1)};
   if (parts.has(StatePart::kTransmitted)) p.transmitted = select(endless, black, dry_color);
+  if (parts.has(StatePart::kDryBottom)) {
+    p.dry_bottom = select(endless, black, dry_color);
+    p.dry_lit = F(1), p.dry_lit_known = F(0);
+  }
   if (parts.has(StatePart::kInScatter)) p.in_scatter = black;
   if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = p.sun_multiple = black;
   p.sun_entry = {F(0), F(0), F(0)};

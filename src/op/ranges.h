@@ -36,6 +36,7 @@ struct Ranges {
   double sun_light = 0;         ///< largest sunlit part of in_scatter
   double sun_far = 0;           ///< its part at the end of the path
   double above = 0;             ///< largest |reflected + highlight|
+  double detail = 0;            ///< largest change of `light` by the albedo of the point looked up
   double focused = 0;           ///< largest change of the looked-up light by caustics
   double shafts = 0;            ///< largest change of the sunlit part of in_scatter by caustics
 

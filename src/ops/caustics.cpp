@@ -68,7 +68,8 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
 /// caustics in its bound.
 double Kernel<Caustics>::bound(const P& params, const Pass& c, const Ranges& ranges) {
   if (c.eye_above < 0 && c.planes.covers(kReflectionPlanes)) return HUGE_VAL;
-  return displaced(params, ranges);
+  const bool hidden = light_of(params, c).moves && SeenPlanes::of(c).below;
+  return displaced(params, ranges) + (hidden ? ranges.detail : 0);
 }
 
 /// Caustics looked up at another place, or not at all.

@@ -15,7 +15,7 @@ template <>
 struct Kernel<Caustics> : Caustics {
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kPosition,
                                   StatePart::kPath, StatePart::kTransmitted};
-  static constexpr StateSet kMakes{StatePart::kTransmitted};
+  static constexpr StateSet kMakes{StatePart::kDryBottom, StatePart::kTransmitted};
   static PlaneSet reads(const Params& p) {
     const PlaneSet lit = kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kDepth};
     if (p.sunlight == Sunlight::kStraight) return p.strength == 0 ? PlaneSet{} : lit;
@@ -96,7 +96,7 @@ struct Kernel<Caustics> : Caustics {
           return Vec2<F>{dot(map_x, end) + aside * sunwards.x,
                          dot(map_y, end) + aside * sunwards.y};
         };
-        // In the layer below, the sunlight behind an object is not known.
+        // The shadow plane shows the object that hides a place of the layer below.
         const F dry = planes.below ? mixed(tap, PlaneId::kDepth, p.shift) : p.hit_depth;
         const auto hidden = dry < F(kSameDepth) * p.hit_depth;
         const F of_plane = shadowed ? mixed(tap, PlaneId::kShadow, p.shift) : F(1);
@@ -109,13 +109,15 @@ struct Kernel<Caustics> : Caustics {
             tilt = {select(sloped, own.of_level, F(1)), select(sloped, own.gain, F(1))};
           });
         }
-        F arrives(1);  // share of the sunlight that reaches the bottom, where shadows move
+        Sunlit<F> sunlit{lit, F(1), F(0)};
         if (light.moves) {
           const Vec3<F> end = end_of(aim);
           const F per_rise = given<F>(1 / light.rise, "caustics.per_rise");
           const Vec2<F> level{dot(map_x, end) + depth * per_rise * sunwards.x,
                               dot(map_y, end) + depth * per_rise * sunwards.y};
-          arrives = moved(c, p, tap, entry_of(end, given<F>(c.ior)), level, lit, hidden);
+          sunlit = moved(c, p, tap, entry_of(end, given<F>(c.ior)), level, lit, hidden);
+          p.dry_lit = select(lit_bottom, sunlit.dry, F(1));
+          p.dry_lit_known = select(lit_bottom, sunlit.hidden_known, F(0));
         }
         const auto& scattered = table.scattered;
         const bool scatters = scattered[0] > 0 || scattered[1] > 0 || scattered[2] > 0;
@@ -150,7 +152,9 @@ struct Kernel<Caustics> : Caustics {
               only<F>(i, k,
                       [&] { shown = mixed(tap, plane_after(PlaneId::kSunColorR, k), shift); });
             }
-            const F as_around = of_channel(i, light.around, "caustics.around") * transmitted;
+            const F around = of_channel(i, light.around, "caustics.around");
+            const F part = sunlit.dry * around;
+            const F as_around = part / max(part + F(1) - around, F(1e-6)) * transmitted;
             sun = min(max(select(hidden, as_around, shown), F(0)), max(transmitted, F(0)));
           } else {
             const F direct = lit * of_channel(i, light.sun, "caustics.sun");
@@ -161,11 +165,8 @@ struct Kernel<Caustics> : Caustics {
           F whole = tilt.gain * sun;
           if (light.moves) {
             const F over_rest = of_channel(i, table.sun_over_rest, "caustics.sun_over_rest");
-            const F removed = (F(1) - lit) * max(rest, F(0)) * over_rest * tilt.of_level;
-            whole = arrives * (whole + removed);
-            // The layer's color already says whether the sun shines there.
-            whole = select(hidden, sun, whole);
-            focused = select(hidden, F(1) + arrives * (focused - F(1)), focused);
+            const F removed = (F(1) - sunlit.dry) * max(rest, F(0)) * over_rest * tilt.of_level;
+            whole = sunlit.arrives * (whole + removed);
           }
           const F all = select(lit_bottom, rest + focused * whole, transmitted);
           only<F>(i, 0, [&] { made.r = all; });
@@ -289,12 +290,18 @@ struct Kernel<Caustics> : Caustics {
     return {(F(1) / sqrt(select(sane, squared, F(1)))) * normal, select(sane, known, F(0))};
   }
 
-  /// The share of sunlight that reaches a place on the bottom by refraction. Refracted light enters
-  /// at `entry`, straight light would enter at `level`; `lit` is the share for straight light,
-  /// unless the place is `hidden`.
+  /// Shares of the sunlight that reach a place on the bottom.
+  template <class F>
+  struct Sunlit {
+    F dry, arrives;  ///< straight, as in the dry picture, and refracted
+    F hidden_known;  ///< 1 where `dry` is known of a hidden place
+  };
+  /// Refracted light enters at `entry`, straight light would enter at `level`; `lit` is the share
+  /// for straight light. For a `hidden` place that is the share that passes the surface, if the
+  /// picture shows the water at both entries; else its light stays as in the dry picture.
   template <class F, class Tap, class Mask>
-  static LIMPID_INLINE F moved(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec2<F> entry,
-                               Vec2<F> level, F lit, Mask hidden) {
+  static LIMPID_INLINE Sunlit<F> moved(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                       Vec2<F> entry, Vec2<F> level, F lit, Mask hidden) {
     const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
     const Vec2<F> apart = entry - level;
     const F moved_by = sqrt(apart.x * apart.x + apart.y * apart.y);
@@ -315,21 +322,49 @@ struct Kernel<Caustics> : Caustics {
         const F off = abs(min(seen, F(1e30)) - ray.depth_at(F(1)));
         const F shown = saturate(F(1.5) - F(2) * off / max(moved_by, F(1e-6)));
         found.passes = select(nothing(seen), F(0), found.passes);
-        found.known = found.known * select(nothing(seen), F(1), shown);
+        F land(1);
+        if_any(nothing(seen), [&] { land = is_land(c, p, tap, point, ray, shift); });
+        found.known = found.known * select(nothing(seen), land, shown);
       }
       return found;
     };
     const Entry refracted = entry_at(entry);
     // A shadow that the surface's shadow does not explain is cast under water.
-    F below(1);
+    F below(1), dry = lit, known = refracted.known;
     const auto shaded = lit < F(1 - 1e-6) && !hidden;
-    if_any(shaded, [&] {
+    if_any(shaded || hidden, [&] {
       const Entry straight = entry_at(level);
       const F cast =
           select(straight.passes > F(0.05), min(lit / max(straight.passes, F(0.05)), F(1)), F(1));
       below = select(shaded, F(1) + straight.known * (cast - F(1)), F(1));
+      known = select(hidden, straight.known * known, known);
+      dry = select(hidden, F(1) + known * (straight.passes - F(1)), dry);
     });
-    return lit + refracted.known * (refracted.passes * below - lit);
+    return {dry, dry + known * (refracted.passes * below - dry), select(hidden, known, F(0))};
+  }
+
+  /// For a place of the calm surface that the picture does not show: 1 if the surface that it shows
+  /// at `shift` instead rises above that place, 0 if it only stands in front of it. On land nothing
+  /// farther is seen past the point as high above the place as that surface, nor two pixels behind
+  /// that point.
+  template <class F, class Tap>
+  static LIMPID_INLINE F is_land(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                 const Vec3<F>& place, const ScreenRay<F>& ray, Vec2<F> shift) {
+    const Vec3<F> up = vec3_of<F>(c.up);
+    const F depth = ray.depth_at(F(1)), seen = min(tap.nearest(PlaneId::kDepth, shift), F(1e30));
+    const F off = abs(seen - depth), height = max(height_at(c, p, shift, seen), F(0));
+    const Vec3<F> raised = place + height * up - p.surface_point;
+    const auto covered = [&](const Vec3<F>& point) {
+      const ScreenRay<F> to(c, p, point);
+      return min(tap.nearest(PlaneId::kDepth, to.shift_at(F(1))), F(1e30)) - to.depth_at(F(1)) <=
+             off;
+    };
+    const F sink = max(abs(dot(up, p.to_viewer)), F(0.05));
+    const Vec3<F> level = (sink * up - p.to_viewer);  // away from the viewer
+    const F pixel = caustics_texel(c, depth, F(1)) / sink;
+    const F per_length = F(1) / max(sqrt(dot(level, level)), F(1e-3));
+    const auto land = covered(raised) && covered(raised + (F(2) * pixel * per_length) * level);
+    return select(land, F(1), F(0));
   }
 
   /// 1 in the picture, 0 beyond it, a ramp near its edge.

@@ -215,6 +215,16 @@ void Kernel<DepthFog>::propagate_ranges(const P& params, const Pass& c, Ranges& 
   };
   ranges.transmittance =
       largest_of([&](auto part) { return m.bottom * survives(part(m.rate), ranges.fog_path.min); });
+  if (m.multiple && c.planes.has(PlaneId::kShadow)) {
+    const std::array<double, 3> rates = m.rates(), beams = m.beams(), skies = m.skies();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ScatteredLight& light = m.multiple[i];
+      const double most =
+          m.water * (beams[i] * light.most_bottom_sun + skies[i] * light.most_bottom_sky);
+      ranges.detail = std::max(ranges.detail, survives(rates[i], ranges.fog_path.min) *
+                                                  (1.05 * most + m.dry_skies()[i]));
+    }
+  }
   const double multiple = most_multiple(m, ranges.fog_path.max);
   ranges.sun_light = largest_of(sun_of) + multiple;
   ranges.sun_far = largest_of([&](auto part) {

@@ -1,4 +1,5 @@
 #pragma once
+
 #include "limpid/ops/depth_fog.h"
 
 #include "op/operator.h"
@@ -11,12 +12,14 @@ namespace limpid {
 
 template <>
 struct Kernel<DepthFog> : DepthFog {
-  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted};
+  static constexpr StateSet kUses{StatePart::kPosition, StatePart::kPath, StatePart::kDryBottom,
+                                  StatePart::kTransmitted};
   static constexpr StateSet kMakes{StatePart::kPath, StatePart::kTransmittance,
                                    StatePart::kTransmitted, StatePart::kInScatter,
                                    StatePart::kSunScatter};
   static PlaneSet reads(const Params& p) {
-    return wants_scattered_light(p) ? kAlbedoPlanes : PlaneSet{};
+    if (!wants_scattered_light(p)) return {};
+    return kAlbedoPlanes | PlaneSet{PlaneId::kBasin, PlaneId::kDepth, PlaneId::kShadow};
   }
   static PlaneSet wants(const Params& p, const AtHand&) { return reads(p); }
   static Needs needs(const Params&) { return {}; }
@@ -32,9 +35,14 @@ struct Kernel<DepthFog> : DepthFog {
   static double beyond(const Params& params, const Pass& c, const Ranges& ranges);
   /// In water the path is measured from the eye and along the ray, for any `distance`.
   static PathMeasure path_measure(const Params& params);
-  /// The bound of the operator that finds another place covers the fog there.
-  static double displaced(const Params&, const Ranges&) { return 0; }
-  static double ns(const Params& p, const Running&) { return p.model == Model::kLinear ? 0.6 : 9; }
+  /// The bound of the operator that finds another place covers the fog there, but not the bottom's
+  /// light that is added by the color there.
+  static double displaced(const Params&, const Ranges& ranges) { return ranges.detail; }
+  static double ns(const Params& p, const Running& running) {
+    if (p.model == Model::kLinear) return 0.6;
+    const PlaneSet all = running.planes | running.completed;
+    return all.covers(kAlbedoPlanes | PlaneSet{PlaneId::kShadow}) ? 18 : 9;
+  }
   /// Light lost per unit of the path: a + b of beer_lambert, less the narrow peak of
   /// radiative_transfer.
   static Rgb<double> extinction(const Params& params);
@@ -119,7 +127,7 @@ struct Kernel<DepthFog> : DepthFog {
     const F per_rise =
         given<F>(medium.sunlit ? 1 / std::max(medium.cosine, 0.02) : 0, "depth_fog.per_rise");
     const F eye_depth = given<F>(c.eye_above < 0 ? -c.eye_above : 0, "camera.eye_below");
-    const auto make = [&](Pixel<F>& p, const Vec3<F>& albedo) {
+    const auto make = [&](Pixel<F>& p, const Reflector<F>& reflector) {
       // Of the view in the water: away from the viewer.
       const auto from_air = p.side > F(0);
       const Vec3<F> view =
@@ -164,39 +172,99 @@ struct Kernel<DepthFog> : DepthFog {
             select(fading * length < F(1e3), green.far_share * length, F(1) / fading);
         p.in_scatter = p.in_scatter + light;
       }
-      if (medium.multiple) add_multiple(medium, path, turned, fallen, albedo, p);
+      if (medium.multiple) add_multiple(medium, path, turned, fallen, reflector, p);
     };
     if (medium.multiple && c.planes.covers(kAlbedoPlanes)) {
-      strip.own3(PlaneId::kAlbedoR, make);
+      const bool detailed = c.planes.has(PlaneId::kShadow);
+      strip.probe([&](Pixel<F>& p, const auto& tap) {
+        const Rgb<F> albedo{tap.own(PlaneId::kAlbedoR), tap.own(PlaneId::kAlbedoG),
+                            tap.own(PlaneId::kAlbedoB)};
+        const Rgb<F> detail =
+            detailed ? detail_at(medium, c, p, tap, albedo) : Rgb<F>{F(1), F(1), F(1)};
+        make(p, {albedo, tap.own(PlaneId::kBasin), detail});
+      });
     } else {
-      strip.each([&](Pixel<F>& p) { make(p, {F(0), F(0), F(0)}); });
+      const Rgb<F> none{F(0), F(0), F(0)};
+      strip.each([&](Pixel<F>& p) { make(p, {none, F(1), none}); });
     }
+  }
+
+  /// What the bottom reflects.
+  template <class F>
+  struct Reflector {
+    Rgb<F> albedo;  ///< of the bottom around
+    F basin;        ///< its share that an endless floor as bright would have
+    Rgb<F> detail;  ///< albedo of the visible point, over `albedo`
+  };
+
+  /// Reflector::detail: from the color of the dry picture and the light on a level floor there, by
+  /// the shadow. 1 where the picture does not show the end of the ray: its shadow is that of what
+  /// hides it.
+  template <class F, class Tap>
+  static LIMPID_INLINE Rgb<F> detail_at(const WaterMedium& m, const Pass& c, const Pixel<F>& p,
+                                        const Tap& tap, const Rgb<F>& albedo) {
+    const auto mixed = [&](PlaneId plane, const auto& quad) {
+      const Four<F> values = tap.read(plane, quad);
+      F sum(0);
+      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
+      return sum;
+    };
+    const bool split = c.made.has(StatePart::kPrism), told = c.made.has(StatePart::kDryBottom);
+    const Rgb<F>& color = told ? p.dry_bottom : p.transmitted;
+    const auto quad = tap.quad(p.shift);
+    const F off = abs(min(mixed(PlaneId::kDepth, quad), F(1e30)) - min(p.hit_depth, F(1e30)));
+    const F shown = saturate(F(2) - off / (F(0.02) * min(p.hit_depth, F(1e30))));
+    const F known = told ? max(shown, p.dry_lit_known) : shown;
+    const F by_plane = mixed(PlaneId::kShadow, quad);
+    const auto lit_at = [&](Vec2<F> shift) {
+      const F lit = split ? mixed(PlaneId::kShadow, tap.quad(shift)) : by_plane;
+      return told ? select(p.dry_lit_known > shown, p.dry_lit, lit) : lit;
+    };
+    const auto of_channel = [&](std::size_t i, F here, F shadow, F around) {
+      const int place = static_cast<int>(i);
+      const F sun = given<F>(m.dry_suns()[i], "depth_fog.dry_sun", place);
+      const F sky = given<F>(m.dry_skies()[i], "depth_fog.dry_sky", place);
+      const F light = (shadow * sun + sky) * given<F>(m.per_bottom, "depth_fog.per_bottom");
+      const F own = min(max(here, F(0)) / max(light, F(1e-30)), F(1));
+      return F(1) + known * (own / max(around, F(1e-3)) - F(1));
+    };
+    return {of_channel(0, color.r, lit_at(p.shift_r), albedo.r),
+            of_channel(1, color.g, lit_at(p.shift_g), albedo.g),
+            of_channel(2, color.b, lit_at(p.shift_b), albedo.b)};
   }
 
   /// Light that is scattered more than once, and of the bottom what `transmitted` lacks.
   template <class F>
   static LIMPID_INLINE void add_multiple(const WaterMedium& m, const WaterPath<F>& path, F turned,
-                                         const Rgb<F>& fallen, const Vec3<F>& albedo, Pixel<F>& p) {
+                                         const Rgb<F>& fallen, const Reflector<F>& bottom,
+                                         Pixel<F>& p) {
     const auto from_air = p.side > F(0);
     const F doubly =
         m.turns ? henyey_greenstein(turned, given<F>(m.square, "depth_fog.square")) : F(0);
     const std::array<F, 4> shapes{F(1), path.sink, turned, doubly};
     const Rgb<F>& left = p.transmittance;
-    MultipleLight<F> red = multiple_down(m, 0, path, shapes, fallen.r, left.r, albedo.x);
-    MultipleLight<F> green = multiple_down(m, 1, path, shapes, fallen.g, left.g, albedo.y);
-    MultipleLight<F> blue = multiple_down(m, 2, path, shapes, fallen.b, left.b, albedo.z);
+    const Rgb<F> level = bottom.basin * bottom.albedo;
+    const auto down = [&](std::size_t i, F fell, F stays, F albedo, F detail) {
+      return multiple_down(m, i, path, shapes, fell, stays, albedo, detail);
+    };
+    LightFromBelow<F> red = down(0, fallen.r, left.r, level.r, bottom.detail.r);
+    LightFromBelow<F> green = down(1, fallen.g, left.g, level.g, bottom.detail.g);
+    LightFromBelow<F> blue = down(2, fallen.b, left.b, level.b, bottom.detail.b);
     if (m.inside) {
       if_any(!from_air, [&] {
         // Seen from below, surfaces above the water are no bottom.
-        const Vec3<F> under = select(p.side < F(0), {F(0), F(0), F(0)}, albedo);
-        const auto choose = [&](MultipleLight<F>& down, const MultipleLight<F>& inside) {
-          down = {select(from_air, down.sun, inside.sun), select(from_air, down.sky, inside.sky)};
+        const Rgb<F> under = select(p.side < F(0), {F(0), F(0), F(0)}, bottom.albedo);
+        const auto choose = [&](LightFromBelow<F>& own, const MultipleLight<F>& inside) {
+          own = {select(from_air, own.sun, inside.sun), select(from_air, own.sky, inside.sky),
+                 select(from_air, own.bottom, F(0))};
         };
-        choose(red, multiple_inside(m, 0, path, turned, fallen.r, left.r, under.x));
-        choose(green, multiple_inside(m, 1, path, turned, fallen.g, left.g, under.y));
-        choose(blue, multiple_inside(m, 2, path, turned, fallen.b, left.b, under.z));
+        choose(red, multiple_inside(m, 0, path, turned, fallen.r, left.r, under.r));
+        choose(green, multiple_inside(m, 1, path, turned, fallen.g, left.g, under.g));
+        choose(blue, multiple_inside(m, 2, path, turned, fallen.b, left.b, under.b));
       });
     }
+    const Rgb<F> seen = p.transmitted + Rgb<F>{red.bottom, green.bottom, blue.bottom};
+    p.transmitted = {max(seen.r, F(0)), max(seen.g, F(0)), max(seen.b, F(0))};
     p.sun_multiple = {red.sun, green.sun, blue.sun};
     const Rgb<F> all = p.in_scatter + p.sun_multiple + Rgb<F>{red.sky, green.sky, blue.sky};
     p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
@@ -207,13 +275,20 @@ struct Kernel<DepthFog> : DepthFog {
     }
   }
 
-  /// For a view from the air. `fallen` and `left`: the shares left of the beam at the end of the
-  /// path, and of its light at the viewer.
+  /// The light that a view from the air sees besides single-scattered sunlight.
   template <class F>
-  static LIMPID_INLINE MultipleLight<F> multiple_down(const WaterMedium& m, std::size_t channel,
-                                                      const WaterPath<F>& path,
-                                                      const std::array<F, 4>& shapes, F fallen,
-                                                      F left, F albedo) {
+  struct LightFromBelow {
+    F sun;     ///< multiple-scattered sunlight, with that from the bottom
+    F sky;     ///< scattered skylight, and light that the surface has reflected down
+    F bottom;  ///< of the latter, unscattered light from the bottom, less what `transmitted` has
+  };
+  /// `fallen` and `left`: the shares left of the beam at the end of the path, and of its light at
+  /// the viewer; `albedo`, `detail`: as in Reflector, of an endless floor.
+  template <class F>
+  static LIMPID_INLINE LightFromBelow<F> multiple_down(const WaterMedium& m, std::size_t channel,
+                                                       const WaterPath<F>& path,
+                                                       const std::array<F, 4>& shapes, F fallen,
+                                                       F left, F albedo, F detail) {
     const ScatteredLight& light = m.multiple[channel];
     const int place = static_cast<int>(channel);
     const std::array<F, 2> even{shapes[0], shapes[1]};
@@ -228,17 +303,20 @@ struct Kernel<DepthFog> : DepthFog {
       up = {beam * (F(1) - fallen * left) * many, sky * layer_power(light.sky, even, x)};
     }
     const LitBottom<F> bottom = lit_bottom(m, channel, path, fallen, albedo);
-    const F passing = left + layer_power(light.passing, even, x);
-    const F seen = bottom.reflects * passing / (F(1) - bottom.reflects * bottom.back);
-    const F had = bottom.reflects * fallen * left;
-    const F sunlit = water * (seen * beam * bottom.sunlit);
+    // Unscattered light has the albedo of the point, scattered light that of the bottom around it.
+    const F sharp = detail * left, passing = sharp + layer_power(light.passing, even, x);
+    const F reflects = bottom.reflects / (F(1) - bottom.reflects * bottom.back);
+    const F had = bottom.reflects * fallen * sharp,
+            of_sharp = saturate(sharp / max(passing, F(1e-30)));
+    const F sunlit = water * (reflects * passing * beam * bottom.sunlit);
+    const F skylit = water * (reflects * passing * sky * bottom.skylit);
     const F more =
         max(sunlit - had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place), F(0));
     // Sunlight that comes back to the bottom fell on it far around: the albedo has that shade.
     const F again = min(bottom.reflects * bottom.back * sunlit, more);
     // The sky's light in `transmitted` was dimmed as sunlight, and may be too bright.
-    return {water * up.sun + (more - again),
-            again + water * (up.sky + seen * sky * bottom.skylit) -
+    return {water * up.sun + (more - again), water * up.sky + (F(1) - of_sharp) * (again + skylit),
+            of_sharp * (again + skylit) -
                 had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
   }
 };

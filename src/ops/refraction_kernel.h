@@ -19,8 +19,8 @@ struct Kernel<Refraction> : Refraction {
   static constexpr double kShareOfPath = 0.4;
 
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kTransmitted};
-  static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kPath, StatePart::kTransmitted,
-                                   StatePart::kConfidence};
+  static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kPath, StatePart::kDryBottom,
+                                   StatePart::kTransmitted, StatePart::kConfidence};
   static PlaneSet reads(const Params& p) {
     PlaneSet planes = kColorPlanes | kBelowPlanes | PlaneSet{PlaneId::kDepth};
     if (p.rejection == Rejection::kShorten) planes = planes | PlaneSet{PlaneId::kSurfaceDepth};
@@ -86,11 +86,18 @@ struct Kernel<Refraction> : Refraction {
       if (params.model != Model::kSnell) measure_path(c, p);
       if (params.off_frame == OffFrame::kFog) fog_off_frame(planes.bounds, p);
     });
-    if (!params.continues_bottom() || !c.continuation) return;
-    strip.probe([&](Pixel<F>& p, const auto& tap) {
-      // Beyond the frame no texel confirms the end of a ray.
-      if_any(p.confidence <= F(0), [&] { go_on_off_frame(c, planes, p, tap); });
-    });
+    if (params.continues_bottom() && c.continuation) {
+      strip.probe([&](Pixel<F>& p, const auto& tap) {
+        // Beyond the frame no texel confirms the end of a ray.
+        if_any(p.confidence <= F(0), [&] { go_on_off_frame(c, planes, p, tap); });
+      });
+    }
+    if (c.made.has(StatePart::kDryBottom)) {
+      strip.each([](Pixel<F>& p) {
+        p.dry_bottom = p.transmitted;
+        p.dry_lit = F(1), p.dry_lit_known = F(0);
+      });
+    }
   }
 
  private:

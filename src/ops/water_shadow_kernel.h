@@ -37,8 +37,9 @@ struct Kernel<WaterShadow> : WaterShadow {
   static double displaced(const Params& params, const Ranges& ranges);
 
   static constexpr CellKind kSkipped{"lit", "no shadow falls on the water"};
-  static double ns(const Params& p, const Running&) {
-    return p.model == Model::kDarken ? 1.2 : wants_shafts(p) ? 26 : 1.6;
+  static double ns(const Params& p, const Running& running) {
+    const bool entries = p.model == Model::kScatter && running.planes.has(PlaneId::kSurfaceShadow);
+    return (p.model == Model::kDarken ? 1.2 : wants_shafts(p) ? 26 : 1.6) + (entries ? 20 : 0);
   }
 
   template <class Strip>

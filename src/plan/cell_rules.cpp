@@ -9,7 +9,7 @@
 namespace limpid {
 namespace {
 
-constexpr StateSet kLight = kOutputTerms | StateSet{StatePart::kSunScatter};
+constexpr StateSet kLight = kOutputTerms | StateSet{StatePart::kDryBottom, StatePart::kSunScatter};
 
 const OperatorEntry& entry_of(int index) {
   return operator_table()[static_cast<std::size_t>(index)];

@@ -21,7 +21,7 @@ constexpr CompleterInfo kCompleters[] = {
      "water."},
     {"bottom_albedo",
      kDryPlanes,
-     kAlbedoPlanes,
+     kAlbedoPlanes | PlaneSet{PlaneId::kBasin},
      {},
      PlaneSet{PlaneId::kShadow},
      "The albedo of the bottom, from the dry picture."},

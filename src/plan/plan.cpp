@@ -69,7 +69,8 @@ Plan make_plan_without(const std::vector<std::string>& left_out, const Look& loo
     plan.reads_environment |= needs.environment;
     plan.needs_sun |= needs.sun;
   }
-  // No operator reads it.
+  // No operator reads these.
+  if (!plan.keeps<DepthFog>()) plan.made = plan.made - StateSet{StatePart::kDryBottom};
   if (!outputs.has(StatePart::kMirrorSources)) {
     plan.made = plan.made - StateSet{StatePart::kMirrorSources};
   }

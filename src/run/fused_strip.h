@@ -168,6 +168,9 @@ class FusedStrip {
     int vector;
 
     LIMPID_LANES_INLINE Mask wet() const { return strip.wet_[vector]; }
+    LIMPID_LANES_INLINE Lane own(PlaneId plane) const {
+      return strip.own_at(strip.source_of(plane), vector);
+    }
     LIMPID_LANES_INLINE Lane nearest(PlaneId plane, Vec2<Lane> shift) const {
       const Source source = strip.source_of(plane);
       if (!source.data) return Lane(source.missing);

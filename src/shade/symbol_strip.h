@@ -97,6 +97,7 @@ class SymbolStrip {
     Symbol nearest(PlaneId plane, Vec2<Symbol> shift) const {
       return strip.at(plane, NodeOp::kNearest, shift);
     }
+    Symbol own(PlaneId plane) const { return strip.own_at(plane); }
     Quad quad(Vec2<Symbol> shift) const {
       const int node = record(NodeOp::kQuad, NodeType::kFour, shift);
       return {Symbol::of(node), part(node, 2), part(node, 3)};

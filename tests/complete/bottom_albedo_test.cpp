@@ -34,7 +34,7 @@ float albedo_from(double height, ScatteredLightMaker& maker) {
   const ScatteredLights& light = maker.make({.absorption = {0.3, 0.1, 0.05}, .beam = 0.8});
   BottomAlbedo albedo;
   albedo.make(b.frame, pass, {0.4, 0.4, 0.4}, {light, {0.3, 0.1, 0.05}, 0.8}, *make_executor(1));
-  return albedo.channel(1).view().at(24, 24);
+  return albedo.channel(1).view().at(24, 24) * albedo.basin().view().at(24, 24);
 }
 
 TEST(BottomAlbedo, ChangesWithoutAStepWhereAViewGoesUnderTheWater) {
@@ -73,7 +73,7 @@ double albedo_of_floor(const WaterOver& water, Lit&& lit) {
   const Pass pass(scene, b.frame, 1.333, {});
   BottomAlbedo albedo;
   albedo.make(b.frame, pass, {kSky, kSky, kSky}, water, *make_executor(1));
-  return albedo.channel(1).view().at(160, 160);
+  return albedo.channel(1).view().at(160, 160) * albedo.basin().view().at(160, 160);
 }
 
 // Half of the floor is in the shade of something above, and the surface throws back half as much of

@@ -78,6 +78,48 @@ TEST(ScatteredLight, WhatADeepBottomChangesIsInTheBound) {
   }
 }
 
+/// Water without scattering, which returns light of a bottom that has stripes of albedo 0.2 in the
+/// columns 4 and 5, else 0.6; the columns from 6 on lie in the shade.
+test::Tray striped(bool told) {
+  test::Tray tray({12, 3});
+  const auto albedo = [](int x) { return x == 4 || x == 5 || x == 8 || x == 9 ? 0.2f : 0.6f; };
+  const auto lit = [](int x) { return x < 6 ? 1.0f : 0.0f; };
+  tray.scene.sun = Sun{.direction = {0, 1, 0}, .color = {2, 2, 2}};
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [=](int x, int) { return albedo(x) * (2 * lit(x) + 0.5f); });
+    tray.buffers.fill(plane_after(PlaneId::kAlbedoR, c), 0.5f);
+  }
+  if (told) tray.buffers.set(PlaneId::kShadow, [=](int x, int) { return lit(x); });
+  DepthFog::Params& fog = tray.look.of<DepthFog>();
+  fog = test::plain_fog(DepthFog::Model::kRadiativeTransfer);
+  fog.absorption = {0.02, 0.02, 0.02};
+  fog.ambient = {0.5, 0.5, 0.5};
+  fog.crossing = DepthFog::Crossing::kRadiance;
+  return tray;
+}
+
+// What the surface throws back falls on each point alike, and each reflects it by its own albedo.
+TEST(ScatteredLight, ThatComesBackToTheBottomKeepsItsTexture) {
+  const test::Picture wet = striped(true).wet();
+  const auto sent = [&](int x) { return wet.aov(Aov::kTransmitted, x, 1, 1); };
+  EXPECT_NEAR(sent(4) / sent(2), 1 / 3.0, 1e-4);
+  EXPECT_NEAR(sent(8) / sent(11), 1 / 3.0, 1e-4);
+  // In the shade less light of its own, and as much of the rest.
+  test::Tray bare = striped(true);
+  bare.look.of<DepthFog>().model = DepthFog::Model::kBeerLambert;
+  const test::Picture once = bare.wet();
+  const auto more = [&](int x) { return sent(x) - once.aov(Aov::kTransmitted, x, 1, 1); };
+  EXPECT_GT(more(2), 0.02);
+  EXPECT_NEAR(more(11), more(2), 1e-3 * more(2));
+}
+
+// Without a shadow a dark texel may as well lie in the shade.
+TEST(ScatteredLight, IsThatOfTheBottomAroundWhereNoShadowIsKnown) {
+  const test::Picture wet = striped(false).wet();
+  EXPECT_GT(wet.aov(Aov::kTransmitted, 4, 1, 1) / wet.aov(Aov::kTransmitted, 2, 1, 1), 0.36);
+}
+
 // Pixels whose views begin in the water do not change a pixel whose view begins in the air.
 TEST(ScatteredLight, OfAViewFromTheAirDoesNotKnowOfOthers) {
   const test::Tray tray = furnace(3);

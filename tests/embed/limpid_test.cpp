@@ -171,8 +171,8 @@ TEST_F(LimpidC, TexturesAndAovs) {
 TEST_F(LimpidC, RefusesFramesThatAreNone) {
   planes[2].id = LIMPID_COLOR_R;
   expect_refused("limpid_frame.planes[2].id = 0: it is given twice");
-  planes[2].id = LIMPID_SUN_COLOR_B + 1;
-  expect_refused("limpid_frame.planes[2].id = 29");
+  planes[2].id = LIMPID_BASIN + 1;
+  expect_refused("limpid_frame.planes[2].id = 30");
   planes[2].id = LIMPID_COLOR_B;
   planes[2].sample = 2;
   expect_refused("limpid_frame.planes[2].sample = 2");

@@ -245,6 +245,22 @@ TEST(Caustics, LeaveShadowsThatAreCastInTheWater) {
   EXPECT_NEAR(wet.color(14, 2).r, 0.5, 1e-6);
 }
 
+// Something hides the bottom, which the layer below shows; what hides it is in the sun.
+TEST(Caustics, MoveShadowsOfHiddenPlaces) {
+  Tray tray = under_a_board();
+  for (int c = 0; c < 3; ++c) {
+    const View<const float> floor = tray.buffers.frame.plane(plane_after(PlaneId::kColorR, c));
+    tray.buffers.set(plane_after(PlaneId::kBelowR, c),
+                     [&](int x, int y) { return floor.at(x, y); });
+    tray.buffers.fill(plane_after(PlaneId::kColorR, c), 0.5f);
+    tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
+  }
+  tray.buffers.fill(PlaneId::kBelowDepth, 14).fill(PlaneId::kDepth, 12).fill(PlaneId::kShadow, 1);
+  const test::Picture wet = tray.wet();
+  for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
+  for (const int x : {4, 5, 7, 14, 16}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
+}
+
 // On land beside the water the sun shines, but no light enters there.
 TEST(Caustics, MoveShadowsOfTheShore) {
   Tray tray = under_a_board();
@@ -350,6 +366,46 @@ TEST(Caustics, LeaveShadowsWhoseEntryPointAWaveHides) {
   tray.buffers.set(PlaneId::kSurfaceDepth, [](int x, int) { return x >= 10 ? 7.0f : 10.0f; });
   const test::Picture wet = tray.wet();
   for (const int x : {7, 8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
+}
+
+// A board over the water hides the near part of it from the view. Light enters there, as behind it.
+TEST(Caustics, LetLightInWhereTheWaterIsHidden) {
+  constexpr Size kSize{64, 48};
+  constexpr double kFloor = -1.5, kBoard = 0.4, kEnds = 2.5;
+  Scene scene = test::simple_scene(kSize);
+  scene.sun = Sun{.direction = {0, 0.6, 0.8}, .color = {3, 3, 3}};
+  test::Buffers b(rect_of(kSize));
+  const Rays rays = rays_of(*scene.camera, {kSize.width, kSize.height});
+  struct Seen {
+    double board, floor, water;  ///< eye depths
+  };
+  const auto seen = [&](int y) {
+    const glm::dvec3 ray = rays.ray_at(32, y + 0.5);
+    const auto at = [&](double height) { return ray.y < 0 ? (height - 2) / ray.y : HUGE_VAL; };
+    return Seen{-at(kBoard) * ray.z < kEnds ? at(kBoard) : HUGE_VAL, at(kFloor), at(0)};
+  };
+  b.set(PlaneId::kDepth,
+        [&](int, int y) { return static_cast<float>(std::min(seen(y).board, seen(y).floor)); });
+  b.set(PlaneId::kBelowDepth, [&](int, int y) { return static_cast<float>(seen(y).floor); });
+  b.set(PlaneId::kSurfaceDepth, [&](int, int y) {
+    return seen(y).board < HUGE_VAL ? test::kInf : static_cast<float>(seen(y).water);
+  });
+  b.fill(PlaneId::kShadow, 1).fill(PlaneId::kSurfaceShadow, 1);
+  for (int c = 0; c < 3; ++c) {
+    b.fill(plane_after(PlaneId::kColorR, c), 0.5f).fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
+    b.fill(plane_after(PlaneId::kBelowR, c), 0.5f);
+  }
+  Look look = test::still_look();
+  look.of<Caustics>() = {};
+  look.of<Refraction>().model = Refraction::Model::kSnell;
+  const test::Picture wet = test::reference(look, b.frame, scene);
+  int rows = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    if (!(seen(y).water < 20) || seen(y).board < HUGE_VAL) continue;
+    EXPECT_NEAR(wet.color(32, y).r, 0.5, 0.02) << y;
+    ++rows;
+  }
+  EXPECT_GT(rows, 8);
 }
 
 // The whole visible surface lies in shadow. At the right edge light enters beyond the picture,

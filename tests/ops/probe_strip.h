@@ -109,6 +109,10 @@ class ProbeStrip {
       strip.note(shift);
       return read(plane, {shift})[0];
     }
+    double own(PlaneId plane) const {
+      strip.tapped = strip.tapped | PlaneSet{plane};
+      return strip.texel(i, plane);
+    }
     Quad quad(Vec2<double> shift) const {
       strip.note(shift);
       return {shift};
@@ -175,6 +179,9 @@ void each_number(P& a, Q& b, StatePart part, Fn&& fn) {
       return fn(a.path, b.path);
     case StatePart::kTransmittance:
       return rgb(a.transmittance, b.transmittance);
+    case StatePart::kDryBottom:
+      rgb(a.dry_bottom, b.dry_bottom);
+      return fn(a.dry_lit, b.dry_lit), fn(a.dry_lit_known, b.dry_lit_known);
     case StatePart::kTransmitted:
       return rgb(a.transmitted, b.transmitted);
     case StatePart::kInScatter:
@@ -206,11 +213,11 @@ inline void copy_part(const Pixel<double>& from, StatePart part, Pixel<double>& 
 }
 
 constexpr StatePart kStateParts[] = {
-    StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
-    StatePart::kPosition,    StatePart::kPath,          StatePart::kTransmittance,
-    StatePart::kTransmitted, StatePart::kInScatter,     StatePart::kSunScatter,
-    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kMirrorSources,
-    StatePart::kHighlight,   StatePart::kConfidence};
+    StatePart::kNormal,        StatePart::kSlopeVariance, StatePart::kPrism,
+    StatePart::kPosition,      StatePart::kPath,          StatePart::kTransmittance,
+    StatePart::kDryBottom,     StatePart::kTransmitted,   StatePart::kInScatter,
+    StatePart::kSunScatter,    StatePart::kFresnel,       StatePart::kReflected,
+    StatePart::kMirrorSources, StatePart::kHighlight,     StatePart::kConfidence};
 
 /// The fixed part of a pixel, then random state in the given parts; the other parts are as before
 /// the first operator.
@@ -258,6 +265,8 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
     p.sun_near = 0.1 * rgb(), p.sun_far = 0.1 * rgb();
     p.sun_entry = {0.3, 0, 0.2}, p.mean_scatter_distance = 0.8;
   }
+  if (random.has(StatePart::kDryBottom))
+    p.dry_bottom = rgb(), p.dry_lit = 0.5, p.dry_lit_known = 0.5;
   if (random.has(StatePart::kTransmitted)) p.transmitted = rgb();
   if (random.has(StatePart::kInScatter)) p.in_scatter = rgb();
   if (random.has(StatePart::kFresnel)) p.fresnel = 0.5 + 0.5 * number();

@@ -61,6 +61,7 @@ not found
   sky               the sky without the objects in front of it
   albedo            albedo of the bottom around each pixel
   sun_color         direct sunlight in the dry picture: 0 in shadow
+  basin             albedo of an endless floor as bright, over that of the bottom: below 1 by walls and in shade
 )");
 }
 
@@ -108,6 +109,7 @@ not found
   sky               the sky without the objects in front of it
   albedo            albedo of the bottom around each pixel
   sun_color         direct sunlight in the dry picture: 0 in shadow
+  basin             albedo of an endless floor as bright, over that of the bottom: below 1 by walls and in shade
 not used
   reflection_shadow.exr
 )");

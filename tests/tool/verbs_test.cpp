@@ -53,7 +53,7 @@ TEST_F(VerbsTest, OperatorsListsTheChain) {
 TEST_F(VerbsTest, OperatorsNamesTheStateThatEachUsesAndMakes) {
   const Ran ran = limpid({"operators"});
   EXPECT_THAT(ran.out, HasSubstr("taps -; uses -; makes normal, slope_variance\n"));
-  EXPECT_THAT(ran.out, HasSubstr("makes position, path, transmitted, confidence\n"));
+  EXPECT_THAT(ran.out, HasSubstr("makes position, path, dry_bottom, transmitted, confidence\n"));
   EXPECT_THAT(ran.out, ContainsRegex("makes [a-z_, ]*reflected, mirror_sources"));
 }
 

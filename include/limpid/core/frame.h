@@ -44,8 +44,9 @@ enum class PlaneId : std::uint8_t {
   kSunColorR,
   kSunColorG,
   kSunColorB,
+  kBasin,
 };
-constexpr int kPlaneCount = 29;
+constexpr int kPlaneCount = 30;
 constexpr int index_of(PlaneId id) { return static_cast<int>(id); }
 /// The plane `step` planes after `id`, as in plane_after(kColorR, 2) = kColorB.
 constexpr PlaneId plane_after(PlaneId id, int step) {

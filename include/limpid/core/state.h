@@ -16,6 +16,7 @@ enum class StatePart : std::uint8_t {
   kPosition,       ///< ends of the refracted rays in the dry picture
   kPath,           ///< length of the refracted ray in the water
   kTransmittance,  ///< share of light transmitted along the path
+  kDryBottom,      ///< light from below the surface, as lit in the dry picture
   kTransmitted,    ///< light from below the surface
   kInScatter,      ///< light scattered into the view by the water
   kSunScatter,     ///< the sun's part of in-scatter
@@ -30,17 +31,17 @@ using StateSet = EnumSet<StatePart>;
 
 /// Names in the order of StatePart.
 inline constexpr std::string_view kStatePartNames[] = {
-    "normal",        "slope_variance", "prism",      "position",    "path",
-    "transmittance", "transmitted",    "in_scatter", "sun_scatter", "fresnel",
-    "reflected",     "mirror_sources", "highlight",  "confidence"};
+    "normal",        "slope_variance", "prism",          "position",   "path",
+    "transmittance", "dry_bottom",     "transmitted",    "in_scatter", "sun_scatter",
+    "fresnel",       "reflected",      "mirror_sources", "highlight",  "confidence"};
 static_assert(std::size(kStatePartNames) == static_cast<std::size_t>(StatePart::kConfidence) + 1);
 
 inline constexpr StateSet kWholeState{
-    StatePart::kNormal,      StatePart::kSlopeVariance, StatePart::kPrism,
-    StatePart::kPosition,    StatePart::kPath,          StatePart::kTransmittance,
-    StatePart::kTransmitted, StatePart::kInScatter,     StatePart::kSunScatter,
-    StatePart::kFresnel,     StatePart::kReflected,     StatePart::kMirrorSources,
-    StatePart::kHighlight,   StatePart::kConfidence};
+    StatePart::kNormal,        StatePart::kSlopeVariance, StatePart::kPrism,
+    StatePart::kPosition,      StatePart::kPath,          StatePart::kTransmittance,
+    StatePart::kDryBottom,     StatePart::kTransmitted,   StatePart::kInScatter,
+    StatePart::kSunScatter,    StatePart::kFresnel,       StatePart::kReflected,
+    StatePart::kMirrorSources, StatePart::kHighlight,     StatePart::kConfidence};
 
 /// The terms whose sum is the picture.
 inline constexpr StateSet kOutputTerms{StatePart::kTransmitted, StatePart::kInScatter,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -74,11 +75,24 @@ Worst dry_bits(const HardWorld& world) {
   return worst;
 }
 
-/// Light is linear: a world 2^80 times as bright has the same bits except the exponent.
-Worst brightness(const HardWorld& world) {
-  Worst worst;
+/// An even environment.
+Plane even_sky(double radiance) {
+  Plane plane(Rect{0, 0, 8, 4});
+  for (int y = 0; y < 4; ++y) std::fill_n(plane.view().row(y), 8, static_cast<float>(radiance));
+  return plane;
+}
+
+void brightness_of(const HardWorld& world, const Look& look, int exponent, bool lit, Worst& worst) {
+  const double times = std::ldexp(1, exponent);
   const Scene scene = noisy_scene(kSize);
   HardFrame frame = noisy_frame(kSize), bright = noisy_frame(kSize);
+  Scene sunny = scene;
+  const Plane sky = even_sky(0.3), bright_sky = even_sky(0.3 * times);
+  if (lit) {
+    sunny.sun->color = times * sunny.sun->color;
+    frame.frame().environment.channels = {sky.view(), sky.view(), sky.view()};
+    bright.frame().environment.channels = {bright_sky.view(), bright_sky.view(), bright_sky.view()};
+  }
   for (HardFrame* made : {&frame, &bright}) {
     // The surroundings would replace it, as bright as ever.
     made->remove(PlaneId::kReflectionValid);
@@ -88,31 +102,39 @@ Worst brightness(const HardWorld& world) {
     for (int c = 0; c < 3; ++c) {
       const View<float> plane = bright.plane(plane_after(first, c));
       for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) plane.at(x, y) *= 0x1p80f;
+        for (int x = 0; x < kSize.width; ++x) plane.at(x, y) *= static_cast<float>(times);
       }
     }
   }
-  for (const Look& look : world.looks()) {
-    for (const std::string& runner : world.runners()) {
-      const HardPicture judge = world.run(runner, look, frame, scene);
-      const HardPicture picture = world.run(runner, look, bright, scene);
-      for (const Aov term : {Aov::kTransmitted, Aov::kReflected}) {
-        if (term == Aov::kReflected &&
-            look.of<FresnelReflection>().source != FresnelReflection::Source::kPlanar) {
-          continue;
-        }
-        for (int y = 0; y < kSize.height; ++y) {
-          for (int x = 0; x < kSize.width; ++x) {
-            const double off = picture.aov(term, x, y) - 0x1p80 * judge.aov(term, x, y);
-            worst.expect(off == 0, [&] { return place_text(runner, look.name, x, y); });
-          }
+  for (const std::string& runner : world.runners()) {
+    const HardPicture judge = world.run(runner, look, frame, scene);
+    const HardPicture picture = world.run(runner, look, bright, sunny);
+    for (const Aov term : {Aov::kTransmitted, Aov::kReflected}) {
+      if (term == Aov::kReflected &&
+          look.of<FresnelReflection>().source != FresnelReflection::Source::kPlanar) {
+        continue;
+      }
+      for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 0; x < kSize.width; ++x) {
+          const double off = picture.aov(term, x, y) - times * judge.aov(term, x, y);
+          worst.expect(off == 0, [&] { return place_text(runner, look.name, x, y); });
         }
       }
     }
+  }
+}
+
+/// Light is linear: a world 2^80 times as bright has the same bits except the exponent. Radiative
+/// transfer adds to the bottom's light what sun and sky send it through the water: with it, they
+/// are as much brighter, and the world 2^20 times, for a sun may not be brighter.
+Worst brightness(const HardWorld& world) {
+  Worst worst;
+  for (const Look& look : world.looks()) {
+    const bool lit = look.of<DepthFog>().model == DepthFog::Model::kRadiativeTransfer;
+    brightness_of(world, look, lit ? 20 : 80, lit, worst);
   }
   return worst;
 }
-
 }  // namespace
 
 void add_pixel_cases(HardCases& cases) {
