@@ -232,14 +232,16 @@ void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>&
   for (std::size_t n = 0; n < cells_.size(); ++n) {
     const Cell& cell = cells_[n];
     std::array<float, 4>& drawn = drawn_[n];
-    float of_level = 0;
+    float of_level = 0, channels = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const float albedo = cell.light[i] > 0 ? cell.color[i] / cell.light[i] : 0;
       drawn[i] = std::clamp(albedo, 0.0f, 1.0f);
-      const bool shaded = drawn[i] > 0 && (cell.walls[i] > 0 || cell.shade[i] > 0);
+      if (!(drawn[i] > 0)) continue;
+      const bool shaded = cell.walls[i] > 0 || cell.shade[i] > 0;
       of_level += shaded ? as_of_level(drawn[i], cell, i, sun[i], even[i], water) / drawn[i] : 1.0f;
+      channels += 1;
     }
-    drawn[kBasin] = std::clamp(of_level / 3, 0.0f, 1.0f);
+    drawn[kBasin] = channels > 0 ? std::clamp(of_level / channels, 0.0f, 1.0f) : 1.0f;
   }
   for (Plane& plane : planes_) {
     if (!plane || plane.view().window != window) plane = Plane(window);

@@ -182,11 +182,8 @@ class Channel {
   /// Relative to all sunlight that comes up, single scattering included.
   void fit_sun() {
     ShapesFit<kShapes> fit;
-    const double level_beam = std::sqrt(1 - beam_ * beam_);
     each_view([&](std::size_t i, int a) {
-      const double cosine = directions_.cosine[i];
-      const double turned =
-          std::sqrt(1 - cosine * cosine) * level_beam * std::cos(azimuth_of(a)) - cosine * beam_;
+      const double cosine = directions_.cosine[i], turned = turned_of(i, a);
       const double once = once_ * std::numbers::pi * henyey_greenstein(turned, anisotropy_) *
                           beam_ / (beam_ + cosine);
       for (std::size_t k = 0; k < even_layers().size(); ++k) {
@@ -199,33 +196,61 @@ class Channel {
     light_.sun = fit.solved();
   }
 
+  /// Cosine of the angle between the sunlight and a view.
+  double turned_of(std::size_t direction, int a) const {
+    const double cosine = directions_.cosine[direction];
+    const double level = std::sqrt((1 - cosine * cosine) * (1 - beam_ * beam_));
+    return level * std::cos(azimuth_of(a)) - cosine * beam_;
+  }
+
+  /// What the fits say of a layer: its scattered light in one direction, and the light of the
+  /// whitest bottom.
+  struct Fitted {
+    double sun, sky, bottom_sun, bottom_sky;
+  };
+  Fitted fitted(double depth, std::size_t direction, int a) const {
+    const double cosine = directions_.cosine[direction], x = layer_variable(depth);
+    const std::array<double, 2> even{1, cosine};
+    const double left = std::exp(-depth / cosine), fallen = std::exp(-depth / beam_);
+    const double most = ScatteredLight::kMaxAlbedo;
+    const double back = light_.back_at_once + layer_power(light_.back, x);
+    const double through = most * (left + layer_power(light_.passing, even, x)) / (1 - most * back);
+    return {
+        (1 - left * fallen) * layer_power(light_.sun, shapes(cosine, turned_of(direction, a)), x),
+        layer_power(light_.sky, even, x),
+        through * (beam_ * fallen + layer_power(light_.sun_below, x)),
+        through * (light_.sky_at_once + layer_power(light_.sky_below, x))};
+  }
+
+  /// Of the fits, at several depths from each layer to the next.
   void put_bounds() {
+    constexpr int kParts = 4;
+    constexpr double kEndless = 1e6;
     const auto& layers = even_layers();
     const std::size_t last = layers.size() - 1;
     for (std::size_t k = last + 1; k-- > 0;) {
-      const SlabLight& layer = layers[k];
-      const double most = ScatteredLight::kMaxAlbedo;
-      const double again = most / (1 - most * layer.back);
-      double sun_off = 0, sky_off = 0, bottom_sun = 0, bottom_sky = 0;
+      double sun_off = 0, sky_off = 0;
       each_view([&](std::size_t i, int a) {
-        const double sun = sun_of(k, i, a), sky = layer.sky[i];
-        light_.most_sun = std::max(light_.most_sun, sun);
-        light_.slope_sun = std::max(light_.slope_sun, sun / layer.depth);
-        light_.most_sky = std::max(light_.most_sky, sky);
-        light_.slope_sky = std::max(light_.slope_sky, sky / layer.depth);
-        const double beam = beam_ * std::exp(-layer.depth / beam_);
-        const double through = again * layer.passing[i];
-        bottom_sun = std::max(bottom_sun, through * (beam + layer.sun_below));
-        bottom_sky = std::max(bottom_sky, through * layer.sky_below);
-        sun_off = std::max(sun_off, std::abs(sun - sun_of(last, i, a)));
-        sky_off = std::max(sky_off, std::abs(sky - layers[last].sky[i]));
+        const Fitted endless = fitted(kEndless, i, a);
+        for (int part = 0; part < kParts; ++part) {
+          const double depth = layers[k].depth * std::exp2(double(part) / kParts);
+          const Fitted here = fitted(depth, i, a);
+          light_.most_sun = std::max(light_.most_sun, here.sun);
+          light_.slope_sun = std::max(light_.slope_sun, here.sun / depth);
+          light_.most_sky = std::max(light_.most_sky, here.sky);
+          light_.slope_sky = std::max(light_.slope_sky, here.sky / depth);
+          light_.most_bottom_sun = std::max(light_.most_bottom_sun, here.bottom_sun);
+          light_.most_bottom_sky = std::max(light_.most_bottom_sky, here.bottom_sky);
+          sun_off =
+              std::max(sun_off, std::abs(here.sun - endless.sun) + std::max(here.bottom_sun, 0.0));
+          sky_off =
+              std::max(sky_off, std::abs(here.sky - endless.sky) + std::max(here.bottom_sky, 0.0));
+        }
       });
-      light_.most_bottom_sun = std::max(light_.most_bottom_sun, bottom_sun);
-      light_.most_bottom_sky = std::max(light_.most_bottom_sky, bottom_sky);
       const double deeper_sun = k < last ? light_.beyond_sun[k + 1] : 0;
       const double deeper_sky = k < last ? light_.beyond_sky[k + 1] : 0;
-      light_.beyond_sun[k] = std::max(deeper_sun, sun_off + bottom_sun);
-      light_.beyond_sky[k] = std::max(deeper_sky, sky_off + bottom_sky);
+      light_.beyond_sun[k] = std::max(deeper_sun, sun_off);
+      light_.beyond_sky[k] = std::max(deeper_sky, sky_off);
     }
   }
 

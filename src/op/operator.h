@@ -39,7 +39,8 @@
 ///     strip.tiled_rgb(texture, width, where, [&](Pixel<F>& p, Rgb<F> value) {});  // from levels
 ///     strip.tiled_rgb_if(texture, wanted, where, [&](Pixel<F>& p, Rgb<F> value) {});
 ///     strip.tiled_slopes_if(slopes, wanted, width, where, [&](Pixel<F>&, SlopeMoments<F>) {});
-///     strip.probe([&](Pixel<F>& p, const auto& tap) { ... });  // places that depend on samples
+///     strip.probe([&](Pixel<F>& p, const auto& tap) { ... });  // places that depend on samples;
+///                                                       // tap.own(plane): at the pixel itself
 ///
 /// with `where(const Pixel<F>&) -> Vec2<F>`, a shift in uv from the pixel's own centre. Taps are
 /// clamped to the plane's data window; a plane that is absent reads as its role's `missing` value.

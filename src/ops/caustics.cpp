@@ -65,7 +65,7 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
 }
 
 /// The fog passes on a share of the light from below. The reflection of the bottom has the same
-/// caustics in its bound.
+/// caustics in its bound. Of hidden bottom the fog learns its dry sunlight here.
 double Kernel<Caustics>::bound(const P& params, const Pass& c, const Ranges& ranges) {
   if (c.eye_above < 0 && c.planes.covers(kReflectionPlanes)) return HUGE_VAL;
   const bool hidden = light_of(params, c).moves && SeenPlanes::of(c).below;
@@ -84,7 +84,7 @@ void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& 
   const Light light = light_of(params, c);
   const double gain = c.caustics ? params.strength * (c.caustics->most - 1) : HUGE_VAL;
   const double loss = c.caustics ? params.strength * (1 - std::max(c.caustics->least, 0.0)) : 1;
-  // The bottom behind an object counts as lit.
+  // Without sun_color the bottom behind an object counts as lit.
   const double lit = SeenPlanes::of(c).below ? 1 : ranges.shadow.max;
   double change = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -98,7 +98,9 @@ void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& 
     // Focused light lies between 1 - loss, which may be below 0, and 1 + gain.
     const double below_none = bound_product(kMostTilt, std::max(loss - 1, 0.0));
     change = std::max({change, bound_product(kMostTilt, 1 + gain) - 1, 1 + below_none});
-    const bool all_lit = ranges.shadow.min >= 1 && ranges.shadow_of_water.min >= 1;
+    // Hidden bottom may get its straight light through land.
+    const bool all_lit =
+        ranges.shadow.min >= 1 && ranges.shadow_of_water.min >= 1 && !SeenPlanes::of(c).below;
     if (!light.moves || all_lit) continue;
     const double most = c.caustics ? std::max(c.caustics->sun_over_rest[i], 1.0) : HUGE_VAL;
     change = std::max(

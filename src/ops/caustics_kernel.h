@@ -3,6 +3,7 @@
 
 #include "limpid/ops/caustics.h"
 
+#include "op/bilinear.h"
 #include "op/caustics_table.h"
 #include "op/operator.h"
 #include "op/screen_ray.h"
@@ -13,8 +14,9 @@ namespace limpid {
 
 template <>
 struct Kernel<Caustics> : Caustics {
-  static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kPosition,
-                                  StatePart::kPath, StatePart::kTransmitted};
+  static constexpr StateSet kUses{StatePart::kNormal,    StatePart::kPrism,
+                                  StatePart::kPosition,  StatePart::kPath,
+                                  StatePart::kDryBottom, StatePart::kTransmitted};
   static constexpr StateSet kMakes{StatePart::kDryBottom, StatePart::kTransmitted};
   static PlaneSet reads(const Params& p) {
     const PlaneSet lit = kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kDepth};
@@ -97,13 +99,15 @@ struct Kernel<Caustics> : Caustics {
                          dot(map_y, end) + aside * sunwards.y};
         };
         // The shadow plane shows the object that hides a place of the layer below.
-        const F dry = planes.below ? mixed(tap, PlaneId::kDepth, p.shift) : p.hit_depth;
+        const F dry =
+            planes.below ? bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(p.shift)) : p.hit_depth;
         const auto hidden = dry < F(kSameDepth) * p.hit_depth;
-        const F of_plane = shadowed ? mixed(tap, PlaneId::kShadow, p.shift) : F(1);
+        const F of_plane = shadowed ? bilinear<F>(tap, PlaneId::kShadow, p.shift) : F(1);
         const F lit = select(hidden, F(1), of_plane);
         Tilt<F> tilt{F(1), F(1)};
         if (light.bends) {
-          const auto sloped = lit_bottom && given<F>(table.slopes, "caustics.slopes") > F(0);
+          const auto sloped =
+              lit_bottom && !hidden && given<F>(table.slopes, "caustics.slopes") > F(0);
           if_any(sloped, [&] {
             const Tilt<F> own = tilt_of(c, p, tap, light, sunwards);
             tilt = {select(sloped, own.of_level, F(1)), select(sloped, own.gain, F(1))};
@@ -149,8 +153,9 @@ struct Kernel<Caustics> : Caustics {
           if (light.known) {
             F shown(0);
             for (int k = 0; k < 3; ++k) {
-              only<F>(i, k,
-                      [&] { shown = mixed(tap, plane_after(PlaneId::kSunColorR, k), shift); });
+              only<F>(i, k, [&] {
+                shown = bilinear<F>(tap, plane_after(PlaneId::kSunColorR, k), shift);
+              });
             }
             const F around = of_channel(i, light.around, "caustics.around");
             const F part = sunlit.dry * around;
@@ -179,15 +184,6 @@ struct Kernel<Caustics> : Caustics {
   }
 
  private:
-  template <class F, class Tap>
-  static LIMPID_INLINE F mixed(const Tap& tap, PlaneId plane, Vec2<F> shift) {
-    const auto quad = tap.quad(shift);
-    const Four<F> values = tap.read(plane, quad);
-    F sum(0);
-    for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
-    return sum;
-  }
-
   /// Sunlight on a slope, refracted by calm water.
   template <class F>
   struct Tilt {
@@ -233,9 +229,7 @@ struct Kernel<Caustics> : Caustics {
       return Four<F>{{d[1] * upper, d[0] * upper, d[3] * lower, d[2] * lower}};
     };
     const auto mix = [](const auto& quad, const Four<F>& values) {
-      F sum(0);
-      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
-      return max(sum, F(1e-18));
+      return max(mean_of<F>(quad, values), F(1e-18));
     };
     const Vec2<F> low{given<F>(c.dry.low.x) - p.uv.x, given<F>(c.dry.low.y) - p.uv.y};
     const Vec2<F> high{given<F>(c.dry.high.x) - p.uv.x, given<F>(c.dry.high.y) - p.uv.y};
@@ -298,7 +292,7 @@ struct Kernel<Caustics> : Caustics {
   };
   /// Refracted light enters at `entry`, straight light would enter at `level`; `lit` is the share
   /// for straight light. For a `hidden` place that is the share that passes the surface, if the
-  /// picture shows the water at both entries; else its light stays as in the dry picture.
+  /// picture shows water or land at both entries; else its light stays as in the dry picture.
   template <class F, class Tap, class Mask>
   static LIMPID_INLINE Sunlit<F> moved(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                        Vec2<F> entry, Vec2<F> level, F lit, Mask hidden) {
@@ -313,7 +307,7 @@ struct Kernel<Caustics> : Caustics {
       const Vec3<F> point = at.x * map_x + at.y * map_y - given<F>(c.eye_above) * up;
       const ScreenRay<F> ray(c, p, point - p.surface_point);
       const Vec2<F> shift = ray.shift_at(F(1));
-      Entry found{mixed(tap, PlaneId::kSurfaceShadow, shift), known_at(c, p, shift)};
+      Entry found{bilinear<F>(tap, PlaneId::kSurfaceShadow, shift), known_at(c, p, shift)};
       if (c.planes.has(PlaneId::kSurfaceDepth)) {
         // No light enters where there is no water. Over a low camera, a wave in front hides the
         // place: the plane shows the shadow on that wave, which must be much nearer to the place
@@ -323,7 +317,7 @@ struct Kernel<Caustics> : Caustics {
         const F shown = saturate(F(1.5) - F(2) * off / max(moved_by, F(1e-6)));
         found.passes = select(nothing(seen), F(0), found.passes);
         F land(1);
-        if_any(nothing(seen), [&] { land = is_land(c, p, tap, point, ray, shift); });
+        if_any(nothing(seen), [&] { land = is_land(c, p, tap, point, ray, shift, moved_by); });
         found.known = found.known * select(nothing(seen), land, shown);
       }
       return found;
@@ -344,26 +338,36 @@ struct Kernel<Caustics> : Caustics {
   }
 
   /// For a place of the calm surface that the picture does not show: 1 if the surface that it shows
-  /// at `shift` instead rises above that place, 0 if it only stands in front of it. On land nothing
-  /// farther is seen past the point as high above the place as that surface, nor two pixels behind
-  /// that point.
+  /// at `shift` instead rises above that place, 0 if it only stands in front of it. On land the
+  /// picture shows the point above the place that is as high as what it shows there, and nothing
+  /// farther two pixels behind that point. Places as near behind a wall's foot as a quarter of the
+  /// way by which shadows move (`moved_by`) count as land.
   template <class F, class Tap>
   static LIMPID_INLINE F is_land(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                 const Vec3<F>& place, const ScreenRay<F>& ray, Vec2<F> shift) {
+                                 const Vec3<F>& place, const ScreenRay<F>& ray, Vec2<F> shift,
+                                 F moved_by) {
+    constexpr int kRises = 3;
     const Vec3<F> up = vec3_of<F>(c.up);
-    const F depth = ray.depth_at(F(1)), seen = min(tap.nearest(PlaneId::kDepth, shift), F(1e30));
-    const F off = abs(seen - depth), height = max(height_at(c, p, shift, seen), F(0));
-    const Vec3<F> raised = place + height * up - p.surface_point;
-    const auto covered = [&](const Vec3<F>& point) {
-      const ScreenRay<F> to(c, p, point);
-      return min(tap.nearest(PlaneId::kDepth, to.shift_at(F(1))), F(1e30)) - to.depth_at(F(1)) <=
-             off;
+    const F depth = ray.depth_at(F(1));
+    const F off = abs(min(tap.nearest(PlaneId::kDepth, shift), F(1e30)) - depth);
+    struct Past {
+      F height, distance;  ///< of what is seen at a point: over the water, and behind the point
     };
+    const auto past = [&](const Vec3<F>& point) {
+      const ScreenRay<F> to(c, p, point - p.surface_point);
+      const Vec2<F> at = to.shift_at(F(1));
+      const F seen = min(tap.nearest(PlaneId::kDepth, at), F(1e30));
+      return Past{max(height_at(c, p, at, seen), F(0)), seen - to.depth_at(F(1))};
+    };
+    Vec3<F> point = place;
+    for (int i = 0; i < kRises; ++i) point = place + past(point).height * up;
     const F sink = max(abs(dot(up, p.to_viewer)), F(0.05));
-    const Vec3<F> level = (sink * up - p.to_viewer);  // away from the viewer
+    const Vec3<F> level = sink * up - p.to_viewer;  // away from the viewer
     const F pixel = caustics_texel(c, depth, F(1)) / sink;
-    const F per_length = F(1) / max(sqrt(dot(level, level)), F(1e-3));
-    const auto land = covered(raised) && covered(raised + (F(2) * pixel * per_length) * level);
+    const F two_pixels = F(2) * pixel, per_length = F(1) / max(sqrt(dot(level, level)), F(1e-3));
+    const F near = F(0.5) * off + two_pixels + F(0.25) * moved_by;
+    const auto land = abs(past(point).distance) <= near &&
+                      past(point + (two_pixels * per_length) * level).distance <= near;
     return select(land, F(1), F(0));
   }
 

@@ -2,6 +2,7 @@
 
 #include "limpid/ops/depth_fog.h"
 
+#include "op/bilinear.h"
 #include "op/operator.h"
 #include "op/water_medium.h"
 #include "optics/fog.h"
@@ -21,7 +22,11 @@ struct Kernel<DepthFog> : DepthFog {
     if (!wants_scattered_light(p)) return {};
     return kAlbedoPlanes | PlaneSet{PlaneId::kBasin, PlaneId::kDepth, PlaneId::kShadow};
   }
-  static PlaneSet wants(const Params& p, const AtHand&) { return reads(p); }
+  /// A given albedo is taken as it is, and without a shadow no wall is searched.
+  static PlaneSet wants(const Params& p, const AtHand& has) {
+    const bool estimates = !has.planes.covers(kAlbedoPlanes) && has.planes.has(PlaneId::kShadow);
+    return estimates ? reads(p) : reads(p) - PlaneSet{PlaneId::kBasin};
+  }
   static Needs needs(const Params&) { return {}; }
   static double reach(const Params&) { return 0; }
   static bool neutral(const Params& p, StateSet);
@@ -72,6 +77,9 @@ struct Kernel<DepthFog> : DepthFog {
   }
 
  private:
+  /// Share of the full light below which the albedo of a point is less and less that of its color.
+  static constexpr double kDimmest = 0.1;
+
   static WaterMedium medium_of(const Params& params, const Pass& c);
   static double brightest_phase(const Params& params, const Pass& c, const WaterMedium& medium);
   /// The largest multiple-scattered radiance of paths up to a length; and from a depth on, the
@@ -203,30 +211,29 @@ struct Kernel<DepthFog> : DepthFog {
   template <class F, class Tap>
   static LIMPID_INLINE Rgb<F> detail_at(const WaterMedium& m, const Pass& c, const Pixel<F>& p,
                                         const Tap& tap, const Rgb<F>& albedo) {
-    const auto mixed = [&](PlaneId plane, const auto& quad) {
-      const Four<F> values = tap.read(plane, quad);
-      F sum(0);
-      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * values[k];
-      return sum;
-    };
     const bool split = c.made.has(StatePart::kPrism), told = c.made.has(StatePart::kDryBottom);
     const Rgb<F>& color = told ? p.dry_bottom : p.transmitted;
     const auto quad = tap.quad(p.shift);
-    const F off = abs(min(mixed(PlaneId::kDepth, quad), F(1e30)) - min(p.hit_depth, F(1e30)));
-    const F shown = saturate(F(2) - off / (F(0.02) * min(p.hit_depth, F(1e30))));
+    const F hit = min(p.hit_depth, F(1e30));
+    const F off = abs(bilinear_depth<F>(tap, PlaneId::kDepth, quad) - hit);
+    const F shown = select(hit > F(0), saturate(F(2) - off / (F(0.02) * max(hit, F(1e-6)))), F(0));
     const F known = told ? max(shown, p.dry_lit_known) : shown;
-    const F by_plane = mixed(PlaneId::kShadow, quad);
+    const F by_plane = mean_of<F>(quad, tap.read(PlaneId::kShadow, quad));
     const auto lit_at = [&](Vec2<F> shift) {
-      const F lit = split ? mixed(PlaneId::kShadow, tap.quad(shift)) : by_plane;
+      const F lit = split ? bilinear<F>(tap, PlaneId::kShadow, shift) : by_plane;
       return told ? select(p.dry_lit_known > shown, p.dry_lit, lit) : lit;
     };
     const auto of_channel = [&](std::size_t i, F here, F shadow, F around) {
       const int place = static_cast<int>(i);
       const F sun = given<F>(m.dry_suns()[i], "depth_fog.dry_sun", place);
       const F sky = given<F>(m.dry_skies()[i], "depth_fog.dry_sky", place);
-      const F light = (shadow * sun + sky) * given<F>(m.per_bottom, "depth_fog.per_bottom");
-      const F own = min(max(here, F(0)) / max(light, F(1e-30)), F(1));
-      return F(1) + known * (own / max(around, F(1e-3)) - F(1));
+      const F light = shadow * sun + sky, full = max(sun + sky, F(1e-30));
+      const F per_bottom = given<F>(m.per_bottom, "depth_fog.per_bottom");
+      const F own =
+          min(max(here, F(0)) / max(light * per_bottom, F(1e-30)), F(ScatteredLight::kMaxAlbedo));
+      // Light that is not known, as of walls around, is as much as a dim sky's in the shade.
+      const F sure = known * saturate(light / (F(kDimmest) * full));
+      return F(1) + sure * (own / max(around, F(1e-3)) - F(1));
     };
     return {of_channel(0, color.r, lit_at(p.shift_r), albedo.r),
             of_channel(1, color.g, lit_at(p.shift_g), albedo.g),
@@ -312,7 +319,8 @@ struct Kernel<DepthFog> : DepthFog {
     const F skylit = water * (reflects * passing * sky * bottom.skylit);
     const F more =
         max(sunlit - had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place), F(0));
-    // Sunlight that comes back to the bottom fell on it far around: the albedo has that shade.
+    // Sunlight that comes back to the bottom fell on it far around: Reflector::basin has that
+    // shade.
     const F again = min(bottom.reflects * bottom.back * sunlit, more);
     // The sky's light in `transmitted` was dimmed as sunlight, and may be too bright.
     return {water * up.sun + (more - again), water * up.sky + (F(1) - of_sharp) * (again + skylit),

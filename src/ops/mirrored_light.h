@@ -3,6 +3,7 @@
 
 #include "limpid/ops/fresnel_reflection.h"
 
+#include "op/bilinear.h"
 #include "op/mirror_search.h"
 #include "op/operator.h"
 #include "op/screen_ray.h"
@@ -446,18 +447,6 @@ struct MirroredLight : FresnelReflection {
                            ? bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)))
                            : constant<F>(params);
     return through_water<false>(c, p, tap, mirrored_ray(c, p, n), F(HUGE_VAL), far, {F(0), F(0)});
-  }
-
-  template <class F, class Tap>
-  static Rgb<F> bilinear_rgb(const Tap& tap, PlaneId first, Vec2<F> shift) {
-    const auto quad = tap.quad(shift);
-    const auto mean = [&](int channel) {
-      const Four<F> texels = tap.read(plane_after(first, channel), quad);
-      F sum = F(0);
-      for (int k = 0; k < 4; ++k) sum = sum + quad.weight(k) * texels[k];
-      return sum;
-    };
-    return {mean(0), mean(1), mean(2)};
   }
 
   template <class F, class Tap, class Quad>

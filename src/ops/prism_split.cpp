@@ -23,9 +23,10 @@ constexpr Field<P> kFields[] = {
 
 std::span<const Field<P>> PrismSplit::fields() { return kFields; }
 
-/// Each channel of a lookup becomes another value in reach; its path stays the common path.
+/// Each channel of a lookup becomes another value in reach, as does the albedo that the fog takes
+/// from it; its path stays the common path.
 double Kernel<PrismSplit>::bound(const P&, const Pass&, const Ranges& ranges) {
-  return bound_product(ranges.transmittance, ranges.contrast());
+  return bound_product(ranges.transmittance, ranges.contrast()) + ranges.detail;
 }
 
 double Kernel<PrismSplit>::stretch(const P& params, const Pass& c) {

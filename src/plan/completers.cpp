@@ -24,7 +24,7 @@ constexpr CompleterInfo kCompleters[] = {
      kAlbedoPlanes | PlaneSet{PlaneId::kBasin},
      {},
      PlaneSet{PlaneId::kShadow},
-     "The albedo of the bottom, from the dry picture."},
+     "The albedo of the bottom, and its share for an endless floor, from the dry picture."},
     {"sky",
      kDryPlanes,
      kSkyPlanes,

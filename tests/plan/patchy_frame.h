@@ -120,7 +120,7 @@ inline Look patchy_look(int seed) {
   refraction.strength = any() < 0.2 ? 0 : 0.15 * any();
   refraction.steps = one_of(4) - 1;
   DepthFog::Params& fog = look.of<DepthFog>();
-  fog.model = static_cast<DepthFog::Model>(one_of(2));
+  fog.model = static_cast<DepthFog::Model>(one_of(3));
   fog.distance = static_cast<DepthFog::Distance>(one_of(3));
   fog.density = any() < 0.5 ? 0.3 * any() : 0.003 * any();
   fog.offset = any() < 0.5 ? 0 : any() - 0.5;

@@ -56,7 +56,7 @@ TEST(Promise, WithoutAnErrorNotABitIsAnother) {
     const Job job(seed);
     const Frame& frame = job.buffers.frame;
     const Plan plan = job.plan(0);
-    const Survey survey = test::surveyed(plan, frame, job.scene);
+    const Survey survey = test::surveyed_completed(plan, frame, job.scene);
     const Picture whole = test::picture_of(plan, frame, job.scene, test::by_fused);
     test::for_each_as_surveyed(survey, plan, frame, job.scene, test::by_fused,
                                [&](const CellNeeds& needs, int x, int y, const Picture& picture) {
@@ -87,7 +87,7 @@ TEST(Promise, WithAnErrorNoChannelIsOffByMore) {
     const Picture exact = test::picture_of(job.plan(0), frame, job.scene, test::by_reference);
     for (double error : {1e-4, 2e-3, 5e-2}) {
       const Plan plan = job.plan(error);
-      const Survey survey = test::surveyed(plan, frame, job.scene);
+      const Survey survey = test::surveyed_completed(plan, frame, job.scene);
       test::for_each_as_surveyed(
           survey, plan, frame, job.scene, test::by_reference,
           [&](const CellNeeds& needs, int x, int y, const Picture& picture) {

@@ -6,6 +6,7 @@
 #include "limpid/run/fused.h"
 #include "limpid/run/reference.h"
 
+#include "complete/completer.h"
 #include "op/pass.h"
 #include "support.h"
 
@@ -19,6 +20,13 @@ inline Survey surveyed(const Plan& plan, const Frame& frame, const Scene& scene)
   const Pass pass(scene, frame, plan.look.water.ior, plan.made);
   survey.make(plan, frame, pass, *make_executor(1));
   return survey;
+}
+
+/// As runners do it: with what completers make.
+inline Survey surveyed_completed(const Plan& plan, const Frame& frame, const Scene& scene) {
+  Completer completer;
+  const Pass before(scene, frame, plan.look.water.ior, plan.made);
+  return surveyed(plan, completer.complete(plan, frame, before, *make_executor(1)), scene);
 }
 
 using RunPlan = void (*)(const Plan&, const Frame&, const Scene&, const Target&);

@@ -24,8 +24,10 @@ namespace limpid {
 /// and from sunlit bottom nearby, and the shadow on the surface at the entry point of calm water is
 /// applied. Shadows of objects below the surface stay: they are the shadow on the bottom divided by
 /// the shadow on the surface along the unrefracted ray. Near the picture's edge the moved shadows
-/// fade into the unrefracted ones, and where a wave hides the entry point from a low camera. Where
-/// surface_depth shows no water, no light enters.
+/// fade into the unrefracted ones, and where a wave, or the rim of a basin, hides the entry point
+/// from a low camera. On land, where surface_depth shows no water, no light enters. Of bottom that
+/// only the layer below shows, the shadow removed is the one on the surface at the entry point of
+/// the unrefracted ray.
 ///
 /// Acts on bottom that is seen from the air, from within the water, and from there as the mirror
 /// image in the surface if the frame has a reflection with a depth; light on the mirror image is

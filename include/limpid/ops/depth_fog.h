@@ -55,11 +55,14 @@ namespace limpid {
 ///     in_scatter += sun's and sky's light scattered more than once, by depth, view and angle
 ///                 + A I G / (1 - A B), less what `transmitted` has of a level Lambert floor
 ///
-/// With `crossing` radiance the surface reflects from below by Fresnel's equations. The sky's
-/// radiance is that of the environment, else the scene's, else `ambient`. Views from under water
-/// have the light of water over one level floor, as deep and bright as the visible bottom in the
-/// mean, and a bottom that is lit as that of the level layer.
-/// Without the tables of complete/ for a frame there is single scattering only.
+/// If the frame has a shadow, light of the last term that reaches the viewer unscattered is that of
+/// the point's own albedo, by its color and light in the dry picture; the rest is that of the
+/// bottom around. What of the former came by sky and surface is added to `transmitted`. With
+/// `crossing` radiance the surface reflects from below by Fresnel's equations. The sky's radiance
+/// is that of the environment, else the scene's, else `ambient`. Views from under water have the
+/// light of water over one level floor, as deep and bright as the visible bottom in the mean, and a
+/// bottom that is lit as that of the level layer. Without the tables of complete/ for a frame there
+/// is single scattering only.
 struct DepthFog {
   enum class Model { kLinear, kBeerLambert, kRadiativeTransfer };
   enum class Distance { kEye, kRay, kRefracted };

@@ -15,7 +15,7 @@ namespace limpid {
 /// `scatter`: removes the sun's part of the scattered light where the sun does not reach the water:
 /// in_scatter -= strength ((1 - v_near) sun_near + (1 - v_far) sun_far + (1 - v_multiple)
 /// sun_multiple), never below 0. sun_multiple has no light that the surface reflects back to the
-/// bottom, for that fell on the bottom around, and the bottom's albedo has its shade. Clear water
+/// bottom, for that fell on the bottom around, whose shade is in the plane `basin`. Clear water
 /// shows no shadow of its own; the shadow of the bottom is already in the dry picture.
 ///
 /// If the frame has a shadow on the surface, it is looked up at the entry points of the sunlight

@@ -135,6 +135,7 @@ Worst brightness(const HardWorld& world) {
   }
   return worst;
 }
+
 }  // namespace
 
 void add_pixel_cases(HardCases& cases) {
@@ -147,8 +148,9 @@ void add_pixel_cases(HardCases& cases) {
   }
   cases.push_back({"pixels", "dry ones of every kind", "values with other bits",
                    "dry pixels are copied", 0, dry_bits});
-  cases.push_back({"pixels", "2^80 times as bright, every look", "values with other bits",
-                   "light is linear: the exponent alone changes", 0, brightness});
+  cases.push_back({"pixels", "2^80 times as bright, every look (2^20 with radiative transfer)",
+                   "values with other bits", "light is linear: the exponent alone changes", 0,
+                   brightness});
 }
 
 }  // namespace limpid

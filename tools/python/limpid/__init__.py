@@ -182,7 +182,7 @@ class Compositor:
             reflection_depth: np.ndarray | None = None, below_color: np.ndarray | None = None,
             below_depth: np.ndarray | None = None, surface_shadow: np.ndarray | None = None,
             sky: np.ndarray | None = None, albedo: np.ndarray | None = None,
-            sun_color: np.ndarray | None = None,
+            sun_color: np.ndarray | None = None, basin: np.ndarray | None = None,
             sky_radiance: Sequence[float] | None = None,
             display: Sequence[int] | None = None, out: np.ndarray | None = None, dtype: str = "float32",
             aovs: Sequence[str] | Mapping[str, np.ndarray | None] | None = None) -> Any:
@@ -209,6 +209,8 @@ class Compositor:
         sky: (rows, columns, 3), the sky without the objects in front of it
         albedo: (rows, columns, 3), share of the light that the bottom reflects, around each pixel
         sun_color: (rows, columns, 3), the part of color from the sun's direct light: 0 in shadow
+        basin: (rows, columns), albedo of an endless floor as bright, over albedo: below 1 by walls
+            and in shade
         display: (x0, y0, x1, y1), the pixels of color in the camera's picture; the others are
             overscan, which is looked up, but not computed
         out: the target array, float32 or float16, 3 or 4 channels, any strides; may be color itself
@@ -220,7 +222,7 @@ class Compositor:
                   "surface_depth": surface_depth, "surface_normal": surface_normal,
                   "reflection_valid": reflection_valid, "reflection_depth": reflection_depth,
                   "below_color": below_color, "below_depth": below_depth, "surface_shadow": surface_shadow,
-                  "sky": sky, "albedo": albedo, "sun_color": sun_color}
+                  "sky": sky, "albedo": albedo, "sun_color": sun_color, "basin": basin}
         scene = _scene(camera, water, sun, sky_radiance, time)
         dtype = dtype if isinstance(dtype, str) else np.dtype(dtype).name
         wet, made = self._core.run(_present(planes), scene, display, out, dtype, _aov_arrays(aovs))
