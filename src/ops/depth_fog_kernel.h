@@ -1,5 +1,4 @@
 #pragma once
-
 #include "limpid/ops/depth_fog.h"
 
 #include "op/bilinear.h"

@@ -114,6 +114,56 @@ TEST(ScatteredLight, ThatComesBackToTheBottomKeepsItsTexture) {
   EXPECT_NEAR(more(11), more(2), 1e-3 * more(2));
 }
 
+// An object hides the bottom, which the layer below shows; the shadow on the surface tells its
+// light.
+TEST(ScatteredLight, ThatComesBackToHiddenBottomKeepsItsTexture) {
+  test::Tray tray = striped(true);
+  const View<const float> lit = tray.buffers.frame.plane(PlaneId::kShadow);
+  tray.buffers.set(PlaneId::kSurfaceShadow, [&](int x, int y) { return lit.at(x, y); });
+  tray.buffers.fill(PlaneId::kShadow, 1);
+  for (int c = 0; c < 3; ++c) {
+    const View<const float> color = tray.buffers.frame.plane(plane_after(PlaneId::kColorR, c));
+    tray.buffers.set(plane_after(PlaneId::kBelowR, c),
+                     [&](int x, int y) { return color.at(x, y); });
+    tray.buffers.fill(plane_after(PlaneId::kColorR, c), 0.5f);
+    tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.4f);
+  }
+  tray.buffers.fill(PlaneId::kBelowDepth, 14).fill(PlaneId::kDepth, 12);
+  tray.look.of<Refraction>().model = Refraction::Model::kSnell;
+  tray.look.of<Caustics>() = {};
+  const test::Picture wet = tray.wet();
+  const auto sent = [&](int x) { return wet.aov(Aov::kTransmitted, x, 1, 1); };
+  EXPECT_NEAR(sent(4) / sent(3), 1 / 3.0, 0.01);
+  EXPECT_NEAR(sent(8) / sent(7), 1 / 3.0, 0.01);
+}
+
+// In shade that nothing known lights, a color is no albedo.
+TEST(ScatteredLight, IsThatOfTheBottomAroundInShadeWithoutASky) {
+  test::Tray tray = striped(true);
+  tray.look.of<DepthFog>().ambient = {0, 0, 0};
+  const test::Picture wet = tray.wet();
+  tray.look.of<DepthFog>().model = DepthFog::Model::kBeerLambert;
+  const test::Picture once = tray.wet();
+  const auto more = [&](int x) {
+    return wet.aov(Aov::kTransmitted, x, 1, 1) - once.aov(Aov::kTransmitted, x, 1, 1);
+  };
+  EXPECT_GT(more(11), 0);
+  EXPECT_NEAR(more(8), more(11), 1e-6);
+  EXPECT_LT(more(11), more(2));
+}
+
+TEST(ScatteredLight, TakesAnAlbedoThatIsGivenAsItIs) {
+  const auto completed = [](const test::Tray& tray) {
+    return make_plan(tray.look, test::inputs_of(tray.buffers.frame, tray.scene)).completed;
+  };
+  test::Tray tray = striped(true);
+  EXPECT_FALSE(completed(tray).has(PlaneId::kBasin));
+  for (int c = 0; c < 3; ++c) tray.buffers.frame.planes[index_of(PlaneId::kAlbedoR) + c] = {};
+  EXPECT_TRUE(completed(tray).covers(kAlbedoPlanes | PlaneSet{PlaneId::kBasin}));
+  tray.buffers.frame.planes[index_of(PlaneId::kShadow)] = {};
+  EXPECT_FALSE(completed(tray).has(PlaneId::kBasin));
+}
+
 // Without a shadow a dark texel may as well lie in the shade.
 TEST(ScatteredLight, IsThatOfTheBottomAroundWhereNoShadowIsKnown) {
   const test::Picture wet = striped(false).wet();

@@ -267,6 +267,20 @@ class WavesTest : public SpotTest {
     return {off(shows, shows_then, made), off(shows, shows_then, calm)};
   }
 
+  static void record(const Judged& off) {
+    RecordProperty("pixels", std::to_string(off.with_waves.seen) + " of " +
+                                 std::to_string(off.calm.seen) + ", mirrored " +
+                                 std::to_string(off.with_waves.mirrored) + " of " +
+                                 std::to_string(off.calm.mirrored));
+  }
+  static void expect_followed(const Judged& off) {
+    EXPECT_GT(off.calm.seen, 0.3) << "there is something to tell";
+    EXPECT_GT(off.calm.mirrored, 3);
+    EXPECT_LT(off.with_waves.seen, 0.02 * off.calm.seen);
+    EXPECT_LT(off.with_waves.mirrored, 0.05 * off.calm.mirrored);
+    record(off);
+  }
+
  private:
   CompositeJob job_over(const std::vector<SineWave>& waves, const std::string& plate,
                         const std::string& output, double seconds) const {
@@ -370,29 +384,13 @@ class WavesTest : public SpotTest {
 TEST_F(WavesTest, LeadsToTheSamePointThroughGentleWaves) {
   const std::vector<SineWave> waves{{0.008, 3, 1, 0.4, 5}, {0.005, -1, 4, 1.9, 6}};
   for (const glm::dvec3 step : {glm::dvec3(0), glm::dvec3(0.1, 0, -0.05)}) {
-    const Judged off = judged(waves, step, 0.25);
-    EXPECT_GT(off.calm.seen, 0.3) << "there is something to tell";
-    EXPECT_GT(off.calm.mirrored, 3);
-    EXPECT_LT(off.with_waves.seen, 0.02 * off.calm.seen);
-    EXPECT_LT(off.with_waves.mirrored, 0.05 * off.calm.mirrored);
-    RecordProperty("pixels", std::to_string(off.with_waves.seen) + " of " +
-                                 std::to_string(off.calm.seen) + ", mirrored " +
-                                 std::to_string(off.with_waves.mirrored) + " of " +
-                                 std::to_string(off.calm.mirrored));
+    expect_followed(judged(waves, step, 0.25));
   }
 }
 
 TEST_F(WavesTest, LeadsToTheSamePointByNormalsOfBothPlates) {
   const std::vector<SineWave> waves{{0.008, 3, 1, 0.4, 5}, {0.005, -1, 4, 1.9, 6}};
-  const Judged off = judged(waves, {0.1, 0, -0.05}, 0.25, From::kPlates);
-  EXPECT_GT(off.calm.seen, 0.3) << "there is something to tell";
-  EXPECT_GT(off.calm.mirrored, 3);
-  EXPECT_LT(off.with_waves.seen, 0.02 * off.calm.seen);
-  EXPECT_LT(off.with_waves.mirrored, 0.05 * off.calm.mirrored);
-  RecordProperty("pixels", std::to_string(off.with_waves.seen) + " of " +
-                               std::to_string(off.calm.seen) + ", mirrored " +
-                               std::to_string(off.with_waves.mirrored) + " of " +
-                               std::to_string(off.calm.mirrored));
+  expect_followed(judged(waves, {0.1, 0, -0.05}, 0.25, From::kPlates));
 }
 
 TEST_F(SpotTest, WarnsOfASecondPlateWithoutNormals) {
@@ -418,10 +416,7 @@ TEST_F(WavesTest, IsBetterThanOfCalmWaterThroughSteepWaves) {
   const Judged off = judged(waves, {0.1, 0, -0.05}, 1.0 / 24);
   EXPECT_LT(off.with_waves.seen, 0.5 * off.calm.seen);
   EXPECT_LT(off.with_waves.mirrored, 0.5 * off.calm.mirrored);
-  RecordProperty("pixels", std::to_string(off.with_waves.seen) + " of " +
-                               std::to_string(off.calm.seen) + ", mirrored " +
-                               std::to_string(off.with_waves.mirrored) + " of " +
-                               std::to_string(off.calm.mirrored));
+  record(off);
 }
 
 TEST_F(WavesTest, IsZeroWhereNothingMoves) {
