@@ -19,8 +19,10 @@ constexpr int kLooks = 2;          ///< lookups across a cell, and down
 /// The widest window of the closing reaches this share of the cells to each side.
 constexpr int kReachShare = 8;
 constexpr float kOfBottom = BottomLayer::kOfBottom;
-/// Weight of a cell that is not all bottom: its edges have mixed colors.
+/// Weight of a cell that is not all bottom: its edges have mixed colors. Also of walls, which do
+/// not go on behind what stands before them, as a bottom does: surfaces steeper than 45 degrees.
 constexpr float kMixed = 1e-3f;
+constexpr double kLevel = 0.7;
 
 /// From cell to cell, a smooth bottom changes 1 / depth by at most this factor times the change
 /// before, and by this share.
@@ -73,12 +75,20 @@ constexpr auto kLess = [](float a, float b) { return a < b ? a : b; };
 struct BottomLayerMaker::Scan {
   const Pass& c;
   std::array<View<const float>, 3> color;
-  const View<const float>& depth;
+  const View<const float>&depth, &shadow;
   Rect window;
   int cell, step;
   Size cells;
 
-  Scan(const Frame& frame, const Pass& pass) : c(pass), depth(frame.plane(PlaneId::kDepth)) {
+  std::array<float, 3> sun_over_rest;
+  bool relights = false;
+
+  Scan(const Frame& frame, const Pass& pass, const std::array<double, 3>& over_rest)
+      : c(pass), depth(frame.plane(PlaneId::kDepth)), shadow(frame.plane(PlaneId::kShadow)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      sun_over_rest[i] = static_cast<float>(over_rest[i]);
+      relights = relights || (shadow && over_rest[i] > 0);
+    }
     window = depth.window;
     for (int i = 0; i < 3; ++i) {
       const PlaneId plane = plane_after(PlaneId::kColorR, i);
@@ -89,6 +99,32 @@ struct BottomLayerMaker::Scan {
     cell = std::max(kLeastCell, (longer + kCellsAcross - 1) / kCellsAcross);
     step = cell / kLooks;
     cells = {(window.width() + cell - 1) / cell, (window.height() + cell - 1) / cell};
+  }
+
+  /// Color of a texel, as lit by the sun where `relights`.
+  std::array<float, 3> color_at(int x, int y) const {
+    std::array<float, 3> seen{color[0].at(x, y), color[1].at(x, y), color[2].at(x, y)};
+    if (!relights || !shadow.window.contains({x, y, x + 1, y + 1})) return seen;
+    const float lit = std::clamp(shadow.at(x, y), 0.0f, 1.0f);
+    for (std::size_t i = 0; i < 3; ++i) {
+      seen[i] *= (1 + sun_over_rest[i]) / (1 + lit * sun_over_rest[i]);
+    }
+    return seen;
+  }
+
+  /// Whether the surface in a cell is no wall, from depths a cell apart.
+  bool is_level(int column, int row) const {
+    const auto point = [&](int x, int y) {
+      return c.rays.origin_at(x - c.corner.x + 0.5, y - c.corner.y + 0.5) +
+             double{depth.at(x, y)} * c.rays.ray_at(x - c.corner.x + 0.5, y - c.corner.y + 0.5);
+    };
+    const int x = std::min(window.x0 + column * cell + cell / 2, window.x1 - 1);
+    const int y = std::min(window.y0 + row * cell + cell / 2, window.y1 - 1);
+    const int across = x + cell < window.x1 ? cell : -std::min(cell, x - window.x0);
+    const int down = y + cell < window.y1 ? cell : -std::min(cell, y - window.y0);
+    const glm::dvec3 here = point(x, y);
+    const glm::dvec3 normal = glm::cross(point(x + across, y) - here, point(x, y + down) - here);
+    return std::abs(glm::dot(c.up, normal)) > kLevel * glm::length(normal);
   }
 
   std::size_t index(int column, int row) const {
@@ -218,7 +254,8 @@ bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
       if (drop == kBottomless) cells[column].bottomless += 1;
       if (!(drop >= cells[column].bottom) || (land && !is_shore(size, column, row))) return;
       PullPush<4>::Texel& texel = texels[column];
-      for (std::size_t i = 0; i < 3; ++i) texel[i] += scan.color[i].at(x, y);
+      const std::array<float, 3> color = scan.color_at(x, y);
+      for (std::size_t i = 0; i < 3; ++i) texel[i] += color[i];
       texel[3] += drop;
       texel[4] += 1;
     });
@@ -227,7 +264,8 @@ bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
       cells[column].standing = 1 - texel[4] / std::max(cells[column].looks, 1.0f);
       if (!(texel[4] > 0)) continue;
       for (std::size_t i = 0; i < 4; ++i) texel[i] /= texel[4];
-      texel[4] = cells[column].highest >= cells[column].bottom ? 1 : kMixed;
+      const bool whole = cells[column].highest >= cells[column].bottom;
+      texel[4] = whole && scan.is_level(column, row) ? 1 : kMixed;
     }
   });
   return bottom_.draw_on(executor);
@@ -261,11 +299,13 @@ float BottomLayerMaker::thinness_at(Size size, int column, int row) const {
 }
 
 const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
+                                          const std::array<double, 3>& sun_over_rest,
                                           Executor& executor) {
   if (!(pass.eye_above > 0) || pass.submersible) return nullptr;
-  const Scan scan(frame, pass);
+  const Scan scan(frame, pass, sun_over_rest);
   survey(scan, executor);
   if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;
+  layer_.lit = scan.relights;
   const Rect window{0, 0, scan.cells.width, scan.cells.height};
   const bool ends = find_end(scan.cells, executor);
   for (Plane& plane : planes_) {

@@ -32,9 +32,8 @@ constexpr const CausticsTarget* kTargets[] = {
 #undef LIMPID_TARGET
 };
 
-constexpr int kLooks = 320;      ///< along the longer side of the picture
-constexpr int kWeighed = 160;    ///< likewise, of sunlit bottoms
-constexpr double kMaxSun = 100;  ///< over the rest of the light, where that is almost nothing
+constexpr int kLooks = 320;    ///< along the longer side of the picture
+constexpr int kWeighed = 160;  ///< likewise, of sunlit bottoms
 /// The number of points at which light is followed, of all levels: kPointsOfPixel for each pixel,
 /// or kPoints if that is more; at most kMaxPointsOfPixel for each pixel.
 constexpr double kPointsOfPixel = 0.5, kPoints = 1e6, kMaxPointsOfPixel = 64;
@@ -126,7 +125,6 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params* waves,
   sun.to_sun = {glm::dot(direction, pass.map_x), glm::dot(direction, pass.map_y),
                 glm::dot(direction, pass.up)};
   if (!pass.has_sun || !(sun.to_sun.z > 1e-3) || !(pass.ior > 1)) return &table_;
-  if (!within_water()) weigh_sun(frame, pass, executor);
   if (!waves || !waves_.make(*waves, frame, pass, executor)) return &table_;
   sun.ior = pass.ior;
   const double sink = refracted_cosine(sun.to_sun.z, 1 / sun.ior);
@@ -161,38 +159,6 @@ const CausticsTable* CausticsMaker::make(const WaveNormals::Params* waves,
     table_.most = std::max(table_.most, level.most());
   }
   return &table_;
-}
-
-/// Over lit bottoms, every few pixels.
-void CausticsMaker::weigh_sun(const Frame& frame, const Pass& c, Executor& executor) {
-  table_.sun_over_rest = {};
-  if (!c.planes.covers(kSunColorPlanes | PlaneSet{PlaneId::kShadow})) return;
-  constexpr float kLit = 0.95f;
-  const Rect work = frame.work();
-  const int step = std::max(4, std::max(work.width(), work.height()) / kWeighed);
-  const int rows = (work.height() + step - 1) / step;
-  weights_.resize(static_cast<std::size_t>(rows));
-  each_row(executor, {0, 0, 1, rows}, [&](int row) {
-    const int y = work.y0 + row * step;
-    const RowHeights heights(c, y);
-    Weights& sum = weights_[static_cast<std::size_t>(row)] = {};
-    for (int x = work.x0; x < work.x1; x += step) {
-      const double depth = frame.plane(PlaneId::kDepth).at(x, y);
-      if (!(depth < 1e30 && heights.at(x, depth) < 0)) continue;
-      if (frame.plane(PlaneId::kShadow).at(x, y) < kLit) continue;
-      for (int k = 0; k < 3; ++k) {
-        const double whole = frame.plane(plane_after(PlaneId::kColorR, k)).at(x, y);
-        const double direct = frame.plane(plane_after(PlaneId::kSunColorR, k)).at(x, y);
-        sum.sun[static_cast<std::size_t>(k)] += std::clamp(direct, 0.0, std::max(whole, 0.0));
-        sum.rest[static_cast<std::size_t>(k)] += std::max(whole - std::max(direct, 0.0), 0.0);
-      }
-    }
-  });
-  for (std::size_t k = 0; k < 3; ++k) {
-    double sun = 0, rest = 0;
-    for (const Weights& of_row : weights_) sun += of_row.sun[k], rest += of_row.rest[k];
-    table_.sun_over_rest[k] = rest > 0 ? std::min(sun / rest, kMaxSun) : 0;
-  }
 }
 
 /// Every few pixels: the dry scene's depth below the calm surface, and the footprint on a level

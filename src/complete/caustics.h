@@ -43,7 +43,6 @@ class CausticsMaker {
   static constexpr double kLeastContrast = 0.002;
 
  private:
-  void weigh_sun(const Frame& frame, const Pass& pass, Executor& executor);
   bool within_water() const { return table_.depth < HUGE_VAL; }
   void look(const Frame& frame, const Pass& pass, const Sunlight& sun, Executor& executor);
   CausticsSight look_at(const Pass& pass, const Sunlight& sun, int x, int y, double depth,
@@ -52,12 +51,7 @@ class CausticsMaker {
   bool lay_out(const WaveRows& waves, const Pass& pass, const Sunlight& sun, double scale,
                int exponent, double widest, double deepest);
 
-  struct Weights {
-    std::array<double, 3> sun, rest;
-  };
-
   WaveRows waves_;
-  std::vector<Weights> weights_;  ///< of rows of the picture
   std::vector<CausticsBottom> bottoms_;
   std::vector<CausticsSight> sights_;  ///< one for each kEvery bottoms
   int step_ = 1;                       ///< pixels from one bottom to the next

@@ -4,6 +4,7 @@
 
 #include "complete/sky_radiance.h"
 #include "complete/water_floor.h"
+#include "ops/caustics_kernel.h"
 #include "ops/depth_fog_kernel.h"
 #include "ops/water_shadow_kernel.h"
 #include "ops/wave_normals_kernel.h"
@@ -47,15 +48,21 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   const Refraction::Params& refraction = plan.look.of<Refraction>();
   if (!plan.made.has(StatePart::kPosition)) return whole;
   if (refraction.continues_bottom()) whole.continuation = continuation_maker_.make(whole, pass);
+  const Caustics::Params& caustics = plan.look.of<Caustics>();
+  Pass now = pass;
+  now.planes = whole.present();
+  now.wave_variance = whole.wave_variance;
+  std::array<double, 3> sun_over_rest{};
+  if (plan.keeps<Caustics>()) sun_over_rest = sun_share_.over_rest(whole, now, executor);
   if (refraction.uses_bottom_layer()) {
-    whole.bottom_layer = bottom_layer_.make(whole, pass, executor);
+    const bool moves = plan.keeps<Caustics>() &&
+                       Kernel<Caustics>::moves_shadows(caustics, pass, now.planes & plan.planes);
+    whole.bottom_layer =
+        bottom_layer_.make(whole, pass, moves ? sun_over_rest : std::array<double, 3>{}, executor);
   }
   const WaterShadow::Params& shade = plan.look.of<WaterShadow>();
   const bool shafts = plan.keeps<WaterShadow>() && Kernel<WaterShadow>::wants_shafts(shade);
   if (plan.keeps<Caustics>() || shafts) {
-    Pass now = pass;
-    now.planes = whole.present();
-    now.wave_variance = whole.wave_variance;
     const DepthFog::Params& water = plan.look.of<DepthFog>();
     const bool scatters = plan.keeps<DepthFog>() && water.model != DepthFog::Model::kLinear;
     const Rgb<double> scattering =
@@ -63,8 +70,9 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     const WaveNormals::Params* waves = &plan.look.of<WaveNormals>();
     light_ = {};
     if (plan.keeps<Caustics>()) {
-      const bool focuses = plan.look.of<Caustics>().strength != 0;
+      const bool focuses = caustics.strength != 0;
       light_ = *caustics_.make(focuses ? waves : nullptr, scattering, whole, now, executor, simd);
+      light_.sun_over_rest = sun_over_rest;
       light_.slopes = has_fine_depth(frame) ? 1 : 0;  // completed depths are always fine
     }
     if (shafts) {
@@ -77,7 +85,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
       if (!plan.planes.has(PlaneId::kSurfaceShadow)) {
         now.planes = now.planes - PlaneSet{PlaneId::kSurfaceShadow};
       }
-      mirrored_caustics_.light(plan.look.of<Caustics>(), light_, now, executor, whole);
+      mirrored_caustics_.light(caustics, light_, now, executor, whole);
     }
   }
   return whole;

@@ -21,6 +21,7 @@
 #include "complete/scattered_light.h"
 #include "complete/sky.h"
 #include "complete/slope_map.h"
+#include "complete/sun_share.h"
 #include "op/pass.h"
 
 namespace limpid {
@@ -73,6 +74,7 @@ class Completer {
   SlopeMap slope_map_;
   ScatteredLightMaker scattered_light_;
   BottomAlbedo bottom_albedo_;
+  SunShare sun_share_;
   CausticsMaker caustics_, shafts_;
   CausticsTable light_;  ///< of the bottom and of the water
   MirroredCaustics mirrored_caustics_;

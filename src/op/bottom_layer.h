@@ -23,6 +23,7 @@ struct BottomLayer {
   Texture shape;
   glm::dvec2 scale, offset;  ///< from the picture's uv to the textures' uv
   double most_drop;          ///< the largest depth in `shape`
+  bool lit;                  ///< whether `colors` are those of sunlit bottom alone
 };
 
 /// The bottom layer as one pixel, or one vector of pixels, looks it up.

@@ -68,11 +68,32 @@ LIMPID_INLINE Rgb<F> ambient_in_scatter(const MediumNumbers<F>& m, F length, con
                             column_light(m.rate.b, length, left.b)};
 }
 
-/// The multiple-scattered light of sun and sky, of one channel.
+/// The light of one channel that reaches a viewer besides single-scattered sunlight.
 template <class F>
 struct MultipleLight {
-  F sun, sky;
+  F sun;     ///< multiple-scattered sunlight
+  F sky;     ///< scattered skylight, and light that the surface has reflected down
+  F bottom;  ///< unscattered light from the bottom, less what its light in air has given already
 };
+
+/// The albedo of a point of the bottom over the albedo around it, of one channel: from the point's
+/// `color` in air, and from the light on a level floor there, of which sunlight has the share
+/// `lit`. `known`: 0 ... 1; at 0 the point counts as the bottom around.
+template <class F>
+LIMPID_INLINE F albedo_detail(const WaterMedium& m, std::size_t channel, F color, F lit, F around,
+                              F known) {
+  constexpr double kDimmest = 0.1;  // below this share of the full light, the color tells less
+  const int place = static_cast<int>(channel);
+  const F sun = given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place);
+  const F sky = given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place);
+  const F light = lit * sun + sky, full = max(sun + sky, F(1e-30));
+  const F per_bottom = given<F>(m.per_bottom, "depth_fog.per_bottom");
+  const F own =
+      min(max(color, F(0)) / max(light * per_bottom, F(1e-30)), F(ScatteredLight::kMaxAlbedo));
+  // Light that is not known, as of walls around, is as much as a dim sky's in the shade.
+  const F sure = known * saturate(light / (F(kDimmest) * full));
+  return F(1) + sure * (own / max(around, F(1e-3)) - F(1));
+}
 
 /// The bottom at the end of a path, as the bottom of a level layer.
 template <class F>
@@ -106,18 +127,21 @@ LIMPID_INLINE WaterPath<F> over_floor(const WaterPath<F>& path, F floor) {
   return {length, sink, begin, max(begin + sink * length, F(0))};
 }
 
-/// For a view that begins in the water. The bottom is lit as that of a level layer; the water in
-/// front of it is as bright as if it had the floor of the frame, if any.
+/// For a view that begins in the water. The bottom is lit as that of a level layer of the `albedo`
+/// around, and reflects by `detail` times as much; the water in front of it is as bright as if it
+/// had the floor of the frame, if any.
 template <class F>
 LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t channel,
                                                const WaterPath<F>& path, F turned, F fallen, F left,
-                                               F albedo) {
+                                               F albedo, F detail) {
   const ScatteredLight& light = m.multiple[channel];
   const int place = static_cast<int>(channel);
   const F rate = given<F>(m.rates()[channel], "depth_fog.rate", place);
   const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
   const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
-  MultipleLight<F> water{F(0), F(0)};
+  struct {
+    F sun, sky;
+  } water{F(0), F(0)};
   if (m.scatters) {
     const auto by_sun =
         inside_sun_shapes(path.sink, turned, given<F>(m.square, "depth_fog.square"), m.turns);
@@ -150,23 +174,24 @@ LIMPID_INLINE MultipleLight<F> multiple_inside(const WaterMedium& m, std::size_t
     });
   }
   const LitBottom<F> bottom = lit_bottom(m, channel, path, fallen, albedo);
-  const F seen = bottom.reflects * left / (F(1) - bottom.reflects * bottom.back);
-  const F had = bottom.reflects * fallen * left * given<F>(m.per_bottom, "depth_fog.per_bottom");
-  return {max(beam * water.sun, F(0)) +
-              max(seen * beam * bottom.sunlit -
-                      had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
-                  F(0)),
-          max(sky * water.sky, F(0)) + seen * sky * bottom.skylit -
+  const F sharp = bottom.reflects * detail * left;
+  const F seen = sharp / (F(1) - bottom.reflects * bottom.back);
+  const F had = fallen * sharp * given<F>(m.per_bottom, "depth_fog.per_bottom");
+  const F sunlit = max(seen * beam * bottom.sunlit -
+                           had * given<F>(m.dry_suns()[channel], "depth_fog.dry_sun", place),
+                       F(0));
+  return {max(beam * water.sun, F(0)), max(sky * water.sky, F(0)),
+          sunlit + seen * sky * bottom.skylit -
               had * given<F>(m.dry_skies()[channel], "depth_fog.dry_sky", place)};
 }
 
 /// Radiance at the near end of a path in the water, of an object at its far end whose radiance is
 /// `light` when lit as in air: attenuated, plus the in-scatter of the path and the light that stays
-/// between the bottom and the surface. `view`: unit, along the path; `albedo`: of the bottom at the
-/// far end.
+/// between the bottom and the surface. `view`: unit, along the path; `albedo`: of the bottom around
+/// the far end, and `detail` the object's over it.
 template <class F>
 Rgb<F> seen_in_water(const WaterMedium& m, const WaterPath<F>& path, const Vec3<F>& view,
-                     Rgb<F> light, const Vec3<F>& albedo) {
+                     Rgb<F> light, const Rgb<F>& albedo, const Rgb<F>& detail) {
   const MediumNumbers<F> numbers(m);
   const Rgb<F> rate = numbers.rate, down = numbers.down;
   const Rgb<F> left = transmittance(path.length, rate), fallen = transmittance(path.end, down);
@@ -181,13 +206,14 @@ Rgb<F> seen_in_water(const WaterMedium& m, const WaterPath<F>& path, const Vec3<
     seen = seen + phase * (numbers.sun * columns);
   }
   if (!m.multiple) return seen;
-  const auto more = [&](std::size_t channel, F fell, F stays, F reflects) {
+  const auto more = [&](std::size_t channel, F fell, F stays, F around, F own) {
     const MultipleLight<F> multiple =
-        multiple_inside(m, channel, path, turned, fell, stays, reflects);
-    return multiple.sun + multiple.sky;
+        multiple_inside(m, channel, path, turned, fell, stays, around, own);
+    return multiple.sun + multiple.sky + multiple.bottom;
   };
-  seen = seen + Rgb<F>{more(0, fallen.r, left.r, albedo.x), more(1, fallen.g, left.g, albedo.y),
-                       more(2, fallen.b, left.b, albedo.z)};
+  seen = seen + Rgb<F>{more(0, fallen.r, left.r, albedo.r, detail.r),
+                       more(1, fallen.g, left.g, albedo.g, detail.g),
+                       more(2, fallen.b, left.b, albedo.b, detail.b)};
   return {max(seen.r, F(0)), max(seen.g, F(0)), max(seen.b, F(0))};
 }
 

@@ -37,6 +37,11 @@ std::string_view Kernel<Caustics>::prefer(P& params, const AtHand& has) {
   return moves ? "" : "shadows on the bottom stay unrefracted";
 }
 
+bool Kernel<Caustics>::moves_shadows(const P& params, const Pass& c, PlaneSet planes) {
+  return params.sunlight == Sunlight::kRefracted && glm::dot(c.sun.direction, c.up) > 1e-3 &&
+         planes.covers(kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
+}
+
 Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& c) {
   const glm::dvec3& to_sun = c.sun.direction;
   Light light{};
@@ -45,7 +50,7 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   light.level = {glm::dot(to_sun, c.map_x), glm::dot(to_sun, c.map_y)};
   light.known = c.planes.covers(kSunColorPlanes);
   light.bends = params.sunlight == Sunlight::kRefracted && light.known && light.rise > 1e-3;
-  light.moves = light.bends && c.planes.covers(PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
+  light.moves = light.bends && moves_shadows(params, c, c.planes);
   const Rays& rays = c.rays;
   const glm::dvec3 away = glm::cross(rays.origin_dx + rays.ray_dx, rays.origin_dy + rays.ray_dy);
   light.facing = glm::dot(away, c.forward) < 0 ? 1 : -1;

@@ -51,6 +51,8 @@ struct Kernel<Caustics> : Caustics {
     std::array<double, 3> around;  ///< share of the light of sunlit bottoms, if it is known
   };
   static Light light_of(const Params& params, const Pass& c);
+  /// Whether shadows on the bottom move in a frame with these planes.
+  static bool moves_shadows(const Params& params, const Pass& c, PlaneSet planes);
   /// Ratio of two depths below which the farther place counts as hidden by the nearer place.
   static constexpr double kSameDepth = 0.98;
   /// Bound on sunlight on a slope over that on level bottom, and over the unrefracted light there.
@@ -98,9 +100,11 @@ struct Kernel<Caustics> : Caustics {
           return Vec2<F>{dot(map_x, end) + aside * sunwards.x,
                          dot(map_y, end) + aside * sunwards.y};
         };
-        // The shadow plane shows the object that hides a place of the layer below.
+        // The shadow plane shows the object that hides a place of the layer below, or of the bottom
+        // that is filled in, in the share `filled`, as lit by the sun.
         const F dry =
             planes.below ? bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(p.shift)) : p.hit_depth;
+        const F filled = p.dry_lit_known;
         const auto hidden = dry < F(kSameDepth) * p.hit_depth;
         const F of_plane = shadowed ? bilinear<F>(tap, PlaneId::kShadow, p.shift) : F(1);
         const F lit = select(hidden, F(1), of_plane);
@@ -110,7 +114,8 @@ struct Kernel<Caustics> : Caustics {
               lit_bottom && !hidden && given<F>(table.slopes, "caustics.slopes") > F(0);
           if_any(sloped, [&] {
             const Tilt<F> own = tilt_of(c, p, tap, light, sunwards);
-            tilt = {select(sloped, own.of_level, F(1)), select(sloped, own.gain, F(1))};
+            tilt = {select(sloped, filled_in(own.of_level, filled), F(1)),
+                    select(sloped, filled_in(own.gain, filled), F(1))};
           });
         }
         Sunlit<F> sunlit{lit, F(1), F(0)};
@@ -119,9 +124,9 @@ struct Kernel<Caustics> : Caustics {
           const F per_rise = given<F>(1 / light.rise, "caustics.per_rise");
           const Vec2<F> level{dot(map_x, end) + depth * per_rise * sunwards.x,
                               dot(map_y, end) + depth * per_rise * sunwards.y};
-          sunlit = moved(c, p, tap, entry_of(end, given<F>(c.ior)), level, lit, hidden);
-          p.dry_lit = select(lit_bottom, sunlit.dry, F(1));
-          p.dry_lit_known = select(lit_bottom, sunlit.hidden_known, F(0));
+          sunlit = moved(c, p, tap, entry_of(end, given<F>(c.ior)), level, lit, hidden, filled);
+          p.dry_lit = select(lit_bottom, sunlit.dry, p.dry_lit);
+          p.dry_lit_known = select(lit_bottom, sunlit.hidden_known, p.dry_lit_known);
         }
         const auto& scattered = table.scattered;
         const bool scatters = scattered[0] > 0 || scattered[1] > 0 || scattered[2] > 0;
@@ -160,7 +165,8 @@ struct Kernel<Caustics> : Caustics {
             const F around = of_channel(i, light.around, "caustics.around");
             const F part = sunlit.dry * around;
             const F as_around = part / max(part + F(1) - around, F(1e-6)) * transmitted;
-            sun = min(max(select(hidden, as_around, shown), F(0)), max(transmitted, F(0)));
+            const F seen = select(hidden, as_around, shown + filled * (as_around - shown));
+            sun = min(max(seen, F(0)), max(transmitted, F(0)));
           } else {
             const F direct = lit * of_channel(i, light.sun, "caustics.sun");
             const F ambient = of_channel(i, light.ambient, "caustics.ambient");
@@ -292,10 +298,11 @@ struct Kernel<Caustics> : Caustics {
   };
   /// Refracted light enters at `entry`, straight light would enter at `level`; `lit` is the share
   /// for straight light. For a `hidden` place that is the share that passes the surface, if the
-  /// picture shows water or land at both entries; else its light stays as in the dry picture.
+  /// picture shows water or land at both entries; else its light stays as in the dry picture. A
+  /// place has all sunlight there in the share that is `filled`.
   template <class F, class Tap, class Mask>
   static LIMPID_INLINE Sunlit<F> moved(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                       Vec2<F> entry, Vec2<F> level, F lit, Mask hidden) {
+                                       Vec2<F> entry, Vec2<F> level, F lit, Mask hidden, F filled) {
     const Vec3<F> up = vec3_of<F>(c.up), map_x = vec3_of<F>(c.map_x), map_y = vec3_of<F>(c.map_y);
     const Vec2<F> apart = entry - level;
     const F moved_by = sqrt(apart.x * apart.x + apart.y * apart.y);
@@ -334,7 +341,15 @@ struct Kernel<Caustics> : Caustics {
       known = select(hidden, straight.known * known, known);
       dry = select(hidden, F(1) + known * (straight.passes - F(1)), dry);
     });
-    return {dry, dry + known * (refracted.passes * below - dry), select(hidden, known, F(0))};
+    const F told = filled_in(select(hidden, known, F(0)), filled);
+    known = known + filled * (refracted.known - known);
+    dry = filled_in(dry, filled), below = filled_in(below, filled);
+    return {dry, dry + known * (refracted.passes * below - dry), told};
+  }
+  /// A value of the bottom that is shown, mixed with 1 of the bottom that is filled in.
+  template <class F>
+  static LIMPID_INLINE F filled_in(F shown, F filled) {
+    return shown + filled * (F(1) - shown);
   }
 
   /// For a place of the calm surface that the picture does not show: 1 if the surface that it shows

@@ -76,9 +76,6 @@ struct Kernel<DepthFog> : DepthFog {
   }
 
  private:
-  /// Share of the full light below which the albedo of a point is less and less that of its color.
-  static constexpr double kDimmest = 0.1;
-
   static WaterMedium medium_of(const Params& params, const Pass& c);
   static double brightest_phase(const Params& params, const Pass& c, const WaterMedium& medium);
   /// The largest multiple-scattered radiance of paths up to a length; and from a depth on, the
@@ -222,21 +219,9 @@ struct Kernel<DepthFog> : DepthFog {
       const F lit = split ? bilinear<F>(tap, PlaneId::kShadow, shift) : by_plane;
       return told ? select(p.dry_lit_known > shown, p.dry_lit, lit) : lit;
     };
-    const auto of_channel = [&](std::size_t i, F here, F shadow, F around) {
-      const int place = static_cast<int>(i);
-      const F sun = given<F>(m.dry_suns()[i], "depth_fog.dry_sun", place);
-      const F sky = given<F>(m.dry_skies()[i], "depth_fog.dry_sky", place);
-      const F light = shadow * sun + sky, full = max(sun + sky, F(1e-30));
-      const F per_bottom = given<F>(m.per_bottom, "depth_fog.per_bottom");
-      const F own =
-          min(max(here, F(0)) / max(light * per_bottom, F(1e-30)), F(ScatteredLight::kMaxAlbedo));
-      // Light that is not known, as of walls around, is as much as a dim sky's in the shade.
-      const F sure = known * saturate(light / (F(kDimmest) * full));
-      return F(1) + sure * (own / max(around, F(1e-3)) - F(1));
-    };
-    return {of_channel(0, color.r, lit_at(p.shift_r), albedo.r),
-            of_channel(1, color.g, lit_at(p.shift_g), albedo.g),
-            of_channel(2, color.b, lit_at(p.shift_b), albedo.b)};
+    return {albedo_detail(m, 0, color.r, lit_at(p.shift_r), albedo.r, known),
+            albedo_detail(m, 1, color.g, lit_at(p.shift_g), albedo.g, known),
+            albedo_detail(m, 2, color.b, lit_at(p.shift_b), albedo.b, known)};
   }
 
   /// Light that is scattered more than once, and of the bottom what `transmitted` lacks.
@@ -253,20 +238,23 @@ struct Kernel<DepthFog> : DepthFog {
     const auto down = [&](std::size_t i, F fell, F stays, F albedo, F detail) {
       return multiple_down(m, i, path, shapes, fell, stays, albedo, detail);
     };
-    LightFromBelow<F> red = down(0, fallen.r, left.r, level.r, bottom.detail.r);
-    LightFromBelow<F> green = down(1, fallen.g, left.g, level.g, bottom.detail.g);
-    LightFromBelow<F> blue = down(2, fallen.b, left.b, level.b, bottom.detail.b);
+    MultipleLight<F> red = down(0, fallen.r, left.r, level.r, bottom.detail.r);
+    MultipleLight<F> green = down(1, fallen.g, left.g, level.g, bottom.detail.g);
+    MultipleLight<F> blue = down(2, fallen.b, left.b, level.b, bottom.detail.b);
     if (m.inside) {
       if_any(!from_air, [&] {
         // Seen from below, surfaces above the water are no bottom.
         const Rgb<F> under = select(p.side < F(0), {F(0), F(0), F(0)}, bottom.albedo);
-        const auto choose = [&](LightFromBelow<F>& own, const MultipleLight<F>& inside) {
+        const auto choose = [&](std::size_t i, MultipleLight<F>& own, F fell, F stays, F albedo,
+                                F detail) {
+          const MultipleLight<F> inside =
+              multiple_inside(m, i, path, turned, fell, stays, albedo, detail);
           own = {select(from_air, own.sun, inside.sun), select(from_air, own.sky, inside.sky),
-                 select(from_air, own.bottom, F(0))};
+                 select(from_air, own.bottom, inside.bottom)};
         };
-        choose(red, multiple_inside(m, 0, path, turned, fallen.r, left.r, under.r));
-        choose(green, multiple_inside(m, 1, path, turned, fallen.g, left.g, under.g));
-        choose(blue, multiple_inside(m, 2, path, turned, fallen.b, left.b, under.b));
+        choose(0, red, fallen.r, left.r, under.r, bottom.detail.r);
+        choose(1, green, fallen.g, left.g, under.g, bottom.detail.g);
+        choose(2, blue, fallen.b, left.b, under.b, bottom.detail.b);
       });
     }
     const Rgb<F> seen = p.transmitted + Rgb<F>{red.bottom, green.bottom, blue.bottom};
@@ -281,20 +269,14 @@ struct Kernel<DepthFog> : DepthFog {
     }
   }
 
-  /// The light that a view from the air sees besides single-scattered sunlight.
-  template <class F>
-  struct LightFromBelow {
-    F sun;     ///< multiple-scattered sunlight, with that from the bottom
-    F sky;     ///< scattered skylight, and light that the surface has reflected down
-    F bottom;  ///< of the latter, unscattered light from the bottom, less what `transmitted` has
-  };
+  /// For a view from the air.
   /// `fallen` and `left`: the shares left of the beam at the end of the path, and of its light at
   /// the viewer; `albedo`, `detail`: as in Reflector, of an endless floor.
   template <class F>
-  static LIMPID_INLINE LightFromBelow<F> multiple_down(const WaterMedium& m, std::size_t channel,
-                                                       const WaterPath<F>& path,
-                                                       const std::array<F, 4>& shapes, F fallen,
-                                                       F left, F albedo, F detail) {
+  static LIMPID_INLINE MultipleLight<F> multiple_down(const WaterMedium& m, std::size_t channel,
+                                                      const WaterPath<F>& path,
+                                                      const std::array<F, 4>& shapes, F fallen,
+                                                      F left, F albedo, F detail) {
     const ScatteredLight& light = m.multiple[channel];
     const int place = static_cast<int>(channel);
     const std::array<F, 2> even{shapes[0], shapes[1]};
@@ -302,7 +284,9 @@ struct Kernel<DepthFog> : DepthFog {
     const F beam = given<F>(m.beams()[channel], "depth_fog.beam", place);
     const F sky = given<F>(m.skies()[channel], "depth_fog.sky", place);
     const F water = given<F>(m.water, "depth_fog.water");
-    MultipleLight<F> up{F(0), F(0)};
+    struct {
+      F sun, sky;
+    } up{F(0), F(0)};
     if (m.scatters) {
       const F many = m.turns ? layer_power(light.sun, shapes, x)
                              : layer_power(std::array{light.sun[0], light.sun[1]}, even, x);

@@ -23,7 +23,9 @@ struct Kernel<FresnelReflection> : MirroredLight {
     PlaneSet planes;
     if (p.source == Source::kAuto) planes = kColorPlanes | PlaneSet{PlaneId::kDepth} | kSkyPlanes;
     const bool finds_ends = p.source == Source::kPlanar && p.lookup == Lookup::kRay;
-    if (p.source == Source::kAuto || finds_ends) planes = planes | kAlbedoPlanes;
+    if (p.source == Source::kAuto || finds_ends) {
+      planes = planes | kAlbedoPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kShadow};
+    }
     if (p.source == Source::kAuto || p.source == Source::kPlanar) {
       planes = planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid};
       if (p.lookup == Lookup::kRay) planes = planes | PlaneSet{PlaneId::kReflectionDepth};

@@ -140,13 +140,23 @@ struct MirroredLight : FresnelReflection {
     const F height = given<F>(c.eye_above) + dot(up, p.surface_point);
     const F begin = max(F(0) - height, F(0)), sink = max(F(0) - dot(up, ray), F(0));
     const F length = min(distance, F(3e38));
-    Vec3<F> albedo{F(0), F(0), F(0)};
-    if (kEnds && c.planes.covers(kAlbedoPlanes)) {
-      const Rgb<F> there = bilinear_rgb<F>(tap, PlaneId::kAlbedoR, at);
-      albedo = {there.r, there.g, there.b};
+    Rgb<F> albedo{F(0), F(0), F(0)}, detail{F(1), F(1), F(1)};
+    if (kEnds && c.medium->multiple && c.planes.covers(kAlbedoPlanes)) {
+      albedo = bilinear_rgb<F>(tap, PlaneId::kAlbedoR, at);
+      if (c.planes.has(PlaneId::kShadow)) {
+        // The shadow is that of the path's end if the picture shows that. Along grazing rays depth
+        // changes much from one texel to the next.
+        const F end = min(ScreenRay<F>(c, p, ray).depth_at(distance), F(1e30));
+        const F off = abs(bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(at)) - end);
+        const F known = saturate(F(2) - off / (F(0.1) * max(end, F(1e-6))));
+        const F lit = bilinear<F>(tap, PlaneId::kShadow, at);
+        detail = {albedo_detail(*c.medium, 0, light.r, lit, albedo.r, known),
+                  albedo_detail(*c.medium, 1, light.g, lit, albedo.g, known),
+                  albedo_detail(*c.medium, 2, light.b, lit, albedo.b, known)};
+      }
     }
     return seen_in_water(*c.medium, WaterPath<F>{length, sink, begin, begin + sink * length}, ray,
-                         light, albedo);
+                         light, albedo, detail);
   }
 
   /// The dry picture along a ray that is mirrored down in the water. Where the ray meets no visible

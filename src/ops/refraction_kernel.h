@@ -61,7 +61,10 @@ struct Kernel<Refraction> : Refraction {
           planes.depth, [](const Pixel<F>& p) { return p.shift; },
           [](Pixel<F>& p, F depth) { p.hit_depth = depth; });
     }
-    strip.each([&](Pixel<F>& p) { keep_in_frame(params, planes.bounds, p); });
+    strip.each([&](Pixel<F>& p) {
+      keep_in_frame(params, planes.bounds, p);
+      p.dry_lit = F(1), p.dry_lit_known = F(0);
+    });
     if (params.rejection == Rejection::kSnap && !planes.below && c.foreground) {
       strip.each([](Pixel<F>& p) { snap(p); });
     }
@@ -93,10 +96,7 @@ struct Kernel<Refraction> : Refraction {
       });
     }
     if (c.made.has(StatePart::kDryBottom)) {
-      strip.each([](Pixel<F>& p) {
-        p.dry_bottom = p.transmitted;
-        p.dry_lit = F(1), p.dry_lit_known = F(0);
-      });
+      strip.each([](Pixel<F>& p) { p.dry_bottom = p.transmitted; });
     }
   }
 
@@ -228,6 +228,7 @@ struct Kernel<Refraction> : Refraction {
       p.hit_depth = select(off, ray.depth_at(seen.distance), p.hit_depth);
       p.transmitted = select(off, seen.color, p.transmitted);
       p.shift = select(off, seen.shift, p.shift);
+      p.dry_lit_known = select(off, F(0), p.dry_lit_known);
       p.shift_r = select(off, seen.shift, p.shift_r);
       p.shift_g = select(off, seen.shift, p.shift_g);
       p.shift_b = select(off, seen.shift, p.shift_b);
@@ -486,6 +487,9 @@ struct Kernel<Refraction> : Refraction {
       const F whole = select(taps.filled > F(0), depth + taps.filled * ray_end, depth);
       return of_whole<kBottomless>(taps, whole);
     };
+    const auto tell_light = [&](const auto& taps) {
+      if (layer && layer->lit) p.dry_lit_known = taps.filled;
+    };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.
     const Rgb<F> own = p.transmitted;
@@ -521,6 +525,7 @@ struct Kernel<Refraction> : Refraction {
       if_any(apart, [&] { taps_common = taps_at(p.shift); });
       p.shift = taps_common.place;
       p.hit_depth = depth_of(taps_common);
+      tell_light(taps_common);
       if (kBottomless) weight = taps_common.weight();
       share = F(1.0 / 3) * (shares[0] + shares[1] + shares[2]);
     } else {
@@ -531,6 +536,7 @@ struct Kernel<Refraction> : Refraction {
       p.transmitted.b = color(taps, taps.read(tap, blue), filled.b, own.b);
       p.shift = p.shift_r = p.shift_g = p.shift_b = taps.place;
       p.hit_depth = depth_of(taps);
+      tell_light(taps);
       share = taps.share;
       if (kBottomless) weight = taps.weight();
     }

@@ -70,7 +70,9 @@ Plan make_plan_without(const std::vector<std::string>& left_out, const Look& loo
     plan.needs_sun |= needs.sun;
   }
   // No operator reads these.
-  if (!plan.keeps<DepthFog>()) plan.made = plan.made - StateSet{StatePart::kDryBottom};
+  if (!plan.keeps<DepthFog>() && !plan.keeps<Caustics>()) {
+    plan.made = plan.made - StateSet{StatePart::kDryBottom};
+  }
   if (!outputs.has(StatePart::kMirrorSources)) {
     plan.made = plan.made - StateSet{StatePart::kMirrorSources};
   }

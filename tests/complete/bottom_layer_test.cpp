@@ -40,9 +40,10 @@ struct Hidden {
     const glm::dvec3 place = pool.dry_depth(x, y) * pool.ray(x, y);
     return -2 - place.y;
   }
-  const BottomLayer* made(BottomLayerMaker& maker, int threads = 1) const {
+  const BottomLayer* made(BottomLayerMaker& maker, int threads = 1,
+                          const std::array<double, 3>& sun_over_rest = {}) const {
     const auto executor = make_executor(threads);
-    return maker.make(pool.buffers.frame, pool.pass(), *executor);
+    return maker.make(pool.buffers.frame, pool.pass(), sun_over_rest, *executor);
   }
 };
 
@@ -122,6 +123,53 @@ TEST(BottomLayer, ThingsAreThickAsTheyAreWide) {
     EXPECT_LT(thickness, 0.25 * (2 * width + 8) * pixel) << width;
     EXPECT_GE(thickness, last);
     last = thickness;
+  }
+}
+
+TEST(BottomLayer, OfAKnownSunIsThatOfASunlitBottom) {
+  constexpr std::array kOverRest{4.0, 2.0, 1.0};
+  Hidden hidden({40, 44, 52, 56});
+  const auto lit = [](int x) { return x < 46 ? 0.25 : 1; };
+  for (int c = 0; c < 3; ++c) {
+    const double sun = kOverRest[static_cast<std::size_t>(c)];
+    hidden.pool.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+      const double light = (1 + sun * lit(x)) / (1 + sun);
+      return static_cast<float>(hidden.hides(x, y) ? kThing : 0.5 * light);
+    });
+  }
+  BottomLayerMaker maker;
+  EXPECT_FALSE(hidden.made(maker, 1, kOverRest)->lit);  // without a shadow
+  hidden.pool.buffers.set(PlaneId::kShadow, [&](int x, int) { return static_cast<float>(lit(x)); });
+  EXPECT_FALSE(hidden.made(maker)->lit);
+  const BottomLayer* shaded = hidden.made(maker);
+  EXPECT_LT(at_pixel(*shaded, shaded->colors.channels[0], 20, 50), 0.25);
+  const BottomLayer* layer = hidden.made(maker, 1, kOverRest);
+  EXPECT_TRUE(layer->lit);
+  for (int x = 4; x < 80; x += 3) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(at_pixel(*layer, layer->colors.channels[c], x, 50), 0.5, 0.02) << x << " " << c;
+    }
+  }
+}
+
+// Under the strip of floor that the picture shows, a rim hides the floor; above it is a wall, and a
+// post.
+TEST(BottomLayer, WallsDoNotGoOn) {
+  Hidden hidden({0, 64, 96, 72}, 0.3);
+  const Rect post{80, 40, 84, 50};
+  constexpr double kWall = 8;  // distance ahead
+  hidden.pool.rise = 0;
+  const auto dry = [&](int x, int y) {
+    const double depth = hidden.pool.dry_depth(x, y);
+    const bool hides = hidden.hides(x, y) || post.contains({x, y, x + 1, y + 1});
+    return static_cast<float>(hides ? 0.3 * depth : std::min(depth, kWall));
+  };
+  hidden.pool.buffers.set(PlaneId::kDepth, dry);
+  BottomLayerMaker maker;
+  const BottomLayer* layer = hidden.made(maker);
+  ASSERT_TRUE(layer);
+  for (int x = 8; x < 90; x += 10) {
+    EXPECT_GT(at_pixel(*layer, layer->shape.channels[0], x, 69), 1.9) << x;
   }
 }
 
@@ -253,6 +301,54 @@ TEST(BottomLayer, ARayFromBottomToBottomEndsBehindWhatStandsInTheWater) {
     }
     EXPECT_GT(behind, 10);
   }
+}
+
+// Sunlight from the right, unrefracted 1.5 to the left on its way to the bottom, refracted 1; no
+// sunlight enters at x < 0.
+TEST(BottomLayer, ShadowsOfTheWaterFallOnTheBottomBehindAnObject) {
+  constexpr double kRest = 0.2, kSun = 0.3;
+  Hidden hidden({20, 40, 44, 60}, 0.7);
+  hidden.pool.rise = 0;
+  hidden.pool.scene.sun = Sun{.direction = {0.6, 0.8, 0}};
+  test::Buffers& buffers = hidden.pool.buffers;
+  const auto lit = [&](int x, int y) {
+    const double at = (hidden.pool.dry_depth(x, y) * hidden.pool.ray(x, y)).x;
+    return hidden.hides(x, y) || at > -1.5 ? 1.0f : 0.0f;
+  };
+  for (int c = 0; c < 3; ++c) {
+    buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+      return static_cast<float>(hidden.hides(x, y) ? kThing : kRest + kSun * lit(x, y));
+    });
+    buffers.set(plane_after(PlaneId::kSunColorR, c), [&](int x, int y) {
+      return static_cast<float>((hidden.hides(x, y) ? kThing / (kRest + kSun) : lit(x, y)) * kSun);
+    });
+  }
+  buffers.set(PlaneId::kShadow, lit);
+  buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return static_cast<float>((hidden.hides(x, y) ? 0.7 : 1) * hidden.pool.dry_depth(x, y));
+  });
+  buffers.set(PlaneId::kSurfaceShadow, [&](int x, int y) {
+    const glm::dvec3 ray = hidden.pool.ray(x, y);
+    return (-2 / ray.y * ray).x < 0 ? 0.0f : 1.0f;
+  });
+  Look look = rays();
+  look.of<Caustics>() = {};
+  const test::Picture wet = test::reference(look, buffers.frame, hidden.pool.scene);
+  int dark = 0, bright = 0;
+  for (int y = 20; y < Pool::kSize.height; ++y) {
+    for (int x = 0; x < Pool::kSize.width; ++x) {
+      const auto end = hidden.pool.end(x, y);
+      const bool inside = end.x > 21 && end.x < 42 && end.y > 41 && end.y < 58;
+      if (hidden.hides(x, y) || !inside || wet.aov(Aov::kConfidence, x, y) > 0) continue;
+      if (std::abs(end.at.x + 1.008) < 0.15) continue;
+      const bool shaded = end.at.x < -1;
+      (shaded ? dark : bright) += 1;
+      EXPECT_NEAR(wet.aov(Aov::kTransmitted, x, y), kRest + (shaded ? 0 : kSun), 0.06)
+          << x << ", " << y << ": " << end.at.x;
+    }
+  }
+  EXPECT_GT(dark, 5);
+  EXPECT_GT(bright, 5);
 }
 
 TEST(BottomLayer, NothingOfAPostIsDraggedAlong) {

@@ -114,6 +114,50 @@ TEST(ScatteredLight, ThatComesBackToTheBottomKeepsItsTexture) {
   EXPECT_NEAR(more(11), more(2), 1e-3 * more(2));
 }
 
+TEST(ScatteredLight, ThatComesBackToTheBottomSeenFromWithinKeepsItsTexture) {
+  test::Tray tray = striped(true);
+  tray.scene.camera->view =
+      glm::lookAt(glm::dvec3(0, -1, 0), glm::dvec3(0, -2, 0), glm::dvec3(0, 0, -1));
+  tray.buffers.fill(PlaneId::kDepth, 3).fill(PlaneId::kSurfaceDepth, HUGE_VALF);
+  const test::Picture wet = tray.wet();
+  const auto sent = [&](int x) { return wet.aov(Aov::kTransmitted, x, 1, 1); };
+  EXPECT_GT(sent(2), 1);
+  EXPECT_NEAR(sent(4) / sent(2), 1 / 3.0, 1e-4);
+  EXPECT_NEAR(sent(8) / sent(11), 1 / 3.0, 1e-4);
+  EXPECT_NEAR(wet.aov(Aov::kInScatter, 4, 1, 1), wet.aov(Aov::kInScatter, 2, 1, 1), 1e-6);
+}
+
+// The surface, seen from a metre below it, mirrors a bottom three metres below it, in stripes along
+// the view.
+TEST(ScatteredLight, ThatComesBackToTheMirroredBottomKeepsItsTexture) {
+  constexpr Size kSize{24, 48};
+  test::Tray tray(kSize);
+  tray.look = striped(true).look;
+  tray.look.of<FresnelReflection>() = {.source = FresnelReflection::Source::kAuto};
+  tray.scene = test::simple_scene(kSize);
+  tray.scene.sun = Sun{.direction = {0, 1, 0}, .color = {2, 2, 2}};
+  tray.scene.camera->view =
+      glm::lookAt(glm::dvec3(0, -1, 0), glm::dvec3(0, -1, -1), glm::dvec3(0, 1, 0));
+  const Rays rays = rays_of(*tray.scene.camera, {kSize.width, kSize.height});
+  tray.buffers.fill(PlaneId::kShadow, 1).set(PlaneId::kDepth, [&](int, int y) {
+    const double sinks = -rays.ray_at(12, y + 0.5).y;
+    return sinks > 0 ? static_cast<float>(2 / sinks) : HUGE_VALF;
+  });
+  tray.buffers.set(PlaneId::kSurfaceDepth, [&](int, int y) {
+    const double rises = rays.ray_at(12, y + 0.5).y;
+    return rises > 0 ? static_cast<float>(1 / rises) : HUGE_VALF;
+  });
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [](int x, int) { return 2.5f * (x / 6 % 2 == 0 ? 0.2f : 0.6f); });
+    tray.buffers.fill(plane_after(PlaneId::kAlbedoR, c), 0.5f);
+  }
+  const test::Picture wet = tray.wet();
+  const auto mirrored = [&](int x) { return wet.aov(Aov::kReflected, x, 14, 1); };
+  EXPECT_GT(mirrored(9), 0.5);
+  EXPECT_NEAR(mirrored(15) / mirrored(9), 1 / 3.0, 1e-3);
+}
+
 // An object hides the bottom, which the layer below shows; the shadow on the surface tells its
 // light.
 TEST(ScatteredLight, ThatComesBackToHiddenBottomKeepsItsTexture) {

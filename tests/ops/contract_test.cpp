@@ -185,7 +185,9 @@ ProbeStrip probed_within(const typename Op::Params& params) {
   }
   Pass pass = probe_context(everything());
   pass.submersible = true;
-  pass.medium = Kernel<DepthFog>::medium(test::plain_fog(DepthFog::Model::kBeerLambert), pass);
+  DepthFog::Params fog = test::plain_fog(DepthFog::Model::kRadiativeTransfer);
+  fog.crossing = DepthFog::Crossing::kRadiance;
+  pass.medium = Kernel<DepthFog>::medium(fog, pass);
   Op::apply(params, pass, strip);
   return strip;
 }

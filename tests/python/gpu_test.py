@@ -20,16 +20,20 @@ class Gpu(unittest.TestCase):
         here = limpid.Compositor(look=LOOK)
         self.assertEqual(here.device, "")
         self.assertNotEqual(self.water.device, "")
-        for seed in (1, 2):
+        changed = {"picture": [], "path": []}
+        for seed in range(1, 7):
             frame = pond(seed=seed)
             wet, parts = self.water.run(**frame, aovs=["path"])
             judge, path = here.run(**frame, aovs=["path"])
             # A bottom of noise is where roundings choose between two hits now and then.
-            for ours, theirs in ((wet, judge), (parts["path"], path["path"])):
+            for name, ours, theirs in (("picture", wet, judge),
+                                       ("path", parts["path"], path["path"])):
                 off = np.abs(ours - theirs)
                 self.assertLess(off[off < 1e-3].mean(), 2e-6)
-                self.assertLess((off >= 1e-3).mean(), 2e-3)
+                changed[name].append((off >= 1e-3).mean())
             self.assertGreater(np.abs(wet - frame["color"]).mean(), 0.01)
+        for name, shares in changed.items():
+            self.assertLess(np.mean(shares), 2e-3, name)
         self.assertEqual(self.water.plan.text, here.plan.text)
 
     def test_other_devices_are_refused(self):

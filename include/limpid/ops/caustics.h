@@ -27,7 +27,7 @@ namespace limpid {
 /// fade into the unrefracted ones, and where a wave, or the rim of a basin, hides the entry point
 /// from a low camera. On land, where surface_depth shows no water, no light enters. Of bottom that
 /// only the layer below shows, the shadow removed is the one on the surface at the entry point of
-/// the unrefracted ray.
+/// the unrefracted ray. Bottom that refraction filled in behind an object is all in the sun before.
 ///
 /// Acts on bottom that is seen from the air, from within the water, and from there as the mirror
 /// image in the surface if the frame has a reflection with a depth; light on the mirror image is
