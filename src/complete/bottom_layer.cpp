@@ -19,8 +19,9 @@ constexpr int kLooks = 2;          ///< lookups across a cell, and down
 /// The widest window of the closing reaches this share of the cells to each side.
 constexpr int kReachShare = 8;
 constexpr float kOfBottom = BottomLayer::kOfBottom;
-/// Weight of a cell that is not all bottom: its edges have mixed colors. Also of walls, which do
-/// not go on behind what stands before them, as a bottom does: surfaces steeper than 45 degrees.
+/// Weight of a cell that is not all bottom: its edges have mixed colors. Also of walls, surfaces
+/// steeper than 45 degrees, in a layer that is relit: they do not go on behind what stands before
+/// them, as a bottom does. Else the dim light on walls stands for the shade on hidden bottom.
 constexpr float kMixed = 1e-3f;
 constexpr double kLevel = 0.7;
 
@@ -265,7 +266,8 @@ bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
       if (!(texel[4] > 0)) continue;
       for (std::size_t i = 0; i < 4; ++i) texel[i] /= texel[4];
       const bool whole = cells[column].highest >= cells[column].bottom;
-      texel[4] = whole && scan.is_level(column, row) ? 1 : kMixed;
+      const bool bottom = whole && (!scan.relights || scan.is_level(column, row));
+      texel[4] = bottom ? 1 : kMixed;
     }
   });
   return bottom_.draw_on(executor);

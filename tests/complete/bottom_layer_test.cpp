@@ -164,9 +164,9 @@ TEST(BottomLayer, WallsDoNotGoOn) {
     const bool hides = hidden.hides(x, y) || post.contains({x, y, x + 1, y + 1});
     return static_cast<float>(hides ? 0.3 * depth : std::min(depth, kWall));
   };
-  hidden.pool.buffers.set(PlaneId::kDepth, dry);
+  hidden.pool.buffers.set(PlaneId::kDepth, dry).fill(PlaneId::kShadow, 1);
   BottomLayerMaker maker;
-  const BottomLayer* layer = hidden.made(maker);
+  const BottomLayer* layer = hidden.made(maker, 1, {1, 1, 1});
   ASSERT_TRUE(layer);
   for (int x = 8; x < 90; x += 10) {
     EXPECT_GT(at_pixel(*layer, layer->shape.channels[0], x, 69), 1.9) << x;
