@@ -24,6 +24,8 @@ constexpr float kOfBottom = BottomLayer::kOfBottom;
 /// them, as a bottom does. Else the dim light on walls stands for the shade on hidden bottom.
 constexpr float kMixed = 1e-3f;
 constexpr double kLevel = 0.7;
+/// Bound on the sun's light over the rest: shade that is almost black has no known color.
+constexpr double kMostSun = 20;
 
 /// From cell to cell, a smooth bottom changes 1 / depth by at most this factor times the change
 /// before, and by this share.
@@ -75,7 +77,7 @@ constexpr auto kLess = [](float a, float b) { return a < b ? a : b; };
 /// A frame as cells.
 struct BottomLayerMaker::Scan {
   const Pass& c;
-  std::array<View<const float>, 3> color;
+  std::array<View<const float>, 3> color, sun;
   const View<const float>&depth, &shadow;
   Rect window;
   int cell, step;
@@ -86,16 +88,21 @@ struct BottomLayerMaker::Scan {
 
   Scan(const Frame& frame, const Pass& pass, const std::array<double, 3>& over_rest)
       : c(pass), depth(frame.plane(PlaneId::kDepth)), shadow(frame.plane(PlaneId::kShadow)) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      sun_over_rest[i] = static_cast<float>(over_rest[i]);
-      relights = relights || (shadow && over_rest[i] > 0);
-    }
     window = depth.window;
     for (int i = 0; i < 3; ++i) {
       const PlaneId plane = plane_after(PlaneId::kColorR, i);
       color[static_cast<std::size_t>(i)] = frame.plane(plane);
       window = intersection(window, frame.plane(plane).window);
     }
+    relights = shadow && shadow.window.contains(window);
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sun[i] = frame.plane(plane_after(PlaneId::kSunColorR, static_cast<int>(i)));
+      relights = relights && sun[i] && sun[i].window.contains(window);
+      sun_over_rest[i] = static_cast<float>(std::min(over_rest[i], kMostSun));
+      most = std::max(most, over_rest[i]);
+    }
+    relights = relights && most > 0;
     const int longer = std::max(window.width(), window.height());
     cell = std::max(kLeastCell, (longer + kCellsAcross - 1) / kCellsAcross);
     step = cell / kLooks;
@@ -105,10 +112,11 @@ struct BottomLayerMaker::Scan {
   /// Color of a texel, as lit by the sun where `relights`.
   std::array<float, 3> color_at(int x, int y) const {
     std::array<float, 3> seen{color[0].at(x, y), color[1].at(x, y), color[2].at(x, y)};
-    if (!relights || !shadow.window.contains({x, y, x + 1, y + 1})) return seen;
-    const float lit = std::clamp(shadow.at(x, y), 0.0f, 1.0f);
+    if (!relights) return seen;
+    const float shade = 1 - std::clamp(shadow.at(x, y), 0.0f, 1.0f);
     for (std::size_t i = 0; i < 3; ++i) {
-      seen[i] *= (1 + sun_over_rest[i]) / (1 + lit * sun_over_rest[i]);
+      const float rest = std::max(seen[i] - std::max(sun[i].at(x, y), 0.0f), 0.0f);
+      seen[i] += shade * sun_over_rest[i] * rest;
     }
     return seen;
   }
@@ -121,10 +129,17 @@ struct BottomLayerMaker::Scan {
     };
     const int x = std::min(window.x0 + column * cell + cell / 2, window.x1 - 1);
     const int y = std::min(window.y0 + row * cell + cell / 2, window.y1 - 1);
-    const int across = x + cell < window.x1 ? cell : -std::min(cell, x - window.x0);
-    const int down = y + cell < window.y1 ? cell : -std::min(cell, y - window.y0);
+    // Towards the neighbour that is less of another surface.
+    const auto step_of = [&](int at, int low, int high, const auto& depth_at) {
+      const int back = std::max(at - cell, low), on = std::min(at + cell, high - 1);
+      const float here = depth_at(at);
+      if (back == at || on == at) return back == at ? on : back;
+      return std::abs(depth_at(on) - here) <= std::abs(depth_at(back) - here) ? on : back;
+    };
+    const int across = step_of(x, window.x0, window.x1, [&](int at) { return depth.at(at, y); });
+    const int down = step_of(y, window.y0, window.y1, [&](int at) { return depth.at(x, at); });
     const glm::dvec3 here = point(x, y);
-    const glm::dvec3 normal = glm::cross(point(x + across, y) - here, point(x, y + down) - here);
+    const glm::dvec3 normal = glm::cross(point(across, y) - here, point(x, down) - here);
     return std::abs(glm::dot(c.up, normal)) > kLevel * glm::length(normal);
   }
 

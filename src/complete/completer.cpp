@@ -55,10 +55,10 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   std::array<double, 3> sun_over_rest{};
   if (plan.keeps<Caustics>()) sun_over_rest = sun_share_.over_rest(whole, now, executor);
   if (refraction.uses_bottom_layer()) {
-    const bool moves = plan.keeps<Caustics>() &&
-                       Kernel<Caustics>::moves_shadows(caustics, pass, now.planes & plan.planes);
+    const bool shades = plan.keeps<Caustics>() &&
+                        Kernel<Caustics>::knows_entries(caustics, pass, now.planes & plan.planes);
     whole.bottom_layer =
-        bottom_layer_.make(whole, pass, moves ? sun_over_rest : std::array<double, 3>{}, executor);
+        bottom_layer_.make(whole, pass, shades ? sun_over_rest : std::array<double, 3>{}, executor);
   }
   const WaterShadow::Params& shade = plan.look.of<WaterShadow>();
   const bool shafts = plan.keeps<WaterShadow>() && Kernel<WaterShadow>::wants_shafts(shade);

@@ -41,7 +41,8 @@ struct Pixel {
   Rgb<F> transmitted;
   Rgb<F> dry_bottom;  ///< `transmitted` as lit in the dry picture; begins like it
   /// The share of the sunlight that reaches the bottom in the dry picture, where the shadow plane
-  /// shows another surface, and whether it is known, 0 ... 1; begins as 1, not known.
+  /// shows another surface, and whether it is known, 0 ... 1; begins as 1, not known. Refraction
+  /// knows the share of it that BottomLayer::lit fills in.
   F dry_lit, dry_lit_known;
   Rgb<F> in_scatter;  ///< begins as 0, as do all members below
   /// Sunlit parts of in_scatter: the first in the shadow of the surface point, the second in that

@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "op/bottom_layer.h"
 #include "ops/caustics_kernel.h"
 
 namespace limpid {
@@ -33,11 +34,10 @@ std::string_view Kernel<Caustics>::prefer(P& params, const AtHand& has) {
     params.sunlight = Sunlight::kStraight;
     return "sunlight on the bottom stays unrefracted";
   }
-  const bool moves = has.planes.covers({PlaneId::kShadow, PlaneId::kSurfaceShadow});
-  return moves ? "" : "shadows on the bottom stay unrefracted";
+  return has.planes.has(PlaneId::kShadow) ? "" : "shadows on the bottom stay unrefracted";
 }
 
-bool Kernel<Caustics>::moves_shadows(const P& params, const Pass& c, PlaneSet planes) {
+bool Kernel<Caustics>::knows_entries(const P& params, const Pass& c, PlaneSet planes) {
   return params.sunlight == Sunlight::kRefracted && glm::dot(c.sun.direction, c.up) > 1e-3 &&
          planes.covers(kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
 }
@@ -50,7 +50,8 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   light.level = {glm::dot(to_sun, c.map_x), glm::dot(to_sun, c.map_y)};
   light.known = c.planes.covers(kSunColorPlanes);
   light.bends = params.sunlight == Sunlight::kRefracted && light.known && light.rise > 1e-3;
-  light.moves = light.bends && moves_shadows(params, c, c.planes);
+  light.moves = light.bends && c.planes.has(PlaneId::kShadow);
+  light.entries = light.bends && knows_entries(params, c, c.planes);
   const Rays& rays = c.rays;
   const glm::dvec3 away = glm::cross(rays.origin_dx + rays.ray_dx, rays.origin_dy + rays.ray_dy);
   light.facing = glm::dot(away, c.forward) < 0 ? 1 : -1;
@@ -70,10 +71,12 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
 }
 
 /// The fog passes on a share of the light from below. The reflection of the bottom has the same
-/// caustics in its bound. Of hidden bottom the fog learns its dry sunlight here.
+/// caustics in its bound. Of hidden bottom, and of bottom that is filled in, the fog learns its dry
+/// sunlight here.
 double Kernel<Caustics>::bound(const P& params, const Pass& c, const Ranges& ranges) {
   if (c.eye_above < 0 && c.planes.covers(kReflectionPlanes)) return HUGE_VAL;
-  const bool hidden = light_of(params, c).moves && SeenPlanes::of(c).below;
+  const bool filled = c.bottom_layer && c.bottom_layer->lit;
+  const bool hidden = light_of(params, c).entries && (filled || SeenPlanes::of(c).below);
   return displaced(params, ranges) + (hidden ? ranges.detail : 0);
 }
 

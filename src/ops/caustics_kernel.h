@@ -46,13 +46,14 @@ struct Kernel<Caustics> : Caustics {
     double rise, sine;             ///< of the angle between the sun and the horizon, the vertical
     Vec2<double> level;            ///< the direction to the sun along map_x and map_y
     bool known;                    ///< the frame has the sun's light
-    bool bends, moves;             ///< the water bends it, and shadows at entry points are known
+    bool bends, moves;             ///< the water bends it, and shadows on the bottom are known
+    bool entries;                  ///< knows_entries()
     double facing;                 ///< 1 or -1: the sign of across x down towards the viewer
     std::array<double, 3> around;  ///< share of the light of sunlit bottoms, if it is known
   };
   static Light light_of(const Params& params, const Pass& c);
-  /// Whether shadows on the bottom move in a frame with these planes.
-  static bool moves_shadows(const Params& params, const Pass& c, PlaneSet planes);
+  /// Whether a frame with these planes tells what sunlight passes the surface where it enters.
+  static bool knows_entries(const Params& params, const Pass& c, PlaneSet planes);
   /// Ratio of two depths below which the farther place counts as hidden by the nearer place.
   static constexpr double kSameDepth = 0.98;
   /// Bound on sunlight on a slope over that on level bottom, and over the unrefracted light there.
@@ -104,7 +105,7 @@ struct Kernel<Caustics> : Caustics {
         // that is filled in, in the share `filled`, as lit by the sun.
         const F dry =
             planes.below ? bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(p.shift)) : p.hit_depth;
-        const F filled = p.dry_lit_known;
+        const F filled = p.dry_lit_known, mixed = saturate(F(8) * filled);
         const auto hidden = dry < F(kSameDepth) * p.hit_depth;
         const F of_plane = shadowed ? bilinear<F>(tap, PlaneId::kShadow, p.shift) : F(1);
         const F lit = select(hidden, F(1), of_plane);
@@ -124,7 +125,13 @@ struct Kernel<Caustics> : Caustics {
           const F per_rise = given<F>(1 / light.rise, "caustics.per_rise");
           const Vec2<F> level{dot(map_x, end) + depth * per_rise * sunwards.x,
                               dot(map_y, end) + depth * per_rise * sunwards.y};
-          sunlit = moved(c, p, tap, entry_of(end, given<F>(c.ior)), level, lit, hidden, filled);
+          const Vec2<F> entry = entry_of(end, given<F>(c.ior));
+          if (light.entries) {
+            sunlit = moved(c, p, tap, entry, level, lit, hidden, filled);
+          } else {
+            const Vec2<F> by = entry - level;
+            sunlit = shifted(c, p, tap, end + by.x * map_x + by.y * map_y, lit, hidden);
+          }
           p.dry_lit = select(lit_bottom, sunlit.dry, p.dry_lit);
           p.dry_lit_known = select(lit_bottom, sunlit.hidden_known, p.dry_lit_known);
         }
@@ -165,7 +172,7 @@ struct Kernel<Caustics> : Caustics {
             const F around = of_channel(i, light.around, "caustics.around");
             const F part = sunlit.dry * around;
             const F as_around = part / max(part + F(1) - around, F(1e-6)) * transmitted;
-            const F seen = select(hidden, as_around, shown + filled * (as_around - shown));
+            const F seen = select(hidden, as_around, shown + mixed * (as_around - shown));
             sun = min(max(seen, F(0)), max(transmitted, F(0)));
           } else {
             const F direct = lit * of_channel(i, light.sun, "caustics.sun");
@@ -345,6 +352,20 @@ struct Kernel<Caustics> : Caustics {
     known = known + filled * (refracted.known - known);
     dry = filled_in(dry, filled), below = filled_in(below, filled);
     return {dry, dry + known * (refracted.passes * below - dry), told};
+  }
+  /// Without a shadow on the surface: the shadows on the bottom where straight light through the
+  /// refracted light's entry falls, at `place`, as deep as this place. Known if the picture shows
+  /// the bottom there.
+  template <class F, class Tap, class Mask>
+  static LIMPID_INLINE Sunlit<F> shifted(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                         const Vec3<F>& place, F lit, Mask hidden) {
+    const ScreenRay<F> ray(c, p, place - p.surface_point);
+    const Vec2<F> shift = ray.shift_at(F(1));
+    const F depth = ray.depth_at(F(1));
+    const F off = abs(bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(shift)) - depth);
+    const F shown = saturate(F(2) - off / (F(1 - kSameDepth) * max(depth, F(1e-6))));
+    const F known = select(hidden, F(0), shown * known_at(c, p, shift));
+    return {lit, lit + known * (bilinear<F>(tap, PlaneId::kShadow, shift) - lit), F(0)};
   }
   /// A value of the bottom that is shown, mixed with 1 of the bottom that is filled in.
   template <class F>

@@ -24,7 +24,7 @@ struct Kernel<FresnelReflection> : MirroredLight {
     if (p.source == Source::kAuto) planes = kColorPlanes | PlaneSet{PlaneId::kDepth} | kSkyPlanes;
     const bool finds_ends = p.source == Source::kPlanar && p.lookup == Lookup::kRay;
     if (p.source == Source::kAuto || finds_ends) {
-      planes = planes | kAlbedoPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kShadow};
+      planes = planes | kAlbedoPlanes | kColorPlanes | PlaneSet{PlaneId::kDepth, PlaneId::kShadow};
     }
     if (p.source == Source::kAuto || p.source == Source::kPlanar) {
       planes = planes | kReflectionPlanes | PlaneSet{PlaneId::kReflectionValid};

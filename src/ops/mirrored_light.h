@@ -150,9 +150,10 @@ struct MirroredLight : FresnelReflection {
         const F off = abs(bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(at)) - end);
         const F known = saturate(F(2) - off / (F(0.1) * max(end, F(1e-6))));
         const F lit = bilinear<F>(tap, PlaneId::kShadow, at);
-        detail = {albedo_detail(*c.medium, 0, light.r, lit, albedo.r, known),
-                  albedo_detail(*c.medium, 1, light.g, lit, albedo.g, known),
-                  albedo_detail(*c.medium, 2, light.b, lit, albedo.b, known)};
+        const Rgb<F> dry = bilinear_rgb<F>(tap, PlaneId::kColorR, at);  // `light` may be focused
+        detail = {albedo_detail(*c.medium, 0, dry.r, lit, albedo.r, known),
+                  albedo_detail(*c.medium, 1, dry.g, lit, albedo.g, known),
+                  albedo_detail(*c.medium, 2, dry.b, lit, albedo.b, known)};
       }
     }
     return seen_in_water(*c.medium, WaterPath<F>{length, sink, begin, begin + sink * length}, ray,

@@ -488,7 +488,9 @@ struct Kernel<Refraction> : Refraction {
       return of_whole<kBottomless>(taps, whole);
     };
     const auto tell_light = [&](const auto& taps) {
-      if (layer && layer->lit) p.dry_lit_known = taps.filled;
+      if (!layer || !layer->lit) return;
+      const F share = of_whole<kBottomless>(taps, taps.filled);
+      p.dry_lit_known = select(taps.weight() > F(0.5), share, F(0));
     };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.

@@ -137,6 +137,12 @@ TEST(BottomLayer, OfAKnownSunIsThatOfASunlitBottom) {
       return static_cast<float>(hidden.hides(x, y) ? kThing : 0.5 * light);
     });
   }
+  for (int c = 0; c < 3; ++c) {
+    const double sun = kOverRest[static_cast<std::size_t>(c)];
+    hidden.pool.buffers.set(plane_after(PlaneId::kSunColorR, c), [&](int x, int) {
+      return static_cast<float>(0.5 * sun * lit(x) / (1 + sun));
+    });
+  }
   BottomLayerMaker maker;
   EXPECT_FALSE(hidden.made(maker, 1, kOverRest)->lit);  // without a shadow
   hidden.pool.buffers.set(PlaneId::kShadow, [&](int x, int) { return static_cast<float>(lit(x)); });
@@ -150,6 +156,10 @@ TEST(BottomLayer, OfAKnownSunIsThatOfASunlitBottom) {
       EXPECT_NEAR(at_pixel(*layer, layer->colors.channels[c], x, 50), 0.5, 0.02) << x << " " << c;
     }
   }
+  hidden.pool.buffers.set(
+      PlaneId::kShadow, [&](int x, int) { return static_cast<float>(lit(x)); },
+      Rect{0, 0, Pool::kSize.width, Pool::kSize.height - 1});
+  EXPECT_FALSE(hidden.made(maker, 1, kOverRest)->lit);  // not of all texels
 }
 
 // Under the strip of floor that the picture shows, a rim hides the floor; above it is a wall, and a
@@ -165,6 +175,7 @@ TEST(BottomLayer, WallsDoNotGoOn) {
     return static_cast<float>(hides ? 0.3 * depth : std::min(depth, kWall));
   };
   hidden.pool.buffers.set(PlaneId::kDepth, dry).fill(PlaneId::kShadow, 1);
+  for (int c = 0; c < 3; ++c) hidden.pool.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0);
   BottomLayerMaker maker;
   const BottomLayer* layer = hidden.made(maker, 1, {1, 1, 1});
   ASSERT_TRUE(layer);

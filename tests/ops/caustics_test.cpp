@@ -237,6 +237,24 @@ TEST(Caustics, MoveShadowsToWhereTheWaterBendsThem) {
   for (const int x : {4, 5, 7, 14, 16}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
 }
 
+// The shadow on the bottom alone tells where the water bends it, too.
+TEST(Caustics, MoveShadowsThatNoSurfaceTells) {
+  Tray tray = under_a_board();
+  tray.buffers.frame.planes[index_of(PlaneId::kSurfaceShadow)] = {};
+  const test::Picture wet = tray.wet();
+  for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
+  for (const int x : {4, 5, 7, 14, 16}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
+}
+
+// Beside a step, the bottom in the direction of the sun is another.
+TEST(Caustics, LeaveShadowsWhoseBottomElsewhereIsNotShown) {
+  Tray tray = under_a_board();
+  tray.buffers.frame.planes[index_of(PlaneId::kSurfaceShadow)] = {};
+  tray.buffers.set(PlaneId::kDepth, [](int x, int) { return x < 7 ? 11.0f : 14.0f; });
+  const test::Picture wet = tray.wet();
+  for (const int x : {8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
+}
+
 TEST(Caustics, LeaveShadowsThatAreCastInTheWater) {
   Tray tray = under_a_board();
   tray.buffers.fill(PlaneId::kSurfaceShadow, 1);  // the caster of the shadow lies deeper
@@ -332,6 +350,10 @@ TEST(Caustics, SayWhatThePlateHasNoPlanesFor) {
             std::pair(std::string("sunlight on the bottom stays unrefracted"), kStraight));
   EXPECT_EQ(preferred(kSunColorPlanes, kRefracted),
             std::pair(std::string("shadows on the bottom stay unrefracted"), kRefracted));
+  EXPECT_EQ(preferred(kSunColorPlanes | PlaneSet{PlaneId::kSurfaceShadow}, kRefracted),
+            std::pair(std::string("shadows on the bottom stay unrefracted"), kRefracted));
+  EXPECT_EQ(preferred(kSunColorPlanes | PlaneSet{PlaneId::kShadow}, kRefracted),
+            std::pair(std::string(), kRefracted));
   EXPECT_EQ(preferred(kSunColorPlanes | shadows, kRefracted), std::pair(std::string(), kRefracted));
 }
 

@@ -31,6 +31,7 @@ class Gpu(unittest.TestCase):
                 off = np.abs(ours - theirs)
                 self.assertLess(off[off < 1e-3].mean(), 2e-6)
                 changed[name].append((off >= 1e-3).mean())
+                self.assertLess(changed[name][-1], 5e-3)
             self.assertGreater(np.abs(wet - frame["color"]).mean(), 0.01)
         for name, shares in changed.items():
             self.assertLess(np.mean(shares), 2e-3, name)

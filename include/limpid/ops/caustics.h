@@ -19,15 +19,18 @@ namespace limpid {
 /// with sun_color, also if strength is 0. Slopes and walls then reflect the sun at the angle at
 /// which light meets them under calm water: a wall that faces the sun becomes darker. The slope
 /// comes from the depth, unless all eye depths have half precision, which is too coarse. Shadows
-/// move to their refracted positions, in frames with shadow and surface_shadow, too: the
-/// unrefracted shadow is removed, by an estimate of the sun's light from the bottom's other light
-/// and from sunlit bottom nearby, and the shadow on the surface at the entry point of calm water is
-/// applied. Shadows of objects below the surface stay: they are the shadow on the bottom divided by
-/// the shadow on the surface along the unrefracted ray. Near the picture's edge the moved shadows
-/// fade into the unrefracted ones, and where a wave, or the rim of a basin, hides the entry point
-/// from a low camera. On land, where surface_depth shows no water, no light enters. Of bottom that
-/// only the layer below shows, the shadow removed is the one on the surface at the entry point of
-/// the unrefracted ray. Bottom that refraction filled in behind an object is all in the sun before.
+/// move to their refracted positions, in frames with shadow, too: the unrefracted shadow is
+/// removed, by an estimate of the sun's light from the bottom's other light and from sunlit bottom
+/// nearby, and the shadow on the surface at the entry point of calm water is applied. Without
+/// surface_shadow the shadow is that on the bottom where unrefracted light through that entry point
+/// falls, if the picture shows the bottom there at the same depth; no bottom hidden by objects has
+/// shadows then. With it, shadows of objects below the surface stay: they are the shadow on the
+/// bottom divided by the shadow on the surface along the unrefracted ray. Near the picture's edge
+/// the moved shadows fade into the unrefracted ones, and where a wave, or the rim of a basin, hides
+/// the entry point from a low camera. On land, where surface_depth shows no water, no light enters.
+/// Of bottom that only the layer below shows, the shadow removed is the one on the surface at the
+/// entry point of the unrefracted ray. Bottom that refraction filled in behind an object is all in
+/// the sun before.
 ///
 /// Acts on bottom that is seen from the air, from within the water, and from there as the mirror
 /// image in the surface if the frame has a reflection with a depth; light on the mirror image is
