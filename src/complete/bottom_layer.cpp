@@ -23,7 +23,7 @@ constexpr float kOfBottom = BottomLayer::kOfBottom;
 /// steeper than 45 degrees, in a layer that is relit: they do not go on behind what stands before
 /// them, as a bottom does. Else the dim light on walls stands for the shade on hidden bottom.
 constexpr float kMixed = 1e-3f;
-constexpr double kLevel = 0.7;
+constexpr double kLevel = 0.7;  ///< cosine of the steepest bottom
 /// Bound on the sun's light over the rest: shade that is almost black has no known color.
 constexpr double kMostSun = 20;
 
