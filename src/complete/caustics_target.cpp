@@ -48,7 +48,7 @@ void read_tile(const TileRow& tile, int count, const SurfaceRow& to) {
     const Lane at = max(straight - texels * floor(straight * per_tile), Lane(0));
     const Lane column = min(floor(at), last);
     const VI whole = whole_of(column);
-    const Places places(hn::Add(whole, whole));
+    const VI places = hn::Add(whole, whole);
     const Pair left = fetch_pairs(tile.slopes, places),
                right = fetch_pairs(tile.slopes + 2, places);
     const Lane u = at - column;
@@ -76,8 +76,8 @@ void read_normals(const NormalRow& row, int count, const SurfaceRow& to) {
       const auto read = [&](const View<const float>& view) LIMPID_LANES_LAMBDA {
         const int x_stride = static_cast<int>(view.x_stride);
         const int y_stride = static_cast<int>(view.y_stride);
-        const Places upper(hn::Add(hn::Mul(whole_of(column), hn::Set(kDI, x_stride)),
-                                   hn::Mul(whole_of(line), hn::Set(kDI, y_stride))));
+        const VI upper = hn::Add(hn::Mul(whole_of(column), hn::Set(kDI, x_stride)),
+                                 hn::Mul(whole_of(line), hn::Set(kDI, y_stride)));
         const int right = width > 1 ? x_stride : 0, down = height > 1 ? y_stride : 0;
         const auto mixed = [&](const float* data) LIMPID_LANES_LAMBDA {
           if (right != 1) return lerp(fetch(data, upper), fetch(data + right, upper), u);
@@ -114,14 +114,14 @@ struct Bottom {
   LIMPID_LANES_INLINE Lane nearest(Lane x, Lane y) const {
     const VI column = whole_of(within(cell_of(x) + Lane(0.5), light.across));
     const VI row = whole_of(within(cell_of(y) + Lane(0.5), light.down));
-    return fetch(light.bottom, Places(index(column, row)));
+    return fetch(light.bottom, index(column, row));
   }
   /// Bilinear between cells; across an edge, the depth of the nearest cell.
   LIMPID_LANES_INLINE Lane between(Lane x, Lane y) const {
     const Lane at_x = within(cell_of(x), light.across - 1),
                at_y = within(cell_of(y), light.down - 1);
     const Lane column = floor(at_x), row = floor(at_y);
-    const Places upper(index(whole_of(column), whole_of(row)));
+    const VI upper = index(whole_of(column), whole_of(row));
     const Pair top = fetch_pairs(light.bottom, upper);
     const Pair low = fetch_pairs(light.bottom + light.across, upper);
     const Lane deepest = max(max(top.left, top.right), max(low.left, low.right));

@@ -102,7 +102,7 @@ class FusedStrip {
       for (int c = 0; c < 3; ++c) {
         value[c] = Lane(sources[c].missing);
         if (!sources[c].data) continue;
-        sample<1, false>(&sources[c], spot_at(sources[c], v, shift), &value[c]);
+        sample<1, false>(&sources[c], spot_at<VI>(sources[c], v, shift), &value[c]);
       }
       into(pixels_[v], Rgb<Lane>{value[0], value[1], value[2]});
     }
@@ -216,7 +216,7 @@ class FusedStrip {
     LIMPID_LANES_INLINE Lane grid(const View<const float>& table, Vec2<Lane> at) const {
       const Source source(table, 0);
       Lane value;
-      sample<1, true>(&source, Spot(source, at), &value);
+      sample<1, true>(&source, Spot<VI>(source, at), &value);
       return value;
     }
 
@@ -328,8 +328,8 @@ class FusedStrip {
   }
   template <int N, bool kPairs, class Where, class Into>
   LIMPID_LANES_INLINE void mixed(const Source* sources, Where&& where, Into&& into) {
-    Spot spots[kStripVectors];
-    for (const int v : wet()) spots[v] = spot_at(sources[0], v, where(pixels_[v]));
+    Spot<Places> spots[kStripVectors];
+    for (const int v : wet()) spots[v] = spot_at<Places>(sources[0], v, where(pixels_[v]));
     for (const int v : wet()) {
       Lane value[N];
       sample<N, kPairs>(sources, spots[v], value);
@@ -340,8 +340,9 @@ class FusedStrip {
   LIMPID_LANES_INLINE Vec2<Lane> in_texels(Vec2<Lane> shift) const {
     return {shift.x * Lane(width_), shift.y * Lane(height_)};
   }
-  LIMPID_LANES_INLINE Spot spot_at(const Source& source, int vector, Vec2<Lane> shift) const {
-    return Spot(source, x0_ + vector * kLanes, y_, in_texels(shift));
+  template <class At>
+  LIMPID_LANES_INLINE Spot<At> spot_at(const Source& source, int vector, Vec2<Lane> shift) const {
+    return Spot<At>(source, x0_ + vector * kLanes, y_, in_texels(shift));
   }
 
   /// Clamped to the range of int. NaN becomes the lower end.

@@ -34,7 +34,7 @@ struct Source {
   LIMPID_LANES_INLINE VI index(VI x, VI y) const {
     return hn::Add(hn::Mul(x, hn::Set(kDI, x_stride)), hn::Mul(y, hn::Set(kDI, y_stride)));
   }
-  LIMPID_LANES_INLINE Lane gather(VI at) const { return fetch(data, Places(at)); }
+  LIMPID_LANES_INLINE Lane gather(VI at) const { return fetch(data, at); }
 };
 
 /// `count` floats of a row as one vector; lanes beyond are 0. A full vector is one unaligned load.

@@ -6,9 +6,11 @@
 namespace limpid::HWY_NAMESPACE {
 
 /// The place of a bilinear lookup: the upper left of four texels, and the weights of the right and
-/// the lower texels. Clamped to the window, so that all four texels lie inside.
+/// the lower texels. Clamped to the window, so that all four texels lie inside. `At` is Places for
+/// lookups that are made later, else VI.
+template <class At>
 struct Spot {
-  Places upper_left;
+  At upper_left;
   Lane u, v;
 
   Spot() = default;
@@ -18,12 +20,12 @@ struct Spot {
     const VI column = along(first - iota, s.width(), shift.x, u);
     const VI row = along(Lane(s.window.y0 - y), s.height(), shift.y, v);
     const VI own = count_from(x - s.window.x0);
-    upper_left = Places(s.index(hn::Add(own, column), hn::Add(hn::Set(kDI, y - s.window.y0), row)));
+    upper_left = At(s.index(hn::Add(own, column), hn::Add(hn::Set(kDI, y - s.window.y0), row)));
   }
   /// By texels from the centre of the first texel.
   LIMPID_LANES_INLINE Spot(const Source& s, Vec2<Lane> at) {
     const VI column = along(Lane(0), s.width(), at.x, u), row = along(Lane(0), s.height(), at.y, v);
-    upper_left = Places(s.index(column, row));
+    upper_left = At(s.index(column, row));
   }
 
  private:
@@ -53,7 +55,7 @@ LIMPID_LANES_INLINE bool has_pairs(const Source& s) { return s.x_stride == 1 && 
 /// The four texels at (x, y) ... (x + 1, y + 1) of a window, for any channel of that window. Beyond
 /// its edge the outermost texels repeat: both taps of a pair are then the same texel.
 struct QuadPairs {
-  Places upper, lower;
+  VI upper, lower;
   Mask before, after;  ///< where a pair lies before the window, or after it
 
   QuadPairs() = default;
@@ -65,7 +67,7 @@ struct QuadPairs {
     const VI across = hn::Sub(clamp(x, first, last), hn::Set(kDI, first));
     const auto row = [&](VI at) LIMPID_LANES_LAMBDA {
       const VI down = clamp(at, s.window.y0, s.window.y1 - 1);
-      return Places(s.index(across, hn::Sub(down, hn::Set(kDI, s.window.y0))));
+      return s.index(across, hn::Sub(down, hn::Set(kDI, s.window.y0)));
     };
     upper = row(y);
     lower = row(hn::Add(y, hn::Set(kDI, 1)));
@@ -80,8 +82,8 @@ struct QuadPairs {
 
 /// Lookups in N channels of the same layout. A window of one column or one row uses the same texel
 /// twice.
-template <int N, bool kPairs>
-LIMPID_LANES_INLINE void sample(const Source* sources, const Spot& spot, Lane* out) {
+template <int N, bool kPairs, class At>
+LIMPID_LANES_INLINE void sample(const Source* sources, const Spot<At>& spot, Lane* out) {
   const Source& s = sources[0];
   const int right = s.width() > 1 ? s.x_stride : 0, down = s.height() > 1 ? s.y_stride : 0;
   const auto row = [&](const float* data) LIMPID_LANES_LAMBDA {

@@ -97,7 +97,7 @@ struct LevelChoice {
       height = hn::Set(kDI, sizes.height[lowest]);
       first = hn::Set(kDI, sizes.first[lowest]);
     } else {
-      const Places at(whole_of(level));
+      const VI at = whole_of(level);
       width = entry(sizes.width, at);
       height = entry(sizes.height, at);
       first = entry(sizes.first, at);
@@ -105,23 +105,22 @@ struct LevelChoice {
   }
 
  private:
-  static LIMPID_LANES_INLINE VI entry(const std::int32_t* table, const Places& at) {
+  static LIMPID_LANES_INLINE VI entry(const std::int32_t* table, VI at) {
     return hn::BitCast(kDI, fetch(reinterpret_cast<const float*>(table), at).v);
   }
 };
 
 /// The place of a bilinear lookup in such levels.
 struct LevelSpot {
-  Places upper, lower;
+  VI upper, lower;
   Lane u, v;
 
   LIMPID_LANES_INLINE LevelSpot(const LevelChoice& level, Vec2<Lane> periods) {
     const VI pitch = hn::Add(level.width, hn::Set(kDI, 1));
     const VI x = BytesSpot::along(level.width, periods.x, u);
     const VI y = BytesSpot::along(level.height, periods.y, v);
-    const VI place = hn::Add(hn::Add(hn::Mul(y, pitch), x), level.first);
-    upper = Places(place);
-    lower = Places(hn::Add(place, pitch));
+    upper = hn::Add(hn::Add(hn::Mul(y, pitch), x), level.first);
+    lower = hn::Add(upper, pitch);
   }
 };
 
@@ -224,8 +223,8 @@ LIMPID_LANES_INLINE Rgb<Lane> wrapped_rgb(const Texture& texture, Vec2<Lane> per
   for (int c = 0; c < 3; ++c) {
     const Source s(texture.channels[c], 0);
     if (pairs && s.x_stride == 1) {
-      const Pair upper = fetch_pairs(s.data, Places(s.index(spot.x, spot.y)));
-      const Pair lower = fetch_pairs(s.data, Places(s.index(spot.x, spot.y1)));
+      const Pair upper = fetch_pairs(s.data, s.index(spot.x, spot.y));
+      const Pair lower = fetch_pairs(s.data, s.index(spot.x, spot.y1));
       value[c] = lerp(lerp(upper.left, upper.right, spot.u), lerp(lower.left, lower.right, spot.u),
                       spot.v);
       continue;

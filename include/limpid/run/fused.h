@@ -37,7 +37,7 @@ struct FusedOptions {
   /// The instruction set by name: scalar sse4 avx2 avx512 neon, or "" for the best of this machine.
   /// An unknown name, or a set that the machine lacks, is refused.
   std::string simd = {};
-  Size tile = {1024, 32};     ///< pixels
+  Size tile = {256, 64};      ///< pixels
   RunTimes* times = nullptr;  ///< receives the times, if not null
   /// Whether ray marches (of refraction, mirrored rays, the skyline, shadows) skip lookups that
   /// cannot change the result, by the depth bounds of Heights. Does not change the bits; false is
