@@ -51,12 +51,14 @@ LIMPID_INLINE F caustics_texel(const WaterView& c, F depth, F cosine) {
   return wide / sqrt(max(cosine, F(0.05)));
 }
 
-/// The table's value at a place, for pixels that want texels of this width. The finest level first;
-/// the next level where a pixel is wider than a texel, or the level ends; 1 beyond the last. Never
-/// below 0.
-template <class F, class Tap>
-F caustics_at(const CausticsTable& table, const Tap& tap, Vec2<F> entry, F texel) {
-  F light(0), rest(1);
+/// Calls look(level, at, share, per_texel) for each level that a pixel with texels of the width
+/// `texel` takes a share of its light from, with the place `entry` in texels, of which `per_texel`
+/// make a scene unit. It may be called for lanes whose share is 0. The finest level first; the next
+/// level where a pixel is wider than a texel, or the level ends. Returns the share beyond the last
+/// level, where the light is 1.
+template <class F, class Look>
+LIMPID_INLINE F each_level(const CausticsTable& table, Vec2<F> entry, F texel, Look&& look) {
+  F rest(1);
   for (int k = 0; k < table.count; ++k) {
     const CausticsTable::Level& level = table.levels[static_cast<std::size_t>(k)];
     const int nth = table.first + k;
@@ -71,11 +73,40 @@ F caustics_at(const CausticsTable& table, const Tap& tap, Vec2<F> entry, F texel
     const F within = inside(at.x, given<F>(window.width() - 1, "caustics.last_x", nth)) *
                      inside(at.y, given<F>(window.height() - 1, "caustics.last_y", nth));
     const F share = rest * within * saturate(F(2) - texel * wider);
-    if_any(share > F(0),
-           [&] { light = light + select(share > F(0), share * tap.grid(level.light, at), F(0)); });
+    if_any(share > F(0), [&] { look(level, at, share, per_texel); });
     rest = rest - share;
   }
+  return rest;
+}
+
+/// The table's value at a place, for pixels that want texels of this width. Never below 0.
+template <class F, class Tap>
+F caustics_at(const CausticsTable& table, const Tap& tap, Vec2<F> entry, F texel) {
+  F light(0);
+  const F rest = each_level(table, entry, texel, [&](const auto& level, Vec2<F> at, F share, F) {
+    light = light + select(share > F(0), share * tap.grid(level.light, at), F(0));
+  });
   return max(light + rest, F(0));
+}
+
+/// The same for the places of red, green and blue. The place of green decides which levels count.
+template <class F, class Tap>
+Rgb<F> caustics_of_colors(const CausticsTable& table, const Tap& tap,
+                          const std::array<Vec2<F>, 3>& entries, F texel) {
+  const Vec2<F>&red = entries[0], &green = entries[1], &blue = entries[2];
+  Rgb<F> light{F(0), F(0), F(0)};
+  const auto look = [&](const auto& level, Vec2<F> at, F share, F per_texel) {
+    each<F>(3, [&](auto i) {
+      const Vec2<F> place{at.x + per_texel * (pick<F>(i, red.x, green.x, blue.x) - green.x),
+                          at.y + per_texel * (pick<F>(i, red.y, green.y, blue.y) - green.y)};
+      const F more = select(share > F(0), share * tap.grid(level.light, place), F(0));
+      only<F>(i, 0, [&] { light.r = light.r + more; });
+      only<F>(i, 1, [&] { light.g = light.g + more; });
+      only<F>(i, 2, [&] { light.b = light.b + more; });
+    });
+  };
+  const F rest = each_level(table, green, texel, look);
+  return {max(light.r + rest, F(0)), max(light.g + rest, F(0)), max(light.b + rest, F(0))};
 }
 
 }  // namespace limpid

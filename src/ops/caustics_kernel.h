@@ -71,13 +71,27 @@ struct Kernel<Caustics> : Caustics {
     const Vec2<F> sunwards{given<F>(light.level.x, "caustics.sunwards", 0),
                            given<F>(light.level.y, "caustics.sunwards", 1)};
     const bool split = c.made.has(StatePart::kPrism), shadowed = c.planes.has(PlaneId::kShadow);
+    const auto sees_bottom = [](const Pixel<F>& p) {
+      const auto from_air = p.side > F(0.5), has_path = p.path > F(0) && p.path < F(1e20);
+      return p.side > F(-0.5) && p.hit_depth < F(1e30) && (!from_air || has_path);
+    };
+    if (light.known) {
+      // A probe of its own, so short that a processor makes lookups of later pixels meanwhile.
+      strip.probe([&](Pixel<F>& p, const auto& tap) {
+        p.dry_sun = {F(0), F(0), F(0)};
+        if_any(sees_bottom(p), [&] {
+          p.dry_sun = {bilinear<F>(tap, PlaneId::kSunColorR, p.shift_r),
+                       bilinear<F>(tap, plane_after(PlaneId::kSunColorR, 1), p.shift_g),
+                       bilinear<F>(tap, plane_after(PlaneId::kSunColorR, 2), p.shift_b)};
+        });
+      });
+    }
     strip.probe([&](Pixel<F>& p, const auto& tap) {
       const F surface = given<F>(c.eye_above) + dot(up, p.surface_point);
       // From within the water the view is straight.
       const Vec3<F> straight = p.surface_point + offset_to(c, p, p.shift, p.hit_depth);
       const auto from_air = p.side > F(0.5);
-      const auto has_path = p.path > F(0) && p.path < F(1e20);
-      const auto seen_bottom = p.side > F(-0.5) && p.hit_depth < F(1e30) && (!from_air || has_path);
+      const auto seen_bottom = sees_bottom(p);
       if_any(seen_bottom, [&] {
         const Aim<F> aim = aim_of(c, p, given<F>(c.ior));
         const F drop = select(seen_bottom && from_air, p.path * aim.fall, F(0));
@@ -119,56 +133,66 @@ struct Kernel<Caustics> : Caustics {
                     select(sloped, filled_in(own.gain, filled), F(1))};
           });
         }
-        Sunlit<F> sunlit{lit, F(1), F(0)};
+        const Vec3<F> end = end_of(aim);
+        const Vec2<F> entry = entry_of(end, given<F>(c.ior));
+        Sunlit<F> sunlit{lit, F(1), F(1), F(0)};
         if (light.moves) {
-          const Vec3<F> end = end_of(aim);
           const F per_rise = given<F>(1 / light.rise, "caustics.per_rise");
           const Vec2<F> level{dot(map_x, end) + depth * per_rise * sunwards.x,
                               dot(map_y, end) + depth * per_rise * sunwards.y};
-          const Vec2<F> entry = entry_of(end, given<F>(c.ior));
+          const auto of_bottom = [&] {
+            const Vec2<F> by = entry - level;
+            return shifted(c, p, tap, end + by.x * map_x + by.y * map_y, lit, hidden, filled);
+          };
           if (light.entries) {
             sunlit = moved(c, p, tap, entry, level, lit, hidden, filled);
+            const auto unknown = lit_bottom && !hidden && sunlit.known < F(1);
+            if_any(unknown, [&] {
+              const F more = (F(1) - sunlit.known) * (of_bottom().arrives - sunlit.dry);
+              sunlit.arrives = sunlit.arrives + select(unknown, more, F(0));
+            });
           } else {
-            const Vec2<F> by = entry - level;
-            sunlit = shifted(c, p, tap, end + by.x * map_x + by.y * map_y, lit, hidden);
+            sunlit = of_bottom();
           }
           p.dry_lit = select(lit_bottom, sunlit.dry, p.dry_lit);
           p.dry_lit_known = select(lit_bottom, sunlit.hidden_known, p.dry_lit_known);
         }
-        const auto& scattered = table.scattered;
-        const bool scatters = scattered[0] > 0 || scattered[1] > 0 || scattered[2] > 0;
         const auto of_channel = [&](auto i, const std::array<double, 3>& values, const char* name) {
           return pick<F>(i, given<F>(values[0], name, 0), given<F>(values[1], name, 1),
                          given<F>(values[2], name, 2));
         };
+        Rgb<F> focused{F(1), F(1), F(1)};
+        if (params.strength != 0) {
+          std::array<Vec2<F>, 3> entries{entry, entry, entry};
+          if (split) {
+            each<F>(3, [&](auto i) {
+              const F apart = pick<F>(i, p.dispersion.r, p.dispersion.g, p.dispersion.b);
+              if_any(abs(apart) > F(0), [&] {
+                const F index = given<F>(c.ior) + apart;
+                const Vec2<F> own = entry_of(end_of(aim_of(c, p, index)), index);
+                only<F>(i, 0, [&] { entries[0] = own; });
+                only<F>(i, 1, [&] { entries[1] = own; });
+                only<F>(i, 2, [&] { entries[2] = own; });
+              });
+            });
+          }
+          focused = caustics_of_colors(table, tap, entries, texel);
+        }
+        const auto& scattered = table.scattered;
+        const bool scatters = scattered[0] > 0 || scattered[1] > 0 || scattered[2] > 0;
         Rgb<F> made = p.transmitted;
         each<F>(3, [&](auto i) {
-          const F index = pick<F>(i, p.dispersion.r, p.dispersion.g, p.dispersion.b);
-          const Vec2<F> shift{pick<F>(i, p.shift_r.x, p.shift_g.x, p.shift_b.x),
-                              pick<F>(i, p.shift_r.y, p.shift_g.y, p.shift_b.y)};
           const F transmitted = pick<F>(i, p.transmitted.r, p.transmitted.g, p.transmitted.b);
-          Aim<F> own = aim;
-          if (split) {
-            if_any(abs(index) > F(0), [&] { own = aim_of(c, p, given<F>(c.ior) + index); });
-          }
-          const Vec2<F> entry = entry_of(end_of(own), given<F>(c.ior) + index);
           F strength = given<F>(params.strength);
           if (scatters) {
             const F rate = of_channel(i, scattered, "caustics.scattered");
             strength = strength * exp((F(0) - rate) * depth);
           }
-          F focused(1);
-          if (params.strength != 0) {
-            focused = F(1) + strength * (caustics_at(table, tap, entry, texel) - F(1));
-          }
+          const F light_here = pick<F>(i, focused.r, focused.g, focused.b);
+          const F gain = F(1) + strength * (light_here - F(1));
           F sun(0);
           if (light.known) {
-            F shown(0);
-            for (int k = 0; k < 3; ++k) {
-              only<F>(i, k, [&] {
-                shown = bilinear<F>(tap, plane_after(PlaneId::kSunColorR, k), shift);
-              });
-            }
+            const F shown = pick<F>(i, p.dry_sun.r, p.dry_sun.g, p.dry_sun.b);
             const F around = of_channel(i, light.around, "caustics.around");
             const F part = sunlit.dry * around;
             const F as_around = part / max(part + F(1) - around, F(1e-6)) * transmitted;
@@ -186,7 +210,7 @@ struct Kernel<Caustics> : Caustics {
             const F removed = (F(1) - sunlit.dry) * max(rest, F(0)) * over_rest * tilt.of_level;
             whole = sunlit.arrives * (whole + removed);
           }
-          const F all = select(lit_bottom, rest + focused * whole, transmitted);
+          const F all = select(lit_bottom, rest + gain * whole, transmitted);
           only<F>(i, 0, [&] { made.r = all; });
           only<F>(i, 1, [&] { made.g = all; });
           only<F>(i, 2, [&] { made.b = all; });
@@ -225,82 +249,67 @@ struct Kernel<Caustics> : Caustics {
   template <class F>
   struct Slope {
     Vec3<F> normal;  ///< unit, towards the viewer
-    F known;         ///< 0 ... 1; 0 where the dry picture does not show the bottom, and at edges
+    F known;         ///< 0 ... 1; 0 where the dry picture does not show the bottom
   };
-  /// The slope of the bottom at the place that the pixel looks up: from depths kApart pixels to all
-  /// sides, where those across an edge count least, and those beyond the picture hardly. Inverse
-  /// depths are mixed, which are linear across a plane.
+  /// The slope of the bottom at the texel that the pixel looks up: from depths kApart pixels to all
+  /// sides, where those across an edge count least, and those beyond the picture hardly.
   template <class F, class Tap>
   static LIMPID_INLINE Slope<F> slope_at(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                          const Light& light) {
-    constexpr double kApart = 2;
-    // One division for two depths.
-    const auto inverse = [](const Four<F>& depths) {
-      const auto bounded = [&](int k) { return min(max(depths[k], F(1e-18)), F(1e18)); };
-      const F d[4] = {bounded(0), bounded(1), bounded(2), bounded(3)};
-      const F upper = F(1) / (d[0] * d[1]), lower = F(1) / (d[2] * d[3]);
-      return Four<F>{{d[1] * upper, d[0] * upper, d[3] * lower, d[2] * lower}};
-    };
-    const auto mix = [](const auto& quad, const Four<F>& values) {
-      return max(mean_of<F>(quad, values), F(1e-18));
+    constexpr double kApart = 2, kMostStep = 0.1;
+    const auto depth_at = [&](Vec2<F> shift) {
+      return min(max(tap.nearest(PlaneId::kDepth, shift), F(1e-18)), F(1e18));
     };
     const Vec2<F> low{given<F>(c.dry.low.x) - p.uv.x, given<F>(c.dry.low.y) - p.uv.y};
     const Vec2<F> high{given<F>(c.dry.high.x) - p.uv.x, given<F>(c.dry.high.y) - p.uv.y};
-    const Vec2<F> at{min(max(p.shift.x, low.x), high.x), min(max(p.shift.y, low.y), high.y)};
-    const auto quad = tap.quad(at);
-    const Four<F> here = inverse(tap.read(PlaneId::kDepth, quad));
-    const F near = mix(quad, here), depth = F(1) / near;
+    const auto centre = [](F shift, F count) { return floor(shift * count + F(0.5)) / count; };
+    const Vec2<F> at{centre(min(max(p.shift.x, low.x), high.x), given<F>(c.size.x)),
+                     centre(min(max(p.shift.y, low.y), high.y), given<F>(c.size.y))};
+    const F depth = depth_at(at);
     const Vec3<F> ray = ray_gain(c, at) - p.ray_length * p.to_viewer;
-    F known = saturate(F(2) - abs(F(1) - near * p.hit_depth) / F(1 - kSameDepth));
-    // A centre that mixes the two sides of an edge would look like a steep slope: there `jump`, the
-    // change from one texel to the next as far as it is mixed here, is as much as the change over
-    // two pixels.
-    const auto tangent = [&](F x, F y, const Vec3<F>& origin_step, const Vec3<F>& ray_step,
-                             F jump) {
-      F least(1);
+    F steps(0);  // of depth, from one texel to the next, as a share of it
+    const auto tangent = [&](F x, F y, const Vec3<F>& origin_step, const Vec3<F>& ray_step) {
+      F least(kMostStep);
       const auto beside = [&](F step_x, F step_y, F& edge) {
         const Vec2<F> side{at.x + step_x, at.y + step_y};
-        const auto there = tap.quad(side);
-        const F found = max(mix(there, inverse(tap.read(PlaneId::kDepth, there))), F(0.5) * near);
-        const F step = (found - near) * depth;
+        const F found = min(depth_at(side), F(2) * depth);
+        // A difference of inverse depths, which are linear across a plane.
+        const F step = depth / found - F(1);
         const auto shown = min(side.x - low.x, high.x - side.x) >= F(0) - F(0.25) * abs(x) &&
                            min(side.y - low.y, high.y - side.y) >= F(0) - F(0.25) * abs(y);
         edge = select(shown, step * step + F(1e-8), F(1e8));
-        least = min(least, select(shown, abs(step), F(1)));
+        least = min(least, select(shown, abs(step), F(kMostStep)));
         return found;
       };
       F edge_on(0), edge_back(0);
       const F on = beside(x, y, edge_on), back = beside(F(0) - x, F(0) - y, edge_back);
-      known = known * saturate(F(2) - jump / (near * (least + F(1e-3))));
-      const F both = F(1) / (on * back), depth_on = back * both, depth_back = on * both;
+      steps = steps + F(1 / kApart) * least;
       const F of_all = F(1) / (edge_on + edge_back);
       const F share_on = edge_back * of_all, share_back = edge_on * of_all;
-      const F mean = share_on * depth_on + share_back * depth_back;
-      const F rise = share_on * (depth_on - depth) - share_back * (depth_back - depth);
+      const F mean = share_on * on + share_back * back;
+      const F rise = share_on * (on - depth) - share_back * (back - depth);
       return origin_step + mean * ray_step + rise * ray;
     };
-    const F right = quad.weight(1) + quad.weight(3), lower = quad.weight(2) + quad.weight(3);
-    const F columns =
-        F(4) * right * (F(1) - right) * max(abs(here[1] - here[0]), abs(here[3] - here[2]));
-    const F rows =
-        F(4) * lower * (F(1) - lower) * max(abs(here[2] - here[0]), abs(here[3] - here[1]));
-    const Vec3<F> across =
-        tangent(given<F>(kApart / c.size.x, "caustics.columns"), F(0),
-                vec3_of<F>(kApart * c.rays.origin_dx, "caustics.origin_across"),
-                vec3_of<F>(kApart * c.rays.ray_dx, "caustics.ray_across"), columns);
+    const Vec3<F> across = tangent(given<F>(kApart / c.size.x, "caustics.columns"), F(0),
+                                   vec3_of<F>(kApart * c.rays.origin_dx, "caustics.origin_across"),
+                                   vec3_of<F>(kApart * c.rays.ray_dx, "caustics.ray_across"));
     const Vec3<F> down = tangent(F(0), given<F>(kApart / c.size.y, "caustics.rows"),
                                  vec3_of<F>(kApart * c.rays.origin_dy, "caustics.origin_down"),
-                                 vec3_of<F>(kApart * c.rays.ray_dy, "caustics.ray_down"), rows);
+                                 vec3_of<F>(kApart * c.rays.ray_dy, "caustics.ray_down"));
     const Vec3<F> normal = given<F>(light.facing, "caustics.facing") * cross(across, down);
     const F squared = dot(normal, normal);
     const auto sane = squared > F(1e-36) && squared < F(1e36);
-    return {(F(1) / sqrt(select(sane, squared, F(1)))) * normal, select(sane, known, F(0))};
+    // The ray's end may lie half a texel from the texel's centre.
+    const F off = abs(F(1) - p.hit_depth / depth) / (F(1 - kSameDepth) + F(0.5) * steps);
+    return {(F(1) / sqrt(select(sane, squared, F(1)))) * normal,
+            select(sane, saturate(F(2) - off), F(0))};
   }
 
   /// Shares of the sunlight that reach a place on the bottom.
   template <class F>
   struct Sunlit {
     F dry, arrives;  ///< straight, as in the dry picture, and refracted
+    F known;         ///< share of `arrives` that the entry point tells; the rest is `dry`
     F hidden_known;  ///< 1 where `dry` is known of a hidden place
   };
   /// Refracted light enters at `entry`, straight light would enter at `level`; `lit` is the share
@@ -351,21 +360,23 @@ struct Kernel<Caustics> : Caustics {
     const F told = filled_in(select(hidden, known, F(0)), filled);
     known = known + filled * (refracted.known - known);
     dry = filled_in(dry, filled), below = filled_in(below, filled);
-    return {dry, dry + known * (refracted.passes * below - dry), told};
+    return {dry, dry + known * (refracted.passes * below - dry), known, told};
   }
   /// Without a shadow on the surface: the shadows on the bottom where straight light through the
   /// refracted light's entry falls, at `place`, as deep as this place. Known if the picture shows
   /// the bottom there.
   template <class F, class Tap, class Mask>
   static LIMPID_INLINE Sunlit<F> shifted(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                         const Vec3<F>& place, F lit, Mask hidden) {
+                                         const Vec3<F>& place, F lit, Mask hidden, F filled) {
     const ScreenRay<F> ray(c, p, place - p.surface_point);
     const Vec2<F> shift = ray.shift_at(F(1));
     const F depth = ray.depth_at(F(1));
     const F off = abs(bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(shift)) - depth);
     const F shown = saturate(F(2) - off / (F(1 - kSameDepth) * max(depth, F(1e-6))));
     const F known = select(hidden, F(0), shown * known_at(c, p, shift));
-    return {lit, lit + known * (bilinear<F>(tap, PlaneId::kShadow, shift) - lit), F(0)};
+    const F dry = filled_in(lit, filled);
+    const F arrives = dry + known * (bilinear<F>(tap, PlaneId::kShadow, shift) - dry);
+    return {dry, arrives, known, filled};
   }
   /// A value of the bottom that is shown, mixed with 1 of the bottom that is filled in.
   template <class F>

@@ -382,12 +382,43 @@ TEST(Caustics, SeeNoSlopeInDepthsOfHalfPrecision) {
   EXPECT_NEAR(on_a_slope(0.25, 14).wet().color(12, 2).r, 0.5, 1e-6);
 }
 
-// A crest in front hides the entry points from column 10 on, and shows its own shadow.
-TEST(Caustics, LeaveShadowsWhoseEntryPointAWaveHides) {
+// The shadow plane shows the object in front of bottom that is filled in, and no surface shows the
+// shadow on it.
+TEST(Caustics, LeaveTheSunOnBottomThatIsFilledIn) {
+  const Ramp ramp(1);
+  Basin basin(ramp, {0.8, 0.6, 0});
+  for (int c = 0; c < 3; ++c) basin.tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
+  basin.tray.buffers.fill(PlaneId::kShadow, 0).fill(PlaneId::kDepth, 11);
+  const Pass c = basin.pass();
+  for (const double filled : {0.0, 1.0}) {
+    Basin::ReferenceState state(c, basin.tray.buffers.frame, 4, 2);
+    state.pixel.path = 4, state.pixel.hit_depth = 14;
+    state.pixel.dry_lit_known = filled;
+    state.applied(basin.params, c);
+    EXPECT_EQ(state.pixel.dry_lit, filled);
+    EXPECT_EQ(state.pixel.dry_lit_known, filled);
+  }
+}
+
+/// A crest in front hides the entry points from column 10 on, and shows its own shadow.
+Tray behind_a_crest() {
   Tray tray = under_a_board();
   tray.buffers.set(PlaneId::kSurfaceDepth, [](int x, int) { return x >= 10 ? 7.0f : 10.0f; });
+  return tray;
+}
+
+// The shadow on the bottom then tells where the water bends it.
+TEST(Caustics, MoveShadowsWhoseEntryPointAWaveHides) {
+  const test::Picture wet = behind_a_crest().wet();
+  EXPECT_NEAR(wet.color(7, 2).r, 0.5, 1e-3);
+  for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
+}
+
+TEST(Caustics, LeaveShadowsOfWhichNeitherSurfaceNorBottomTells) {
+  Tray tray = behind_a_crest();
+  tray.buffers.set(PlaneId::kDepth, [](int x, int) { return x < 7 ? 11.0f : 14.0f; });
   const test::Picture wet = tray.wet();
-  for (const int x : {7, 8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
+  for (const int x : {8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-6) << x;
 }
 
 // A board over the water hides the near part of it from the view. Light enters there, as behind it.

@@ -22,12 +22,13 @@ namespace limpid {
 /// move to their refracted positions, in frames with shadow, too: the unrefracted shadow is
 /// removed, by an estimate of the sun's light from the bottom's other light and from sunlit bottom
 /// nearby, and the shadow on the surface at the entry point of calm water is applied. Without
-/// surface_shadow the shadow is that on the bottom where unrefracted light through that entry point
-/// falls, if the picture shows the bottom there at the same depth; no bottom hidden by objects has
-/// shadows then. With it, shadows of objects below the surface stay: they are the shadow on the
-/// bottom divided by the shadow on the surface along the unrefracted ray. Near the picture's edge
-/// the moved shadows fade into the unrefracted ones, and where a wave, or the rim of a basin, hides
-/// the entry point from a low camera. On land, where surface_depth shows no water, no light enters.
+/// surface_shadow, and where the picture does not show that entry point (beyond its edge, or behind
+/// a wave, an object or the rim of a basin), the shadow is that on the bottom where unrefracted
+/// light through the entry point falls, if the picture shows the bottom there at the same depth; no
+/// bottom hidden by objects has shadows then. Where the surface tells, shadows of objects below it
+/// stay: they are the shadow on the bottom divided by the shadow on the surface along the
+/// unrefracted ray. Where neither tells, and towards the picture's edge, the moved shadows
+/// fade into the unrefracted ones. On land, where surface_depth shows no water, no light enters.
 /// Of bottom that only the layer below shows, the shadow removed is the one on the surface at the
 /// entry point of the unrefracted ray. Bottom that refraction filled in behind an object is all in
 /// the sun before.
