@@ -162,21 +162,22 @@ struct Kernel<Caustics> : Caustics {
                          given<F>(values[2], name, 2));
         };
         Rgb<F> focused{F(1), F(1), F(1)};
-        if (params.strength != 0) {
+        if (params.strength != 0 && split) {
           std::array<Vec2<F>, 3> entries{entry, entry, entry};
-          if (split) {
-            each<F>(3, [&](auto i) {
-              const F apart = pick<F>(i, p.dispersion.r, p.dispersion.g, p.dispersion.b);
-              if_any(abs(apart) > F(0), [&] {
-                const F index = given<F>(c.ior) + apart;
-                const Vec2<F> own = entry_of(end_of(aim_of(c, p, index)), index);
-                only<F>(i, 0, [&] { entries[0] = own; });
-                only<F>(i, 1, [&] { entries[1] = own; });
-                only<F>(i, 2, [&] { entries[2] = own; });
-              });
+          each<F>(3, [&](auto i) {
+            const F apart = pick<F>(i, p.dispersion.r, p.dispersion.g, p.dispersion.b);
+            if_any(abs(apart) > F(0), [&] {
+              const F index = given<F>(c.ior) + apart;
+              const Vec2<F> own = entry_of(end_of(aim_of(c, p, index)), index);
+              only<F>(i, 0, [&] { entries[0] = own; });
+              only<F>(i, 1, [&] { entries[1] = own; });
+              only<F>(i, 2, [&] { entries[2] = own; });
             });
-          }
+          });
           focused = caustics_of_colors(table, tap, entries, texel);
+        } else if (params.strength != 0) {
+          const F of_all = caustics_at(table, tap, entry, texel);
+          focused = {of_all, of_all, of_all};
         }
         const auto& scattered = table.scattered;
         const bool scatters = scattered[0] > 0 || scattered[1] > 0 || scattered[2] > 0;
@@ -309,7 +310,7 @@ struct Kernel<Caustics> : Caustics {
   template <class F>
   struct Sunlit {
     F dry, arrives;  ///< straight, as in the dry picture, and refracted
-    F known;         ///< share of `arrives` that the entry point tells; the rest is `dry`
+    F known;         ///< share in which `arrives` was found; the rest of it is `dry`
     F hidden_known;  ///< 1 where `dry` is known of a hidden place
   };
   /// Refracted light enters at `entry`, straight light would enter at `level`; `lit` is the share
