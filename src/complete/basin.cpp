@@ -9,7 +9,6 @@
 namespace limpid {
 namespace {
 
-constexpr int kDirections = 8;
 /// Distances at which walls are searched, in depths of the bottom.
 constexpr std::array<double, Basin::kRings> kLooks{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 8, 11, 16};
 /// A wall lies nearer than this, in depths, to the place at which it is searched; a farther surface
@@ -29,16 +28,6 @@ double square_at(double distance) {
   return tangent * tangent / (1 + tangent * tangent);
 }
 
-/// Share of the light leaving a level bottom evenly that the surface reflects and that comes down
-/// between the middle of a ring and that of the next.
-double reflected_to_ring(std::size_t ring, double depth, double ior) {
-  const double whole = 1 / (ior * ior);  // beyond it, total reflection
-  const double from = std::max(square_at(middle_of(ring)), whole);
-  const double to = ring + 1 < Basin::kRings ? std::max(square_at(middle_of(ring + 1)), whole) : 1;
-  const double cosine = std::sqrt(std::max(1 - 0.5 * (from + to), 1e-6));
-  return (to - from) * std::exp(-2 * depth / cosine);
-}
-
 double level_size(const glm::dvec3& by, const glm::dvec3& up) {
   return glm::length(by - glm::dot(by, up) * up);
 }
@@ -46,12 +35,15 @@ double level_size(const glm::dvec3& by, const glm::dvec3& up) {
 /// Of a point, relative to the eye.
 double drop_of(const glm::dvec3& at, const Pass& c) { return -(c.eye_above + glm::dot(c.up, at)); }
 
-glm::dvec3 direction(int k, const Pass& c) {
-  const double angle = (k + 0.5) * (2 * std::numbers::pi / kDirections);
-  return std::cos(angle) * c.t + std::sin(angle) * c.b;
-}
-
 }  // namespace
+
+Basin::Basin(const Frame& frame, const Pass& pass)
+    : c_(pass), depth_(frame.plane(PlaneId::kDepth)) {
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    const double angle = (static_cast<double>(k) + 0.5) * (2 * std::numbers::pi / kDirections);
+    directions_[k] = std::cos(angle) * c_.t + std::sin(angle) * c_.b;
+  }
+}
 
 std::optional<Basin::Sight> Basin::look(const Place& place, const glm::dvec3& by) const {
   const double z = place.z + glm::dot(c_.forward, by), w = c_.w_origin + c_.w_depth * z;
@@ -89,13 +81,12 @@ std::optional<Basin::Place> Basin::place_of(int x, int y) const {
   return place;
 }
 
-Basin::Walls Basin::around(int x, int y) const {
+Basin::Walls Basin::walls_around(int x, int y) const {
   Walls walls{};
   const auto bottom = place_of(x, y);
   if (!bottom) return walls;
   const double drop = drop_of(bottom->at, c_);
-  for (int k = 0; k < kDirections; ++k) {
-    const glm::dvec3 along = direction(k, c_);
+  for (const glm::dvec3& along : directions_) {
     const auto shown_at = [&](double distance) {
       return at(*bottom, drop * (c_.up + distance * along), kNear * drop);
     };
@@ -121,17 +112,12 @@ Basin::Walls Basin::around(int x, int y) const {
   return walls;
 }
 
-double Basin::sunlit_around(int x, int y, const View<const float>& shadow, double depth,
-                            double ior) const {
+Basin::Floor Basin::floor_around(int x, int y, const View<const float>& shadow) const {
+  Floor floor;
   const auto bottom = place_of(x, y);
-  if (!bottom) return 1;
+  if (!bottom) return floor;
   const double drop = drop_of(bottom->at, c_);
-  std::array<double, kRings> light;
-  for (std::size_t ring = 0; ring < kRings; ++ring)
-    light[ring] = reflected_to_ring(ring, depth, ior);
-  double sunlit = 0, all = 0;
-  for (int k = 0; k < kDirections; ++k) {
-    const glm::dvec3 along = direction(k, c_);
+  for (const glm::dvec3& along : directions_) {
     for (std::size_t ring = 0; ring < kRings; ++ring) {
       const glm::dvec3 by = (drop * kLooks[ring]) * along;
       const auto sight = look(*bottom, by);
@@ -140,19 +126,41 @@ double Basin::sunlit_around(int x, int y, const View<const float>& shadow, doubl
       if (!(drop_of(bottom->at + by + sight->off, c_) > 0)) break;  // the shore
       const Rect& window = shadow.window;
       if (!window.contains(Rect{sight->x, sight->y, sight->x + 1, sight->y + 1})) continue;
-      sunlit += light[ring] * shadow.at(sight->x, sight->y), all += light[ring];
+      floor.seen[ring] += 1, floor.sunlit[ring] += shadow.at(sight->x, sight->y);
     }
   }
-  return all > 0 ? sunlit / all : 1;
+  return floor;
 }
 
-double Basin::reflected_onto(const Walls& walls, double depth, double ior) {
+Basin::Reflected Basin::reflected(double depth, double ior) {
+  const double whole = 1 / (ior * ior);  // beyond it, total reflection
+  const auto square_beyond = [&](std::size_t ring) {
+    return ring < kRings ? std::max(square_at(middle_of(ring)), whole) : 1;
+  };
+  Reflected light;
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    const double from = square_beyond(ring), to = square_beyond(ring + 1);
+    const double cosine = std::sqrt(std::max(1 - 0.5 * (from + to), 1e-6));
+    light[ring] = (to - from) * std::exp(-2 * depth / cosine);
+  }
+  return light;
+}
+
+double Basin::share_on(const Walls& walls, const Reflected& light) {
   double beyond = 0, sum = 0;
   for (std::size_t ring = kRings; ring-- > 0;) {
-    beyond += reflected_to_ring(ring, depth, ior);
+    beyond += light[ring];
     sum += walls[ring] * beyond;
   }
   return sum;
+}
+
+double Basin::share_sunlit(const Floor& floor, const Reflected& light) {
+  double sunlit = 0, all = 0;
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    sunlit += light[ring] * floor.sunlit[ring], all += light[ring] * floor.seen[ring];
+  }
+  return all > 0 ? sunlit / all : 1;
 }
 
 }  // namespace limpid

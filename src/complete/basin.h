@@ -21,22 +21,30 @@ class Basin {
   static constexpr std::size_t kRings = 13;
   /// Share of the directions from a place that lead to a wall in each ring.
   using Walls = std::array<float, kRings>;
+  /// The bottom in each ring: in how many directions the picture shows it, and the sum of its lit
+  /// fractions there.
+  struct Floor {
+    std::array<float, kRings> seen{}, sunlit{};
+  };
+  /// Share of the light leaving a level bottom evenly that the surface reflects and that comes down
+  /// between the middle of a ring and that of the next.
+  using Reflected = std::array<double, kRings>;
 
-  Basin(const Frame& frame, const Pass& pass) : c_(pass), depth_(frame.plane(PlaneId::kDepth)) {}
+  Basin(const Frame& frame, const Pass& pass);
 
   /// The walls around the point under water that a pixel shows. A wall rises out of the water
   /// steeper than 45 degrees; outside the picture there is water.
-  Walls around(int x, int y) const;
+  Walls walls_around(int x, int y) const;
+  /// The bottom around that point, lit by the `shadow` of the dry picture.
+  Floor floor_around(int x, int y, const View<const float>& shadow) const;
 
-  /// Share of the diffuse light of a level bottom that the surface reflects onto these walls,
-  /// without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
-  static double reflected_onto(const Walls& walls, double depth, double ior);
-
-  /// Lit fraction of the bottom around, by the `shadow` of the dry picture: the mean, weighted by
-  /// the light that the surface reflects from each place to this point (from two depths away and
-  /// more). 1 where the picture shows no bottom around. `depth`, `ior` as in reflected_onto().
-  double sunlit_around(int x, int y, const View<const float>& shadow, double depth,
-                       double ior) const;
+  /// Without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
+  static Reflected reflected(double depth, double ior);
+  /// Share of the diffuse light of a level bottom that the surface reflects onto these walls.
+  static double share_on(const Walls& walls, const Reflected& light);
+  /// Lit fraction of the bottom around: the mean, weighted by the light that the surface reflects
+  /// from each place to the point (from two depths away and more). 1 if no bottom is seen.
+  static double share_sunlit(const Floor& floor, const Reflected& light);
 
  private:
   /// A place of the bottom.
@@ -57,8 +65,11 @@ class Basin {
   std::optional<Sight> look(const Place& place, const glm::dvec3& by) const;
   Shown at(const Place& place, const glm::dvec3& by, double near) const;
 
+  static constexpr std::size_t kDirections = 8;
+
   const Pass& c_;
   const View<const float>& depth_;
+  std::array<glm::dvec3, kDirections> directions_;  ///< level, unit
 };
 
 }  // namespace limpid

@@ -67,13 +67,13 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
       const float lit = shadow ? shadow.at(x, y) : 1;
       for (int i = 0; i < 3; ++i) {
         const std::size_t k = static_cast<std::size_t>(i);
-        cell.color[k] += frame.plane(plane_after(PlaneId::kColorR, i)).at(x, y);
-        cell.light[k] += lit * sun[k] + even[k];
+        cell[kColor + k] += frame.plane(plane_after(PlaneId::kColorR, i)).at(x, y);
+        cell[kLight + k] += lit * sun[k] + even[k];
       }
       const double w = std::max(c.w_origin + c.w_depth * far, 1e-30);
-      cell.drop += static_cast<float>(under);
-      cell.reach += static_cast<float>(std::min(under * pixels / w, 1e4));
-      cell.count += 1;
+      cell[kDrop] += static_cast<float>(under);
+      cell[kReach] += static_cast<float>(std::min(under * pixels / w, 1e4));
+      cell[kCount] += 1;
     }
   }
 }
@@ -91,19 +91,18 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
     const int x = std::min(window.x0 + column * kCell + kPixels / 2, window.x1 - 1);
     const double far = frame.plane(PlaneId::kDepth).at(x, y), drop = -heights.at(x, far);
     if (!(far > 0 && far < 1e30 && drop > 0)) continue;
-    const Basin::Walls walls = basin.around(x, y);
+    const Basin::Walls walls = basin.walls_around(x, y);
+    const Basin::Floor floor = basin.floor_around(x, y, frame.plane(PlaneId::kShadow));
     const std::array<double, 3> rates{water.rate.r, water.rate.g, water.rate.b};
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto thrown =
-          static_cast<float>(share * Basin::reflected_onto(walls, rates[i] * drop, c.ior));
-      const auto shade =
-          static_cast<float>(share * (1 - basin.sunlit_around(x, y, frame.plane(PlaneId::kShadow),
-                                                              rates[i] * drop, c.ior)));
+      const Basin::Reflected light = Basin::reflected(rates[i] * drop, c.ior);
+      const auto thrown = static_cast<float>(share * Basin::share_on(walls, light));
+      const auto shade = static_cast<float>(share * (1 - Basin::share_sunlit(floor, light)));
       for (int r = row * kBlock; r < std::min((row + 1) * kBlock, rows_); ++r) {
         for (int k = column; k < std::min(column + kBlock, columns_); ++k) {
           Cell& cell = cells_[static_cast<std::size_t>(r) * columns_ + k];
-          cell.walls[i] = thrown * cell.count;
-          cell.shade[i] = shade * cell.count;
+          cell[kWalls + i] = thrown * cell[kCount];
+          cell[kShade + i] = shade * cell[kCount];
         }
       }
     }
@@ -116,18 +115,18 @@ float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t chan
                                 double even, const WaterOver& water) {
   const ScatteredLight& light = water.light[channel];
   const double rate = std::array{water.rate.r, water.rate.g, water.rate.b}[channel];
-  const double depth = std::min(rate * sums.drop / sums.count, 1e6), x = layer_variable(depth);
+  const double depth = std::min(rate * sums[kDrop] / sums[kCount], 1e6), x = layer_variable(depth);
   const double back = light.back_at_once + layer_power(light.back, x);
   // Walls all around: the sun lights half of them, by the cosine with each.
   const double cosine = std::clamp(water.beam, 0.02, 1.0);
   const double level = std::sqrt(1 - cosine * cosine) / cosine;
-  const double sunlit = sums.light[channel] - even * sums.count;
+  const double sunlit = sums[kLight + channel] - even * sums[kCount];
   const double of_floor = std::clamp(
-      (even * sums.count + sunlit * level / std::numbers::pi) / sums.light[channel], 0.0, 1.0);
-  const double lost = (1 - of_floor) * sums.walls[channel] / sums.count;
+      (even * sums[kCount] + sunlit * level / std::numbers::pi) / sums[kLight + channel], 0.0, 1.0);
+  const double lost = (1 - of_floor) * sums[kWalls + channel] / sums[kCount];
   const double most = std::min<double>(albedo, ScatteredLight::kMaxAlbedo);
   const double lit = std::clamp(
-      1 - sun * sums.shade[channel] / (sums.count * std::max(sun + even, 1e-30)), 0.0, 1.0);
+      1 - sun * sums[kShade + channel] / (sums[kCount] * std::max(sun + even, 1e-30)), 0.0, 1.0);
   if (!(light.back_at_once > 0 && (lost > 0 || lit < 1) && most > 0)) return albedo;
   // The dry picture already has the light that reached the bottom and rose without scattering.
   const double beam = cosine * std::exp(-depth / cosine), left = std::exp(-depth);
@@ -145,30 +144,37 @@ float BottomAlbedo::as_of_level(float albedo, const Cell& sums, std::size_t chan
 /// In cells, equal for the whole picture: the mean over its pixels.
 int BottomAlbedo::reach() const {
   double sum = 0, count = 0;
-  for (const Cell& cell : cells_) sum += cell.reach, count += cell.count;
+  for (const Cell& cell : cells_) sum += cell[kReach], count += cell[kCount];
   if (!(count > 0)) return 0;
   return std::clamp(static_cast<int>(kDepths * sum / count / kCell), 1, kMaxReach);
 }
 
-/// Sums all cells within `reach`, across and down.
+/// Sums all cells within `reach`, across and down, twice.
 void BottomAlbedo::spread(int reach, Executor& executor) {
-  const auto add = [](Cell& to, const Cell& cell, float sign) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      to.color[i] += sign * cell.color[i];
-      to.light[i] += sign * cell.light[i];
-      to.walls[i] += sign * cell.walls[i];
-      to.shade[i] += sign * cell.shade[i];
-    }
-    to.drop += sign * cell.drop, to.count += sign * cell.count;
-  };
-  /// A line of `count` cells, `step` apart.
+  const int wide = 2 * reach + 1;
+  // The cells around one are the end of a block of as many cells and the beginning of the next
+  // block. Sums of ends and beginnings cost the same for any reach, and unlike differences of sums
+  // they keep infinity where it is.
   const auto line = [&](const Cell* from, Cell* to, int count, int step) {
-    for (int i = 0; i < count; ++i) {
-      Cell sum;
-      for (int k = std::max(i - reach, 0); k <= std::min(i + reach, count - 1); ++k) {
-        add(sum, from[static_cast<std::ptrdiff_t>(k) * step], 1);
+    const auto add = [&](Cell& sum, int i) {
+      if (i < 0 || i >= count) return;
+      const Cell& cell = from[static_cast<std::ptrdiff_t>(i) * step];
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += cell[k];
+    };
+    std::array<Cell, 2 * kMaxReach + 1> ends;
+    for (int block = 0; block < count; block += wide) {
+      Cell sum{};
+      for (int k = wide - 1; k >= 0; --k) {
+        add(sum, block - reach + k);
+        ends[static_cast<std::size_t>(k)] = sum;
       }
-      to[static_cast<std::ptrdiff_t>(i) * step] = sum;
+      sum = {};
+      for (int k = 0; k < std::min(wide, count - block); ++k) {
+        if (k > 0) add(sum, block + reach + k);
+        Cell& around = to[static_cast<std::ptrdiff_t>(block + k) * step];
+        for (std::size_t n = 0; n < sum.size(); ++n)
+          around[n] = ends[static_cast<std::size_t>(k)][n] + sum[n];
+      }
     }
   };
   sums_.resize(cells_.size());
@@ -220,7 +226,7 @@ void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>&
   each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, pass, sky, row); });
   // Without a shadow what lies in the shade counts as dark, which takes more away than walls do.
   if (share_in_air(pass) > 0 && frame.plane(PlaneId::kShadow)) {
-    each_row(executor, {0, 0, columns_, (rows_ + kBlock - 1) / kBlock},
+    run_each(executor, (rows_ + kBlock - 1) / kBlock,
              [&](int row) { look_for_walls(frame, pass, water, row); });
   }
   spread(reach(), executor);
@@ -229,20 +235,24 @@ void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>&
   const std::array<double, 3> sun{rise * pass.sun.color.r, rise * pass.sun.color.g,
                                   rise * pass.sun.color.b};
   drawn_.resize(cells_.size());
-  for (std::size_t n = 0; n < cells_.size(); ++n) {
-    const Cell& cell = cells_[n];
-    std::array<float, 4>& drawn = drawn_[n];
-    float of_level = 0, channels = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const float albedo = cell.light[i] > 0 ? cell.color[i] / cell.light[i] : 0;
-      drawn[i] = std::clamp(albedo, 0.0f, 1.0f);
-      if (!(drawn[i] > 0)) continue;
-      const bool shaded = cell.walls[i] > 0 || cell.shade[i] > 0;
-      of_level += shaded ? as_of_level(drawn[i], cell, i, sun[i], even[i], water) / drawn[i] : 1.0f;
-      channels += 1;
+  each_row(executor, {0, 0, columns_, rows_}, [&](int row) {
+    const std::size_t first = static_cast<std::size_t>(row) * columns_;
+    for (std::size_t n = first; n < first + columns_; ++n) {
+      const Cell& cell = cells_[n];
+      std::array<float, 4>& drawn = drawn_[n];
+      float of_level = 0, channels = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float albedo = cell[kLight + i] > 0 ? cell[kColor + i] / cell[kLight + i] : 0;
+        drawn[i] = std::clamp(albedo, 0.0f, 1.0f);
+        if (!(drawn[i] > 0)) continue;
+        const bool shaded = cell[kWalls + i] > 0 || cell[kShade + i] > 0;
+        of_level +=
+            shaded ? as_of_level(drawn[i], cell, i, sun[i], even[i], water) / drawn[i] : 1.0f;
+        channels += 1;
+      }
+      drawn[kBasin] = channels > 0 ? std::clamp(of_level / channels, 0.0f, 1.0f) : 1.0f;
     }
-    drawn[kBasin] = channels > 0 ? std::clamp(of_level / channels, 0.0f, 1.0f) : 1.0f;
-  }
+  });
   for (Plane& plane : planes_) {
     if (!plane || plane.view().window != window) plane = Plane(window);
   }

@@ -40,15 +40,23 @@ class BottomAlbedo {
   const Plane& basin() const { return planes_[kBasin]; }
 
  private:
-  static constexpr int kCell = 8;   ///< pixels a side
-  static constexpr int kBlock = 4;  ///< cells a side that share a search of walls
-  static constexpr std::size_t kBasin = 3;
+  static constexpr int kCell = 8;           ///< pixels a side
+  static constexpr int kBlock = 4;          ///< cells a side that share a search of walls
+  static constexpr std::size_t kBasin = 3;  ///< of planes_
 
-  /// Sums over a cell: its texels, their number, and the distance to sum around it.
-  struct Cell {
-    std::array<float, 3> color{}, light{}, walls{}, shade{};
-    float drop = 0, count = 0, reach = 0;
+  /// Sums over the texels of a cell. Of three channels: the dry radiance, that of a white level
+  /// floor, the shares of walls and of shade. Then the depth under the water, the texels, and the
+  /// distance to sum around the cell.
+  enum Sum : std::size_t {
+    kColor = 0,
+    kLight = 3,
+    kWalls = 6,
+    kShade = 9,
+    kDrop = 12,
+    kCount,
+    kReach
   };
+  using Cell = std::array<float, 16>;
   void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);
   void look_for_walls(const Frame& frame, const Pass& pass, const WaterOver& water, int row);
   int reach() const;

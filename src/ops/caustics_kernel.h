@@ -327,7 +327,7 @@ struct Kernel<Caustics> : Caustics {
     struct Entry {
       F passes, known;
     };
-    const auto entry_at = [&](Vec2<F> at) {
+    const auto entry_at = [&](Vec2<F> at, auto land_counts) {
       const Vec3<F> point = at.x * map_x + at.y * map_y - given<F>(c.eye_above) * up;
       const ScreenRay<F> ray(c, p, point - p.surface_point);
       const Vec2<F> shift = ray.shift_at(F(1));
@@ -341,17 +341,19 @@ struct Kernel<Caustics> : Caustics {
         const F shown = saturate(F(1.5) - F(2) * off / max(moved_by, F(1e-6)));
         found.passes = select(nothing(seen), F(0), found.passes);
         F land(1);
-        if_any(nothing(seen), [&] { land = is_land(c, p, tap, point, ray, shift, moved_by); });
+        if_any(nothing(seen) && land_counts,
+               [&] { land = is_land(c, p, tap, point, ray, shift, moved_by); });
         found.known = found.known * select(nothing(seen), land, shown);
       }
       return found;
     };
-    const Entry refracted = entry_at(entry);
-    // A shadow that the surface's shadow does not explain is cast under water.
+    const Entry refracted = entry_at(entry, F(0) < F(1));
+    // A shadow that the surface's shadow does not explain is cast under water. Where no straight
+    // light enters, that does not matter but for a hidden place, nor whether there is land.
     F below(1), dry = lit, known = refracted.known;
     const auto shaded = lit < F(1 - 1e-6) && !hidden;
     if_any(shaded || hidden, [&] {
-      const Entry straight = entry_at(level);
+      const Entry straight = entry_at(level, hidden);
       const F cast =
           select(straight.passes > F(0.05), min(lit / max(straight.passes, F(0.05)), F(1)), F(1));
       below = select(shaded, F(1) + straight.known * (cast - F(1)), F(1));

@@ -22,7 +22,7 @@ Basin::Walls walls_of(Drop&& drop, int x = 40, int y = 40) {
     return static_cast<float>(kWater + drop(column - 40, row - 40));
   });
   const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
-  return Basin(tray.buffers.frame, pass).around(x, y);
+  return Basin(tray.buffers.frame, pass).walls_around(x, y);
 }
 
 float all(const Basin::Walls& walls) { return std::accumulate(walls.begin(), walls.end(), 0.0f); }
@@ -53,11 +53,11 @@ TEST(Basin, WallsRightBesideAPlaceTakeAllThatIsThrownBackWhole) {
   Basin::Walls walls{};
   walls[0] = 1;
   const double whole = 1 - 1 / (1.333 * 1.333);
-  EXPECT_NEAR(Basin::reflected_onto(walls, 0, 1.333), whole, 1e-9);
+  EXPECT_NEAR(Basin::share_on(walls, Basin::reflected(0, 1.333)), whole, 1e-9);
   walls[0] = 0.5;
-  EXPECT_NEAR(Basin::reflected_onto(walls, 0, 1.333), whole / 2, 1e-9);
+  EXPECT_NEAR(Basin::share_on(walls, Basin::reflected(0, 1.333)), whole / 2, 1e-9);
   // Light to the surface and back at 49 degrees and flatter.
-  EXPECT_LT(Basin::reflected_onto(walls, 1, 1.333), whole / 2 * std::exp(-2 / 0.661));
+  EXPECT_LT(Basin::share_on(walls, Basin::reflected(1, 1.333)), whole / 2 * std::exp(-2 / 0.661));
 }
 
 TEST(Basin, LessOfTheLightReachesWallsThatAreFarther) {
@@ -65,7 +65,7 @@ TEST(Basin, LessOfTheLightReachesWallsThatAreFarther) {
   for (std::size_t ring = 0; ring < Basin::kRings; ++ring) {
     Basin::Walls walls{};
     walls[ring] = 1;
-    const double thrown = Basin::reflected_onto(walls, 0.1, 1.333);
+    const double thrown = Basin::share_on(walls, Basin::reflected(0.1, 1.333));
     EXPECT_LE(thrown, before) << ring;
     before = thrown;
   }
@@ -81,8 +81,9 @@ double sunlit(Lit&& lit, double depth = 0) {
     return static_cast<float>(lit(column - 40, row - 40));
   });
   const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
-  return Basin(tray.buffers.frame, pass)
-      .sunlit_around(40, 40, tray.buffers.frame.plane(PlaneId::kShadow), depth, 1.333);
+  const Basin basin(tray.buffers.frame, pass);
+  return Basin::share_sunlit(basin.floor_around(40, 40, tray.buffers.frame.plane(PlaneId::kShadow)),
+                             Basin::reflected(depth, 1.333));
 }
 
 TEST(Basin, ShadeCountsWhereTheSurfaceReflectsItsLightFrom) {
