@@ -13,9 +13,11 @@
 namespace limpid {
 namespace {
 
-constexpr int kStep = 2;       ///< pixels: half of them in each direction are enough for sums
-constexpr float kDepths = 1;   ///< distance to which sums reach on each side, in depths of water
-constexpr int kMaxReach = 24;  ///< cells
+constexpr int kCell = 8;  ///< pixels along a cell of a picture up to 1.5 times as wide as this:
+constexpr double kWide = 1920;  ///< larger pictures have no more cells than a picture so wide
+constexpr int kSamples = 4;     ///< along a cell: enough for sums
+constexpr float kDepths = 1;    ///< distance to which sums reach on each side, in depths of water
+constexpr int kMaxReach = 24;   ///< cells
 
 Rect window_of(const Frame& frame) {
   Rect window = frame.work();
@@ -40,6 +42,10 @@ double share_in_air(const Pass& c) {
   return highest > 0 ? highest / (highest - lowest) : 0;
 }
 
+int cell_of(const Pass& c) {
+  return kCell * std::max(1, static_cast<int>(std::lround(std::max(c.size.x, c.size.y) / kWide)));
+}
+
 }  // namespace
 
 /// Sums the cells of one row.
@@ -56,14 +62,15 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
   const double pixels = glm::length(c.to_u) * c.size.x;  // pixels per unit of length at w = 1
   Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
   std::fill_n(cells, columns_, Cell{});
-  const int begin = window.y0 + row * kCell;
-  for (int y = begin; y < std::min(begin + kCell, window.y1); y += kStep) {
+  const int begin = window.y0 + row * cell_;
+  const int step = cell_ / kSamples;
+  for (int y = begin; y < std::min(begin + cell_, window.y1); y += step) {
     const RowHeights heights(c, y);
-    for (int x = window.x0; x < window.x1; x += kStep) {
+    for (int x = window.x0; x < window.x1; x += step) {
       const double far = depth.at(x, y);
       const double under = -heights.at(x, far);
       if (!(far > 0 && far < 1e30 && under > 0)) continue;
-      Cell& cell = cells[(x - window.x0) / kCell];
+      Cell& cell = cells[(x - window.x0) / cell_];
       const float lit = shadow ? shadow.at(x, y) : 1;
       for (int i = 0; i < 3; ++i) {
         const std::size_t k = static_cast<std::size_t>(i);
@@ -84,11 +91,11 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
   const Rect window = window_of(frame);
   const Basin basin(frame, c);
   const double share = share_in_air(c);
-  constexpr int kPixels = kBlock * kCell;
-  const int y = std::min(window.y0 + row * kPixels + kPixels / 2, window.y1 - 1);
+  const int pixels = kBlock * cell_;
+  const int y = std::min(window.y0 + row * pixels + pixels / 2, window.y1 - 1);
   const RowHeights heights(c, y);
   for (int column = 0; column < columns_; column += kBlock) {
-    const int x = std::min(window.x0 + column * kCell + kPixels / 2, window.x1 - 1);
+    const int x = std::min(window.x0 + column * cell_ + pixels / 2, window.x1 - 1);
     const double far = frame.plane(PlaneId::kDepth).at(x, y), drop = -heights.at(x, far);
     if (!(far > 0 && far < 1e30 && drop > 0)) continue;
     const Basin::Walls walls = basin.walls_around(x, y);
@@ -146,7 +153,7 @@ int BottomAlbedo::reach() const {
   double sum = 0, count = 0;
   for (const Cell& cell : cells_) sum += cell[kReach], count += cell[kCount];
   if (!(count > 0)) return 0;
-  return std::clamp(static_cast<int>(kDepths * sum / count / kCell), 1, kMaxReach);
+  return std::clamp(static_cast<int>(kDepths * sum / count / cell_), 1, kMaxReach);
 }
 
 /// Sums all cells within `reach`, across and down, twice.
@@ -190,7 +197,8 @@ void BottomAlbedo::spread(int reach, Executor& executor) {
 
 /// Linear between the centres of the cells.
 void BottomAlbedo::draw_row(const Rect& window, int y) {
-  const float at_y = (static_cast<float>(y - window.y0) + 0.5f) / kCell - 0.5f;
+  const float size = static_cast<float>(cell_);
+  const float at_y = (static_cast<float>(y - window.y0) + 0.5f) / size - 0.5f;
   const int low = static_cast<int>(std::floor(at_y));
   const float part_y = at_y - static_cast<float>(low);
   const auto row = [&](int r) {
@@ -206,11 +214,11 @@ void BottomAlbedo::draw_row(const Rect& window, int y) {
     float left = middle(-1), right = middle(0);
     for (int column = 0; column <= columns_; ++column) {
       // From the centre of the last cell to the centre of this cell.
-      const int first = column * kCell - kCell / 2;
-      for (int k = 0; k < kCell; ++k) {
-        const int x = first + k;
-        if (x < 0 || x >= window.width()) continue;
-        out[x] = left + (right - left) * ((static_cast<float>(k) + 0.5f) / kCell);
+      const int first = column * cell_ - cell_ / 2;
+      const int begin = std::max(first, 0), end = std::min(first + cell_, window.width());
+      const float per_pixel = (right - left) / size;
+      for (int x = begin; x < end; ++x) {
+        out[x] = left + per_pixel * (static_cast<float>(x - first) + 0.5f);
       }
       left = right, right = middle(column + 1);
     }
@@ -220,8 +228,9 @@ void BottomAlbedo::draw_row(const Rect& window, int y) {
 void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>& sky,
                         const WaterOver& water, Executor& executor) {
   const Rect window = window_of(frame);
-  columns_ = (window.width() + kCell - 1) / kCell;
-  rows_ = (window.height() + kCell - 1) / kCell;
+  cell_ = cell_of(pass);
+  columns_ = (window.width() + cell_ - 1) / cell_;
+  rows_ = (window.height() + cell_ - 1) / cell_;
   cells_.resize(static_cast<std::size_t>(columns_) * rows_);
   each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, pass, sky, row); });
   // Without a shadow what lies in the shade counts as dark, which takes more away than walls do.

@@ -40,7 +40,6 @@ class BottomAlbedo {
   const Plane& basin() const { return planes_[kBasin]; }
 
  private:
-  static constexpr int kCell = 8;           ///< pixels a side
   static constexpr int kBlock = 4;          ///< cells a side that share a search of walls
   static constexpr std::size_t kBasin = 3;  ///< of planes_
 
@@ -66,6 +65,7 @@ class BottomAlbedo {
   void draw_row(const Rect& window, int y);
 
   std::array<Plane, 4> planes_;
+  int cell_ = 0;  ///< pixels a side
   int columns_ = 0, rows_ = 0;
   std::vector<Cell> cells_, sums_;
   std::vector<std::array<float, 4>> drawn_;  ///< albedo and basin of each cell

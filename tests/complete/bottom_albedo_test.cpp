@@ -1,6 +1,7 @@
 #include "complete/bottom_albedo.h"
 
 #include <cmath>
+#include <vector>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -93,6 +94,38 @@ TEST(BottomAlbedo, FloorInTheShadeThrowsBackLess) {
   const double had = 1;  // without scattering
   EXPECT_NEAR(half * (1 / (1 - half * back) - had), lit * 0.36 * back / (1 - 0.6 * back), 0.01);
   EXPECT_LT(half, 0.5);
+}
+
+/// The albedo in green along a row of a strip that shows water 1 deep, 5 long, from above. The
+/// right half of the floor is brighter.
+std::vector<float> albedo_of_strip(int width, const WaterOver& water) {
+  const Size size{width, width / 60};
+  Scene scene = test::simple_scene(size);
+  scene.camera->view = glm::lookAt(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 0), {0, 0, -1});
+  scene.camera->projection = perspective(2 * std::atan(2.5 / 60 / 2), 60, 0.1, 1e3, ClipSpace::kGl);
+  scene.sun.reset();
+  test::Buffers b(rect_of(size));
+  b.fill(PlaneId::kDepth, 2);
+  for (int c = 0; c < 3; ++c) {
+    b.set(plane_after(PlaneId::kColorR, c),
+          [&](int x, int) { return 2 * x < width ? 0.1f : 0.7f; });
+  }
+  const Pass pass(scene, b.frame, 1.333, {});
+  BottomAlbedo albedo;
+  albedo.make(b.frame, pass, {1, 1, 1}, water, *make_executor(1));
+  const float* row = albedo.channel(1).view().row(size.height / 2);
+  return {row, row + width};
+}
+
+TEST(BottomAlbedo, ReachesAsFarInALargerPicture) {
+  ScatteredLightMaker maker;
+  const WaterOver water{
+      maker.make({.absorption = {0.1, 0.1, 0.1}, .beam = 0.8}), {0.1, 0.1, 0.1}, 0.8};
+  const std::vector<float> albedo = albedo_of_strip(1920, water),
+                           larger = albedo_of_strip(3840, water);
+  EXPECT_GT(albedo[1100], 0.45f);
+  EXPECT_LT(albedo[1100], 0.65f);
+  for (std::size_t x = 0; x < albedo.size(); ++x) EXPECT_NEAR(larger[2 * x], albedo[x], 4e-3f) << x;
 }
 
 }  // namespace
