@@ -66,13 +66,9 @@ constexpr int kLeastNeighbours = 3;
 float finite_of(float depth) { return std::abs(depth) < kNothing ? std::abs(depth) : 0.0f; }
 float known_of(float depth) { return std::abs(depth) < kNothing ? 1.0f : 0.0f; }
 
-/// A depth that closes a hole is negative, until tell_real() has confirmed the hole.
-void close_holes(const View<const float>& from, int y, const View<float>& to) {
-  const Rect& window = from.window;
-  const int width = window.width();
-  const float* rows[3];
-  for (int i = 0; i < 3; ++i) rows[i] = from.row(std::clamp(y + i - 1, window.y0, window.y1 - 1));
-  float* out = to.row(y);
+/// Closes the holes of the middle one of three rows. A depth that closes a hole is negative, until
+/// tell_real() has confirmed the hole.
+void close_row(const std::array<const float*, 3>& rows, int width, float* out) {
   std::copy_n(rows[1], width, out);
   // Without branches, because in most pictures most pixels are such holes; column sums first, which
   // three pixels share.
@@ -139,6 +135,50 @@ void tell_real(const WaterView& c, const View<const float>& dry, const View<cons
 
 }  // namespace
 
+/// Closes holes twice, from the points in `valid_` into `depth_`, and calls then(y) after row y, by
+/// which time nothing reads that row of `valid_` any more.
+template <class Then>
+void MirrorDepth::close_holes(Executor& executor, const Then& then) {
+  const View<const float> points = valid_.view();
+  const Rect& window = points.window;
+  const int width = window.width(), count = (window.height() + kBand - 1) / kBand;
+  const auto begin_of = [&](int band) { return window.y0 + band * kBand; };
+  const auto end_of = [&](int band) { return std::min(begin_of(band + 1), window.y1); };
+  const auto close_once = [&](int y, std::vector<float>& to) {
+    std::array<const float*, 3> rows;
+    for (int i = 0; i < 3; ++i) {
+      rows[static_cast<std::size_t>(i)] =
+          points.row(std::clamp(y + i - 1, window.y0, window.y1 - 1));
+    }
+    to.resize(static_cast<std::size_t>(width));
+    close_row(rows, width, to.data());
+  };
+  bands_.resize(static_cast<std::size_t>(count));
+  const auto band_of = [&](int band) -> Band& { return bands_[static_cast<std::size_t>(band)]; };
+  run_each(executor, count, [&](int band) {
+    close_once(begin_of(band), band_of(band).first);
+    close_once(end_of(band) - 1, band_of(band).last);
+  });
+  run_each(executor, count, [&](int band) {
+    Band& own = band_of(band);
+    const int begin = begin_of(band), end = end_of(band);
+    const auto recent = [&](int y) -> std::vector<float>& {
+      return own.recent[static_cast<std::size_t>((y - begin) % 3)];
+    };
+    const auto closed = [&](int y) {
+      if (y < begin) return (band > 0 ? band_of(band - 1).last : own.first).data();
+      if (y >= end) return (band + 1 < count ? band_of(band + 1).first : own.last).data();
+      if (y == begin) return own.first.data();
+      return (y == end - 1 ? own.last : recent(y)).data();
+    };
+    for (int y = begin; y < end; ++y) {
+      if (y + 1 < end - 1) close_once(y + 1, recent(y + 1));
+      close_row({closed(y - 1), closed(y), closed(y + 1)}, width, depth_.view().row(y));
+      then(y);
+    }
+  });
+}
+
 void MirrorDepth::make(const Frame& frame, const WaterView& view, Executor& executor) {
   const View<const float>& dry = frame.plane(PlaneId::kDepth);
   Rect window = frame.plane(PlaneId::kReflectionR).window;
@@ -149,18 +189,18 @@ void MirrorDepth::make(const Frame& frame, const WaterView& view, Executor& exec
     if (!*plane || plane->view().window != window) *plane = Plane(window);
   }
   const View<float> depth = depth_.view(), valid = valid_.view();
-  if (const View<const float>& given = frame.plane(PlaneId::kReflectionDepth)) {
-    each_row(executor, window,
-             [&](int y) { std::copy_n(&given.at(window.x0, y), window.width(), depth.row(y)); });
-  } else {
-    each_row(executor, window, [&](int y) { std::fill_n(depth.row(y), window.width(), kNothing); });
-    each_row(executor, dry.window, [&](int y) { scatter_row(view, dry, y, depth); });
-    // The other plane holds the depths until it is made itself.
-    each_row(executor, window, [&](int y) { close_holes(depth, y, valid); });
-    each_row(executor, window, [&](int y) { close_holes(valid, y, depth); });
-  }
   const View<const float>& given = frame.plane(PlaneId::kReflectionValid);
-  each_row(executor, window, [&](int y) { tell_real(view, dry, given, depth, y, valid); });
+  const auto finish = [&](int y) { tell_real(view, dry, given, depth, y, valid); };
+  if (const View<const float>& rendered = frame.plane(PlaneId::kReflectionDepth)) {
+    each_row(executor, window, [&](int y) {
+      std::copy_n(&rendered.at(window.x0, y), window.width(), depth.row(y));
+      finish(y);
+    });
+    return;
+  }
+  each_row(executor, window, [&](int y) { std::fill_n(valid.row(y), window.width(), kNothing); });
+  each_row(executor, dry.window, [&](int y) { scatter_row(view, dry, y, valid); });
+  close_holes(executor, finish);
 }
 
 }  // namespace limpid

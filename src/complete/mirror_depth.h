@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <vector>
+
 #include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 #include "limpid/core/plane.h"
@@ -32,7 +35,18 @@ class MirrorDepth {
   const Plane& valid() const { return valid_; }  ///< 1 or 0
 
  private:
+  static constexpr int kBand = 32;  ///< rows that a thread completes one after the other
+  /// Rows of depths whose holes are closed once: the outermost of the band, for its neighbours,
+  /// too, and the last three others.
+  struct Band {
+    std::vector<float> first, last;
+    std::array<std::vector<float>, 3> recent;
+  };
+  template <class Then>
+  void close_holes(Executor& executor, const Then& then);
+
   Plane depth_, valid_;
+  std::vector<Band> bands_;
 };
 
 }  // namespace limpid
